@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Detection rates, delays and false alarms of the chatter detector on cuts drawn by chance, at five
+// noise levels, without and with modulation: steadyrest_detector_hunt [CASES] [SEED]
+// [STABLE_SECONDS]. Noise is white, its RMS in shares of the forced vibration's. Each cut has 0.2 s
+// of air before it. Without STABLE_SECONDS no long stable cut is listened to; with it one cut is
+// drawn after the other until so many seconds are heard at each noise level. Cuts whose truth is
+// not plain (they neither forget nor keep their start) are left out and counted.
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <ctime>
+#include <random>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/chatter/online/detector.hpp>
+#include <steadyrest/chatter/online/test/cut_signal.hpp>
+
+namespace {
+
+using namespace steadyrest::chatter::online;        // NOLINT(google-build-using-namespace)
+using namespace steadyrest::chatter::online::test;  // NOLINT(google-build-using-namespace)
+
+constexpr std::array kNoise{0.01, 0.05, 0.2, 0.5, 1.0};
+constexpr double kInTimeS = 0.15;
+
+struct Level {
+  int in_time = 0, late = 0, missed = 0;
+  int entry_alarms = 0;   ///< false, within 0.5 s of the tool's entry
+  int later_alarms = 0;   ///< false, after it
+  double stable_s = 0.0;  ///< heard
+  std::vector<double> delay_s;
+};
+
+struct Cost {
+  double seconds = 0.0;
+  double samples = 0.0;
+};
+
+/// Starts of all alarms in s.
+std::vector<double> alarms(const CutModel& model, const CutSignal& signal, double noise,
+                           std::mt19937_64& rng, Cost& cost) {
+  std::normal_distribution<double> gauss;
+  std::vector<double> value = signal.value;
+  for (double& v : value) {
+    v += noise * gauss(rng);
+  }
+  std::vector<double> out;
+  auto detector = Detector::make({.sample_rate_hz = signal.rate_hz, .teeth = model.teeth});
+  if (!detector) {
+    return out;
+  }
+  bool before = false;
+  const std::clock_t from = std::clock();
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const bool now =
+        detector->update({.value = value[i], .speed_rev_s = signal.speed_rev_s[i]}).chatter;
+    if (now && !before) {
+      out.push_back(static_cast<double>(i) / signal.rate_hz);
+    }
+    before = now;
+  }
+  cost.seconds += static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
+  cost.samples += static_cast<double>(value.size());
+  return out;
+}
+
+void count_stable(Level& level, const std::vector<double>& heard, double seconds) {
+  level.stable_s += seconds;
+  for (const double at : heard) {
+    (at < 0.7 ? level.entry_alarms : level.later_alarms) += 1;
+  }
+}
+
+void count_chatter(Level& level, const std::vector<double>& heard, double onset_s) {
+  if (heard.empty()) {
+    ++level.missed;
+    return;
+  }
+  const double delay = heard.front() - onset_s;
+  level.delay_s.push_back(delay);
+  (delay <= kInTimeS ? level.in_time : level.late) += 1;
+}
+
+void print(bool modulated, const std::array<Level, kNoise.size()>& levels, int plain, int unclear) {
+  fmt::print("{}: {} cuts, {} left out\n", modulated ? "modulated" : "constant", plain, unclear);
+  for (std::size_t k = 0; k < kNoise.size(); ++k) {
+    auto delays = levels[k].delay_s;
+    std::ranges::sort(delays);
+    const auto at = [&](double share) {
+      return delays.empty()
+                 ? 0.0
+                 : delays[static_cast<std::size_t>(share * static_cast<double>(delays.size() - 1))];
+    };
+    fmt::print(
+        "  noise {:4.2f}: in time {} late {} missed {}; delay median {:.3f} s p95 {:.3f} s; false "
+        "alarms in {:.0f} s stable: {} at entry, {} later\n",
+        kNoise[k], levels[k].in_time, levels[k].late, levels[k].missed, at(0.5), at(0.95),
+        levels[k].stable_s, levels[k].entry_alarms, levels[k].later_alarms);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int cases = argc > 1 ? std::atoi(argv[1]) : 60;
+  const auto seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 7ULL;
+  const double stable_s = argc > 3 ? std::atof(argv[3]) : 0.0;
+  Cost cost;
+  for (const bool modulated : {false, true}) {
+    std::mt19937_64 rng(seed + (modulated ? 1 : 0));
+    std::array<Level, kNoise.size()> levels;
+    int unclear = 0;
+    int plain = 0;
+    for (int c = 0; c < cases || levels.front().stable_s < stable_s; ++c) {
+      CutModel model = random_cut(rng, modulated);
+      model.air_s = 0.2;
+      CutSignal signal = simulate(model, 1.7);
+      const Truth truth = truth_of(model, signal);
+      const bool too_late = truth.chatters && truth.onset_s > 1.2;
+      if ((!truth.chatters && !truth.stable) || too_late || (c >= cases && !truth.stable)) {
+        ++unclear;
+        continue;
+      }
+      ++plain;
+      if (c >= cases) {
+        signal = simulate(model, 60.0);
+      }
+      for (std::size_t k = 0; k < kNoise.size(); ++k) {
+        const auto heard = alarms(model, signal, kNoise[k] * truth.forced_rms, rng, cost);
+        if (truth.stable) {
+          count_stable(levels[k], heard,
+                       static_cast<double>(signal.value.size()) / signal.rate_hz - model.air_s);
+        } else {
+          count_chatter(levels[k], heard, truth.onset_s);
+        }
+      }
+    }
+    print(modulated, levels, plain, unclear);
+  }
+  fmt::print("{:.3f} µs of processor time a sample\n", 1e6 * cost.seconds / cost.samples);
+  return 0;
+}

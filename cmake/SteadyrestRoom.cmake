@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+# One target for each room and half.
+include(GoogleTest)
+
+option(STEADYREST_BENCH "Build the benchmarks in bench/" OFF)
+option(STEADYREST_PAGE_TESTS "Test the report in a browser and the snippets of README.md" OFF)
+set(STEADYREST_PROPERTY_SEED 1 CACHE STRING "Seed of the property tests: the same cases on every run")
+set(STEADYREST_PROPERTY_RUNS 100 CACHE STRING "Cases of each property test; turn it up with another seed to hunt")
+set(STEADYREST_SANITIZE "" CACHE STRING "Value of -fsanitize=, empty for none")
+
+add_library(steadyrest_flags INTERFACE)
+target_include_directories(steadyrest_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
+target_compile_options(steadyrest_flags INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wconversion -Wshadow -Werror>)
+# g++ 12 sees overlaps in `"text" + std::string` that are not there (GCC bug 105651).
+target_compile_options(steadyrest_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+# clang sees that libstdc++ 12 uses its own deprecated get_temporary_buffer (in std::stable_sort).
+target_compile_options(steadyrest_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-deprecated-declarations>)
+# A simulation must give the same bytes on every machine: no fused multiply-add by the compiler's choice.
+target_compile_options(steadyrest_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+if(STEADYREST_SANITIZE)
+  target_compile_options(steadyrest_flags INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${STEADYREST_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer>)
+  target_link_options(steadyrest_flags INTERFACE -fsanitize=${STEADYREST_SANITIZE})
+endif()
+
+# steadyrest_room(NAME kernel SOURCES a.cpp … DEPENDS steadyrest_math … TESTS test/a_test.cpp … TEST_DEPENDS …)
+# makes the library steadyrest_<NAME> and, where TESTS are named, the executable steadyrest_<NAME>_test.
+function(steadyrest_room)
+  cmake_parse_arguments(ROOM "" "NAME" "SOURCES;DEPENDS;TESTS;TEST_DEPENDS" ${ARGN})
+  set(target steadyrest_${ROOM_NAME})
+  if(ROOM_SOURCES)
+    add_library(${target} STATIC ${ROOM_SOURCES})
+    target_link_libraries(${target} PUBLIC steadyrest_flags ${ROOM_DEPENDS})
+  else()
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE steadyrest_flags ${ROOM_DEPENDS})
+  endif()
+  if(ROOM_TESTS)
+    steadyrest_test(NAME ${ROOM_NAME} SOURCES ${ROOM_TESTS} DEPENDS ${target} ${ROOM_TEST_DEPENDS})
+  endif()
+endfunction()
+
+# All test executables of the label `threads`: what ThreadSanitizer is worth building for.
+add_custom_target(threads_tests)
+
+# steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|…): a GoogleTest executable; every test is a
+# ctest entry. Several labels may be given.
+function(steadyrest_test)
+  cmake_parse_arguments(T "" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
+  if(NOT T_LABEL)
+    set(T_LABEL fast)
+  endif()
+  set(target steadyrest_${T_NAME}_test)
+  add_executable(${target} ${T_SOURCES})
+  target_link_libraries(${target} PRIVATE ${T_DEPENDS} steadyrest_flags steadyrest_rapidcheck
+    GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${target} PRIVATE STEADYREST_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  if("threads" IN_LIST T_LABEL)
+    add_dependencies(threads_tests ${target})
+  endif()
+  gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${T_LABEL}" TIMEOUT 600
+    ENVIRONMENT "RC_PARAMS=seed=${STEADYREST_PROPERTY_SEED} max_success=${STEADYREST_PROPERTY_RUNS}")
+endfunction()
+
+# steadyrest_bench(NAME x SOURCES … DEPENDS …): an executable of Google Benchmark; the target `bench` runs all of them.
+if(STEADYREST_BENCH)
+  find_package(benchmark REQUIRED)
+  add_custom_target(bench)
+endif()
+function(steadyrest_bench)
+  cmake_parse_arguments(B "" "NAME" "SOURCES;DEPENDS" ${ARGN})
+  set(target steadyrest_${B_NAME}_bench)
+  add_executable(${target} ${B_SOURCES})
+  target_link_libraries(${target} PRIVATE ${B_DEPENDS} steadyrest_flags benchmark::benchmark_main)
+  target_compile_definitions(${target} PRIVATE STEADYREST_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  add_custom_target(run_${target} COMMAND ${target} USES_TERMINAL WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  add_dependencies(bench run_${target})
+endfunction()

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <steadyrest/apps/cli/program_options.hpp>
+#include <steadyrest/nc/interpret/linuxcnc_files.hpp>
+#include <steadyrest/nc/read/reader.hpp>
+
+namespace steadyrest::apps::cli {
+
+using kernel::outcome::Result;
+using nc::interpret::Config;
+
+namespace {
+
+CLI::Option* add_common(CLI::App& verb, ProgramOptions& options) {
+  verb.add_option("FILE", options.file, "The NC program")->required();
+  CLI::Option* dialect =
+      verb.add_option("--dialect", options.dialect, "The control that the program is written for");
+  dialect->check(CLI::IsMember({"linuxcnc", "fanuc", "sinumerik"}));
+  verb.add_option("--tools", options.tools,
+                  "Tool table in LinuxCNC's format; without one every tool has length 0");
+  verb.add_option("--variables", options.variables,
+                  "Offsets and reference points from LinuxCNC's variable file");
+  verb.add_option("--data-units", options.units,
+                  "Unit of the lengths in the tool table and the variable file")
+      ->check(CLI::IsMember({"mm", "inch"}));
+  verb.add_flag("--block-delete", options.block_delete, "Leave out the lines that begin with /");
+  verb.add_flag("--least-increment", options.least_increment,
+                "fanuc: X100 is 0.100 mm (without it: 100 mm)");
+  return dialect;
+}
+
+std::string dialect_name(kernel::machine::Dialect dialect) {
+  switch (dialect) {
+    case kernel::machine::Dialect::linuxcnc:
+      return "linuxcnc";
+    case kernel::machine::Dialect::fanuc:
+      return "fanuc";
+    case kernel::machine::Dialect::sinumerik:
+      return "sinumerik";
+  }
+  return "";
+}
+
+}  // namespace
+
+void add_program_options(CLI::App& verb, ProgramOptions& options) {
+  add_common(verb, options)->required();
+  verb.add_option("--axes", options.axes, "Letters of the machine's axes");
+}
+
+void add_machine_program_options(CLI::App& verb, ProgramOptions& options) {
+  add_common(verb, options)
+      ->description("The control that the program is written for, if not the machine's");
+}
+
+Result<Config> program_config(const ProgramOptions& options) {
+  Config config;
+  config.dialect = nc::read::dialect_from_name(options.dialect).value_or(config.dialect);
+  config.block_delete = options.block_delete;
+  config.axes = options.axes;
+  config.decimal_rule = options.least_increment ? nc::interpret::DecimalRule::least_increment
+                                                : nc::interpret::DecimalRule::calculator;
+  const double unit_mm = options.units == "inch" ? 25.4 : 1.0;
+  if (!options.variables.empty()) {
+    if (auto read = nc::interpret::read_variables(options.variables, unit_mm, config); !read) {
+      return std::unexpected(read.error());
+    }
+  }
+  if (!options.tools.empty()) {
+    auto tools = nc::interpret::read_tool_table(options.tools, unit_mm);
+    if (!tools) {
+      return std::unexpected(tools.error());
+    }
+    config.tools = std::move(*tools);
+  }
+  return config;
+}
+
+Result<Config> program_config(const ProgramOptions& options,
+                              const kernel::machine::Machine& machine) {
+  ProgramOptions of_machine = options;
+  if (of_machine.dialect.empty()) {
+    of_machine.dialect = dialect_name(machine.control.dialect);
+  }
+  of_machine.axes.clear();
+  for (const kernel::machine::Axis& axis : machine.axes) {
+    of_machine.axes += axis.name;
+  }
+  auto config = program_config(of_machine);
+  if (config && machine.chatter.enabled) {
+    config->modulation_on = static_cast<std::int32_t>(machine.chatter.m_code_on);
+    config->modulation_off = static_cast<std::int32_t>(machine.chatter.m_code_off);
+  }
+  return config;
+}
+
+void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file) {
+  answer.json["blocks"] = report.blocks;
+  Json list = Json::array();
+  for (const nc::read::Refused& refused : report.refused) {
+    list.push_back({{"line", refused.line},
+                    {"word", refused.word},
+                    {"reason", refused.reason},
+                    {"text", refused.text}});
+  }
+  answer.json["refused"] = std::move(list);
+  if (!report.refused.empty()) {
+    answer.exit_code = kRefused;
+    answer.refusals.push_back(nc::interpret::first_refusal(report, file));
+  }
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/session.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+
+constexpr std::string_view kName = "steadyrest";
+
+void print_refusals(const Refusals& refusals) {
+  for (const Refusal& refusal : refusals) {
+    fmt::print(stderr, "{}: {}\n", kName, kernel::outcome::text(refusal));
+  }
+}
+
+Json as_json(const Refusals& refusals) {
+  Json list = Json::array();
+  for (const Refusal& refusal : refusals) {
+    list.push_back({{"file", refusal.file},
+                    {"line", refusal.line},
+                    {"what", refusal.what},
+                    {"to_do", refusal.to_do}});
+  }
+  return list;
+}
+
+int exit_code_of(const Refusals& refusals) {
+  for (const Refusal& refusal : refusals) {
+    if (refusal.kind == Kind::bad_input) {
+      return kRefused;
+    }
+  }
+  return kFailed;
+}
+
+/// False when stdout took not all of it (a full disk, a closed pipe).
+bool print_out(std::string_view text) {
+  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+         std::fflush(stdout) == 0;
+}
+
+bool print_json(const Json& json) {
+  // A file name need not be UTF-8; JSON must.
+  return print_out(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+int unwritten() {
+  fmt::print(stderr, "{}: the answer cannot be written to stdout; check disk space and pipe\n",
+             kName);
+  return kFailed;
+}
+
+}  // namespace
+
+Outcome refused(Refusal refusal) {
+  Refusals list;
+  list.push_back(std::move(refusal));
+  return std::unexpected(std::move(list));
+}
+
+Session::Session() : app_("Steadyrest: the corrective layer for CNC machines", std::string(kName)) {
+  app_.set_version_flag("--version", std::string(kName) + " " + STEADYREST_VERSION);
+  app_.require_subcommand(1);
+  app_.footer(
+      "`steadyrest VERB --help` says more and ends with an example.\n"
+      "Exit codes: 0 done, 2 refused (bad usage, bad input), 1 anything else.");
+}
+
+CLI::App& Session::group(const std::string& name, const std::string& description) {
+  const auto found =
+      app_.get_subcommands([&name](CLI::App* candidate) { return candidate->get_name() == name; });
+  if (!found.empty()) {
+    return *found.front();
+  }
+  CLI::App& made = *app_.add_subcommand(name, description);
+  made.require_subcommand(1);
+  return made;
+}
+
+CLI::App& Session::verb(CLI::App& parent, const std::string& name, const std::string& description,
+                        const std::string& example) {
+  CLI::App& made = *parent.add_subcommand(name, description);
+  made.add_flag("--json", json_, "Print one JSON object on stdout and nothing else there");
+  made.footer("Example:\n  steadyrest " + example);
+  return made;
+}
+
+void Session::on(CLI::App& verb, Run run) {
+  verb.callback([this, run = std::move(run)] { run_ = run; });
+}
+
+int Session::main(int argc, const char* const* argv) noexcept {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "steadyrest: internal error: %s; please report it\n", error.what());
+  } catch (...) {
+    std::fputs("steadyrest: internal error; please report it\n", stderr);
+  }
+  return kFailed;
+}
+
+int Session::parse_and_run(int argc, const char* const* argv) {
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return usage(error);
+  }
+  return run_verb();
+}
+
+int Session::usage(const CLI::ParseError& error) const {
+  if (error.get_exit_code() == 0) {  // --help, --version
+    app_.exit(error, std::cout, std::cerr);
+    return std::cout.flush() ? kDone : unwritten();
+  }
+  std::string path(kName);
+  const CLI::App* at = &app_;
+  while (!at->get_subcommands().empty()) {
+    at = at->get_subcommands().front();
+    path += " " + at->get_name();
+  }
+  Refusal refusal{Kind::bad_input, "", 0, error.what(), fmt::format("see {} --help", path)};
+  if (json_) {
+    print_json({{"refused", as_json({refusal})}});
+  }
+  print_refusals({refusal});
+  return kRefused;
+}
+
+int Session::run_verb() {
+  Progress progress;
+  Outcome outcome = run_(progress);
+  progress.clear();
+  if (!outcome) {
+    print_refusals(outcome.error());
+    if (json_ && !print_json({{"refused", as_json(outcome.error())}})) {
+      return unwritten();
+    }
+    return exit_code_of(outcome.error());
+  }
+  print_refusals(outcome->refusals);
+  const bool written = json_ ? print_json(outcome->json) : print_out(outcome->text);
+  return written ? outcome->exit_code : unwritten();
+}
+
+}  // namespace steadyrest::apps::cli

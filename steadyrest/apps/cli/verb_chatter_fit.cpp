@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/verb_chatter_fit.hpp>
+#include <steadyrest/chatter/offline/frf.hpp>
+#include <steadyrest/chatter/offline/mode_fit.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace offline = chatter::offline;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+
+struct Options {
+  std::vector<std::string> files;
+  std::string axis;
+  std::string output;
+  offline::ModeFitConfig fit;
+};
+
+/// Sections for a process file.
+std::string modes_toml(const offline::ModeFit& fit, const Options& options) {
+  std::string out = fmt::format("# Fitted by steadyrest chatter fit: {} modes, residual {:.3g} %\n",
+                                fit.modes.size(), 100.0 * fit.residual);
+  for (const offline::FittedMode& mode : fit.modes) {
+    fmt::format_to(std::back_inserter(out),
+                   "\n[[mode]]\naxis = \"{}\"\nfrequency_hz = {:#.8g}\ndamping_ratio = {:#.6g}\n"
+                   "mass_kg = {:#.6g}\n",
+                   options.axis, mode.frequency_hz, mode.damping_ratio, mode.mass_kg);
+  }
+  return out;
+}
+
+Answer answer_of(const offline::ModeFit& fit, const Options& options) {
+  Answer answer;
+  Json modes = Json::array();
+  Table table({"mode", "Hz", "damping", "kg", "N/µm"});
+  for (const offline::FittedMode& mode : fit.modes) {
+    modes.push_back({{"axis", options.axis},
+                     {"frequency_hz", mode.frequency_hz},
+                     {"damping_ratio", mode.damping_ratio},
+                     {"mass_kg", mode.mass_kg},
+                     {"stiffness_N_um", 1e-3 * mode.stiffness_n_mm}});
+    table.row({options.axis, fmt::format("{:.2f}", mode.frequency_hz),
+               fmt::format("{:.3f} %", 100.0 * mode.damping_ratio),
+               fmt::format("{:.4g}", mode.mass_kg),
+               fmt::format("{:.4g}", 1e-3 * mode.stiffness_n_mm)});
+  }
+  answer.json = {{"modes", modes},
+                 {"order", fit.modes.size()},
+                 {"residual", fit.residual},
+                 {"noise_ratio", fit.noise_ratio},
+                 {"noise_um_N", 1e3 * fit.noise_mm_n},
+                 {"criterion", fit.criterion},
+                 {"points", fit.points}};
+  answer.text =
+      table.text() + fmt::format("not explained: {:.3g} % of the response (RMS), {} points\n",
+                                 100.0 * fit.residual, fit.points);
+  return answer;
+}
+
+Outcome run(const Options& options) {
+  std::vector<offline::Frf> responses;
+  for (const std::string& file : options.files) {
+    auto read = offline::read_frf(file);
+    if (!read) {
+      return refused(read.error());
+    }
+    for (offline::Frf& frf : *read) {
+      responses.push_back(std::move(frf));
+    }
+  }
+  const auto fit = offline::fit_modes(responses, options.fit);
+  if (!fit) {
+    return refused(fit.error());
+  }
+  if (!options.output.empty()) {
+    std::ofstream out(options.output, std::ios::binary | std::ios::trunc);
+    out << modes_toml(*fit, options);
+    out.close();
+    if (!out) {
+      return refused(Refusal{Kind::unavailable, options.output, 0, "cannot be written",
+                             "check the folder, the rights and the disk space"});
+    }
+  }
+  return answer_of(*fit, options);
+}
+
+}  // namespace
+
+void add_verb_chatter_fit(Session& session) {
+  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
+  CLI::App& verb = session.verb(
+      group, "fit", "Modes out of measured frequency responses of the tool tip (tap test)",
+      "chatter fit examples/processes/tap-922hz.csv --axis x -o modes.toml");
+  auto options = std::make_shared<Options>();
+  verb.add_option("frf", options->files,
+                  "Responses of one point and direction: CSV (frequency_hz, real and imag or "
+                  "magnitude and phase, unit in the head) or universal file format 58")
+      ->required();
+  verb.add_option("--axis", options->axis, "Direction of the measurement: x or y")
+      ->required()
+      ->check(CLI::IsMember({"x", "y"}));
+  verb.add_option("--modes", options->fit.order,
+                  "Number of modes, 1 … 16; without it by the criterion")
+      ->check(CLI::Range(1, 16));
+  verb.add_option("--from-hz", options->fit.least_frequency_hz, "Leave out what lies below");
+  verb.add_option("--to-hz", options->fit.most_frequency_hz, "Leave out what lies above");
+  verb.add_option("-o,--output", options->output,
+                  "Write the modes to this file (TOML: [[mode]] sections for a process file)");
+  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/verb_motion_bench.hpp>
+#include <steadyrest/apps/motion_bench/bench_page.hpp>
+#include <steadyrest/motion/offline/benchmark.hpp>
+#include <steadyrest/motion/offline/estimator_choice.hpp>
+#include <steadyrest/motion/offline/requirement.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace fs = std::filesystem;
+namespace offline = motion::offline;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using offline::BenchRow;
+
+struct Options {
+  offline::BenchConfig bench;
+  std::string recorded;
+  std::string peer;
+  std::string csv;
+  std::string page;
+};
+
+Result<void> write(const fs::path& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (!out) {
+    return std::unexpected(Refusal{Kind::unavailable, path.string(), 0, "cannot be written",
+                                   "check the folder, the rights and the disk space"});
+  }
+  return {};
+}
+
+fs::path requirement_path(const fs::path& csv) {
+  return fs::path(csv).replace_extension(".requirement.csv");
+}
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
+}
+
+std::string against(double value, double target) {
+  if (!std::isfinite(target)) {
+    return number(value);
+  }
+  return fmt::format("{} {} {}", number(value), value <= target ? "≤" : ">", number(target));
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.6g} %", 100.0 * share) : "–";
+}
+
+std::string people_table(const offline::Benchmark& benchmark) {
+  Table table({"scene, estimator", "v, mm/s", "gain", "a, mm/s²", "gain", "within bound",
+               "bound/RMS v", "a", "ns/tick", "ns/edge"});
+  for (const BenchRow& row : benchmark.rows) {
+    const auto ratio = [](const offline::ErrorFigures& e) {
+      return number(e.bound_rms_at_speed / e.rms_at_speed);
+    };
+    table.row({fmt::format("{}, {}{}", row.scene, row.estimator, row.limits ? " + limits" : ""),
+               against(row.velocity.rms, row.target_velocity_mm_s), number(row.velocity_gain),
+               against(row.acceleration.rms, row.target_acceleration_mm_s2),
+               number(row.acceleration_gain), percent(row.velocity.coverage), ratio(row.velocity),
+               ratio(row.acceleration), number(row.ns_per_tick), number(row.ns_per_edge)});
+  }
+  std::string out = table.text();
+  for (const std::string& note : benchmark.notes) {
+    out += note + "\n";
+  }
+  return out;
+}
+
+/// What JSON has no number for is null.
+Json figures(const offline::ErrorFigures& e, double gain, double efficiency) {
+  return {{"rms", e.rms},
+          {"max", e.max},
+          {"own_lag_s", e.own_lag_s},
+          {"rms_at_own_lag", e.rms_at_own_lag},
+          {"gain", gain},
+          {"coverage", e.coverage},
+          {"bound_ratio", e.bound_rms_at_speed / e.rms_at_speed},
+          {"efficiency", efficiency}};
+}
+
+Json rows_json(const offline::Benchmark& benchmark) {
+  Json out = Json::array();
+  for (const BenchRow& row : benchmark.rows) {
+    out.push_back(
+        {{"scene", row.scene},
+         {"estimator", row.estimator},
+         {"limits", row.limits},
+         {"ticks", row.ticks},
+         {"velocity_mm_s", figures(row.velocity, row.velocity_gain, row.velocity_efficiency)},
+         {"acceleration_mm_s2",
+          figures(row.acceleration, row.acceleration_gain, row.acceleration_efficiency)},
+         {"contradictions", row.contradictions},
+         {"ns_per_tick", row.ns_per_tick},
+         {"ns_per_edge", row.ns_per_edge},
+         {"target_velocity_mm_s", row.target_velocity_mm_s},
+         {"target_acceleration_mm_s2", row.target_acceleration_mm_s2}});
+  }
+  return out;
+}
+
+/// Writes what is asked for; the names of the files.
+Result<Json> write_files(const Options& options, const offline::Benchmark& benchmark,
+                         Progress& progress) {
+  Json files = Json::array();
+  if (options.csv.empty() && options.page.empty()) {
+    return files;
+  }
+  auto requirement = offline::requirement_table(
+      {}, [&progress](double share) { progress.update(share, "the requirement"); });
+  if (!requirement) {
+    return std::unexpected(requirement.error());
+  }
+  std::vector<std::pair<fs::path, std::string>> out;
+  if (!options.csv.empty()) {
+    out.emplace_back(options.csv, offline::to_csv(benchmark));
+    out.emplace_back(requirement_path(options.csv), offline::to_csv(*requirement));
+  }
+  if (!options.page.empty()) {
+    const auto data = motion_bench::page_data(benchmark, std::move(*requirement));
+    if (!data) {
+      return std::unexpected(data.error());
+    }
+    out.emplace_back(options.page, motion_bench::to_html(motion_bench::to_json(*data)));
+  }
+  for (const auto& [path, text] : out) {
+    if (const auto written = write(path, text); !written) {
+      return std::unexpected(written.error());
+    }
+    files.push_back(path.string());
+  }
+  return files;
+}
+
+Outcome run(Options options, Progress& progress) {
+  options.bench.recorded_folder = options.recorded;
+  options.bench.peer = options.peer;
+  const auto benchmark = offline::run_benchmark(
+      options.bench,
+      [&progress](double share, std::string_view what) { progress.update(share, what); });
+  if (!benchmark) {
+    return refused(benchmark.error());
+  }
+  const auto files = write_files(options, *benchmark, progress);
+  if (!files) {
+    return refused(files.error());
+  }
+  Answer answer;
+  answer.json = {{"rows", rows_json(*benchmark)}, {"notes", benchmark->notes}, {"files", *files}};
+  answer.text = people_table(*benchmark);
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_motion_bench(Session& session) {
+  CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
+  CLI::App& verb =
+      session.verb(group, "bench", "Errors of all estimators on motions that are known exactly",
+                   "motion bench --scenes sine,s-curve --phases 1");
+  auto options = std::make_shared<Options>();
+  verb.add_option("--scenes", options->bench.scenes,
+                  "Scenes or families of them, by comma: sine, sine-line, sine-line-calibrated, "
+                  "s-curve, flywheel, dither, reversal, constant, jitter, lost, clock, recorded; "
+                  "all without it")
+      ->delimiter(',');
+  verb.add_option(
+          "--estimators", options->bench.estimators,
+          fmt::format("Some of {}; all without it", fmt::join(offline::estimator_names(), ",")))
+      ->delimiter(',');
+  verb.add_option("--recorded", options->recorded,
+                  "Folder of the recorded logs (k50m.csv or k50m.csv.gz, …)");
+  verb.add_option("--linuxcnc", options->peer,
+                  "Program that runs LinuxCNC's encoder: steadyrest_encoder_peer");
+  verb.add_option("--phases", options->bench.phases,
+                  "Starts inside of a count over which the S-curve goes")
+      ->capture_default_str();
+  verb.add_option("-o,--output", options->csv,
+                  "Write the table to this CSV, the requirement beside it");
+  verb.add_option("--page", options->page, "Write a page with all of it to this HTML file");
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/program_options.hpp>
+#include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/verb_program_check.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+class NoMoves final : public nc::interpret::Sink {
+ public:
+  void on_move(const nc::interpret::Move& /*move*/) override {}
+  void on_event(const nc::interpret::Event& /*event*/) override {}
+};
+
+std::string text_of(const nc::interpret::Report& report) {
+  if (report.refused.empty()) {
+    return fmt::format("accepted: {} blocks, {} moves\n", report.blocks, report.moves);
+  }
+  Table table({"reason", "line", "word"});
+  for (const nc::read::Refused& refused : report.refused) {
+    table.row({refused.reason, fmt::format("{}", refused.line), refused.word});
+  }
+  return fmt::format("refused after {} blocks; not accepted:\n", report.blocks) + table.text();
+}
+
+Outcome run(const ProgramOptions& options) {
+  const auto config = program_config(options);
+  if (!config) {
+    return refused(config.error());
+  }
+  NoMoves sink;
+  const auto report = nc::interpret::run_file(options.file, *config, sink);
+  if (!report) {
+    return refused(report.error());
+  }
+  Answer answer;
+  put_report(answer, *report, options.file);
+  answer.json["moves"] = report->moves;
+  answer.text = text_of(*report);
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_program_check(Session& session) {
+  CLI::App& group = session.group("program", "NC programs");
+  CLI::App& verb = session.verb(
+      group, "check", "Reads an NC program; lists every word that is not understood, with its line",
+      "program check examples/programs/rib-pocket.ngc --dialect linuxcnc");
+  auto options = std::make_shared<ProgramOptions>();
+  add_program_options(verb, *options);
+  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <steadyrest/apps/cut/cut_job.hpp>
+#include <steadyrest/apps/cut/motion_score.hpp>
+#include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/sim/simulated_machine.hpp>
+#include <steadyrest/supervisor/supervisor.hpp>
+
+namespace steadyrest::apps::cut {
+namespace {
+
+using contour::online::ContourError;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::signal::Frame;
+using kernel::signal::Point;
+
+constexpr double kStandstillLimit_s = 600.0;
+constexpr std::uint64_t kCyclesBetweenProgress = 4096;
+
+Point first_three(const kernel::signal::AxisValues& values) {
+  return {values[0], values[1], values[2]};
+}
+
+/// The measuring of the true tool, cycle by cycle.
+class TrueError {
+ public:
+  static Result<TrueError> make(const kernel::machine::Machine& machine) {
+    ContourError::Config config;
+    config.servo_gain_1_s = std::ranges::min(machine.axes, {}, [](const auto& axis) {
+                              return axis.servo_gain_1_s;
+                            }).servo_gain_1_s;
+    auto error = ContourError::make(config);
+    if (!error) {
+      return std::unexpected(error.error());
+    }
+    return TrueError(*error);
+  }
+
+  ContourError::Output update(const Frame& frame, const sim::Truth& truth) noexcept {
+    ContourError::Input input = contour::online::contour_input(frame);
+    input.command_mm = first_three(truth.command_mm);
+    input.actual_mm = first_three(truth.tool_mm);
+    return error_.update(input);
+  }
+
+ private:
+  explicit TrueError(const ContourError& error) : error_(error) {}
+  ContourError error_;
+};
+
+/// The motion that a sample counts for: a cut is one where the control cuts and the tool is there.
+/// Just after a rapid the tool still lags on the rapid's path and leaves no surface.
+kernel::signal::Motion motion_of(const Frame& frame, const ContourError::Output& error) {
+  using kernel::signal::Motion;
+  const bool on_path = error.from_path && error.foot_index < frame.path.size();
+  if (frame.motion == Motion::feed && on_path) {
+    return frame.path[error.foot_index].motion;
+  }
+  return frame.motion;
+}
+
+Sample sample_of(const Frame& frame, const sim::Truth& truth, const ContourError::Output& error,
+                 kernel::outcome::Reason reason) {
+  return {.time_s = frame.time_s,
+          .position_mm = first_three(truth.tool_mm),
+          .path_position_mm = frame.path_position_mm,
+          .contour_error_mm = error.valid ? error.error_mm : 0.0,
+          .tracking_error_mm = error.tracking_error_mm,
+          .feed_ratio = frame.feed.effective_ratio,
+          .path_speed_mm_s = frame.path_speed_mm_s,
+          .line = frame.program_line,
+          .motion = motion_of(frame, error),
+          .reason = reason};
+}
+
+/// Ten simulated minutes without path, dwell or end: the part will never be finished.
+class Standstill {
+ public:
+  [[nodiscard]] bool too_long(const Frame& frame) {
+    if (frame.path_position_mm != position_mm_ || frame.program_line != line_) {
+      position_mm_ = frame.path_position_mm;
+      line_ = frame.program_line;
+      since_s_ = frame.time_s;
+    }
+    return frame.time_s - since_s_ > kStandstillLimit_s;
+  }
+
+ private:
+  double position_mm_ = -1.0;
+  std::uint32_t line_ = 0;
+  double since_s_ = 0.0;
+};
+
+double length_of(const nc::plan::PlannedPath& path) {
+  return path.segments.empty() ? 0.0
+                               : path.segments.back().position_mm + path.segments.back().length_mm;
+}
+
+/// The product's own layer, acting.
+Result<Layer> make_supervisor(const kernel::machine::Machine& machine,
+                              const kernel::port::Capability& capability) {
+  auto made = supervisor::Supervisor::make(machine, capability);
+  if (!made) {
+    return std::unexpected(made.error());
+  }
+  auto layer = std::make_shared<supervisor::Supervisor>(std::move(*made));
+  layer->set_mode(kernel::machine::Mode::act);
+  return [layer](Frame& frame) {
+    const kernel::signal::Command command = layer->update(frame);
+    frame.axis = layer->frame().axis;
+    return command;
+  };
+}
+
+Result<std::unique_ptr<sim::SimulatedMachine>> machine_of(const Job& job) {
+  return sim::SimulatedMachine::make({.machine = job.machine, .path = job.path});
+}
+
+Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& layer,
+                 const OnSample& on_sample, MotionScore* motion = nullptr) {
+  auto error = TrueError::make(job.machine);
+  if (!error) {
+    return std::unexpected(error.error());
+  }
+  Standstill standstill;
+  const double length_mm = std::max(length_of(*job.path), 1e-9);
+  while (!machine.finished()) {
+    auto frame = machine.read();
+    if (!frame) {
+      return std::unexpected(frame.error());
+    }
+    auto reason = kernel::outcome::Reason::none;
+    if (layer) {
+      const kernel::signal::Command command = layer(*frame);
+      reason = command.feed_reason;
+      if (command.write) {
+        if (auto written = machine.write(command); !written) {
+          return std::unexpected(written.error());
+        }
+      }
+    }
+    if (motion != nullptr) {
+      motion->add(*frame, machine.truth().motor_mm_s, machine.truth().motor_mm_s2);
+    }
+    on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()), reason));
+    if (standstill.too_long(*frame)) {
+      return std::unexpected(Refusal{Kind::bad_input, "", frame->program_line,
+                                     "the cut stands still for ten simulated minutes in this line",
+                                     "look for an override of 0 % or a very long dwell"});
+    }
+    if (frame->cycle % kCyclesBetweenProgress == 0) {
+      job.progress(frame->path_position_mm / length_mm);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Recorder> run(const Job& job) {
+  auto machine = machine_of(job);
+  if (!machine) {
+    return std::unexpected(machine.error());
+  }
+  Layer layer;
+  if (job.with_layer) {
+    auto made = make_supervisor(job.machine, (*machine)->capability());
+    if (!made) {
+      return std::unexpected(made.error());
+    }
+    layer = std::move(*made);
+  }
+  Recorder record({.limit_mm = job.machine.contour.limit_mm,
+                   .cycle_s = job.machine.control.interpolator_period_s});
+  auto motion = MotionScore::make(job.machine);
+  if (!motion) {
+    return std::unexpected(motion.error());
+  }
+  const auto done = cut(
+      job, **machine, layer, [&](const Sample& sample) { record.add(sample); },
+      layer ? &*motion : nullptr);
+  if (!done) {
+    return std::unexpected(done.error());
+  }
+  if (layer) {
+    record.set_motion(motion->figures());
+  }
+  return record;
+}
+
+Result<void> run(const Job& job, const Layer& layer, const OnSample& on_sample) {
+  auto machine = machine_of(job);
+  if (!machine) {
+    return std::unexpected(machine.error());
+  }
+  return cut(job, **machine, layer, on_sample);
+}
+
+}  // namespace steadyrest::apps::cut

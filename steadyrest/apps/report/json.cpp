@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include <steadyrest/apps/report/report.hpp>
+
+namespace steadyrest::apps::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// To a decimal place, so that the shortest text of the double is short. nlohmann-json writes what
+/// is not finite as null.
+double rounded(double value, double per_unit) {
+  return std::round(value * per_unit) / per_unit;
+}
+
+Json to_object(const Figures& figures) {
+  return {{"cycle_time_s", figures.cycle_time_s},
+          {"cutting_time_s", figures.cutting_time_s},
+          {"contour_error_max_mm", figures.contour_error_max_mm},
+          {"contour_error_rms_mm", figures.contour_error_rms_mm},
+          {"tracking_error_max_mm", figures.tracking_error_max_mm},
+          {"over_limit_s", figures.over_limit_s},
+          {"samples", figures.samples},
+          {"samples_over_limit", figures.samples_over_limit},
+          {"override_changes", figures.override_changes}};
+}
+
+/// One array for each quantity: a tenth of the size of one object for each sample.
+template <class Value>
+Json column(const std::vector<TracePoint>& trace, Value value) {
+  Json::array_t out;
+  out.reserve(trace.size());
+  for (const TracePoint& point : trace) {
+    out.emplace_back(value(point));
+  }
+  return out;
+}
+
+Json to_object(const std::vector<TracePoint>& trace) {
+  constexpr double kTenThousandths = 1e4;
+  constexpr double kHundredths = 1e2;
+  constexpr double kTenths = 1e1;
+  const auto real = [&trace](auto member, double per_unit) {
+    return column(trace, [=](const TracePoint& p) { return rounded(p.*member, per_unit); });
+  };
+  const auto axis = [&trace](std::size_t i) {
+    return column(
+        trace, [=](const TracePoint& p) { return rounded(p.position_mm.at(i), kTenThousandths); });
+  };
+  return {
+      {"time_s", real(&TracePoint::time_s, kTenThousandths)},
+      {"path_mm", real(&TracePoint::path_mm, kTenThousandths)},
+      {"x_mm", axis(0)},
+      {"y_mm", axis(1)},
+      {"z_mm", axis(2)},
+      {"contour_error_um", real(&TracePoint::contour_error_um, kHundredths)},
+      {"tracking_error_um", real(&TracePoint::tracking_error_um, kHundredths)},
+      {"override_percent", real(&TracePoint::override_percent, kHundredths)},
+      {"feed_mm_min", real(&TracePoint::feed_mm_min, kTenths)},
+      {"line", column(trace, [](const TracePoint& p) { return p.line; })},
+      {"cutting", column(trace, [](const TracePoint& p) { return p.cutting ? 1 : 0; })},
+  };
+}
+
+Json to_object(const Run& run) {
+  Json reasons = Json::array();
+  for (const ReasonTime& entry : run.reasons) {
+    reasons.push_back({{"reason", kernel::outcome::name(entry.reason)},
+                       {"sentence", kernel::outcome::sentence(entry.reason)},
+                       {"seconds", entry.seconds}});
+  }
+  return {{"figures", to_object(run.figures)},
+          {"reasons", std::move(reasons)},
+          {"trace", to_object(run.trace)}};
+}
+
+Json to_object(const MotionFigures& m) {
+  return {{"axis", m.axis},
+          {"velocity_rms_mm_s", m.velocity_rms_mm_s},
+          {"acceleration_rms_mm_s2", m.acceleration_rms_mm_s2},
+          {"difference_velocity_rms_mm_s", m.difference_velocity_rms_mm_s},
+          {"difference_acceleration_rms_mm_s2", m.difference_acceleration_rms_mm_s2},
+          {"velocity_coverage_ratio", m.velocity_coverage_ratio},
+          {"acceleration_coverage_ratio", m.acceleration_coverage_ratio}};
+}
+
+}  // namespace
+
+std::string to_json(const ReportData& data) {
+  Json table = Json::array();
+  for (const OverrideStep& step : data.override_table) {
+    table.push_back({{"code", step.code}, {"percent", rounded(step.percent, 1e6)}});
+  }
+  Json worst = Json::array();
+  for (const WorstLine& line : data.worst_lines) {
+    worst.push_back({{"line", line.line},
+                     {"text", line.text},
+                     {"without_um", rounded(line.without_um, 1e2)},
+                     {"with_um", rounded(line.with_um, 1e2)}});
+  }
+  Json motion = Json::array();
+  for (const MotionFigures& figures : data.motion) {
+    motion.push_back(to_object(figures));
+  }
+  const Json report = {{"schema", "steadyrest-report/1"},
+                       {"version", STEADYREST_VERSION},
+                       {"program", data.program},
+                       {"machine", data.machine},
+                       {"strategy", data.strategy},
+                       {"limit_um", rounded(data.limit_um, 1e6)},
+                       {"override_table", std::move(table)},
+                       {"without", to_object(data.without)},
+                       {"with", to_object(data.with)},
+                       {"worst_lines", std::move(worst)},
+                       {"motion", std::move(motion)}};
+  return report.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace steadyrest::apps::report

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/signal/path.hpp>
+
+/// What `cut` has to show, in the units of people: the report is a border.
+namespace steadyrest::apps::report {
+
+/// Figures of one run, taken over every control cycle. Errors over cutting motion (G1–G3) alone: a
+/// rapid leaves no surface.
+struct Figures {
+  double cycle_time_s = 0.0;
+  double cutting_time_s = 0.0;
+  double contour_error_max_mm = 0.0;  ///< magnitude
+  double contour_error_rms_mm = 0.0;
+  double tracking_error_max_mm = 0.0;
+  double over_limit_s = 0.0;
+  std::size_t samples = 0;  ///< in the cut
+  std::size_t samples_over_limit = 0;
+  std::size_t override_changes = 0;
+};
+
+/// One sample of the thinned trace; in order of time.
+struct TracePoint {
+  double time_s = 0.0;
+  double path_mm = 0.0;  ///< commanded path length since the program's start
+  kernel::signal::Point position_mm{};
+  double contour_error_um = 0.0;   ///< signed
+  double tracking_error_um = 0.0;  ///< distance from the commanded to the true point
+  double override_percent = 100.0;
+  double feed_mm_min = 0.0;
+  std::uint32_t line = 0;
+  bool cutting = false;  ///< G1–G3; only then does an error count
+};
+
+/// How long the override stood where it stood for one reason.
+struct ReasonTime {
+  kernel::outcome::Reason reason = kernel::outcome::Reason::none;
+  double seconds = 0.0;
+};
+
+/// How far the velocity and acceleration of one axis, as estimated from its encoder, are from the
+/// truth; beside them the backward difference of the same counts. Rotary axes: rad, not mm.
+struct MotionFigures {
+  std::string axis;
+  double velocity_rms_mm_s = 0.0;
+  double acceleration_rms_mm_s2 = 0.0;
+  double difference_velocity_rms_mm_s = 0.0;
+  double difference_acceleration_rms_mm_s2 = 0.0;
+  double velocity_coverage_ratio = 1.0;  ///< share of cycles in which the bound held; NaN: no bound
+  double acceleration_coverage_ratio = 1.0;
+};
+
+struct Run {
+  Figures figures;
+  std::vector<TracePoint> trace;
+  std::vector<ReasonTime> reasons;
+};
+
+/// One line of the program with the largest error on it (signed), NaN where a run has none.
+struct WorstLine {
+  std::uint32_t line = 0;
+  std::string text;
+  double without_um = 0.0;
+  double with_um = 0.0;
+};
+
+struct OverrideStep {
+  std::uint32_t code = 0;
+  double percent = 100.0;
+};
+
+/// Everything in the report. No date and no path of this machine: the same cut gives the same
+/// bytes.
+struct ReportData {
+  std::string program;
+  std::string machine;
+  std::string strategy;  ///< as people read it
+  double limit_um = 10.0;
+  std::vector<OverrideStep> override_table;
+  Run without;
+  Run with;
+  std::vector<WorstLine> worst_lines;  ///< worst first
+  std::vector<MotionFigures> motion;   ///< of the run with the layer; axes with counts alone
+};
+
+}  // namespace steadyrest::apps::report

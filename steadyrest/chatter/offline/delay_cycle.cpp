@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/core.h>
+
+#include <steadyrest/chatter/offline/delay_cycle.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+using Eigen::Index;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr std::size_t kMostPasses = 4096;
+constexpr std::size_t kMostLawPeriods = 64;
+constexpr double kSameAngle = 1e-10;  ///< rad
+/// Angle of the fastest oscillation in one piece, and nodes for it: 1e-9 in the multipliers.
+constexpr double kPiecePhase = 14.0;
+constexpr double kNodesPerRadian = 0.75;
+constexpr double kNodesAtLeast = 11.0;
+
+double modulo(double angle, double period) {
+  const double out = angle - std::floor(angle / period) * period;
+  return out >= period - kSameAngle ? 0.0 : out;
+}
+
+/// The fastest that anything oscillates, or dies by process damping, at this depth and speed.
+double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s) {
+  const double stiffness =
+      depth_mm * std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2);
+  const double damping = depth_mm * process.cut.process_damping_n_mm /
+                         (std::numbers::pi * process.tool.diameter_mm * speed_rev_s);
+  double fastest = 0.0;
+  for (const Mode& mode : process.modes) {
+    const double w = kTurn * mode.frequency_hz;
+    const double per_mass = 1000.0 / mode.mass_kg;
+    fastest = std::max(fastest, std::sqrt(w * w + per_mass * stiffness) + per_mass * damping);
+  }
+  return fastest;
+}
+
+}  // namespace
+
+kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, const Config& config) {
+  DelayCycle out;
+  out.process_ = process;
+  out.components_ =
+      std::ranges::all_of(process.modes, [](const Mode& m) { return m.shape[1] == 0.0; }) ? 1 : 2;
+  out.mean_rev_s_ = config.speed_rev_s;
+  const bool even = process.even_pitch();
+  out.pass_rad_ = even ? kTurn / static_cast<double>(process.tool.teeth) : kTurn;
+  const SpeedProfile speed(config.speed_rev_s, config.modulation);
+  if (!speed.constant()) {
+    const double q = speed.period_rad() / out.pass_rad_;
+    out.passes_ = 0;
+    for (std::size_t r = 1; r <= kMostLawPeriods && out.passes_ == 0; ++r) {
+      const double passes = std::round(q * static_cast<double>(r));
+      if (passes >= 1.0 && std::abs(q * static_cast<double>(r) - passes) < 1e-9 * passes &&
+          passes <= static_cast<double>(kMostPasses)) {
+        out.passes_ = static_cast<std::size_t>(passes);
+        out.law_periods_ = r;
+      }
+    }
+    if (out.passes_ == 0) {
+      return std::unexpected(
+          Refusal{Kind::bad_input, "", 0,
+                  fmt::format("RVF {} has no principal period of {} tooth passes or less",
+                              config.modulation.rvf, kMostPasses),
+                  "take RVF = teeth/q with whole q, or a ratio of small whole numbers"});
+    }
+  }
+  out.period_s_ = speed.time_s(static_cast<double>(out.passes_) * out.pass_rad_);
+  out.plan(speed, config);
+  return out;
+}
+
+/// Angles within a pass at which something is not smooth.
+std::vector<double> DelayCycle::borders(const SpeedProfile& speed) const {
+  const CuttingCoefficients coefficients(process_, depth_mm_);
+  std::vector<double> corners{0.0};
+  const bool even = process_.even_pitch();
+  for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
+    for (const double c : coefficients.corners_rad(j)) {
+      corners.push_back(modulo(c, pass_rad_));
+      // Uneven pitch: what is not smooth comes back with each tooth's delay.
+      for (std::size_t k = 0; !even && k < coefficients.teeth(); ++k) {
+        corners.push_back(modulo(c + process_.pitch_rad(k), pass_rad_));
+      }
+    }
+  }
+  for (std::size_t r = 0; r < law_periods_; ++r) {
+    for (const double c : speed.corners_rad()) {
+      corners.push_back(modulo(c + static_cast<double>(r) * speed.period_rad(), pass_rad_));
+    }
+  }
+  std::ranges::sort(corners);
+  std::vector<double> out;
+  for (const double c : corners) {
+    if (out.empty() || c - out.back() > kSameAngle) {
+      out.push_back(c);
+    }
+  }
+  out.push_back(pass_rad_);
+  return out;
+}
+
+void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
+  depth_mm_ = config.most_depth_mm;
+  const CuttingCoefficients coefficients(process_, depth_mm_);
+  const double slowest_rev_s = mean_rev_s_ * (speed.constant() ? 1.0 : 1.0 - config.modulation.rva);
+  const double fastest = fastest_rad_s(process_, config.most_depth_mm, slowest_rev_s);
+  std::vector<Piece> pass;
+  const std::vector<double> corners = borders(speed);
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const double middle = 0.5 * (corners[i] + corners[i + 1]);
+    bool cuts = false;
+    for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
+      for (double turn = 0.0; turn < kTurn - kSameAngle; turn += pass_rad_) {
+        cuts = cuts || coefficients.stiffness(j, middle + turn).cwiseAbs().maxCoeff() > 0.0;
+      }
+    }
+    const double length = corners[i + 1] - corners[i];
+    const double phase = length / (kTurn * slowest_rev_s) * fastest;
+    const double parts = std::max(1.0, std::ceil(phase / kPiecePhase));
+    const double nodes = config.fineness * (kNodesAtLeast + kNodesPerRadian * phase / parts);
+    for (double k = 0.0; k < parts; k += 1.0) {
+      Piece piece;
+      piece.begin_rad = corners[i] + length * k / parts;
+      piece.end_rad = corners[i] + length * (k + 1.0) / parts;
+      piece.nodes = std::min(static_cast<Index>(std::ceil(nodes)), GaussNodes::kMost);
+      piece.cuts = cuts;
+      pass.push_back(std::move(piece));
+    }
+  }
+  state_size_ = 2 * static_cast<Index>(process_.modes.size());
+  for (Piece& piece : pass) {
+    if (piece.cuts) {
+      piece.slot = state_size_;
+      state_size_ += piece.nodes * components_;
+    }
+  }
+  pieces_.assign(passes_, pass);
+  for (std::size_t p = 0; p < passes_; ++p) {
+    for (std::size_t i = 0; i < pass.size(); ++i) {
+      Piece& piece = pieces_[p][i];
+      const GaussNodes& gauss = GaussNodes::of(piece.nodes);
+      const double length = piece.end_rad - piece.begin_rad;
+      piece.sigma_s.resize(piece.nodes);
+      for (Index n = 0; n < piece.nodes; ++n) {
+        const double angle =
+            static_cast<double>(p) * pass_rad_ + piece.begin_rad + length * gauss.node[n];
+        piece.sigma_s[n] = length / speed.speed_rad_s(angle);
+      }
+      fill_modes(piece);
+      if (piece.cuts) {
+        fill_reads(i + p * pass.size());
+      }
+    }
+  }
+}
+
+/// The modes' answers within one piece: [I + 2ζω·Σ + ω²·Σ²]·v = v₀ − ω²·q₀·Σ1 + Σ·f with Σ =
+/// S·diag(σ).
+void DelayCycle::fill_modes(Piece& piece) const {
+  const GaussNodes& gauss = GaussNodes::of(piece.nodes);
+  const Index n = piece.nodes;
+  const Index size = n * components_;
+  const auto modes = static_cast<Index>(process_.modes.size());
+  const Eigen::MatrixXd s = gauss.integral * piece.sigma_s.asDiagonal();
+  const Eigen::MatrixXd s2 = s * s;
+  const Eigen::RowVectorXd end = gauss.weight.cwiseProduct(piece.sigma_s).transpose();
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(n);
+  piece.phi.setZero(size, 2 * modes);
+  piece.phi_rate.setZero(size, 2 * modes);
+  piece.k.setZero(size, size);
+  piece.k_rate.setZero(size, size);
+  piece.e.setZero(2 * modes, 2 * modes);
+  piece.r.setZero(2 * modes, size);
+  for (Index m = 0; m < modes; ++m) {
+    const Mode& mode = process_.modes[static_cast<std::size_t>(m)];
+    const double w = kTurn * mode.frequency_hz;
+    const double d = 2.0 * mode.damping_ratio * w;
+    Eigen::MatrixXd a = d * s + w * w * s2;
+    a.diagonal().array() += 1.0;
+    // Columns: from q₀, from v₀/ω, from the force.
+    Eigen::MatrixXd right(n, n + 2);
+    right.col(0) = -w * w * (s * ones);
+    right.col(1) = w * ones;
+    right.rightCols(n) = 1000.0 / mode.mass_kg * s;
+    const Eigen::MatrixXd v = a.partialPivLu().solve(right);
+    Eigen::MatrixXd q = s * v;
+    q.col(0) += ones;
+    const Eigen::RowVectorXd q_end = end * v;
+    Eigen::RowVectorXd v_end = -w * w * (end * q) - d * q_end;
+    v_end.tail(n) += 1000.0 / mode.mass_kg * end;
+    piece.e(2 * m, 2 * m) = 1.0 + q_end[0];
+    piece.e(2 * m, 2 * m + 1) = q_end[1];
+    piece.e(2 * m + 1, 2 * m) = v_end[0] / w;
+    piece.e(2 * m + 1, 2 * m + 1) = 1.0 + v_end[1] / w;
+    for (Index c = 0; c < components_; ++c) {
+      const double out = mode.shape[static_cast<std::size_t>(c)];
+      piece.phi.block(c * n, 2 * m, n, 2) = out * q.leftCols(2);
+      piece.phi_rate.block(c * n, 2 * m, n, 2) = out * v.leftCols(2);
+      piece.r.block(2 * m, c * n, 1, n) = out * q_end.tail(n);
+      piece.r.block(2 * m + 1, c * n, 1, n) = out * v_end.tail(n) / w;
+      for (Index b = 0; b < components_; ++b) {
+        const double both = out * mode.shape[static_cast<std::size_t>(b)];
+        piece.k.block(c * n, b * n, n, n) += both * q.rightCols(n);
+        piece.k_rate.block(c * n, b * n, n, n) += both * v.rightCols(n);
+      }
+    }
+  }
+}
+
+/// H and P at the nodes, and where each tooth's delayed displacement is read.
+void DelayCycle::fill_reads(std::size_t index) {
+  const std::size_t p = index / pieces_[0].size();
+  const std::size_t i = index % pieces_[0].size();
+  Piece& piece = pieces_[p][i];
+  const GaussNodes& gauss = GaussNodes::of(piece.nodes);
+  const CuttingCoefficients coefficients(process_, depth_mm_);
+  const bool even = process_.even_pitch();
+  piece.delayed.clear();
+  const std::size_t terms = even ? 1 : coefficients.teeth();
+  for (std::size_t j = 0; j < terms; ++j) {
+    Delayed delayed;
+    for (Index n = 0; n < piece.nodes; ++n) {
+      const double angle = piece.begin_rad + (piece.end_rad - piece.begin_rad) * gauss.node[n];
+      Eigen::Matrix2d h = coefficients.stiffness(j, angle);
+      for (std::size_t other = 1; even && other < coefficients.teeth(); ++other) {
+        h += coefficients.stiffness(other, angle);
+      }
+      delayed.h.push_back(h);
+      delayed.read.push_back(even ? Read{i, true, n, {}}
+                                  : read_at(angle - process_.pitch_rad(j), i, n));
+    }
+    const bool answers = std::ranges::any_of(
+        delayed.h, [](const Eigen::Matrix2d& h) { return h.cwiseAbs().maxCoeff() > 0.0; });
+    if (answers) {
+      piece.delayed.push_back(std::move(delayed));
+    }
+  }
+  fill_cut(piece, mean_rev_s_);
+}
+
+DelayCycle::Read DelayCycle::read_at(double angle_rad, std::size_t own, Index node) const {
+  const bool before = angle_rad < 0.0;
+  const double within = before ? angle_rad + pass_rad_ : angle_rad;
+  const auto& pass = pieces_[0];
+  std::size_t i = 0;
+  while (i + 1 < pass.size() && pass[i].end_rad <= within) {
+    ++i;
+  }
+  const GaussNodes& gauss = GaussNodes::of(pass[i].nodes);
+  Read out{i, before, 0, {}};
+  out.row =
+      gauss.interpolation((within - pass[i].begin_rad) / (pass[i].end_rad - pass[i].begin_rad));
+  (void)own;
+  (void)node;
+  return out;
+}
+
+void DelayCycle::fill_cut(Piece& piece, double speed_rev_s) const {
+  const GaussNodes& gauss = GaussNodes::of(piece.nodes);
+  const CuttingCoefficients coefficients(process_, depth_mm_);
+  const Index n = piece.nodes;
+  const bool damped = process_.cut.process_damping_n_mm > 0.0;
+  piece.hk.setZero(n * components_, n * components_);
+  piece.hphi.setZero(n * components_, piece.phi.cols());
+  (void)speed_rev_s;
+  for (Index i = 0; i < n; ++i) {
+    Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
+    for (const Delayed& delayed : piece.delayed) {
+      h += delayed.h[static_cast<std::size_t>(i)];
+    }
+    Eigen::Matrix2d p = Eigen::Matrix2d::Zero();
+    if (damped) {
+      const double angle = piece.begin_rad + (piece.end_rad - piece.begin_rad) * gauss.node[i];
+      for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
+        p += coefficients.damping(j, angle);
+      }
+      const double rev_s = (piece.end_rad - piece.begin_rad) / piece.sigma_s[i] / kTurn;
+      p /= rev_s;
+    }
+    for (Index c = 0; c < components_; ++c) {
+      for (Index b = 0; b < components_; ++b) {
+        piece.hk.row(c * n + i) += h(c, b) * piece.k.row(b * n + i);
+        piece.hphi.row(c * n + i) += h(c, b) * piece.phi.row(b * n + i);
+        if (damped) {
+          piece.hk.row(c * n + i) += p(c, b) * piece.k_rate.row(b * n + i);
+          piece.hphi.row(c * n + i) += p(c, b) * piece.phi_rate.row(b * n + i);
+        }
+      }
+    }
+  }
+}
+
+void DelayCycle::set_depth(double depth_mm) {
+  depth_mm_ = depth_mm;
+  for (auto& pass : pieces_) {
+    for (Piece& piece : pass) {
+      if (piece.cuts) {
+        Eigen::MatrixXd a = depth_mm * piece.hk;
+        a.diagonal().array() += 1.0;
+        const Eigen::MatrixXd inverse = depth_mm * a.partialPivLu().inverse();
+        piece.x_back.noalias() = piece.k * inverse;
+        piece.e_back.noalias() = piece.r * inverse;
+        piece.x_state = piece.phi - piece.x_back * piece.hphi;
+        piece.e_state = piece.e - piece.e_back * piece.hphi;
+      }
+    }
+  }
+}
+
+/// Σ_j H_j·x(θ − δ_j) at the nodes.
+Eigen::VectorXd DelayCycle::delayed(const Piece& piece,
+                                    const Eigen::Ref<Eigen::VectorXd>& state) const {
+  const Index n = piece.nodes;
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(n * components_);
+  for (const Delayed& term : piece.delayed) {
+    for (Index i = 0; i < n; ++i) {
+      const Read& read = term.read[static_cast<std::size_t>(i)];
+      const Eigen::Matrix2d& h = term.h[static_cast<std::size_t>(i)];
+      const Piece& from = pieces_[0][read.piece];
+      if (from.slot < 0) {
+        continue;
+      }
+      for (Index b = 0; b < components_; ++b) {
+        const Index first = b * from.nodes;
+        double x = 0.0;
+        if (read.row.size() == 0) {
+          x = state[from.slot + first + read.node];
+        } else {
+          x = read.row * state.segment(from.slot + first, from.nodes);
+        }
+        for (Index c = 0; c < components_; ++c) {
+          out[c * n + i] += h(c, b) * x;
+        }
+      }
+    }
+  }
+  return out;
+}
+
+void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
+  // A piece's values of this pass take the place of the last one's as soon as it is passed: no
+  // delay is longer than a pass.
+  const Index modal_size = 2 * static_cast<Index>(process_.modes.size());
+  Eigen::VectorXd modal = state.head(modal_size);
+  for (Piece& piece : pieces_[pass]) {
+    if (!piece.cuts) {
+      piece.x = piece.phi * modal;
+      modal = piece.e * modal;
+      continue;
+    }
+    const Eigen::VectorXd back = delayed(piece, state);
+    piece.x.noalias() = piece.x_state * modal;
+    piece.x.noalias() += piece.x_back * back;
+    modal = (piece.e_state * modal + piece.e_back * back).eval();
+    state.segment(piece.slot, piece.x.size()) = piece.x;
+  }
+  state.head(modal_size) = modal;
+}
+
+// A Ref is a view, cheap to hand on.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
+void DelayCycle::apply(Eigen::Ref<Eigen::VectorXd> state) {
+  for (std::size_t p = 0; p < passes_; ++p) {
+    advance(p, state);
+  }
+}
+
+std::vector<DelayCycle::Sample> DelayCycle::last_pass(std::size_t pass) const {
+  std::vector<Sample> out;
+  double t = 0.0;
+  for (std::size_t p = 0; p < pass; ++p) {
+    for (const Piece& piece : pieces_[p]) {
+      t += GaussNodes::of(piece.nodes).weight.dot(piece.sigma_s);
+    }
+  }
+  for (const Piece& piece : pieces_[pass]) {
+    const GaussNodes& gauss = GaussNodes::of(piece.nodes);
+    const Eigen::VectorXd since = gauss.integral * piece.sigma_s;
+    for (Index i = 0; i < piece.nodes; ++i) {
+      out.push_back({t + since[i], gauss.weight[i] * piece.sigma_s[i], piece.x[i]});
+    }
+    t += gauss.weight.dot(piece.sigma_s);
+  }
+  return out;
+}
+
+}  // namespace steadyrest::chatter::offline

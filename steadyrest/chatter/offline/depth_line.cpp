@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/core.h>
+
+#include <steadyrest/chatter/offline/depth_line.hpp>
+#include <steadyrest/chatter/offline/multipliers.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kTolerance = 1e-10;  ///< of the multipliers
+constexpr double kBracket = 1e-10;    ///< of the border, relative
+constexpr double kOnBorder = 1e-12;   ///< ln ρ
+constexpr int kMostSteps = 60;
+
+std::unexpected<Refusal> refusal(std::string what, std::string to_do) {
+  return std::unexpected(Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)});
+}
+
+/// The free vibration that dies most slowly.
+double least_decay_1_s(const Process& process) {
+  double least = process.modes[0].damping_ratio * process.modes[0].frequency_hz;
+  for (const Mode& mode : process.modes) {
+    least = std::min(least, mode.damping_ratio * mode.frequency_hz);
+  }
+  return kTurn * least;
+}
+
+}  // namespace
+
+Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
+                                  const Modulation& modulation, double most_depth_mm) {
+  if (process.modes.empty()) {
+    return refusal("the process has no mode", "name at least one mode that vibrates");
+  }
+  if (!(speed_rev_s > 0.0) || !std::isfinite(speed_rev_s)) {
+    return refusal(fmt::format("speed {} rev/s; allowed: above 0", speed_rev_s),
+                   "give a speed above 0");
+  }
+  if (!(most_depth_mm > 0.0) || !std::isfinite(most_depth_mm)) {
+    return refusal(fmt::format("depth {} mm; allowed: above 0", most_depth_mm),
+                   "give a depth above 0");
+  }
+  const bool constant = SpeedProfile(speed_rev_s, modulation).constant();
+  if (!constant && !(modulation.rva >= 0.0 && modulation.rva < 1.0 && modulation.rvf > 0.0)) {
+    return refusal(fmt::format("RVA {}, RVF {}; allowed: RVA 0 to below 1, RVF above 0",
+                               modulation.rva, modulation.rvf),
+                   "give both within their ranges");
+  }
+  DepthLine out;
+  out.process_ = process;
+  out.config_.speed_rev_s = speed_rev_s;
+  out.config_.modulation = modulation;
+  out.config_.most_depth_mm = most_depth_mm;
+  const double decay = least_decay_1_s(process);
+  if (constant && PassMatrix::simple(process)) {
+    out.tracker_ = std::make_unique<DepthTracker>(process, speed_rev_s, most_depth_mm);
+    out.free_log_radius_ = -decay / (speed_rev_s * static_cast<double>(process.tool.teeth));
+    return out;
+  }
+  auto cycle = DelayCycle::make(process, out.config_);
+  if (!cycle) {
+    return std::unexpected(cycle.error());
+  }
+  out.free_log_radius_ = -decay * cycle->period_s() / static_cast<double>(cycle->law_periods());
+  if (process.tool.helix_rad == 0.0 || process.cut.operation == Operation::turning) {
+    out.cycle_ = std::make_unique<DelayCycle>(std::move(*cycle));
+  }
+  return out;
+}
+
+double DepthLine::log_radius(double depth_mm) {
+  if (depth_mm <= 0.0) {
+    return free_log_radius_;
+  }
+  if (tracker_) {
+    return std::log(std::abs(tracker_->dominant(depth_mm)));
+  }
+  const auto of = [](DelayCycle& cycle, double depth) {
+    cycle.set_depth(depth);
+    return multipliers(cycle, 1, kTolerance).log_modulus[0] /
+           static_cast<double>(cycle.law_periods());
+  };
+  if (cycle_) {
+    return of(*cycle_, depth_mm);
+  }
+  DelayCycle::Config config = config_;
+  config.most_depth_mm = depth_mm;
+  // What make() refuses does not depend on the depth.
+  auto cycle = DelayCycle::make(process_, config);
+  return of(*cycle, depth_mm);
+}
+
+double DepthLine::crossing_mm(double stable_mm, double log_stable, double unstable_mm,
+                              double log_unstable) {
+  // Illinois: regula falsi that halves the ordinate of an end that stays, so that both ends close
+  // in; ln ρ is smooth but for exchanges of the lead.
+  double a = stable_mm;
+  double b = unstable_mm;
+  double fa = log_stable;
+  double fb = log_unstable;
+  bool last_was_a = false;
+  for (int i = 0; i < kMostSteps && b - a > kBracket * b; ++i) {
+    double middle = (a * fb - b * fa) / (fb - fa);
+    if (!(middle > a && middle < b) || i % 12 == 11) {
+      middle = 0.5 * (a + b);
+    }
+    const double f = log_radius(middle);
+    if (std::abs(f) < kOnBorder) {
+      return middle;
+    }
+    if (f < 0.0) {
+      fb *= i > 0 && last_was_a ? 0.5 : 1.0;
+      a = middle;
+      fa = f;
+      last_was_a = true;
+    } else {
+      fa *= i > 0 && !last_was_a ? 0.5 : 1.0;
+      b = middle;
+      fb = f;
+      last_was_a = false;
+    }
+  }
+  return 0.5 * (a + b);
+}
+
+}  // namespace steadyrest::chatter::offline

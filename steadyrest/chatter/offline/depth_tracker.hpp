@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <steadyrest/chatter/offline/delay_cycle.hpp>
+#include <steadyrest/chatter/offline/pass_matrix.hpp>
+
+/// The dominant multiplier at one speed for depths that rise: constant speed, even pitch, straight
+/// teeth.
+///
+/// Zeros ξ = 1/μ of PassMatrix::g are followed from depth to depth by Halley's steps. That none is
+/// nearer to 0 than the nearest one followed is counted by the argument principle on a circle just
+/// inside of it; where one is, Arnoldi's method on the DelayCycle finds it. So a new lobe cannot be
+/// missed, and an ordinary point costs some 40 evaluations of g, four at a time.
+namespace steadyrest::chatter::offline {
+
+class DepthTracker {
+ public:
+  using Complex = std::complex<double>;
+
+  /// The process must be PassMatrix::simple(); `most_depth_mm` > 0.
+  DepthTracker(Process process, double speed_rev_s, double most_depth_mm);
+
+  /// Dominant multiplier at a depth; quickest where it is not below the last one. One of a pair:
+  /// Im ≥ 0.
+  [[nodiscard]] Complex dominant(double depth_mm);
+
+  /// Depth of the lowest crossing of |μ| = 1 to 1e-10 of it, found between `most_depth_mm`/steps
+  /// apart; empty: stable throughout.
+  [[nodiscard]] std::optional<double> border_mm(std::size_t steps);
+
+  /// How often Arnoldi's method was needed.
+  [[nodiscard]] std::size_t helped() const noexcept { return helped_; }
+
+ private:
+  struct Root {
+    Complex xi;
+    Complex slope;  ///< dξ/da
+  };
+  [[nodiscard]] bool follow(Root& root, double from_mm, double to_mm);
+  [[nodiscard]] std::optional<Complex> refine(Complex start, double depth_mm);
+  [[nodiscard]] std::optional<int> zeros_within(double radius, double depth_mm);
+  /// g for |ξ| ≤ `size`.
+  [[nodiscard]] const PassMatrix& pass(double size, double depth_mm);
+  void seed(double depth_mm);
+  [[nodiscard]] double cross(double stable_mm, double unstable_mm, double log_unstable);
+  [[nodiscard]] bool verified(double depth_mm);
+  void search(double depth_mm);
+  void sort();
+  [[nodiscard]] Complex by_arnoldi(double depth_mm);
+
+  Process process_;
+  double speed_rev_s_;
+  double most_depth_mm_;
+  static constexpr std::size_t kLevels = 4;
+  /// For |z| up to the greatest over 1, 3, 9 …: the fewer, the quicker. Made when first used.
+  std::array<std::unique_ptr<PassMatrix>, kLevels> pass_;
+  std::unique_ptr<DelayCycle> cycle_;
+  std::vector<Root> roots_;  ///< Im ξ ≥ 0, the smallest |ξ| first
+  double depth_mm_ = 0.0;
+  std::size_t helped_ = 0;
+};
+
+}  // namespace steadyrest::chatter::offline

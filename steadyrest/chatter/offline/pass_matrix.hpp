@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <steadyrest/chatter/offline/process.hpp>
+
+/// The tooth pass as a small matrix, for even pitch, straight teeth and constant speed.
+///
+/// A Floquet solution has x(t − T) = x(t)/μ, so within it the delay is a factor: the cut is an
+/// ordinary periodic equation with the stiffness z·H(θ), z = a·(1 − ξ), ξ = 1/μ, and its 2m×2m
+/// matrix M(z) of one pass has μ as an eigenvalue,
+///   g(ξ) = det(I − ξ·M(a·(1 − ξ))) = 0.
+/// g is entire in ξ; the dominant multiplier is 1/ξ of its smallest zero. M is a product of short
+/// pieces, each a power series in z whose terms fall as 1/(2k)!. Relative error of M 1e-12 for
+/// |z| ≤ `most_z_mm`; beyond it is not to be used.
+namespace steadyrest::chatter::offline {
+
+class PassMatrix {
+ public:
+  using Complex = std::complex<double>;
+
+  /// The process must be `simple()`.
+  PassMatrix(const Process& process, double speed_rev_s, double most_z_mm);
+
+  /// Even pitch, straight teeth, no process damping.
+  [[nodiscard]] static bool simple(const Process& process) noexcept;
+
+  [[nodiscard]] Complex g(Complex xi, double depth_mm) const;
+  /// At four ξ for little more than the price of one.
+  static constexpr std::size_t kLanes = 4;
+  using Lanes = std::array<Complex, kLanes>;
+  [[nodiscard]] Lanes g_lanes(const Lanes& xi, double depth_mm) const;
+  [[nodiscard]] double most_z_mm() const noexcept { return most_z_mm_; }
+  /// Multipliers of the free vibration, one of each conjugate pair.
+  [[nodiscard]] const std::vector<Complex>& free() const noexcept { return free_; }
+
+ private:
+  /// M of one piece is Σ term[k]·z^k.
+  struct Series {
+    std::vector<Eigen::MatrixXd> term;
+  };
+  /// The same where the order is 2: terms of four numbers, by rows, from `begin` on.
+  struct Flat {
+    std::size_t begin = 0;
+    std::vector<double> reach_mm;  ///< |z| up to which that many terms suffice
+  };
+  void flatten();
+  [[nodiscard]] Complex g_any(Complex xi, Complex z) const;
+
+  Eigen::Index order_;
+  double most_z_mm_;
+  double free_determinant_ = 1.0;
+  std::vector<Series> series_;
+  std::vector<Flat> flat_;
+  std::vector<double> number_;
+  std::vector<Complex> free_;
+};
+
+}  // namespace steadyrest::chatter::offline

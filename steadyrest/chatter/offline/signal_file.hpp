@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// Reader of a recorded vibration, sound or power: CSV or WAV, told apart by the first bytes.
+///
+/// CSV: columns `t_s`, `value` and, where it was recorded, `speed_rpm`, found by their names in the
+/// header; others beside them; separator `,`, `;` or tab (the one that the header has); lines that
+/// begin with `#`, blank lines, CR LF and a byte order mark are allowed. Decimals have a point.
+/// Each step of the time is within 25 % of the median one: no sample may be missing.
+///
+/// WAV: RIFF with PCM of 16, 24 or 32 bits or floats of 32; of several channels the first; values
+/// in ±1. It has no speed. Layout: Multimedia Programming Interface and Data Specifications 1.0
+/// (IBM, Microsoft, 1991).
+///
+/// Refused, with line or byte: what is not so, a value that is not finite, a file that is cut
+/// off, a rate outside of 1 … 50 kHz, over 256 MB. Nothing throws.
+namespace steadyrest::chatter::offline {
+
+struct RecordedSignal {
+  double rate_hz = 0.0;             ///< 1e3 … 50e3
+  double start_s = 0.0;             ///< time of the first sample
+  std::vector<double> value;        ///< ≥ 2, any unit
+  std::vector<double> speed_rev_s;  ///< ≥ 0, as many; empty: not recorded
+};
+
+[[nodiscard]] kernel::outcome::Result<RecordedSignal> read_signal(const std::string& path);
+
+/// The same of bytes; `file` is what the refusals are to call it.
+[[nodiscard]] kernel::outcome::Result<RecordedSignal> parse_signal(std::string_view bytes,
+                                                                   const std::string& file);
+
+}  // namespace steadyrest::chatter::offline

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/chatter/online/order_filter.hpp>
+#include <steadyrest/chatter/online/revolution_spread.hpp>
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::chatter::online {
+
+/// Hears chatter in vibration, sound, spindle power or a motion estimate, at constant and at
+/// modulated speed.
+///
+/// Law. The signal less what OrderFilter says is forced gives the residual; LineSpectrum finds its
+/// lines. With C the energy of the lines and P that of the forced vibration,
+///   energy ratio = C/(C + P).
+/// A spectrum is suspect when its strongest line stands `line_ratio` above the noise, and either
+/// the energy ratio is above `sure_ratio`, or it is above `on_ratio` and C above `margin` times
+/// what the present cut has shown so far (learnt while nothing is suspect, from `learn_s` on), and
+/// the second witness does not deny it: the revolution's spread must be at least a quarter of what
+/// a line of this order and energy gives. While the speed moves `sure_ratio_moving` stands in:
+/// resonances that the tooth orders sweep over leave up to 0.8 in stable cuts. A line that the last
+/// revolution no longer has (70 % of its energy, 30 % while the speed moves) is a vibration that
+/// dies away. `confirm` suspect spectra, less those between that were not, are chatter; it is over
+/// once the energy ratio was below `off_ratio` for a whole window. For `settle_rev` revolutions
+/// after the signal's energy jumped (the tool enters) nothing is judged.
+///
+/// The frequency is that of the strongest line of the residual, see LineSpectrum for its accuracy.
+/// Flip: within a line's width of a half-odd tooth order; the lines there are never taken as forced
+/// at once, only in the long memory of OrderFilter. Otherwise Hopf. Flip chatter of an
+/// even-numbered cutter that is there from the first tooth on cannot be told from its runout.
+///
+/// Source: Caliskan, Kilic, Altintas 2018 (Kalman filter, energy ratio); Zhao 2019 (once a
+/// revolution).
+class Detector {
+ public:
+  struct Config {
+    double sample_rate_hz = 10e3;        ///< 1e3 … 50e3
+    std::size_t teeth = 2;               ///< 1 … 64; 1 in turning
+    std::size_t tooth_harmonics = 24;    ///< 1 … 64
+    std::size_t spindle_harmonics = 40;  ///< 0 … 64
+    double lowest_hz = 40.0;             ///< chatter below is not looked for
+    double window_s = 0.1;               ///< of the spectrum, 0.02 … 1
+    double on_ratio = 0.15;              ///< off_ratio … sure_ratio
+    double sure_ratio = 0.25;            ///< on_ratio … 1
+    double sure_ratio_moving = 0.8;      ///< the same while the speed moves
+    double off_ratio = 0.07;             ///< 0 … on_ratio
+    double line_ratio = 25.0;            ///< ≥ 10
+    double margin = 4.0;                 ///< ≥ 1
+    double least_energy = 0.0;           ///< unit²; less vibration than this is no cut
+    double learn_s = 0.25;               ///< ≥ 0
+    double settle_rev = 3.0;             ///< ≥ 0
+    unsigned confirm = 2;                ///< ≥ 1
+    unsigned confirm_moving = 2;         ///< the same while the speed moves, ≥ 1
+    double moving_memory_rev = 0.7;      ///< of the tooth orders while the speed moves, OrderFilter
+  };
+
+  struct Input {
+    double value = 0.0;                                           ///< any unit
+    double speed_rev_s = 0.0;                                     ///< of the spindle, now
+    double angle_rev = std::numeric_limits<double>::quiet_NaN();  ///< of the spindle, rising; NaN:
+                                                                  ///< the speed is integrated
+  };
+
+  enum class Kind : std::uint8_t {
+    none,    ///< nothing to name
+    forced,  ///< repeats with the teeth
+    hopf,    ///< regenerative, quasi-periodic
+    flip,    ///< regenerative, period doubling
+  };
+
+  struct Output {
+    bool chatter = false;
+    bool fresh = false;  ///< a spectrum was judged with this sample
+    Kind kind = Kind::none;
+    double frequency_hz = 0.0;  ///< of the strongest line of the residual; 0 = none
+    double energy_ratio = 0.0;  ///< 0 … 1
+    double spread_ratio = 0.0;  ///< 0 … 2, RevolutionSpread; 0 while not known
+    double residual = 0.0;      ///< the signal without the forced vibration
+    kernel::outcome::Reason reason = kernel::outcome::Reason::none;
+  };
+
+  [[nodiscard]] static kernel::outcome::Result<Detector> make(const Config& config);
+
+  /// One sample. A value, speed or angle that is not finite, or a speed that is not above 0, is
+  /// skipped: the output stays, with its reason, until the next good sample.
+  const Output& update(const Input& input) noexcept;
+  void reset() noexcept;
+
+  [[nodiscard]] double resolution_hz() const noexcept { return spectrum_.resolution_hz(); }
+  /// Samples that the spectrum looks back.
+  [[nodiscard]] std::size_t window() const noexcept { return spectrum_.length(); }
+
+ private:
+  struct State {
+    double angle_rev = 0.0;
+    double mean_speed_rev_s = 0.0;
+    double speed_spread = 0.0;     ///< mean |Ω − mean|/mean
+    double forced_energy = 0.0;    ///< P, mean over about a revolution
+    double residual_energy = 0.0;  ///< the same of e²
+    double tooth_energy = 0.0;     ///< of the tooth orders, the same
+    double energy = 0.0;           ///< of the whole signal, mean over about a revolution
+    double slow_all = 0.0;         ///< the same over some ten revolutions
+    double slow_energy = 0.0;      ///< the same over some ten revolutions
+    double seen_rev = 0.0;         ///< since the start, up to what those remember
+    double settled_rev = 0.0;      ///< since the cut began
+    double judged_s = 0.0;         ///< since then
+    double floor_energy = 0.0;     ///< C of the present cut, learnt
+    double held_s = 0.0;           ///< that the slow orders stand still
+    unsigned suspects = 0;
+    unsigned quiet = 0;
+    bool hold = false;
+    bool opened = false;  ///< the filter, for a cut that began
+    bool started = false;
+  };
+
+  Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum);
+  void follow_speed(const Input& input) noexcept;
+  void follow_energy(const OrderFilter::Output& forced, double moving, double turn_share) noexcept;
+  void judge(const LineSpectrum::Output& lines) noexcept;
+  [[nodiscard]] bool witnessed(double line_energy, double order) const noexcept;
+  [[nodiscard]] Kind kind_of(double frequency_hz) const noexcept;
+  void learn(double line_energy) noexcept;
+
+  Config config_;
+  OrderFilter filter_;
+  LineSpectrum spectrum_;
+  RevolutionSpread spread_;
+  RevolutionSpread::Output revolution_;
+  State state_;
+  Output out_;
+};
+
+}  // namespace steadyrest::chatter::online

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <steadyrest/chatter/online/line_spectrum.hpp>
+
+namespace steadyrest::chatter::online {
+namespace {
+
+constexpr double kPart = 10.0;  // of a line: this many times the noise
+constexpr double kClip = 3.0;   // bins above are no noise
+constexpr double kClipBias =
+    1.36;  // mean of an exponential over its mean clipped so again and again
+constexpr double kHannEnergy = 0.375;  // mean of the squared window
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+kernel::outcome::Refusal refuse(const char* what) {
+  return {kernel::outcome::Kind::bad_input, {}, 0, what, "correct the detector's setup"};
+}
+
+}  // namespace
+
+kernel::outcome::Result<LineSpectrum> LineSpectrum::make(const Config& config) {
+  if (!(config.sample_rate_hz >= 1e3 && config.sample_rate_hz <= 50e3)) {
+    return std::unexpected(refuse("sample rate is not within 1000…50000 Hz"));
+  }
+  if (!(config.window_s >= 0.02 && config.window_s <= 1.0)) {
+    return std::unexpected(refuse("window is not within 0.02…1 s"));
+  }
+  if (!(config.lowest_hz >= 0.0 && config.lowest_hz <= 0.25 * config.sample_rate_hz)) {
+    return std::unexpected(refuse("lowest frequency is not within 0…¼ of the sample rate"));
+  }
+  const double wanted = std::log2(config.window_s * config.sample_rate_hz);
+  const auto bits = static_cast<unsigned>(std::clamp(std::lround(wanted), 6L, 15L));
+  return LineSpectrum(config, std::size_t{1} << bits);
+}
+
+LineSpectrum::LineSpectrum(const Config& config, std::size_t n)
+    : config_(config),
+      n_(n),
+      bin_hz_(config.sample_rate_hz / static_cast<double>(n)),
+      first_bin_(std::max<std::size_t>(2, static_cast<std::size_t>(config.lowest_hz / bin_hz_))),
+      ring_(2 * n),
+      window_(n),
+      reversed_(n),
+      twiddle_(n / 2),
+      bins_(n),
+      power_(n / 2) {
+  const auto bits = static_cast<unsigned>(std::countr_zero(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double phase = kTurn * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    window_[i] = 0.5 * (1.0 - std::cos(phase));
+    std::uint32_t r = 0;
+    for (unsigned b = 0; b < bits; ++b) {
+      r |= ((static_cast<std::uint32_t>(i) >> b) & 1U) << (bits - 1U - b);
+    }
+    reversed_[i] = r;
+  }
+  for (std::size_t i = 0; i < n / 2; ++i) {
+    twiddle_[i] = std::polar(1.0, -kTurn * static_cast<double>(i) / static_cast<double>(n));
+  }
+}
+
+const LineSpectrum::Output& LineSpectrum::update(double value, double spacing_hz,
+                                                 double guard_hz) noexcept {
+  out_.fresh = false;
+  ring_[head_] = value;
+  head_ = head_ + 1 == ring_.size() ? 0 : head_ + 1;
+  seen_ = std::min(seen_ + 1, n_);
+  ++since_;
+  if (step_ == Step::idle && seen_ == n_ && since_ >= n_ / 8) {
+    since_ = 0;
+    step_ = Step::copy;
+    at_ = 0;
+    start_ = head_ >= n_ ? head_ - n_ : head_ + n_;  // the ring holds 2n
+  }
+  work(spacing_hz, guard_hz);
+  return out_;
+}
+
+void LineSpectrum::work(double spacing_hz, double guard_hz) noexcept {
+  switch (step_) {
+    case Step::idle:
+      break;
+    case Step::copy:
+      copy();
+      break;
+    case Step::transform:
+      transform();
+      break;
+    case Step::power:
+      power(spacing_hz, guard_hz);
+      break;
+    case Step::noise:
+      noise();
+      break;
+    case Step::lines:
+      lines();
+      break;
+  }
+}
+
+void LineSpectrum::copy() noexcept {
+  const std::size_t end = std::min(n_, at_ + kCopy);
+  for (; at_ < end; ++at_) {
+    const std::size_t i = start_ + at_;
+    bins_[reversed_[at_]] = window_[at_] * ring_[i < ring_.size() ? i : i - ring_.size()];
+  }
+  if (at_ == n_) {
+    step_ = Step::transform;
+    at_ = 0;
+    half_ = 1;
+  }
+}
+
+/// Butterflies `at_` of the stage that joins halves of length `half_`.
+void LineSpectrum::transform() noexcept {
+  for (std::size_t done = 0; done < kQuota; ++done) {
+    const std::size_t within = at_ & (half_ - 1);
+    const std::size_t low = ((at_ - within) << 1U) + within;
+    const std::complex<double> w = twiddle_[within * (n_ / (2 * half_))];
+    const std::complex<double> a = bins_[low];
+    const std::complex<double> b = bins_[low + half_];
+    const std::complex<double> t(w.real() * b.real() - w.imag() * b.imag(),
+                                 w.real() * b.imag() + w.imag() * b.real());
+    bins_[low] = a + t;
+    bins_[low + half_] = a - t;
+    if (++at_ == n_ / 2) {
+      at_ = 0;
+      half_ *= 2;
+      if (half_ == n_) {
+        step_ = Step::power;
+        at_ = first_bin_;
+        sum_ = 0.0;
+        looked_at_ = 0;
+        peak_ = first_bin_;
+        return;
+      }
+    }
+  }
+}
+
+void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
+  const auto n = static_cast<double>(n_);
+  const double scale = 2.0 / (kHannEnergy * n * n);
+  const std::size_t end = std::min(n_ / 2, at_ + kCopy);
+  for (; at_ < end; ++at_) {
+    const double hz = static_cast<double>(at_) * bin_hz_;
+    const bool skipped =
+        guard_hz > 0.0 && std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) <= guard_hz;
+    const double p = scale * std::norm(bins_[at_]);
+    power_[at_] = skipped ? -p : p;
+    if (!skipped) {
+      sum_ += p;
+      ++looked_at_;
+      peak_ = p > power_[peak_] ? at_ : peak_;
+    }
+  }
+  if (at_ == n_ / 2) {
+    step_ = Step::noise;
+    level_ = looked_at_ > 0 ? sum_ / static_cast<double>(looked_at_) : 0.0;
+    pass_ = 0;
+    at_ = first_bin_;
+    sum_ = 0.0;
+    count_ = 0;
+  }
+}
+
+void LineSpectrum::noise() noexcept {
+  const std::size_t end = std::min(n_ / 2, at_ + kCopy);
+  for (; at_ < end; ++at_) {
+    const double p = power_[at_];
+    if (p >= 0.0 && p <= kClip * level_) {
+      sum_ += p;
+      ++count_;
+    }
+  }
+  if (at_ < n_ / 2) {
+    return;
+  }
+  level_ = count_ > 0 ? sum_ / static_cast<double>(count_) : level_;
+  at_ = first_bin_;
+  sum_ = 0.0;
+  count_ = 0;
+  if (++pass_ == kNoisePasses) {
+    step_ = Step::lines;
+    level_ = std::max(kClipBias * level_, std::numeric_limits<double>::min());
+  }
+}
+
+void LineSpectrum::lines() noexcept {
+  const std::size_t end = std::min(n_ / 2, at_ + kCopy);
+  for (; at_ < end; ++at_) {
+    sum_ += power_[at_] > kPart * level_ ? power_[at_] - level_ : 0.0;
+  }
+  if (at_ == n_ / 2) {
+    finish();
+  }
+}
+
+void LineSpectrum::finish() noexcept {
+  step_ = Step::idle;
+  const double here = std::sqrt(std::abs(power_[peak_]));
+  const double left = std::sqrt(std::abs(power_[std::max(peak_, first_bin_ + 1) - 1]));
+  const double right = std::sqrt(std::abs(power_[std::min(peak_ + 1, n_ / 2 - 1)]));
+  const double ratio = here > 0.0 ? std::min(1.0, std::max(left, right) / here) : 0.5;
+  const double offset = (2.0 * ratio - 1.0) / (ratio + 1.0);
+  const double sign = right >= left ? 1.0 : -1.0;
+  out_.frequency_hz = (static_cast<double>(peak_) + sign * offset) * bin_hz_;
+  out_.line_energy = sum_;
+  out_.noise_energy = level_ * static_cast<double>(looked_at_);
+  out_.peak_ratio = std::max(power_[peak_], 0.0) / level_;
+  out_.fresh = true;
+}
+
+void LineSpectrum::reset() noexcept {
+  std::ranges::fill(ring_, 0.0);
+  head_ = seen_ = since_ = 0;
+  step_ = Step::idle;
+  out_ = {};
+}
+
+}  // namespace steadyrest::chatter::online

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <steadyrest/chatter/online/modulator.hpp>
+#include <steadyrest/chatter/online/modulator_range.hpp>
+
+namespace steadyrest::chatter::online {
+namespace {
+
+using kernel::outcome::Reason;
+using kernel::override::kRatioTolerance;
+using kernel::signal::Frame;
+using kernel::signal::Motion;
+
+/// What the actual speed must be above before the feed rises again: its noise must not move steps.
+constexpr double kRoomToRise = 0.998;
+/// An actual speed below this share of the programmed one is not shown, or the spindle stands.
+constexpr double kStands = 1e-3;
+
+bool all_finite(std::initializer_list<double> values) noexcept {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+/// Largest and smallest value of the shape.
+struct Extent {
+  double high;
+  double low;
+};
+
+Extent extent_of(Law law) noexcept {
+  switch (law) {
+    case Law::constant:
+      return {.high = 0.0, .low = 0.0};
+    case Law::pulse:
+      return {.high = 1.0, .low = -1.0 / 3.0};
+    case Law::stop:
+      return {.high = 1.0 / 9.0, .low = -1.0};
+    case Law::square:
+    case Law::triangle:
+    case Law::sine:
+    case Law::random:
+      break;
+  }
+  return {.high = 1.0, .low = -1.0};
+}
+
+bool jumps(Law law) noexcept {
+  return law == Law::square || law == Law::pulse || law == Law::stop;
+}
+
+/// The actual speed as a ratio of the programmed one; what the override says where none is shown.
+double speed_ratio(const Frame& frame) noexcept {
+  const double programmed = std::abs(frame.spindle_programmed_rev_s);
+  const double ratio = programmed > 0.0 ? std::abs(frame.spindle_actual_rev_s) / programmed : 0.0;
+  return ratio > kStands ? ratio : frame.spindle.effective_ratio;
+}
+
+}  // namespace
+
+bool Modulator::change(const Modulation& modulation) noexcept {
+  if (!fit(modulation)) {
+    return false;
+  }
+  const Modulation& now = state_.modulation;
+  if (modulation.law != now.law || modulation.seed != now.seed) {
+    law_ = SpeedLaw(modulation.law, modulation.seed);
+  }
+  state_.modulation = modulation;
+  return true;
+}
+
+void Modulator::reset() noexcept {
+  const Modulation modulation = state_.modulation;
+  state_ = {};
+  state_.modulation = modulation;
+}
+
+void Modulator::restore(const State& state) noexcept {
+  const bool is_fit = fit(state.modulation) && std::isfinite(state.time_s) && state.phase >= 0.0 &&
+                      state.phase < 1.0 && state.fade >= 0.0 && state.fade <= 1.0 &&
+                      std::isfinite(state.ratio) && std::isfinite(state.coming_feed_ratio) &&
+                      std::isfinite(state.coming_until_s) && state.step < spindle_.steps() &&
+                      (!feed_ || state.feed_step < feed_->steps());
+  if (!is_fit) {
+    reset();
+    return;
+  }
+  state_ = state;
+  law_ = SpeedLaw(state.modulation.law, state.modulation.seed);
+}
+
+Reason Modulator::fault_of(const Frame& frame) const noexcept {
+  if (!all_finite({frame.time_s, frame.age_s, frame.spindle_programmed_rev_s,
+                   frame.spindle_actual_rev_s, frame.programmed_feed_mm_s, frame.path_speed_mm_s,
+                   frame.feed.panel_ratio, frame.feed.effective_ratio, frame.spindle.panel_ratio,
+                   frame.spindle.effective_ratio})) {
+    return Reason::input_not_finite;
+  }
+  if ((state_.started && frame.time_s < state_.time_s) || frame.programmed_feed_mm_s < 0.0 ||
+      frame.feed.effective_ratio < 0.0 || frame.spindle.effective_ratio < 0.0) {
+    return Reason::input_out_of_range;
+  }
+  return frame.age_s > config_.max_step_s ? Reason::input_stale : Reason::none;
+}
+
+bool Modulator::wanted(const Frame& frame) const noexcept {
+  return frame.motion == Motion::feed && (config_.always || frame.speed_modulation);
+}
+
+Modulator::Limits Modulator::limits(const Frame& frame) const noexcept {
+  const double speed_rev_s = std::abs(frame.spindle_programmed_rev_s);
+  double high = std::min({spindle_.ratio(highest_), config_.max_rev_s / speed_rev_s,
+                          feed_top_ratio_ / config_.min_feed_per_tooth_ratio});
+  if (!spindle_.layer_may_exceed_panel()) {
+    high = std::min(high, frame.spindle.panel_ratio);
+  }
+  high = std::max(high, spindle_.ratio(lowest_));
+  const double low = std::max(spindle_.ratio(lowest_), config_.min_rev_s / speed_rev_s);
+  return {.low = std::min(low, high), .high = high};
+}
+
+/// The mean is moved before the amplitude is narrowed: a law that is cut off at a limit would dwell
+/// there, and a dwell is what chatter grows in.
+Modulator::Swing Modulator::swing(const Limits& limits, double speed_rev_s) const noexcept {
+  const Modulation& m = state_.modulation;
+  const Extent extent = extent_of(m.law);
+  const double span = extent.high - extent.low;
+  const double asked =
+      m.amplitude_rev_s > 0.0 ? m.amplitude_rev_s / speed_rev_s : m.amplitude_ratio * m.mean_ratio;
+  const double amplitude = span > 0.0 ? std::min(asked, (limits.high - limits.low) / span) : 0.0;
+  const double lowest = limits.low - amplitude * extent.low;
+  const double mean =
+      std::clamp(m.mean_ratio, lowest, std::max(lowest, limits.high - amplitude * extent.high));
+  const bool narrowed = (span > 0.0 && amplitude < asked - kRatioTolerance) ||
+                        std::abs(mean - m.mean_ratio) > kRatioTolerance;
+  return {.mean = mean, .amplitude = amplitude, .narrowed = narrowed};
+}
+
+double Modulator::goal(const Swing& swing, double phase) const noexcept {
+  return 1.0 + state_.fade * (swing.mean + swing.amplitude * law_.at(phase) - 1.0);
+}
+
+/// The larger of what the override says and of how the path runs: one of them is late after a
+/// change, and a control may leave the override aside (M49).
+double Modulator::feed_in_force(const Frame& frame) const noexcept {
+  const double programmed = frame.programmed_feed_mm_s;
+  const double runs = programmed > 0.0 ? std::abs(frame.path_speed_mm_s) / programmed : 0.0;
+  return std::max(frame.feed.effective_ratio, runs);
+}
+
+void Modulator::choose_step(double ratio, const Limits& limits, double floor) noexcept {
+  const std::size_t last = std::clamp(
+      spindle_.floor_step(limits.high + kRatioTolerance).value_or(lowest_), lowest_, highest_);
+  const double low = std::max(limits.low, floor) - kRatioTolerance;
+  const std::size_t first = std::clamp(spindle_.ceil_step(low).value_or(last), lowest_, last);
+  const std::size_t nearest = std::clamp(spindle_.nearest_step(ratio).value_or(first), first, last);
+  if (!state_.stepped) {
+    state_.step = nearest;
+    state_.stepped = true;
+    return;
+  }
+  state_.step = std::clamp(state_.step, first, last);
+  const double from = spindle_.ratio(state_.step);
+  const double to = spindle_.ratio(nearest);
+  const double room = config_.hysteresis * std::abs(to - from);
+  if (std::abs(ratio - to) + room < std::abs(ratio - from)) {
+    state_.step = nearest;
+  }
+}
+
+void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swing& swing,
+                            bool slewed, Output& output) noexcept {
+  const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
+  const double feed = std::max(feed_in_force(frame), state_.coming_feed_ratio);
+  const double floor = coupled ? feed / config_.max_feed_per_tooth_ratio : 0.0;
+  choose_step(state_.ratio, limits, floor);
+  const double chosen = spindle_.ratio(state_.step);
+  const double nearest = spindle_.ratio(spindle_.nearest_step(state_.ratio).value_or(0));
+  output.spindle.ratio = chosen;
+  if (state_.fade < 1.0) {
+    output.spindle.reason = Reason::chatter_fading;
+  } else if (nearest < floor - kRatioTolerance && chosen > nearest) {
+    output.spindle.reason = Reason::chatter_feed_late;
+  } else if (swing.narrowed) {
+    output.spindle.reason = Reason::chatter_swing_narrowed;
+  } else if (slewed && !jumps(state_.modulation.law)) {
+    output.spindle.reason = Reason::chatter_drive_limit;
+  } else {
+    output.spindle.reason = Reason::chatter_modulating;
+  }
+}
+
+/// What was asked may act after something lower is asked: it counts for two of its delays.
+void Modulator::expect_feed(double time_s, double ratio) noexcept {
+  if (ratio >= state_.coming_feed_ratio || time_s > state_.coming_until_s) {
+    state_.coming_feed_ratio = ratio;
+    state_.coming_until_s = time_s + 2.0 * feed_delay_s_;
+  }
+}
+
+/// `ahead`: the lowest speed ratio from now until the feed could answer.
+void Modulator::ask_feed(const Frame& frame, double ahead, Output& output) noexcept {
+  couple_feed(frame, ahead, output);
+  const bool asked = output.feed.reason != Reason::none;
+  expect_feed(frame.time_s, asked ? output.feed.ratio : feed_ ? frame.feed.panel_ratio : 0.0);
+}
+
+void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) noexcept {
+  const double actual = speed_ratio(frame);
+  output.feed_per_tooth_ratio = actual > kStands ? frame.feed.effective_ratio / actual : 1.0;
+  const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
+  if (!coupled || !feed_) {
+    state_.fed = false;
+    return;
+  }
+  const double slowest = std::max(std::min(ahead, actual), spindle_.ratio(lowest_));
+  const double cap = std::min(config_.max_feed_per_tooth_ratio * slowest, config_.max_feed_ratio);
+  const double panel = frame.feed.panel_ratio;
+  const double least = config_.min_feed_per_tooth_ratio * actual;
+  if (feed_->layer_may_exceed_panel() && panel >= 1.0 - kRatioTolerance && panel < least) {
+    const auto up = feed_->ceil_step(least - kRatioTolerance);
+    if (up && feed_->ratio(*up) <= std::min(cap, feed_top_ratio_) + kRatioTolerance) {
+      state_.fed = false;
+      output.feed.ratio = feed_->ratio(*up);
+      output.feed.reason = Reason::chatter_feed_raised;
+      return;
+    }
+  }
+  if (panel <= (state_.fed ? kRoomToRise : 1.0) * cap + kRatioTolerance) {
+    state_.fed = false;
+    return;
+  }
+  const auto down = feed_->floor_step(cap + kRatioTolerance);
+  const double lowest =
+      std::max(config_.min_feed_ratio, config_.min_feed_per_tooth_ratio * slowest);
+  if (!down || feed_->ratio(*down) < lowest - kRatioTolerance) {
+    state_.fed = false;  // too coarse a table: the swing ends where this feed allows it
+    return;
+  }
+  const std::size_t settled =
+      std::min(*down, feed_->floor_step(kRoomToRise * cap + kRatioTolerance).value_or(*down));
+  state_.feed_step =
+      state_.fed && *down > state_.feed_step ? std::max(state_.feed_step, settled) : *down;
+  state_.fed = true;
+  output.feed.ratio = feed_->ratio(state_.feed_step);
+  output.feed.reason = Reason::chatter_feed_follows;
+}
+
+Modulator::Output Modulator::withdraw(Reason reason) noexcept {
+  state_.fade = 0.0;
+  state_.stepped = false;
+  state_.fed = false;
+  state_.coming_feed_ratio = 0.0;
+  state_.coming_until_s = 0.0;
+  Output output;
+  output.phase = state_.phase;
+  output.spindle.reason = reason;
+  output.feed.reason = reason;
+  return output;
+}
+
+Modulator::Output Modulator::update(const Frame& frame) noexcept {
+  const Reason fault = fault_of(frame);
+  const double passed_s = state_.started ? frame.time_s - state_.time_s : 0.0;
+  if (std::isfinite(frame.time_s)) {
+    state_.time_s = frame.time_s;
+    state_.started = true;
+  }
+  if (fault != Reason::none) {
+    return withdraw(fault);
+  }
+  if (frame.motion == Motion::thread || frame.motion == Motion::tap) {
+    return withdraw(Reason::withdrawn_thread);
+  }
+  const double speed_rev_s = std::abs(frame.spindle_programmed_rev_s);
+  const bool active = wanted(frame) && speed_rev_s > 0.0;
+  const double dt_s = std::min(passed_s, config_.max_step_s);
+  const double turn = dt_s / config_.fade_s;
+  if (!active && (speed_rev_s == 0.0 || state_.fade <= turn)) {
+    return withdraw(frame.motion == Motion::feed ? Reason::none : Reason::not_cutting);
+  }
+  state_.fade = std::clamp(state_.fade + (active ? turn : -turn), 0.0, 1.0);
+  if (active) {
+    state_.phase += dt_s / state_.modulation.period_s;
+    state_.phase -= std::floor(state_.phase);
+  }
+  const Limits within = limits(frame);
+  if (!state_.stepped) {
+    state_.ratio = frame.spindle.effective_ratio;
+  }
+  const Swing fitted = swing(within, speed_rev_s);
+  const double now = std::clamp(goal(fitted, state_.phase), within.low, within.high);
+  const double reach = dt_s * std::min(config_.slew_1_s, config_.acceleration_rev_s2 / speed_rev_s);
+  const double moved = std::clamp(now, state_.ratio - reach, state_.ratio + reach);
+  state_.ratio = std::clamp(moved, within.low, within.high);
+  const bool slewed = std::abs(state_.ratio - now) > kRatioTolerance;
+
+  Output output;
+  output.active = active;
+  output.phase = state_.phase;
+  output.fade = state_.fade;
+  output.goal_ratio = now;
+  output.ratio = state_.ratio;
+  output.mean_ratio = fitted.mean;
+  output.amplitude_ratio = fitted.amplitude;
+  const double later_phase = state_.phase + feed_delay_s_ / state_.modulation.period_s;
+  const double later = std::clamp(goal(fitted, later_phase), within.low, within.high);
+  const double ahead = std::min({now, later, state_.ratio});
+  const double step_ahead = spindle_.ratio(spindle_.nearest_step(ahead).value_or(0));
+  ask_feed(frame, std::min(ahead, std::max(step_ahead, spindle_.ratio(lowest_))), output);
+  ask_spindle(frame, within, fitted, slewed, output);
+  return output;
+}
+
+}  // namespace steadyrest::chatter::online

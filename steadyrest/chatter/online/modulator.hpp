@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <steadyrest/chatter/online/speed_law.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/override/table.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/request.hpp>
+
+namespace steadyrest::chatter::online {
+
+/// What may change while the modulator runs.
+struct Modulation {
+  Law law = Law::triangle;
+  double amplitude_ratio = 0.1;  ///< RVA, of the mean speed, 0 … 0.9
+  double amplitude_rev_s = 0.0;  ///< the same as a speed, rev/s ≥ 0; 0 = `amplitude_ratio` counts
+  double period_s = 2.0;         ///< s, 0.02 … 600
+  double mean_ratio = 1.0;       ///< of the programmed speed, 0.1 … 2
+  std::uint64_t seed = 1;        ///< of the random law
+};
+
+/// Swings the spindle's speed by a law, through the steps of its override switch.
+///
+/// Law, S the shape with mean 0 (SpeedLaw), n the programmed speed, m the mean ratio, A the
+/// amplitude (RVA·m, or amplitude/n), g the fade:
+///   φ̇ = 1/period while it is active: a change of anything never makes the phase jump
+///   goal = 1 + g·(m + A·S(φ) − 1), ġ = ±1/fade;  m is moved, then A narrowed, to fit the limits
+///   ratio follows the goal by at most min(slew, a/n)·Δt
+///   step: the nearest one within the limits, held until another is nearer by `hysteresis` of the
+///   way between them
+/// Limits: [min_ratio, max_ratio], the speeds of the spindle, the operator's switch unless the
+/// layer may exceed it, and (largest feed)/min_feed_per_tooth.
+///
+/// Feed per tooth q = feed ratio ÷ speed ratio, of the programmed one; band [q₁, q₂].
+///   feed ≤ q₂·min(goal now, goal one feed delay ahead, actual speed), a step of the feed's table:
+///   the feed falls before the spindle and rises behind it;
+///   speed ≥ (feed in force, or asked and still to come)/q₂: the spindle waits for the feed, and
+///   where the feed cannot follow (M49, no override) the swing ends there; where the layer may
+///   exceed the panel the feed is also raised to q₁·(actual speed).
+/// Where the operator or another room lowers the feed, q falls below q₁: that is theirs. Feed per
+/// revolution follows the spindle by itself and is left alone.
+///
+/// Active while the tool cuts, the spindle turns and the program (or the setting) wants it. Else it
+/// fades, then is neutral; in threads and taps and on unfit input it is neutral at once and the
+/// envelope takes the override back. O(log steps) a cycle, noexcept, without allocation.
+///
+/// Accuracy: the swing has the steps of the table; a step acts a scan and a dead time late. A
+/// control that shows `age` beyond its time is not known here: the supervisor's check withdraws.
+/// Sources: Zelinskiy, Natalchishin 2014 (override switch, laws); Seguy et al. 2010 (RVA, RVF).
+class Modulator {
+ public:
+  struct Config {
+    Modulation modulation;
+    kernel::machine::OverrideTable spindle_table;  ///< at least two steps within the limits
+    kernel::machine::OverrideTable feed_table;     ///< empty: the feed cannot follow
+    double min_ratio = 0.5;                        ///< > 0; of the programmed speed
+    double max_ratio = 1.2;
+    double min_rev_s = 0.0;  ///< of the spindle
+    double max_rev_s = kernel::machine::kUnlimited;
+    double slew_1_s = 2.0;  ///< 1/s, > 0: as fast as the envelope lets the ratio go
+    double acceleration_rev_s2 = kernel::machine::kUnlimited;  ///< of the drive, > 0
+    double min_feed_per_tooth_ratio = 0.8;                     ///< (0, 1]
+    double max_feed_per_tooth_ratio = 1.2;                     ///< ≥ 1
+    double min_feed_ratio = 0.0;  ///< of the envelope; the feed is not asked below it
+    double max_feed_ratio = 1.2;
+    double fade_s = 0.5;      ///< s, > 0
+    double hysteresis = 0.1;  ///< 0 … 0.5 of the way between two steps
+    double max_step_s = 0.1;  ///< s, > 0: no credit for more between two cycles
+    bool always = false;      ///< the program has no say
+  };
+
+  struct Output {
+    kernel::signal::SpindleRequest spindle;
+    kernel::signal::FeedRequest feed{.room = kernel::signal::Room::chatter};
+    double phase = 0.0;       ///< in periods, [0, 1)
+    double fade = 0.0;        ///< g
+    double goal_ratio = 1.0;  ///< before slew and steps
+    double ratio = 1.0;       ///< before the steps
+    double mean_ratio = 1.0;  ///< as it fits into the limits
+    double amplitude_ratio = 0.0;
+    double feed_per_tooth_ratio = 1.0;  ///< feed in force ÷ actual speed, as far as it is shown
+    bool active = false;
+  };
+
+  /// Plain values: enough to log and to restore.
+  struct State {
+    Modulation modulation;
+    bool started = false;
+    double time_s = 0.0;
+    double phase = 0.0;
+    double fade = 0.0;
+    double ratio = 1.0;
+    std::size_t step = 0;
+    std::size_t feed_step = 0;
+    double coming_feed_ratio = 0.0;  ///< the highest asked lately: it may not be in force yet
+    double coming_until_s = 0.0;
+    bool stepped = false;  ///< `step` is in force
+    bool fed = false;      ///< `feed_step` is
+  };
+
+  /// Refuses: tables that are none, fewer than two steps within the limits, values outside of the
+  /// ranges above.
+  [[nodiscard]] static kernel::outcome::Result<Modulator> make(const Config& config);
+  /// By the sections [chatter], [spindle], [envelope] and the override tables.
+  [[nodiscard]] static kernel::outcome::Result<Modulator> make(
+      const kernel::machine::Machine& machine);
+
+  /// One cycle.
+  Output update(const kernel::signal::Frame& frame) noexcept;
+
+  /// Other settings from now on; false and nothing changes when one is outside of its range.
+  [[nodiscard]] bool change(const Modulation& modulation) noexcept;
+
+  void reset() noexcept;
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// A state that is not fit is not taken: the modulator starts anew.
+  void restore(const State& state) noexcept;
+
+ private:
+  using Table = kernel::override::Table;
+
+  struct Limits {
+    double low = 0.5;
+    double high = 1.2;
+  };
+  struct Swing {
+    double mean = 1.0;
+    double amplitude = 0.0;
+    bool narrowed = false;
+  };
+
+  Modulator(const Config& config, Table spindle, std::optional<Table> feed);
+  [[nodiscard]] kernel::outcome::Reason fault_of(const kernel::signal::Frame& frame) const noexcept;
+  [[nodiscard]] bool wanted(const kernel::signal::Frame& frame) const noexcept;
+  [[nodiscard]] Limits limits(const kernel::signal::Frame& frame) const noexcept;
+  [[nodiscard]] Swing swing(const Limits& limits, double speed_rev_s) const noexcept;
+  [[nodiscard]] double goal(const Swing& swing, double phase) const noexcept;
+  [[nodiscard]] double feed_in_force(const kernel::signal::Frame& frame) const noexcept;
+  void choose_step(double ratio, const Limits& limits, double floor) noexcept;
+  void ask_spindle(const kernel::signal::Frame& frame, const Limits& limits, const Swing& swing,
+                   bool slewed, Output& output) noexcept;
+  void ask_feed(const kernel::signal::Frame& frame, double ahead, Output& output) noexcept;
+  void couple_feed(const kernel::signal::Frame& frame, double ahead, Output& output) noexcept;
+  void expect_feed(double time_s, double ratio) noexcept;
+  Output withdraw(kernel::outcome::Reason reason) noexcept;
+
+  Config config_;
+  Table spindle_;
+  std::optional<Table> feed_;
+  SpeedLaw law_;
+  std::size_t lowest_ = 0;  ///< steps of the spindle's table within the limits
+  std::size_t highest_ = 0;
+  double feed_top_ratio_ = 1.0;  ///< the feed can go as high as this
+  double feed_delay_s_ = 0.0;
+  State state_;
+};
+
+}  // namespace steadyrest::chatter::online

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <steadyrest/chatter/online/order_filter.hpp>
+
+namespace steadyrest::chatter::online {
+namespace {
+
+constexpr double kUnknown = 10.0;  // p at the start, as in the source
+constexpr double kHighest = 0.45;  // of the sample rate
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+kernel::outcome::Refusal refuse(std::string what) {
+  return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), "correct the detector's setup"};
+}
+
+bool is_memory(double revolutions) {
+  return revolutions >= 0.1 && revolutions <= 1000.0;
+}
+
+}  // namespace
+
+kernel::outcome::Result<OrderFilter> OrderFilter::make(const Config& config) {
+  if (!(config.sample_rate_hz >= 1e3 && config.sample_rate_hz <= 50e3)) {
+    return std::unexpected(refuse("sample rate " + std::to_string(config.sample_rate_hz) +
+                                  " Hz is not within 1000…50000 Hz"));
+  }
+  if (config.teeth < 1 || config.teeth > 64) {
+    return std::unexpected(refuse(std::to_string(config.teeth) + " teeth are not within 1…64"));
+  }
+  if (config.tooth_harmonics < 1 || config.tooth_harmonics > 64 || config.spindle_harmonics > 64) {
+    return std::unexpected(refuse("number of harmonics is not within 1…64"));
+  }
+  if (!is_memory(config.tooth_memory_rev) || !is_memory(config.moving_memory_rev) ||
+      !is_memory(config.runout_memory_rev) || !is_memory(config.half_memory_rev)) {
+    return std::unexpected(refuse("a memory is not within 0.1…1000 revolutions"));
+  }
+  std::vector<Order> orders;
+  const std::size_t last_tooth = config.teeth * config.tooth_harmonics;
+  for (std::size_t k = 0; k <= std::max(last_tooth, config.spindle_harmonics); ++k) {
+    const bool tooth = k % config.teeth == 0;
+    const bool half = 2 * k % config.teeth == 0;
+    if (tooth ? k > last_tooth : k > config.spindle_harmonics) {
+      continue;
+    }
+    const double memory = tooth  ? config.tooth_memory_rev
+                          : half ? config.half_memory_rev
+                                 : config.runout_memory_rev;
+    Order order;
+    order.order = static_cast<double>(k);
+    order.drift = 2.0 / (memory * memory);
+    order.tooth = tooth;
+    order.p = kUnknown;
+    orders.push_back(order);
+  }
+  return OrderFilter(config, std::move(orders));
+}
+
+OrderFilter::OrderFilter(const Config& config, std::vector<Order> orders)
+    : config_(config), orders_(std::move(orders)) {}
+
+OrderFilter::Output OrderFilter::update(double value, double angle_rev, double speed_rev_s,
+                                        bool moving, bool hold) noexcept {
+  const double angle = kTurn * (angle_rev - std::floor(angle_rev));
+  const double turn_share = speed_rev_s / config_.sample_rate_hz;
+  const double cos_step = std::cos(angle);
+  const double sin_step = std::sin(angle);
+  const double unrest = turn_share * turn_share;
+  const double quick = config_.tooth_memory_rev / config_.moving_memory_rev;
+  const double tooth_unrest = moving ? unrest * quick * quick : unrest;
+  double cos_k = 1.0;
+  double sin_k = 0.0;
+  double at = 0.0;
+  double sum_p = 1.0;
+  double estimate = 0.0;
+  std::size_t used = 0;
+  for (; used < orders_.size() && orders_[used].order * turn_share < kHighest; ++used) {
+    Order& o = orders_[used];
+    while (at < o.order) {  // at most one turn more for each order left out
+      const double next = cos_k * cos_step - sin_k * sin_step;
+      sin_k = sin_k * cos_step + cos_k * sin_step;
+      cos_k = next;
+      at += 1.0;
+    }
+    o.cos = cos_k;
+    o.sin = sin_k;
+    o.p += o.drift * (o.tooth ? tooth_unrest : unrest);
+    sum_p += o.p;
+    estimate += o.c * cos_k + o.s * sin_k;
+  }
+  Output out;
+  out.residual = value - estimate;
+  const double share = 1.0 / sum_p;
+  for (std::size_t i = 0; i < used; ++i) {
+    Order& o = orders_[i];
+    const double gain = o.p * share;
+    if (!hold || o.tooth) {
+      o.c += gain * out.residual * o.cos;
+      o.s += gain * out.residual * o.sin;
+    }
+    o.p -= 0.5 * gain * o.p;
+    const double energy = 0.5 * (o.c * o.c + o.s * o.s);
+    out.forced_energy += i == 0 ? 0.0 : energy;
+    out.tooth_energy += i == 0 || !o.tooth ? 0.0 : energy;
+  }
+  out.mean = orders_.front().c;
+  return out;
+}
+
+void OrderFilter::open() noexcept {
+  for (Order& o : orders_) {
+    o.p = kUnknown;
+  }
+}
+
+void OrderFilter::reset() noexcept {
+  for (Order& o : orders_) {
+    o.c = o.s = 0.0;
+    o.p = kUnknown;
+  }
+}
+
+}  // namespace steadyrest::chatter::online

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::chatter::online {
+
+/// Takes the forced vibration out of a signal: what repeats with the spindle and with the teeth.
+///
+/// Law, θ the spindle's angle, k the orders 0, 1 … spindle_harmonics and N, 2N … tooth_harmonics·N:
+///   ŷ = Σ cₖ·cos kθ + sₖ·sin kθ,  e = y − ŷ,  cₖ += gₖ·e·cos kθ,  sₖ += gₖ·e·sin kθ.
+/// This is the Kalman filter of two states an order that rotate by k·Ω·Ts each sample (Caliskan,
+/// Kilic, Altintas 2018), seen from the rotating frame, where the states stand still; so any law of
+/// the speed is followed. Its covariance is taken diagonal, which it is over whole revolutions:
+///   pₖ += qₖ,  gₖ = pₖ/(1 + Σp),  pₖ −= gₖ·pₖ/2,  qₖ = 2/(memoryₖ·fs/Ω)².
+///
+/// Orders midway between two multiples of N are what runout gives and also what chatter with period
+/// doubling gives. They and the other orders that runout gives forget slowly, and stand still while
+/// the caller says `hold`. Orders beyond 0.45·fs do nothing. O(orders) a sample.
+class OrderFilter {
+ public:
+  struct Config {
+    double sample_rate_hz = 10e3;        ///< 1e3 … 50e3
+    std::size_t teeth = 2;               ///< N, 1 … 64
+    std::size_t tooth_harmonics = 24;    ///< 1 … 64
+    std::size_t spindle_harmonics = 40;  ///< 0 … 64
+    double tooth_memory_rev = 4.0;       ///< revolutions until 63 % is learnt, 1 … 1000
+    double moving_memory_rev = 1.0;      ///< the same while the speed moves
+    double runout_memory_rev = 16.0;     ///< of spindle orders that are no tooth order
+    double half_memory_rev = 40.0;       ///< of orders midway between tooth orders
+  };
+
+  struct Output {
+    double residual = 0.0;       ///< e, in the signal's unit
+    double forced_energy = 0.0;  ///< Σ (c² + s²)/2 without order 0, unit²
+    double tooth_energy = 0.0;   ///< the part of the tooth orders
+    double mean = 0.0;           ///< order 0
+  };
+
+  [[nodiscard]] static kernel::outcome::Result<OrderFilter> make(const Config& config);
+
+  /// `angle_rev` any real number, `speed_rev_s` > 0, all finite; `moving`: the speed is not
+  /// constant.
+  Output update(double value, double angle_rev, double speed_rev_s, bool moving,
+                bool hold) noexcept;
+  /// The cut has begun anew: learns as at the start, from the present values.
+  void open() noexcept;
+  void reset() noexcept;
+
+ private:
+  struct Order {
+    double order = 0.0;
+    double drift = 0.0;  ///< 2/memory²
+    bool tooth = false;
+    double c = 0.0, s = 0.0, p = 0.0;
+    double cos = 1.0, sin = 0.0;
+  };
+  OrderFilter(const Config& config, std::vector<Order> orders);
+
+  Config config_;
+  std::vector<Order> orders_;  ///< rising
+};
+
+}  // namespace steadyrest::chatter::online

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <steadyrest/chatter/online/speed_table.hpp>
+
+namespace steadyrest::chatter::online {
+
+using kernel::outcome::Reason;
+
+namespace {
+
+constexpr double kSameRatio = 1e-6;
+constexpr double kRuleReach = 0.025;  // of the speed, between the rule's and the step's
+constexpr double kRuleWaves = 0.1;    // and of a wave, where many lie between two teeth
+
+kernel::outcome::Refusal refuse(const char* what) {
+  return {kernel::outcome::Kind::bad_input, {}, 0, what, "correct the table of speeds"};
+}
+
+bool within(const std::vector<double>& values, double low) {
+  return std::ranges::all_of(values, [low](double v) { return std::isfinite(v) && v >= low; });
+}
+
+SpeedTable::Advice unfit(Reason reason) noexcept {
+  SpeedTable::Advice out;
+  out.reason = out.request.reason = reason;
+  return out;
+}
+
+SpeedTable::Advice found(double ratio, double speed_rev_s, Reason reason) noexcept {
+  SpeedTable::Advice out;
+  out.request = {.room = kernel::signal::Room::chatter, .ratio = ratio, .reason = reason};
+  out.reason = reason;
+  out.speed_rev_s = speed_rev_s;
+  return out;
+}
+
+}  // namespace
+
+kernel::outcome::Result<SpeedTable> SpeedTable::make(Config config) {
+  if (config.speed_rev_s.size() != config.limit_depth_mm.size()) {
+    return std::unexpected(refuse("there are not as many depths as speeds"));
+  }
+  if (!within(config.speed_rev_s, std::numeric_limits<double>::min()) ||
+      std::ranges::adjacent_find(config.speed_rev_s, std::greater_equal<>{}) !=
+          config.speed_rev_s.end()) {
+    return std::unexpected(refuse("speeds are not positive and rising"));
+  }
+  if (!within(config.limit_depth_mm, 0.0)) {
+    return std::unexpected(refuse("a limiting depth is negative or not finite"));
+  }
+  if (config.step_ratio.empty() || config.step_ratio.size() > 256 ||
+      !within(config.step_ratio, 0.0) || !std::ranges::is_sorted(config.step_ratio)) {
+    return std::unexpected(refuse("override steps are not 1…256 ratios that do not fall"));
+  }
+  if (config.teeth < 1 || config.teeth > 64) {
+    return std::unexpected(refuse("teeth are not within 1…64"));
+  }
+  if (!(config.min_ratio >= 0.0 && config.max_ratio >= config.min_ratio &&
+        config.min_rev_s >= 0.0 && config.max_rev_s > config.min_rev_s &&
+        std::isfinite(config.max_ratio) && config.reserve >= 1.0)) {
+    return std::unexpected(refuse("limits of ratio, speed or reserve are not in order"));
+  }
+  return SpeedTable(std::move(config));
+}
+
+double SpeedTable::limit_depth_mm(double speed_rev_s) const noexcept {
+  const auto& speed = config_.speed_rev_s;
+  if (speed.empty() || !(speed_rev_s >= speed.front() && speed_rev_s <= speed.back())) {
+    return 0.0;
+  }
+  const auto above = std::ranges::lower_bound(speed, speed_rev_s);
+  const auto i = static_cast<std::size_t>(above - speed.begin());
+  if (i == 0) {
+    return config_.limit_depth_mm.front();
+  }
+  const double share = (speed_rev_s - speed[i - 1]) / (speed[i] - speed[i - 1]);
+  return std::lerp(config_.limit_depth_mm[i - 1], config_.limit_depth_mm[i], share);
+}
+
+bool SpeedTable::permitted(double ratio, double speed_rev_s) const noexcept {
+  return ratio > 0.0 && ratio >= config_.min_ratio - kSameRatio &&
+         ratio <= config_.max_ratio + kSameRatio && speed_rev_s >= config_.min_rev_s &&
+         speed_rev_s <= config_.max_rev_s;
+}
+
+SpeedTable::Advice SpeedTable::ask(const Question& question) const noexcept {
+  if (!std::isfinite(question.programmed_rev_s) || !std::isfinite(question.ratio) ||
+      !std::isfinite(question.depth_mm) || !std::isfinite(question.frequency_hz)) {
+    return unfit(Reason::input_not_finite);
+  }
+  if (!(question.programmed_rev_s > 0.0 && question.ratio > 0.0 && question.depth_mm >= 0.0)) {
+    return unfit(Reason::input_out_of_range);
+  }
+  if (!config_.speed_rev_s.empty()) {
+    return from_table(question);
+  }
+  return question.frequency_hz > 0.0 ? from_rule(question) : Advice{};
+}
+
+SpeedTable::Advice SpeedTable::from_table(const Question& question) const noexcept {
+  const double here_mm = limit_depth_mm(question.programmed_rev_s * question.ratio);
+  const double plenty_mm = question.depth_mm > 0.0
+                               ? config_.reserve * std::max(question.depth_mm, here_mm)
+                               : std::numeric_limits<double>::infinity();
+  Advice best;
+  double best_mm = here_mm;
+  double best_way = std::numeric_limits<double>::infinity();
+  for (const double ratio : config_.step_ratio) {
+    const double speed = ratio * question.programmed_rev_s;
+    const double way = std::abs(ratio - question.ratio);
+    if (!permitted(ratio, speed) || way < kSameRatio) {
+      continue;
+    }
+    // All that is plenty counts the same, so that the nearest wins.
+    const double limit_mm = limit_depth_mm(speed);
+    const double worth_mm = std::min(limit_mm, plenty_mm);
+    if (worth_mm > best_mm || (best.speed_rev_s > 0.0 && worth_mm == best_mm && way < best_way)) {
+      best = found(ratio, speed, Reason::chatter_better_speed);
+      best.limit_depth_mm = limit_mm;
+      best_mm = worth_mm;
+      best_way = way;
+    }
+  }
+  return best;
+}
+
+SpeedTable::Advice SpeedTable::from_rule(const Question& question) const noexcept {
+  const double waves_rev_s = question.frequency_hz / static_cast<double>(config_.teeth);
+  const double here = question.programmed_rev_s * question.ratio;
+  Advice best;
+  double best_way = std::numeric_limits<double>::infinity();
+  for (const double ratio : config_.step_ratio) {
+    const double speed = ratio * question.programmed_rev_s;
+    const double k = std::max(1.0, std::round(waves_rev_s / std::max(speed, 1e-9)));
+    const double miss = std::abs(speed * k / waves_rev_s - 1.0);
+    const double way = std::abs(speed - here);
+    if (permitted(ratio, speed) && std::abs(ratio - question.ratio) >= kSameRatio &&
+        miss < kRuleReach && miss * k < kRuleWaves && way < best_way) {
+      best = found(ratio, speed, Reason::chatter_rule_speed);
+      best.waves = static_cast<unsigned>(std::min(k, 1e6));
+      best_way = way;
+    }
+  }
+  return best;
+}
+
+}  // namespace steadyrest::chatter::online

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <steadyrest/chatter/online/speed_law.hpp>
+
+/// A small time-domain simulation of milling, apart from the project's own: one mode in x and one
+/// in y, straight teeth, each tooth meets the surface that the five before it left and may leave
+/// the cut. Fixed step, forces held over a step.
+namespace steadyrest::chatter::online::test {
+
+struct CutModel {
+  std::array<double, 2> frequency_hz{922.0, 1010.0};
+  std::array<double, 2> damping_ratio{0.011, 0.02};
+  std::array<double, 2> stiffness_n_mm{1340.0, 2000.0};
+  std::size_t teeth = 2;
+  double immersion = 1.0;
+  bool up = true;
+  double depth_mm = 0.5;
+  double tangential_n_mm2 = 600.0, radial_n_mm2 = 200.0;
+  double feed_mm = 0.08;
+  double runout_mm = 0.0;  ///< of the first tooth
+  double speed_rev_s = 5000.0 / 60.0;
+  Law law = Law::constant;
+  double rva = 0.0, rvf = 0.1;
+  bool regenerates = true;  ///< false: forced vibration alone
+  bool accelerometer = false;
+  double air_s = 0.0;      ///< before the cutter enters
+  double kick_mm_s = 0.0;  ///< speed in x and y as it enters
+};
+
+struct CutSignal {
+  double rate_hz = 10e3;
+  std::vector<double> value, speed_rev_s, angle_rev;
+};
+
+inline CutSignal simulate(const CutModel& m, double seconds, double rate_hz = 10e3) {
+  constexpr std::size_t kFine = 4;
+  constexpr std::size_t kPasses = 5;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double h = 1.0 / (rate_hz * kFine);
+  const auto steps = static_cast<std::size_t>(seconds * rate_hz) * kFine;
+  const double entry = m.up ? 0.0 : std::acos(2.0 * m.immersion - 1.0);
+  const double exit = m.up ? std::acos(1.0 - 2.0 * m.immersion) : std::numbers::pi;
+  const auto entry_step = static_cast<std::size_t>(m.air_s * rate_hz) * kFine;
+  const SpeedLaw law(m.law);
+  const double pitch = 1.0 / static_cast<double>(m.teeth);
+  std::vector<double> angle(steps);
+  std::array<std::vector<double>, 2> q{std::vector<double>(steps), std::vector<double>(steps)};
+  std::array<double, 2> x{}, v{};
+  std::array<std::size_t, kPasses> back{};
+  CutSignal out{.rate_hz = rate_hz, .value = {}, .speed_rev_s = {}, .angle_rev = {}};
+  double theta = 0.0;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const double speed = m.speed_rev_s * (1.0 + m.rva * law.at(m.rvf * theta));
+    angle[i] = theta;
+    q[0][i] = x[0];
+    q[1][i] = x[1];
+    std::array<std::array<double, 2>, kPasses> old{};
+    for (std::size_t p = 0; p < kPasses; ++p) {
+      const double at = theta - pitch * static_cast<double>(p + 1);
+      while (back[p] + 1 < i && angle[back[p] + 1] <= at) {
+        ++back[p];
+      }
+      const std::size_t b = back[p];
+      if (at > 0.0 && b + 1 <= i) {
+        const double share = (at - angle[b]) / (angle[b + 1] - angle[b]);
+        old[p] = {q[0][b] + share * (q[0][b + 1] - q[0][b]),
+                  q[1][b] + share * (q[1][b + 1] - q[1][b])};
+      }
+    }
+    std::array<double, 2> force{};
+    if (i == entry_step) {
+      v = {m.kick_mm_s, m.kick_mm_s};
+    }
+    for (std::size_t j = 0; j < m.teeth; ++j) {
+      const double turns = theta + pitch * static_cast<double>(j);
+      const double phi = kTurn * (turns - std::floor(turns));
+      if (i < entry_step || phi < entry || phi > exit) {
+        continue;
+      }
+      const double s = std::sin(phi);
+      const double c = std::cos(phi);
+      const double radius = j == 0 ? m.runout_mm : 0.0;
+      const double before = j + 1 == m.teeth ? m.runout_mm : 0.0;  // the tooth in front
+      double chip = m.feed_mm * s + (m.teeth > 1 ? radius - before : 0.0);
+      if (m.regenerates) {
+        const double now = x[0] * s + x[1] * c;
+        double least = 1e9;
+        for (std::size_t p = 0; p < kPasses; ++p) {
+          least = std::min(least, static_cast<double>(p) * m.feed_mm * s + now -
+                                      (old[p][0] * s + old[p][1] * c));
+        }
+        chip += least;
+      }
+      chip = std::max(chip, 0.0);
+      const double t = m.tangential_n_mm2 * m.depth_mm * chip;
+      const double r = m.radial_n_mm2 * m.depth_mm * chip;
+      force[0] += -t * c - r * s;
+      force[1] += t * s - r * c;
+    }
+    double acceleration = 0.0;
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double w = kTurn * m.frequency_hz[d];
+      const double z = m.damping_ratio[d];
+      const double wd = w * std::sqrt(1.0 - z * z);
+      const double rest = force[d] / m.stiffness_n_mm[d];
+      if (d == 0) {
+        acceleration = w * w * (rest - x[0]) - 2.0 * z * w * v[0];
+      }
+      const double e = std::exp(-z * w * h);
+      const double co = std::cos(wd * h);
+      const double si = std::sin(wd * h);
+      const double a = x[d] - rest;
+      const double b = (v[d] + z * w * a) / wd;
+      x[d] = rest + e * (a * co + b * si);
+      v[d] = e * (wd * (b * co - a * si) - z * w * (a * co + b * si));
+    }
+    if (i % kFine == 0) {
+      out.value.push_back(m.accelerometer ? acceleration : q[0][i]);
+      out.speed_rev_s.push_back(speed);
+      out.angle_rev.push_back(theta);
+    }
+    theta += speed * h;
+  }
+  return out;
+}
+
+/// RMS about the mean from `first` on.
+inline double rms(const std::vector<double>& x, std::size_t first = 0) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = first; i < x.size(); ++i) {
+    sum += x[i];
+    squares += x[i] * x[i];
+  }
+  const auto n = static_cast<double>(x.size() - first);
+  return std::sqrt(std::max(squares / n - sum * sum / (n * n), 0.0));
+}
+
+/// Truth about a signal, from simulations beside it.
+struct Truth {
+  bool chatters = false;  ///< another start leads to another vibration
+  bool stable = false;    ///< another start leads to the same vibration
+  double onset_s = 0.0;   ///< what regeneration adds first reaches a tenth of its size at the end
+  double added_ratio = 0.0;  ///< RMS of what regeneration adds, over forced_rms
+  double forced_rms = 0.0;   ///< of the vibration without regeneration
+};
+
+inline Truth truth_of(const CutModel& model, const CutSignal& signal) {
+  const auto n = signal.value.size();
+  const double seconds = static_cast<double>(n) / signal.rate_hz;
+  CutModel forced = model;
+  forced.regenerates = false;
+  const CutSignal alone = simulate(forced, seconds, signal.rate_hz);
+  CutModel kicked = model;
+  kicked.kick_mm_s = 30.0;
+  const CutSignal other = simulate(kicked, seconds, signal.rate_hz);
+  std::vector<double> added(n);
+  std::vector<double> apart(n);
+  double size = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    added[i] = std::abs(signal.value[i] - alone.value[i]);
+    apart[i] = signal.value[i] - other.value[i];
+    size = i >= 3 * n / 4 ? std::max(size, added[i]) : size;
+  }
+  Truth out;
+  const double all = rms(signal.value, 3 * n / 4);
+  const double rest = rms(apart, 3 * n / 4);
+  out.forced_rms = rms(alone.value, n / 2);
+  out.chatters = rest > 0.3 * all && all < 100.0 * out.forced_rms;
+  for (std::size_t i = 0; i < n; ++i) {
+    apart[i] = signal.value[i] - alone.value[i];
+  }
+  out.added_ratio = rms(apart, n / 4) / out.forced_rms;
+  out.stable = rest < 1e-3 * all && out.added_ratio < 0.5;
+  const auto it = std::ranges::find_if(added, [&](double a) { return a > 0.1 * size; });
+  out.onset_s = static_cast<double>(it - added.begin()) / signal.rate_hz;
+  return out;
+}
+
+/// A cut drawn by chance: mode, cutter, immersion, speed, depth.
+inline CutModel random_cut(std::mt19937_64& rng, bool modulated) {
+  const auto draw = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(rng);
+  };
+  CutModel m;
+  m.teeth = static_cast<std::size_t>(draw(2.0, 6.0));
+  m.frequency_hz = {draw(400.0, 1500.0), draw(400.0, 1500.0)};
+  m.damping_ratio = {draw(0.01, 0.04), draw(0.01, 0.04)};
+  m.stiffness_n_mm = {draw(1e3, 1e4), draw(1e3, 1e4)};
+  m.immersion = draw(0.1, 1.0);
+  m.up = draw(0.0, 1.0) < 0.5;
+  m.speed_rev_s = draw(3000.0, 12000.0) / 60.0;
+  m.runout_mm = draw(0.0, 1.0) < 0.5 ? 0.0 : draw(0.0, 0.01);
+  const double soft = m.damping_ratio[0] * m.stiffness_n_mm[0];
+  m.depth_mm = soft / 200.0 * std::exp(draw(-1.5, 2.5));
+  m.accelerometer = draw(0.0, 1.0) < 0.5;
+  if (modulated) {
+    constexpr std::array kLaws{Law::sine, Law::triangle, Law::square};
+    m.law = kLaws[static_cast<std::size_t>(draw(0.0, 3.0))];
+    m.rva = draw(0.05, 0.2);
+    m.rvf = draw(0.02, 0.2);
+  }
+  return m;
+}
+
+}  // namespace steadyrest::chatter::online::test

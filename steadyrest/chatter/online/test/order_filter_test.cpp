@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/chatter/online/order_filter.hpp>
+#include <steadyrest/chatter/online/revolution_spread.hpp>
+
+namespace steadyrest::chatter::online {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kRate = 10e3;
+
+/// RMS of the residual over the last half of 2 s, 80 rev/s ± 10 % at 5 Hz when modulated.
+double residual_of(OrderFilter& filter, bool modulated, double order, double hz) {
+  double angle = 0.0;
+  double squares = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const double t = i / kRate;
+    const double speed = 80.0 * (1.0 + (modulated ? 0.1 * std::sin(kTurn * 5.0 * t) : 0.0));
+    const double value =
+        hz > 0.0 ? std::cos(kTurn * hz * t) : std::cos(kTurn * order * angle + 0.4) + 0.3;
+    const double e = filter.update(value, angle, speed, modulated, false).residual;
+    squares += i >= 10000 ? e * e : 0.0;
+    angle += speed / kRate;
+  }
+  return std::sqrt(squares / 10000.0);
+}
+
+TEST(OrderFilter, TakesOutWhatRepeatsWithTheTeethAtAnySpeedLaw) {
+  for (const double order : {2.0, 6.0, 20.0}) {
+    for (const bool modulated : {false, true}) {
+      auto filter = OrderFilter::make({});
+      ASSERT_TRUE(filter);
+      EXPECT_LT(residual_of(*filter, modulated, order, 0.0), 1e-3) << order;
+    }
+  }
+}
+
+TEST(OrderFilter, LeavesALineBetweenTheOrders) {
+  auto filter = OrderFilter::make({});
+  ASSERT_TRUE(filter);
+  EXPECT_NEAR(residual_of(*filter, false, 0.0, 922.0), std::numbers::sqrt2 / 2.0, 0.05);
+}
+
+TEST(OrderFilter, RefusesWhatIsOutOfRange) {
+  EXPECT_FALSE(OrderFilter::make({.sample_rate_hz = 999.0}));
+  EXPECT_FALSE(OrderFilter::make({.teeth = 0}));
+  EXPECT_FALSE(OrderFilter::make({.tooth_harmonics = 0}));
+  EXPECT_FALSE(OrderFilter::make({.tooth_memory_rev = std::nan("")}));
+}
+
+TEST(LineSpectrum, NamesALineWithinAFiftiethOfABin) {
+  for (const double hz : {313.0, 922.2, 1777.7, 4100.4}) {
+    auto spectrum = LineSpectrum::make({});
+    ASSERT_TRUE(spectrum);
+    LineSpectrum::Output last;
+    for (int i = 0; i < 3000; ++i) {
+      last = spectrum->update(2.0 * std::cos(kTurn * hz * i / kRate), 0.0, 0.0);
+    }
+    EXPECT_NEAR(last.frequency_hz, hz, 0.02 * spectrum->resolution_hz()) << hz;
+    EXPECT_NEAR(last.line_energy, 2.0, 0.02) << hz;
+  }
+}
+
+TEST(LineSpectrum, NoiseHasNoLineAndKeepsItsEnergy) {
+  auto spectrum = LineSpectrum::make({});
+  ASSERT_TRUE(spectrum);
+  std::mt19937_64 rng(3);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  double energy = 0.0;
+  double highest = 0.0;
+  int spectra = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const auto& out = spectrum->update(noise(rng), 0.0, 0.0);
+    if (out.fresh) {
+      ++spectra;
+      energy += out.noise_energy;
+      highest = std::max(highest, out.peak_ratio);
+    }
+  }
+  EXPECT_NEAR(energy / spectra, 1.0, 0.05);
+  EXPECT_GT(highest, 5.0);
+  EXPECT_LT(highest, 25.0);
+}
+
+TEST(LineSpectrum, DoesNotLookWhereItIsTold) {
+  auto spectrum = LineSpectrum::make({});
+  ASSERT_TRUE(spectrum);
+  LineSpectrum::Output last;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = i / kRate;
+    last = spectrum->update(std::cos(kTurn * 500.0 * t) + 0.01 * std::cos(kTurn * 777.0 * t), 250.0,
+                            30.0);
+  }
+  EXPECT_NEAR(last.frequency_hz, 777.0, 1.0);
+}
+
+TEST(RevolutionSpread, IsZeroForARepeatingCutAndOneLessCosineForALine) {
+  for (const double order : {3.0, 3.25, 3.5}) {
+    RevolutionSpread spread;
+    RevolutionSpread::Output last;
+    double angle = 0.0;
+    double changed = 0.0;
+    double energy = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+      last = spread.update(std::cos(kTurn * order * angle), angle);
+      changed += last.known ? last.changed_energy : 0.0;
+      energy += last.known ? last.energy : 0.0;
+      angle += 25.0 / kRate * (1.0 + 0.1 * std::sin(kTurn * 5.0 * i / kRate));
+    }
+    ASSERT_TRUE(last.known);
+    EXPECT_NEAR(changed / energy, 1.0 - std::cos(kTurn * order), 0.02) << order;
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::chatter::online

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/chatter/online/speed_table.hpp>
+
+namespace steadyrest::chatter::online {
+namespace {
+
+using kernel::outcome::Reason;
+
+std::vector<double> panel() {
+  std::vector<double> out;
+  for (int percent = 50; percent <= 120; percent += 5) {
+    out.push_back(percent / 100.0);
+  }
+  return out;
+}
+
+/// The limiting depths of the slot in the reference (922 Hz, two teeth).
+SpeedTable::Config slot() {
+  SpeedTable::Config config;
+  config.speed_rev_s = {3000 / 60.0, 4000 / 60.0, 4500 / 60.0,
+                        5000 / 60.0, 5500 / 60.0, 6000 / 60.0};
+  config.limit_depth_mm = {0.6802, 0.7367, 1.2254, 0.4086, 2.7653, 0.3532};
+  config.step_ratio = panel();
+  return config;
+}
+
+TEST(SpeedTable, TakesTheDeepestStepWhenTheDepthIsNotKnown) {
+  const auto table = SpeedTable::make(slot());
+  ASSERT_TRUE(table);
+  const auto advice = table->ask({.programmed_rev_s = 5000 / 60.0});
+  EXPECT_EQ(advice.reason, Reason::chatter_better_speed);
+  EXPECT_EQ(advice.request.reason, Reason::chatter_better_speed);
+  EXPECT_NEAR(advice.request.ratio, 1.10, 1e-12);
+  EXPECT_NEAR(advice.limit_depth_mm, 2.7653, 1e-9);
+}
+
+TEST(SpeedTable, TakesTheNearestStepThatCarriesTheDepth) {
+  const auto table = SpeedTable::make(slot());
+  ASSERT_TRUE(table);
+  const auto advice = table->ask({.programmed_rev_s = 5000 / 60.0, .depth_mm = 0.6});
+  EXPECT_NEAR(advice.request.ratio, 0.95, 1e-12);
+  EXPECT_GE(advice.limit_depth_mm, 1.1 * 0.6);
+}
+
+TEST(SpeedTable, IsNeutralWhereNothingIsBetter) {
+  SpeedTable::Config config = slot();
+  config.min_ratio = 0.8;
+  config.max_ratio = 1.0;
+  config.speed_rev_s = {50.0, 100.0};
+  config.limit_depth_mm = {1.0, 1.0};
+  const auto table = SpeedTable::make(config);
+  ASSERT_TRUE(table);
+  const auto advice = table->ask({.programmed_rev_s = 5000 / 60.0, .depth_mm = 2.0});
+  EXPECT_EQ(advice.reason, Reason::chatter_no_better_speed);
+  EXPECT_EQ(advice.request.reason, Reason::none);
+  EXPECT_EQ(advice.request.ratio, 1.0);
+}
+
+TEST(SpeedTable, WithoutATableWholeWavesLieBetweenTwoTeeth) {
+  SpeedTable::Config config;
+  config.step_ratio = panel();
+  const auto table = SpeedTable::make(config);
+  ASSERT_TRUE(table);
+  // 60·922/(2·5) = 5532 rpm.
+  const auto advice = table->ask({.programmed_rev_s = 5000 / 60.0, .frequency_hz = 922.0});
+  EXPECT_EQ(advice.reason, Reason::chatter_rule_speed);
+  EXPECT_NEAR(advice.request.ratio, 1.10, 1e-12);
+  EXPECT_EQ(advice.waves, 5U);
+}
+
+TEST(SpeedTable, KeepsTheLimitsForAnyQuestion) {
+  SpeedTable::Config config = slot();
+  config.min_rev_s = 70.0;
+  config.max_rev_s = 95.0;
+  for (const bool with_table : {true, false}) {
+    if (!with_table) {
+      config.speed_rev_s.clear();
+      config.limit_depth_mm.clear();
+    }
+    const auto table = SpeedTable::make(config);
+    ASSERT_TRUE(table);
+    for (double speed = 1.0; speed < 400.0; speed *= 1.01) {
+      for (const double hz : {0.0, 50.0, 922.0, 4000.0}) {
+        const auto advice =
+            table->ask({.programmed_rev_s = speed, .depth_mm = 0.5, .frequency_hz = hz});
+        if (advice.request.reason != Reason::none) {
+          EXPECT_GE(advice.request.ratio * speed, 70.0 - 1e-9);
+          EXPECT_LE(advice.request.ratio * speed, 95.0 + 1e-9);
+          EXPECT_GE(advice.request.ratio, 0.5 - 1e-9);
+          EXPECT_LE(advice.request.ratio, 1.2 + 1e-9);
+        } else {
+          EXPECT_EQ(advice.request.ratio, 1.0);
+        }
+      }
+    }
+  }
+}
+
+TEST(SpeedTable, UnfitQuestionsAreNeutral) {
+  const auto table = SpeedTable::make(slot());
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->ask({.programmed_rev_s = std::nan("")}).request.reason,
+            Reason::input_not_finite);
+  EXPECT_EQ(table->ask({.programmed_rev_s = -1.0}).request.reason, Reason::input_out_of_range);
+  EXPECT_EQ(table->ask({.programmed_rev_s = 80.0, .ratio = 0.0}).request.ratio, 1.0);
+}
+
+TEST(SpeedTable, RefusesTablesThatAreNotInOrder) {
+  SpeedTable::Config config = slot();
+  config.limit_depth_mm.pop_back();
+  EXPECT_FALSE(SpeedTable::make(config));
+  config = slot();
+  config.speed_rev_s[2] = config.speed_rev_s[1];
+  EXPECT_FALSE(SpeedTable::make(config));
+  config = slot();
+  config.limit_depth_mm[0] = -1.0;
+  EXPECT_FALSE(SpeedTable::make(config));
+  config = slot();
+  config.step_ratio.clear();
+  EXPECT_FALSE(SpeedTable::make(config));
+}
+
+}  // namespace
+}  // namespace steadyrest::chatter::online

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/contour/online/window_search.hpp>
+#include <steadyrest/math/geometry/foot_point.hpp>
+#include <steadyrest/math/geometry/segment.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+
+namespace steadyrest::contour::online {
+namespace {
+
+namespace geometry = math::geometry;
+using kernel::signal::PathSegment;
+using kernel::signal::PathView;
+using kernel::signal::Point;
+
+/// The program's path as pieces.
+class PathPieces {
+ public:
+  explicit PathPieces(PathView path) noexcept : path_(path) {}
+  [[nodiscard]] std::size_t size() const noexcept { return path_.size(); }
+  [[nodiscard]] double begin_mm(std::size_t i) const noexcept { return path_[i].position_mm; }
+  [[nodiscard]] double end_mm(std::size_t i) const noexcept {
+    return path_[i].position_mm + path_[i].length_mm;
+  }
+  [[nodiscard]] const Point& start(std::size_t i) const noexcept { return path_[i].start_mm; }
+  [[nodiscard]] const Point& end(std::size_t i) const noexcept { return path_[i].end_mm; }
+  [[nodiscard]] Nearest foot(std::size_t i, const Point& query, double low, double high,
+                             double guess) const noexcept {
+    const PathSegment& segment = path_[i];
+    const auto at = [&segment](double s) {
+      return geometry::parameter_at(segment, s - segment.position_mm);
+    };
+    const geometry::Foot foot =
+        geometry::foot_point(segment, query, low > begin_mm(i) ? at(low) : 0.0,
+                             high < end_mm(i) ? at(high) : 1.0, at(guess));
+    return {i,
+            segment.position_mm + geometry::distance_at(segment, foot.u),
+            foot.distance_mm,
+            foot.u,
+            foot.point_mm,
+            true};
+  }
+
+ private:
+  PathView path_;
+};
+
+/// The recent commanded points as pieces of a polyline, oldest first.
+class TrailPieces {
+ public:
+  explicit TrailPieces(const ContourError::State& state) noexcept : state_(state) {}
+  [[nodiscard]] std::size_t size() const noexcept { return state_.count - 1; }
+  [[nodiscard]] double begin_mm(std::size_t i) const noexcept { return state_.at_mm[slot(i)]; }
+  [[nodiscard]] double end_mm(std::size_t i) const noexcept { return state_.at_mm[slot(i + 1)]; }
+  [[nodiscard]] const Point& start(std::size_t i) const noexcept {
+    return state_.point_mm[slot(i)];
+  }
+  [[nodiscard]] const Point& end(std::size_t i) const noexcept {
+    return state_.point_mm[slot(i + 1)];
+  }
+  [[nodiscard]] Nearest foot(std::size_t i, const Point& query, double /*low*/, double /*high*/,
+                             double /*guess*/) const noexcept {
+    const Point along = geometry::subtract(end(i), start(i));
+    const double squared = geometry::norm_squared(along);
+    const double u =
+        squared > 0.0
+            ? std::clamp(geometry::dot(geometry::subtract(query, start(i)), along) / squared, 0.0,
+                         1.0)
+            : 0.0;
+    const Point point = geometry::add_scaled(start(i), along, u);
+    return {i,
+            begin_mm(i) + u * (end_mm(i) - begin_mm(i)),
+            geometry::distance(point, query),
+            u,
+            point,
+            true};
+  }
+
+ private:
+  [[nodiscard]] std::size_t slot(std::size_t i) const noexcept {
+    return (state_.next + ContourError::kHistory - state_.count + i) % ContourError::kHistory;
+  }
+  const ContourError::State& state_;
+};
+
+/// Direction of travel where the foot stands: the mean of both sides when that is a joint.
+Point direction_at(PathView path, const Nearest& foot, const geometry::Station& here) noexcept {
+  constexpr double kJoint = 1e-9;
+  const PathSegment& segment = path[foot.index];
+  const double from_start = foot.position_mm - segment.position_mm;
+  if (from_start <= kJoint && foot.index > 0) {
+    return geometry::unit(
+        geometry::add(here.tangent, geometry::station_at(path[foot.index - 1], 1.0).tangent));
+  }
+  if (segment.length_mm - from_start <= kJoint && foot.index + 1 < path.size()) {
+    return geometry::unit(
+        geometry::add(here.tangent, geometry::station_at(path[foot.index + 1], 0.0).tangent));
+  }
+  return here.tangent;
+}
+
+bool is_fit(const ContourError::Input& input) noexcept {
+  return std::isfinite(input.time_s) && geometry::is_finite(input.command_mm) &&
+         geometry::is_finite(input.actual_mm) && std::isfinite(input.path_position_mm) &&
+         std::isfinite(input.path_speed_mm_s) &&
+         (input.path.empty() || input.path_index < input.path.size());
+}
+
+kernel::outcome::Refusal refuse(const char* what, const char* to_do) {
+  return {kernel::outcome::Kind::bad_input, {}, 0, what, to_do};
+}
+
+}  // namespace
+
+kernel::outcome::Result<ContourError> ContourError::make(const Config& config) {
+  if (!(config.servo_gain_1_s >= 1.0 && config.servo_gain_1_s <= 1000.0)) {
+    return std::unexpected(refuse("servo gain is not within 1…1000 1/s", "correct the servo gain"));
+  }
+  if (!(config.reserve_mm > 0.0 && config.reserve_mm <= 10.0)) {
+    return std::unexpected(
+        refuse("window reserve is not within 0…10 mm", "correct the window reserve"));
+  }
+  if (!(std::abs(geometry::norm(config.plane_normal) - 1.0) < 1e-6)) {
+    return std::unexpected(refuse("plane normal is not a unit vector", "give a unit vector"));
+  }
+  return ContourError(config);
+}
+
+void ContourError::remember(const Input& input) noexcept {
+  const std::size_t last = (state_.next + kHistory - 1) % kHistory;
+  if (state_.count > 0) {
+    const double step = geometry::distance(state_.point_mm[last], input.command_mm);
+    if (step == 0.0) {
+      return;  // standstill must not wash the trail out
+    }
+    state_.travelled_mm += step;
+  }
+  state_.point_mm[state_.next] = input.command_mm;
+  state_.at_mm[state_.next] = state_.travelled_mm;
+  state_.next = (state_.next + 1) % kHistory;
+  state_.count = std::min(state_.count + 1, kHistory);
+}
+
+ContourError::Output ContourError::update(const Input& input) noexcept {
+  Output output;
+  if (!is_fit(input)) {
+    return output;
+  }
+  const bool has_path = !input.path.empty();
+  const double elapsed_s =
+      state_.started ? std::clamp(input.time_s - state_.time_s, 0.0, 1.0) : 0.0;
+  if (!state_.started || has_path != state_.from_path) {
+    state_.lag_mm = input.path_speed_mm_s / config_.servo_gain_1_s;
+    state_.foot_position_mm = -1.0;
+  }
+  const double decay = std::exp(-config_.servo_gain_1_s * elapsed_s);
+  state_.lag_mm = state_.lag_mm * decay +
+                  std::abs(input.path_speed_mm_s) / config_.servo_gain_1_s * (1.0 - decay);
+  state_.started = true;
+  state_.time_s = input.time_s;
+  state_.from_path = has_path;
+  remember(input);
+
+  output.tracking_error_mm = geometry::distance(input.command_mm, input.actual_mm);
+  const double back =
+      std::max(2.5 * state_.lag_mm, 1.2 * output.tracking_error_mm) + config_.reserve_mm;
+  const double ahead = 0.25 * output.tracking_error_mm + config_.reserve_mm;
+  const double commanded = has_path ? input.path_position_mm : state_.travelled_mm;
+  const double low = commanded - back;
+  const double high = commanded + ahead;
+  const bool knows_foot = state_.foot_position_mm >= low && state_.foot_position_mm <= high;
+  const double guess = knows_foot
+                           ? state_.foot_position_mm + elapsed_s * std::abs(input.path_speed_mm_s)
+                           : commanded - output.tracking_error_mm;
+
+  Nearest foot;
+  geometry::Station here;
+  if (has_path) {
+    const std::size_t hint = knows_foot ? state_.foot_index : input.path_index;
+    foot = nearest_in_window(PathPieces(input.path), input.actual_mm, low, high, hint, guess,
+                             kMaxFeet);
+    const PathSegment& segment = input.path[foot.index];
+    here = geometry::station_at(segment, foot.u);
+    here.tangent = direction_at(input.path, foot, here);
+    output.from_path = true;
+  } else {
+    if (state_.count < 2) {
+      return output;
+    }
+    const TrailPieces trail(state_);
+    foot = nearest_in_window(trail, input.actual_mm, low, high, trail.size() - 1, guess, kMaxFeet);
+    here.tangent =
+        geometry::unit(geometry::subtract(trail.end(foot.index), trail.start(foot.index)));
+  }
+  state_.foot_position_mm = foot.position_mm;
+  state_.foot_index = foot.index;
+
+  const Point offset = geometry::subtract(input.actual_mm, foot.point_mm);
+  const double left = geometry::dot(offset, geometry::cross(config_.plane_normal, here.tangent));
+  const double inward = geometry::dot(offset, here.curvature_1_mm);
+  output.valid = true;
+  output.complete = foot.complete;
+  output.left_mm = left < 0.0 ? -foot.distance_mm : foot.distance_mm;
+  output.curvature_1_mm = geometry::norm(here.curvature_1_mm);
+  output.error_mm = output.curvature_1_mm == 0.0 ? output.left_mm
+                    : inward < 0.0               ? -foot.distance_mm
+                                                 : foot.distance_mm;
+  output.foot_mm = foot.point_mm;
+  output.tangent = here.tangent;
+  output.foot_index = foot.index;
+  output.foot_position_mm = foot.position_mm;
+  return output;
+}
+
+ContourError::Output ContourError::update(const kernel::signal::Frame& frame) noexcept {
+  return update(contour_input(frame));
+}
+
+ContourError::Input contour_input(const kernel::signal::Frame& frame) noexcept {
+  ContourError::Input input;
+  input.time_s = frame.time_s;
+  for (std::size_t i = 0; i < 3; ++i) {
+    input.command_mm[i] = frame.axis[i].command_mm;
+    input.actual_mm[i] = frame.axis[i].actual_mm;
+  }
+  input.path = frame.path;
+  input.path_index = frame.path_index;
+  input.path_position_mm = frame.path_position_mm;
+  input.path_speed_mm_s = frame.path_speed_mm_s;
+  return input;
+}
+
+}  // namespace steadyrest::contour::online

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+
+/// The true contour error: distance from the actual point to the commanded path.
+///
+/// Law: ε = min |p(s) − x| over s ∈ [s_c − back, s_c + ahead], with s_c the commanded path
+/// position, x the actual point. The window is bounded by what the servo lag permits and not by
+/// distance, so the foot never jumps to a neighbouring turn of a spiral or to the other wall of a
+/// pocket:
+///   back = max(2.5·ℓ, 1.2·|e|) + reserve,   ahead = |e|/4 + reserve
+/// ℓ is the lag by path length of the slowest axis, ℓ' = v − k·ℓ; |e| the distance between
+/// commanded and actual point. Inside the window the minimum is global: a distance changes at most
+/// as fast as the path length, so a stretch that cannot hold a nearer point is skipped without
+/// looking at it.
+///
+/// Sign. On arcs ε > 0 means towards the centre (a disc comes out undersize): ε = R − R′. On lines
+/// ε > 0 means left of the direction of travel, seen against `plane_normal`. Where the foot stands
+/// on a corner the mean direction of both sides counts as direction of travel. `left_mm` has the
+/// same magnitude and the rule of lines everywhere, so it has no step where a clockwise arc begins.
+/// In space |ε| is the whole distance; only its sign is taken from the plane. Where the direction
+/// of travel is parallel to the normal the sign is +.
+///
+/// Accuracy: foot point to rounding on lines and arcs, < 1e-9 mm on helices and spirals. Without a
+/// path the recent commanded points are the path (a polyline): on an arc its chords add at most
+/// (v·Δt)²/(8R). Ends: rotary axes do not count; where the control rounds corners (G64) and the
+/// path given is the programmed one, that rounding is part of ε.
+///
+/// Bounded: at most `kMaxFeet` segments are evaluated in a cycle, nearest to the last foot first;
+/// `complete` says whether the whole window was covered.
+///
+/// Source: Jin, Zhang, Ding (definition of the contour error); Erkorkmaz and Altintas, IJMTM 41
+/// (2001).
+namespace steadyrest::contour::online {
+
+class ContourError {
+ public:
+  static constexpr std::size_t kHistory = 1024;  ///< commanded points kept for want of a path
+  static constexpr int kMaxFeet = 160;
+
+  struct Config {
+    double servo_gain_1_s = 50.0;                       ///< lowest of the axes; 1…1000
+    double reserve_mm = 0.25;                           ///< of the window at both ends; > 0
+    kernel::signal::Point plane_normal{0.0, 0.0, 1.0};  ///< of the active plane; unit vector
+  };
+
+  struct Input {
+    double time_s = 0.0;
+    kernel::signal::Point command_mm{};
+    kernel::signal::Point actual_mm{};
+    kernel::signal::PathView path;  ///< may be empty
+    std::size_t path_index = 0;
+    double path_position_mm = 0.0;
+    double path_speed_mm_s = 0.0;
+  };
+
+  struct Output {
+    bool valid = false;      ///< false: unfit input or nothing to measure against yet
+    bool from_path = false;  ///< false: measured against the recent commanded points
+    bool complete = true;
+    double error_mm = 0.0;           ///< ε with the sign of the arc rule
+    double left_mm = 0.0;            ///< ε with the sign of the line rule everywhere
+    double tracking_error_mm = 0.0;  ///< |e| = Ed
+    double curvature_1_mm = 0.0;     ///< of the path at the foot; 0 without a path
+    kernel::signal::Point foot_mm{};
+    kernel::signal::Point tangent{};  ///< at the foot
+    std::size_t foot_index = 0;       ///< segment of the foot
+    double foot_position_mm = 0.0;    ///< path length since the program's start
+  };
+
+  struct State {
+    bool started = false;
+    double time_s = 0.0;
+    double lag_mm = 0.0;  ///< ℓ
+    double foot_position_mm = 0.0;
+    std::size_t foot_index = 0;
+    double travelled_mm = 0.0;  ///< of the commanded point, for want of a path
+    std::size_t count = 0;      ///< commanded points in the ring
+    std::size_t next = 0;
+    std::array<kernel::signal::Point, kHistory> point_mm{};
+    std::array<double, kHistory> at_mm{};  ///< travelled_mm when the point was recorded
+    bool from_path = false;
+  };
+
+  static kernel::outcome::Result<ContourError> make(const Config& config);
+
+  Output update(const Input& input) noexcept;
+  /// The first three axes of a frame.
+  Output update(const kernel::signal::Frame& frame) noexcept;
+
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  void restore(const State& state) noexcept { state_ = state; }
+  void reset() noexcept {
+    state_.started = false;
+    state_.count = 0;
+    state_.next = 0;
+  }
+
+ private:
+  explicit ContourError(const Config& config) noexcept : config_(config) {}
+  void remember(const Input& input) noexcept;
+
+  Config config_;
+  State state_;
+};
+
+/// What `ContourError` needs of a frame.
+[[nodiscard]] ContourError::Input contour_input(const kernel::signal::Frame& frame) noexcept;
+
+}  // namespace steadyrest::contour::online

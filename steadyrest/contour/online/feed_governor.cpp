@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <steadyrest/contour/online/feed_governor.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+
+namespace steadyrest::contour::online {
+namespace {
+
+namespace geometry = math::geometry;
+using kernel::outcome::Reason;
+using kernel::signal::Frame;
+using kernel::signal::Motion;
+using kernel::signal::Point;
+
+constexpr double kResyncS = 0.25;  // the control shows another ratio for that long
+constexpr double kUnexplainedMemoryS = 1.0;
+constexpr double kMostReserve = 0.6;  // of the limit
+
+bool is_fit(const Frame& frame) noexcept {
+  bool fit = std::isfinite(frame.time_s) && std::isfinite(frame.age_s) &&
+             std::isfinite(frame.path_speed_mm_s) && std::isfinite(frame.programmed_feed_mm_s) &&
+             std::isfinite(frame.path_position_mm) && std::isfinite(frame.feed.effective_ratio) &&
+             std::isfinite(frame.feed.panel_ratio) && std::isfinite(frame.rapid.effective_ratio);
+  for (std::size_t i = 0; i < 3; ++i) {
+    fit = fit && std::isfinite(frame.axis[i].command_mm) && std::isfinite(frame.axis[i].actual_mm);
+  }
+  return fit;
+}
+
+bool is_locked(Motion motion) noexcept {
+  return motion == Motion::thread || motion == Motion::tap;
+}
+
+}  // namespace
+
+void FeedGovernor::reset() noexcept {
+  contour_.reset();
+  servo_.pause();
+  curve_.reset();
+  ahead_.reset();
+  state_ = {};
+  history_.fill(1.0);
+}
+
+void FeedGovernor::refresh_model(double dt) noexcept {
+  bool renew = cycle_s_ == 0.0 || std::abs(dt - cycle_s_) > 0.01 * cycle_s_;
+  bool is_other = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const AxisModel& now = servo_.axis(i);
+    const double drift = std::abs(now.gain_1_s / model_[i].gain_1_s - 1.0) +
+                         std::abs(now.feed_forward - model_[i].feed_forward);
+    renew = renew || drift > 0.003;
+    is_other = is_other || drift > 0.02;
+  }
+  if (!renew) {
+    return;
+  }
+  cycle_s_ = dt > 0.0 ? dt : config_.machine.control.interpolator_period_s;
+  for (std::size_t i = 0; i < 3; ++i) {
+    model_[i] = servo_.axis(i);
+    cycle_step_[i] = AxisStep::of(model_[i], cycle_s_);
+  }
+  forecast_.set_model(model_);
+  if (is_other) {
+    state_.unexplained_mm2 = 0.0;  // that was another model's
+  }
+}
+
+void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error,
+                           double dt) noexcept {
+  const bool is_regular = dt > 0.0 && std::abs(dt - cycle_s_) < 0.01 * cycle_s_;
+  Point residual{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double c = frame.axis[i].command_mm;
+    const double e = c - frame.axis[i].actual_mm;
+    double& modelled = state_.modelled.error_mm[i];
+    double& velocity = state_.modelled.velocity_mm_s[i];
+    if (!is_regular) {
+      modelled = e;
+      velocity = state_.velocity_mm_s[i] = 0.0;
+      state_.command_mm_s[i] = 0.0;
+    } else {
+      const double mean = (c - state_.command_mm[i]) / dt;
+      const double change = mean - state_.command_mm_s[i];
+      const AxisStep& step = cycle_step_[i];
+      const double before = modelled;
+      modelled =
+          step.ee * before + step.ew * velocity + step.e_mean * mean + step.e_change * change;
+      velocity =
+          step.we * before + step.ww * velocity + step.w_mean * mean + step.w_change * change;
+      const AxisModel& model = model_[i];
+      if (model.velocity_lag_s > 0.0) {
+        const double share = 1.0 - std::exp(-dt / model.velocity_lag_s);
+        state_.velocity_mm_s[i] +=
+            share * (model.gain_1_s * e + model.feed_forward * mean - state_.velocity_mm_s[i]);
+      }
+      state_.command_mm_s[i] = mean;
+    }
+    state_.command_mm[i] = c;
+    residual[i] = e - modelled;
+  }
+  if (!is_regular || !error.valid || frame.motion != Motion::feed ||
+      geometry::norm_squared(error.tangent) == 0.0) {
+    return;
+  }
+  const Point across = tangential_error_mm(residual, error.tangent);
+  double quantisation = 0.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.machine.axes.size()); ++i) {
+    const double count = config_.machine.axes[i].encoder.count_mm;
+    quantisation = std::max(quantisation, count * count / 6.0);
+  }
+  const double excess = std::max(0.0, geometry::norm_squared(across) - quantisation);
+  state_.unexplained_mm2 += dt / kUnexplainedMemoryS * (excess - state_.unexplained_mm2);
+}
+
+double FeedGovernor::limit_mm() const noexcept {
+  const auto& contour = config_.machine.contour;
+  const double beyond_margin =
+      3.0 * std::sqrt(std::max(0.0, state_.unexplained_mm2)) - contour.margin * contour.limit_mm;
+  const double reserve_mm = unseen_mm_ + std::max(0.0, beyond_margin);
+  return contour.limit_mm * (1.0 - contour.margin) -
+         std::min(reserve_mm, kMostReserve * contour.limit_mm);
+}
+
+/// The kernel's envelope, as far as this room can know it.
+void FeedGovernor::follow_envelope(const Frame& frame, double dt) noexcept {
+  const auto& request = state_.last.request;
+  const Forecast::Timing& timing = forecast_.timing();
+  const bool may_exceed = config_.machine.feed_override.layer_may_exceed_panel;
+  const double panel = frame.feed.panel_ratio;
+  const double target = state_.engaged ? request.ratio : panel;
+  double& ratio = state_.envelope_ratio;
+  ratio = std::clamp(target, ratio - timing.fall_1_s * dt, ratio + timing.rise_1_s * dt);
+  if (!may_exceed) {
+    ratio = std::min(ratio, panel);
+  }
+  history_[history_at_] = state_.engaged ? forecast_.floor_ratio(ratio) : ratio;
+  history_at_ = (history_at_ + 1) % kHistory;
+
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  const auto window = static_cast<std::size_t>(
+      std::clamp((timing.dead_s + timing.scan_s) / std::max(cycle_s_, 1e-4) + 4.0, 4.0,
+                 static_cast<double>(kHistory)));
+  for (std::size_t back = 1; back <= window; ++back) {
+    const double value = history_[(history_at_ + kHistory - back) % kHistory];
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  const double shown = frame.feed.effective_ratio;
+  const bool agrees = shown >= low - 1e-3 && shown <= high + 1e-3;
+  state_.mismatch_s = agrees ? 0.0 : state_.mismatch_s + dt;
+  if (state_.mismatch_s > kResyncS) {
+    ratio = shown;
+    history_.fill(shown);
+    state_.mismatch_s = 0.0;
+  }
+}
+
+/// The ratios already under way: at each time the largest of those that may act then.
+void FeedGovernor::fill_pending(const Frame& frame) noexcept {
+  const Forecast::Timing& timing = forecast_.timing();
+  const double cycle = std::max(cycle_s_, 1e-4);
+  auto& pending = forecast_.pending();
+  std::size_t n = 0;
+  for (; n < Forecast::kMaxSteps; ++n) {
+    const double t = timing.step_s * static_cast<double>(n + 1);
+    const double oldest = timing.dead_s + timing.scan_s - t;
+    if (oldest <= 0.0) {
+      break;
+    }
+    const double newest = std::max(0.0, timing.dead_s - t);
+    const auto first = static_cast<std::size_t>(newest / cycle);
+    const auto last = std::min(kHistory - 1, static_cast<std::size_t>(oldest / cycle) + 1);
+    double most = 0.0;
+    for (std::size_t back = first; back <= last; ++back) {
+      most = std::max(most, history_[(history_at_ + kHistory - 1 - back) % kHistory]);
+    }
+    pending[n] = n == 0 ? std::max(most, frame.feed.effective_ratio) : most;
+  }
+  forecast_.set_pending_count(n);
+}
+
+/// Without a path: the circle that the command has run on lately goes on, at the programmed feed.
+void FeedGovernor::extrapolate(const Frame& frame) noexcept {
+  const auto bend = curve_.update(state_.command_mm);
+  guess_.reset();
+  if (!bend.valid) {
+    return;
+  }
+  const double curvature = geometry::norm(bend.curvature_1_mm);
+  const Point normal = geometry::unit(bend.curvature_1_mm);
+  const double speed = std::max({frame.path_speed_mm_s, frame.programmed_feed_mm_s, 1.0});
+  const double back = 3.0 * speed / softest_gain_1_s_ + 0.5;
+  const double ahead = speed * reach_s_;
+  const double fine = curvature > 1e-6 ? std::cbrt(3e-4 / (curvature * curvature)) : ahead;
+  const double length = std::max(fine, (back + ahead) / 400.0);
+  double a = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.machine.axes.size()); ++i) {
+    a = std::min(a, config_.machine.axes[i].max_acceleration_mm_s2);
+  }
+  for (double s = -back; s < ahead; s += length) {
+    Cell cell;
+    cell.position_mm = s;
+    cell.length_mm = length;
+    cell.cap_mm_s = std::numeric_limits<double>::infinity();
+    cell.feed_mm_s = frame.programmed_feed_mm_s;
+    cell.acceleration_mm_s2 = std::min(a, 1e9);
+    cell.cutting = true;
+    const double angle = curvature * s;
+    const double along = curvature > 1e-9 ? std::sin(angle) / curvature : s;
+    const double across = curvature > 1e-9 ? (1.0 - std::cos(angle)) / curvature : 0.0;
+    cell.point_mm = geometry::add_scaled(
+        geometry::add_scaled(state_.command_mm, bend.tangent, along), normal, across);
+    cell.tangent = geometry::add_scaled(geometry::scale(bend.tangent, std::cos(angle)), normal,
+                                        std::sin(angle));
+    cell.curvature_1_mm =
+        geometry::scale(geometry::add_scaled(geometry::scale(normal, std::cos(angle)), bend.tangent,
+                                             -std::sin(angle)),
+                        curvature);
+    guess_.append(cell, std::numeric_limits<double>::infinity());
+  }
+}
+
+bool FeedGovernor::look(const Frame& frame, const ContourError::Output& error) noexcept {
+  if (frame.path.empty() || frame.path_index >= frame.path.size()) {
+    curve_.update({frame.axis[0].command_mm, frame.axis[1].command_mm, frame.axis[2].command_mm});
+    ahead_.reset();
+    return false;
+  }
+  const double speed = std::max(
+      {frame.path_speed_mm_s, frame.programmed_feed_mm_s * config_.machine.contour.max_ratio, 5.0});
+  const double s = frame.path_position_mm;
+  const double foot = error.valid ? error.foot_position_mm : s;
+  ahead_.update(frame.path, frame.path_index, std::min(foot, s) - 0.5, s, s + speed * reach_s_);
+  if (ahead_.empty()) {
+    return false;
+  }
+  state_.command_cell = ahead_.find(s, state_.command_cell);
+  state_.foot_cell = ahead_.find(foot, state_.foot_cell);
+  return true;
+}
+
+bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {
+  if (ahead_.empty()) {
+    return false;
+  }
+  const Forecast::Timing& timing = forecast_.timing();
+  const double time = timing.dead_s + timing.scan_s + 2.0 * decision_s_ + 1.0 / timing.fall_1_s;
+  const double a = ahead_.cell(state_.command_cell).acceleration_mm_s2;
+  const double reach = (frame.path_speed_mm_s + 0.5 * std::min(a, 1e5) * time) * time;
+  for (std::size_t i = state_.command_cell; i < ahead_.end(); ++i) {
+    const Cell& cell = ahead_.cell(i);
+    if (cell.position_mm - frame.path_position_mm > reach) {
+      return false;
+    }
+    if (cell.cutting) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Outset FeedGovernor::outset(const Frame& frame) const noexcept {
+  Outset outset;
+  outset.speed_mm_s = std::max(0.0, frame.path_speed_mm_s);
+  outset.rapid_ratio = frame.rapid.effective_ratio;
+  outset.panel_ratio = config_.machine.feed_override.layer_may_exceed_panel
+                           ? std::numeric_limits<double>::infinity()
+                           : frame.feed.panel_ratio;
+  for (std::size_t i = 0; i < 3; ++i) {
+    outset.servo.error_mm[i] = frame.axis[i].command_mm - frame.axis[i].actual_mm;
+    outset.servo.velocity_mm_s[i] = state_.velocity_mm_s[i];
+  }
+  if (state_.last.path_known) {
+    outset.position_mm = frame.path_position_mm;
+    outset.command_cell = state_.command_cell;
+    outset.foot_cell = state_.foot_cell;
+  } else {
+    outset.command_cell = guess_.find(0.0, guess_.begin());
+    outset.foot_cell = guess_.find(-geometry::norm(outset.servo.error_mm), outset.command_cell);
+  }
+  return outset;
+}
+
+FeedGovernor::Output FeedGovernor::withdraw(Reason reason, Output output) noexcept {
+  output.request.ratio = 1.0;
+  output.request.reason = reason;
+  output.predicted_error_mm = 0.0;
+  output.predicted_at_mm = 0.0;
+  output.decided = false;
+  output.forecasts = 0;
+  state_.engaged = false;
+  state_.next_decision_s = state_.time_s;  // the first decision comes at once
+  state_.next_objective_s = state_.time_s;
+  return output;
+}
+
+FeedGovernor::Output FeedGovernor::update(const Frame& frame) noexcept {
+  if (!config_.machine.contour.enabled) {
+    return {};
+  }
+  if (!is_fit(frame)) {
+    servo_.pause();
+    state_.started = false;
+    return state_.last = withdraw(Reason::input_not_finite, {});
+  }
+  const double dt = state_.started ? frame.time_s - state_.time_s : 0.0;
+  state_.started = true;
+  state_.time_s = frame.time_s;
+  if (!(dt >= 0.0 && dt < 1.0)) {
+    // The clock jumped: what was timed by it is void.
+    state_.next_decision_s = state_.next_objective_s = frame.time_s;
+    state_.fallen_s = frame.time_s - config_.pause_s;
+    state_.mismatch_s = state_.idle_effect_s = 0.0;
+  }
+  if (frame.age_s > config_.machine.envelope.stale_after_s) {
+    servo_.pause();
+    follow_envelope(frame, std::clamp(dt, 0.0, 0.1));
+    return state_.last = withdraw(Reason::input_stale, {});
+  }
+
+  Output output = state_.last;
+  output.decided = false;
+  output.forecasts = 0;
+  const ContourError::Output error = contour_.update(frame);
+  output.error_valid = error.valid;
+  output.error_mm = error.error_mm;
+  output.nominal_error_mm = nominal_error_mm(frame);
+  if (is_locked(frame.motion)) {
+    servo_.pause();
+  } else {
+    servo_.update(frame);
+  }
+  refresh_model(dt > 0.0 && dt < 0.1 ? dt : cycle_s_);
+  observe(frame, error, dt);
+  output.path_known = state_.last.path_known = look(frame, error);
+
+  const double wished = frame.feed.effective_ratio * frame.programmed_feed_mm_s;
+  const bool follows = frame.path_speed_mm_s > 0.95 * wished ||
+                       std::abs(frame.path_speed_mm_s - state_.speed_mm_s) > 0.01 * wished;
+  state_.idle_effect_s =
+      frame.motion == Motion::feed && !follows ? state_.idle_effect_s + std::max(0.0, dt) : 0.0;
+  state_.speed_mm_s = frame.path_speed_mm_s;
+
+  if (is_locked(frame.motion)) {
+    output = withdraw(Reason::withdrawn_thread, output);
+  } else if (frame.motion != Motion::feed &&
+             (frame.motion == Motion::idle || !cutting_within_reach(frame))) {
+    output = withdraw(Reason::not_cutting, output);
+  } else if (!state_.engaged || frame.time_s >= state_.next_decision_s - 1e-9) {
+    state_.engaged = true;
+    decide(frame, output);
+    state_.next_decision_s =
+        std::max(state_.next_decision_s, frame.time_s - decision_s_) + decision_s_;
+  }
+  state_.last = output;
+  follow_envelope(frame, std::clamp(dt, 0.0, 0.1));
+  return output;
+}
+
+}  // namespace steadyrest::contour::online

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/contour/online/forecast.hpp>
+#include <steadyrest/contour/online/look_ahead.hpp>
+#include <steadyrest/contour/online/nominal_error.hpp>
+#include <steadyrest/contour/online/servo_model.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/request.hpp>
+
+namespace steadyrest::contour::online {
+
+/// One step of the override as the objective sees it.
+struct Candidate {
+  double ratio = 1.0;
+  double error_mm = 0.0;   ///< predicted largest |ε| while it is held
+  double limit_mm = 0.01;  ///< ε_max
+  double min_ratio = 0.1;  ///< v_min, v_max as ratios of the programmed feed
+  double max_ratio = 1.0;
+  double weight_contour = 0.5;
+  double weight_feed = 0.5;
+};
+
+/// J = w1·ε/ε_max + w2·(v_max − v)/(v_max − v_min), smaller is better.
+[[nodiscard]] double combined_objective(const Candidate& candidate) noexcept;
+
+/// Chooses the step of the feed override that holds the contour error, by forecast.
+///
+/// Each candidate step is simulated along the path ahead (Forecast): the control's speed under dead
+/// time, scan and slew, then the axes with the identified servo model, then the distance to the
+/// path.
+///
+/// | strategy | choice |
+/// |---|---|
+/// | contour priority | the least predicted error; all errors up to `target_mm` count as equal,
+/// then the fastest. Since ε grows with v it ends at the lowest step wherever no step reaches the
+/// target | | feed priority | the largest admissible step | | combined | the admissible step of the
+/// smallest J |
+///
+/// Admissible: "go to the step, hold it for one decision, then fall to the lowest step as fast as
+/// the slew permits" keeps |ε| ≤ ε_max·(1 − margin) − reserve on the whole way. So the fall can
+/// always be put off to the next decision and no sooner: neither late nor early. Steps are tried
+/// from the highest down and the first admissible one is taken; nothing is assumed about the order
+/// of their errors. Where even the fall does not keep the limit, each place may have what the fall
+/// alone gives there.
+///
+/// Steady state: a slow servo would permit a too large step for a moment, again and again. So a
+/// rise must also be sustainable: held for `pause_s` it must not break the limit within the stretch
+/// of even curvature that the tool is in; what breaks it in a later, tighter stretch does not
+/// count, for the fall comes before.
+///
+/// `reserve`: half of the largest backlash, which encoders on the motors cannot see, and three
+/// times the RMS of what the model did not explain, beyond the margin. Changes: a rise needs 2 %
+/// room (15 % within `pause_s` after a fall); a fall is immediate. It only plans with the slew
+/// limits; the kernel's envelope enforces them.
+///
+/// Withdraws (ratio 1): input not finite or stale, threading and tapping, no cutting within reach
+/// ahead. Bounded: a decision costs at most steps × 512 forecast steps of ≈ 50 ns; see
+/// bench/contour_bench.
+///
+/// Source: Jin, Zhang, Ding (strategies, exhaustive search). The admissibility rule is this
+/// project's.
+class FeedGovernor {
+ public:
+  struct Config {
+    kernel::machine::Machine machine;  ///< axes, feed_override, contour, envelope, control
+    double decision_s = 0.0;           ///< 0 = the override's scan period, 4…10 ms
+    double objective_s = 0.10;         ///< period of the full search of the other strategies
+    double pause_s = 0.5;              ///< after a fall, rises need more room
+    double forecast_step_s = 0.0;      ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
+    double (*objective)(const Candidate&) noexcept = combined_objective;
+  };
+
+  struct Output {
+    kernel::signal::FeedRequest request;
+    bool error_valid = false;
+    double error_mm = 0.0;            ///< contour error now, signed as in ContourError
+    double nominal_error_mm = 0.0;    ///< Ed
+    double predicted_error_mm = 0.0;  ///< largest that the chosen step leads to, signed (+ inside)
+    double predicted_at_mm = 0.0;     ///< path length where
+    double limit_mm = 0.0;            ///< that the decision kept: ε_max·(1 − margin) − reserve
+    std::size_t step = 0;             ///< index in the override table
+    bool path_known = false;
+    bool decided = false;         ///< a decision was made in this cycle
+    std::uint32_t forecasts = 0;  ///< that it took
+  };
+
+  struct State {
+    bool started = false;
+    double time_s = 0.0;
+    double next_decision_s = 0.0;
+    double next_objective_s = 0.0;
+    double envelope_ratio = 1.0;   ///< what the envelope is taken to have reached
+    double mismatch_s = 0.0;       ///< since when the control shows another ratio
+    double fallen_s = -1e9;        ///< time of the last fall
+    double wanted_ratio = 1.0;     ///< of the objective's last search
+    double unexplained_mm2 = 0.0;  ///< mean square of what the model leaves
+    double idle_effect_s = 0.0;    ///< since when the speed does not follow the override
+    bool engaged = false;
+    Output last;
+    std::array<double, 3> velocity_mm_s{};  ///< observer of the axes' velocity
+    ServoState modelled;                    ///< the model alone, never corrected
+    std::array<double, 3> command_mm{};
+    std::array<double, 3> command_mm_s{};
+    double speed_mm_s = 0.0;
+    std::size_t foot_cell = 0;
+    std::size_t command_cell = 0;
+  };
+
+  static kernel::outcome::Result<FeedGovernor> make(const Config& config);
+  static kernel::outcome::Result<FeedGovernor> make(const kernel::machine::Machine& machine);
+
+  /// One cycle. The request stands until the next call.
+  Output update(const kernel::signal::Frame& frame) noexcept;
+
+  [[nodiscard]] const ContourError& contour_error() const noexcept { return contour_; }
+  [[nodiscard]] const ServoModel& servo_model() const noexcept { return servo_; }
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  void reset() noexcept;
+
+ private:
+  static constexpr std::size_t kHistory = 1024;
+  static constexpr double kSameRatio = 1e-9;
+
+  struct Choice {
+    std::size_t candidate = 0;
+    Forecast::Result forecast;
+    bool floor = false;
+    bool held_back = false;  ///< by the room that a rise needs
+  };
+
+  FeedGovernor(const Config& config, const ContourError& contour, const ServoModel& servo);
+  void observe(const kernel::signal::Frame& frame, const ContourError::Output& error,
+               double dt) noexcept;
+  void refresh_model(double dt) noexcept;
+  void follow_envelope(const kernel::signal::Frame& frame, double dt) noexcept;
+  bool look(const kernel::signal::Frame& frame, const ContourError::Output& error) noexcept;
+  void extrapolate(const kernel::signal::Frame& frame) noexcept;
+  [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
+  void fill_pending(const kernel::signal::Frame& frame) noexcept;
+  [[nodiscard]] Outset outset(const kernel::signal::Frame& frame) const noexcept;
+  [[nodiscard]] double limit_mm() const noexcept;
+  [[nodiscard]] double stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept;
+  Choice largest_admissible(const Outset& outset, std::size_t top,
+                            std::uint32_t& forecasts) noexcept;
+  [[nodiscard]] std::size_t best_by_objective(const Outset& outset,
+                                              std::uint32_t& forecasts) noexcept;
+  void decide(const kernel::signal::Frame& frame, Output& output) noexcept;
+  Output withdraw(kernel::outcome::Reason reason, Output output) noexcept;
+
+  Config config_;
+  std::vector<double> candidate_;        ///< permitted ratios, rising
+  std::vector<std::size_t> table_step_;  ///< their steps in the table
+  std::vector<double> table_ratio_;
+  ContourError contour_;
+  ServoModel servo_;
+  CommandedCurve curve_;
+  LookAhead ahead_;
+  LookAhead guess_;  ///< the path extrapolated, where none is known
+  Forecast forecast_;
+  Forecast::Trace trace_;
+  std::array<AxisModel, 3> model_{};      ///< that forecast_ has been set to
+  std::array<AxisStep, 3> cycle_step_{};  ///< of one control cycle
+  double cycle_s_ = 0.0;
+  double softest_gain_1_s_ = 50.0;
+  double unseen_mm_ = 0.0;  ///< half of the largest backlash: no encoder on a motor sees it
+  double decision_s_ = 0.01;
+  double reach_s_ = 0.1;                    ///< how far ahead in time the path must be known
+  std::array<double, kHistory> history_{};  ///< ratio let through, by cycle
+  std::size_t history_at_ = 0;
+  State state_;
+};
+
+}  // namespace steadyrest::contour::online

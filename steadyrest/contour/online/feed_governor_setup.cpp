@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <steadyrest/contour/online/feed_governor.hpp>
+
+// What the governor works out once, from the machine file.
+namespace steadyrest::contour::online {
+namespace {
+
+using kernel::machine::Machine;
+
+kernel::outcome::Refusal refuse(std::string what, std::string to_do) {
+  return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), std::move(to_do)};
+}
+
+double stiffest(const Machine& machine) noexcept {
+  double k = 1.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
+    k = std::max(k, machine.axes[i].servo_gain_1_s);
+  }
+  return k;
+}
+
+double softest(const Machine& machine) noexcept {
+  double k = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
+    k = std::min(k, machine.axes[i].servo_gain_1_s);
+  }
+  return std::clamp(k, 1.0, 1000.0);
+}
+
+double longest_lag(const Machine& machine) noexcept {
+  double lag = 0.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
+    lag = std::max(lag, machine.axes[i].velocity_lag_s);
+  }
+  return lag;
+}
+
+/// Averaging time of the control's jerk limit; its mean delay is half of it.
+double jerk_time(const Machine& machine) noexcept {
+  double time = 0.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
+    const auto& axis = machine.axes[i];
+    if (std::isfinite(axis.max_jerk_mm_s3) && axis.max_jerk_mm_s3 > 0.0) {
+      time = std::max(time, axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3);
+    }
+  }
+  return std::min(time, 0.5);
+}
+
+/// The steps that the search looks at: all of them, of a table finer than the forecast's as many
+/// as that holds, evenly spread, both ends among them.
+std::vector<std::size_t> searched_steps(std::size_t steps) {
+  const std::size_t count = std::min(steps, Forecast::kMaxTable);
+  std::vector<std::size_t> index(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    index[i] = count == steps ? i : (i * (steps - 1) + (count - 1) / 2) / (count - 1);
+  }
+  return index;
+}
+
+/// A word that is not latched walks from neighbour to neighbour, one each scan: the slowest pace of
+/// that among the steps that are searched.
+double walking_1_s(const kernel::machine::OverrideTable& table,
+                   const std::vector<double>& candidate) noexcept {
+  double slowest = std::numeric_limits<double>::infinity();
+  if (table.latched_word || !(table.scan_period_s > 0.0)) {
+    return slowest;
+  }
+  for (std::size_t i = 1; i < candidate.size(); ++i) {
+    slowest = std::min(slowest, (candidate[i] - candidate[i - 1]) / table.scan_period_s);
+  }
+  return slowest;
+}
+
+/// What backlash puts between the encoders on the motors and the tool: half of it either way.
+double unseen_by_encoders_mm(const Machine& machine) noexcept {
+  double backlash_mm = 0.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
+    backlash_mm = std::max(backlash_mm, machine.axes[i].backlash_mm);
+  }
+  return 0.5 * backlash_mm;
+}
+
+kernel::outcome::Result<void> check(const FeedGovernor::Config& config) {
+  const Machine& m = config.machine;
+  if (m.axes.empty()) {
+    return std::unexpected(refuse("the machine has no axis", "describe its axes"));
+  }
+  if (!(m.contour.limit_mm > 0.0)) {
+    return std::unexpected(refuse("contour limit is not above 0 mm", "give contour.limit"));
+  }
+  if (!(m.contour.margin >= 0.0 && m.contour.margin < 1.0)) {
+    return std::unexpected(refuse("contour margin is not within 0…1", "correct contour.margin"));
+  }
+  if (!(m.contour.min_ratio > 0.0 && m.contour.min_ratio <= m.contour.max_ratio)) {
+    return std::unexpected(refuse("contour.min_ratio is not above 0 and up to contour.max_ratio",
+                                  "correct the permitted ratios"));
+  }
+  if (!(m.envelope.feed_fall_1_s > 0.0 && m.envelope.feed_rise_1_s > 0.0)) {
+    return std::unexpected(refuse("a slew limit is not above 0", "correct the envelope"));
+  }
+  if (config.objective == nullptr) {
+    return std::unexpected(refuse("objective is missing", "give an objective"));
+  }
+  return {};
+}
+
+}  // namespace
+
+double combined_objective(const Candidate& c) noexcept {
+  const double span = c.max_ratio - c.min_ratio;
+  const double slowness = span > 0.0 ? (c.max_ratio - c.ratio) / span : 0.0;
+  return c.weight_contour * c.error_mm / c.limit_mm + c.weight_feed * slowness;
+}
+
+kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Machine& machine) {
+  Config config;
+  config.machine = machine;
+  return make(config);
+}
+
+kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
+  if (auto fit = check(config); !fit) {
+    return std::unexpected(fit.error());
+  }
+  ContourError::Config contour_config;
+  contour_config.servo_gain_1_s = softest(config.machine);
+  auto contour = ContourError::make(contour_config);
+  if (!contour) {
+    return std::unexpected(contour.error());
+  }
+  auto servo = ServoModel::make(config.machine);
+  if (!servo) {
+    return std::unexpected(servo.error());
+  }
+  FeedGovernor governor(config, *contour, *servo);
+  if (governor.candidate_.empty()) {
+    return std::unexpected(
+        refuse("no step of the override table lies within contour.min_ratio…max_ratio",
+               "widen the permitted ratios"));
+  }
+  return governor;
+}
+
+FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
+                           const ServoModel& servo)
+    : config_(config),
+      contour_(contour),
+      servo_(servo),
+      ahead_(config.machine),
+      guess_(config.machine) {
+  const Machine& m = config_.machine;
+  const double low = std::max(m.contour.min_ratio, m.envelope.min_feed_ratio);
+  const double high =
+      std::min({m.contour.max_ratio, m.envelope.max_feed_ratio, m.feed_override.max_ratio});
+  for (const std::size_t i : searched_steps(m.feed_override.ratio.size())) {
+    const double ratio = m.feed_override.ratio[i];
+    table_ratio_.push_back(ratio);
+    const bool is_new = candidate_.empty() || ratio > candidate_.back() + kSameRatio;
+    if (ratio > 0.0 && is_new && ratio >= low - kSameRatio && ratio <= high + kSameRatio) {
+      candidate_.push_back(ratio);
+      table_step_.push_back(i);
+    }
+  }
+  softest_gain_1_s_ = softest(m);
+  unseen_mm_ = unseen_by_encoders_mm(m);
+  decision_s_ = config_.decision_s > 0.0 ? config_.decision_s
+                                         : std::clamp(m.feed_override.scan_period_s, 0.004, 0.010);
+  Forecast::Timing timing;
+  timing.step_s = config_.forecast_step_s > 0.0 ? config_.forecast_step_s
+                                                : std::clamp(0.12 / stiffest(m), 5e-4, 4e-3);
+  timing.dead_s =
+      m.feed_override.dead_time_s + m.control.interpolator_period_s + 0.5 * jerk_time(m);
+  timing.scan_s = m.feed_override.scan_period_s + m.control.interpolator_period_s;
+  const double walk_1_s = walking_1_s(m.feed_override, candidate_);
+  timing.fall_1_s = std::min(m.envelope.feed_fall_1_s, walk_1_s);
+  timing.rise_1_s = std::min(m.envelope.feed_rise_1_s, walk_1_s);
+  timing.settle_s = 4.0 / softest(m) + 3.0 * longest_lag(m);
+  forecast_.set_timing(timing);
+  forecast_.set_table(table_ratio_);
+  reach_s_ =
+      timing.dead_s + timing.scan_s + decision_s_ + 0.1 + 1.0 / timing.fall_1_s + timing.settle_s;
+  refresh_model(0.0);
+  history_.fill(1.0);
+}
+
+}  // namespace steadyrest::contour::online

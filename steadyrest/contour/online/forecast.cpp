@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/contour/online/forecast.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+
+namespace steadyrest::contour::online {
+namespace {
+
+namespace geometry = math::geometry;
+using kernel::signal::Point;
+
+constexpr double kNoLag_s = 1e-4;  // a velocity loop faster than this is none
+constexpr double kRatioTolerance = 1e-9;
+
+Point on_cell(const Cell& cell, double delta) noexcept {
+  return geometry::add_scaled(geometry::add_scaled(cell.point_mm, cell.tangent, delta),
+                              cell.curvature_1_mm, 0.5 * delta * delta);
+}
+
+/// Distance to one cell, squared, and the offset from its start to the foot.
+struct Near {
+  double squared = 0.0;
+  double delta = 0.0;
+  Point offset{};
+};
+
+Near near_on_cell(const Cell& cell, const Point& query) noexcept {
+  const Point from = geometry::subtract(query, cell.point_mm);
+  // One Newton step on the parabola from the tangent's foot: exact to second order in the offset.
+  const double along = geometry::dot(from, cell.tangent);
+  const double bend = 1.0 - geometry::dot(from, cell.curvature_1_mm);
+  const double delta = std::clamp(along / std::max(bend, 0.2), 0.0, cell.length_mm);
+  const Point foot = geometry::add_scaled(geometry::scale(cell.tangent, delta), cell.curvature_1_mm,
+                                          0.5 * delta * delta);
+  const Point offset = geometry::subtract(from, foot);
+  return {geometry::norm_squared(offset), delta, offset};
+}
+
+/// The foot point as it moves along the cells. Inside of a corner the foot never reaches the end of
+/// the first leg; so the first cell behind the next corner is followed as well, and wins once it is
+/// nearer.
+class FootTracker {
+ public:
+  FootTracker(const LookAhead& path, std::size_t cell) noexcept
+      : path_(path), cell_(cell), scanned_(cell) {}
+
+  Near update(const Point& query, std::size_t command_cell) noexcept {
+    Near here = advance(cell_, query, command_cell);
+    if (beyond_ != kNone && beyond_ <= cell_) {
+      beyond_ = kNone;
+    }
+    while (beyond_ == kNone && scanned_ < command_cell) {
+      ++scanned_;
+      if (scanned_ > cell_ && path_.cell(scanned_).corner) {
+        beyond_ = scanned_;
+      }
+    }
+    if (beyond_ != kNone) {
+      const Near there = advance(beyond_, query, command_cell);
+      if (there.squared <= here.squared) {
+        cell_ = beyond_;
+        beyond_ = kNone;
+        return there;
+      }
+    }
+    return here;
+  }
+  [[nodiscard]] std::size_t cell() const noexcept { return cell_; }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  Near advance(std::size_t& cell, const Point& query, std::size_t command_cell) const noexcept {
+    Near here = near_on_cell(path_.cell(cell), query);
+    while (here.delta >= path_.cell(cell).length_mm && cell < command_cell) {
+      const Near next = near_on_cell(path_.cell(cell + 1), query);
+      if (next.squared > here.squared) {
+        break;
+      }
+      here = next;
+      ++cell;
+    }
+    return here;
+  }
+
+  const LookAhead& path_;
+  std::size_t cell_;
+  std::size_t beyond_ = kNone;
+  std::size_t scanned_;
+};
+
+}  // namespace
+
+AxisStep AxisStep::of(const AxisModel& model, double h_s) noexcept {
+  AxisStep step;
+  const double k = model.gain_1_s;
+  const double a = model.feed_forward;
+  if (model.velocity_lag_s < kNoLag_s) {
+    const double decay = std::exp(-k * h_s);
+    const double phi1 = -std::expm1(-k * h_s) / k;
+    const double phi2 = (1.0 - phi1 / h_s) / k;
+    step.ee = decay;
+    step.e_mean = (1.0 - a) * phi1;
+    step.e_change = (1.0 - a) * (phi2 - 0.5 * phi1);
+    return step;
+  }
+  constexpr int kSub = 64;
+  const double d = h_s / kSub;
+  const double tau = model.velocity_lag_s;
+  const auto shoot = [&](double e, double w, double mean, double change) {
+    const auto rate = [&](double t, double ei, double wi) {
+      const double c = mean + change * (t / h_s - 0.5);
+      return std::array{c - wi, (k * ei + a * c - wi) / tau};
+    };
+    for (int i = 0; i < kSub; ++i) {
+      const double t = d * i;
+      const auto r1 = rate(t, e, w);
+      const auto r2 = rate(t + 0.5 * d, e + 0.5 * d * r1[0], w + 0.5 * d * r1[1]);
+      const auto r3 = rate(t + 0.5 * d, e + 0.5 * d * r2[0], w + 0.5 * d * r2[1]);
+      const auto r4 = rate(t + d, e + d * r3[0], w + d * r3[1]);
+      e += d / 6.0 * (r1[0] + 2.0 * r2[0] + 2.0 * r3[0] + r4[0]);
+      w += d / 6.0 * (r1[1] + 2.0 * r2[1] + 2.0 * r3[1] + r4[1]);
+    }
+    return std::array{e, w};
+  };
+  const auto from_e = shoot(1, 0, 0, 0);
+  const auto from_w = shoot(0, 1, 0, 0);
+  const auto from_mean = shoot(0, 0, 1, 0);
+  const auto from_change = shoot(0, 0, 0, 1);
+  step.ee = from_e[0];
+  step.we = from_e[1];
+  step.ew = from_w[0];
+  step.ww = from_w[1];
+  step.e_mean = from_mean[0];
+  step.w_mean = from_mean[1];
+  step.e_change = from_change[0];
+  step.w_change = from_change[1];
+  return step;
+}
+
+void Forecast::set_timing(const Timing& timing) noexcept {
+  timing_ = timing;
+}
+
+void Forecast::set_model(std::span<const AxisModel, 3> model) noexcept {
+  for (std::size_t i = 0; i < 3; ++i) {
+    model_[i] = model[i];
+    step_[i] = AxisStep::of(model[i], timing_.step_s);
+  }
+}
+
+void Forecast::set_table(std::span<const double> ratio) noexcept {
+  table_count_ = std::min(ratio.size(), kMaxTable);
+  std::copy_n(ratio.begin(), table_count_, table_.begin());
+}
+
+double Forecast::floor_ratio(double ratio) const noexcept {
+  const auto* const begin = table_.begin();
+  const auto* const end = begin + table_count_;
+  const auto* const above = std::upper_bound(begin, end, ratio + kRatioTolerance);
+  return above == begin ? *begin : *(above - 1);
+}
+
+double Forecast::planned(const RatioPlan& plan, double t_s) const noexcept {
+  const double since = t_s - timing_.dead_s;
+  const double late = since - timing_.scan_s;
+  if (plan.target > plan.start) {
+    const double reached = (plan.target - plan.start) / timing_.rise_1_s;
+    const double falling = late - reached - plan.hold_s;
+    if (falling > 0.0) {
+      return std::max(plan.floor, plan.target - timing_.fall_1_s * falling);
+    }
+    return std::min(plan.target, plan.start + timing_.rise_1_s * since);
+  }
+  if (late <= 0.0) {
+    return plan.start;
+  }
+  const double reached = (plan.start - plan.target) / timing_.fall_1_s;
+  if (late <= reached) {
+    return plan.start - timing_.fall_1_s * late;
+  }
+  const double falling = late - reached - plan.hold_s;
+  return falling <= 0.0 ? plan.target
+                        : std::max(plan.floor, plan.target - timing_.fall_1_s * falling);
+}
+
+// One step of plan, servos and error; its locals are the state.
+// NOLINTNEXTLINE(readability-function-size)
+Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, const RatioPlan& plan,
+                               double limit_mm, bool stop_early, const Trace* trace,
+                               Trace* record) const noexcept {
+  Result result;
+  const double h = timing_.step_s;
+  const double change_s = plan.target > plan.start ? (plan.target - plan.start) / timing_.rise_1_s
+                                                   : (plan.start - plan.target) / timing_.fall_1_s;
+  const double held_until_s = timing_.dead_s + timing_.scan_s + change_s + plan.hold_s;
+  const double fall_s = std::max(0.0, plan.target - plan.floor) / timing_.fall_1_s;
+
+  double s = outset.position_mm;
+  double v = outset.speed_mm_s;
+  std::size_t at = outset.command_cell;
+  const Cell* cell = &path.cell(at);
+  Point command = on_cell(*cell, s - cell->position_mm);
+  Point velocity = geometry::scale(
+      geometry::add_scaled(cell->tangent, cell->curvature_1_mm, s - cell->position_mm), v);
+  ServoState servo = outset.servo;
+  FootTracker foot(path, std::min(outset.foot_cell, at));
+  double worst = 0.0;
+  std::size_t trace_at = 0;
+  const double brake_s = v / std::max(1.0, cell->acceleration_mm_s2);
+  const double horizon_s = held_until_s + fall_s + brake_s + timing_.settle_s;
+  const std::size_t count = std::min(kMaxSteps, static_cast<std::size_t>(std::ceil(horizon_s / h)));
+  if (record != nullptr) {
+    record->count = 0;
+  }
+
+  for (std::size_t n = 1; n <= count; ++n) {
+    const double t = h * static_cast<double>(n);
+    double ratio = n <= pending_count_ ? pending_[n - 1] : 0.0;
+    if (t > timing_.dead_s) {
+      ratio = std::max(ratio, floor_ratio(planned(plan, t)));
+    }
+    ratio = std::min(ratio, outset.panel_ratio);
+
+    // The control's speed.
+    const auto target_of = [&](const Cell& c) {
+      const double share = c.cutting ? ratio : c.rapid ? outset.rapid_ratio : 1.0;
+      return std::min(c.cap_mm_s, c.feed_mm_s * share);
+    };
+    const double goal = target_of(*cell);
+    const double dv = cell->acceleration_mm_s2 * h;
+    double v1 = v < goal ? std::min(goal, v + dv) : std::max(goal, v - dv);
+    double s1 = s + 0.5 * (v + v1) * h;
+    double left = cell->position_mm + cell->length_mm - s1;
+    std::size_t next = at;
+    while (left < 0.0 && next + 1 < path.end()) {
+      ++next;
+      const Cell& c = path.cell(next);
+      left = c.position_mm + c.length_mm - s1;
+    }
+    const Cell& ahead = path.cell(next);
+    if (left < 0.0) {
+      if (!path.complete()) {
+        break;  // nothing is known of what follows
+      }
+      s1 += left;
+      v1 = 0.0;
+      left = 0.0;
+    }
+    if (next + 1 < path.end()) {
+      const Cell& after = path.cell(next + 1);
+      const double slower = target_of(after);
+      const double square =
+          std::min(after.square_mm2_s2, slower * slower) + 2.0 * ahead.acceleration_mm_s2 * left;
+      if (v1 * v1 > square) {
+        v1 = std::max(std::sqrt(square), v - 2.0 * dv);
+        s1 = s + 0.5 * (v + v1) * h;
+      }
+    }
+    s = s1;
+    at = next;
+    if (next + 1 < path.end() && v1 * h >= left && path.cell(next + 1).square_mm2_s2 <= dv * dv) {
+      // A stop on the path: it is reached within this step, and left again in the next.
+      ++at;
+      s = path.cell(at).position_mm;
+      v1 = 0.0;
+    }
+    cell = &path.cell(at);
+
+    // The servos.
+    const double delta = s - cell->position_mm;
+    const Point before = command;
+    command = on_cell(*cell, delta);
+    const Point tangent = geometry::add_scaled(cell->tangent, cell->curvature_1_mm, delta);
+    const Point velocity1 = geometry::scale(tangent, v1);
+    Point actual;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const AxisStep& step = step_[i];
+      const double mean = (command[i] - before[i]) / h;
+      const double change = velocity1[i] - velocity[i];
+      const double e = servo.error_mm[i];
+      const double w = servo.velocity_mm_s[i];
+      servo.error_mm[i] = step.ee * e + step.ew * w + step.e_mean * mean + step.e_change * change;
+      servo.velocity_mm_s[i] =
+          step.we * e + step.ww * w + step.w_mean * mean + step.w_change * change;
+      actual[i] = command[i] - servo.error_mm[i];
+    }
+    velocity = velocity1;
+    v = v1;
+
+    // The contour.
+    const Near near = foot.update(actual, at);
+    const Cell& under = path.cell(foot.cell());
+    result.steps = n;
+    if (!under.cutting || t <= timing_.dead_s) {
+      continue;
+    }
+    if (record != nullptr) {
+      record->position_mm[record->count] = s;
+      record->error_mm[record->count] = std::sqrt(near.squared);
+      ++record->count;
+    }
+    if (near.squared > worst) {
+      worst = near.squared;
+      const double inward = geometry::dot(near.offset, under.curvature_1_mm);
+      result.error_mm = std::copysign(std::sqrt(worst), inward);
+      result.at_mm = s;
+    }
+    double allowed = limit_mm;
+    if (near.squared > allowed * allowed && trace != nullptr) {
+      while (trace_at + 1 < trace->count && trace->position_mm[trace_at + 1] <= s) {
+        ++trace_at;
+      }
+      if (trace_at < trace->count) {
+        allowed = std::max(allowed, trace->error_mm[trace_at]);
+      }
+    }
+    if (near.squared > allowed * allowed) {
+      if (result.kept) {
+        result.broken_mm = under.position_mm + near.delta;
+      }
+      result.kept = false;
+      if (stop_early) {
+        break;
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace steadyrest::contour::online

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <steadyrest/contour/online/look_ahead.hpp>
+#include <steadyrest/math/geometry/segment.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+
+namespace steadyrest::contour::online {
+namespace {
+
+namespace geometry = math::geometry;
+using kernel::signal::Geometry;
+using kernel::signal::Motion;
+using kernel::signal::PathSegment;
+using kernel::signal::PathView;
+using kernel::signal::Point;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kCornerCosine = 0.995;  // 0.1 rad
+constexpr double kChordTurn = 0.02;      // rad that a chord over short lines may turn
+constexpr double kChordMm = 0.1;
+
+/// h³/6·(κ² + |dκ/ds|) ≤ 2·10⁻⁵ mm.
+double arc_cell_mm(const PathSegment& segment, double curvature_1_mm) noexcept {
+  const double wound = std::abs(1.0 / std::max(segment.radius_end_mm, 1e-3) -
+                                1.0 / std::max(segment.radius_mm, 1e-3)) /
+                       segment.length_mm;
+  const double third = curvature_1_mm * curvature_1_mm + wound;
+  const double by_third = third > 0.0 ? std::cbrt(1.2e-4 / third) : 1.0;
+  return std::clamp(std::min(by_third, 0.2 / std::max(curvature_1_mm, 1e-9)), 0.002, 1.0);
+}
+
+}  // namespace
+
+LookAhead::LookAhead(const kernel::machine::Machine& machine)
+    : path_mm_s2_(machine.control.max_path_acceleration_mm_s2),
+      ring_(std::make_unique<std::array<Cell, kCells>>()) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    axis_mm_s2_[i] = i < machine.axes.size() ? machine.axes[i].max_acceleration_mm_s2 : kInfinite;
+  }
+}
+LookAhead::~LookAhead() = default;
+LookAhead::LookAhead(LookAhead&&) noexcept = default;
+LookAhead& LookAhead::operator=(LookAhead&&) noexcept = default;
+
+const Cell& LookAhead::cell(std::size_t i) const noexcept {
+  return (*ring_)[i % kCells];
+}
+Cell& LookAhead::at(std::size_t i) noexcept {
+  return (*ring_)[i % kCells];
+}
+
+void LookAhead::reset() noexcept {
+  first_ = last_ = 0;
+  path_data_ = nullptr;
+  complete_ = false;
+}
+
+double LookAhead::known_to_mm() const noexcept {
+  return made_to_mm_;
+}
+
+double LookAhead::line_acceleration(const Point& direction) const noexcept {
+  double a = path_mm_s2_;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double share = std::abs(direction[i]);
+    if (share > 1e-9) {
+      a = std::min(a, axis_mm_s2_[i] / share);
+    }
+  }
+  return std::min(a, 1e9);
+}
+
+double LookAhead::arc_acceleration(const PathSegment& segment) const noexcept {
+  double plane = path_mm_s2_;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double n = segment.axis[i];
+    const double share = std::sqrt(std::max(0.0, 1.0 - n * n));
+    if (share > 1e-9) {
+      plane = std::min(plane, axis_mm_s2_[i] / share);
+    }
+  }
+  plane = std::min(plane, 1e9);
+  // What the turn at the highest speed leaves; never less than half, as controls share it.
+  const double v = std::min(segment.speed_limit_mm_s, 2.0 * segment.feed_mm_s);
+  const double r = std::max(1e-6, std::min(segment.radius_mm, segment.radius_end_mm));
+  const double turn = std::min(v * v / r, 0.866 * plane);
+  return std::sqrt(plane * plane - turn * turn);
+}
+
+void LookAhead::describe(Cell& cell, const PathSegment& segment) const noexcept {
+  cell.feed_mm_s = segment.feed_mm_s;
+  cell.cap_mm_s = segment.speed_limit_mm_s;
+  cell.cutting = segment.motion == Motion::feed;
+  cell.rapid = segment.motion == Motion::rapid;
+}
+
+void LookAhead::append(Cell cell, double joint_limit_mm_s) noexcept {
+  const double limit = std::min(cell.cap_mm_s, joint_limit_mm_s);
+  cell.square_mm2_s2 = limit < 1e150 ? limit * limit : kInfinite;
+  made_to_mm_ = cell.position_mm + cell.length_mm;
+  at(last_) = cell;
+  ++last_;
+  for (std::size_t i = last_ - 1; i > first_; --i) {
+    Cell& before = at(i - 1);
+    const double bound = at(i).square_mm2_s2 + 2.0 * before.acceleration_mm_s2 * before.length_mm;
+    if (bound >= before.square_mm2_s2) {
+      break;
+    }
+    before.square_mm2_s2 = bound;
+  }
+}
+
+// NOLINTNEXTLINE(readability-function-size): one segment
+bool LookAhead::add_next(PathView path, int& segments) noexcept {
+  if (next_segment_ >= path.size()) {
+    if (!complete_) {
+      complete_ = true;
+      Cell stop = last_ > first_ ? cell(last_ - 1) : Cell{};
+      if (last_ > first_) {
+        // A piece of no length whose speed is the limit at the path's end.
+        const double length = stop.length_mm;
+        stop.point_mm =
+            geometry::add_scaled(geometry::add_scaled(stop.point_mm, stop.tangent, length),
+                                 stop.curvature_1_mm, 0.5 * length * length);
+        stop.tangent = geometry::add_scaled(stop.tangent, stop.curvature_1_mm, length);
+        stop.curvature_1_mm = {};
+        stop.position_mm += length;
+        stop.length_mm = 0.0;
+        stop.corner = false;
+        append(stop, 0.0);
+      }
+    }
+    return false;
+  }
+  const PathSegment& segment = path[next_segment_];
+  Cell cell;
+  describe(cell, segment);
+  const double joint = joint_mm_s_;
+  cell.position_mm = segment.position_mm + next_offset_mm_;
+  --segments;
+  if (segment.geometry == Geometry::arc && segment.length_mm > 0.0) {
+    const double left = segment.length_mm - next_offset_mm_;
+    const geometry::Station here =
+        geometry::station_at(segment, geometry::parameter_at(segment, next_offset_mm_));
+    const double curvature = geometry::norm(here.curvature_1_mm);
+    const double wish = arc_cell_mm(segment, curvature);
+    cell.length_mm = left <= wish ? left : std::min(wish, 0.5 * left);
+    cell.point_mm = here.point_mm;
+    cell.tangent = here.tangent;
+    cell.curvature_1_mm = here.curvature_1_mm;
+    cell.acceleration_mm_s2 = arc_acceleration(segment);
+    next_offset_mm_ += cell.length_mm;
+    joint_mm_s_ = kInfinite;
+    if (cell.length_mm >= left) {
+      joint_mm_s_ = segment.exit_speed_limit_mm_s;
+      next_offset_mm_ = 0.0;
+      ++next_segment_;
+    }
+  } else {
+    cell.point_mm = segment.start_mm;
+    const Point direction = geometry::unit(geometry::subtract(segment.end_mm, segment.start_mm));
+    Point end = segment.end_mm;
+    double length = segment.length_mm;
+    joint_mm_s_ = segment.exit_speed_limit_mm_s;
+    ++next_segment_;
+    while (length < kChordMm && next_segment_ < path.size() && segments > 0) {
+      const PathSegment& next = path[next_segment_];
+      const Point turned = geometry::unit(geometry::subtract(next.end_mm, next.start_mm));
+      if (next.geometry != Geometry::line || next.motion != segment.motion ||
+          next.feed_mm_s != segment.feed_mm_s || length + next.length_mm > kChordMm ||
+          geometry::dot(direction, turned) < 1.0 - 0.5 * kChordTurn * kChordTurn) {
+        break;
+      }
+      cell.cap_mm_s = std::min({cell.cap_mm_s, next.speed_limit_mm_s, joint_mm_s_});
+      length += next.length_mm;
+      end = next.end_mm;
+      joint_mm_s_ = next.exit_speed_limit_mm_s;
+      ++next_segment_;
+      --segments;
+    }
+    const Point chord = geometry::subtract(end, cell.point_mm);
+    cell.length_mm = length;
+    // A chord over short lines is a little shorter than they are: its "tangent" is, too.
+    cell.tangent = length > 0.0 ? geometry::scale(chord, 1.0 / length) : Point{};
+    cell.acceleration_mm_s2 = line_acceleration(cell.tangent);
+  }
+  if (last_ > first_) {
+    const Cell& before = this->cell(last_ - 1);
+    const Point out = geometry::add_scaled(before.tangent, before.curvature_1_mm, before.length_mm);
+    cell.corner = geometry::dot(out, cell.tangent) <
+                  kCornerCosine * geometry::norm(out) * geometry::norm(cell.tangent);
+  }
+  append(cell, joint);
+  return true;
+}
+
+void LookAhead::update(PathView path, std::size_t index, double from_mm, double command_mm,
+                       double to_mm) noexcept {
+  const bool is_known = path_data_ == path.data() && first_ != last_ &&
+                        cell(first_).position_mm <= command_mm && made_to_mm_ >= command_mm;
+  if (!is_known) {
+    reset();
+    path_data_ = path.data();
+    next_segment_ = std::min(index, path.size() - 1);
+    while (next_segment_ > 0 && path[next_segment_].position_mm > from_mm &&
+           index - next_segment_ < static_cast<std::size_t>(kSegmentsPerCycle)) {
+      --next_segment_;
+    }
+    next_offset_mm_ = 0.0;
+    joint_mm_s_ = kInfinite;
+    made_to_mm_ = path[next_segment_].position_mm;
+  }
+  while (first_ + 1 < last_ && cell(first_).position_mm + cell(first_).length_mm < from_mm) {
+    ++first_;
+  }
+  int segments = kSegmentsPerCycle;
+  for (int n = 0; n < kCellsPerCycle && segments > 0 && made_to_mm_ < to_mm; ++n) {
+    if (last_ - first_ >= kCells || !add_next(path, segments)) {
+      break;
+    }
+  }
+}
+
+std::size_t LookAhead::find(double s_mm, std::size_t hint) const noexcept {
+  std::size_t i = std::clamp(hint, first_, last_ - 1);
+  while (i > first_ && cell(i).position_mm > s_mm) {
+    --i;
+  }
+  while (i + 1 < last_ && cell(i).position_mm + cell(i).length_mm <= s_mm) {
+    ++i;
+  }
+  return i;
+}
+
+}  // namespace steadyrest::contour::online

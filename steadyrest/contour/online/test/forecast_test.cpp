@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <steadyrest/contour/online/forecast.hpp>
+#include <steadyrest/contour/online/test/closed_loop.hpp>
+#include <steadyrest/contour/online/test/paths.hpp>
+#include <steadyrest/math/geometry/test/segments.hpp>
+
+namespace steadyrest::contour::online {
+namespace {
+
+using math::geometry::test::number;
+using test::kTurn;
+using test::PathMaker;
+using test::PathSegment;
+using test::Point;
+
+/// ε = R·(1 − |G(jω)|), G = (k + a·s)/(τ·s² + s + k).
+double closed_form_mm(const AxisModel& m, double radius, double speed) {
+  const std::complex<double> s(0.0, speed / radius);
+  const auto g = (m.gain_1_s + m.feed_forward * s) / (m.velocity_lag_s * s * s + s + m.gain_1_s);
+  return radius * (1.0 - std::abs(g));
+}
+
+struct Scene {
+  LookAhead ahead{test::mill()};
+  Forecast forecast;
+  Outset outset;
+  RatioPlan plan;
+};
+
+Scene scene(const std::vector<PathSegment>& path, const AxisModel& model, double ratio) {
+  Scene s;
+  for (int i = 0; i < 60; ++i) {
+    s.ahead.update(path, 0, 0.0, 0.0, 60.0);
+  }
+  Forecast::Timing timing;
+  timing.step_s = 0.12 / model.gain_1_s;
+  timing.settle_s = 10.0 / model.gain_1_s + 6.0 * model.velocity_lag_s;
+  s.forecast.set_timing(timing);
+  s.forecast.set_model(std::array{model, model, model});
+  s.forecast.set_table(test::siemens_23());
+  s.plan = {ratio, ratio, ratio, 0.0};
+  s.outset.speed_mm_s = ratio * path.front().feed_mm_s;
+  return s;
+}
+
+RC_GTEST_PROP(Forecast, OfASteadyCircleAgreesWithTheClosedForm, ()) {
+  const AxisModel model{*number(25.0, 90.0), *rc::gen::element(0.0, 0.4, 0.8),
+                        *rc::gen::element(0.0, 0.003)};
+  const double radius = *number(2.0, 40.0);
+  const double speed = std::min(*number(5.0, 60.0), std::sqrt(1500.0 * radius));
+  const auto path = PathMaker({radius, 0, 0}, speed).arc({0, 0, 0}, 60.0 / radius + kTurn).path();
+  Scene s = scene(path, model, 1.0);
+  Forecast::Trace trace;
+  RC_ASSERT(s.forecast.run(s.ahead, s.outset, s.plan, 1e9, false, nullptr, &trace).kept);
+  RC_ASSERT(trace.count > 0u);
+  const double truth = std::abs(closed_form_mm(model, radius, speed));
+  RC_ASSERT(std::abs(trace.error_mm[trace.count - 1] - truth) <= 1e-3 * truth + 1e-4);
+}
+
+TEST(Forecast, OfUnequalGainsOnALineGivesTheTextbookError) {
+  // (v/2)·sin 2θ·|1/kx − 1/ky| at 30°
+  const double angle = kTurn / 12.0;
+  const auto path =
+      PathMaker({0, 0, 0}, 40.0).line_to({100 * std::cos(angle), 100 * std::sin(angle), 0}).path();
+  Scene s = scene(path, {50.0, 0.0, 0.0}, 1.0);
+  s.forecast.set_model(
+      std::array{AxisModel{50.0, 0.0, 0.0}, AxisModel{55.0, 0.0, 0.0}, AxisModel{50.0, 0.0, 0.0}});
+  Forecast::Trace trace;
+  ASSERT_TRUE(s.forecast.run(s.ahead, s.outset, s.plan, 1e9, false, nullptr, &trace).kept);
+  EXPECT_NEAR(trace.error_mm[trace.count - 1],
+              20.0 * std::sin(2.0 * angle) * (1.0 / 50.0 - 1.0 / 55.0), 1e-5);
+}
+
+TEST(Forecast, RoundsACornerAsTheServoDoes) {
+  // A first-order servo at constant speed v cuts a right angle; nearest to both legs where its
+  // distances are equal: e⁻ᵏᵗ·v/k = v·t − v/k·(1 − e⁻ᵏᵗ) ⇒ kt = 1, ε = v/(k·e).
+  std::vector<PathSegment> path =
+      PathMaker({0, 0, 0}, 20.0).line_to({4, 0, 0}).line_to({4, 30, 0}).path();
+  for (auto& segment : path) {
+    segment.exit_speed_limit_mm_s = 20.0;
+  }
+  Scene s = scene(path, {50.0, 0.0, 0.0}, 1.0);
+  s.outset.servo.error_mm = {0.4, 0.0, 0.0};
+  Forecast::Timing timing = s.forecast.timing();
+  timing.step_s = 2e-4;
+  timing.settle_s = 0.09;
+  s.forecast.set_timing(timing);
+  s.forecast.set_model(std::array{AxisModel{}, AxisModel{}, AxisModel{}});
+  s.outset.position_mm = 2.5;
+  const auto result = s.forecast.run(s.ahead, s.outset, s.plan, 1e9, false, nullptr, nullptr);
+  EXPECT_NEAR(std::abs(result.error_mm), 0.4 / std::exp(1.0), 0.003);
+}
+
+TEST(Forecast, StopsWhereTheLimitIsBrokenAndSaysWhere) {
+  const auto path = PathMaker({0, 0, 0}, 40.0).line_to({3, 0, 0}).arc({3, 5, 0}, kTurn).path();
+  Scene s = scene(path, {50.0, 0.0, 0.0}, 1.0);
+  const auto result = s.forecast.run(s.ahead, s.outset, s.plan, 0.010, true, nullptr, nullptr);
+  EXPECT_FALSE(result.kept);
+  EXPECT_GT(result.broken_mm, 2.5);
+  EXPECT_LT(result.broken_mm, 5.0);
+  EXPECT_GT(result.error_mm, 0.010);
+}
+
+TEST(AxisStep, OfNoLagIsTheLimitOfSmallLag) {
+  const AxisStep none = AxisStep::of({50.0, 0.3, 0.0}, 0.002);
+  const AxisStep little = AxisStep::of({50.0, 0.3, 1.5e-4}, 0.002);
+  EXPECT_NEAR(none.ee, little.ee, 2e-2);
+  EXPECT_NEAR(none.e_mean, little.e_mean, 2e-4);
+}
+
+RC_GTEST_PROP(LookAhead, CellsReproduceThePathAndItsSpeedLimits, ()) {
+  PathMaker maker({0, 0, 0}, 30.0);
+  for (int i = 0; i < 6; ++i) {
+    const double size = *number(0.5, 10.0);
+    switch (*rc::gen::inRange(0, 4)) {
+      case 0:
+        maker.line_to(math::geometry::add(maker.at(), {size, 0.3 * size, 0.0}));
+        break;
+      case 1:
+        maker.arc(math::geometry::add(maker.at(), {0, size, 0}), *number(0.2, 5.0), {0, 0, -1});
+        break;
+      case 2:
+        maker.arc(math::geometry::add(maker.at(), {size, 0, 0}), *number(0.2, 5.0), {0, 0, 1}, 0.5,
+                  0.3 * size);
+        break;
+      default:
+        maker.chords(math::geometry::add(maker.at(), {0, size, 0}), 1.0, 0.02);
+    }
+  }
+  const auto path = maker.limited(2000.0, 4.0);
+  const double whole = path.back().position_mm + path.back().length_mm;
+  LookAhead ahead(test::mill());
+  for (int i = 0; i < 400; ++i) {
+    ahead.update(path, 0, 0.0, 0.0, whole + 1.0);
+  }
+  RC_ASSERT(ahead.complete() || ahead.end() - ahead.begin() == LookAhead::kCells);
+  for (std::size_t i = ahead.begin(); i + 1 < ahead.end(); ++i) {
+    const Cell& cell = ahead.cell(i);
+    const Cell& next = ahead.cell(i + 1);
+    const double d = cell.length_mm;
+    Point end = math::geometry::add_scaled(cell.point_mm, cell.tangent, d);
+    end = math::geometry::add_scaled(end, cell.curvature_1_mm, 0.5 * d * d);
+    RC_ASSERT(math::geometry::distance(end, next.point_mm) <= 1e-4);
+    RC_ASSERT(cell.square_mm2_s2 <=
+              next.square_mm2_s2 + 2.0 * cell.acceleration_mm_s2 * cell.length_mm + 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::contour::online

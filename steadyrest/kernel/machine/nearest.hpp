@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace steadyrest::kernel::machine {
+
+/// The candidate that `word` was probably meant to be: smallest edit distance (insert, delete,
+/// replace, swap of neighbours), at most a third of the word's length plus one. Empty if none.
+[[nodiscard]] std::string_view nearest(std::string_view word,
+                                       std::span<const std::string_view> candidates);
+
+}  // namespace steadyrest::kernel::machine

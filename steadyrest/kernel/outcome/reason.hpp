@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace steadyrest::kernel::outcome {
+
+/// Why a room asked for what it asked, or why it withdrew.
+///
+/// The numbers are stable: they stand in logs, in reports and on the page. 0–99 common, 100–199
+/// envelope and arbiter, 200–299 motion, 300–399 contour, 400–499 chatter, 500–599 thermal.
+/// `reason.cpp` holds the one table from which names and texts are made.
+enum class Reason : std::uint16_t {
+  none = 0,                     ///< neutral: nothing to correct
+  input_not_finite = 1,         ///< an input was NaN or infinite
+  input_out_of_range = 2,       ///< an input was outside of what the machine file allows
+  input_stale = 3,              ///< the sample is older than the staleness limit
+  not_cutting = 4,              ///< rapid, dwell, tool change, idle: nothing to correct
+  withdrawn_thread = 5,         ///< thread cutting or tapping: the override must not move
+  panel_zero = 100,             ///< the operator's panel is at 0 %
+  panel_lower = 101,            ///< the operator's panel is below what the layer asks
+  clamped = 102,                ///< held at a limit of the envelope
+  slew_limited = 103,           ///< on the way; the slew limit holds it
+  unknown_override_code = 104,  ///< the panel's code is not in the machine's table
+  heartbeat_lost = 105,         ///< the layer or the control stopped answering
+  outvoted = 106,               ///< another room asked for a lower value
+  observe_only = 107,           ///< the mode does not permit writing
+  port_cannot_write = 108,      ///< the port has no way to write this override
+  contour_limit = 300,          ///< feed reduced: the contour error would pass its limit
+  contour_within_limit = 301,   ///< the largest step that keeps the limit is in force
+  contour_feed_floor = 302,     ///< the lowest permitted feed does not keep the limit
+  contour_objective = 303,      ///< the step that minimises the combined objective
+  contour_hysteresis = 304,     ///< a better step exists, but not by enough or not for long enough
+  contour_no_effect = 305,     ///< the override does not move the feed here; the estimate is frozen
+  contour_path_unknown = 306,  ///< no path window: only the error that already happened is known
+  chatter_modulating = 400,    ///< the spindle's speed swings by its law
+  chatter_feed_follows = 401,  ///< feed reduced: the feed per tooth would pass its band
+  chatter_feed_raised = 402,   ///< feed raised: the feed per tooth would fall below its band
+  chatter_fading = 403,        ///< the swing grows or shrinks
+  chatter_swing_narrowed = 404,   ///< the limits leave less room than the swing needs
+  chatter_drive_limit = 405,      ///< the drive or the slew limit cannot follow the law
+  chatter_feed_late = 406,        ///< the spindle waits until the feed is slow enough
+  chatter_detected = 420,         ///< the detector hears chatter
+  chatter_better_speed = 421,     ///< the planner's table has a speed that reaches deeper
+  chatter_rule_speed = 422,       ///< the classical rule's speed: whole waves between two teeth
+  chatter_no_better_speed = 423,  ///< no permitted speed is better: less depth, or modulation
+};
+
+/// One line of the table.
+struct ReasonEntry {
+  Reason reason;
+  std::string_view name;
+  std::string_view sentence;
+};
+
+/// The whole table, by rising number; `docs/reasons.md` is written from it.
+[[nodiscard]] std::span<const ReasonEntry> reasons() noexcept;
+
+/// `contour_limit` for Reason::contour_limit; `unknown` for a number that has no entry.
+[[nodiscard]] std::string_view name(Reason reason) noexcept;
+
+/// One English sentence for people.
+[[nodiscard]] std::string_view sentence(Reason reason) noexcept;
+
+}  // namespace steadyrest::kernel::outcome

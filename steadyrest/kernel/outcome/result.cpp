@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::kernel::outcome {
+
+std::string text(const Refusal& refusal) {
+  std::string out;
+  if (!refusal.file.empty()) {
+    out += refusal.file;
+    out += ':';
+    if (refusal.line != 0) {
+      out += std::to_string(refusal.line);
+      out += ':';
+    }
+    out += ' ';
+  }
+  out += refusal.what;
+  if (!refusal.to_do.empty()) {
+    out += "; ";
+    out += refusal.to_do;
+  }
+  return out;
+}
+
+}  // namespace steadyrest::kernel::outcome

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/kernel/override/arbiter.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+using outcome::Reason;
+
+/// Of two reasons to do nothing, the one that matters more: a fault before a withdrawal before
+/// none.
+Reason graver(Reason a, Reason b) noexcept {
+  if (a == Reason::none || b == Reason::none) {
+    return a == Reason::none ? b : a;
+  }
+  return std::min(a, b);
+}
+
+template <class Request>
+Request made_fit(Request request) noexcept {
+  if (const Reason fault = fault_of(request.ratio); fault != Reason::none) {
+    request.ratio = 1.0;
+    request.reason = fault;
+  }
+  return request;
+}
+
+template <class Request>
+void withdraw(Request& decision, const Request& request) noexcept {
+  const Reason reason = graver(decision.reason, request.reason);
+  if (reason != decision.reason) {
+    decision = {.room = request.room, .ratio = 1.0, .reason = reason};
+  }
+}
+
+bool beats(const signal::SpindleRequest& challenger, const signal::SpindleRequest& holder) {
+  const bool chatter = challenger.room == signal::Room::chatter;
+  if (chatter != (holder.room == signal::Room::chatter)) {
+    return chatter;
+  }
+  return std::abs(challenger.ratio - 1.0) < std::abs(holder.ratio - 1.0);
+}
+
+}  // namespace
+
+Reason fault_of(double ratio) noexcept {
+  if (!std::isfinite(ratio)) {
+    return Reason::input_not_finite;
+  }
+  return ratio < 0.0 || ratio > kMaxRequestRatio ? Reason::input_out_of_range : Reason::none;
+}
+
+void FeedArbiter::add(const signal::FeedRequest& request) noexcept {
+  const signal::FeedRequest fit = made_fit(request);
+  if (is_wish(fit.ratio, fit.reason)) {
+    if (wishes_ == 0 || fit.ratio < decision_.ratio) {
+      decision_ = fit;
+    }
+    ++wishes_;
+  } else if (wishes_ == 0) {
+    withdraw(decision_, fit);
+  }
+}
+
+void FeedArbiter::add(std::span<const signal::FeedRequest> requests) noexcept {
+  for (const auto& request : requests) {
+    add(request);
+  }
+}
+
+void SpindleArbiter::add(const signal::SpindleRequest& request) noexcept {
+  const signal::SpindleRequest fit = made_fit(request);
+  if (is_wish(fit.ratio, fit.reason)) {
+    if (wishes_ == 0 || beats(fit, decision_)) {
+      decision_ = fit;
+    }
+    ++wishes_;
+  } else if (wishes_ == 0) {
+    withdraw(decision_, fit);
+  }
+}
+
+void SpindleArbiter::add(std::span<const signal::SpindleRequest> requests) noexcept {
+  for (const auto& request : requests) {
+    add(request);
+  }
+}
+
+void OffsetArbiter::add(const signal::OffsetRequest& request) noexcept {
+  sum_.tool_in_cut = sum_.tool_in_cut || request.tool_in_cut;
+  if (!std::ranges::all_of(request.offset_mm, [](double mm) { return std::isfinite(mm); })) {
+    withdrawn_ = graver(withdrawn_, Reason::input_not_finite);
+    return;
+  }
+  if (!is_wish(request.reason)) {
+    withdrawn_ = graver(withdrawn_, request.reason);
+    return;
+  }
+  if (sum_.reason == Reason::none) {
+    sum_.room = request.room;
+    sum_.reason = request.reason;
+  }
+  for (std::size_t axis = 0; axis < signal::kMaxAxes; ++axis) {
+    sum_.offset_mm[axis] += request.offset_mm[axis];
+  }
+}
+
+void OffsetArbiter::add(std::span<const signal::OffsetRequest> requests) noexcept {
+  for (const auto& request : requests) {
+    add(request);
+  }
+}
+
+signal::OffsetRequest OffsetArbiter::decision() const noexcept {
+  signal::OffsetRequest decision = sum_;
+  if (!std::ranges::all_of(sum_.offset_mm, [](double mm) { return std::isfinite(mm); })) {
+    decision.reason = Reason::input_out_of_range;
+  } else if (withdrawn_ != Reason::none) {
+    decision.reason = withdrawn_;
+  }
+  if (!is_wish(decision.reason)) {
+    decision.offset_mm = {};
+  }
+  return decision;
+}
+
+}  // namespace steadyrest::kernel::override

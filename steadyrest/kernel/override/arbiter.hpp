@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/signal/request.hpp>
+
+/// Combines what the rooms ask for into one request with the winner's reason.
+///
+/// Law of reasons: a reason from a room's own range (≥ 200) makes the request a *wish*; `none` and
+/// the common reasons (below 100) say that the room has nothing to ask or has withdrawn. A ratio
+/// below 1 counts as a wish whatever its reason says.
+///
+///   feed     the lowest wish wins: each room's limit is kept.
+///   spindle  chatter's wish wins, since stability hangs on the exact speed and a mean of two
+///   serves
+///            neither; among other rooms the wish nearest to 1.
+///   offset   wishes add, axis by axis; the clamp is the envelope's. One withdrawn or unfit summand
+///            makes the sum unknown, so that the envelope freezes.
+///
+/// A ratio that is not finite, negative or above kMaxRequestRatio is unfit: that request becomes
+/// neutral with the reason. All O(1) for each request, noexcept, without allocation.
+namespace steadyrest::kernel::override {
+
+inline constexpr double kMaxRequestRatio = 10.0;
+
+/// The reason says that the room asks for something.
+[[nodiscard]] constexpr bool is_wish(outcome::Reason reason) noexcept {
+  return static_cast<unsigned>(reason) >= 200;
+}
+/// The same for a ratio: lower than 1 is always a wish.
+[[nodiscard]] constexpr bool is_wish(double ratio, outcome::Reason reason) noexcept {
+  return ratio < 1.0 || is_wish(reason);
+}
+/// none, input_not_finite or input_out_of_range.
+[[nodiscard]] outcome::Reason fault_of(double ratio) noexcept;
+
+class FeedArbiter {
+ public:
+  void add(const signal::FeedRequest& request) noexcept;
+  void add(std::span<const signal::FeedRequest> requests) noexcept;
+  /// The lowest wish; else neutral with the reason of the withdrawal that matters most.
+  [[nodiscard]] const signal::FeedRequest& decision() const noexcept { return decision_; }
+  /// How many wishes there were; all but one were outvoted or agreed.
+  [[nodiscard]] unsigned wishes() const noexcept { return wishes_; }
+
+ private:
+  signal::FeedRequest decision_;
+  unsigned wishes_ = 0;
+};
+
+class SpindleArbiter {
+ public:
+  void add(const signal::SpindleRequest& request) noexcept;
+  void add(std::span<const signal::SpindleRequest> requests) noexcept;
+  [[nodiscard]] const signal::SpindleRequest& decision() const noexcept { return decision_; }
+  [[nodiscard]] unsigned wishes() const noexcept { return wishes_; }
+
+ private:
+  signal::SpindleRequest decision_;
+  unsigned wishes_ = 0;
+};
+
+class OffsetArbiter {
+ public:
+  void add(const signal::OffsetRequest& request) noexcept;
+  void add(std::span<const signal::OffsetRequest> requests) noexcept;
+  /// The sum. Its reason is the first wish's; a reason below 200 other than `none` says that the
+  /// sum is unknown. `tool_in_cut` when any room says so.
+  [[nodiscard]] signal::OffsetRequest decision() const noexcept;
+
+ private:
+  signal::OffsetRequest sum_;
+  outcome::Reason withdrawn_ = outcome::Reason::none;
+};
+
+}  // namespace steadyrest::kernel::override

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <steadyrest/kernel/override/arbiter.hpp>
+#include <steadyrest/kernel/override/channel.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+outcome::Refusal no_step_between(const Channel::Config& config) {
+  return {.kind = outcome::Kind::bad_input,
+          .file = {},
+          .line = 0,
+          .what = fmt::format("the override table has no step within the envelope's {:g} … {:g} %",
+                              100.0 * config.min_ratio, 100.0 * config.max_ratio),
+          .to_do = "widen the envelope or correct the table"};
+}
+
+}  // namespace
+
+outcome::Result<Channel> Channel::make(const Config& config) {
+  auto table = Table::make(config.table);
+  if (!table) {
+    return std::unexpected(std::move(table.error()));
+  }
+  const auto lowest = table->ceil_step(config.min_ratio);
+  if (!lowest || table->ratio(*lowest) > config.max_ratio + kRatioTolerance) {
+    return std::unexpected(no_step_between(config));
+  }
+  auto envelope = RatioEnvelope::make({.min_ratio = table->ratio(*lowest),
+                                       .max_ratio = config.max_ratio,
+                                       .fall_1_s = config.fall_1_s,
+                                       .rise_1_s = config.rise_1_s,
+                                       .max_step_s = config.max_step_s,
+                                       .may_exceed_panel = table->layer_may_exceed_panel()});
+  if (!envelope) {
+    return std::unexpected(std::move(envelope.error()));
+  }
+  auto handover =
+      Handover::make(std::move(*table), {.latched = config.latched, .available = config.available});
+  if (!handover) {
+    return std::unexpected(std::move(handover.error()));
+  }
+  return Channel(*envelope, std::move(*handover));
+}
+
+Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
+  const auto wanted = envelope_.update(input);
+  const auto word = handover_.update(input.time_s, wanted);
+  if (word.masks_panel) {
+    envelope_.wait_within(word.reach_low, word.reach_high);
+  } else if (handover_.available()) {
+    // The mask had to wait: the way from the panel begins when it is on, not before.
+    envelope_.start_at_panel();
+  }
+  const bool stuck = !handover_.available() && !wanted.hand_back && is_wish(wanted.reason);
+  return {.ratio = word.ratio,
+          .code = word.code,
+          .masks_panel = word.masks_panel,
+          .handed_back = envelope_.state().at_panel && !word.masks_panel,
+          .reason = stuck ? outcome::Reason::port_cannot_write : wanted.reason};
+}
+
+void Channel::reset() noexcept {
+  envelope_.reset();
+  handover_.restore({.word = handover_.state().word, .masked = false});
+}
+
+void Channel::restore(const State& state) noexcept {
+  envelope_.restore(state.envelope);
+  handover_.restore(state.handover);
+}
+
+}  // namespace steadyrest::kernel::override

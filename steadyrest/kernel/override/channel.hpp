@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/override/envelope.hpp>
+#include <steadyrest/kernel/override/handover.hpp>
+
+namespace steadyrest::kernel::override {
+
+/// One override (feed or spindle) from the arbiter's request to the word: envelope, then hand-over.
+///
+/// The envelope's lower limit is raised to the next step of the table, so that rounding down never
+/// ends below it.
+class Channel {
+ public:
+  struct Config {
+    machine::OverrideTable table;
+    double min_ratio = 0.0;  ///< see RatioEnvelope::Config
+    double max_ratio = 1.2;
+    double fall_1_s = 10.0;
+    double rise_1_s = 2.0;
+    double max_step_s = 0.1;
+    bool latched = true;  ///< see Handover::Config
+    bool available = true;
+  };
+
+  struct Output {
+    double ratio = 1.0;      ///< in force: the word's when masked, else the panel's
+    std::uint32_t code = 0;  ///< the word to write
+    bool masks_panel = false;
+    bool handed_back = true;  ///< neutral and without a mask: nothing of the layer stands
+    outcome::Reason reason = outcome::Reason::none;
+  };
+
+  struct State {
+    RatioEnvelope::State envelope;
+    Handover::State handover;
+  };
+
+  [[nodiscard]] static outcome::Result<Channel> make(const Config& config);
+
+  Output update(const RatioEnvelope::Input& input) noexcept;
+
+  [[nodiscard]] const Table& table() const noexcept { return handover_.table(); }
+  void reset() noexcept;
+  [[nodiscard]] State state() const noexcept {
+    return {.envelope = envelope_.state(), .handover = handover_.state()};
+  }
+  void restore(const State& state) noexcept;
+
+ private:
+  Channel(const RatioEnvelope& envelope, Handover handover)
+      : envelope_(envelope), handover_(std::move(handover)) {}
+
+  RatioEnvelope envelope_;
+  Handover handover_;
+};
+
+}  // namespace steadyrest::kernel::override

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <fmt/format.h>
+
+#include <steadyrest/kernel/override/arbiter.hpp>
+#include <steadyrest/kernel/override/envelope.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+using outcome::Reason;
+
+outcome::Refusal refusal(const char* name, double value, const char* allowed) {
+  return {.kind = outcome::Kind::bad_input,
+          .file = {},
+          .line = 0,
+          .what = fmt::format("envelope: {} is {}; allowed is {}", name, value, allowed),
+          .to_do = "correct the envelope in the machine file"};
+}
+
+bool positive(double value) noexcept {
+  return std::isfinite(value) && value > 0.0;
+}
+
+bool all_finite(const signal::AxisValues& values) noexcept {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+double toward(double from, double target, double fall, double rise) noexcept {
+  return std::clamp(target, from - fall, from + rise);
+}
+
+double elapsed(double now_s, double max_step_s, double& last_s, bool& started) noexcept {
+  if (!std::isfinite(now_s)) {
+    return 0.0;
+  }
+  const double passed_s = started ? std::clamp(now_s - last_s, 0.0, max_step_s) : 0.0;
+  last_s = now_s;
+  started = true;
+  return passed_s;
+}
+
+}  // namespace
+
+outcome::Result<RatioEnvelope> RatioEnvelope::make(const Config& config) {
+  if (!positive(config.max_ratio)) {
+    return std::unexpected(refusal("max_ratio", config.max_ratio, "finite and > 0"));
+  }
+  if (!(config.min_ratio >= 0.0 && config.min_ratio <= config.max_ratio)) {
+    return std::unexpected(refusal("min_ratio", config.min_ratio, "0 … max_ratio"));
+  }
+  if (!positive(config.fall_1_s)) {
+    return std::unexpected(refusal("fall_1_s", config.fall_1_s, "finite and > 0"));
+  }
+  if (!positive(config.rise_1_s)) {
+    return std::unexpected(refusal("rise_1_s", config.rise_1_s, "finite and > 0"));
+  }
+  if (!positive(config.max_step_s)) {
+    return std::unexpected(refusal("max_step_s", config.max_step_s, "finite and > 0"));
+  }
+  return RatioEnvelope(config);
+}
+
+double RatioEnvelope::elapsed_s(double time_s) noexcept {
+  return elapsed(time_s, config_.max_step_s, state_.time_s, state_.started);
+}
+
+Reason RatioEnvelope::read_panel(const signal::OverrideState& panel) noexcept {
+  if (!panel.panel_code_known) {
+    return Reason::unknown_override_code;
+  }
+  if (const Reason fault = fault_of(panel.panel_ratio); fault != Reason::none) {
+    return fault;
+  }
+  state_.panel_ratio = panel.panel_ratio;
+  if (!state_.panel_seen) {
+    state_.panel_seen = true;
+    state_.ratio = panel.panel_ratio;
+  }
+  return Reason::none;
+}
+
+RatioEnvelope::Target RatioEnvelope::target(const Input& input, Reason unfit) const noexcept {
+  const double panel = state_.panel_ratio;
+  Target target{.ratio = panel, .unfit = unfit};
+  target.neutral = unfit != Reason::none || !is_wish(input.ratio, input.reason);
+  if (!target.neutral) {
+    target.ratio = std::clamp(input.ratio, config_.min_ratio, config_.max_ratio);
+    target.clamped = target.ratio != input.ratio;
+    target.panel_limits = !config_.may_exceed_panel && target.ratio > panel;
+    target.ratio = target.panel_limits ? panel : target.ratio;
+  }
+  if (input.hold) {
+    target.neutral = state_.at_panel;
+    target.ratio = state_.ratio;
+  }
+  return target;
+}
+
+Reason RatioEnvelope::explain(const Target& target, Reason asked) const noexcept {
+  const bool at_panel = state_.ratio == state_.panel_ratio;
+  if (target.unfit != Reason::none) {
+    return target.unfit;
+  }
+  if (state_.panel_ratio == 0.0) {
+    return Reason::panel_zero;
+  }
+  if (target.neutral) {
+    return asked == Reason::none && !at_panel ? Reason::slew_limited : asked;
+  }
+  if (target.panel_limits && at_panel) {
+    return Reason::panel_lower;
+  }
+  if (state_.ratio != target.ratio) {
+    return Reason::slew_limited;
+  }
+  return target.clamped ? Reason::clamped : asked;
+}
+
+RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
+  const double step_s = elapsed_s(input.time_s);
+  const Reason panel_fault = read_panel(input.panel);
+  Reason unfit = std::isfinite(input.time_s) ? input.unfit : Reason::input_not_finite;
+  for (const Reason fault : {panel_fault, fault_of(input.ratio)}) {
+    unfit = unfit == Reason::none ? fault : unfit;
+  }
+  const Target aim = target(input, unfit);
+  const double panel = state_.panel_ratio;
+  if (state_.at_panel && (aim.neutral || config_.may_exceed_panel)) {
+    state_.ratio = panel;
+  }
+  if (!aim.neutral || !state_.at_panel) {
+    state_.ratio =
+        toward(state_.ratio, aim.ratio, config_.fall_1_s * step_s, config_.rise_1_s * step_s);
+  }
+  if (panel == 0.0 || !config_.may_exceed_panel) {
+    state_.ratio = std::min(state_.ratio, panel);
+  }
+  state_.at_panel = aim.neutral && state_.ratio == panel;
+  // Where the layer may exceed the panel, a wish keeps the mask even at the panel's own ratio: else
+  // turning the switch would act until the mask is on, and the layer would then undo it by a jump.
+  const bool hand_back =
+      config_.may_exceed_panel ? state_.at_panel || panel == 0.0 : state_.ratio == panel;
+  return {.ratio = state_.ratio,
+          .panel_ratio = panel,
+          .panel_known = panel_fault == Reason::none,
+          .hand_back = hand_back || !state_.panel_seen,
+          .reason = explain(aim, input.reason)};
+}
+
+void RatioEnvelope::restore(const State& state) noexcept {
+  const bool fit = fault_of(state.ratio) == Reason::none &&
+                   fault_of(state.panel_ratio) == Reason::none && std::isfinite(state.time_s);
+  state_ = fit ? state : State{};
+}
+
+outcome::Result<OffsetEnvelope> OffsetEnvelope::make(const Config& config) {
+  for (const double max_mm : config.max_mm) {
+    if (!std::isfinite(max_mm) || max_mm < 0.0) {
+      return std::unexpected(refusal("max_offset_mm", max_mm, "finite and ≥ 0"));
+    }
+  }
+  if (!positive(config.slew_mm_s)) {
+    return std::unexpected(refusal("offset_slew_mm_s", config.slew_mm_s, "finite and > 0"));
+  }
+  if (!positive(config.max_step_s)) {
+    return std::unexpected(refusal("max_step_s", config.max_step_s, "finite and > 0"));
+  }
+  return OffsetEnvelope(config);
+}
+
+bool OffsetEnvelope::approach(const signal::AxisValues& target_mm, double step_mm) noexcept {
+  bool reached = true;
+  for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {
+    const double limit_mm = config_.max_mm[axis];
+    double& offset_mm = state_.offset_mm[axis];
+    offset_mm =
+        std::clamp(toward(offset_mm, target_mm[axis], step_mm, step_mm), -limit_mm, limit_mm);
+    reached = reached && offset_mm == target_mm[axis];
+  }
+  return reached;
+}
+
+void OffsetEnvelope::restore(const State& state) noexcept {
+  const bool fit = all_finite(state.offset_mm) && std::isfinite(state.time_s);
+  state_ = fit ? state : State{};
+}
+
+OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
+  const double step_mm =
+      config_.slew_mm_s * elapsed(input.time_s, config_.max_step_s, state_.time_s, state_.started);
+  const auto& request = input.request;
+  const bool finite = all_finite(request.offset_mm);
+  Reason unfit = std::isfinite(input.time_s) ? input.unfit : Reason::input_not_finite;
+  unfit = unfit == Reason::none && !finite ? Reason::input_not_finite : unfit;
+
+  Output output;
+  if (unfit == Reason::none && is_wish(request.reason)) {
+    signal::AxisValues target_mm{};
+    for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {
+      target_mm[axis] =
+          std::clamp(request.offset_mm[axis], -config_.max_mm[axis], config_.max_mm[axis]);
+    }
+    output.reason = target_mm == request.offset_mm ? request.reason : Reason::clamped;
+    if (!approach(target_mm, step_mm)) {
+      output.reason = Reason::slew_limited;
+    }
+  } else {
+    output.reason = unfit != Reason::none ? unfit : request.reason;
+    if (!input.tool_in_cut && !request.tool_in_cut) {
+      approach({}, step_mm);
+    }
+  }
+  output.offset_mm = state_.offset_mm;
+  output.at_zero = state_.offset_mm == signal::AxisValues{};
+  return output;
+}
+
+}  // namespace steadyrest::kernel::override

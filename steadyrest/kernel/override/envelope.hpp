@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/request.hpp>
+
+/// The last step before any write: clamp, slew limit, the operator's panel, and the way back.
+///
+/// There is no switch that turns it off. All of it is online code.
+namespace steadyrest::kernel::override {
+
+/// Envelope of one override ratio (feed or spindle).
+///
+/// Law, r = the layer's ratio, p = the panel's, w = the wish clamped to [min, max]:
+///   target = w in force of a wish, p when neutral;  r moves to target at most by
+///   fall·Δt downwards and rise·Δt upwards;  r ≤ p unless the layer may exceed the panel;  p = 0 ⇒
+///   r = 0.
+/// Neutral is transparent once r has reached p: from there on the operator moves the ratio alone.
+/// Input that is unfit makes the request neutral. While the panel's code is unknown, p is the last
+/// that was known. Δt has no credit beyond `max_step_s`, so that a gap in the input is no licence
+/// to jump.
+class RatioEnvelope {
+ public:
+  struct Config {
+    double min_ratio = 0.0;   ///< 0 … max_ratio
+    double max_ratio = 1.2;   ///< > 0
+    double fall_1_s = 10.0;   ///< 1/s, > 0
+    double rise_1_s = 2.0;    ///< 1/s, > 0
+    double max_step_s = 0.1;  ///< s, > 0
+    bool may_exceed_panel = false;
+  };
+
+  struct Input {
+    double time_s = 0.0;
+    double ratio = 1.0;                              ///< what the rooms ask for
+    outcome::Reason reason = outcome::Reason::none;  ///< and why
+    signal::OverrideState panel{};
+    outcome::Reason unfit = outcome::Reason::none;  ///< why this cycle's input must not be acted on
+    bool hold = false;                              ///< thread, tap: the override must not move
+  };
+
+  struct Output {
+    double ratio = 1.0;        ///< after clamp, slew and panel
+    double panel_ratio = 1.0;  ///< the panel's, or the last known of it
+    bool panel_known = false;  ///< the panel's value of this cycle is good
+    bool hand_back = true;     ///< the ratio is the panel's own: no mask needed
+    outcome::Reason reason = outcome::Reason::none;
+  };
+
+  struct State {
+    double ratio = 1.0;
+    double panel_ratio = 1.0;
+    double time_s = 0.0;
+    bool panel_seen = false;  ///< some panel value has been good
+    bool at_panel = true;     ///< neutral has been reached
+    bool started = false;
+  };
+
+  [[nodiscard]] static outcome::Result<RatioEnvelope> make(const Config& config);
+
+  Output update(const Input& input) noexcept;
+
+  /// The panel is in force, whatever update() wanted: the next step starts there.
+  void start_at_panel() noexcept { state_.ratio = state_.panel_ratio; }
+  /// The mask is on, so the panel is not in force yet; and the word walks slower than the slew: the
+  /// ratio must not run ahead of it, or it would later rise faster than `rise`.
+  void wait_within(double low, double high) noexcept {
+    state_.ratio = std::clamp(state_.ratio, low, high);
+    state_.at_panel = false;
+  }
+  /// Starts anew, as when the layer takes over.
+  void reset() noexcept { state_ = {}; }
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// A state that is not finite is not taken: the envelope starts anew.
+  void restore(const State& state) noexcept;
+
+ private:
+  explicit RatioEnvelope(const Config& config) noexcept : config_(config) {}
+
+  struct Target {
+    double ratio = 1.0;
+    outcome::Reason unfit = outcome::Reason::none;
+    bool neutral = false;
+    bool clamped = false;
+    bool panel_limits = false;
+  };
+
+  double elapsed_s(double time_s) noexcept;
+  [[nodiscard]] Target target(const Input& input, outcome::Reason unfit) const noexcept;
+  [[nodiscard]] outcome::Reason explain(const Target& target, outcome::Reason asked) const noexcept;
+  outcome::Reason read_panel(const signal::OverrideState& panel) noexcept;
+
+  Config config_;
+  State state_;
+};
+
+/// Envelope of the axis offsets.
+///
+/// Law, for each axis: in force of a wish the offset moves to clamp(wish, ±max) by at most slew·Δt.
+/// Without a wish, or with unfit input, it freezes where it is; once no tool is in the cut it ramps
+/// to 0 at the same slew. An axis with max = 0 never gets an offset.
+class OffsetEnvelope {
+ public:
+  struct Config {
+    signal::AxisValues max_mm{};  ///< ≥ 0; 0 = this axis takes no offset
+    double slew_mm_s = 0.05;      ///< mm/s, > 0
+    double max_step_s = 0.1;      ///< s, > 0
+  };
+
+  struct Input {
+    double time_s = 0.0;
+    signal::OffsetRequest request{};
+    outcome::Reason unfit = outcome::Reason::none;
+    bool tool_in_cut = true;  ///< by what is known of the machine, besides the rooms' own word
+  };
+
+  struct Output {
+    signal::AxisValues offset_mm{};
+    outcome::Reason reason = outcome::Reason::none;
+    bool at_zero = true;
+  };
+
+  struct State {
+    signal::AxisValues offset_mm{};
+    double time_s = 0.0;
+    bool started = false;
+  };
+
+  [[nodiscard]] static outcome::Result<OffsetEnvelope> make(const Config& config);
+
+  Output update(const Input& input) noexcept;
+
+  void reset() noexcept { state_ = {}; }
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// A state that is not finite is not taken: the envelope starts anew.
+  void restore(const State& state) noexcept;
+
+ private:
+  explicit OffsetEnvelope(const Config& config) noexcept : config_(config) {}
+  bool approach(const signal::AxisValues& target_mm, double step_mm) noexcept;
+
+  Config config_;
+  State state_;
+};
+
+}  // namespace steadyrest::kernel::override

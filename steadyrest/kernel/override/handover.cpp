@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <steadyrest/kernel/override/arbiter.hpp>
+#include <steadyrest/kernel/override/handover.hpp>
+
+namespace steadyrest::kernel::override {
+
+outcome::Result<Handover> Handover::make(Table table, const Config& config) {
+  // A word that is never written needs no safe way between its steps.
+  const bool latched = !config.available || (config.latched && table.latched_word());
+  auto stepper = Stepper::make(table, {.latched = latched, .scan_period_s = table.scan_period_s()});
+  if (!stepper) {
+    return std::unexpected(std::move(stepper.error()));
+  }
+  return Handover(std::move(table), *stepper, config);
+}
+
+bool Handover::may_release(double time_s, const RatioEnvelope::Output& wanted) const noexcept {
+  const bool above_panel = word_ratio() > wanted.panel_ratio + kRatioTolerance;
+  if (wanted.panel_ratio == 0.0 || (above_panel && !table_.layer_may_exceed_panel())) {
+    return true;
+  }
+  if (!wanted.hand_back || !stepper_.settled(time_s)) {
+    return false;
+  }
+  const auto panel_step = table_.floor_step(wanted.panel_ratio);
+  return !panel_step || word_ratio() == table_.ratio(*panel_step);
+}
+
+void Handover::follow_panel(double time_s, const RatioEnvelope::Output& wanted) noexcept {
+  const auto panel_step = table_.floor_step(wanted.panel_ratio);
+  if (!wanted.panel_known || !panel_step || !stepper_.settled(time_s)) {
+    return;
+  }
+  stepper_.place(time_s, *panel_step);
+  if (config_.available && !wanted.hand_back && stepper_.settled(time_s)) {
+    masked_ = true;
+    stepper_.touch(time_s);
+    write_word(time_s, wanted);
+  }
+}
+
+void Handover::write_word(double time_s, const RatioEnvelope::Output& wanted) noexcept {
+  stepper_.update(time_s, table_.floor_step(wanted.ratio).value_or(0));
+}
+
+Handover::Output Handover::update(double time_s, const RatioEnvelope::Output& wanted) noexcept {
+  if (!stepper_.state().written) {
+    stepper_.touch(time_s);
+  }
+  if (!masked_) {
+    follow_panel(time_s, wanted);
+  } else if (may_release(time_s, wanted)) {
+    masked_ = false;
+    stepper_.touch(time_s);
+  } else {
+    write_word(time_s, wanted);
+  }
+  const std::size_t step = stepper_.state().step;
+  return {.ratio = masked_ ? word_ratio() : wanted.panel_ratio,
+          .code = table_.code(stepper_.state().step),
+          .masks_panel = masked_,
+          .reach_low = step > 0 ? table_.ratio(step - 1) : 0.0,
+          .reach_high = step + 1 < table_.steps() ? table_.ratio(step + 1) : kMaxRequestRatio};
+}
+
+void Handover::restore(const State& state) noexcept {
+  stepper_.restore(state.word);
+  masked_ = state.masked && config_.available;
+}
+
+}  // namespace steadyrest::kernel::override

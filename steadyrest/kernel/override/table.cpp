@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <steadyrest/kernel/override/gray.hpp>
+#include <steadyrest/kernel/override/table.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+using Check = std::optional<outcome::Refusal>;
+
+outcome::Refusal refusal(std::string what, std::string to_do) {
+  return {.kind = outcome::Kind::bad_input,
+          .file = {},
+          .line = 0,
+          .what = std::move(what),
+          .to_do = std::move(to_do)};
+}
+
+Check check_ratios(const std::vector<double>& ratio) {
+  if (ratio.empty()) {
+    return refusal("an override table has no steps", "list the ratio of each switch position");
+  }
+  for (std::size_t i = 0; i < ratio.size(); ++i) {
+    if (!std::isfinite(ratio[i]) || ratio[i] < 0.0) {
+      return refusal(
+          fmt::format("override step {} has ratio {}; allowed is a finite ratio ≥ 0", i, ratio[i]),
+          "correct the value");
+    }
+    if (i > 0 && ratio[i] < ratio[i - 1]) {
+      return refusal(fmt::format("override step {} has ratio {}, less than {} of the step before",
+                                 i, ratio[i], ratio[i - 1]),
+                     "list the steps by rising ratio");
+    }
+  }
+  return std::nullopt;
+}
+
+Check check_codes(const Table::Config& config) {
+  const auto& code = config.code;
+  if (code.size() != config.ratio.size()) {
+    return refusal(
+        fmt::format("an override table has {} ratios and {} codes", config.ratio.size(),
+                    code.size()),
+        "give each step one code, or a Gray table none for the codes of positions 1, 2, 3 …");
+  }
+  if (config.coding != machine::Coding::gray) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 1; i < code.size(); ++i) {
+    const int bits = std::popcount(code[i] ^ code[i - 1]);
+    if (bits != 1) {
+      return refusal(fmt::format("Gray codes {:05b} and {:05b} of override steps {} and {} differ "
+                                 "in {} bits; neighbours differ in exactly one",
+                                 code[i - 1], code[i], i - 1, i, bits),
+                     "correct the codes, or say that the coding is binary");
+    }
+  }
+  return std::nullopt;
+}
+
+Check check_scalars(const Table::Config& config) {
+  if (std::isnan(config.max_ratio) || config.max_ratio <= 0.0) {
+    return refusal(fmt::format("max_ratio of an override is {}; allowed is > 0", config.max_ratio),
+                   "give the ratio at which the control clips");
+  }
+  for (const double time_s : {config.scan_period_s, config.dead_time_s}) {
+    if (!std::isfinite(time_s) || time_s < 0.0) {
+      return refusal(
+          fmt::format("a time of an override table is {} s; allowed is finite and ≥ 0", time_s),
+          "correct scan period and dead time");
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::uint32_t> position_codes(std::size_t steps) {
+  std::vector<std::uint32_t> code(steps);
+  for (std::size_t i = 0; i < steps; ++i) {
+    code[i] = sinumerik_code(i);
+  }
+  return code;
+}
+
+}  // namespace
+
+outcome::Result<Table> Table::make(const Config& config) {
+  Config filled = config;
+  if (filled.code.empty() && filled.coding == machine::Coding::gray) {
+    filled.code = position_codes(filled.ratio.size());
+  }
+  for (const Check& check :
+       {check_ratios(filled.ratio), check_codes(filled), check_scalars(filled)}) {
+    if (check) {
+      return std::unexpected(*check);
+    }
+  }
+  Table table;
+  for (double& ratio : filled.ratio) {
+    ratio = std::min(ratio, filled.max_ratio);
+  }
+  for (std::size_t i = 0; i < filled.code.size(); ++i) {
+    table.by_code_.push_back({.code = filled.code[i], .step = static_cast<std::uint32_t>(i)});
+  }
+  std::ranges::sort(table.by_code_, {}, &CodeEntry::code);
+  const auto twin = std::ranges::adjacent_find(table.by_code_, {}, &CodeEntry::code);
+  if (twin != table.by_code_.end()) {
+    return std::unexpected(refusal(fmt::format("override steps {} and {} have the same code {:#b}",
+                                               twin->step, (twin + 1)->step, twin->code),
+                                   "give each step its own code"));
+  }
+  table.ratio_ = std::move(filled.ratio);
+  table.code_ = std::move(filled.code);
+  table.coding_ = filled.coding;
+  table.scan_period_s_ = filled.scan_period_s;
+  table.dead_time_s_ = filled.dead_time_s;
+  table.latched_word_ = filled.latched_word;
+  table.layer_may_exceed_panel_ = filled.layer_may_exceed_panel;
+  return table;
+}
+
+double Table::ratio(std::size_t step) const noexcept {
+  assert(step < ratio_.size());
+  return ratio_[step];
+}
+
+std::uint32_t Table::code(std::size_t step) const noexcept {
+  assert(step < code_.size());
+  return code_[step];
+}
+
+std::optional<std::size_t> Table::step_of_code(std::uint32_t code) const noexcept {
+  const auto entry = std::ranges::lower_bound(by_code_, code, {}, &CodeEntry::code);
+  if (entry == by_code_.end() || entry->code != code) {
+    return std::nullopt;
+  }
+  return entry->step;
+}
+
+std::optional<std::size_t> Table::floor_step(double ratio) const noexcept {
+  if (std::isnan(ratio)) {
+    return std::nullopt;
+  }
+  const auto above = std::ranges::upper_bound(ratio_, ratio + kRatioTolerance);
+  if (above == ratio_.begin()) {
+    return std::nullopt;
+  }
+  const auto lowest = std::ranges::lower_bound(ratio_, *(above - 1));
+  return static_cast<std::size_t>(lowest - ratio_.begin());
+}
+
+std::optional<std::size_t> Table::ceil_step(double ratio) const noexcept {
+  if (std::isnan(ratio)) {
+    return std::nullopt;
+  }
+  const auto step = std::ranges::lower_bound(ratio_, ratio - kRatioTolerance);
+  if (step == ratio_.end()) {
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(step - ratio_.begin());
+}
+
+std::optional<std::size_t> Table::nearest_step(double ratio) const noexcept {
+  const auto below = floor_step(ratio);
+  const auto above = ceil_step(ratio);
+  if (!below || !above) {
+    return below ? below : above;
+  }
+  return ratio - ratio_[*below] <= ratio_[*above] - ratio ? below : above;
+}
+
+}  // namespace steadyrest::kernel::override

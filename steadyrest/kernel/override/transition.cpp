@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include <steadyrest/kernel/override/transition.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+constexpr double kTimeTolerance = 1e-9;
+
+outcome::Refusal not_walkable(const Table& table, std::size_t from, std::size_t to) {
+  return {.kind = outcome::Kind::bad_input,
+          .file = {},
+          .line = 0,
+          .what = fmt::format(
+              "override codes {:#b} ({:g} %) and {:#b} ({:g} %) differ in {} bits: a reader that "
+              "sees the bits change one after another reads a value outside of the two",
+              table.code(from), 100.0 * table.ratio(from), table.code(to), 100.0 * table.ratio(to),
+              std::popcount(table.code(from) ^ table.code(to))),
+          .to_do = "use a port that latches the word as a whole, or a Gray table"};
+}
+
+}  // namespace
+
+bool change_is_safe(const Table& table, std::size_t from, std::size_t to) noexcept {
+  const std::uint32_t differing = table.code(from) ^ table.code(to);
+  const auto [lowest, highest] = std::minmax({table.ratio(from), table.ratio(to)});
+  std::uint64_t inside = 0;
+  for (std::size_t step = 0; step < table.steps(); ++step) {
+    const bool mixture = ((table.code(step) ^ table.code(from)) & ~differing) == 0;
+    if (mixture && table.ratio(step) >= lowest && table.ratio(step) <= highest) {
+      ++inside;
+    }
+  }
+  // Codes are distinct: the words are all good exactly when there are 2^k good codes among them.
+  return inside == std::uint64_t{1} << static_cast<unsigned>(std::popcount(differing));
+}
+
+outcome::Result<void> check_walk(const Table& table) {
+  for (std::size_t step = 1; step < table.steps(); ++step) {
+    if (!change_is_safe(table, step - 1, step)) {
+      return std::unexpected(not_walkable(table, step - 1, step));
+    }
+  }
+  return {};
+}
+
+outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config) {
+  if (!std::isfinite(config.scan_period_s) || config.scan_period_s < 0.0) {
+    return std::unexpected(outcome::Refusal{
+        .kind = outcome::Kind::bad_input,
+        .file = {},
+        .line = 0,
+        .what = fmt::format("scan period is {} s; allowed is finite and ≥ 0", config.scan_period_s),
+        .to_do = "give the period at which the override word is read"});
+  }
+  if (!config.latched) {
+    if (auto walk = check_walk(table); !walk) {
+      return std::unexpected(walk.error());
+    }
+  }
+  return Stepper(table.steps(), config);
+}
+
+std::size_t Stepper::update(double time_s, std::size_t target) noexcept {
+  target = std::min(target, steps_ - 1);
+  if (!state_.written) {
+    touch(time_s);
+  }
+  if (!std::isfinite(time_s) || target == state_.step) {
+    return state_.step;
+  }
+  if (config_.latched) {
+    place(time_s, target);
+  } else if (time_s < state_.changed_s) {
+    state_.changed_s = time_s;
+  } else if (settled(time_s)) {
+    place(time_s, target > state_.step ? state_.step + 1 : state_.step - 1);
+  }
+  return state_.step;
+}
+
+void Stepper::place(double time_s, std::size_t step) noexcept {
+  step = std::min(step, steps_ - 1);
+  if (step != state_.step) {
+    state_.step = step;
+    touch(time_s);
+  }
+}
+
+void Stepper::touch(double time_s) noexcept {
+  if (std::isfinite(time_s)) {
+    state_.changed_s = time_s;
+    state_.written = true;
+  }
+}
+
+bool Stepper::settled(double time_s) const noexcept {
+  return config_.latched ||
+         (state_.written && time_s - state_.changed_s >= config_.scan_period_s - kTimeTolerance);
+}
+
+void Stepper::restore(const State& state) noexcept {
+  state_ = state;
+  state_.step = std::min(state_.step, steps_ - 1);
+  if (!std::isfinite(state_.changed_s)) {
+    state_.changed_s = 0.0;
+  }
+}
+
+}  // namespace steadyrest::kernel::override

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/override/table.hpp>
+
+/// Safe change between two steps of an override switch.
+///
+/// Law: while the bits in which code(from) and code(to) differ change one after another, in any
+/// order, a reader may see each of the 2^k words that mix them. The change is safe when every one
+/// of these words is in the table with a ratio inside [ratio(from), ratio(to)]. One bit (Gray
+/// neighbours) is always safe; a binary carry (0111 → 1000) mixes 16 words and is not.
+namespace steadyrest::kernel::override {
+
+/// The change in one go, seen bit by bit, shows nothing outside [from, to]. O(steps).
+[[nodiscard]] bool change_is_safe(const Table& table, std::size_t from, std::size_t to) noexcept;
+
+/// Each change between neighbours is safe, so that any change may be walked; else a refusal that
+/// names the first pair that is not.
+[[nodiscard]] outcome::Result<void> check_walk(const Table& table);
+
+/// Brings the word of one override switch from step to step.
+///
+/// A latched word takes effect as a whole and goes to its target at once. Any other word walks from
+/// neighbour to neighbour and stands for one scan period at each, so that at most one bit is in
+/// motion at any scan. Works on step numbers; ratio and code are the table's.
+class Stepper {
+ public:
+  struct Config {
+    bool latched = true;          ///< the word takes effect as a whole
+    double scan_period_s = 0.01;  ///< s, ≥ 0: the reader looks this often
+  };
+
+  struct State {
+    std::size_t step = 0;
+    double changed_s = 0.0;  ///< time of the last change
+    bool written = false;    ///< a first word has been out; what stood before is not known
+  };
+
+  /// Refuses a word that is neither latched nor safe to walk, and a time that is not finite or < 0.
+  [[nodiscard]] static outcome::Result<Stepper> make(const Table& table, const Config& config);
+
+  /// One cycle: the step whose word is to be written now. A time that is not finite changes
+  /// nothing; one that runs backwards starts the wait anew.
+  std::size_t update(double time_s, std::size_t target) noexcept;
+
+  /// Puts the word at a step at once: allowed only while nothing reads it (the mask is off).
+  void place(double time_s, std::size_t step) noexcept;
+  /// Says that something that belongs to the word changed (the mask): the next change waits.
+  void touch(double time_s) noexcept;
+  /// The word has stood for a whole scan: every reader has seen it.
+  [[nodiscard]] bool settled(double time_s) const noexcept;
+
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// A step beyond the table is brought to its last.
+  void restore(const State& state) noexcept;
+
+ private:
+  Stepper(std::size_t steps, const Config& config) noexcept : config_(config), steps_(steps) {}
+
+  Config config_;
+  std::size_t steps_;
+  State state_;
+};
+
+}  // namespace steadyrest::kernel::override

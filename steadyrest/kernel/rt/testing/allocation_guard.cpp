@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+
+namespace steadyrest::kernel::rt::testing {
+namespace {
+
+thread_local std::size_t allocation_count = 0;
+
+void* allocate(std::size_t size) {
+  ++allocation_count;
+  // NOLINTNEXTLINE(cppcoreguidelines-no-malloc): this is what operator new is made of.
+  return std::malloc(size == 0 ? 1 : size);
+}
+
+void* allocate_aligned(std::size_t size, std::align_val_t alignment) {
+  ++allocation_count;
+  const auto align = static_cast<std::size_t>(alignment);
+  return std::aligned_alloc(align, (size + align - 1) / align * align);
+}
+
+void* or_throw(void* memory) {
+  if (memory == nullptr) {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+}  // namespace
+
+AllocationGuard::AllocationGuard() noexcept : at_start_(allocation_count) {}
+
+AllocationGuard::~AllocationGuard() {
+  if (const std::size_t count = allocations(); count != 0) {
+    ADD_FAILURE() << count << " allocations where none is allowed";
+  }
+}
+
+std::size_t AllocationGuard::allocations() const noexcept {
+  return allocation_count - at_start_;
+}
+
+void AllocationGuard::forgive() noexcept {
+  at_start_ = allocation_count;
+}
+
+}  // namespace steadyrest::kernel::rt::testing
+
+namespace guard = steadyrest::kernel::rt::testing;
+
+// The global operators; the array and sized forms of the library end in these.
+void* operator new(std::size_t size) {
+  return guard::or_throw(guard::allocate(size));
+}
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return guard::allocate(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return guard::or_throw(guard::allocate_aligned(size, alignment));
+}
+void* operator new(std::size_t size, std::align_val_t alignment,
+                   const std::nothrow_t& /*tag*/) noexcept {
+  return guard::allocate_aligned(size, alignment);
+}
+void* operator new[](std::size_t size) {
+  return guard::or_throw(guard::allocate(size));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return guard::or_throw(guard::allocate_aligned(size, alignment));
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t /*size*/,
+                       std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}

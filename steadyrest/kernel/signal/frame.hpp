@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include <steadyrest/kernel/signal/path.hpp>
+
+namespace steadyrest::kernel::signal {
+
+/// One axis as its control shows it in one cycle, and what the motion room makes of its counter.
+///
+/// A latching counter shows its count and when the last edge came. Line n is the border between the
+/// counts n − 1 and n; with counts of length q the reading `actual_mm` is q·count, so line n lies
+/// at q·(n − ½).
+struct AxisSample {
+  double command_mm = 0.0;          ///< commanded position
+  double actual_mm = 0.0;           ///< position by the encoder
+  double following_error_mm = 0.0;  ///< command − actual, as the control reports it
+  bool encoder_shown = false;       ///< `count` is there
+  std::int64_t count = 0;           ///< of the encoder at `time_s`, ×4 decoded
+  /// Time of the last edge up to now, in the frame's time; NaN: none yet, or no time stamps.
+  double edge_s = std::numeric_limits<double>::quiet_NaN();
+  std::int8_t edge_direction = 0;  ///< +1: that edge raised the count, −1: lowered; 0: not shown
+
+  // Estimates at `time_s`: 0 and infinite bounds until the motion room has filled them in, and
+  // where it has none. |true − estimate| ≤ bound as long as the axis keeps the machine file's
+  // limits.
+  double velocity_mm_s = 0.0;
+  double acceleration_mm_s2 = 0.0;
+  double velocity_bound_mm_s = std::numeric_limits<double>::infinity();
+  double acceleration_bound_mm_s2 = std::numeric_limits<double>::infinity();
+};
+
+/// Override of feed, rapid or spindle as the control has it.
+struct OverrideState {
+  double panel_ratio = 1.0;      ///< what the operator's switch says
+  double effective_ratio = 1.0;  ///< what is in force now
+  std::uint32_t panel_code = 0;  ///< raw code of the switch
+  bool panel_code_known = true;  ///< the code stands in the machine's table
+};
+
+/// All inputs of one cycle. A plain value; time comes in with it, there is no clock below.
+struct Frame {
+  double time_s = 0.0;  ///< time of the sample, monotone
+  double age_s = 0.0;   ///< how old the sample was when it was read
+  std::uint64_t cycle = 0;
+  std::uint8_t axis_count = 3;
+  std::array<AxisSample, kMaxAxes> axis{};
+  OverrideState feed;
+  OverrideState rapid;
+  OverrideState spindle;
+  Motion motion = Motion::idle;
+  std::uint32_t program_line = 0;
+  double programmed_feed_mm_s = 0.0;      ///< F of the active block at 100 %
+  double path_speed_mm_s = 0.0;           ///< commanded path speed now
+  bool feed_per_revolution = false;       ///< that F follows the spindle by itself
+  bool speed_modulation = false;          ///< the program has switched it on (M38)
+  double spindle_programmed_rev_s = 0.0;  ///< S of the program at 100 %, signed; 0 = stands still
+  double spindle_command_rev_s = 0.0;     ///< what the drive is told, override included
+  double spindle_actual_rev_s = 0.0;
+  PathView path;                  ///< empty when the program's path is not known to the layer
+  std::size_t path_index = 0;     ///< segment in which the commanded point stands
+  double path_position_mm = 0.0;  ///< commanded path length since the program's start
+};
+
+}  // namespace steadyrest::kernel::signal

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <steadyrest/math/geometry/foot_point.hpp>
+#include <steadyrest/math/geometry/segment.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+
+namespace steadyrest::math::geometry {
+namespace {
+
+using kernel::signal::Geometry;
+using kernel::signal::PathSegment;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr int kMaxSamples = 25;  // π/6 apart: two turns
+constexpr int kMaxSteps = 12;
+
+Foot foot_on_line(const PathSegment& segment, const Point& query, double u_low,
+                  double u_high) noexcept {
+  const Point along = subtract(segment.end_mm, segment.start_mm);
+  const double length_squared = norm_squared(along);
+  double u = u_low;
+  if (length_squared > 0.0) {
+    u = std::clamp(dot(subtract(query, segment.start_mm), along) / length_squared, u_low, u_high);
+  }
+  const Point point = add_scaled(segment.start_mm, along, u);
+  return {u, distance(point, query), point};
+}
+
+/// The query in the arc's own frame: x, y in its plane about the centre, z along the axis.
+struct Local {
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+};
+
+Local local_of(const PathSegment& segment, const ArcFrame& frame, const Point& query) noexcept {
+  const Point from_centre = subtract(query, segment.centre_mm);
+  return {dot(from_centre, frame.e1), dot(from_centre, frame.e2), dot(from_centre, segment.axis)};
+}
+
+Point global_of(const PathSegment& segment, const ArcFrame& frame, const Local& local) noexcept {
+  Point point = add_scaled(segment.centre_mm, frame.e1, local.x);
+  point = add_scaled(point, frame.e2, local.y);
+  return add_scaled(point, segment.axis, local.z);
+}
+
+Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low, double u_high,
+                    double u_near) noexcept {
+  const ArcFrame frame = arc_frame(segment);
+  const Local q = local_of(segment, frame, query);
+  const double rho = std::hypot(q.x, q.y);
+  const double angle = std::atan2(q.y, q.x);
+  // The turn whose point at this angle lies nearest to u_near, then moved into the permitted part.
+  const double near_angle = u_near * segment.sweep_rad;
+  double best = angle + kTurn * std::round((near_angle - angle) / kTurn);
+  const double low = u_low * segment.sweep_rad;
+  const double high = u_high * segment.sweep_rad;
+  if (best < low) {
+    best += kTurn * std::ceil((low - best) / kTurn);
+  } else if (best > high) {
+    best -= kTurn * std::ceil((best - high) / kTurn);
+  }
+  if (best >= low && best <= high && rho > 0.0) {
+    const double grow = segment.radius_mm / rho;
+    const Local foot{q.x * grow, q.y * grow, 0.0};
+    return {best / segment.sweep_rad, std::hypot(rho - segment.radius_mm, q.z),
+            global_of(segment, frame, foot)};
+  }
+  const auto at = [&](double u) {
+    const double a = u * segment.sweep_rad;
+    const Local p{segment.radius_mm * std::cos(a), segment.radius_mm * std::sin(a), 0.0};
+    return Foot{u, std::hypot(p.x - q.x, std::hypot(p.y - q.y, q.z)), global_of(segment, frame, p)};
+  };
+  const Foot first = at(u_low);
+  const Foot last = at(u_high);
+  return last.distance_mm < first.distance_mm ? last : first;
+}
+
+/// Helix or spiral in its own frame: squared distance to the query and derivatives by u.
+class Curve {
+ public:
+  Curve(const PathSegment& segment, const Local& query) noexcept
+      : segment_(segment), query_(query), growth_(segment.radius_end_mm - segment.radius_mm) {}
+
+  [[nodiscard]] Local point(double u) const noexcept {
+    const double angle = u * segment_.sweep_rad;
+    const double r = segment_.radius_mm + u * growth_;
+    return {r * std::cos(angle), r * std::sin(angle), u * segment_.rise_mm};
+  }
+  [[nodiscard]] double distance_squared(double u) const noexcept {
+    const Local p = point(u);
+    const double dx = p.x - query_.x;
+    const double dy = p.y - query_.y;
+    const double dz = p.z - query_.z;
+    return dx * dx + dy * dy + dz * dz;
+  }
+  /// Half the first and half the second derivative of the squared distance.
+  [[nodiscard]] std::array<double, 2> slope(double u) const noexcept {
+    const double omega = segment_.sweep_rad;
+    const double c = std::cos(u * omega);
+    const double s = std::sin(u * omega);
+    const double r = segment_.radius_mm + u * growth_;
+    const double dx = r * c - query_.x;
+    const double dy = r * s - query_.y;
+    const double dz = u * segment_.rise_mm - query_.z;
+    const double px = growth_ * c - r * omega * s;
+    const double py = growth_ * s + r * omega * c;
+    const double pz = segment_.rise_mm;
+    const double qx = -2.0 * growth_ * omega * s - r * omega * omega * c;
+    const double qy = 2.0 * growth_ * omega * c - r * omega * omega * s;
+    return {dx * px + dy * py + dz * pz, px * px + py * py + pz * pz + dx * qx + dy * qy};
+  }
+
+ private:
+  const PathSegment& segment_;
+  Local query_;
+  double growth_;
+};
+
+double refine(const Curve& curve, double low, double high, double start) noexcept {
+  // A bracket that ends at the permitted part's end may have its minimum there.
+  if (start <= low && curve.slope(low)[0] >= 0.0) {
+    return low;
+  }
+  if (start >= high && curve.slope(high)[0] <= 0.0) {
+    return high;
+  }
+  double u = start;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const auto [first, second] = curve.slope(u);
+    (first > 0.0 ? high : low) = u;
+    double next = second > 0.0 ? u - first / second : low - 1.0;
+    if (!(next >= low && next <= high)) {
+      next = 0.5 * (low + high);
+    }
+    if (std::abs(next - u) <= 1e-15) {
+      return next;
+    }
+    u = next;
+  }
+  return u;
+}
+
+Foot foot_on_helix(const PathSegment& segment, const Point& query, double u_low, double u_high,
+                   double u_near) noexcept {
+  const double max_step = std::numbers::pi / 6.0 / segment.sweep_rad;
+  const double reach = max_step * (kMaxSamples - 1) / 2.0;
+  const double near = std::clamp(u_near, u_low, u_high);
+  const double low = std::max(u_low, near - reach);
+  const double high = std::min(u_high, near + reach);
+  const int count =
+      std::clamp(static_cast<int>(std::ceil((high - low) / max_step)) + 1, 3, kMaxSamples);
+  const double step = (high - low) / (count - 1);
+
+  const ArcFrame frame = arc_frame(segment);
+  const Curve curve(segment, local_of(segment, frame, query));
+  std::array<double, kMaxSamples> sample{};
+  for (int i = 0; i < count; ++i) {
+    sample[static_cast<std::size_t>(i)] = curve.distance_squared(low + step * i);
+  }
+  double best_u = low;
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const bool falls_before = i == 0 || sample[at] <= sample[at - 1];
+    const bool rises_after = i == count - 1 || sample[at] <= sample[at + 1];
+    if (!falls_before || !rises_after) {
+      continue;
+    }
+    const double u = refine(curve, std::max(low, low + step * (i - 1)),
+                            std::min(high, low + step * (i + 1)), low + step * i);
+    const double squared = curve.distance_squared(u);
+    if (squared < best) {
+      best = squared;
+      best_u = u;
+    }
+  }
+  return {best_u, std::sqrt(best), global_of(segment, frame, curve.point(best_u))};
+}
+
+}  // namespace
+
+Foot foot_point(const PathSegment& segment, const Point& query, double u_low, double u_high,
+                double u_near) noexcept {
+  if (segment.geometry == Geometry::line || !(segment.sweep_rad > 0.0)) {
+    return foot_on_line(segment, query, u_low, u_high);
+  }
+  if (segment.rise_mm == 0.0 && segment.radius_end_mm == segment.radius_mm) {
+    return foot_on_circle(segment, query, u_low, u_high, u_near);
+  }
+  return foot_on_helix(segment, query, u_low, u_high, u_near);
+}
+
+}  // namespace steadyrest::math::geometry

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+/// How far one line of the encoder stands from where its neighbours say it should: no reference is
+/// needed, only motion that is smooth over a few dozen lines.
+///
+/// Through 2m + 1 passages in one direction, at the times tᵢ, a cubic x(t) is laid by least
+/// squares; the middle line's error is fit(t) − x, for it was passed when the axis stood there. m
+/// is kHalf, and less, down to kLeast, at the ends of a motion in one direction. What errors have
+/// in common over more than the window is not seen, nor does it hurt: it is a slow error of scale.
+/// Principle: Boggarpu, Kavanagh, IEEE TIM 2010 (learning the lines in place).
+namespace steadyrest::motion::online {
+
+class LineFit {
+ public:
+  static constexpr std::size_t kHalf = 24;  ///< m
+  static constexpr std::size_t kLeast = 6;
+  static constexpr std::size_t kWindow = 2 * kHalf + 1;
+
+  struct Residual {
+    std::int64_t line = 0;
+    double error_mm = 0.0;  ///< to be added to the position that was given for the line
+    double rms_mm = 0.0;    ///< of all residuals in the window
+    bool valid = false;
+  };
+
+  /// `max_span_s`: a window that took longer is not used, the motion is not smooth enough for it.
+  explicit LineFit(double max_span_s = 0.02) noexcept : max_span_s_(max_span_s) {}
+
+  /// A passage in order of time; a turn or a lost edge starts anew. Valid from the window's fill
+  /// on.
+  Residual push(double t_s, double position_mm, std::int64_t line, std::int8_t direction) noexcept;
+  /// Whether a passage would start anew; then the windows at the end of what was there are
+  /// `tail(longest_tail())` … `tail(kLeast)`.
+  [[nodiscard]] bool breaks(double t_s, std::int64_t line, std::int8_t direction,
+                            bool lost) const noexcept;
+  [[nodiscard]] std::size_t longest_tail() const noexcept {
+    return count_ < 2 ? 0 : (count_ - 2) / 2;  // the last `push` had one more
+  }
+  [[nodiscard]] Residual tail(std::size_t half) const noexcept;
+  void clear() noexcept { count_ = 0; }
+
+ private:
+  /// Every passage stands in both halves of the rings, so that any window is contiguous.
+  void put(double t_s, double position_mm) noexcept;
+
+  double max_span_s_;
+  std::array<double, 2 * kWindow> t_s_{};
+  std::array<double, 2 * kWindow> position_mm_{};
+  std::int64_t line_ = 0;  ///< the last one passed
+  std::size_t next_ = 0;
+  std::size_t count_ = 0;
+  std::int8_t direction_ = 0;
+};
+
+}  // namespace steadyrest::motion::online

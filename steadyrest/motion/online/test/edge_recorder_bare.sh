@@ -1,0 +1,37 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# edge_recorder_bare.sh SOURCE COMPILER…: the recorder compiles without a system under it, includes nothing but
+# <cstddef> and <cstdint>, and needs nothing at link time but memcpy, memset and memmove.
+set -eu
+source=$1
+here=$(dirname "$source")/..
+shift
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+allowed='<cstddef>|<cstdint>|<steadyrest/motion/online/edge_recorder.hpp>'
+if grep -hE '^#include' "$here/edge_recorder.hpp" "$here/edge_inputs.hpp" "$here/edge_ring.hpp" | grep -vE "$allowed"; then
+  echo 'the recorder includes more than <cstddef> and <cstdint>' >&2
+  exit 1
+fi
+if grep -nE '\b(float|double|new|delete|std::(vector|array|string))\b' "$here/edge_recorder.hpp" "$here/edge_inputs.hpp" "$here/edge_ring.hpp" | grep -vE '[0-9]+: *///'; then
+  echo 'the recorder is integers without allocation' >&2
+  exit 1
+fi
+tried=0
+for compiler; do
+  command -v "$compiler" >/dev/null || { echo "no $compiler here: left out"; continue; }
+  for level in -O0 -O2 -Os; do
+    "$compiler" -std=c++20 -ffreestanding -fno-exceptions -fno-rtti -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow \
+      -Werror "$level" -I"$here/../../.." -c "$source" -o "$work/bare.o"
+    nm -u "$work/bare.o" | awk '{print $NF}' | grep -vxE 'memcpy|memset|memmove' >"$work/undefined" || true
+    if [ -s "$work/undefined" ]; then
+      echo "$compiler $level leaves undefined:" >&2
+      cat "$work/undefined" >&2
+      exit 1
+    fi
+    tried=$((tried + 1))
+  done
+done
+echo "built bare $tried times"
+[ "$tried" -ge 3 ]

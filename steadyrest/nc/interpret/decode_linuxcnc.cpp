@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string>
+
+#include <steadyrest/nc/interpret/codes.hpp>
+#include <steadyrest/nc/interpret/interpreter.hpp>
+
+namespace steadyrest::nc::interpret {
+
+using read::Block;
+using read::Word;
+
+bool Interpreter::decode_linuxcnc(const Block& block, Step& step) {
+  for (const Word& word : block.words()) {
+    const bool accepted = word.letter == 'G'   ? take_g(word, step)
+                          : word.letter == 'M' ? take_m(word, step)
+                                               : take_letter(word, step);
+    if (!accepted) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Interpreter::take_g(const Word& word, Step& step) {
+  const double tenfold = word.value * 10.0;
+  const double code = std::round(tenfold);
+  if (!(code >= 0.0 && code < 1000.0) || std::abs(tenfold - code) > 1e-3) {
+    return refuse_word(step.line, word, "unknown_g_code", "a G word that is not known");
+  }
+  return put_g(word, static_cast<int>(code), step);
+}
+
+bool Interpreter::put_g(const Word& word, int code, Step& step) {
+  const GroupOfG found = group_of_g(code);
+  if (!found.known) {
+    const std::string_view note = known_but_refused_g(code);
+    return note.empty()
+               ? refuse_word(step.line, word, "unknown_g_code", "a G word that is not known")
+               : refuse_word(step.line, word, "g_code_not_interpreted", note);
+  }
+  std::int16_t& place = step.g[static_cast<std::size_t>(found.group)];
+  if (place != kNoCode) {
+    return refuse_word(step.line, word, "same_modal_group",
+                       "a second G word of the same modal group in one block");
+  }
+  place = static_cast<std::int16_t>(code);
+  return true;
+}
+
+bool Interpreter::is_modulation(const Word& word) const noexcept {
+  const bool on = config_.modulation_on != 0 && word.value == config_.modulation_on;
+  return on || (config_.modulation_off != 0 && word.value == config_.modulation_off);
+}
+
+bool Interpreter::take_modulation(const Word& word, Step& step) {
+  if (step.modulation >= 0) {
+    return refuse_word(step.line, word, "same_modal_group",
+                       "a second M word of the same modal group in one block");
+  }
+  step.modulation = word.value == config_.modulation_on ? 1 : 0;
+  return true;
+}
+
+bool Interpreter::take_m(const Word& word, Step& step) {
+  if (is_modulation(word)) {
+    return take_modulation(word, step);
+  }
+  if (word.value != std::floor(word.value) || word.value < 0.0 || word.value > 1e6) {
+    return refuse_word(step.line, word, "unknown_m_code", "an M word that is not known");
+  }
+  return put_m(word, static_cast<int>(word.value), step);
+}
+
+bool Interpreter::put_m(const Word& word, int code, Step& step) {
+  const GroupOfM found = group_of_m(code);
+  if (!found.known) {
+    const std::string_view note = known_but_refused_m(code);
+    return note.empty()
+               ? refuse_word(step.line, word, "unknown_m_code", "an M word that is not known")
+               : refuse_word(step.line, word, "m_code_not_interpreted", note);
+  }
+  std::int16_t& place = step.m[static_cast<std::size_t>(found.group)];
+  if (place != kNoCode) {
+    return refuse_word(step.line, word, "same_modal_group",
+                       "a second M word of the same modal group in one block");
+  }
+  place = static_cast<std::int16_t>(code);
+  return true;
+}
+
+bool Interpreter::take_letter(const Word& word, Step& step) {
+  return put_letter(word, word.letter, word.value, step);
+}
+
+bool Interpreter::put_letter(const Word& word, char letter, double value, Step& step) {
+  const std::uint32_t bit = Step::bit(letter);
+  if ((step.mask & bit) != 0) {
+    return refuse_word(step.line, word, "word_twice",
+                       std::string{"a second "} + letter + " word in one block");
+  }
+  if ((bit & kAxisMask) != 0 && (bit & axes_allowed_) == 0) {
+    return refuse_word(
+        step.line, word, "no_such_axis",
+        std::string{"the machine has no axis "} + letter + "; it has " + config_.axes);
+  }
+  step.set(letter, value);
+  return true;
+}
+
+}  // namespace steadyrest::nc::interpret

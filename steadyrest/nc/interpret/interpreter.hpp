@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/arc.hpp>
+#include <steadyrest/nc/interpret/config.hpp>
+#include <steadyrest/nc/interpret/move.hpp>
+#include <steadyrest/nc/interpret/state.hpp>
+#include <steadyrest/nc/interpret/step.hpp>
+#include <steadyrest/nc/read/block.hpp>
+#include <steadyrest/nc/read/refused.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// Executes blocks: keeps the modal state and gives moves and events to a sink.
+///
+/// Order within a block, as LinuxCNC has it: feed mode, F, S, T, tool change, spindle, coolant,
+/// override switches, dwell, plane, units, tool length, work offset, path mode, distance mode,
+/// retract mode, offsets and reference points, motion, program stop.
+///
+/// A block is checked before it acts, but a fault that shows only while it acts (a cycle's missing
+/// word) may leave moves of the same block behind it; what was refused is never replaced by a
+/// guess. After a refusal the state is that of the last point that is certain: stop there.
+class Interpreter {
+ public:
+  static kernel::outcome::Result<Interpreter> make(Config config);
+
+  /// False when the block is refused: see `refused()`.
+  bool execute(const read::Block& block, Sink& sink);
+
+  [[nodiscard]] bool finished() const noexcept { return finished_; }
+  [[nodiscard]] const read::Refused& refused() const noexcept { return refused_; }
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// Looks at a block's words without executing: false when a word is not in the dialect.
+  bool survey(const read::Block& block);
+
+ private:
+  explicit Interpreter(Config config);
+
+  // decoding, one file for each dialect
+  bool decode(const read::Block& block, Step& step);
+  bool decode_linuxcnc(const read::Block& block, Step& step);
+  bool decode_fanuc(const read::Block& block, Step& step);
+  bool decode_sinumerik(const read::Block& block, Step& step);
+  bool take_g(const read::Word& word, Step& step);
+  bool take_m(const read::Word& word, Step& step);
+  [[nodiscard]] bool is_modulation(const read::Word& word) const noexcept;
+  bool take_modulation(const read::Word& word, Step& step);
+  bool take_letter(const read::Word& word, Step& step);
+  bool put_g(const read::Word& word, int code, Step& step);
+  bool put_m(const read::Word& word, int code, Step& step);
+  bool put_letter(const read::Word& word, char letter, double value, Step& step);
+  bool fanuc_g(const read::Word& word, Step& step);
+  bool fanuc_m(const read::Word& word, Step& step);
+  bool fanuc_letter(const read::Word& word, Step& step);
+  bool fanuc_finish(Step& step);
+  bool sinumerik_g(const read::Word& word, Step& step);
+  bool sinumerik_m(const read::Word& word, Step& step);
+  bool sinumerik_letter(const read::Word& word, Step& step);
+  bool sinumerik_name(const read::Word& word, Step& step);
+  bool sinumerik_finish(Step& step);
+
+  // checks
+  bool choose_motion(const Step& step);
+  bool check(const Step& step);
+  bool check_non_modal(const Step& step);
+  bool check_unused(const Step& step);
+  bool check_values(const Step& step);
+
+  // execution
+  bool act(const Step& step);
+  bool set_feed(const Step& step);
+  bool set_spindle_speed(const Step& step);
+  bool select_tool(const Step& step);
+  bool change_tool(const Step& step);
+  bool set_spindle(const Step& step);
+  void set_coolant(const Step& step);
+  bool set_override(const Step& step);
+  bool set_modes(const Step& step);
+  void set_units(const Step& step);
+  bool set_tool_length(const Step& step);
+  bool set_work_offset(const Step& step);
+  bool set_path_mode(const Step& step);
+  bool non_modal(const Step& step);
+  bool set_data(const Step& step);
+  bool set_g92(const Step& step, int code);
+  bool home(const Step& step, std::size_t which);
+  bool move(const Step& step);
+  bool stop(const Step& step);
+
+  // motion
+  bool straight(const Step& step);
+  bool thread(const Step& step);
+  bool arc(const Step& step);
+  bool arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end, PlanePoint& centre);
+  bool arc_fault(const Step& step, ArcFault fault);
+  bool cycle(const Step& step);
+  struct Hole;
+  bool remember_cycle(const Step& step);
+  bool drill(const Step& step, const Hole& hole);
+  bool peck(const Step& step, const Hole& hole);
+  bool tap(const Step& step, const Hole& hole);
+  bool bore(const Step& step, const Hole& hole);
+  bool back_bore(const Step& step, const Hole& hole);
+  bool has_feed(const Step& step);
+  bool end_point(const Step& step, Axes& end);
+  double component(const Step& step, std::size_t axis) const noexcept;
+
+  void emit(MoveKind kind, const Axes& end);
+  void emit_normal(MoveKind kind, std::size_t axis, double value);
+  void emit_dwell(double seconds);
+  void emit_spindle();
+  void emit_event(EventKind kind, double value);
+  void update_offset() noexcept;
+  const Tool* find_tool(std::int32_t number) const noexcept;
+  bool tool_number(const Step& step, char letter, std::int32_t& number);
+
+  bool refuse(const Step& step, char letter, std::string_view reason, std::string_view text);
+  bool refuse_code(const Step& step, char letter, int code, std::string_view reason,
+                   std::string_view text);
+  bool refuse_word(std::uint32_t line, const read::Word& word, std::string_view reason,
+                   std::string_view text);
+
+  Config config_;
+  State state_;
+  Step step_{};
+  std::uint32_t axes_allowed_ = 0;  ///< mask of the axis letters that the machine has
+  Move move_;
+  Sink* sink_ = nullptr;
+  int motion_now_ = -1;  ///< motion of the block in hand; −1 = none
+  bool finished_ = false;
+  double rounding_mm_ = 0.0;   ///< sinumerik ADIS in force
+  std::string selected_name_;  ///< sinumerik T="NAME", until M6
+  read::Refused refused_;
+};
+
+}  // namespace steadyrest::nc::interpret

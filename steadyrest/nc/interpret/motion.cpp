@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <steadyrest/nc/interpret/interpreter.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+constexpr bool is_rotary(std::size_t axis) noexcept {
+  return axis >= 3 && axis < 6;
+}
+
+bool only_rotary_moves(const Axes& from, const Axes& to) noexcept {
+  bool rotary = false;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from[i] != to[i]) {
+      if (!is_rotary(i)) {
+        return false;
+      }
+      rotary = true;
+    }
+  }
+  return rotary;
+}
+
+}  // namespace
+
+/// The word of an axis in mm or degrees.
+double Interpreter::component(const Step& step, std::size_t axis) const noexcept {
+  const double value = step[kAxisLetters[axis]];
+  return is_rotary(axis) ? value : value * state_.unit_mm;
+}
+
+bool Interpreter::move(const Step& step) {
+  const int motion = motion_now_;
+  if (motion == -1) {
+    return true;
+  }
+  if (motion == 800) {
+    state_.motion = 800;
+    return true;
+  }
+  if (is_cycle(motion)) {
+    return cycle(step);
+  }
+  state_.motion = motion;
+  if (motion == 330) {
+    return thread(step);
+  }
+  return motion == 20 || motion == 30 ? arc(step) : straight(step);
+}
+
+bool Interpreter::end_point(const Step& step, Axes& end) {
+  end = state_.position;
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    const char letter = kAxisLetters[i];
+    if (!step.has(letter)) {
+      continue;
+    }
+    const std::uint32_t bit = Step::bit(letter);
+    const bool incremental =
+        (step.incremental & bit) != 0 || (state_.incremental && (step.absolute & bit) == 0);
+    const double value = component(step, i);
+    if (step.machine_frame) {
+      // The tool's length stays in force on SINUMERIK, on the others it is suppressed as well.
+      const bool keeps_tool = config_.dialect == read::Dialect::sinumerik;
+      end[i] = value - state_.offset[i] + (keeps_tool ? state_.tool_offset[i] : 0.0);
+    } else {
+      end[i] = incremental ? state_.position[i] + value : value;
+    }
+  }
+  return true;
+}
+
+bool Interpreter::has_feed(const Step& step) {
+  if (state_.feed_mode == FeedMode::inverse_time) {
+    if (!step.has('F')) {
+      return refuse(step, 'G', "feed_missing", "an F word is needed in every cutting block of G93");
+    }
+    return step['F'] > 0.0 || refuse(step, 'F', "feed_missing", "a feed of zero");
+  }
+  if (!(state_.feed_mm_s > 0.0)) {
+    return refuse(step, step.has('F') ? 'F' : 'G', "feed_missing",
+                  "a cutting move, but no feed (F) is in force");
+  }
+  if (state_.feed_mode == FeedMode::per_revolution && state_.spindle_speed_rev_s == 0.0 &&
+      state_.surface_speed_mm_s == 0.0) {
+    return refuse(step, 'G', "spindle_speed_missing",
+                  "feed per revolution, but no spindle speed (S) is in force");
+  }
+  return true;
+}
+
+bool Interpreter::straight(const Step& step) {
+  const bool cutting = motion_now_ == 10;
+  if (cutting && !has_feed(step)) {
+    return false;
+  }
+  Axes end;
+  if (!end_point(step, end)) {
+    return false;
+  }
+  const PathMode mode = state_.path_mode;
+  if (step.exact_stop) {
+    state_.path_mode = PathMode::exact_stop;
+  }
+  emit(cutting ? MoveKind::linear : MoveKind::rapid, end);
+  state_.path_mode = mode;
+  return true;
+}
+
+// G33: the feed follows the spindle, K is the travel in a revolution.
+bool Interpreter::thread(const Step& step) {
+  if (!step.has('K')) {
+    return refuse_code(step, 'G', 33, "pitch_missing", "G33 without its pitch (K)");
+  }
+  if (state_.spindle_direction == 0 ||
+      (state_.spindle_speed_rev_s == 0.0 && state_.surface_speed_mm_s == 0.0)) {
+    return refuse_code(step, 'G', 33, "spindle_stands", "threading while the spindle stands");
+  }
+  Axes end;
+  if (!end_point(step, end)) {
+    return false;
+  }
+  const State kept = state_;
+  state_.feed_mode = FeedMode::per_revolution;
+  state_.feed_mm_s = std::abs(step['K']) * state_.unit_mm;
+  emit(MoveKind::thread, end);
+  state_.feed_mode = kept.feed_mode;
+  state_.feed_mm_s = kept.feed_mm_s;
+  return true;
+}
+
+bool Interpreter::arc_fault(const Step& step, ArcFault fault) {
+  const char letter = step.has('R') ? 'R' : step.has('I') ? 'I' : step.has('J') ? 'J' : 'K';
+  switch (fault) {
+    case ArcFault::radius_too_small:
+      return refuse(step, letter, "arc_radius_too_small",
+                    "the radius does not reach from the arc's start to its end");
+    case ArcFault::no_chord:
+      return refuse(step, letter, "arc_without_chord",
+                    "an arc by radius whose end is its start; write a full circle with I J K");
+    case ArcFault::zero_radius:
+      return refuse(step, letter, "arc_zero_radius", "the arc's centre lies on its start or end");
+    case ArcFault::does_not_close:
+      break;
+  }
+  return refuse(step, letter, "arc_does_not_close",
+                "the arc's end lies on another radius than its start");
+}
+
+bool Interpreter::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end,
+                             PlanePoint& centre) {
+  constexpr std::string_view kCentreLetters = "IJK";
+  const PlanePoint start{.first = state_.position[axes.first],
+                         .second = state_.position[axes.second]};
+  const PlanePoint stop{.first = end[axes.first], .second = end[axes.second]};
+  const ArcTolerance tolerance = arc_tolerance(state_.unit_mm != 1.0);
+  if (step.has('R')) {
+    const auto found =
+        centre_from_radius(start, stop, step['R'] * state_.unit_mm, motion_now_ == 20, tolerance);
+    if (!found) {
+      return arc_fault(step, found.error());
+    }
+    centre = *found;
+    return true;
+  }
+  const auto coordinate = [&](std::size_t axis, double from) {
+    const char letter = kCentreLetters[axis];
+    if (!step.has(letter)) {
+      return from;
+    }
+    const std::uint32_t bit = Step::bit(letter);
+    const bool absolute =
+        (step.absolute & bit) != 0 || (state_.centre_absolute && (step.incremental & bit) == 0);
+    return (absolute ? 0.0 : from) + step[letter] * state_.unit_mm;
+  };
+  if (state_.centre_absolute &&
+      !(step.has(kCentreLetters[axes.first]) && step.has(kCentreLetters[axes.second]))) {
+    return refuse(step, 'G', "arc_centre_missing",
+                  "absolute arc centres (G90.1) need both centre words of the plane");
+  }
+  centre = {.first = coordinate(axes.first, start.first),
+            .second = coordinate(axes.second, start.second)};
+  const auto checked = check_centre(start, stop, centre, tolerance);
+  return checked.has_value() || arc_fault(step, checked.error());
+}
+
+bool Interpreter::arc(const Step& step) {
+  if (!has_feed(step)) {
+    return false;
+  }
+  const PlaneAxes axes = axes_of(state_.plane);
+  const bool by_centre = (step.mask & kCentreMask) != 0;
+  if (!by_centre && !step.has('R')) {
+    return refuse(step, 'G', "arc_centre_missing", "an arc without radius (R) or centre (I J K)");
+  }
+  if (by_centre && step.has('R')) {
+    return refuse(step, 'R', "arc_centre_twice", "an arc with both radius and centre words");
+  }
+  const char foreign = "IJK"[axes.normal];
+  if (step.has(foreign)) {
+    return refuse(step, foreign, "arc_centre_off_plane",
+                  "a centre word that does not belong to the arc's plane");
+  }
+  const double turns = step.has('P') ? step['P'] : 1.0;
+  if (turns != std::floor(turns) || turns < 1.0 || turns > 1e6) {
+    return refuse(step, 'P', "arc_turns", "the number of turns is a whole number from 1");
+  }
+  Axes end;
+  PlanePoint centre;
+  if (!end_point(step, end) || !arc_centre(step, axes, end, centre)) {
+    return false;
+  }
+  move_.centre_mm = {state_.position[0], state_.position[1], state_.position[2]};
+  move_.centre_mm[axes.first] = centre.first;
+  move_.centre_mm[axes.second] = centre.second;
+  move_.normal = {};
+  move_.normal[axes.normal] = 1.0;
+  move_.turns = static_cast<int>(motion_now_ == 20 ? -turns : turns);
+  const PathMode mode = state_.path_mode;
+  if (step.exact_stop) {
+    state_.path_mode = PathMode::exact_stop;
+  }
+  emit(MoveKind::arc, end);
+  state_.path_mode = mode;
+  move_.centre_mm = {};
+  move_.normal = {};
+  move_.turns = 0;
+  return true;
+}
+
+// By way of the given point to the reference point; only the named axes go there, all when none is.
+bool Interpreter::home(const Step& step, std::size_t which) {
+  const bool some = (step.mask & kAxisMask) != 0;
+  Axes end;
+  if (!end_point(step, end)) {
+    return false;
+  }
+  emit(MoveKind::rapid, end);
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (!some || step.has(kAxisLetters[i])) {
+      end[i] = state_.home[which][i] - state_.offset[i];
+    }
+  }
+  emit(MoveKind::rapid, end);
+  return true;
+}
+
+void Interpreter::emit(MoveKind kind, const Axes& end) {
+  move_.kind = kind;
+  move_.start = state_.position;
+  move_.end = end;
+  move_.offset = state_.offset;
+  const bool cutting = kind != MoveKind::rapid;
+  move_.feed_mode = state_.feed_mode;
+  move_.feed_mm_s = !cutting                                  ? 0.0
+                    : only_rotary_moves(state_.position, end) ? state_.feed_deg_s
+                                                              : state_.feed_mm_s;
+  move_.path_mode = state_.path_mode;
+  move_.path_tolerance_mm = state_.path_tolerance_mm;
+  move_.spindle_rev_s =
+      state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
+  move_.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
+  move_.spindle_limit_rev_s = state_.spindle_limit_rev_s;
+  move_.override_locked = state_.override_off || kind == MoveKind::thread;
+  move_.dwell_s = 0.0;
+  state_.position = end;
+  sink_->on_move(move_);
+}
+
+void Interpreter::emit_dwell(double seconds) {
+  Move dwell;
+  dwell.kind = MoveKind::dwell;
+  dwell.line = move_.line;
+  dwell.start = state_.position;
+  dwell.end = state_.position;
+  dwell.offset = state_.offset;
+  dwell.feed_mode = state_.feed_mode;
+  dwell.path_mode = state_.path_mode;
+  dwell.path_tolerance_mm = state_.path_tolerance_mm;
+  dwell.spindle_rev_s =
+      state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
+  dwell.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
+  dwell.spindle_limit_rev_s = state_.spindle_limit_rev_s;
+  dwell.override_locked = state_.override_off;
+  dwell.dwell_s = seconds;
+  sink_->on_move(dwell);
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+/// What a program makes a machine do, free of dialect: the boundary between the interpreter and
+/// everything above it.
+namespace steadyrest::nc::interpret {
+
+enum class MoveKind : std::uint8_t { rapid, linear, arc, spline, probe, thread, dwell };
+
+enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_revolution };
+
+/// How the control goes through the end point of a move.
+enum class PathMode : std::uint8_t {
+  exact_path,  ///< G61: on the path, stops only where it must
+  exact_stop,  ///< G61.1, G9, G60: stops at every end point
+  continuous   ///< G64: may round the corner within the tolerance
+};
+
+/// Axes in the order X Y Z A B C U V W; mm for linear, degrees for rotary (border units: rs274
+/// prints them so).
+using Axes = std::array<double, 9>;
+
+/// One motion or dwell. Positions are in the active work coordinates; add `offset` for machine
+/// coordinates.
+struct Move {
+  MoveKind kind = MoveKind::rapid;
+  std::uint32_t line = 0;  ///< 1-based line in the file
+  Axes start{};
+  Axes end{};
+  Axes
+      offset{};  ///< machine = work + offset (work offsets, G92/G52, tool length), at the end point
+  double feed_mm_s = 0.0;  ///< path feed; degrees/s where only rotary axes move. For inverse_time:
+                           ///< moves/s; for per_revolution: mm/rev; 0 for
+                           /// rapids and dwells
+  FeedMode feed_mode = FeedMode::per_minute;
+  // arcs
+  std::array<double, 3> centre_mm{};  ///< work coordinates, at the height of the start point
+  std::array<double, 3> normal{};  ///< unit normal of the plane: +Z for G17, +Y for G18, +X for G19
+  int turns = 0;  ///< > 0 counter-clockwise seen against `normal`, < 0 clockwise; |turns| = full
+                  ///< turns begun
+  // modal state that time and simulation need
+  PathMode path_mode = PathMode::continuous;
+  double path_tolerance_mm = 0.0;    ///< G64 P; 0 = none given
+  double spindle_rev_s = 0.0;        ///< signed: > 0 clockwise (M3); 0 while G96 rules it
+  double surface_speed_mm_s = 0.0;   ///< G96: cutting speed, signed as above; 0 = G97
+  double spindle_limit_rev_s = 0.0;  ///< G96: the spindle's upper limit; 0 = none given
+  bool override_locked = false;      ///< thread, tap, M49: the feed override has no effect
+  double dwell_s = 0.0;
+  bool speed_modulation = false;  ///< the spindle's speed is to be modulated (M38)
+};
+
+enum class EventKind : std::uint8_t {
+  spindle,      ///< value = rev/s, signed; 0 = stop
+  coolant,      ///< value = 0 off, 1 mist, 2 flood, 3 both
+  tool_change,  ///< value = tool number
+  stop,         ///< M0, M1 (value = 1 for M1)
+  end           ///< M2, M30, closing %
+};
+
+struct Event {
+  EventKind kind = EventKind::spindle;
+  std::uint32_t line = 0;
+  double value = 0.0;
+  // Designated initialisers may leave it out.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::string_view tool_name{};  ///< tool_change by name (T="DRILL"); valid during the call only
+};
+
+/// Receives a program's moves and events in order. Implementations must not keep references.
+class Sink {
+ public:
+  Sink() = default;
+  Sink(const Sink&) = delete;
+  Sink& operator=(const Sink&) = delete;
+  virtual ~Sink() = default;
+  virtual void on_move(const Move& move) = 0;
+  virtual void on_event(const Event& event) = 0;
+};
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <steadyrest/nc/interpret/interpreter.hpp>
+
+// Modes, offsets and coordinate systems: what changes the meaning of positions without moving.
+namespace steadyrest::nc::interpret {
+
+bool Interpreter::set_modes(const Step& step) {
+  if (step.code(GGroup::non_modal) == 40) {
+    emit_dwell(step['P']);
+  }
+  const int plane = step.code(GGroup::plane);
+  if (plane != kNoCode) {
+    state_.plane = plane == 170 ? Plane::xy : plane == 180 ? Plane::zx : Plane::yz;
+  }
+  set_units(step);
+  if (!set_tool_length(step) || !set_work_offset(step) || !set_path_mode(step)) {
+    return false;
+  }
+  const int distance = step.code(GGroup::distance);
+  if (distance != kNoCode) {
+    state_.incremental = distance == 910;
+  }
+  const int centre = step.code(GGroup::arc_centre);
+  if (centre != kNoCode) {
+    state_.centre_absolute = centre == 901;
+  }
+  const int retract = step.code(GGroup::retract);
+  if (retract != kNoCode) {
+    state_.retract_to_initial = retract == 980;
+  }
+  return true;
+}
+
+void Interpreter::set_units(const Step& step) {
+  const int units = step.code(GGroup::units);
+  if (units == kNoCode) {
+    return;
+  }
+  state_.unit_mm = units == 200 ? kMmPerInch : 1.0;
+  if (step.work_feed) {
+    state_.feed_unit_mm = state_.unit_mm;
+  }
+}
+
+// The machine stays where it is when an offset changes: the work position takes the difference.
+void Interpreter::update_offset() noexcept {
+  for (std::size_t i = 0; i < state_.offset.size(); ++i) {
+    const double work = state_.work_offset_on ? state_.work_offset[state_.active_offset][i] : 0.0;
+    const double offset = work + state_.g92[i] + state_.tool_offset[i];
+    state_.position[i] += state_.offset[i] - offset;
+    state_.offset[i] = offset;
+  }
+}
+
+bool Interpreter::set_tool_length(const Step& step) {
+  switch (step.code(GGroup::tool_length)) {
+    case 430:
+    case 432: {
+      std::int32_t number = state_.tool_in_spindle;
+      if (step.code(GGroup::tool_length) == 432 && !step.has('H')) {
+        return refuse_code(step, 'G', 43, "tool_missing", "G43.2 without the tool's number (H)");
+      }
+      if (step.has('H') && !tool_number(step, 'H', number)) {
+        return false;
+      }
+      const Tool* const tool = find_tool(number);
+      for (std::size_t i = 0; tool != nullptr && i < tool->offset.size(); ++i) {
+        const double base = step.code(GGroup::tool_length) == 432 ? state_.tool_offset[i] : 0.0;
+        state_.tool_offset[i] = base + tool->offset[i];
+      }
+      break;
+    }
+    case 431:
+      for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+        if (step.has(kAxisLetters[i])) {
+          state_.tool_offset[i] = component(step, i);
+        }
+      }
+      break;
+    case 490:
+      state_.tool_offset = {};
+      break;
+    default:
+      return true;
+  }
+  update_offset();
+  return true;
+}
+
+bool Interpreter::set_work_offset(const Step& step) {
+  const int code = step.code(GGroup::work_offset);
+  if (step.zero_offset) {
+    state_.work_offset_on = false;
+  } else if (code != kNoCode) {
+    state_.active_offset =
+        static_cast<std::size_t>(code <= 590 ? (code - 540) / 10 : 5 + (code - 590));
+    state_.work_offset_on = true;
+  } else {
+    return true;
+  }
+  update_offset();
+  return true;
+}
+
+bool Interpreter::set_path_mode(const Step& step) {
+  if (step.rounding_mm >= 0.0) {
+    rounding_mm_ = step.rounding_mm;
+  }
+  switch (step.code(GGroup::path_mode)) {
+    case 610:
+      state_.path_mode = PathMode::exact_path;
+      state_.path_tolerance_mm = 0.0;
+      break;
+    case 611:
+      state_.path_mode = PathMode::exact_stop;
+      state_.path_tolerance_mm = 0.0;
+      break;
+    case 640:
+      state_.path_mode = PathMode::continuous;
+      // A negative P means "none given" on LinuxCNC.
+      state_.path_tolerance_mm =
+          step.has('P') && step['P'] > 0.0 ? step['P'] * state_.unit_mm : 0.0;
+      break;
+    default:
+      break;
+  }
+  if (config_.dialect == read::Dialect::sinumerik && state_.path_mode == PathMode::continuous) {
+    state_.path_tolerance_mm = rounding_mm_;
+  }
+  return true;
+}
+
+bool Interpreter::non_modal(const Step& step) {
+  const int code = step.code(GGroup::non_modal);
+  switch (code) {
+    case 100:
+      return set_data(step);
+    case 280:
+    case 300:
+      return home(step, code == 280 ? 0 : 1);
+    case 281:
+    case 301: {
+      Axes& place = state_.home[code == 281 ? 0 : 1];
+      for (std::size_t i = 0; i < place.size(); ++i) {
+        place[i] = state_.position[i] + state_.offset[i];
+      }
+      return true;
+    }
+    case 520:
+    case 920:
+    case 921:
+    case 922:
+    case 923:
+      return set_g92(step, code);
+    default:
+      return true;
+  }
+}
+
+bool Interpreter::set_g92(const Step& step, int code) {
+  switch (code) {
+    case 921:
+      state_.g92 = {};
+      state_.g92_stored = {};
+      break;
+    case 922:
+      state_.g92 = {};
+      break;
+    case 923:
+      state_.g92 = state_.g92_stored;
+      break;
+    default:
+      for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+        if (step.has(kAxisLetters[i])) {
+          const double value = component(step, i);
+          state_.g92[i] = code == 520 ? value : state_.g92[i] + state_.position[i] - value;
+        }
+      }
+      state_.g92_stored = state_.g92;
+      (code == 520 ? state_.g52_used : state_.g92_used) = true;
+      break;
+  }
+  update_offset();
+  return true;
+}
+
+// G10 L2 and L20: the work offsets.
+bool Interpreter::set_data(const Step& step) {
+  const double form = step.has('L') ? step['L'] : -1.0;
+  if (form != 2.0 && form != 20.0) {
+    return refuse_code(step, 'G', 10, "g10_form",
+                       "this form of G10 is not interpreted; L2 and L20 (work offsets) are");
+  }
+  const double number = step.has('P') ? step['P'] : -1.0;
+  if (number != std::floor(number) || number < 0.0 || number > 9.0) {
+    return refuse_code(step, 'G', 10, "g10_form",
+                       "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
+  }
+  if (step.has('R') && step['R'] != 0.0) {
+    return refuse(step, 'R', "rotation", "a rotated coordinate system (G10 R) is not interpreted");
+  }
+  if (!state_.work_offset_on && number == 0.0) {
+    return refuse_code(step, 'G', 10, "g10_form", "no work offset is active");
+  }
+  Axes& offset =
+      state_
+          .work_offset[number == 0.0 ? state_.active_offset : static_cast<std::size_t>(number) - 1];
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (step.has(kAxisLetters[i])) {
+      const double value = component(step, i);
+      const double machine = state_.position[i] + state_.offset[i];
+      offset[i] = form == 2.0 ? value : machine - state_.g92[i] - state_.tool_offset[i] - value;
+    }
+  }
+  update_offset();
+  return true;
+}
+
+}  // namespace steadyrest::nc::interpret

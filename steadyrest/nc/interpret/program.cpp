@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <steadyrest/nc/interpret/interpreter.hpp>
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/read/reader.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+using read::Block;
+using read::LineSource;
+using read::Reader;
+using read::Refused;
+
+class Counter final : public Sink {
+ public:
+  Counter(Sink& sink, Report& report) : sink_(sink), report_(report) {}
+  void on_move(const Move& move) override {
+    ++report_.moves;
+    sink_.on_move(move);
+  }
+  void on_event(const Event& event) override { sink_.on_event(event); }
+
+ private:
+  Sink& sink_;
+  Report& report_;
+};
+
+class Run {
+ public:
+  Run(LineSource& source, const Config& config, Interpreter interpreter, Sink& sink)
+      : source_(source),
+        reader_(config.dialect),
+        interpreter_(std::move(interpreter)),
+        counter_(sink, report_) {}
+
+  Report execute() {
+    while (!interpreter_.finished()) {
+      if (!next_line()) {
+        break;
+      }
+      if (!reader_.read(source_.line(), source_.number(), source_.ending_length(), block_)) {
+        report_.refused.push_back(reader_.refused());
+        break;
+      }
+      if (!interpreter_.execute(block_, counter_)) {
+        report_.refused.push_back(interpreter_.refused());
+        break;
+      }
+      report_.blocks += block_.words().empty() ? 0U : 1U;
+    }
+    if (!report_.refused.empty() && !source_failed_) {
+      survey();
+    }
+    return std::move(report_);
+  }
+
+ private:
+  bool next_line() {
+    switch (source_.next()) {
+      case LineSource::Status::line:
+        ++report_.lines;
+        return true;
+      case LineSource::Status::end:
+        refuse_end();
+        return false;
+      case LineSource::Status::too_long:
+        refuse_source("line_too_long",
+                      "a line of more than 65536 bytes; this is not an NC program");
+        return false;
+      case LineSource::Status::failed:
+        refuse_source("read_failed", "the file could not be read to its end");
+        return false;
+    }
+    return false;
+  }
+
+  void refuse_source(std::string_view reason, std::string_view text) {
+    source_failed_ = true;
+    report_.refused.push_back({.line = source_.number(),
+                               .word = {},
+                               .reason = std::string{reason},
+                               .text = std::string{text}});
+  }
+
+  void refuse_end() {
+    const std::string_view text =
+        reader_.percent_opened()
+            ? "the file ends before the program: end it with M2 or M30, or with % as it began"
+            : "the file ends before the program: end it with M2 or M30";
+    refuse_source("no_program_end", text);
+    report_.refused.back().line = static_cast<std::uint32_t>(report_.lines);
+  }
+
+  // What else stands in the program that is not accepted: text and vocabulary only, since the state
+  // behind a refused block is not known.
+  void survey() {
+    while (report_.refused.size() < Report::kMostRefused &&
+           source_.next() == LineSource::Status::line) {
+      ++report_.lines;
+      if (!reader_.read(source_.line(), source_.number(), source_.ending_length(), block_)) {
+        add(reader_.refused());
+      } else if (!block_.words().empty() && !interpreter_.survey(block_)) {
+        add(interpreter_.refused());
+      }
+    }
+  }
+
+  void add(const Refused& refused) {
+    const auto head = [](const Refused& one) {
+      return std::pair{one.reason, one.word.substr(0, one.word.find_first_of(" .=[(+-#"))};
+    };
+    const auto known = std::ranges::any_of(report_.refused, [&](const Refused& earlier) {
+      return head(earlier) == head(refused) ||
+             (earlier.reason == refused.reason && earlier.reason.find("code") == std::string::npos);
+    });
+    if (!known) {
+      report_.refused.push_back(refused);
+    }
+  }
+
+  LineSource& source_;
+  Reader reader_;
+  Interpreter interpreter_;
+  Report report_;
+  Counter counter_;
+  Block block_;
+  bool source_failed_ = false;
+};
+
+}  // namespace
+
+kernel::outcome::Result<Report> run_lines(LineSource& source, const Config& config, Sink& sink) {
+  auto interpreter = Interpreter::make(config);
+  if (!interpreter) {
+    return std::unexpected(interpreter.error());
+  }
+  return Run(source, config, std::move(*interpreter), sink).execute();
+}
+
+kernel::outcome::Result<Report> run_file(const std::string& path, const Config& config,
+                                         Sink& sink) {
+  auto source = LineSource::open(path);
+  if (!source) {
+    return std::unexpected(source.error());
+  }
+  return run_lines(*source, config, sink);
+}
+
+kernel::outcome::Result<Report> run_text(std::string_view text, const Config& config, Sink& sink) {
+  LineSource source = LineSource::from_text(text);
+  return run_lines(source, config, sink);
+}
+
+kernel::outcome::Refusal first_refusal(const Report& report, const std::string& path) {
+  if (report.refused.empty()) {
+    return {};
+  }
+  const Refused& first = report.refused.front();
+  return {.kind = kernel::outcome::Kind::bad_input,
+          .file = path,
+          .line = first.line,
+          .what = first.word.empty() ? first.text : "`" + first.word + "`: " + first.text,
+          .to_do = "change this line, or choose the dialect that the program was written for"};
+}
+
+}  // namespace steadyrest::nc::interpret

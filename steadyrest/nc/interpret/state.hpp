@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <steadyrest/nc/interpret/config.hpp>
+#include <steadyrest/nc/interpret/move.hpp>
+
+namespace steadyrest::nc::interpret {
+
+inline constexpr double kMmPerInch = 25.4;
+
+enum class Plane : std::uint8_t { xy, zx, yz };
+
+/// Axis indices of a plane: first and second in right-handed order, then the normal.
+struct PlaneAxes {
+  std::size_t first;
+  std::size_t second;
+  std::size_t normal;
+};
+[[nodiscard]] constexpr PlaneAxes axes_of(Plane plane) noexcept {
+  return plane == Plane::xy   ? PlaneAxes{.first = 0, .second = 1, .normal = 2}
+         : plane == Plane::zx ? PlaneAxes{.first = 2, .second = 0, .normal = 1}
+                              : PlaneAxes{.first = 1, .second = 2, .normal = 0};
+}
+
+/// What a canned cycle keeps from block to block, in program units as written: a change of G20/G21
+/// inside a row of cycles changes their meaning, as on LinuxCNC.
+struct CycleMemory {
+  double bottom = 0.0;       ///< Z word
+  double retract = 0.0;      ///< R word
+  double peck = 0.0;         ///< Q word
+  double dwell_s = 0.0;      ///< P word
+  double shift_first = 0.0;  ///< I, J, K words of G87
+  double shift_second = 0.0;
+  double counterbore = 0.0;
+  double initial_mm = 0.0;  ///< where the normal axis stood when the row of cycles began
+};
+
+/// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
+struct State {
+  Axes position{};  ///< active work coordinates
+  Axes offset{};    ///< machine = position + offset; sum of the three below
+  std::array<Axes, kWorkOffsets> work_offset{};
+  std::size_t active_offset = 0;
+  bool work_offset_on = true;  ///< false after G500
+  Axes g92{};                  ///< in force (G92, G52)
+  Axes g92_stored{};           ///< what G92.3 brings back
+  bool g92_used = false;       ///< G92 has set an origin in this program
+  bool g52_used = false;       ///< G52 has set a shift in this program
+  Axes tool_offset{};
+  std::array<Axes, 2> home{};
+
+  double unit_mm = 1.0;       ///< 25.4 after G20
+  double feed_unit_mm = 1.0;  ///< differs from unit_mm only after sinumerik G70/G71
+  Plane plane = Plane::xy;
+  bool incremental = false;
+  bool centre_absolute = false;
+  bool retract_to_initial = false;  ///< G98
+  int motion = -1;                  ///< G code times ten; −1 = none yet
+  CycleMemory cycle;
+
+  FeedMode feed_mode = FeedMode::per_minute;
+  double feed_mm_s = 0.0;   ///< per_minute; per_revolution: mm/rev; inverse_time: 1/s
+  double feed_deg_s = 0.0;  ///< the same F for a move of rotary axes alone
+  PathMode path_mode = PathMode::continuous;
+  double path_tolerance_mm = 0.0;
+  bool override_off = false;  ///< M49, M50 P0
+
+  double spindle_speed_rev_s = 0.0;  ///< S, without sign
+  int spindle_direction = 0;         ///< +1 M3, −1 M4, 0 M5
+  bool surface_speed = false;        ///< G96
+  double surface_speed_mm_s = 0.0;   ///< S in G96
+  double spindle_limit_rev_s = 0.0;  ///< D in G96; 0 = none given
+  bool speed_modulation = false;     ///< Config::modulation_on and off
+  double coolant = 0.0;              ///< 0 off, 1 mist, 2 flood, 3 both
+  std::int32_t selected_tool = 0;
+  std::int32_t tool_in_spindle = 0;
+};
+
+}  // namespace steadyrest::nc::interpret

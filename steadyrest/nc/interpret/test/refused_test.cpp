@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <steadyrest/nc/interpret/test/moves.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Count final : public Sink {
+  std::uint64_t moves = 0;
+  void on_move(const Move& /*move*/) override { ++moves; }
+  void on_event(const Event& /*event*/) override {}
+};
+
+std::vector<fs::path> corpus() {
+  std::vector<fs::path> files;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(STEADYREST_SOURCE_DIR) / "tests/refused/nc")) {
+    if (entry.path().extension() == ".ngc") {
+      files.push_back(entry.path());
+    }
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+/// `fault -> line: piece of the message`, [ ] for ( ), out of the first line's comment.
+struct Expected {
+  std::size_t line = 0;
+  std::string piece;
+};
+Expected expected_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::string head;
+  std::getline(in, head);
+  const auto arrow = head.rfind(" -> ");
+  const auto colon = head.find(": ", arrow);
+  Expected expected;
+  expected.line = std::stoul(head.substr(arrow + 4, colon - arrow - 4));
+  expected.piece = head.substr(colon + 2);
+  if (head.front() == '(') {
+    expected.piece.pop_back();
+  }
+  std::ranges::replace(expected.piece, '[', '(');
+  std::ranges::replace(expected.piece, ']', ')');
+  return expected;
+}
+
+TEST(RefusedPrograms, AreRefusedAtTheLineAndForTheFaultThatTheirFirstLineNames) {
+  const auto files = corpus();
+  ASSERT_GE(files.size(), 100U);
+  for (const fs::path& file : files) {
+    Config config;
+    config.dialect = read::dialect_from_name(file.parent_path().filename().string()).value();
+    Count sink;
+    const auto report = run_file(file.string(), config, sink);
+    ASSERT_TRUE(report.has_value()) << file;
+    ASSERT_FALSE(report->refused.empty()) << file;
+    const Expected expected = expected_of(file);
+    EXPECT_EQ(report->refused.front().line, expected.line) << file;
+    EXPECT_NE(report->refused.front().text.find(expected.piece), std::string::npos)
+        << file << ": " << report->refused.front().text;
+  }
+}
+
+TEST(RefusedPrograms, AProgramCutOffAnywhereIsNeverAccepted) {
+  const std::string whole = "G21 G90\nF100 G1 X10.5\nG2 X20 I4.75\n";
+  for (std::size_t length = 0; length <= whole.size(); ++length) {
+    EXPECT_NE(reason_of(whole.substr(0, length)), "") << length;
+  }
+}
+
+TEST(RefusedPrograms, RandomBytesNeverHangCrashOrMoveFar) {
+  std::mt19937 random(20240607);
+  for (int i = 0; i < 500; ++i) {
+    std::string text(static_cast<std::size_t>(random() % 2000), ' ');
+    for (char& c : text) {
+      c = static_cast<char>(random() & 0xffU);
+    }
+    for (const auto dialect :
+         {read::Dialect::linuxcnc, read::Dialect::fanuc, read::Dialect::sinumerik}) {
+      Config config;
+      config.dialect = dialect;
+      Count sink;
+      const auto report = run_text(text, config, sink);
+      ASSERT_TRUE(report.has_value());
+      EXPECT_LE(report->refused.size(), Report::kMostRefused);
+    }
+  }
+}
+
+TEST(RefusedPrograms, AFileWithoutLineEndsIsRefusedWithoutReadingItWhole) {
+  const fs::path file = fs::temp_directory_path() / ("nc-sparse-" + std::to_string(::getpid()));
+  std::ofstream(file).close();
+  fs::resize_file(file, 200'000'000);
+  Count sink;
+  const auto report = run_file(file.string(), {}, sink);
+  fs::remove(file);
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->refused.front().reason, "line_too_long");
+}
+
+TEST(RefusedPrograms, AMissingFileAndADirectoryAreRefused) {
+  Count sink;
+  EXPECT_FALSE(run_file("/nonexistent.ngc", {}, sink).has_value());
+  EXPECT_FALSE(run_file("/", {}, sink).has_value());
+}
+
+long peak_kib() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+TEST(Program, OfTwoHundredMegabytesIsStreamedInBoundedMemory) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(::pipe(ends), 0);
+  constexpr std::uint64_t kLines = 8'000'000;  // 25 bytes each
+  const std::string two = "G1 X10.5000 Y20.25 F1000\nG1 X11.5000 Y21.25 F1000\n";
+  std::string chunk;
+  for (int i = 0; i < 1000; ++i) {
+    chunk += two;
+  }
+  std::thread writer([&] {
+    for (std::uint64_t written = 0; written < kLines; written += 2000) {
+      if (::write(ends[1], chunk.data(), chunk.size()) < 0) {
+        break;
+      }
+    }
+    ::close(ends[1]);
+  });
+  [[maybe_unused]] const long before = peak_kib();  // a sanitizer has memory of its own
+  Count sink;
+  const auto report = run_file("/proc/self/fd/" + std::to_string(ends[0]), {}, sink);
+  ::close(ends[0]);
+  writer.join();
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(sink.moves, kLines);
+  EXPECT_EQ(report->refused.front().reason, "no_program_end");
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(peak_kib() - before, 8 * 1024);
+#endif
+}
+
+}  // namespace
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include <steadyrest/kernel/signal/path.hpp>
+
+/// The circle that rounds a corner: tangential to the piece before and to the piece after.
+///
+/// Law, in the plane of the corner, turning left, corner at the origin: the centre of a rounding
+/// circle of radius r lies at distance r to the left of both pieces, so it is where their offsets
+/// meet: a line's offset is a parallel line, that of a circle of radius R is a circle of radius R −
+/// o·r with the same centre, o = +1 where the path runs counter-clockwise and −1 where it runs
+/// clockwise. Of two meeting points the one nearer to the corner counts. The distance between
+/// corner and rounding is |C| − r; both it and the lengths that the rounding takes from the pieces
+/// grow with r, so the largest permitted r is found by bisection.
+///
+/// Pieces: lines and plane arcs of constant radius that lie in one plane; others are left sharp.
+namespace steadyrest::nc::plan {
+
+struct CornerRequest {
+  double tolerance_mm = 0.0;    ///< largest distance between corner and rounding
+  double room_before_mm = 0.0;  ///< largest length taken from the piece before
+  double room_after_mm = 0.0;   ///< and from the piece after
+  double most_radius_mm = 0.0;  ///< no larger radius is of use
+};
+
+struct CornerArc {
+  kernel::signal::Point start_mm{};
+  kernel::signal::Point end_mm{};
+  kernel::signal::Point centre_mm{};
+  kernel::signal::Point axis{};
+  double radius_mm = 0.0;
+  double sweep_rad = 0.0;
+  double taken_before_mm = 0.0;  ///< path length
+  double taken_after_mm = 0.0;
+  double deviation_mm = 0.0;
+};
+
+/// The largest rounding of the corner between `before` and `after`, whose directions there are unit
+/// vectors `in` and `out`; nothing when the corner is smooth, a reversal, or not in one plane.
+[[nodiscard]] std::optional<CornerArc> round_corner(const kernel::signal::PathSegment& before,
+                                                    const kernel::signal::PathSegment& after,
+                                                    const kernel::signal::Point& in,
+                                                    const kernel::signal::Point& out,
+                                                    const CornerRequest& request);
+
+}  // namespace steadyrest::nc::plan

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/signal/path.hpp>
+
+/// What the machine's axes permit along a path.
+///
+/// Symbols: t = direction (axis values per mm of path), V_i, A_i, J_i = limits of axis i.
+///   line      v ≤ min V_i/|t_i|,  a ≤ min A_i/|t_i|
+///   arc       g_i = √(1 − n_i²) is the largest share of axis i in the plane with normal n;
+///             a_plane = min A_i/g_i;  v ≤ √(κ_n·a_plane·R_eff), R_eff = R/cos²(helix angle) of the
+///             tightest radius;  the tangential part keeps what is left: a_t = √(a_plane² −
+///             (v²/R_eff)²)
+///   junction  jump: v·|Δt_i| ≤ κ_j·A_i·T in one interpolator period T, κ_j = junction_share;
+///             deviation: v² ≤ a·δ·sin β/(1 − sin β), β = half the angle between the legs, the
+///             speed at which an arc that stays within δ of the corner would be possible; facets:
+///             v² ≤ min A_i/|Δt_i|·ℓ, ℓ = mean length of the two segments, the centripetal limit of
+///             the curve that the corners stand for. v_junction = min(facets, max(jump,
+///             deviation)).
+/// With δ = 0 no axis ever jumps by more than one period of its acceleration. The deviation law's
+/// source: the junction deviation of the Grbl firmware (Jeon 2011); κ_n = √3/2 is the share that
+/// LinuxCNC gives to the centripetal part (documented in its trajectory planner).
+namespace steadyrest::nc::plan {
+
+struct SpeedLimits {
+  double speed_mm_s = 0.0;
+  double acceleration_mm_s2 = 0.0;
+};
+
+/// The limits of a machine in the order of its axes; an axis that it does not have is unlimited.
+class PathLimits {
+ public:
+  explicit PathLimits(const kernel::machine::Machine& machine);
+
+  [[nodiscard]] SpeedLimits line(const kernel::signal::AxisValues& direction) const noexcept;
+  /// `segment` must be an arc with its length set.
+  [[nodiscard]] SpeedLimits arc(const kernel::signal::PathSegment& segment) const noexcept;
+  /// Largest combined acceleration in the plane with unit normal `normal`.
+  [[nodiscard]] double plane_acceleration_mm_s2(const kernel::signal::Point& normal) const noexcept;
+  /// Speed at which the directions `before` → `after` may follow one another on the exact path.
+  [[nodiscard]] double junction_mm_s(const kernel::signal::AxisValues& before,
+                                     const kernel::signal::AxisValues& after,
+                                     double length_before_mm,
+                                     double length_after_mm) const noexcept;
+  /// Share of the acceleration that the jump at `speed_mm_s` takes, at most junction_share; 0 when
+  /// that is 1: then the jump has its period to itself.
+  [[nodiscard]] double junction_use(const kernel::signal::AxisValues& before,
+                                    const kernel::signal::AxisValues& after,
+                                    double speed_mm_s) const noexcept;
+  /// Averaging time of the jerk filter: max A_i/J_i, 0 without a jerk limit.
+  [[nodiscard]] double jerk_time_s() const noexcept { return jerk_time_s_; }
+  [[nodiscard]] double centripetal_share() const noexcept { return centripetal_share_; }
+
+ private:
+  kernel::signal::AxisValues speed_{};
+  kernel::signal::AxisValues acceleration_{};
+  kernel::signal::AxisValues jerk_{};
+  double path_acceleration_mm_s2_;
+  double period_s_;
+  double deviation_mm_;
+  double centripetal_share_;
+  double junction_share_;
+  double jerk_time_s_ = 0.0;
+};
+
+}  // namespace steadyrest::nc::plan

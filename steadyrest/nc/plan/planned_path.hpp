@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <steadyrest/kernel/signal/path.hpp>
+
+/// The planned path of a program: geometry for everyone, and what the interpolator needs beside it.
+namespace steadyrest::nc::plan {
+
+/// What the speed plan needs of one segment, in one cache line; parallel to the PathSegments.
+struct SegmentPlan {
+  double length_mm = 0.0;
+  double acceleration_mm_s2 = 0.0;  ///< tangential, what the axes leave after the centripetal share
+  double feed_mm_s = 0.0;           ///< at 100 %; per_revolution: mm/rev
+  double speed_limit_mm_s = std::numeric_limits<double>::infinity();
+  double exit_speed_limit_mm_s = 0.0;
+  double spindle_rev_s = 0.0;   ///< commanded from here on by G96; 0 = as the last event said
+  bool rapid = false;           ///< the rapid override applies
+  bool locked = false;          ///< no override applies
+  bool per_revolution = false;  ///< feed follows the actual spindle speed
+};
+
+enum class PathEventKind : std::uint8_t {
+  dwell,         ///< value = seconds
+  tool_change,   ///< value = tool number
+  spindle,       ///< value = rev/s, signed
+  spindle_wait,  ///< until the spindle has reached its speed
+  coolant,
+  stop,  ///< M0, M1: goes on at once, the operator is not simulated
+  end
+};
+
+/// Something that happens at standstill before the segment `segment` starts.
+struct PathEvent {
+  PathEventKind kind = PathEventKind::dwell;
+  std::size_t segment = 0;
+  std::uint32_t line = 0;
+  double value = 0.0;
+};
+
+/// A whole program in memory. segments[i] and plans[i] belong together; events ascend by segment.
+struct PlannedPath {
+  std::vector<kernel::signal::PathSegment> segments;
+  std::vector<SegmentPlan> plans;
+  std::vector<PathEvent> events;
+};
+
+/// What an interpolator reads: all of a program, or a window that moves along it. Element i stands
+/// at i & mask, so a ring of a power of two serves as well as a whole array.
+struct PathWindow {
+  const kernel::signal::PathSegment* segments = nullptr;
+  const SegmentPlan* plans = nullptr;
+  const PathEvent* events = nullptr;
+  std::size_t mask = ~std::size_t{0};
+  std::size_t event_mask = ~std::size_t{0};
+  std::size_t end = 0;        ///< one past the last segment known
+  std::size_t event_end = 0;  ///< one past the last event known
+  bool complete = true;       ///< nothing follows `end`
+
+  [[nodiscard]] const kernel::signal::PathSegment& segment(std::size_t i) const noexcept {
+    return segments[i & mask];
+  }
+  [[nodiscard]] const SegmentPlan& plan(std::size_t i) const noexcept { return plans[i & mask]; }
+};
+
+[[nodiscard]] inline PathWindow whole(const PlannedPath& path) noexcept {
+  PathWindow w;
+  w.segments = path.segments.data();
+  w.plans = path.plans.data();
+  w.events = path.events.data();
+  w.end = path.segments.size();
+  w.event_end = path.events.size();
+  return w;
+}
+
+}  // namespace steadyrest::nc::plan

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace steadyrest::nc::read {
+
+/// How a word's value is meant, where the dialect can say so for a single word.
+enum class Qualifier : std::uint8_t {
+  none,
+  absolute,     ///< sinumerik AC(…)
+  incremental,  ///< sinumerik IC(…)
+  text          ///< a string: T="DRILL", MSG("…")
+};
+
+/// One word of a block: an address and its value.
+///
+/// The reader delivers finished numbers; where a dialect allows expressions, the reader is the
+/// place that evaluates them (as controls do: at reading time), so that a word's value never
+/// changes its type for those who interpret it.
+struct Word {
+  char letter = 0;  ///< upper case; 0 when the address is a name of several letters
+  Qualifier qualifier = Qualifier::none;
+  bool decimal_point = false;  ///< the value was written with a decimal point
+  bool has_value = false;      ///< sinumerik: SUPA, FNORM, … stand alone
+  double value = 0.0;
+  std::string_view name;  ///< sinumerik: the address as written, `CR`, `TURN`, `SUPA`
+  std::string_view text;  ///< the whole word as it stands in the line; of a string, its content
+};
+
+/// One line of a program, split into words. Reused from line to line: no allocation.
+class Block {
+ public:
+  static constexpr std::size_t kMostWords = 128;
+
+  void reset(std::uint32_t line) noexcept {
+    line_ = line;
+    count_ = 0;
+    deleted_ = false;
+    end_mark_ = false;
+    program_number_ = false;
+  }
+  /// False when the block is full.
+  bool push(const Word& word) noexcept {
+    if (count_ == kMostWords) {
+      return false;
+    }
+    words_[count_++] = word;
+    return true;
+  }
+  [[nodiscard]] std::span<const Word> words() const noexcept { return {words_.data(), count_}; }
+  [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
+
+  /// The line begins with the block-delete mark `/`.
+  [[nodiscard]] bool deleted() const noexcept { return deleted_; }
+  void set_deleted() noexcept { deleted_ = true; }
+  /// The line is the closing `%`.
+  [[nodiscard]] bool end_mark() const noexcept { return end_mark_; }
+  void set_end_mark() noexcept { end_mark_ = true; }
+  /// The line is a program number (`O1234` alone).
+  [[nodiscard]] bool program_number() const noexcept { return program_number_; }
+  void set_program_number() noexcept { program_number_ = true; }
+
+ private:
+  std::uint32_t line_ = 0;
+  std::size_t count_ = 0;
+  bool deleted_ = false;
+  bool end_mark_ = false;
+  bool program_number_ = false;
+  std::array<Word, kMostWords> words_{};
+};
+
+}  // namespace steadyrest::nc::read

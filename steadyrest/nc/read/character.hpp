@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Classes of characters as NC texts have them: ASCII, whatever the locale is.
+namespace steadyrest::nc::read {
+
+constexpr bool is_blank(char c) noexcept {
+  return c == ' ' || c == '\t';
+}
+constexpr bool is_digit(char c) noexcept {
+  return static_cast<unsigned char>(c - '0') < 10;
+}
+constexpr bool is_letter(char c) noexcept {
+  return static_cast<unsigned char>((static_cast<unsigned char>(c) | 0x20U) - 'a') < 26;
+}
+constexpr char upper(char c) noexcept {
+  return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) & 0xdfU) : c;
+}
+constexpr bool is_control(char c) noexcept {
+  return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f;
+}
+
+}  // namespace steadyrest::nc::read

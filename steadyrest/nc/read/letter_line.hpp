@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include <steadyrest/nc/read/block.hpp>
+#include <steadyrest/nc/read/reader.hpp>
+
+namespace steadyrest::nc::read {
+
+/// One line of the dialects whose words are a letter and a number (`linuxcnc`, `fanuc`).
+///
+/// Blanks have no meaning outside of comments. What later versions may read (expressions `[…]`,
+/// parameters `#…`, O-words) is refused by name.
+class LetterLine {
+ public:
+  LetterLine(Reader& reader, std::string_view line, std::uint32_t number, Block& block) noexcept
+      : reader_(reader),
+        begin_(line.data()),
+        at_(line.data()),
+        end_(line.data() + line.size()),
+        number_(number),
+        block_(block) {}
+
+  bool read();
+
+ private:
+  bool one_item();
+  bool round_comment();
+  bool rest_of_line();
+  bool delete_mark();
+  bool word();
+  bool value(const char* word_begin, Word& word);
+  bool spaced_number(const char* word_begin, Word& word);
+  bool o_word(const char* word_begin);
+  bool refuse_value(const char* word_begin);
+  bool refuse_character();
+  void skip_blanks() noexcept;
+  [[nodiscard]] std::string_view since(const char* from) const noexcept {
+    return {from, static_cast<std::size_t>(at_ - from)};
+  }
+  bool refuse(std::string_view word, std::string_view reason, std::string_view text) {
+    return reader_.refuse(number_, word, reason, text);
+  }
+
+  Reader& reader_;
+  const char* begin_;
+  const char* at_;
+  const char* end_;
+  std::uint32_t number_;
+  Block& block_;
+};
+
+}  // namespace steadyrest::nc::read

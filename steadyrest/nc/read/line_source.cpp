@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <steadyrest/nc/read/line_source.hpp>
+
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 18U;
+
+kernel::outcome::Refusal cannot_open(const std::string& path, const std::string& why) {
+  return {.kind = kernel::outcome::Kind::bad_input,
+          .file = path,
+          .line = 0,
+          .what = "cannot be read: " + why,
+          .to_do = "name an NC program that exists and may be read"};
+}
+
+}  // namespace
+
+kernel::outcome::Result<LineSource> LineSource::open(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) {
+    return std::unexpected(cannot_open(path, std::strerror(errno)));
+  }
+  struct stat status{};
+  if (::fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode)) {
+    ::close(descriptor);
+    return std::unexpected(cannot_open(path, "it is a directory"));
+  }
+  LineSource source;
+  source.descriptor_ = descriptor;
+  source.buffer_.resize(kLongestLine + kChunk);
+  source.at_ = source.end_ = source.buffer_.data();
+  return source;
+}
+
+LineSource LineSource::from_text(std::string_view text) {
+  LineSource source;
+  source.at_ = text.data();
+  source.end_ = text.data() + text.size();
+  source.exhausted_ = true;
+  return source;
+}
+
+LineSource::LineSource(LineSource&& other) noexcept {
+  *this = std::move(other);
+}
+
+LineSource& LineSource::operator=(LineSource&& other) noexcept {
+  if (this != &other) {
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    }
+    descriptor_ = std::exchange(other.descriptor_, -1);
+    buffer_ = std::move(other.buffer_);  // a moved vector keeps its storage: the views stay valid
+    at_ = other.at_;
+    end_ = other.end_;
+    exhausted_ = other.exhausted_;
+    failed_ = other.failed_;
+    line_ = other.line_;
+    number_ = other.number_;
+    ending_length_ = other.ending_length_;
+  }
+  return *this;
+}
+
+LineSource::~LineSource() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+}
+
+bool LineSource::refill() noexcept {
+  if (exhausted_) {
+    return false;
+  }
+  const auto rest = static_cast<std::size_t>(end_ - at_);
+  if (rest > kLongestLine) {
+    return false;
+  }
+  std::memmove(buffer_.data(), at_, rest);
+  at_ = buffer_.data();
+  ssize_t got = 0;
+  do {
+    got = ::read(descriptor_, buffer_.data() + rest, buffer_.size() - rest);
+  } while (got < 0 && errno == EINTR);
+  failed_ = got < 0;
+  exhausted_ = got <= 0;
+  end_ = at_ + rest + (got > 0 ? static_cast<std::size_t>(got) : 0);
+  return got > 0;
+}
+
+LineSource::Status LineSource::take(const char* stop, std::size_t ending) noexcept {
+  auto length = static_cast<std::size_t>(stop - at_);
+  if (length > kLongestLine) {
+    return Status::too_long;
+  }
+  const char* const begin = at_;
+  at_ = stop + ending;
+  if (length > 0 && begin[length - 1] == '\r') {
+    --length;
+    ++ending;
+  }
+  line_ = {begin, length};
+  ending_length_ = ending;
+  return Status::line;
+}
+
+LineSource::Status LineSource::next() noexcept {
+  ++number_;
+  std::size_t searched = 0;
+  for (;;) {
+    const auto available = static_cast<std::size_t>(end_ - at_);
+    if (available > searched) {
+      const void* const found = std::memchr(at_ + searched, '\n', available - searched);
+      if (found != nullptr) {
+        return take(static_cast<const char*>(found), 1);
+      }
+    }
+    searched = available;
+    if (!refill()) {
+      break;
+    }
+  }
+  if (failed_) {
+    return Status::failed;
+  }
+  return at_ == end_ ? Status::end : take(end_, 0);
+}
+
+}  // namespace steadyrest::nc::read

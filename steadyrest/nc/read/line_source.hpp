@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::nc::read {
+
+/// Lines of a file or of a text in memory, one after the other, in bounded memory.
+///
+/// A file is read in chunks; a line is a view into the chunk and is valid until the next call.
+/// Lines end with LF; a CR before it belongs to the line's end. The size of the file has no
+/// influence on memory; a line of more than `kLongestLine` bytes ends the reading.
+class LineSource {
+ public:
+  static constexpr std::size_t kLongestLine = 65536;
+
+  enum class Status : std::uint8_t {
+    line,      ///< `line()` holds the next line
+    end,       ///< no more lines
+    too_long,  ///< the next line is longer than kLongestLine
+    failed     ///< the operating system could not read on
+  };
+
+  static kernel::outcome::Result<LineSource> open(const std::string& path);
+  static LineSource from_text(std::string_view text);
+
+  LineSource(LineSource&& other) noexcept;
+  LineSource& operator=(LineSource&& other) noexcept;
+  LineSource(const LineSource&) = delete;
+  LineSource& operator=(const LineSource&) = delete;
+  ~LineSource();
+
+  Status next() noexcept;
+  [[nodiscard]] std::string_view line() const noexcept { return line_; }   ///< without LF, CR LF
+  [[nodiscard]] std::uint32_t number() const noexcept { return number_; }  ///< 1-based
+  /// Bytes of the line's end: 0 at the end of the file, 1 for LF, 2 for CR LF.
+  [[nodiscard]] std::size_t ending_length() const noexcept { return ending_length_; }
+
+ private:
+  LineSource() = default;
+  bool refill() noexcept;
+  Status take(const char* stop, std::size_t ending) noexcept;
+
+  int descriptor_ = -1;
+  std::vector<char> buffer_;
+  const char* at_ = nullptr;
+  const char* end_ = nullptr;
+  bool exhausted_ = false;
+  bool failed_ = false;
+  std::string_view line_;
+  std::uint32_t number_ = 0;
+  std::size_t ending_length_ = 0;
+};
+
+}  // namespace steadyrest::nc::read

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include <steadyrest/nc/read/block.hpp>
+#include <steadyrest/nc/read/refused.hpp>
+
+namespace steadyrest::nc::read {
+
+/// The families of controls whose programs are read.
+enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
+
+/// `linuxcnc`, `fanuc`, `sinumerik`; nothing for any other name.
+[[nodiscard]] std::optional<Dialect> dialect_from_name(std::string_view name) noexcept;
+[[nodiscard]] std::string_view name(Dialect dialect) noexcept;
+
+/// Splits the lines of one program into words. Knows characters, comments and numbers; what a word
+/// means is the interpreter's business.
+///
+/// Deterministic, no allocation unless a line is refused. A line that is refused leaves the reader
+/// usable for the next one.
+class Reader {
+ public:
+  explicit Reader(Dialect dialect) noexcept : dialect_(dialect) {}
+
+  /// Reads one line (without its end) into `block`. False when it is refused: see `refused()`.
+  /// The block refers to the line's characters: keep them while it is in use.
+  bool read(std::string_view line, std::uint32_t number, std::size_t ending_length, Block& block);
+
+  [[nodiscard]] const Refused& refused() const noexcept { return refused_; }
+  /// The program began with `%`: it must end with one (or with its end word).
+  [[nodiscard]] bool percent_opened() const noexcept { return percent_opened_; }
+
+ private:
+  friend class LetterLine;
+  friend class SinumerikLine;
+  bool refuse(std::uint32_t line, std::string_view word, std::string_view reason,
+              std::string_view text);
+  bool percent(std::string_view line, std::uint32_t number, Block& block);
+
+  Dialect dialect_;
+  bool seen_line_ = false;
+  bool percent_opened_ = false;
+  Refused refused_;
+};
+
+}  // namespace steadyrest::nc::read

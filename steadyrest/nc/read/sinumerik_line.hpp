@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include <steadyrest/nc/read/block.hpp>
+#include <steadyrest/nc/read/reader.hpp>
+
+namespace steadyrest::nc::read {
+
+/// One line of a SINUMERIK program: letters with numbers (`X10`), assignments (`X=10`, `X=AC(10)`,
+/// `CR=5`, `T="DRILL"`), names that stand alone (`SUPA`), calls (`MSG("…")`), `;` comments.
+///
+/// Names that are not in the reader's table are refused by the group that they belong to.
+class SinumerikLine {
+ public:
+  SinumerikLine(Reader& reader, std::string_view line, std::uint32_t number, Block& block) noexcept
+      : reader_(reader),
+        at_(line.data()),
+        end_(line.data() + line.size()),
+        number_(number),
+        block_(block) {}
+
+  bool read();
+
+ private:
+  bool header();
+  bool block_number();
+  bool comment();
+  bool item();
+  bool named(const char* word_begin);
+  bool assigned(const char* word_begin, Word& word);
+  bool qualified(const char* word_begin, Word& word);
+  bool quoted(const char* word_begin, Word& word);
+  bool message(const char* word_begin, Word& word);
+  bool plain_number(const char* word_begin, Word& word);
+  bool refuse_value(const char* word_begin);
+  bool refuse_character();
+  bool push(const char* word_begin, Word& word);
+  void skip_blanks() noexcept;
+  [[nodiscard]] std::string_view rest() const noexcept {
+    return {at_, static_cast<std::size_t>(end_ - at_)};
+  }
+  [[nodiscard]] std::string_view since(const char* from) const noexcept {
+    return {from, static_cast<std::size_t>(at_ - from)};
+  }
+  bool refuse(std::string_view word, std::string_view reason, std::string_view text) {
+    return reader_.refuse(number_, word, reason, text);
+  }
+
+  Reader& reader_;
+  const char* at_;
+  const char* end_;
+  std::uint32_t number_;
+  Block& block_;
+};
+
+}  // namespace steadyrest::nc::read

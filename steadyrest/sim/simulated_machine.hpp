@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/port/port.hpp>
+#include <steadyrest/nc/plan/interpolator.hpp>
+#include <steadyrest/nc/plan/planned_path.hpp>
+#include <steadyrest/sim/machine_body.hpp>
+
+namespace steadyrest::sim {
+
+/// The simulated machine: runs a planned program behind the port that a real control has.
+///
+/// read() runs one cycle of the layer (one interpolator period, or `periods_per_cycle` of them) and
+/// gives its Frame, the planned path included. write() latches the layer's words; they act from the
+/// next read() on, as machine_body.hpp says. Time stands still between calls, so the simulation is
+/// as fast as the processor allows. Deterministic: same machine, path, script, commands and seed
+/// give the same bytes.
+class SimulatedMachine final : public kernel::port::Port {
+ public:
+  struct Config {
+    kernel::machine::Machine machine;
+    std::shared_ptr<const nc::plan::PlannedPath> path;  ///< shared: one plan, several runs
+    // Designated initialisers may leave it out.
+    // NOLINTNEXTLINE(readability-redundant-member-init)
+    std::vector<OperatorAction> operator_actions = {};
+    std::uint32_t periods_per_cycle = 1;  ///< interpolator periods in one cycle of the layer, ≥ 1
+  };
+
+  /// The machine stands at the path's start, panel at 100 % (the step nearest to it).
+  static kernel::outcome::Result<std::unique_ptr<SimulatedMachine>> make(const Config& config);
+
+  [[nodiscard]] kernel::port::Capability capability() const noexcept override;
+  kernel::outcome::Result<kernel::signal::Frame> read() noexcept override;
+  kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override;
+
+  /// The program has ended: the last setpoint is reached by the command (the axes still lag).
+  [[nodiscard]] bool finished() const noexcept { return interpolator_.finished(); }
+  /// What really happened at the end of the last cycle.
+  [[nodiscard]] const Truth& truth() const noexcept { return body_.truth(); }
+  [[nodiscard]] kernel::signal::PathView path() const noexcept { return path_->segments; }
+
+ private:
+  SimulatedMachine(const Config& config, MachineBody body, nc::plan::Interpolator interpolator);
+
+  std::shared_ptr<const nc::plan::PlannedPath> path_;
+  kernel::port::Capability capability_;
+  std::uint32_t periods_per_cycle_;
+  MachineBody body_;
+  nc::plan::Interpolator interpolator_;
+  kernel::signal::Command command_;
+};
+
+}  // namespace steadyrest::sim

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+
+namespace steadyrest::supervisor {
+
+/// Says whether one cycle's inputs may be acted on.
+///
+/// Law, first that holds: any number that is not finite → input_not_finite; more axes than there
+/// are, time that runs backwards, a negative feed, a linear axis further than its whole travel
+/// outside of its limits → input_out_of_range; age above `stale_after_s` → input_stale; else none.
+/// The override states are not looked at here: each channel's envelope does that for its own, so
+/// that a bad spindle panel does not withdraw the feed.
+/// A port that shows an old sample must say so in `age_s`; there is no clock here.
+class FrameCheck {
+ public:
+  explicit FrameCheck(const kernel::machine::Machine& machine) noexcept;
+
+  /// `last_time_s`: of the frame before; the frame's own time may equal it.
+  [[nodiscard]] kernel::outcome::Reason fault(const kernel::signal::Frame& frame,
+                                              double last_time_s) const noexcept;
+
+ private:
+  struct Range {
+    double min;
+    double max;
+  };
+
+  [[nodiscard]] bool finite(const kernel::signal::Frame& frame) const noexcept;
+  [[nodiscard]] bool in_range(const kernel::signal::Frame& frame) const noexcept;
+
+  std::array<Range, kernel::signal::kMaxAxes> range_{};
+  double stale_after_s_;
+};
+
+}  // namespace steadyrest::supervisor

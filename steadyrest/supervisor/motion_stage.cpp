@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <steadyrest/motion/online/stored_lines.hpp>
+#include <steadyrest/supervisor/motion_stage.hpp>
+
+namespace steadyrest::supervisor {
+namespace {
+
+using kernel::machine::Machine;
+using kernel::outcome::Result;
+using kernel::signal::AxisSample;
+using motion::online::Estimate;
+using motion::online::LineTable;
+using motion::online::MotionEstimator;
+
+constexpr double kGapCycles = 50.0;
+constexpr double kImpossibleSpeed = 2.0;  ///< times the axis's largest
+/// A count beyond it cannot be told from its neighbours in mm.
+constexpr double kFarthestCount = 1e12;
+constexpr double kMostLost = 255.0;
+constexpr double kSigmas = 4.0;  ///< as MotionEstimator takes of a σ that it learnt
+constexpr double kFits = 0.004;  ///< counts RMS that a learnt table is wrong by on ideal lines
+
+/// How far a line may stand off from where it is taken to be.
+double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) {
+  if (!lines.in_use()) {
+    return axis.encoder.line_error_mm;
+  }
+  const LineTable::Config& table = lines.config();
+  std::int64_t from = table.first_line;
+  std::int64_t to = from + static_cast<std::int64_t>(table.lines) - 1;
+  if (!table.periodic) {  // the line before and the one behind stand for all that it has not
+    const double first = std::floor(axis.min_mm / table.count_mm);
+    const double last = std::ceil(axis.max_mm / table.count_mm) + 1.0;
+    from = static_cast<std::int64_t>(std::max(first, static_cast<double>(from - 1)));
+    to = static_cast<std::int64_t>(std::min(last, static_cast<double>(to + 1)));
+  }
+  bool all_learnt = from <= to;
+  double sigma_mm = 0.0;
+  for (std::int64_t line = from; line <= to; ++line) {
+    all_learnt = all_learnt && lines.learnt(line);
+    sigma_mm = std::max(sigma_mm, static_cast<double>(lines.sigma_mm(line)));
+  }
+  double phase_mm = 0.0;
+  for (const double error_mm : lines.phase_mm()) {
+    phase_mm = std::max(phase_mm, std::abs(error_mm));
+  }
+  const double left_mm = kSigmas * std::hypot(sigma_mm, kFits * table.count_mm);
+  return all_learnt ? left_mm : std::max(axis.encoder.line_error_mm + phase_mm, left_mm);
+}
+
+MotionEstimator::Config config_of(const Machine& machine, const kernel::machine::Axis& axis,
+                                  double error_mm) {
+  const kernel::machine::Friction& friction = axis.friction;
+  const double drive_mm_s2 = std::isfinite(axis.drive_acceleration_mm_s2)
+                                 ? axis.drive_acceleration_mm_s2
+                                 : axis.max_acceleration_mm_s2;
+  const double braking_mm_s2 = std::max(friction.coulomb_mm_s2, friction.breakaway_mm_s2) +
+                               friction.viscous_1_s * axis.max_speed_mm_s;
+  const double cycle_s = machine.control.interpolator_period_s;
+  return {.count_mm = axis.encoder.count_mm,
+          .cycle_s = cycle_s,
+          .clock_s = std::min(axis.encoder.clock_s, cycle_s),
+          .line_error_mm = error_mm <= axis.encoder.count_mm ? error_mm : -1.0,
+          .max_speed_mm_s = axis.max_speed_mm_s,
+          .max_acceleration_mm_s2 = drive_mm_s2 + braking_mm_s2,
+          .max_jerk_mm_s3 = motion::online::kNoBound};
+}
+
+/// The counter rounds: its line n lies half a count below the table's.
+double line_mm(const LineTable& lines, std::int64_t line) noexcept {
+  return lines.position_mm(line) - 0.5 * lines.config().count_mm;
+}
+
+}  // namespace
+
+Result<MotionStage> MotionStage::make(const Machine& machine) {
+  MotionStage stage;
+  stage.gap_s_ = kGapCycles * machine.control.interpolator_period_s;
+  for (std::size_t i = 0; i < std::min(machine.axes.size(), kernel::signal::kMaxAxes); ++i) {
+    const kernel::machine::Axis& axis = machine.axes[i];
+    if (!axis.present || !(axis.encoder.count_mm > 0.0)) {
+      continue;
+    }
+    auto lines = motion::online::stored_lines(axis.encoder);
+    if (!lines) {
+      return std::unexpected(std::move(lines.error()));
+    }
+    const MotionEstimator::Config config = config_of(machine, axis, line_error_mm(*lines, axis));
+    auto estimator = MotionEstimator::make(config);
+    if (!estimator) {
+      return std::unexpected(std::move(estimator.error()));
+    }
+    stage.axes_.push_back({.index = i,
+                           .line_error_mm = std::max(config.line_error_mm, 0.0),
+                           .max_steps_s = kImpossibleSpeed * axis.max_speed_mm_s / config.count_mm,
+                           .clock_s = config.clock_s < config.cycle_s ? config.clock_s : 0.0,
+                           .bounded = config.line_error_mm >= 0.0,
+                           .lines = std::move(*lines),
+                           .fresh = *estimator,
+                           .estimator = *estimator});
+  }
+  return stage;
+}
+
+void MotionStage::restart(Axis& axis) const noexcept {
+  axis.estimator = axis.fresh;
+  axis.estimate = {};
+  axis.started = false;
+}
+
+void MotionStage::reset() noexcept {
+  for (Axis& axis : axes_) {
+    restart(axis);
+  }
+}
+
+/// The record does not go on from where it was.
+bool MotionStage::broken(const Axis& axis, const AxisSample& sample, double time_s) const noexcept {
+  const double passed_s = time_s - axis.time_s;
+  const double steps = static_cast<double>(sample.count) - static_cast<double>(axis.count);
+  return axis.started && (passed_s < 0.0 || passed_s > gap_s_ ||
+                          std::abs(steps) > 2.0 + axis.max_steps_s * passed_s);
+}
+
+void MotionStage::take_edge(Axis& axis, const AxisSample& sample, double time_s) const noexcept {
+  const bool usable = axis.clock_s > 0.0 && std::isfinite(sample.edge_s) && sample.edge_s <= time_s;
+  // A stamp that is cut off to the clock may lie just before the tick that it came after.
+  const bool later =
+      !axis.started || (sample.edge_s > axis.edge_s && sample.edge_s >= axis.time_s - axis.clock_s);
+  if (!usable || !later) {
+    return;
+  }
+  axis.edge_s = sample.edge_s;
+  const std::int64_t steps = axis.started ? sample.count - axis.count : 0;
+  const int direction = sample.edge_direction != 0 ? sample.edge_direction
+                        : steps > 0                ? 1
+                        : steps < 0                ? -1
+                                                   : 0;
+  if (!axis.started || direction == 0) {
+    return;
+  }
+  const bool up = direction > 0;
+  const std::int64_t line = up ? sample.count : sample.count + 1;
+  const double others = std::abs(static_cast<double>(steps) - (up ? 1.0 : -1.0));
+  axis.estimator.edge({.t_s = std::max(sample.edge_s, axis.time_s),
+                       .position_mm = line_mm(axis.lines, line),
+                       .line = line,
+                       .direction = static_cast<std::int8_t>(up ? 1 : -1),
+                       .lost = static_cast<std::uint8_t>(std::min(others, kMostLost)),
+                       .sigma_mm = axis.lines.sigma_mm(line)});
+}
+
+/// Neither the edges nor the cell are surer than the lines stand.
+void MotionStage::look(Axis& axis, const AxisSample& sample, double time_s) const noexcept {
+  take_edge(axis, sample, time_s);
+  axis.estimate =
+      axis.estimator.tick({.t_s = time_s,
+                           .count = sample.count,
+                           .low_mm = line_mm(axis.lines, sample.count) - axis.line_error_mm,
+                           .high_mm = line_mm(axis.lines, sample.count + 1) + axis.line_error_mm});
+  axis.started = true;
+  axis.time_s = time_s;
+  axis.count = sample.count;
+}
+
+void MotionStage::update(kernel::signal::Frame& frame, bool fit) noexcept {
+  for (AxisSample& sample : frame.axis) {
+    sample.velocity_mm_s = 0.0;
+    sample.acceleration_mm_s2 = 0.0;
+    sample.velocity_bound_mm_s = motion::online::kNoBound;
+    sample.acceleration_bound_mm_s2 = motion::online::kNoBound;
+  }
+  for (Axis& axis : axes_) {
+    AxisSample& sample = frame.axis[axis.index];
+    if (!fit || axis.index >= frame.axis_count || !std::isfinite(frame.time_s)) {
+      continue;
+    }
+    if (!sample.encoder_shown || !(std::abs(static_cast<double>(sample.count)) < kFarthestCount)) {
+      restart(axis);
+      continue;
+    }
+    if (broken(axis, sample, frame.time_s)) {
+      restart(axis);
+    }
+    if (!axis.started || frame.time_s > axis.time_s) {
+      look(axis, sample, frame.time_s);
+    }
+    const Estimate& estimate = axis.estimate;
+    if (!std::isfinite(estimate.velocity_mm_s) || !std::isfinite(estimate.acceleration_mm_s2)) {
+      restart(axis);
+      continue;
+    }
+    sample.velocity_mm_s = estimate.velocity_mm_s;
+    sample.acceleration_mm_s2 = estimate.acceleration_mm_s2;
+    if (axis.bounded) {
+      sample.velocity_bound_mm_s = estimate.velocity_bound_mm_s;
+      sample.acceleration_bound_mm_s2 = estimate.acceleration_bound_mm_s2;
+    }
+  }
+}
+
+}  // namespace steadyrest::supervisor

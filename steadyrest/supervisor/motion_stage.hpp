@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/motion/online/line_table.hpp>
+#include <steadyrest/motion/online/motion_estimator.hpp>
+
+namespace steadyrest::supervisor {
+
+/// Velocity and acceleration of each axis, written into the Frame before anybody decides by them.
+///
+/// One MotionEstimator for each present axis whose encoder has counts. Of a cycle it gets the last
+/// edge, with the lines that were passed before it as lost, and the count; without time stamps the
+/// counts alone. Which line the last edge was: `count` if it raised the count, `count` + 1 if it
+/// lowered it. Where the control does not show the direction it is the sign of the count's change;
+/// an edge that left the count as it was is then not used, its line being either.
+///
+/// Limits of the estimator, from the machine file:
+///   speed         max_speed
+///   acceleration  what the drive can do (else max_acceleration), and what friction brakes with
+///   jerk          none: max_jerk is what the control plans with. Dry friction turns round at once,
+///                 and a corner of the path comes through the servo as a step of the speed; with
+///                 max_jerk the bounds fail in up to 3 of 10 000 cycles of the example pocket, and
+///                 the estimates are as fine without
+///   line error    line_error, within which the lines and so the cells stand; with a calibration
+///                 what that leaves
+///
+/// Calibration: line n stands at q·(n − ½) + phase[n mod 4] + table[n] of the machine file; the
+/// counter must count from the same place. It leaves 4·√(σ² + (0.004 q)²), σ what the table states
+/// of its lines (LineTable::sigma_mm); unless every line of the travel was learnt, no less than
+/// line_error and the largest phase together. As sure as the calibration is: four sigma, no proof.
+///
+/// An axis without estimate (not shown, not finite, ideal encoder, unfit frame) has 0 and infinite
+/// bounds. An axis starts anew after a gap of more than 50 cycles, a step of the count that its
+/// speed cannot give, or time that ran backwards.
+class MotionStage {
+ public:
+  static kernel::outcome::Result<MotionStage> make(const kernel::machine::Machine& machine);
+
+  /// Fills in the estimates; `fit` false: the frame may not be used, the estimates are none.
+  void update(kernel::signal::Frame& frame, bool fit) noexcept;
+  void reset() noexcept;
+
+ private:
+  struct Axis {
+    std::size_t index = 0;
+    double line_error_mm = 0.0;
+    double max_steps_s = 0.0;  ///< counts/s beyond which the counter must have been set
+    double clock_s = 0.0;      ///< 0: no time stamps
+    bool bounded = true;
+    motion::online::LineTable lines;
+    motion::online::MotionEstimator fresh;
+    motion::online::MotionEstimator estimator;
+    bool started = false;
+    double time_s = 0.0;
+    double edge_s = 0.0;  ///< the last one that was seen
+    std::int64_t count = 0;
+    motion::online::Estimate estimate{};
+  };
+
+  MotionStage() = default;
+  void restart(Axis& axis) const noexcept;
+  [[nodiscard]] bool broken(const Axis& axis, const kernel::signal::AxisSample& sample,
+                            double time_s) const noexcept;
+  void take_edge(Axis& axis, const kernel::signal::AxisSample& sample,
+                 double time_s) const noexcept;
+  void look(Axis& axis, const kernel::signal::AxisSample& sample, double time_s) const noexcept;
+
+  double gap_s_ = 0.05;
+  std::vector<Axis> axes_;
+};
+
+}  // namespace steadyrest::supervisor

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <steadyrest/supervisor/supervisor.hpp>
+
+namespace steadyrest::supervisor {
+namespace {
+
+namespace machine = kernel::machine;
+namespace signal = kernel::signal;
+using kernel::outcome::Reason;
+using kernel::outcome::Result;
+using kernel::override::Channel;
+using kernel::override::OffsetEnvelope;
+using machine::Mode;
+
+constexpr double kNeverReadS = 1e9;
+
+Channel::Config feed_config(const machine::Machine& machine,
+                            const kernel::port::Capability& capability) {
+  return {.table = machine.feed_override,
+          .min_ratio = machine.envelope.min_feed_ratio,
+          .max_ratio = machine.envelope.max_feed_ratio,
+          .fall_1_s = machine.envelope.feed_fall_1_s,
+          .rise_1_s = machine.envelope.feed_rise_1_s,
+          .max_step_s = machine.envelope.stale_after_s,
+          .latched = capability.latched_word,
+          .available = capability.feed_override};
+}
+
+Channel::Config spindle_config(const machine::Machine& machine,
+                               const kernel::port::Capability& capability) {
+  return {.table = machine.spindle_override,
+          .min_ratio = machine.envelope.min_spindle_ratio,
+          .max_ratio = machine.envelope.max_spindle_ratio,
+          .fall_1_s = machine.envelope.spindle_slew_1_s,
+          .rise_1_s = machine.envelope.spindle_slew_1_s,
+          .max_step_s = machine.envelope.stale_after_s,
+          .latched = capability.latched_word,
+          .available = capability.spindle_override};
+}
+
+/// Rotary axes take none: the machine file limits offsets in mm alone.
+OffsetEnvelope::Config offset_config(const machine::Machine& machine, bool available) {
+  OffsetEnvelope::Config config{.max_mm = {},
+                                .slew_mm_s = machine.envelope.offset_slew_mm_s,
+                                .max_step_s = machine.envelope.stale_after_s};
+  for (std::size_t i = 0; i < std::min(machine.axes.size(), config.max_mm.size()); ++i) {
+    config.max_mm[i] = available && !machine.axes[i].rotary ? machine.envelope.max_offset_mm : 0.0;
+  }
+  return config;
+}
+
+Result<std::optional<Channel>> channel(const Channel::Config& config) {
+  if (config.table.ratio.empty()) {
+    return std::nullopt;
+  }
+  auto made = Channel::make(config);
+  if (!made) {
+    return std::unexpected(std::move(made.error()));
+  }
+  return std::move(*made);
+}
+
+bool in_cut(signal::Motion motion, bool before) noexcept {
+  switch (motion) {
+    case signal::Motion::feed:
+    case signal::Motion::thread:
+    case signal::Motion::tap:
+      return true;
+    case signal::Motion::rapid:
+    case signal::Motion::tool_change:
+      return false;
+    case signal::Motion::idle:
+    case signal::Motion::probe:
+    case signal::Motion::dwell:
+    case signal::Motion::spindle_wait:
+      return before;
+  }
+  return before;
+}
+
+bool in_thread(signal::Motion motion) noexcept {
+  return motion == signal::Motion::thread || motion == signal::Motion::tap;
+}
+
+template <class Request>
+kernel::override::RatioEnvelope::Input channel_input(const signal::Frame& frame,
+                                                     const Request& request, Reason unfit,
+                                                     bool hold,
+                                                     const signal::OverrideState& panel) noexcept {
+  return {.time_s = frame.time_s,
+          .ratio = hold ? 1.0 : request.ratio,
+          .reason = hold ? Reason::withdrawn_thread : request.reason,
+          .panel = panel,
+          .unfit = unfit,
+          .hold = hold};
+}
+
+double shown(const signal::OverrideState& panel) noexcept {
+  return kernel::override::fault_of(panel.panel_ratio) == Reason::none ? panel.panel_ratio : 1.0;
+}
+
+/// Of an override that the machine does not have.
+template <class Request>
+Reason without_channel(const Request& request, Reason unfit) noexcept {
+  if (unfit != Reason::none) {
+    return unfit;
+  }
+  const bool wish = kernel::override::is_wish(request.ratio, request.reason);
+  return wish ? Reason::port_cannot_write : request.reason;
+}
+
+/// What stands without the layer: the panel's own value.
+signal::Command panel_command(const signal::Frame& frame) noexcept {
+  return {.feed_ratio = shown(frame.feed),
+          .feed_code = frame.feed.panel_code,
+          .spindle_ratio = shown(frame.spindle),
+          .spindle_code = frame.spindle.panel_code,
+          .offset_mm = {},
+          .feed_reason = Reason::observe_only,
+          .spindle_reason = Reason::observe_only,
+          .offset_reason = Reason::observe_only};
+}
+
+}  // namespace
+
+Result<Supervisor> Supervisor::make(const machine::Machine& machine,
+                                    const kernel::port::Capability& capability) {
+  auto feed = channel(feed_config(machine, capability));
+  if (!feed) {
+    return std::unexpected(std::move(feed.error()));
+  }
+  auto spindle = channel(spindle_config(machine, capability));
+  if (!spindle) {
+    return std::unexpected(std::move(spindle.error()));
+  }
+  auto offset = OffsetEnvelope::make(offset_config(machine, capability.axis_offset));
+  if (!offset) {
+    return std::unexpected(std::move(offset.error()));
+  }
+  auto motion = MotionStage::make(machine);
+  if (!motion) {
+    return std::unexpected(std::move(motion.error()));
+  }
+  Supervisor supervisor(machine, capability, std::move(*motion), *offset);
+  if (machine.contour.enabled && *feed) {
+    auto governor = contour::online::FeedGovernor::make(machine);
+    if (!governor) {
+      return std::unexpected(std::move(governor.error()));
+    }
+    supervisor.contour_ = std::move(*governor);
+  }
+  if (machine.chatter.enabled && *spindle) {
+    auto modulator = chatter::online::Modulator::make(machine);
+    if (!modulator) {
+      return std::unexpected(std::move(modulator.error()));
+    }
+    supervisor.chatter_ = std::move(*modulator);
+  }
+  supervisor.feed_ = std::move(*feed);
+  supervisor.spindle_ = std::move(*spindle);
+  return supervisor;
+}
+
+Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capability& capability,
+                       MotionStage motion, const OffsetEnvelope& offset)
+    : check_(machine),
+      motion_(std::move(motion)),
+      offset_(offset),
+      offset_available_(capability.axis_offset) {
+  state_.mode_wanted = machine.mode;
+}
+
+bool Supervisor::leaving_act() const noexcept {
+  return state_.mode_in_force == Mode::act && state_.mode_wanted != Mode::act;
+}
+
+void Supervisor::settle_mode() noexcept {
+  if (state_.mode_wanted == state_.mode_in_force || (leaving_act() && !handed_back_)) {
+    return;
+  }
+  // What was only advised never stood on the machine: begin from the panel.
+  for (auto* channel : {&feed_, &spindle_}) {
+    if (*channel) {
+      (*channel)->reset();
+    }
+  }
+  offset_.reset();
+  handed_back_ = true;
+  state_.mode_in_force = state_.mode_wanted;
+}
+
+Reason Supervisor::inspect(const signal::Frame& frame) noexcept {
+  const Reason fault = check_.fault(frame, state_.started ? state_.time_s : frame.time_s);
+  if (fault == Reason::none) {
+    state_.tool_in_cut = in_cut(frame.motion, state_.tool_in_cut);
+  }
+  if (std::isfinite(frame.time_s)) {
+    state_.time_s = frame.time_s;
+    state_.started = true;
+  }
+  return fault;
+}
+
+void Supervisor::estimate(signal::Frame& frame, bool fit) noexcept {
+  motion_.update(frame, fit);
+  if (std::isfinite(frame.time_s)) {
+    last_frame_ = frame;
+    last_frame_.path = {};  // its owner may not outlive the cycle
+  }
+  if (contour_) {
+    estimates_.contour = contour_->update(frame);
+  }
+  if (chatter_) {
+    estimates_.chatter = chatter_->update(frame);
+  }
+}
+
+Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Requests& requests,
+                                            Reason unfit) noexcept {
+  kernel::override::FeedArbiter feed;
+  feed.add(requests.feed);
+  if (estimates_.contour) {
+    feed.add(estimates_.contour->request);
+  }
+  if (estimates_.chatter) {
+    feed.add(estimates_.chatter->feed);
+  }
+  kernel::override::SpindleArbiter spindle;
+  spindle.add(requests.spindle);
+  if (estimates_.chatter) {
+    spindle.add(estimates_.chatter->spindle);
+  }
+  kernel::override::OffsetArbiter offset;
+  offset.add(requests.offset);
+  return {.feed = feed.decision(),
+          .spindle = spindle.decision(),
+          .offset = offset.decision(),
+          .unfit = unfit == Reason::none && leaving_act() ? Reason::observe_only : unfit,
+          .hold = unfit == Reason::none && in_thread(frame.motion)};
+}
+
+void Supervisor::clamp(const signal::Frame& frame, const Decisions& decisions,
+                       signal::Command& command) noexcept {
+  handed_back_ = true;
+  if (feed_) {
+    const auto feed = feed_->update(
+        channel_input(frame, decisions.feed, decisions.unfit, decisions.hold, frame.feed));
+    command.feed_ratio = feed.ratio;
+    command.feed_code = feed.code;
+    command.feed_masks_panel = feed.masks_panel;
+    command.feed_reason = feed.reason;
+    handed_back_ = feed.handed_back;
+  } else {
+    command.feed_reason = without_channel(decisions.feed, decisions.unfit);
+  }
+  if (spindle_) {
+    const auto spindle = spindle_->update(
+        channel_input(frame, decisions.spindle, decisions.unfit, decisions.hold, frame.spindle));
+    command.spindle_ratio = spindle.ratio;
+    command.spindle_code = spindle.code;
+    command.spindle_masks_panel = spindle.masks_panel;
+    command.spindle_reason = spindle.reason;
+    handed_back_ = handed_back_ && spindle.handed_back;
+  } else {
+    command.spindle_reason = without_channel(decisions.spindle, decisions.unfit);
+  }
+  const auto offset = offset_.update({.time_s = frame.time_s,
+                                      .request = decisions.offset,
+                                      .unfit = decisions.unfit,
+                                      .tool_in_cut = state_.tool_in_cut});
+  command.offset_mm = offset.offset_mm;
+  const bool stuck = !offset_available_ && kernel::override::is_wish(decisions.offset.reason);
+  command.offset_reason = stuck ? Reason::port_cannot_write : offset.reason;
+  handed_back_ = handed_back_ && offset.at_zero;
+}
+
+signal::Command Supervisor::update(const signal::Frame& frame, const Requests& requests,
+                                   bool read_now) noexcept {
+  settle_mode();
+  const Reason unfit = inspect(frame);
+  signal::Frame known = frame;
+  estimate(known, read_now && unfit == Reason::none);
+  const Decisions decisions = arbitrate(frame, requests, unfit);
+  signal::Command command = panel_command(frame);
+  if (state_.mode_in_force != Mode::observe) {
+    clamp(frame, decisions, command);
+  }
+  command.write = state_.mode_in_force == Mode::act;
+  command.heartbeat = ++state_.heartbeat;
+  return command;
+}
+
+signal::Command Supervisor::update_without_frame(double time_s) noexcept {
+  signal::Frame frame = last_frame_;
+  if (state_.started) {
+    frame.age_s += std::max(0.0, time_s - frame.time_s);
+  } else {
+    frame.age_s = kNeverReadS;
+  }
+  frame.time_s = time_s;
+  return update(frame, {}, false);
+}
+
+Result<signal::Command> Supervisor::cycle(kernel::port::Port& port,
+                                          const Requests& requests) noexcept {
+  auto frame = port.read();
+  if (!frame) {
+    return std::unexpected(std::move(frame.error()));
+  }
+  const signal::Command command = update(*frame, requests);
+  if (command.write) {
+    if (auto written = port.write(command); !written) {
+      return std::unexpected(std::move(written.error()));
+    }
+  }
+  return command;
+}
+
+Supervisor::State Supervisor::state() const noexcept {
+  State state = state_;
+  if (feed_) {
+    state.feed = feed_->state();
+  }
+  if (spindle_) {
+    state.spindle = spindle_->state();
+  }
+  state.offset = offset_.state();
+  return state;
+}
+
+void Supervisor::restore(const State& state) noexcept {
+  state_ = state;
+  if (feed_) {
+    feed_->restore(state.feed);
+  }
+  if (spindle_) {
+    spindle_->restore(state.spindle);
+  }
+  offset_.restore(state.offset);
+  motion_.reset();
+  if (contour_) {
+    contour_->reset();
+    estimates_.contour.reset();
+  }
+  if (chatter_) {
+    chatter_->reset();
+    estimates_.chatter.reset();
+  }
+  handed_back_ = false;
+}
+
+}  // namespace steadyrest::supervisor

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/supervisor/test/bench.hpp>
+
+namespace steadyrest::supervisor {
+namespace {
+
+namespace machine = kernel::machine;
+namespace signal = kernel::signal;
+using kernel::machine::Mode;
+using kernel::outcome::Reason;
+using test::Bench;
+using test::FakePort;
+using test::kAll;
+using test::kCycle_s;
+using test::kInf;
+using test::kNan;
+using test::mill;
+
+TEST(Safety, ObserveIsTheDefaultAndWritesNothing) {
+  EXPECT_EQ(machine::Machine{}.mode, Mode::observe);
+  auto supervisor = Supervisor::make(mill(machine::Machine{}.mode), kAll);
+  ASSERT_TRUE(supervisor);
+  FakePort port;
+  port.frame.feed.panel_ratio = 0.8;
+  const std::vector<signal::FeedRequest> wish = {{.ratio = 0.2, .reason = Reason::contour_limit}};
+  for (int i = 0; i < 500; ++i) {
+    const auto command = supervisor->cycle(port, {.feed = wish, .spindle = {}, .offset = {}});
+    ASSERT_TRUE(command);
+    EXPECT_FALSE(command->write);
+    EXPECT_FALSE(command->feed_masks_panel);
+    EXPECT_EQ(command->feed_ratio, 0.8);
+    EXPECT_EQ(command->feed_reason, Reason::observe_only);
+  }
+  EXPECT_TRUE(port.written.empty());
+}
+
+TEST(Safety, AdviseShowsWhatActWouldWriteAndWritesNothing) {
+  Bench advise(Mode::advise);
+  Bench act(Mode::act);
+  for (auto* bench : {&advise, &act}) {
+    bench->wish_feed(0.3);
+    bench->wish_spindle(0.9);
+    bench->wish_offset(0.01);
+  }
+  for (int i = 0; i < 500; ++i) {
+    const auto shown = advise.cycle();
+    const auto written = act.cycle();
+    EXPECT_FALSE(shown.write);
+    EXPECT_TRUE(written.write);
+    EXPECT_EQ(shown.feed_code, written.feed_code);
+    EXPECT_EQ(shown.feed_masks_panel, written.feed_masks_panel);
+    EXPECT_EQ(shown.spindle_code, written.spindle_code);
+    EXPECT_EQ(shown.offset_mm, written.offset_mm);
+  }
+  EXPECT_EQ(act.cycle().feed_ratio, 0.3);
+  EXPECT_EQ(act.cycle().spindle_ratio, 0.9);
+  EXPECT_EQ(act.cycle().offset_mm[2], 0.01);
+}
+
+TEST(Safety, AdviceThatNeverStoodOnTheMachineIsNotTakenOver) {
+  Bench bench(Mode::advise);
+  bench.wish_feed(0.2);
+  EXPECT_EQ(bench.cycles(500).feed_ratio, 0.2);
+  bench.supervisor.set_mode(Mode::act);
+  EXPECT_EQ(bench.cycle().feed_ratio, 1.0) << "the machine stands at the panel's 100 %";
+  EXPECT_EQ(bench.cycle().feed_ratio, 0.95);
+}
+
+TEST(Safety, LeavingActHandsBackThroughTheSlewBeforeItStopsWriting) {
+  for (const Mode to : {Mode::observe, Mode::advise}) {
+    Bench bench;
+    bench.wish_feed(0.4);
+    bench.wish_offset(0.01);
+    bench.cycles(1000);
+    bench.supervisor.set_mode(to);
+    double in_force = 0.4;
+    int writing = 0;
+    for (int i = 0; i < 2000; ++i) {
+      bench.frame.motion = i < 1000 ? signal::Motion::feed : signal::Motion::rapid;
+      const auto command = bench.cycle();
+      if (!command.write) {
+        break;
+      }
+      ++writing;
+      EXPECT_EQ(command.feed_reason, Reason::observe_only);
+      EXPECT_LE(command.feed_ratio, in_force + 0.1 + 1e-9) << "no more than one step at once";
+      in_force = command.feed_ratio;
+      if (i == 290) {
+        EXPECT_LT(in_force, 1.0) << "0.6 at 2 1/s takes 0.3 s";
+      }
+      if (i == 999) {
+        EXPECT_EQ(command.offset_mm[2], 0.01) << "frozen in the cut";
+      }
+    }
+    EXPECT_EQ(in_force, 1.0);
+    EXPECT_NEAR(writing, 1200, 3) << "1 s in the cut, then 0.01 mm at 0.05 mm/s";
+    EXPECT_EQ(bench.supervisor.mode_in_force(), to);
+    EXPECT_FALSE(bench.cycles(1000).write);
+  }
+}
+
+TEST(Safety, TheLowestWishOfAllRoomsIsWritten) {
+  Bench bench;
+  bench.feed = {{signal::Room::motion, 0.8, Reason::contour_objective},
+                {signal::Room::contour, 0.5, Reason::contour_limit},
+                {signal::Room::thermal, 1.0, Reason::none}};
+  const auto command = bench.cycles(200);
+  EXPECT_EQ(command.feed_ratio, 0.5);
+  EXPECT_EQ(command.feed_reason, Reason::contour_limit);
+}
+
+struct Spoil {
+  const char* what;
+  Reason reason;
+  void (*spoil)(signal::Frame&);
+};
+
+const Spoil kSpoils[] = {
+    {"age", Reason::input_stale, [](signal::Frame& f) { f.age_s = 0.11; }},
+    {"age NaN", Reason::input_not_finite, [](signal::Frame& f) { f.age_s = kNan; }},
+    {"age from the future", Reason::input_out_of_range, [](signal::Frame& f) { f.age_s = -5.0; }},
+    {"command", Reason::input_not_finite, [](signal::Frame& f) { f.axis[1].command_mm = kNan; }},
+    {"actual", Reason::input_not_finite, [](signal::Frame& f) { f.axis[2].actual_mm = -kInf; }},
+    {"following error", Reason::input_not_finite,
+     [](signal::Frame& f) { f.axis[0].following_error_mm = kInf; }},
+    {"feed", Reason::input_not_finite, [](signal::Frame& f) { f.programmed_feed_mm_s = kNan; }},
+    {"negative feed", Reason::input_out_of_range,
+     [](signal::Frame& f) { f.programmed_feed_mm_s = -1.0; }},
+    {"path speed", Reason::input_not_finite, [](signal::Frame& f) { f.path_speed_mm_s = kNan; }},
+    {"spindle", Reason::input_not_finite, [](signal::Frame& f) { f.spindle_actual_rev_s = kNan; }},
+    {"axis count", Reason::input_out_of_range, [](signal::Frame& f) { f.axis_count = 200; }},
+    {"off the machine", Reason::input_out_of_range,
+     [](signal::Frame& f) { f.axis[0].actual_mm = 1e9; }},
+    {"panel", Reason::input_not_finite, [](signal::Frame& f) { f.feed.panel_ratio = kNan; }},
+    {"negative panel", Reason::input_out_of_range,
+     [](signal::Frame& f) { f.feed.panel_ratio = -0.5; }},
+    {"panel code", Reason::unknown_override_code,
+     [](signal::Frame& f) { f.feed.panel_code_known = false; }},
+};
+
+TEST(Safety, UnfitInputGivesTheNeutralRequestWithAReasonThroughTheSlew) {
+  for (const auto& [what, reason, spoil] : kSpoils) {
+    Bench bench;
+    bench.wish_feed(0.4);
+    ASSERT_EQ(bench.cycles(500).feed_ratio, 0.4) << what;
+    spoil(bench.frame);
+    auto command = bench.cycle();
+    EXPECT_EQ(command.feed_reason, reason) << what;
+    EXPECT_EQ(command.feed_ratio, 0.4) << what << ": no jump";
+    EXPECT_LT(bench.cycles(290).feed_ratio, 1.0) << what << ": 0.6 at 2 1/s takes 0.3 s";
+    command = bench.cycles(50);
+    EXPECT_EQ(command.feed_ratio, 1.0) << what;
+    EXPECT_FALSE(command.feed_masks_panel) << what;
+    EXPECT_TRUE(command.write) << what;
+  }
+}
+
+TEST(Safety, TimeThatRunsBackwardsOrIsNoTimeIsUnfit) {
+  Bench bench;
+  bench.wish_feed(0.4);
+  bench.cycles(500);
+  bench.frame.time_s -= 0.2;
+  EXPECT_EQ(bench.cycle().feed_reason, Reason::input_out_of_range);
+  EXPECT_EQ(bench.cycle().feed_reason, Reason::contour_limit) << "from here on it runs again";
+  auto nan_frame = bench.frame;
+  nan_frame.time_s = kNan;
+  const auto command = bench.supervisor.update(nan_frame);
+  EXPECT_EQ(command.feed_reason, Reason::input_not_finite);
+  EXPECT_EQ(command.feed_ratio, 0.4);
+}
+
+TEST(Safety, ABadSpindlePanelDoesNotWithdrawTheFeed) {
+  Bench bench;
+  bench.wish_feed(0.4);
+  bench.wish_spindle(0.8);
+  bench.cycles(500);
+  bench.frame.spindle.panel_code_known = false;
+  const auto command = bench.cycles(500);
+  EXPECT_EQ(command.feed_ratio, 0.4);
+  EXPECT_EQ(command.spindle_ratio, 1.0);
+  EXPECT_EQ(command.spindle_reason, Reason::unknown_override_code);
+}
+
+TEST(Safety, LostFramesBecomeStaleAndHandBack) {
+  Bench bench;
+  bench.wish_feed(0.4);
+  bench.cycles(500);
+  signal::Command command;
+  double time_s = bench.frame.time_s;
+  for (int i = 0; i < 100; ++i) {
+    time_s += kCycle_s;
+    command = bench.supervisor.update_without_frame(time_s);
+  }
+  EXPECT_LT(command.feed_ratio, 1.0);
+  for (int i = 0; i < 600; ++i) {
+    time_s += kCycle_s;
+    command = bench.supervisor.update_without_frame(time_s);
+  }
+  EXPECT_EQ(command.feed_reason, Reason::input_stale);
+  EXPECT_EQ(command.feed_ratio, 1.0);
+  EXPECT_FALSE(command.feed_masks_panel);
+  Bench never;
+  EXPECT_EQ(never.supervisor.update_without_frame(0.0).feed_reason, Reason::input_stale);
+}
+
+TEST(Safety, ThreadingAndTappingHoldTheOverridesButNotAgainstTheOperator) {
+  for (const auto motion : {signal::Motion::thread, signal::Motion::tap}) {
+    Bench bench;
+    bench.wish_feed(0.6);
+    bench.wish_spindle(0.8);
+    bench.cycles(500);
+    bench.frame.motion = motion;
+    bench.wish_feed(0.2);
+    bench.wish_spindle(1.1);
+    auto command = bench.cycles(500);
+    EXPECT_EQ(command.feed_ratio, 0.6);
+    EXPECT_EQ(command.spindle_ratio, 0.8);
+    EXPECT_EQ(command.feed_reason, Reason::withdrawn_thread);
+    bench.frame.feed.panel_ratio = 0.0;
+    command = bench.cycle();
+    EXPECT_EQ(command.feed_ratio, 0.0);
+    EXPECT_FALSE(command.feed_masks_panel);
+    bench.frame.feed.panel_ratio = 1.0;
+    bench.frame.motion = signal::Motion::feed;
+    EXPECT_EQ(bench.cycles(800).feed_ratio, 0.2);
+  }
+}
+
+TEST(Safety, AnOffsetFreezesOnBadInputAndRampsOutWhenNoToolIsInTheCut) {
+  Bench bench;
+  bench.wish_offset(0.02);
+  EXPECT_EQ(bench.cycles(1000).offset_mm[2], 0.02);
+  bench.offset[0].offset_mm[0] = kNan;
+  EXPECT_EQ(bench.cycles(1000).offset_mm[2], 0.02);
+  bench.frame.motion = signal::Motion::dwell;
+  EXPECT_EQ(bench.cycles(1000).offset_mm[2], 0.02) << "a dwell at the bottom is in the cut";
+  bench.frame.motion = signal::Motion::rapid;
+  bench.frame.age_s = 1.0;
+  EXPECT_EQ(bench.cycles(1000).offset_mm[2], 0.02) << "a stale frame does not say that it is out";
+  bench.frame.age_s = 0.0;
+  EXPECT_NEAR(bench.cycles(100).offset_mm[2], 0.015, 1e-9);
+  EXPECT_EQ(bench.cycles(1000).offset_mm[2], 0.0);
+}
+
+TEST(Safety, OffsetsStayInsideTheirLimitAndOffTheRotaryAxes) {
+  Bench bench;
+  bench.wish_offset(5.0);
+  bench.offset[0].offset_mm[3] = 0.1;
+  const auto command = bench.cycles(10'000);
+  EXPECT_EQ(command.offset_mm[2], 0.2);
+  EXPECT_EQ(command.offset_mm[3], 0.0);
+  EXPECT_EQ(command.offset_reason, Reason::clamped);
+}
+
+TEST(Safety, TheHeartbeatBeatsOnceInEveryCycleWhateverComes) {
+  for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
+    Bench bench(mode);
+    std::uint64_t last = bench.cycle().heartbeat;
+    for (const auto& spoil : kSpoils) {
+      spoil.spoil(bench.frame);
+      EXPECT_EQ(bench.cycle().heartbeat, last + 1);
+      ++last;
+    }
+  }
+}
+
+TEST(Safety, ClampAndSlewCannotBeSwitchedOffByTheMachineFile) {
+  const auto refused = [](auto&& spoil) {
+    auto machine = mill(Mode::act);
+    spoil(machine.envelope);
+    return !Supervisor::make(machine, kAll);
+  };
+  EXPECT_TRUE(refused([](auto& e) { e.feed_rise_1_s = kInf; }));
+  EXPECT_TRUE(refused([](auto& e) { e.feed_fall_1_s = 0.0; }));
+  EXPECT_TRUE(refused([](auto& e) { e.max_feed_ratio = kInf; }));
+  EXPECT_TRUE(refused([](auto& e) { e.spindle_slew_1_s = kNan; }));
+  EXPECT_TRUE(refused([](auto& e) { e.max_offset_mm = kInf; }));
+  EXPECT_TRUE(refused([](auto& e) { e.offset_slew_mm_s = kInf; }));
+  EXPECT_TRUE(refused([](auto& e) { e.stale_after_s = kInf; }));
+}
+
+TEST(Safety, ABinaryWordOnAPortThatDoesNotLatchIsRefused) {
+  auto machine = mill(Mode::act);
+  machine.feed_override = kernel::override::test::percent_word();
+  auto capability = kAll;
+  capability.latched_word = false;
+  EXPECT_FALSE(Supervisor::make(machine, capability));
+  capability.feed_override = false;
+  EXPECT_TRUE(Supervisor::make(machine, capability)) << "what is never written cannot be misread";
+  EXPECT_TRUE(Supervisor::make(machine, kAll));
+}
+
+RC_GTEST_PROP(Safety, WhateverComesInForceStaysUnderThePanelAndOnlyActWrites, ()) {
+  const Mode mode = *rc::gen::element(Mode::observe, Mode::advise, Mode::act);
+  Bench bench(mode);
+  const int acts = *rc::gen::inRange(1, 20);
+  for (int act = 0; act < acts; ++act) {
+    bench.wish_feed(*rc::gen::element(0.0, 0.3, 0.77, 1.0, 1.2, kNan, -1.0, kInf, 7.0));
+    bench.wish_spindle(*rc::gen::element(0.0, 0.5, 0.8, 1.1, kNan, kInf));
+    bench.frame.feed.panel_ratio = *rc::gen::element(0.0, 0.5, 0.95, 1.0, 1.2);
+    bench.frame.spindle.panel_ratio = *rc::gen::element(0.5, 0.9, 1.0, 1.2);
+    bench.frame.motion = static_cast<signal::Motion>(*rc::gen::inRange(0, 9));
+    bench.frame.age_s = *rc::gen::element(0.0, 0.0, 0.0, 1.0, kNan);
+    if (*rc::gen::inRange(0, 5) == 0) {
+      bench.supervisor.set_mode(*rc::gen::element(Mode::observe, Mode::advise, Mode::act));
+    }
+    const int cycles = *rc::gen::inRange(1, 80);
+    for (int i = 0; i < cycles; ++i) {
+      const auto command = bench.cycle();
+      RC_ASSERT(command.write == (bench.supervisor.mode_in_force() == Mode::act));
+      RC_ASSERT(command.feed_ratio <= bench.frame.feed.panel_ratio + 1e-8);
+      RC_ASSERT(command.spindle_ratio <= bench.frame.spindle.panel_ratio + 1e-8);
+      RC_ASSERT(bench.supervisor.mode_in_force() != Mode::observe || !command.feed_masks_panel);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::supervisor

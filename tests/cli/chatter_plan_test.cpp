@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string kPlan = "chatter plan examples/processes/slot-922hz.toml ";
+const std::string kMill = "--machine examples/machines/vmc-840d.toml ";
+
+/// 5000 rpm is stable to 0.4086 mm; 110 % of it, 5500 rpm, to 2.7653 mm.
+TEST(ChatterPlan, TakesTheOverrideStepIntoTheStablePocket) {
+  const json plan = answer_of(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1");
+  EXPECT_EQ(plan["decision"], "constant");
+  EXPECT_EQ(plan["override_percent"], json::array({110.0}));
+  EXPECT_EQ(plan["law"], "constant");
+  EXPECT_EQ(plan["rva"], 0.0);
+  EXPECT_EQ(plan["rvf"], 0.0);
+  EXPECT_NEAR(plan["limit_depth_mm"], 2.7653, 1e-3);
+  EXPECT_NEAR(plan["speed_rpm"], 5500.0, 1e-9);
+  EXPECT_EQ(plan["alternatives"].size(), 15U);
+  EXPECT_NEAR(plan["alternatives"][10]["limit_depth_mm"], 0.4086, 1e-4);
+  EXPECT_FALSE(plan["alternatives"][10]["reasons"].empty());
+}
+
+TEST(ChatterPlan, KeepsWhatIsStable) {
+  const json plan = answer_of(kPlan + kMill + "--speed-rpm 5500 --depth-mm 1");
+  EXPECT_EQ(plan["decision"], "keep");
+  EXPECT_EQ(plan["override_percent"], json::array({100.0}));
+}
+
+/// The example's drive makes 4000 rpm/s: too little for any law at this speed.
+TEST(ChatterPlan, SaysWhyALawCannotBe) {
+  const std::string line =
+      kPlan + kMill + "--speed-rpm 5000 --depth-mm 1 --laws-only --laws triangle --rva 0.2 ";
+  const json plan = answer_of(line + "--rvf 0.1");
+  EXPECT_EQ(plan["decision"], "nothing");
+  const json law = plan["alternatives"].back();
+  EXPECT_EQ(law["law"], "triangle");
+  EXPECT_NEAR(law["amplitude_rpm"], 1000.0, 1e-9);
+  EXPECT_NEAR(law["period_s"], 0.12, 1e-9);
+  EXPECT_THAT(law["reasons"][0], HasSubstr("needs 33333 rpm/s, the drive gives 4000 rpm/s"));
+}
+
+TEST(ChatterPlan, SpeaksToPeople) {
+  const std::string text = run_line(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1").out;
+  EXPECT_THAT(text, HasSubstr("Set the spindle override to 110 % = 5500 rpm\n"));
+  EXPECT_THAT(text, HasSubstr("100 % = 5000 rpm: unstable from 0.4086 mm on\n"));
+  EXPECT_THAT(text, HasSubstr("the panel's spindle override must stand at 110 % or above"));
+}
+
+TEST(ChatterPlan, RefusesBadUsage) {
+  const std::string line = kPlan + kMill;
+  expect_all_refused({line, line + "--speed-rpm 5000", line + "--speed-rpm 0 --depth-mm 1",
+                      line + "--speed-rpm 5000 --depth-mm -1",
+                      line + "--speed-rpm nan --depth-mm 1",
+                      line + "--speed-rpm 5000 --depth-mm 1 --laws waltz",
+                      line + "--speed-rpm 5000 --depth-mm 1 --laws constant",
+                      line + "--speed-rpm 5000 --depth-mm 1 --rva 1.5",
+                      line + "--speed-rpm 5000 --depth-mm 1 --samples 0",
+                      line + "--speed-rpm 5000 --depth-mm 1 --most-depth-mm 0.5",
+                      line + "--speed-rpm 5000 --depth-mm 1 --probability-percent 101"});
+  expect_refused(kPlan + "--machine nowhere.toml --speed-rpm 5000 --depth-mm 1");
+  expect_refused("chatter plan nowhere.toml " + kMill + "--speed-rpm 5000 --depth-mm 1");
+}
+
+}  // namespace
+}  // namespace steadyrest::test

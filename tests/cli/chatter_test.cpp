@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string kSlot = "chatter radius examples/processes/slot-922hz.toml";
+const std::string kPoint = kSlot + " --speed-rpm 5000 --depth-mm 1";
+
+TEST(ChatterRadius, GivesTheConvergedRadiusOfTheSlot) {
+  const json stable = answer_of(kSlot + " --speed-rpm 5000 --depth-mm 0.2");
+  EXPECT_NEAR(stable["spectral_radius"], 0.81974278, 1e-7);
+  EXPECT_EQ(stable["stable"], true);
+  EXPECT_EQ(stable["type"], "none");
+  EXPECT_EQ(stable["passes"], 1);
+  EXPECT_EQ(stable["law"], "constant");
+  const json unstable = answer_of(kPoint);
+  EXPECT_NEAR(unstable["spectral_radius"], 1.40647353, 1e-7);
+  EXPECT_NEAR(unstable["log_radius"], std::log(1.40647353), 1e-7);
+  EXPECT_EQ(unstable["stable"], false);
+  EXPECT_EQ(unstable["type"], "hopf");
+  EXPECT_GT(unstable["frequency_hz"], 900.0);
+  EXPECT_LT(unstable["frequency_hz"], 1100.0);
+  const std::string half = "chatter radius examples/processes/half-down-922hz.toml";
+  EXPECT_NEAR(answer_of(half + " --speed-rpm 5000 --depth-mm 1")["spectral_radius"], 1.086208,
+              1e-6);
+}
+
+TEST(ChatterRadius, TakesAModulationInRatiosAndInTheWordsOfTheShopFloor) {
+  const json ratios = answer_of(kPoint + " --law sine --rva 0.2 --rvf 0.1");
+  EXPECT_NEAR(ratios["spectral_radius"], 0.0446131, 5e-7);
+  EXPECT_EQ(ratios["passes"], 20);
+  EXPECT_EQ(ratios["stable"], true);
+  EXPECT_NEAR(ratios["amplitude_rpm"], 1000.0, 1e-9);
+  EXPECT_NEAR(ratios["period_s"], 0.12, 1e-12);
+  EXPECT_FALSE(ratios.contains("wanted_rvf"));
+  const double log_radius = ratios["log_radius"];
+  for (const char* words : {" --amplitude-rpm 1000", " --amplitude-percent 20"}) {
+    const json same = answer_of(kPoint + " --law sine --period-s 0.12" + words);
+    EXPECT_NEAR(same["log_radius"], log_radius, 1e-8) << words;
+  }
+}
+
+TEST(ChatterRadius, TellsSlowModulationThoughTheRadiusIsNothing) {
+  const json slow = answer_of(kPoint + " --law triangle --rva 0.2 --rvf 0.02");
+  EXPECT_NEAR(slow["log_radius"], std::log(3e-14), 0.2);
+  EXPECT_NEAR(slow["spectral_radius"], 3e-14, 1e-14);
+  EXPECT_GT(slow["peak_growth"], 500.0);
+}
+
+TEST(ChatterRadius, KnowsEveryLaw) {
+  for (const char* law : {"square", "pulse", "triangle", "sine", "random", "stop"}) {
+    const json found = answer_of(kPoint + " --rva 0.1 --rvf 0.1 --law " + law);
+    EXPECT_EQ(found["law"], law);
+    EXPECT_GT(found["spectral_radius"], 0.0) << law;
+  }
+  const json one = answer_of(kPoint + " --law random --rva 0.1 --rvf 0.1 --seed 7");
+  const json other = answer_of(kPoint + " --law random --rva 0.1 --rvf 0.1 --seed 8");
+  EXPECT_NE(one["log_radius"], other["log_radius"]);
+  EXPECT_EQ(answer_of(kPoint + " --law constant")["spectral_radius"],
+            answer_of(kPoint)["spectral_radius"]);
+}
+
+TEST(ChatterRadius, MovesAPeriodToWholeToothPassesAndSaysSo) {
+  const json moved = answer_of(kPoint + " --law sine --rva 0.1 --rvf 0.1234567891");
+  EXPECT_NEAR(moved["wanted_rvf"], 0.1234567891, 1e-12);
+  EXPECT_NEAR(moved["rvf"], 0.1234567891, 0.005 * 0.1234567891);
+  EXPECT_LT(moved["passes"], 200);
+  EXPECT_THAT(run_line(kPoint + " --law sine --rva 0.1 --rvf 0.1234567891").out,
+              HasSubstr("RVF moved from 0.123457"));
+}
+
+TEST(ChatterRadius, ShowsAShortTableToPeople) {
+  const std::string out = run_line(kPoint).out;
+  EXPECT_THAT(out, HasSubstr("unstable (hopf)"));
+  EXPECT_THAT(out, HasSubstr("1.40647"));
+}
+
+TEST(ChatterRadius, ReadsTurningAndHelix) {
+  EXPECT_EQ(answer_of("chatter radius examples/processes/turning-250hz.toml --speed-rpm 800 "
+                      "--depth-mm 0.5")["passes"],
+            1);
+  EXPECT_EQ(answer_of("chatter radius examples/processes/helical-600hz.toml --speed-rpm 6000 "
+                      "--depth-mm 0.3")["stable"],
+            true);
+}
+
+TEST(ChatterRadius, RefusesBadUsage) {
+  const std::string sine = kPoint + " --law sine";
+  expect_refused(kSlot + " --speed-rpm 5000");
+  expect_refused(kSlot + " --speed-rpm 0 --depth-mm 1", "--speed-rpm 0 is not above 0");
+  expect_refused(kSlot + " --speed-rpm nan --depth-mm 1", "--speed-rpm nan");
+  expect_refused(kSlot + " --speed-rpm 5000 --depth-mm -1", "--depth-mm -1 is not above 0");
+  expect_refused(kPoint + " --law saw --rva 0.1 --rvf 0.1", "saw");
+  expect_refused(kPoint + " --rva 0.1 --rvf 0.1", "without its law");
+  expect_refused(sine + " --rvf 0.1", "without an amplitude");
+  expect_refused(sine + " --rva 0.1", "without a period");
+  expect_refused(sine + " --rva 1 --rvf 0.1", "must lie between 0 and 1");
+  expect_refused(sine + " --rva nan --rvf 0.1", "must lie between 0 and 1");
+  expect_refused(sine + " --amplitude-rpm 6000 --rvf 0.1", "1.2 of the mean speed");
+  expect_refused(sine + " --rva 0.1 --rvf 0", "--rvf 0");
+  expect_refused(sine + " --rva 0.1 --rvf inf", "--rvf inf");
+  expect_refused(sine + " --rva 0.1 --period-s -1", "--period-s -1");
+  expect_refused(sine + " --rva 0.1 --rvf 0.0001", "20000 tooth passes");
+  expect_refused(sine + " --rva 0.1 --amplitude-percent 10 --rvf 0.1");
+  expect_refused(sine + " --rva 0.1 --period-s 1 --rvf 0.1");
+  expect_refused("chatter radius no/such.toml --speed-rpm 5000 --depth-mm 1", "no/such.toml");
+  const Scratch scratch;
+  const std::string file = scratch.file("bad.toml", "[tool]\nteeth = 0\n[cut]\n[[mode]]\n");
+  expect_refused("chatter radius " + file + " --speed-rpm 5000 --depth-mm 1", "bad.toml:2: teeth");
+}
+
+const std::string kLobes = "chatter lobes examples/processes/slot-922hz.toml";
+
+/// Rows of numbers below the head.
+std::vector<std::vector<double>> rows_of(const std::string& path, const std::string& head) {
+  std::istringstream in(text_of_file(path));
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line, head);
+  std::vector<std::vector<double>> out;
+  while (std::getline(in, line)) {
+    std::istringstream fields(line);
+    std::string field;
+    out.emplace_back();
+    while (std::getline(fields, field, ',')) {
+      out.back().push_back(std::stod(field));
+    }
+  }
+  return out;
+}
+
+TEST(ChatterLobes, WritesTheMapAndItsBorder) {
+  const Scratch scratch;
+  const json made = answer_of(kLobes + " --speeds-rpm 5000:10000:2 --depths-mm 0.2:0.5:2 -o " +
+                              scratch.at("map.csv"));
+  EXPECT_EQ(made["points"], 4);
+  EXPECT_EQ(made["border_points"], 2);
+  EXPECT_GE(made["seconds"], 0.0);
+  const auto map = rows_of(scratch.at("map.csv"), "speed_rpm,depth_mm,spectral_radius");
+  ASSERT_EQ(map.size(), 4U);
+  const double wanted[] = {0.81974278, 1.07397559, 0.94084672, 1.07460805};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(map[i][0], i < 2 ? 5000.0 : 10000.0);
+    EXPECT_EQ(map[i][1], i % 2 == 0 ? 0.2 : 0.5);
+    EXPECT_NEAR(map[i][2], wanted[i], 1e-6);
+  }
+  const auto border = rows_of(scratch.at("map.border.csv"), "speed_rpm,depth_mm");
+  ASSERT_EQ(border.size(), 2U);
+  EXPECT_NEAR(border[0][1], 0.4086, 5e-5);
+  EXPECT_NEAR(border[1][1], 0.3224, 5e-5);
+}
+
+TEST(ChatterLobes, HasNoBorderWhereAllDepthsAreStable) {
+  const Scratch scratch;
+  const json made = answer_of(kLobes + " --speeds-rpm 5000:5500:2 --depths-mm 0:0.6:4 -o " +
+                              scratch.at("map.csv"));
+  EXPECT_EQ(made["border_points"], 1);
+  EXPECT_EQ(rows_of(scratch.at("map.border.csv"), "speed_rpm,depth_mm").size(), 1U);
+}
+
+TEST(ChatterLobes, TakesALaw) {
+  const Scratch scratch;
+  const json made = answer_of(kLobes + " --speeds-rpm 5000:5000:1 --depths-mm 1 --law sine " +
+                              "--rva 0.2 --rvf 0.1 -o " + scratch.at("map.csv"));
+  EXPECT_EQ(made["law"], "sine");
+  const auto map = rows_of(scratch.at("map.csv"), "speed_rpm,depth_mm,spectral_radius");
+  ASSERT_EQ(map.size(), 1U);
+  EXPECT_NEAR(map[0][2], 0.0446131, 5e-7);
+}
+
+TEST(ChatterLobes, RefusesBadUsage) {
+  const std::string speeds = kLobes + " --speeds-rpm 5000:6000:3";
+  const Scratch scratch;
+  const std::string out = " -o " + scratch.at("map.csv");
+  expect_refused(speeds + " --depths-mm 0:1:3");
+  expect_refused(speeds + " --depths-mm 0:1" + out, "three numbers");
+  expect_refused(speeds + " --depths-mm 0:1:2:3" + out, "three numbers");
+  expect_refused(speeds + " --depths-mm 0:x:2" + out, "three numbers");
+  expect_refused(speeds + " --depths-mm 0:1:0" + out, "STEPS");
+  expect_refused(speeds + " --depths-mm 0:1:2.5" + out, "STEPS");
+  expect_refused(speeds + " --depths-mm 1:0:5" + out, "TO is not above FROM");
+  expect_refused(speeds + " --depths-mm -1:1:5" + out, "least value allowed is 0");
+  expect_refused(speeds + " --depths-mm 0:inf:5" + out, "three numbers");
+  expect_refused(speeds + " --depths-mm 0" + out, "depths");
+  expect_refused(kLobes + " --speeds-rpm 0:1000:3 --depths-mm 0:1:3" + out, "least value");
+  expect_refused(speeds + " --depths-mm 0:1:3 --law sine --rva 0.1 --period-s 1" + out,
+                 "over several speeds");
+  EXPECT_EQ(run_line(speeds + " --depths-mm 0:1:3 -o no/such/map.csv").code, 1);
+}
+
+}  // namespace
+}  // namespace steadyrest::test

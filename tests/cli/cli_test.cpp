@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "expectations.hpp"
+#include "program.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+const std::string kCircle = "contour limit --radius-mm 10 --kv-1-s 50 ";
+
+TEST(Cli, VersionOnStdout) {
+  const Finished finished = run({"--version"});
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_THAT(finished.out, MatchesRegex("steadyrest [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(finished.err, IsEmpty());
+}
+
+TEST(Cli, WithoutAVerbIsRefused) {
+  const Finished finished = run({});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.out, IsEmpty());
+  EXPECT_EQ(finished.err, "steadyrest: A subcommand is required; see steadyrest --help\n");
+}
+
+TEST(Cli, UnknownVerbAndUnknownFlagAreRefused) {
+  EXPECT_EQ(run({"cuts"}).code, 2);
+  const Finished finished = run_line(kCircle + "--max-error-mm 0.01 --colour red");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.out, IsEmpty());
+  EXPECT_THAT(finished.err, HasSubstr("--colour"));
+  EXPECT_THAT(finished.err, HasSubstr("; see steadyrest contour limit --help"));
+}
+
+TEST(Cli, BadUsageIsOneJsonObjectToo) {
+  const Finished finished = run_line("contour limit --json --radius-mm ten");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(json::parse(finished.out)["refused"][0]["what"].get<std::string>(),
+              HasSubstr("--radius-mm"));
+}
+
+TEST(Cli, SaysSoWhenStdoutTakesNothing) {
+  for (const char* verb : {"--version", "--help"}) {
+    EXPECT_EQ(run_on_full_disk({verb}).code, 1) << verb;
+  }
+  const Finished finished = run_on_full_disk(
+      {"contour", "limit", "--radius-mm", "10", "--kv-1-s", "50", "--max-error-mm", "1", "--json"});
+  EXPECT_EQ(finished.code, 1);
+  EXPECT_THAT(finished.err, HasSubstr("cannot be written to stdout"));
+}
+
+TEST(ContourLimit, GivesTheFeedForAnError) {
+  const Finished finished = run_line(kCircle + "--max-error-mm 0.010 --json");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_THAT(finished.err, IsEmpty());
+  const json answer = json::parse(finished.out);
+  EXPECT_NEAR(answer["feed_mm_min"], 1343.0, 0.6);  // published to four digits
+  EXPECT_NEAR(answer["contour_error_mm"], 0.010, 1e-9);
+  EXPECT_TRUE(answer.contains("tracking_error_mm"));
+}
+
+TEST(ContourLimit, GivesTheErrorsAtAFeed) {
+  const Finished finished = run_line(kCircle + "--feed-mm-min 4000 --json");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const json answer = json::parse(finished.out);
+  EXPECT_NEAR(answer["contour_error_mm"], 0.0877, 6e-5);
+  EXPECT_NEAR(answer["tracking_error_mm"], 1.3216, 6e-5);
+  EXPECT_EQ(answer["feed_mm_min"], 4000.0);
+}
+
+TEST(ContourLimit, JudgesAFeedByALimit) {
+  const Finished finished = run_line(kCircle + "--feed-mm-min 4000 --max-error-mm 0.01 --json");
+  const json answer = json::parse(finished.out);
+  EXPECT_EQ(answer["within_limit"], false);
+  EXPECT_NEAR(answer["limit_feed_mm_min"], 1343.0, 0.6);
+}
+
+TEST(ContourLimit, TakesFeedForwardAndLag) {
+  const Finished forward = run_line(kCircle + "--feed-mm-min 4000 --feed-forward 0.5 --json");
+  EXPECT_NEAR(json::parse(forward.out)["contour_error_mm"], 0.0656, 1.5e-4);
+  const Finished lag = run_line(kCircle + "--feed-mm-min 4000 --velocity-lag-ms 5 --json");
+  EXPECT_NEAR(json::parse(lag.out)["contour_error_mm"], 0.0443, 1.5e-4);
+}
+
+TEST(ContourLimit, HasNoFeedWhereNothingLimitsIt) {
+  const Finished finished = run_line(kCircle + "--max-error-mm 0.01 --feed-forward 1 --json");
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_TRUE(json::parse(finished.out)["feed_mm_min"].is_null());
+}
+
+TEST(ContourLimit, ShowsAShortTableToPeople) {
+  const Finished finished = run_line(kCircle + "--feed-mm-min 4000");
+  EXPECT_THAT(finished.out, HasSubstr("contour error       0.0877 mm\n"));
+}
+
+TEST(ContourLimit, RefusesWhatIsNoCircle) {
+  expect_all_refused({"contour limit --radius-mm -1 --kv-1-s 50 --max-error-mm 0.01",
+                      "contour limit --radius-mm nan --kv-1-s 50 --max-error-mm 0.01",
+                      "contour limit --radius-mm 10 --kv-1-s 0 --max-error-mm 0.01",
+                      "contour limit --radius-mm 10 --kv-1-s inf --max-error-mm 0.01",
+                      "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 10",
+                      "contour limit --radius-mm 10 --kv-1-s 50 --feed-mm-min -5",
+                      "contour limit --radius-mm 10 --kv-1-s 50"});
+}
+
+TEST(Doctor, FindsAGoodMachineWell) {
+  const Finished finished = run_line("doctor --machine examples/machines/vmc-840d.toml --json");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const json answer = json::parse(finished.out);
+  EXPECT_EQ(answer["ok"], true);
+  EXPECT_EQ(answer["port"], "sim");
+  EXPECT_TRUE(answer["findings"].is_array());
+}
+
+TEST(Doctor, RefusesAFaultyFileByFileAndLine) {
+  const std::string path = project_file("tests/refused/machine/gain-negative.toml");
+  const Finished finished = run({"doctor", "--machine", path});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.out, IsEmpty());
+  EXPECT_THAT(finished.err,
+              StartsWith("steadyrest: " + path + ":12: servo_gain_1_s = -3 is out of range; "));
+  const json answer = json::parse(run({"doctor", "--machine", path, "--json"}).out);
+  EXPECT_EQ(answer["ok"], false);
+  EXPECT_EQ(answer["findings"][0]["line"], 12);
+}
+
+TEST(Doctor, RefusesAMissingFile) {
+  const Finished finished = run_line("doctor --machine none.toml");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.err, HasSubstr("steadyrest: none.toml: cannot be opened"));
+  EXPECT_EQ(run_line("doctor").code, 2);
+}
+
+}  // namespace
+}  // namespace steadyrest::test

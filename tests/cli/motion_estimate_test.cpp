@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::Not;
+using testing::StartsWith;
+
+const std::string kSine = "examples/logs/sine-edges.csv";
+const std::string kAxis = " --count-mm 0.001 --cycle-hz 1000";
+const std::string kEdges = " --input edges" + kAxis;
+const std::string kTicks = " --input ticks" + kAxis;
+const std::string kColumns =
+    "t_s,position_mm,velocity_mm_s,acceleration_mm_s2,velocity_bound_mm_s,"
+    "acceleration_bound_mm_s2";
+
+using Row = std::array<double, 6>;
+
+std::vector<Row> rows_of(const std::string& table) {
+  std::istringstream in(table);
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line, kColumns);
+  std::vector<Row> out;
+  while (std::getline(in, line)) {
+    std::istringstream fields(line);
+    std::string field;
+    Row row{};
+    for (double& value : row) {
+      EXPECT_TRUE(std::getline(fields, field, ',')) << line;
+      value = std::strtod(field.c_str(), nullptr);
+    }
+    EXPECT_TRUE(fields.eof()) << line;
+    out.push_back(row);
+  }
+  return out;
+}
+
+/// RMS error of the velocity against x = 0.15 mm·(1 − cos 2π·2 Hz·t), from 50 ms on.
+double sine_error_mm_s(const std::vector<Row>& rows) {
+  const double w = 2.0 * std::numbers::pi * 2.0;
+  double squares = 0.0;
+  double n = 0.0;
+  for (const Row& row : rows) {
+    if (row[0] >= 0.05) {
+      const double error = row[2] - 0.15 * w * std::sin(w * row[0]);
+      squares += error * error;
+      n += 1.0;
+    }
+  }
+  return std::sqrt(squares / n);
+}
+
+std::vector<Row> sine_by(const std::string& estimator) {
+  const Finished finished =
+      run_line("motion estimate " + kSine + kEdges + " --estimator " + estimator);
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  return rows_of(finished.out);
+}
+
+TEST(MotionEstimate, WritesATickForEveryCycleOfALogOfEdges) {
+  const Scratch scratch;
+  const std::string out = scratch.at("out.csv");
+  const Finished finished =
+      run_line("motion estimate " + kSine + kEdges + " -o " + out + " --json");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_THAT(finished.err, IsEmpty());
+  const json answer = json::parse(finished.out);
+  EXPECT_THAT(answer["estimator"].get<std::string>(), Not(IsEmpty()));
+  EXPECT_EQ(answer["ticks"], 501);
+  EXPECT_EQ(answer["edges"], 598);  // lines 1 … 299, up and down
+  EXPECT_EQ(answer["reports"], 0);
+  EXPECT_EQ(answer["complete"], true);
+  EXPECT_TRUE(answer["cycle"].is_null());
+  EXPECT_DOUBLE_EQ(answer["clock_s"], 1e-7);
+  const std::string table = text_of_file(out);
+  EXPECT_THAT(table, HasSubstr("\n0.007000000,"));
+  const std::vector<Row> rows = rows_of(table);
+  ASSERT_EQ(rows.size(), 501U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_NEAR(rows[i][0], 0.001 * static_cast<double>(i), 1e-10);
+  }
+}
+
+TEST(MotionEstimate, DifferencesErrByWhatTheirQuantisationAllows) {
+  // 0.408 counts/tick at constant speed (Kavanagh and Murphy), here with a lag of half a tick.
+  EXPECT_NEAR(sine_error_mm_s(sine_by("difference")), 0.408, 0.05);
+}
+
+TEST(MotionEstimate, EdgesWithTheirTimesBeatDifferences) {
+  EXPECT_LT(sine_error_mm_s(sine_by("mt")), 0.5 * sine_error_mm_s(sine_by("difference")));
+}
+
+TEST(MotionEstimate, TheDefaultIsAHundredTimesFinerThanDifferencesAndKeepsItsBounds) {
+  const Finished finished =
+      run_line("motion estimate " + kSine + kEdges +
+               " --max-speed 1.9 --max-acceleration 24 --max-jerk 300 --line-error-um 0");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const std::vector<Row> rows = rows_of(finished.out);
+  EXPECT_LT(sine_error_mm_s(rows), 0.00408);
+  const double w = 2.0 * std::numbers::pi * 2.0;
+  for (const Row& row : rows) {
+    ASSERT_LE(std::abs(row[2] - 0.15 * w * std::sin(w * row[0])), row[4]) << row[0];
+    ASSERT_LE(std::abs(row[3] - 0.15 * w * w * std::cos(w * row[0])), row[5]) << row[0];
+    ASSERT_TRUE(row[0] < 0.05 || (std::isfinite(row[4]) && std::isfinite(row[5]))) << row[0];
+  }
+}
+
+TEST(MotionEstimate, WithoutALimitOfTheJerkThereIsNoBound) {
+  const std::string table = run_line("motion estimate " + kSine + kEdges).out;
+  EXPECT_THAT(table, HasSubstr(",inf,inf\n"));
+}
+
+TEST(MotionEstimate, EveryEstimatorOfItsHelpGivesFiniteNumbers) {
+  const std::string help = run_line("motion estimate --help").out;
+  const std::size_t at = help.find("One of ");
+  ASSERT_NE(at, std::string::npos);
+  std::string names = help.substr(at + 7);
+  std::istringstream in(names.substr(0, names.find("\n  -")));
+  std::string name;
+  int tried = 0;
+  while (in >> name) {
+    name.erase(std::remove(name.begin(), name.end(), ','), name.end());
+    const Finished finished =
+        run_line("motion estimate " + kSine + kEdges +
+                 " --max-speed 2 --max-acceleration 25 --max-jerk 300 --estimator " + name);
+    ASSERT_EQ(finished.code, 0) << name << finished.err;
+    const std::vector<Row> rows = rows_of(finished.out);
+    EXPECT_EQ(rows.size(), 501U) << name;
+    for (const Row& row : rows) {
+      ASSERT_TRUE(std::isfinite(row[1]) && std::isfinite(row[2]) && std::isfinite(row[3])) << name;
+      ASSERT_TRUE(row[4] >= 0.0 && row[5] >= 0.0) << name;
+    }
+    ++tried;
+  }
+  EXPECT_GE(tried, 7);
+}
+
+TEST(MotionEstimate, ReadsStdin) {
+  const std::string log = project_file(kSine);
+  const Finished finished = run_line_on("motion estimate -" + kEdges, log);
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  EXPECT_EQ(finished.out, run_line("motion estimate " + log + kEdges).out);
+}
+
+TEST(MotionEstimate, KeepsWhatWasGoodBeforeABadRow) {
+  const Scratch scratch;
+  const std::string log = scratch.file("log.csv",
+                                       "t_s,count\n0.000,0\n0.001,1\n0.002,2\n0.003,3\n"
+                                       "0.002,4\n0.005,5\n");
+  const std::string out = scratch.at("out.csv");
+  const Finished finished =
+      run_line("motion estimate " + log + kTicks + " --estimator difference --json -o " + out);
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.err, StartsWith("steadyrest: " + log + ":6: time goes back"));
+  const json answer = json::parse(finished.out);
+  EXPECT_EQ(answer["ticks"], 4);
+  EXPECT_EQ(answer["complete"], false);
+  EXPECT_EQ(answer["reports"], 1);
+  EXPECT_EQ(answer["findings"][0]["line"], 6);
+  const std::vector<Row> rows = rows_of(text_of_file(out));
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_NEAR(rows[3][2], 1.0, 1e-9);
+}
+
+TEST(MotionEstimate, ReportsLostEdgesAndGoesOn) {
+  const Scratch scratch;
+  const std::string log =
+      scratch.file("log.csv", "t_s,count\n0.0001,0\n0.0011,1\n0.0021,5\n0.0031,6\n");
+  const Finished finished = run_line("motion estimate " + log + kEdges + " --json");
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_THAT(finished.err, HasSubstr(log + ":4: the count jumps from 1 to 5"));
+  const json answer = json::parse(finished.out);
+  EXPECT_EQ(answer["jumps"], 1);
+  EXPECT_EQ(answer["edges"], 3);
+}
+
+TEST(MotionEstimate, ReportsALogThatEndsMidRow) {
+  const Scratch scratch;
+  const std::string log = scratch.file("log.csv", "t_s,count\n0.000,0\n0.001,1\n0.00");
+  const Finished finished = run_line("motion estimate " + log + kTicks + " --json");
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_THAT(finished.err, HasSubstr(log + ":4: the log ends within a row"));
+  EXPECT_EQ(json::parse(finished.out)["ticks"], 2);
+}
+
+TEST(MotionEstimate, RefusesALogThatItCannotReadAndLeavesTheOutputAlone) {
+  const Scratch scratch;
+  const std::string out = scratch.file("out.csv", "precious");
+  for (const char* name :
+       {"column-count-missing.csv", "compressed.csv.gz", "empty.csv", "none.csv"}) {
+    const std::string log = project_file(std::string("tests/refused/motion/") + name);
+    const Finished finished = run_line("motion estimate " + log + kEdges + " -o " + out);
+    EXPECT_EQ(finished.code, 2) << name;
+    EXPECT_THAT(finished.err, StartsWith("steadyrest: " + log + ":")) << name;
+    EXPECT_EQ(text_of_file(out), "precious");
+  }
+}
+
+TEST(MotionEstimate, DoesNotOverwriteItsOwnLog) {
+  const Scratch scratch;
+  const std::string text = "t_s,count\n0.000,0\n0.001,1\n";
+  const std::string log = scratch.file("log.csv", text);
+  EXPECT_EQ(run_line("motion estimate " + log + kTicks + " -o " + log).code, 2);
+  EXPECT_EQ(text_of_file(log), text);
+}
+
+TEST(MotionEstimate, RefusesBadUsage) {
+  const std::string verb = "motion estimate " + kSine + " ";
+  expect_all_refused({std::string("motion estimate") + kEdges,
+                      verb + kAxis,
+                      verb + "--input words" + kAxis,
+                      verb + "--input edges --cycle-hz 1000",
+                      verb + "--input edges --count-mm 0.001",
+                      verb + "--input edges --count-mm 0 --cycle-hz 1000",
+                      verb + "--input edges --count-mm nan --cycle-hz 1000",
+                      verb + "--input edges --count-mm 0.001 --cycle-hz -1000",
+                      verb + "--input edges --count-mm 0.001 --cycle-hz inf",
+                      verb + kEdges + " --max-acceleration 0",
+                      verb + kEdges + " --max-jerk -5",
+                      verb + kEdges + " --max-speed nan",
+                      verb + kEdges + " --line-error-um -1",
+                      verb + kEdges + " --clock-ns -1",
+                      verb + kEdges + " --lag-ms nan",
+                      verb + kEdges + " --estimator difference --lag-ms 2",
+                      verb + kEdges + " --estimator oracle",
+                      verb + kTicks + " --estimator mt",
+                      verb + kTicks + " --estimator event-fit",
+                      verb + kEdges + " --estimator worst-case"});
+  EXPECT_THAT(run_line(verb + kEdges + " --estimator oracle").err, HasSubstr("difference, mt"));
+}
+
+TEST(MotionEstimate, SaysSoWhenTheOutputCannotBeWritten) {
+  const std::string line = "motion estimate " + kSine + kEdges + " -o ";
+  EXPECT_EQ(run_line(line + "none/out.csv").code, 1);
+  EXPECT_EQ(run_line(line + "/dev/full").code, 1);
+}
+
+/// The recorded servo axis; empty where the shared data are absent.
+class RecordedAxis : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const char* set = std::getenv("STEADYREST_SHARED_DATA");
+    const std::string data = set != nullptr ? set : STEADYREST_SOURCE_DIR "/../shared/data";
+    const std::string packed = data + "/encoder/" + GetParam() + ".csv.gz";
+    if (!std::filesystem::exists(packed)) {
+      GTEST_SKIP() << packed << " is absent";
+    }
+    log_ = scratch_.at("log.csv");
+    ASSERT_EQ(std::system(fmt::format("zcat '{}' > '{}'", packed, log_).c_str()), 0);
+    std::istringstream in(text_of_file(log_));
+    std::string line;
+    std::getline(in, line);
+    double t_s = 0.0;
+    char comma = ' ';
+    long count = 0;
+    while (in >> t_s >> comma >> count) {
+      t_s_.push_back(t_s);
+      counts_.push_back(count);
+    }
+    ASSERT_GT(t_s_.size(), 5000U);
+  }
+
+  Scratch scratch_;
+  std::string log_;
+  std::vector<double> t_s_;
+  std::vector<long> counts_;
+};
+
+TEST_P(RecordedAxis, TicksComeBackRowByRowAsDifferences) {
+  const Finished finished =
+      run_line("motion estimate " + log_ + kTicks + " --estimator difference");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const std::vector<Row> rows = rows_of(finished.out);
+  ASSERT_EQ(rows.size(), counts_.size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_NEAR(rows[i][0], t_s_[i], 1e-9);
+    ASSERT_NEAR(rows[i][2], static_cast<double>(counts_[i] - counts_[i - 1]), 1e-6) << i;
+  }
+}
+
+TEST_P(RecordedAxis, TheJitterOfItsCycleIsTold) {
+  const Finished finished = run_line("motion estimate " + log_ + kTicks + " --json");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const json cycle = json::parse(finished.out)["cycle"];
+  double longest_s = 0.0;
+  for (std::size_t i = 1; i < t_s_.size(); ++i) {
+    longest_s = std::max(longest_s, t_s_[i] - t_s_[i - 1]);
+  }
+  EXPECT_NEAR(cycle["mean_s"], 1e-3, 1e-6);
+  EXPECT_GT(cycle["jitter_rms_s"], 0.5e-6);
+  EXPECT_LT(cycle["jitter_rms_s"], 20e-6);
+  // One of the logs has a gap of six seconds.
+  EXPECT_EQ(cycle["gaps"], longest_s > 0.011 ? 1 : 0);
+  EXPECT_NEAR(longest_s > 0.011 ? cycle["longest_gap_s"] : cycle["longest_s"], longest_s, 1e-9);
+}
+
+TEST_P(RecordedAxis, CoarseEdgesKeepThePositionWithinTheirCount) {
+  // Counts ÷ 64, edges in the straight line between two samples.
+  constexpr long kCoarse = 64;
+  const auto cell = [](long count) {
+    return count >= 0 ? count / kCoarse : -((-count + kCoarse - 1) / kCoarse);
+  };
+  std::string text = fmt::format("t_s,count\n{:.9f},{}\n", t_s_[0], cell(counts_[0]));
+  std::size_t edges = 0;
+  for (std::size_t i = 1; i < counts_.size(); ++i) {
+    const double per_count_s =
+        (t_s_[i] - t_s_[i - 1]) /
+        static_cast<double>(std::max(1L, std::abs(counts_[i] - counts_[i - 1])));
+    for (long at = cell(counts_[i - 1]); at != cell(counts_[i]); ++edges) {
+      const bool up = at < cell(counts_[i]);
+      const long line = (up ? at + 1 : at) * kCoarse;
+      at += up ? 1 : -1;
+      text += fmt::format(
+          "{:.9f},{}\n",
+          t_s_[i - 1] + per_count_s * static_cast<double>(std::abs(line - counts_[i - 1])), at);
+    }
+  }
+  text += fmt::format("{:.9f},{}\n", t_s_.back(), cell(counts_.back()));
+  const std::string log = scratch_.file("edges.csv", text);
+  const std::string out = scratch_.at("out.csv");
+  const Finished finished = run_line("motion estimate " + log +
+                                     " --input edges --count-mm 0.064 --cycle-hz 1000 "
+                                     "--estimator mt --json -o " +
+                                     out);
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_EQ(json::parse(finished.out)["edges"], edges);
+  const std::vector<Row> rows = rows_of(text_of_file(out));
+  EXPECT_EQ(rows.size(), static_cast<std::size_t>(std::floor(t_s_.back() * 1000.0)) + 1);
+  std::size_t at = 0;
+  for (const Row& row : rows) {
+    while (at + 2 < t_s_.size() && t_s_[at + 1] < row[0]) {
+      ++at;
+    }
+    const double low = 0.001 * static_cast<double>(std::min(counts_[at], counts_[at + 1]));
+    const double high = 0.001 * static_cast<double>(std::max(counts_[at], counts_[at + 1]));
+    ASSERT_GE(row[1], low - 0.0641) << row[0];
+    ASSERT_LE(row[1], high + 0.0641) << row[0];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(MotionEstimate, RecordedAxis,
+                         testing::Values("k0m0.06", "k12m", "k3m0.07", "k50m",
+                                         "torque_oscillation"),
+                         [](const auto& param) {
+                           std::string name = param.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace steadyrest::test

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include <steadyrest/nc/interpret/program.hpp>
+
+namespace {
+
+namespace interpret = steadyrest::nc::interpret;
+
+// What no text may bring about: a move that is not finite, or that does not start where the one
+// before ended while no offset changed.
+class Watch final : public interpret::Sink {
+ public:
+  void on_move(const interpret::Move& move) override {
+    for (std::size_t i = 0; i < move.end.size(); ++i) {
+      if (!std::isfinite(move.end[i]) || !std::isfinite(move.offset[i])) {
+        std::abort();
+      }
+    }
+    if (!std::isfinite(move.feed_mm_s) || move.dwell_s < 0.0) {
+      std::abort();
+    }
+  }
+  void on_event(const interpret::Event& /*event*/) override {}
+};
+
+}  // namespace
+
+// The first byte chooses the dialect, the rest is the program.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) {
+    return 0;
+  }
+  interpret::Config config;
+  config.dialect = static_cast<steadyrest::nc::read::Dialect>(data[0] % 3U);
+  Watch watch;
+  const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
+  const auto report = interpret::run_text(text, config, watch);
+  if (!report.has_value()) {
+    std::abort();
+  }
+  return 0;
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <expected>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "source.hpp"
+
+namespace house {
+
+/// One entry of floors.toml.
+struct Place {
+  std::string folder;
+  int floor = 0;
+  std::vector<std::string> includes;
+};
+
+/// floors.toml as values.
+struct Rules {
+  std::string root;
+  std::vector<Place> places;
+  std::vector<std::string> in_cycle_folders;
+  std::vector<std::string> in_cycle_headers;
+  std::vector<std::string> in_cycle_words;
+  std::vector<std::string> noexcept_functions;
+};
+
+[[nodiscard]] std::expected<Rules, std::string> read_rules(std::string_view toml_text);
+
+struct Violation {
+  std::string rule;  ///< floor, half, in-cycle, namespace, spdx, quoted-include, place, unbuilt
+  std::string path;
+  std::size_t line = 0;
+  std::string what;
+};
+
+/// What one file does against the rules that can be seen in it alone.
+[[nodiscard]] std::vector<Violation> check_file(const SourceFile& file, const Rules& rules);
+
+/// Sources under the root that no CMakeLists.txt above them names: code that nobody builds.
+[[nodiscard]] std::vector<Violation> check_built(const std::vector<SourceFile>& tree,
+                                                 const Rules& rules);
+
+/// All rules over all files.
+[[nodiscard]] std::vector<Violation> check_tree(const std::vector<SourceFile>& tree,
+                                                const Rules& rules);
+
+/// Counts of files and lines, as text for people.
+[[nodiscard]] std::string size_report(const std::vector<SourceFile>& tree, const Rules& rules);
+
+}  // namespace house

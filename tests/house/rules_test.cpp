@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rules.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace house {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const Rules& rules() {
+  static const Rules kRules = [] {
+    std::ifstream in(STEADYREST_SOURCE_DIR "/tests/house/floors.toml");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    return read_rules(text).value();
+  }();
+  return kRules;
+}
+
+constexpr std::string_view kSpdx = "// SPDX-License-Identifier: Apache-2.0\n";
+
+std::string namespace_of(std::string path) {
+  path = std::string(folder_of(path));
+  if (path.ends_with("/test")) {
+    path.resize(path.size() - 5);
+  }
+  for (std::size_t at = path.find('/'); at != std::string::npos; at = path.find('/')) {
+    path.replace(at, 1, "::");
+  }
+  return path;
+}
+
+/// A file that keeps every rule but for what `body` does; the body starts on line 2.
+SourceFile file(const std::string& path, const std::string& body) {
+  return {path, std::string(kSpdx) + body + "\nnamespace " + namespace_of(path) + " {}\n"};
+}
+
+/// Each violation as `rule:line`.
+std::vector<std::string> found(const SourceFile& source) {
+  std::vector<std::string> out;
+  for (const Violation& violation : check_file(source, rules())) {
+    out.push_back(violation.rule + ":" + std::to_string(violation.line));
+  }
+  return out;
+}
+
+std::vector<std::string> found(const std::string& path, const std::string& body) {
+  return found(file(path, body));
+}
+
+TEST(Floors, ALowerFloorMayBeIncluded) {
+  EXPECT_THAT(
+      found("steadyrest/contour/online/x.hpp", "#include <steadyrest/kernel/port/port.hpp>"),
+      IsEmpty());
+  EXPECT_THAT(found("steadyrest/nc/read/x.hpp", "#include <steadyrest/nc/interpret/move.hpp>"),
+              IsEmpty());
+  EXPECT_THAT(found("steadyrest/apps/cli/x.cpp", "#include <steadyrest/adapters/replay/x.hpp>"),
+              IsEmpty());
+}
+
+TEST(Floors, AHigherFloorMustNotBeIncluded) {
+  EXPECT_THAT(found("steadyrest/kernel/port/x.hpp", "#include <steadyrest/math/lu.hpp>"),
+              ElementsAre("floor:2"));
+  EXPECT_THAT(found("steadyrest/nc/plan/x.cpp", "\n#include <steadyrest/sim/axis.hpp>"),
+              ElementsAre("floor:3"));
+  EXPECT_THAT(found("steadyrest/contour/x.hpp", "#include <steadyrest/supervisor/cycle.hpp>"),
+              ElementsAre("floor:2"));
+}
+
+TEST(Floors, MathDoesNotKnowPrograms) {
+  EXPECT_THAT(found("steadyrest/nc/plan/x.hpp", "#include <steadyrest/math/geometry/segment.hpp>"),
+              IsEmpty());
+  EXPECT_THAT(found("steadyrest/math/x.hpp", "#include <steadyrest/nc/interpret/move.hpp>"),
+              ElementsAre("floor:2"));
+}
+
+TEST(Floors, RoomsNeverMeet) {
+  const std::vector<std::string> rooms = {"motion", "contour", "chatter", "thermal"};
+  for (const std::string& here : rooms) {
+    for (const std::string& there : rooms) {
+      const auto result = found("steadyrest/" + here + "/online/x.hpp",
+                                "#include <steadyrest/" + there + "/online/y.hpp>");
+      EXPECT_EQ(result.empty(), here == there) << here << " → " << there;
+    }
+  }
+}
+
+TEST(Floors, TheSupervisorKnowsOnlineHalvesOnly) {
+  const std::string path = "steadyrest/supervisor/cycle.hpp";
+  EXPECT_THAT(found(path, "#include <steadyrest/contour/online/x.hpp>"), IsEmpty());
+  EXPECT_THAT(found(path, "#include <steadyrest/contour/offline/x.hpp>"), ElementsAre("floor:2"));
+  EXPECT_THAT(found(path, "#include <steadyrest/contour/x.hpp>"), ElementsAre("floor:2"));
+  EXPECT_THAT(found(path, "#include <steadyrest/sim/x.hpp>"), ElementsAre("floor:2"));
+}
+
+TEST(Floors, AnAdapterKnowsTheKernelAlone) {
+  const std::string path = "steadyrest/adapters/linuxcnc/pins.hpp";
+  EXPECT_THAT(found(path, "#include <steadyrest/kernel/port/port.hpp>"), IsEmpty());
+  EXPECT_THAT(found(path, "#include <steadyrest/adapters/linuxcnc/hal.hpp>"), IsEmpty());
+  EXPECT_THAT(found(path, "#include <steadyrest/adapters/modbus/x.hpp>"), ElementsAre("floor:2"));
+  EXPECT_THAT(found(path, "#include <steadyrest/math/x.hpp>"), ElementsAre("floor:2"));
+}
+
+TEST(Floors, TheSimulatedMachineDoesNotKnowTheLayer) {
+  const std::string path = "steadyrest/sim/axis.hpp";
+  EXPECT_THAT(found(path, "#include <steadyrest/nc/plan/setpoint.hpp>"), IsEmpty());
+  EXPECT_THAT(found(path, "#include <steadyrest/contour/online/x.hpp>"), ElementsAre("floor:2"));
+  EXPECT_THAT(found(path, "#include <steadyrest/supervisor/x.hpp>"), ElementsAre("floor:2"));
+}
+
+TEST(Floors, AFolderWithoutAPlaceIsRefused) {
+  EXPECT_THAT(found("steadyrest/attic/x.hpp", ""), ElementsAre("place:1"));
+  EXPECT_THAT(found("steadyrest/apps/x.hpp", "#include <steadyrest/attic/y.hpp>"),
+              ElementsAre("place:2"));
+}
+
+TEST(Includes, InCommentsAndStringsDoNotCount) {
+  const std::string higher = "#include <steadyrest/apps/x.hpp>";
+  const std::string path = "steadyrest/kernel/x.hpp";
+  EXPECT_THAT(found(path, "// " + higher), IsEmpty());
+  EXPECT_THAT(found(path, "/*\n" + higher + "\n*/"), IsEmpty());
+  EXPECT_THAT(found(path, "const char* s = R\"(\n" + higher + "\n)\";"), IsEmpty());
+  EXPECT_THAT(found(path, "#  include <steadyrest/apps/x.hpp>"), ElementsAre("floor:2"));
+}
+
+TEST(Includes, OwnHeadersStandInAngleBrackets) {
+  EXPECT_THAT(found("steadyrest/kernel/x.hpp", "#include \"y.hpp\""),
+              ElementsAre("quoted-include:2"));
+  EXPECT_THAT(found("steadyrest/kernel/x.hpp", "#include \"steadyrest/apps/y.hpp\""),
+              ElementsAre("floor:2"));
+}
+
+TEST(Halves, OnlineNeverIncludesOffline) {
+  EXPECT_THAT(
+      found("steadyrest/contour/online/x.hpp", "#include <steadyrest/contour/offline/y.hpp>"),
+      ElementsAre("half:2"));
+  EXPECT_THAT(
+      found("steadyrest/contour/offline/x.hpp", "#include <steadyrest/contour/online/y.hpp>"),
+      IsEmpty());
+}
+
+TEST(InCycle, HeadersOfLocksStreamsAndClocksAreRefused) {
+  for (const std::string header :
+       {"mutex", "iostream", "chrono", "fmt/ostream.h", "sys/time.h", "map"}) {
+    EXPECT_THAT(found("steadyrest/contour/online/x.cpp", "#include <" + header + ">"),
+                ElementsAre("in-cycle:2"))
+        << header;
+    EXPECT_THAT(found("steadyrest/contour/offline/x.cpp", "#include <" + header + ">"), IsEmpty());
+    EXPECT_THAT(found("steadyrest/contour/online/test/x.cpp", "#include <" + header + ">"),
+                IsEmpty());
+  }
+}
+
+TEST(InCycle, AllocationAndThrowingAreRefused) {
+  const std::string path = "steadyrest/motion/online/x.cpp";
+  EXPECT_THAT(found(path, "int* p = new int;"), ElementsAre("in-cycle:2"));
+  EXPECT_THAT(found(path, "void* p = std::malloc(3);"), ElementsAre("in-cycle:2"));
+  EXPECT_THAT(found(path, "void f() { throw 1; }"), ElementsAre("in-cycle:2"));
+  EXPECT_THAT(found(path, "std::lock_guard g(m);"), ElementsAre("in-cycle:2"));
+  EXPECT_THAT(found(path, "auto t = std::chrono::steady_clock::now();"), ElementsAre("in-cycle:2"));
+}
+
+TEST(InCycle, TheSupervisorAndTheEnvelopeRunInTheCycleToo) {
+  for (const std::string folder : {"supervisor", "kernel/override", "kernel/rt", "kernel/signal"}) {
+    EXPECT_THAT(found("steadyrest/" + folder + "/x.cpp", "#include <mutex>"),
+                ElementsAre("in-cycle:2"));
+    EXPECT_THAT(found("steadyrest/" + folder + "/testing/x.cpp", "#include <mutex>"), IsEmpty());
+  }
+  EXPECT_THAT(found("steadyrest/kernel/machine/x.cpp", "#include <map>"), IsEmpty());
+}
+
+TEST(InCycle, WordsInCommentsNamesAndLiteralsDoNotCount) {
+  const std::string path = "steadyrest/motion/online/x.cpp";
+  EXPECT_THAT(
+      found(path, "// a new value\nint renew = 1'000; const char* s = \"new\"; char c = 'n';"),
+      IsEmpty());
+  EXPECT_THAT(found(path, "#include <new>"), IsEmpty());
+  EXPECT_THAT(found(path, "X(const X&) = delete;"), IsEmpty());
+}
+
+TEST(InCycle, LoopsWithoutABoundAreRefused) {
+  const std::string path = "steadyrest/motion/online/x.cpp";
+  EXPECT_THAT(found(path, "void f() { while (true) {} }"), ElementsAre("in-cycle:2"));
+  EXPECT_THAT(found(path, "void f() {\n  for ( ; ; ) {}\n}"), ElementsAre("in-cycle:3"));
+  EXPECT_THAT(found(path, "void f() { for (int i = 0; i < 9; ++i) {} }"), IsEmpty());
+}
+
+TEST(InCycle, UpdateMustBeNoexcept) {
+  const std::string path = "steadyrest/motion/online/x.hpp";
+  EXPECT_THAT(found(path, "class X { Output update(const Input& i); };"),
+              ElementsAre("in-cycle:2"));
+  EXPECT_THAT(found(path, "class X { Output update(const Input& i) noexcept; };"), IsEmpty());
+  EXPECT_THAT(found(path, "class X { Output f() { return update(1); } };"), IsEmpty());
+  EXPECT_THAT(found(path, "class X { void f() { filter_.update(1); } };"), IsEmpty());
+}
+
+TEST(Namespaces, FollowTheFolder) {
+  const std::string text(kSpdx);
+  EXPECT_THAT(found({"steadyrest/nc/read/x.hpp", text + "namespace steadyrest::nc {}\n"}),
+              ElementsAre("namespace:2", "namespace:1"));
+  EXPECT_THAT(found({"steadyrest/nc/read/x.hpp", text + "int a;\n"}), ElementsAre("namespace:1"));
+  EXPECT_THAT(
+      found({"steadyrest/nc/read/x.hpp", text + "namespace steadyrest::nc::read::detail {}\n"}),
+      IsEmpty());
+  EXPECT_THAT(
+      found({"steadyrest/nc/read/test/x_test.cpp", text + "namespace steadyrest::nc::read {}\n"}),
+      IsEmpty());
+  EXPECT_THAT(found({"steadyrest/apps/cli/main.cpp", text + "int main() {}\n"}), IsEmpty());
+}
+
+TEST(Spdx, OpensEveryFile) {
+  EXPECT_THAT(found({"tests/x.cpp", "int a;\n"}), ElementsAre("spdx:1"));
+  EXPECT_THAT(found({"scripts/x.sh", "#!/bin/sh\n# SPDX-License-Identifier: Apache-2.0\n"}),
+              IsEmpty());
+  EXPECT_THAT(found({"scripts/x.sh", "#!/bin/sh\necho\n"}), ElementsAre("spdx:1"));
+  EXPECT_THAT(found({"steadyrest/x/CMakeLists.txt", ""}), ElementsAre("spdx:1"));
+}
+
+TEST(Built, ASourceThatNoListNamesIsFound) {
+  const SourceFile source = file("steadyrest/nc/read/x.cpp", "");
+  const SourceFile list{"steadyrest/nc/CMakeLists.txt", "# SPDX…\n  read/x.cpp\n"};
+  EXPECT_THAT(check_built({source, list}, rules()), IsEmpty());
+  const auto violations = check_built({source}, rules());
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].rule, "unbuilt");
+}
+
+TEST(Tree, ReportsEveryFilesViolations) {
+  const auto violations =
+      check_tree({file("steadyrest/kernel/a.hpp", "#include <steadyrest/nc/x.hpp>"),
+                  file("steadyrest/sim/b.hpp", "#include <steadyrest/apps/x.hpp>")},
+                 rules());
+  ASSERT_EQ(violations.size(), 2U);
+  EXPECT_EQ(violations[1].path, "steadyrest/sim/b.hpp");
+}
+
+TEST(SizeReport, CountsAndNamesLongFiles) {
+  std::string text(kSpdx);
+  for (int i = 0; i < 450; ++i) {
+    text += "int a;\n";
+  }
+  const std::string report = size_report({{"steadyrest/nc/long.cpp", text}}, rules());
+  EXPECT_THAT(report, HasSubstr("steadyrest/nc/long.cpp (451 lines)"));
+}
+
+TEST(RulesFile, RefusesWhatIsNotTomlOrIncomplete) {
+  EXPECT_FALSE(read_rules("root = ").has_value());
+  EXPECT_FALSE(read_rules("root = 'x'").has_value());
+}
+
+}  // namespace
+}  // namespace house

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs what README.md shows.
+
+run_snippets.py ROOT BIN
+    Every fenced `sh` block runs as it stands, in ROOT, with BIN first on the path; it must exit 0.
+    Every fenced `cpp` block must stand, line for line, in a file under examples/ (which the build
+    compiles and ctest runs); fences of any other language are text.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+LIMIT_S = 300
+
+
+def snippets(text):
+    for match in FENCE.finditer(text):
+        line = text.count("\n", 0, match.start()) + 1
+        yield line, match.group(1), match.group(2)
+
+
+def run_shell(code, root, programs):
+    environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}")
+    # ctest is itself started by make: the inner make is on its own.
+    for name in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS"):
+        environment.pop(name, None)
+    done = subprocess.run(
+        ["sh", "-eu", "-c", code], cwd=root, env=environment, timeout=LIMIT_S,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    return None if done.returncode == 0 else f"exit {done.returncode}\n{done.stdout}"
+
+
+def stands_in_examples(code, root):
+    for path in sorted((root / "examples").rglob("*.cpp")):
+        if code in path.read_text(encoding="utf-8"):
+            return None
+    return "stands in no file under examples/"
+
+
+def main():
+    root, programs = pathlib.Path(sys.argv[1]), sys.argv[2]
+    text = (root / "README.md").read_text(encoding="utf-8")
+    failures = checked = 0
+    for line, language, code in snippets(text):
+        if language == "sh":
+            fault = run_shell(code, root, programs)
+        elif language == "cpp":
+            fault = stands_in_examples(code, root)
+        else:
+            continue
+        checked += 1
+        print(f"README.md:{line}: {language}: {'ok' if fault is None else fault}")
+        failures += fault is not None
+    if checked == 0:
+        print("README.md shows no snippet")
+    return 1 if failures or checked == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

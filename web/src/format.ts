@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Figures, MotionFigures } from './data';
+
+/** A number with a fixed count of decimals, a thin space between thousands and a true minus sign. */
+export function fixed(value: number | null | undefined, decimals: number): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) {
+    return '–';
+  }
+  const [whole = '', part] = Math.abs(value).toFixed(decimals).split('.');
+  const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, '\u2009') : whole;
+  const digits = part === undefined ? grouped : `${grouped}.${part}`;
+  return value < 0 && /[1-9]/.test(digits) ? `−${digits}` : digits;
+}
+
+/** `+12.3 %`, `−87.0 %`; a dash where there is nothing to compare with. */
+export function change(before: number, after: number): string {
+  if (!Number.isFinite(before) || !Number.isFinite(after) || before === 0) {
+    return '–';
+  }
+  const percent = (100 * (after - before)) / before;
+  return `${percent > 0 ? '+' : ''}${fixed(percent, 1)} %`;
+}
+
+export function micrometres(mm: number): string {
+  return `${fixed(mm * 1000, 1)} µm`;
+}
+
+export function seconds(s: number): string {
+  return `${fixed(s, 2)} s`;
+}
+
+export function overLimitShare(figures: Figures): number {
+  return figures.samples > 0 ? figures.samples_over_limit / figures.samples : 0;
+}
+
+export interface FigureRow {
+  key: string;
+  label: string;
+  without: string;
+  with: string;
+  change: string;
+}
+
+/** The table of figures, as text. */
+export function figureRows(without: Figures, withLayer: Figures): FigureRow[] {
+  const row = (
+    key: string,
+    label: string,
+    value: (f: Figures) => number,
+    show: (v: number) => string,
+    compare = true,
+  ): FigureRow => ({
+    key,
+    label,
+    without: show(value(without)),
+    with: show(value(withLayer)),
+    change: compare ? change(value(without), value(withLayer)) : '',
+  });
+  const percent = (ratio: number) => `${fixed(ratio * 100, 2)} %`;
+  const count = (n: number) => fixed(n, 0);
+  return [
+    row('contour_error_max_mm', 'Contour error, largest', (f) => f.contour_error_max_mm, micrometres),
+    row('contour_error_rms_mm', 'Contour error, RMS', (f) => f.contour_error_rms_mm, micrometres),
+    row('over_limit_s', 'Time over the limit', (f) => f.over_limit_s, seconds),
+    row('over_limit_ratio', 'Samples over the limit', overLimitShare, percent),
+    row('tracking_error_max_mm', 'Tracking error, largest', (f) => f.tracking_error_max_mm, micrometres),
+    row('cycle_time_s', 'Cycle time', (f) => f.cycle_time_s, seconds),
+    row('cutting_time_s', 'of which in the cut', (f) => f.cutting_time_s, seconds),
+    row('override_changes', 'Changes of the feed override', (f) => f.override_changes, count, false),
+  ];
+}
+
+export interface MotionRow {
+  axis: string;
+  quantity: string;
+  difference: string;
+  estimate: string;
+  finer: string;
+  coverage: string;
+}
+
+/** Two digits that count, from 0.0012 to 1200. */
+export function twoDigits(value: number): string {
+  const decimals = value > 0 ? Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(value)))) : 0;
+  return fixed(value, decimals);
+}
+
+const ROTARY = 'ABC';
+
+/** The table of the axes' motion, as text: velocity and acceleration of each axis. */
+export function motionRows(motion: readonly MotionFigures[]): MotionRow[] {
+  return motion.flatMap((m) => {
+    const length = ROTARY.includes(m.axis) ? 'rad' : 'mm';
+    const row = (quantity: string, unit: string, naive: number, ours: number, coverage: number | null): MotionRow => ({
+      axis: m.axis,
+      quantity,
+      difference: `${twoDigits(naive)} ${length}/${unit}`,
+      estimate: `${twoDigits(ours)} ${length}/${unit}`,
+      finer: ours > 0 ? `${twoDigits(naive / ours)} ×` : '–',
+      coverage: coverage === null ? 'no bound' : `${fixed(Math.floor(coverage * 10_000) / 100, 2)} %`,
+    });
+    return [
+      row('velocity', 's', m.difference_velocity_rms_mm_s, m.velocity_rms_mm_s, m.velocity_coverage_ratio),
+      row('acceleration', 's²', m.difference_acceleration_rms_mm_s2, m.acceleration_rms_mm_s2, m.acceleration_coverage_ratio),
+    ];
+  });
+}
+
+/** What the layer was worth, in one sentence. */
+export function verdict(without: Figures, withLayer: Figures, limit_um: number): string {
+  if (without.samples === 0 && withLayer.samples === 0) {
+    return 'The program does not cut: there is nothing to compare.';
+  }
+  const before = without.contour_error_max_mm;
+  const after = withLayer.contour_error_max_mm;
+  const time = change(without.cycle_time_s, withLayer.cycle_time_s);
+  const kept = after * 1000 <= limit_um;
+  const limit = kept
+    ? `stays within the limit of ${fixed(limit_um, 1)} µm`
+    : `is over the limit of ${fixed(limit_um, 1)} µm for ${seconds(withLayer.over_limit_s)}`;
+  const sameTime = time === '–' || time === '0.0 %';
+  return (
+    `With the layer the largest contour error is ${micrometres(after)} instead of ${micrometres(before)} ` +
+    `and ${limit}; the cycle takes ${seconds(withLayer.cycle_time_s)} instead of ` +
+    `${seconds(without.cycle_time_s)}${sameTime ? '' : ` (${time})`}.`
+  );
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+import './style.css';
+import { type Abscissa, COURSE_HEIGHT_PX, CourseChart } from './charts/course_chart';
+import { echarts } from './charts/echarts';
+import { PathChart } from './charts/path_chart';
+import { RUNS, type Report, parseReport } from './data';
+import { legend, renderPage } from './page';
+import { type Plane, boundingBox } from './path';
+import { errorClasses } from './scale';
+import { onSchemeChange, theme } from './theme';
+
+function element(id: string): HTMLElement {
+  const found = document.getElementById(id);
+  if (!found) {
+    throw new Error(`element ${id} is missing`);
+  }
+  return found;
+}
+
+/** Calls back with the pressed button's value. */
+function onChoice(id: string, callback: (value: string) => void): void {
+  const buttons = [...element(id).querySelectorAll('button')];
+  for (const button of buttons) {
+    button.addEventListener('click', () => {
+      buttons.forEach((b) => b.setAttribute('aria-pressed', String(b === button)));
+      callback(button.dataset['value'] ?? '');
+    });
+  }
+}
+
+function largestError(report: Report): number {
+  let largest = 0;
+  for (const run of RUNS) {
+    const { contour_error_um, cutting } = report[run].trace;
+    contour_error_um.forEach((e, i) => {
+      if (e !== null && cutting[i] === 1) {
+        largest = Math.max(largest, Math.abs(e));
+      }
+    });
+  }
+  return largest;
+}
+
+function show(report: Report): void {
+  document.title = `${report.program} – Steadyrest report`;
+  renderPage(element('report'), report);
+  element('course').style.height = `${COURSE_HEIGHT_PX}px`;
+  const traces = RUNS.map((run) => report[run].trace);
+  const paths = [
+    new PathChart(element('path-without'), report.without.trace, 'Without the layer'),
+    new PathChart(element('path-with'), report.with.trace, 'With the layer'),
+  ];
+  echarts.connect(paths.map((p) => p.chart));
+  const course = new CourseChart(element('course'), report);
+  const largest_um = largestError(report);
+  const state = { plane: 'xy' as Plane, abscissa: 'time_s' as Abscissa, printing: false };
+
+  const drawPaths = () => {
+    const now = theme(state.printing);
+    const classes = errorClasses(report.limit_um, largest_um, now.scheme);
+    element('legend').innerHTML = legend(classes);
+    const box = boundingBox(traces, state.plane);
+    paths.forEach((path) => path.draw(state.plane, box, classes, now));
+  };
+  const drawCourse = () => course.draw(state.abscissa, theme(state.printing));
+  const drawAll = () => {
+    drawPaths();
+    drawCourse();
+  };
+  const print = (printing: boolean) => {
+    state.printing = printing;
+    document.documentElement.classList.toggle('printing', printing);
+    drawAll();
+  };
+
+  onChoice('plane', (value) => {
+    state.plane = value as Plane;
+    drawPaths();
+  });
+  onChoice('abscissa', (value) => {
+    state.abscissa = value as Abscissa;
+    drawCourse();
+  });
+  element('reset-view').addEventListener('click', () => paths.forEach((p) => p.resetView()));
+  onSchemeChange(drawAll);
+  window.addEventListener('beforeprint', () => print(true));
+  window.addEventListener('afterprint', () => print(false));
+  let width = window.innerWidth;
+  window.addEventListener('resize', () => {
+    if (window.innerWidth !== width && !state.printing) {
+      width = window.innerWidth;
+      drawAll();
+    }
+  });
+  drawAll();
+  Object.assign(window, { steadyrestCharts: { paths: paths.map((p) => p.chart), course: course.chart } });
+}
+
+const report = parseReport(element('report-data').textContent ?? '');
+if (typeof report === 'string') {
+  element('report').innerHTML = `<p class="none" id="no-data">${report}</p>`;
+} else {
+  show(report);
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from 'vitest';
+import { parseReport } from '../../src/data';
+import { lowerBound, thin } from '../../src/series';
+import { makeReport } from '../fixture';
+
+describe('thinning', () => {
+  const n = 200_000;
+  const x = Array.from({ length: n }, (_, i) => i * 1e-3);
+  const y: (number | null)[] = x.map((t) => Math.sin(t));
+  y[77_777] = 50;
+  y[150_001] = -60;
+
+  it('keeps every extreme and bounds the count', () => {
+    const points = thin(x, y, 0, 200, 1000);
+    expect(points.length).toBeLessThanOrEqual(3002);
+    expect(points).toContainEqual([x[77_777], 50]);
+    expect(points).toContainEqual([x[150_001], -60]);
+  });
+  it('keeps the order', () => {
+    const points = thin(x, y, 0, 200, 1000);
+    expect(points.every((p, i) => i === 0 || p[0] >= (points[i - 1]?.[0] ?? 0))).toBe(true);
+  });
+  it('shows all samples of a short stretch and one beyond each end', () => {
+    const points = thin(x, y, 10, 10.01, 1000);
+    expect(points[0]?.[0]).toBeLessThan(10);
+    expect(points.at(-1)?.[0]).toBeGreaterThanOrEqual(10.01);
+    expect(points.length).toBeLessThanOrEqual(14);
+  });
+  it('keeps gaps', () => {
+    const gaps = y.map((v, i) => (i > 1000 && i < 5000 ? null : v));
+    expect(thin(x, gaps, 0, 200, 500).some((p) => p[1] === null)).toBe(true);
+  });
+  it('of nothing is nothing', () => expect(thin([], [], 0, 1, 100)).toEqual([]));
+  it('finds bounds', () => {
+    expect(lowerBound([0, 1, 2, 3], 1.5)).toBe(2);
+    expect(lowerBound([0, 1], 9)).toBe(2);
+  });
+});
+
+describe('the data element', () => {
+  it('gives the report', () => expect(parseReport(JSON.stringify(makeReport(50)))).toMatchObject({ limit_um: 10 }));
+  it('is refused with a sentence when it is empty, broken or of another kind', () => {
+    expect(parseReport('"@MARK@"')).toContain('no data');
+    expect(parseReport('{')).toContain('not valid JSON');
+    expect(parseReport('{"schema":"other/2"}')).toContain('other/2');
+  });
+});
