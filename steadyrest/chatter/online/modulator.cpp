@@ -18,6 +18,8 @@ using kernel::signal::Motion;
 constexpr double kRoomToRise = 0.998;
 /// An actual speed below this share of the programmed one is not shown, or the spindle stands.
 constexpr double kStands = 1e-3;
+/// What was asked counts for this many delays at least, twice as many at most.
+constexpr double kDelaysKept = 1.5;
 
 bool all_finite(std::initializer_list<double> values) noexcept {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
@@ -80,8 +82,8 @@ void Modulator::reset() noexcept {
 void Modulator::restore(const State& state) noexcept {
   const bool is_fit = fit(state.modulation) && std::isfinite(state.time_s) && state.phase >= 0.0 &&
                       state.phase < 1.0 && state.fade >= 0.0 && state.fade <= 1.0 &&
-                      std::isfinite(state.ratio) && std::isfinite(state.coming_feed_ratio) &&
-                      std::isfinite(state.coming_until_s) && state.step < spindle_.steps() &&
+                      std::isfinite(state.ratio) && state.coming_feed.fit() &&
+                      state.coming_spindle.fit() && state.step < spindle_.steps() &&
                       (!feed_ || state.feed_step < feed_->steps());
   if (!is_fit) {
     reset();
@@ -142,6 +144,25 @@ double Modulator::goal(const Swing& swing, double phase) const noexcept {
   return 1.0 + state_.fade * (swing.mean + swing.amplitude * law_.at(phase) - 1.0);
 }
 
+/// From now until the feed could answer; turns that the law makes on the way count.
+double Modulator::lowest_goal_ahead(const Swing& swing) const noexcept {
+  const double from = state_.phase;
+  const double turn = feed_delay_s_ / state_.modulation.period_s;
+  double lowest = std::min(law_.at(from), law_.at(from + turn));
+  const auto passes = [&](double phase) { return phase - from - std::floor(phase - from) <= turn; };
+  for (std::size_t k = 0; k < law_.corner_count(); ++k) {
+    const double corner = law_.corners()[k];
+    lowest = passes(corner) ? std::min(lowest, law_.at(corner)) : lowest;
+  }
+  constexpr double kSineLowest = 0.75;
+  if (law_.law() == Law::sine && passes(kSineLowest)) {
+    lowest = -1.0;
+  }
+  const double ratio = swing.mean + swing.amplitude * lowest;
+  const double fade = std::min(1.0, state_.fade + feed_delay_s_ / config_.fade_s);
+  return 1.0 + (ratio < 1.0 ? fade : state_.fade) * (ratio - 1.0);
+}
+
 /// The larger of what the override says and of how the path runs: one of them is late after a
 /// change, and a control may leave the override aside (M49).
 double Modulator::feed_in_force(const Frame& frame) const noexcept {
@@ -173,12 +194,13 @@ void Modulator::choose_step(double ratio, const Limits& limits, double floor) no
 void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swing& swing,
                             bool slewed, Output& output) noexcept {
   const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
-  const double feed = std::max(feed_in_force(frame), state_.coming_feed_ratio);
+  const double feed = std::max(feed_in_force(frame), state_.coming_feed.most());
   const double floor = coupled ? feed / config_.max_feed_per_tooth_ratio : 0.0;
   choose_step(state_.ratio, limits, floor);
   const double chosen = spindle_.ratio(state_.step);
   const double nearest = spindle_.ratio(spindle_.nearest_step(state_.ratio).value_or(0));
   output.spindle.ratio = chosen;
+  state_.coming_spindle.note(frame.time_s, kDelaysKept * spindle_delay_s_, chosen);
   if (state_.fade < 1.0) {
     output.spindle.reason = Reason::chatter_fading;
   } else if (nearest < floor - kRatioTolerance && chosen > nearest) {
@@ -192,19 +214,14 @@ void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swin
   }
 }
 
-/// What was asked may act after something lower is asked: it counts for two of its delays.
-void Modulator::expect_feed(double time_s, double ratio) noexcept {
-  if (ratio >= state_.coming_feed_ratio || time_s > state_.coming_until_s) {
-    state_.coming_feed_ratio = ratio;
-    state_.coming_until_s = time_s + 2.0 * feed_delay_s_;
-  }
-}
-
 /// `ahead`: the lowest speed ratio from now until the feed could answer.
 void Modulator::ask_feed(const Frame& frame, double ahead, Output& output) noexcept {
   couple_feed(frame, ahead, output);
   const bool asked = output.feed.reason != Reason::none;
-  expect_feed(frame.time_s, asked ? output.feed.ratio : feed_ ? frame.feed.panel_ratio : 0.0);
+  state_.coming_feed.note(frame.time_s, kDelaysKept * feed_delay_s_,
+                          asked   ? output.feed.ratio
+                          : feed_ ? frame.feed.panel_ratio
+                                  : 0.0);
 }
 
 void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) noexcept {
@@ -215,8 +232,9 @@ void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) no
     state_.fed = false;
     return;
   }
-  const double slowest = std::max(std::min(ahead, actual), spindle_.ratio(lowest_));
-  const double cap = std::min(config_.max_feed_per_tooth_ratio * slowest, config_.max_feed_ratio);
+  const double slowest =
+      std::max(std::min({ahead, actual, state_.coming_spindle.least()}), spindle_.ratio(lowest_));
+  double cap = std::min(config_.max_feed_per_tooth_ratio * slowest, config_.max_feed_ratio);
   const double panel = frame.feed.panel_ratio;
   const double least = config_.min_feed_per_tooth_ratio * actual;
   if (feed_->layer_may_exceed_panel() && panel >= 1.0 - kRatioTolerance && panel < least) {
@@ -232,12 +250,22 @@ void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) no
     state_.fed = false;
     return;
   }
-  const auto down = feed_->floor_step(cap + kRatioTolerance);
+  auto down = feed_->floor_step(cap + kRatioTolerance);
   const double lowest =
       std::max(config_.min_feed_ratio, config_.min_feed_per_tooth_ratio * slowest);
   if (!down || feed_->ratio(*down) < lowest - kRatioTolerance) {
-    state_.fed = false;  // too coarse a table: the swing ends where this feed allows it
-    return;
+    // Too coarse a table: the swing ends where this feed allows it. What is asked already, it
+    // follows still.
+    cap = std::min(
+        config_.max_feed_per_tooth_ratio *
+            std::max(std::min(actual, state_.coming_spindle.least()), spindle_.ratio(lowest_)),
+        config_.max_feed_ratio);
+    down = feed_->floor_step(cap + kRatioTolerance);
+    if (!down || panel <= cap + kRatioTolerance ||
+        feed_->ratio(*down) < config_.min_feed_ratio - kRatioTolerance) {
+      state_.fed = false;
+      return;
+    }
   }
   const std::size_t settled =
       std::min(*down, feed_->floor_step(kRoomToRise * cap + kRatioTolerance).value_or(*down));
@@ -252,8 +280,6 @@ Modulator::Output Modulator::withdraw(Reason reason) noexcept {
   state_.fade = 0.0;
   state_.stepped = false;
   state_.fed = false;
-  state_.coming_feed_ratio = 0.0;
-  state_.coming_until_s = 0.0;
   Output output;
   output.phase = state_.phase;
   output.spindle.reason = reason;
@@ -305,8 +331,7 @@ Modulator::Output Modulator::update(const Frame& frame) noexcept {
   output.ratio = state_.ratio;
   output.mean_ratio = fitted.mean;
   output.amplitude_ratio = fitted.amplitude;
-  const double later_phase = state_.phase + feed_delay_s_ / state_.modulation.period_s;
-  const double later = std::clamp(goal(fitted, later_phase), within.low, within.high);
+  const double later = std::clamp(lowest_goal_ahead(fitted), within.low, within.high);
   const double ahead = std::min({now, later, state_.ratio});
   const double step_ahead = spindle_.ratio(spindle_.nearest_step(ahead).value_or(0));
   ask_feed(frame, std::min(ahead, std::max(step_ahead, spindle_.ratio(lowest_))), output);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include <steadyrest/chatter/online/recent_asks.hpp>
 #include <steadyrest/chatter/online/speed_law.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -38,8 +39,9 @@ struct Modulation {
 /// layer may exceed it, and (largest feed)/min_feed_per_tooth.
 ///
 /// Feed per tooth q = feed ratio ÷ speed ratio, of the programmed one; band [q₁, q₂].
-///   feed ≤ q₂·min(goal now, goal one feed delay ahead, actual speed), a step of the feed's table:
-///   the feed falls before the spindle and rises behind it;
+///   feed ≤ q₂·min(goal from now to one feed delay ahead, actual speed, steps asked of the spindle
+///   within its last 1.5 delays), a step of the feed's table: the feed falls before the spindle and
+///   rises behind it, and does not rise while a lower speed is still on its way;
 ///   speed ≥ (feed in force, or asked and still to come)/q₂: the spindle waits for the feed, and
 ///   where the feed cannot follow (M49, no override) the swing ends there; where the layer may
 ///   exceed the panel the feed is also raised to q₁·(actual speed).
@@ -98,10 +100,10 @@ class Modulator {
     double ratio = 1.0;
     std::size_t step = 0;
     std::size_t feed_step = 0;
-    double coming_feed_ratio = 0.0;  ///< the highest asked lately: it may not be in force yet
-    double coming_until_s = 0.0;
-    bool stepped = false;  ///< `step` is in force
-    bool fed = false;      ///< `feed_step` is
+    RecentAsks coming_feed;     ///< asked of the feed, may not be in force yet
+    RecentAsks coming_spindle;  ///< asked of the spindle
+    bool stepped = false;       ///< `step` is in force
+    bool fed = false;           ///< `feed_step` is
   };
 
   /// Refuses: tables that are none, fewer than two steps within the limits, values outside of the
@@ -141,13 +143,13 @@ class Modulator {
   [[nodiscard]] Limits limits(const kernel::signal::Frame& frame) const noexcept;
   [[nodiscard]] Swing swing(const Limits& limits, double speed_rev_s) const noexcept;
   [[nodiscard]] double goal(const Swing& swing, double phase) const noexcept;
+  [[nodiscard]] double lowest_goal_ahead(const Swing& swing) const noexcept;
   [[nodiscard]] double feed_in_force(const kernel::signal::Frame& frame) const noexcept;
   void choose_step(double ratio, const Limits& limits, double floor) noexcept;
   void ask_spindle(const kernel::signal::Frame& frame, const Limits& limits, const Swing& swing,
                    bool slewed, Output& output) noexcept;
   void ask_feed(const kernel::signal::Frame& frame, double ahead, Output& output) noexcept;
   void couple_feed(const kernel::signal::Frame& frame, double ahead, Output& output) noexcept;
-  void expect_feed(double time_s, double ratio) noexcept;
   Output withdraw(kernel::outcome::Reason reason) noexcept;
 
   Config config_;
@@ -157,7 +159,8 @@ class Modulator {
   std::size_t lowest_ = 0;  ///< steps of the spindle's table within the limits
   std::size_t highest_ = 0;
   double feed_top_ratio_ = 1.0;  ///< the feed can go as high as this
-  double feed_delay_s_ = 0.0;
+  double feed_delay_s_ = 0.0;    ///< scan and dead time
+  double spindle_delay_s_ = 0.0;
   State state_;
 };
 

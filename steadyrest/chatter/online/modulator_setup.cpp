@@ -135,6 +135,7 @@ Modulator::Modulator(const Config& config, Table spindle, std::optional<Table> f
       law_(config.modulation.law, config.modulation.seed),
       lowest_(spindle_.ceil_step(config.min_ratio).value_or(0)),
       highest_(spindle_.floor_step(config.max_ratio).value_or(0)) {
+  spindle_delay_s_ = delay_s(config.spindle_table);
   if (feed_) {
     feed_delay_s_ = delay_s(config.feed_table);
     if (feed_->layer_may_exceed_panel()) {

@@ -2,18 +2,17 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <steadyrest/chatter/online/modulator.hpp>
+#include <steadyrest/chatter/online/test/hunt_dice.hpp>
+#include <steadyrest/chatter/online/test/hunted_override.hpp>
 #include <steadyrest/kernel/override/arbiter.hpp>
-#include <steadyrest/kernel/override/channel.hpp>
 #include <steadyrest/kernel/override/test/published_tables.hpp>
 
 /// Random changes of everything that the modulator and the override behind it can meet, and the
@@ -27,7 +26,7 @@ struct Hunt {
   std::uint64_t outside = 0;  ///< a request outside of the limits, or not neutral unasked
   std::uint64_t phase_jumps = 0;
   std::uint64_t speed_jumps = 0;     ///< the swing moved faster than slew and drive
-  std::uint64_t feed_per_tooth = 0;  ///< asked to pass the band upwards
+  std::uint64_t feed_per_tooth = 0;  ///< asked, or in force at the machine, above the band
   std::uint64_t invalid_codes = 0;
   std::uint64_t words_outside = 0;  ///< a mixture of two words decoded outside of [from, to]
   std::string first;                ///< what the first fault was
@@ -51,50 +50,21 @@ struct Hunt {
   }
 };
 
-/// splitmix64
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15ULL + 1) {}
-  std::uint64_t next() {
-    state_ += 0x9E3779B97F4A7C15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31U);
-  }
-  std::uint64_t below(std::uint64_t n) { return (next() >> 11U) % n; }
-  bool one_in(std::uint64_t n) { return below(n) == 0; }
-  double within(double low, double high) {
-    return low + (high - low) * static_cast<double>(next() >> 11U) * 0x1.0p-53;
-  }
-  double unfit() {
-    constexpr std::array kUnfit{std::numeric_limits<double>::quiet_NaN(),
-                                std::numeric_limits<double>::infinity(),
-                                -std::numeric_limits<double>::infinity(), -1.0, 1e300};
-    return kUnfit[below(kUnfit.size())];
-  }
-
- private:
-  std::uint64_t state_;
-};
-
 /// One machine under random changes.
 class Scene {
  public:
-  using Channel = kernel::override::Channel;
   using Frame = kernel::signal::Frame;
 
   explicit Scene(std::uint64_t seed)
       : dice_(seed),
+        calm_(dice_.one_in(3)),
         config_(random_config()),
         walked_(dice_.one_in(2) && config_.spindle_table.code.empty()),
         modulator_(Modulator::make(config_).value()),
-        spindle_(Channel::make(
-                     channel_config(config_.spindle_table, config_.min_ratio, config_.max_ratio))
-                     .value()),
-        feed_(Channel::make(channel_config(config_.feed_table, config_.min_feed_ratio,
-                                           config_.max_feed_ratio))
-                  .value()) {
+        spindle_(channel_config(config_.spindle_table, config_.min_ratio, config_.max_ratio),
+                 walked_),
+        feed_(channel_config(config_.feed_table, config_.min_feed_ratio, config_.max_feed_ratio),
+              walked_) {
     frame_.motion = kernel::signal::Motion::feed;
     frame_.speed_modulation = true;
     frame_.programmed_feed_mm_s = 20.0;
@@ -112,12 +82,6 @@ class Scene {
   }
 
  private:
-  struct Word {
-    std::uint32_t code = 0;
-    bool masks = false;
-    bool known = false;
-  };
-
   Modulator::Config random_config() {
     namespace tables = kernel::override::test;
     Modulator::Config c;
@@ -125,7 +89,10 @@ class Scene {
     c.feed_table = dice_.one_in(2) ? tables::feed_840d() : tables::feed_dmg();
     c.spindle_table.layer_may_exceed_panel = dice_.one_in(3);
     c.feed_table.layer_may_exceed_panel = dice_.one_in(3);
-    c.spindle_table.scan_period_s = dice_.within(0.001, 0.03);
+    for (auto* table : {&c.spindle_table, &c.feed_table}) {
+      table->scan_period_s = dice_.within(0.001, 0.03);
+      table->dead_time_s = dice_.one_in(2) ? 0.0 : dice_.within(0.0, 0.1);
+    }
     c.min_ratio = dice_.within(0.3, 0.8);
     c.max_ratio = std::max(c.min_ratio + dice_.within(0.21, 0.6), 0.7);
     c.max_rev_s = dice_.one_in(2) ? kernel::machine::kUnlimited : dice_.within(40.0, 80.0);
@@ -137,10 +104,14 @@ class Scene {
     c.fade_s = dice_.within(0.01, 1.0);
     c.hysteresis = dice_.within(0.0, 0.5);
     c.always = dice_.one_in(4);
+    if (calm_) {  // nothing but the modulation moves the feed per tooth
+      c.max_ratio = std::max(c.max_ratio, 1.0);
+      c.max_rev_s = std::max(c.max_rev_s, 50.0);
+    }
     return c;
   }
-  [[nodiscard]] Channel::Config channel_config(const kernel::machine::OverrideTable& table,
-                                               double low, double high) const {
+  [[nodiscard]] kernel::override::Channel::Config channel_config(
+      const kernel::machine::OverrideTable& table, double low, double high) const {
     return {.table = table,
             .min_ratio = low,
             .max_ratio = high,
@@ -185,7 +156,7 @@ class Scene {
 
   void change() {
     using kernel::signal::Motion;
-    switch (dice_.below(16)) {
+    switch (calm_ ? 16 : dice_.below(16)) {
       case 0:
         frame_.motion = dice_.one_in(2) ? Motion::feed : static_cast<Motion>(dice_.below(9));
         break;
@@ -265,22 +236,41 @@ class Scene {
                       frame.motion == kernel::signal::Motion::tap;
     const auto unfit =
         is_spoilt_ ? kernel::outcome::Reason::input_stale : kernel::outcome::Reason::none;
-    spindle_ratio_ =
-        drive(spindle_, spindle_word_, spindle_ratio_, out.spindle, frame_.spindle, unfit, hold);
-    feed_ratio_ = drive(feed_, feed_word_, feed_ratio_, out.feed, frame_.feed, unfit, hold);
+    check_word(spindle_.drive(frame_.time_s, out.spindle, frame_.spindle, unfit, hold));
+    check_word(feed_.drive(frame_.time_s, out.feed, frame_.feed, unfit, hold));
     is_spoilt_ = false;
   }
 
   void move_machine(double dt_s) {
-    const double goal = std::abs(frame_.spindle_programmed_rev_s) * spindle_ratio_;
+    frame_.spindle.effective_ratio = spindle_.in_force(frame_.time_s);
+    frame_.feed.effective_ratio = feed_.in_force(frame_.time_s);
+    const double feed = frame_.feed.effective_ratio;
+    const double goal = std::abs(frame_.spindle_programmed_rev_s) * frame_.spindle.effective_ratio;
     const double reach = config_.acceleration_rev_s2 * dt_s;
     const double actual = std::abs(frame_.spindle_actual_rev_s);
     frame_.spindle_actual_rev_s = std::clamp(goal, actual - reach, actual + reach);
-    frame_.spindle.effective_ratio = spindle_ratio_;
-    frame_.feed.effective_ratio = feed_ratio_;
-    if (!dice_.one_in(8)) {
-      frame_.path_speed_mm_s = std::min(frame_.path_speed_mm_s, 20.0 * feed_ratio_);
+    if (calm_) {
+      frame_.path_speed_mm_s = frame_.programmed_feed_mm_s * feed;
+      const double per_tooth = feed * frame_.spindle_programmed_rev_s / frame_.spindle_actual_rev_s;
+      if (per_tooth > config_.max_feed_per_tooth_ratio * (1.0 + 1e-9)) {
+        fault(hunt_.feed_per_tooth, "feed per tooth in force above its band",
+              per_tooth / config_.max_feed_per_tooth_ratio);
+      }
+      return;
     }
+    if (!dice_.one_in(8)) {
+      frame_.path_speed_mm_s = std::min(frame_.path_speed_mm_s, 20.0 * feed);
+    }
+  }
+
+  void check_word(const HuntedOverride::Seen& seen) {
+    if (seen.invalid) {
+      fault(hunt_.invalid_codes, "invalid code", seen.code);
+    }
+    if (seen.outside) {
+      fault(hunt_.words_outside, "a word decodes outside of [from, to]", *seen.outside);
+    }
+    hunt_.words += seen.changed ? 1U : 0U;
   }
 
   void check_request(const Modulator::Output& out, const Frame& frame) {
@@ -355,67 +345,16 @@ class Scene {
     }
   }
 
-  /// Through envelope and hand-over; gives the ratio in force.
-  template <class Request>
-  double drive(Channel& channel, Word& word, double before, const Request& request,
-               const kernel::signal::OverrideState& panel, kernel::outcome::Reason unfit,
-               bool hold) {
-    const auto out = channel.update({.time_s = frame_.time_s,
-                                     .ratio = hold ? 1.0 : request.ratio,
-                                     .reason = request.reason,
-                                     .panel = panel,
-                                     .unfit = unfit,
-                                     .hold = hold});
-    const auto& table = channel.table();
-    const auto step = table.step_of_code(out.code);
-    if (!step) {
-      fault(hunt_.invalid_codes, "invalid code", out.code);
-      return before;
-    }
-    const bool exceeds = table.layer_may_exceed_panel();
-    const auto in_force = [&](double ratio, bool masks) {
-      const bool counts = masks && panel.panel_ratio > 0.0;
-      return !counts ? panel.panel_ratio : exceeds ? ratio : std::min(ratio, panel.panel_ratio);
-    };
-    const double now = in_force(table.ratio(*step), out.masks_panel);
-    if (word.known && walked_ && panel.panel_code_known) {
-      const auto from_step = table.step_of_code(word.code);
-      const double from = in_force(from_step ? table.ratio(*from_step) : 0.0, word.masks);
-      const auto [low, high] = std::minmax(from, now);
-      const std::uint32_t differing = word.code ^ out.code;
-      for (std::uint32_t part = differing;; part = (part - 1) & differing) {
-        const auto seen = table.step_of_code(word.code ^ part);
-        for (const bool masks : {word.masks, out.masks_panel}) {
-          const double ratio = seen    ? in_force(table.ratio(*seen), masks)
-                               : masks ? -1.0
-                                       : panel.panel_ratio;
-          if (ratio < low - 1e-9 || ratio > high + 1e-9) {
-            fault(hunt_.words_outside, "a word decodes outside of [from, to]", ratio);
-          }
-        }
-        if (part == 0) {
-          break;
-        }
-      }
-    }
-    hunt_.words += word.masks && out.masks_panel && word.code != out.code ? 1U : 0U;
-    word = {.code = out.code, .masks = out.masks_panel, .known = true};
-    return now;
-  }
-
   Dice dice_;
+  bool calm_;  ///< only the modulation changes, so that its band of the feed per tooth is strict
   Modulator::Config config_;
   bool walked_;
   Modulator modulator_;
-  Channel spindle_;
-  Channel feed_;
+  HuntedOverride spindle_;
+  HuntedOverride feed_;
   Frame frame_;
   Frame spoilt_;
   bool is_spoilt_ = false;
-  Word spindle_word_;
-  Word feed_word_;
-  double spindle_ratio_ = 1.0;
-  double feed_ratio_ = 1.0;
   Hunt hunt_;
 };
 
