@@ -4,29 +4,11 @@ import { type Abscissa, COURSE_HEIGHT_PX, CourseChart } from './charts/course_ch
 import { echarts } from './charts/echarts';
 import { PathChart } from './charts/path_chart';
 import { RUNS, type Report, parseReport } from './data';
+import { element, onChoice } from './dom';
 import { legend, renderPage } from './page';
 import { type Plane, boundingBox } from './path';
 import { errorClasses } from './scale';
 import { onSchemeChange, theme } from './theme';
-
-function element(id: string): HTMLElement {
-  const found = document.getElementById(id);
-  if (!found) {
-    throw new Error(`element ${id} is missing`);
-  }
-  return found;
-}
-
-/** Calls back with the pressed button's value. */
-function onChoice(id: string, callback: (value: string) => void): void {
-  const buttons = [...element(id).querySelectorAll('button')];
-  for (const button of buttons) {
-    button.addEventListener('click', () => {
-      buttons.forEach((b) => b.setAttribute('aria-pressed', String(b === button)));
-      callback(button.dataset['value'] ?? '');
-    });
-  }
-}
 
 function largestError(report: Report): number {
   let largest = 0;

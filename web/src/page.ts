@@ -8,6 +8,14 @@ export function escapeHtml(text: string): string {
   return text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }
 
+/** A row of buttons of which one is pressed. */
+export function buttons(name: string, title: string, options: [string, string][], chosen: string): string {
+  const list = options
+    .map(([value, text]) => `<button type="button" data-value="${escapeHtml(value)}" aria-pressed="${value === chosen}">${escapeHtml(text)}</button>`)
+    .join('');
+  return `<div class="choice" role="group" aria-label="${title}" id="${name}">${list}</div>`;
+}
+
 function headline(key: string, label: string, before: number, after: number, show: (v: number) => string): string {
   const [a, b] = [show(before), show(after)];
   return `<div class="worth" data-key="${key}"><h3>${label}</h3>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -19,9 +17,6 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-/// In the order of the enumeration.
-constexpr std::array<std::string_view, 7> kLaws = {"constant", "square", "pulse", "triangle",
-                                                   "sine",     "random", "stop"};
 constexpr double kMostPasses = 4096.0;  ///< of the solver, in the principal period
 constexpr int kMostLawPeriods = 64;
 constexpr double kSame = 1e-10;
@@ -83,7 +78,9 @@ void add_law_options(CLI::App& verb, LawOptions& options) {
           "--law", options.law,
           "Modulation of the spindle speed: constant, square, pulse, triangle, sine, random "
           "or stop")
-      ->check(CLI::IsMember(std::vector<std::string>(kLaws.begin(), kLaws.end())));
+      ->check([](const std::string& word) {
+        return chatter::online::law_of(word) ? std::string{} : word + " is no law";
+      });
   auto* rva = verb.add_option("--rva", options.rva, "Amplitude over the mean speed, 0 … 1");
   auto* rpm = verb.add_option("--amplitude-rpm", options.amplitude_rpm,
                               "In its place: the amplitude in rev/min")
@@ -118,8 +115,7 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
   if (!rvf) {
     return std::unexpected(rvf.error());
   }
-  const auto* const found = std::ranges::find(kLaws, options.law);
-  out.modulation.law = static_cast<Law>(found - kLaws.begin());
+  out.modulation.law = *chatter::online::law_of(options.law);
   out.modulation.rva = *rva;
   out.modulation.rvf = *rvf;
   out.modulation.seed = options.seed;
@@ -131,7 +127,7 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
 
 void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm) {
   const Modulation& m = chosen.modulation;
-  json["law"] = kLaws[static_cast<std::size_t>(m.law)];
+  json["law"] = chatter::online::name(m.law);
   if (m.law == Law::constant) {
     return;
   }
@@ -151,7 +147,7 @@ void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm) {
 
 std::string law_text(const ChosenLaw& chosen, double speed_rpm) {
   const Modulation& m = chosen.modulation;
-  const std::string_view name = kLaws[static_cast<std::size_t>(m.law)];
+  const std::string_view name = chatter::online::name(m.law);
   if (m.law == Law::constant) {
     return std::string(name);
   }

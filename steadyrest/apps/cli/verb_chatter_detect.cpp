@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/chatter_page/detect_page.hpp>
 #include <steadyrest/apps/cli/machine_option.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_detect.hpp>
 #include <steadyrest/chatter/offline/limit_depth.hpp>
@@ -38,6 +41,7 @@ struct Options {
   std::optional<double> speed_rpm;
   std::optional<double> programmed_rpm;
   std::optional<double> depth_mm;
+  std::string report;
 };
 
 /// One stretch of chatter.
@@ -250,6 +254,22 @@ Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>
   return answer;
 }
 
+std::string page_of(const Json& answer, const Options& options, const Machine& machine,
+                    const offline::RecordedSignal& signal, std::size_t teeth, std::size_t window) {
+  double chatter_hz = 0.0;
+  for (const Json& event : answer["events"]) {
+    chatter_hz = std::max(chatter_hz, event["frequency_hz"].get<double>());
+  }
+  return chatter_page::detect_page(
+      answer,
+      {.signal_name = std::filesystem::path(options.signal).filename().string(),
+       .machine = machine.name,
+       .teeth = teeth,
+       .window = window,
+       .chatter_hz = chatter_hz},
+      signal);
+}
+
 Outcome detect(const Options& options, const Machine& machine, std::size_t teeth,
                const std::optional<offline::Process>& process, Progress& progress) {
   auto signal = offline::read_signal(options.signal);
@@ -274,7 +294,14 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
       return refused(*refusal);
     }
   }
-  return answer_of(*signal, events);
+  Answer answer = answer_of(*signal, events);
+  if (!options.report.empty()) {
+    const auto page = page_of(answer.json, options, machine, *signal, teeth, detector->window());
+    if (const auto written = put_report(answer, options.report, page); !written) {
+      return refused(written.error());
+    }
+  }
+  return answer;
 }
 
 Outcome run(const Options& options, Progress& progress) {
@@ -284,6 +311,9 @@ Outcome run(const Options& options, Progress& progress) {
   const auto machine = read_machine(options.machine);
   if (!machine) {
     return std::unexpected(machine.error());
+  }
+  if (const auto ready = ready_report(options.report); !ready) {
+    return refused(ready.error());
   }
   std::optional<offline::Process> process;
   if (!options.process.empty()) {
@@ -306,7 +336,8 @@ void add_verb_chatter_detect(Session& session) {
       "chatter detect examples/logs/slot-chatter.csv --machine examples/machines/vmc-840d.toml "
       "--teeth 2\n"
       "  steadyrest chatter detect examples/logs/slot-chatter.csv --machine "
-      "examples/machines/vmc-840d.toml --process examples/processes/slot-922hz.toml");
+      "examples/machines/vmc-840d.toml --process examples/processes/slot-922hz.toml "
+      "--report out/heard");
   auto options = std::make_shared<Options>();
   verb.add_option("signal", options->signal,
                   "CSV (t_s, value, optional speed_rpm) or WAV, 1 … 50 kHz")
@@ -324,6 +355,7 @@ void add_verb_chatter_detect(Session& session) {
                   "Spindle speed at override 100 %; without it that of the signal");
   verb.add_option("--depth-mm", options->depth_mm,
                   "Axial depth of the cut, for --process; without it the deepest step is advised");
+  add_report_option(verb, options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -2,19 +2,26 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <steadyrest/apps/chatter_page/lobes_page.hpp>
+#include <steadyrest/apps/cli/cut_point_options.hpp>
 #include <steadyrest/apps/cli/grid.hpp>
 #include <steadyrest/apps/cli/law_options.hpp>
+#include <steadyrest/apps/cli/machine_option.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
+#include <steadyrest/apps/cli/stability_answer.hpp>
 #include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/verb_chatter_lobes.hpp>
 #include <steadyrest/chatter/offline/lobe_map.hpp>
 #include <steadyrest/chatter/offline/process_file.hpp>
+#include <steadyrest/chatter/offline/stability.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -33,8 +40,12 @@ struct Options {
   std::string process;
   std::string speeds_rpm;
   std::string depths_mm;
+  std::optional<double> speed_rpm;
+  std::optional<double> depth_mm;
+  std::string machine;
   LawOptions law;
   std::string output;
+  std::string report;
 };
 
 /// What was made and how long it took.
@@ -46,17 +57,6 @@ struct Made {
 fs::path border_path(const fs::path& csv) {
   return csv.extension() == ".csv" ? fs::path(csv).replace_extension(".border.csv")
                                    : fs::path(csv.string() + ".border.csv");
-}
-
-Result<void> write(const fs::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  if (!out) {
-    return std::unexpected(Refusal{Kind::unavailable, path.string(), 0, "cannot be written",
-                                   "check the folder, the rights and the disk space"});
-  }
-  return {};
 }
 
 std::string map_csv(const offline::LobeMap& map) {
@@ -145,40 +145,162 @@ Answer answer_of(const Made& made, const ChosenLaw& law, const Options& options)
   return answer;
 }
 
-Outcome run(const Options& options, Progress& progress) {
-  const auto process = offline::read_process(options.process);
+/// The cut that is wanted, in the map.
+Result<Json> point_json(const Options& options, const offline::Process& process,
+                        const ChosenLaw& law) {
+  const auto found =
+      offline::stability_at(process,
+                            {.speed_rev_s = kernel::units::rev_s_from_rpm(*options.speed_rpm),
+                             .modulation = law.modulation,
+                             .most_depth_mm = *options.depth_mm},
+                            {.frequency = true});
+  if (!found) {
+    return std::unexpected(found.error());
+  }
+  Json out = {{"speed_rpm", *options.speed_rpm}, {"depth_mm", *options.depth_mm}};
+  put_stability(out, *found);
+  return out;
+}
+
+std::string point_text(const Json& point) {
+  const bool stable = point["stable"].get<bool>();
+  std::string out =
+      fmt::format("{:.4g} mm at {:.6g} rpm: {}, spectral radius {:.6g}",
+                  point["depth_mm"].get<double>(), point["speed_rpm"].get<double>(),
+                  stable ? "stable" : "unstable", point["spectral_radius"].get<double>());
+  if (!point["frequency_hz"].is_null() && !stable) {
+    out += fmt::format(", chatter at {:.1f} Hz", point["frequency_hz"].get<double>());
+  }
+  return out + "\n";
+}
+
+/// What --speed-rpm, --depth-mm and --machine may be together.
+std::optional<Refusal> unfit(const Options& options) {
+  if (options.speed_rpm.has_value() != options.depth_mm.has_value()) {
+    return Refusal{Kind::bad_input, "", 0, "--speed-rpm and --depth-mm belong together",
+                   "give both, the cut that is wanted, or neither"};
+  }
+  if (!options.speed_rpm && !options.machine.empty()) {
+    return Refusal{Kind::bad_input, "", 0, "--machine without --speed-rpm and --depth-mm",
+                   "give the programmed speed, of which the override steps are shares"};
+  }
+  if (options.speed_rpm && !(*options.speed_rpm > 0.0 && std::isfinite(*options.speed_rpm))) {
+    return not_allowed("--speed-rpm", *options.speed_rpm, "above 0");
+  }
+  if (options.depth_mm && !(*options.depth_mm > 0.0 && std::isfinite(*options.depth_mm))) {
+    return not_allowed("--depth-mm", *options.depth_mm, "above 0");
+  }
+  return std::nullopt;
+}
+
+/// What the verb works on.
+struct Task {
+  offline::Process process;
+  std::optional<kernel::machine::Machine> machine;
+  ChosenLaw law;
+  offline::LobeMapConfig map;
+};
+
+std::expected<Task, Refusals> task_of(const Options& options) {
+  const auto no = [](Refusal refusal) { return std::unexpected(Refusals{std::move(refusal)}); };
+  if (auto refusal = unfit(options)) {
+    return no(std::move(*refusal));
+  }
+  Task out;
+  auto process = offline::read_process(options.process);
   if (!process) {
-    return refused(process.error());
+    return no(process.error());
   }
+  out.process = std::move(*process);
   const auto speeds = grid("--speeds-rpm", options.speeds_rpm, kLeastSpeed_rpm);
-  const auto depths = grid("--depths-mm", options.depths_mm, 0.0);
+  auto depths = grid("--depths-mm", options.depths_mm, 0.0);
   if (!speeds || !depths) {
-    return refused(speeds ? depths.error() : speeds.error());
+    return no(speeds ? depths.error() : speeds.error());
   }
-  const auto law = law_of(options, *process, *speeds);
+  auto law = law_of(options, out.process, *speeds);
   if (!law) {
-    return refused(law.error());
+    return no(law.error());
   }
-  offline::LobeMapConfig config;
+  out.law = std::move(*law);
+  if (!options.machine.empty()) {
+    auto machine = read_machine(options.machine);
+    if (!machine) {
+      return std::unexpected(machine.error());
+    }
+    out.machine = std::move(*machine);
+  }
   for (const double speed_rpm : *speeds) {
-    config.speed_rev_s.push_back(kernel::units::rev_s_from_rpm(speed_rpm));
+    out.map.speed_rev_s.push_back(kernel::units::rev_s_from_rpm(speed_rpm));
   }
-  config.depth_mm = *depths;
-  config.modulation = law->modulation;
-  if (auto writable = write(options.output, ""); !writable) {  // before hours of work
+  out.map.depth_mm = std::move(*depths);
+  out.map.modulation = out.law.modulation;
+  return out;
+}
+
+Result<std::string> page_of(const Json& answer, const Task& task, const Options& options,
+                            offline::LobeMap map) {
+  auto others = chatter_page::other_borders(task.process, map, task.law.modulation);
+  if (!others) {
+    return std::unexpected(others.error());
+  }
+  std::vector<chatter_page::Step> steps;
+  if (task.machine) {
+    auto made = chatter_page::override_steps(task.process, *task.machine,
+                                             kernel::units::rev_s_from_rpm(*options.speed_rpm),
+                                             map.depth_mm.back(), task.law.modulation);
+    if (!made) {
+      return std::unexpected(made.error());
+    }
+    steps = std::move(*made);
+  }
+  return chatter_page::lobes_page(answer, task.process,
+                                  {std::move(map), std::move(*others), std::move(steps)});
+}
+
+/// Before hours of work.
+Result<void> ready(const Options& options) {
+  const auto map = write_text(options.output, "");
+  return map ? ready_report(options.report) : map;
+}
+
+Result<void> write_map(const Options& options, const offline::LobeMap& map) {
+  const auto done = write_text(options.output, map_csv(map));
+  return done ? write_text(border_path(options.output), border_csv(map)) : done;
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  const auto task = task_of(options);
+  if (!task) {
+    return std::unexpected(task.error());
+  }
+  if (const auto writable = ready(options); !writable) {
     return refused(writable.error());
   }
-  const auto made = make(*process, config, progress);
+  auto made = make(task->process, task->map, progress);
   if (!made) {
     return refused(made.error());
   }
-  if (auto done = write(options.output, map_csv(made->map)); !done) {
+  if (const auto done = write_map(options, made->map); !done) {
     return refused(done.error());
   }
-  if (auto done = write(border_path(options.output), border_csv(made->map)); !done) {
-    return refused(done.error());
+  Answer answer = answer_of(*made, task->law, options);
+  if (options.speed_rpm) {
+    const auto point = point_json(options, task->process, task->law);
+    if (!point) {
+      return refused(point.error());
+    }
+    answer.json["point"] = *point;
+    answer.text += point_text(*point);
   }
-  return answer_of(*made, *law, options);
+  if (!options.report.empty()) {
+    const auto page = page_of(answer.json, *task, options, std::move(made->map));
+    const auto written =
+        page ? put_report(answer, options.report, *page) : std::unexpected(page.error());
+    if (!written) {
+      return refused(written.error());
+    }
+  }
+  return answer;
 }
 
 }  // namespace
@@ -188,7 +310,8 @@ void add_verb_chatter_lobes(Session& session) {
   CLI::App& verb =
       session.verb(group, "lobes", "Stability over speed and depth, and the border of each speed",
                    "chatter lobes examples/processes/slot-922hz.toml --speeds-rpm 5000:15000:101 "
-                   "--depths-mm 0:5:51 -o lobes.csv");
+                   "--depths-mm 0:5:51 -o lobes.csv --speed-rpm 5000 --depth-mm 1 "
+                   "--machine examples/machines/vmc-840d.toml --report out/lobes");
   auto options = std::make_shared<Options>();
   verb.add_option("process", options->process, "Process file (TOML): tool, cut and modes")
       ->required();
@@ -197,12 +320,19 @@ void add_verb_chatter_lobes(Session& session) {
       ->required();
   verb.add_option("--depths-mm", options->depths_mm, "Axial depths of cut as FROM:TO:STEPS")
       ->required();
+  verb.add_option("--speed-rpm", options->speed_rpm,
+                  "Spindle speed of the wanted cut; with --depth-mm the answer says how stable it "
+                  "is");
+  verb.add_option("--depth-mm", options->depth_mm, "Axial depth of the wanted cut");
+  verb.add_option("--machine", options->machine,
+                  "Machine file (TOML), for the override steps in the report");
   add_law_options(verb, options->law);
   verb.add_option("-o,--output", options->output,
                   "The map (CSV: speed_rpm,depth_mm,spectral_radius); the lowest border of each "
                   "speed goes to OUT.border.csv (speed_rpm,depth_mm; no row where all depths of "
                   "the map are stable)")
       ->required();
+  add_report_option(verb, options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -7,7 +7,9 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/chatter_page/plan_page.hpp>
 #include <steadyrest/apps/cli/machine_option.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_plan.hpp>
 #include <steadyrest/chatter/offline/planner.hpp>
@@ -38,6 +40,7 @@ struct Options {
   bool laws_only = false;
   bool leave_speed_band = false;
   offline::PlanOptions plan;
+  std::string report;
 };
 
 /// A number, or null where there is none.
@@ -165,6 +168,9 @@ Outcome run(Options options, Progress& progress) {
   if (!machine) {
     return std::unexpected(machine.error());
   }
+  if (const auto ready = ready_report(options.report); !ready) {
+    return refused(ready.error());
+  }
   offline::PlanOptions& plan = options.plan;
   if (!options.laws.empty()) {
     plan.laws.clear();
@@ -194,6 +200,15 @@ Outcome run(Options options, Progress& progress) {
   Answer answer;
   answer.json = to_json(*found, options);
   answer.text = for_people(*found, options);
+  if (!options.report.empty()) {
+    const auto page = chatter_page::plan_page(answer.json, *process, *machine,
+                                              units::rev_s_from_rpm(options.speed_rpm), *found);
+    const auto written =
+        page ? put_report(answer, options.report, *page) : std::unexpected(page.error());
+    if (!written) {
+      return refused(written.error());
+    }
+  }
   return answer;
 }
 
@@ -238,16 +253,17 @@ void add_options(CLI::App& verb, Options& o) {
   verb.add_flag("--laws-only", o.laws_only, "Plan a law even where an override step is enough");
   verb.add_flag("--leave-speed-band", o.leave_speed_band,
                 "Laws may leave the tolerance band of the control's speed monitor");
+  add_report_option(verb, o.report);
 }
 
 }  // namespace
 
 void add_verb_chatter_plan(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  CLI::App& verb =
-      session.verb(group, "plan", "The override step or the speed law that keeps a cut stable",
-                   "chatter plan examples/processes/slot-922hz.toml --machine "
-                   "examples/machines/vmc-840d.toml --speed-rpm 5000 --depth-mm 1");
+  CLI::App& verb = session.verb(
+      group, "plan", "The override step or the speed law that keeps a cut stable",
+      "chatter plan examples/processes/slot-922hz.toml --machine "
+      "examples/machines/vmc-840d.toml --speed-rpm 5000 --depth-mm 1 --report out/plan");
   auto options = std::make_shared<Options>();
   add_options(verb, *options);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });

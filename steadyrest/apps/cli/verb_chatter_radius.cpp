@@ -4,57 +4,32 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/apps/cli/law_options.hpp>
+#include <steadyrest/apps/chatter_page/growth_page.hpp>
+#include <steadyrest/apps/cli/cut_point_options.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
+#include <steadyrest/apps/cli/stability_answer.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_radius.hpp>
-#include <steadyrest/chatter/offline/process_file.hpp>
+#include <steadyrest/chatter/offline/growth_course.hpp>
 #include <steadyrest/chatter/offline/stability.hpp>
-#include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
 
 namespace offline = chatter::offline;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
-using kernel::outcome::Result;
 
 struct Options {
-  std::string process;
-  double speed_rpm = 0.0;
-  double depth_mm = 0.0;
-  LawOptions law;
+  CutPointOptions cut;
+  std::string report;
 };
 
-Refusal not_above_zero(const char* option, double value) {
-  return {Kind::bad_input, "", 0, fmt::format("{} {} is not above 0", option, value),
-          "give a number above 0"};
-}
-
-Result<offline::Stability> stability_of(const offline::Process& process, const Options& options,
-                                        const offline::Modulation& modulation) {
-  offline::DelayCycle::Config config;
-  config.speed_rev_s = kernel::units::rev_s_from_rpm(options.speed_rpm);
-  config.modulation = modulation;
-  config.most_depth_mm = options.depth_mm;
-  auto cycle = offline::DelayCycle::make(process, config);
-  if (!cycle) {
-    return std::unexpected(cycle.error());
-  }
-  cycle->set_depth(options.depth_mm);
-  return offline::stability(*cycle, {.peak_growth = true, .frequency = true});
-}
-
-Answer answer_of(const Options& options, const ChosenLaw& law, const offline::Stability& found) {
+Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
+                 const offline::Stability& found) {
   Answer answer;
   Json& json = answer.json;
-  json["spectral_radius"] = std::exp(found.log_radius);
-  json["log_radius"] = found.log_radius;
+  put_stability(json, found);
   json["log_radius_per_pass"] = found.log_radius_per_pass;
   json["peak_growth"] = found.peak_growth;
-  json["stable"] = found.stable;
-  json["type"] = offline::name(found.type);
-  json["frequency_hz"] = found.frequency_hz ? Json(*found.frequency_hz) : Json(nullptr);
   json["passes"] = found.passes;
   json["law_periods"] = found.law_periods;
   json["speed_rpm"] = options.speed_rpm;
@@ -77,23 +52,33 @@ Answer answer_of(const Options& options, const ChosenLaw& law, const offline::St
 }
 
 Outcome run(const Options& options, Progress& progress) {
-  if (!(options.speed_rpm > 0.0 && std::isfinite(options.speed_rpm))) {
-    return refused(not_above_zero("--speed-rpm", options.speed_rpm));
+  const auto cut = cut_point(options.cut);
+  if (!cut) {
+    return refused(cut.error());
   }
-  if (!(options.depth_mm > 0.0 && std::isfinite(options.depth_mm))) {
-    return refused(not_above_zero("--depth-mm", options.depth_mm));
-  }
-  const auto process = offline::read_process(options.process);
-  if (!process) {
-    return refused(process.error());
-  }
-  const auto law = chosen_law(options.law, *process, options.speed_rpm);
-  if (!law) {
-    return refused(law.error());
+  if (const auto ready = ready_report(options.report); !ready) {
+    return refused(ready.error());
   }
   progress.update(0.0, "one point");
-  const auto found = stability_of(*process, options, law->modulation);
-  return found ? Outcome(answer_of(options, *law, *found)) : refused(found.error());
+  auto cycle = offline::DelayCycle::make(cut->process, {.speed_rev_s = cut->speed_rev_s,
+                                                        .modulation = cut->law.modulation,
+                                                        .most_depth_mm = cut->depth_mm});
+  if (!cycle) {
+    return refused(cycle.error());
+  }
+  cycle->set_depth(cut->depth_mm);
+  auto found = offline::stability(*cycle, {.frequency = true});
+  const auto courses = offline::growth_courses(*cycle);
+  found.peak_growth = offline::worst(courses).peak();
+  Answer answer = answer_of(options.cut, cut->law, found);
+  if (!options.report.empty()) {
+    const offline::SpeedProfile speed(cut->speed_rev_s, cut->law.modulation);
+    const auto page = chatter_page::growth_page(answer.json, cut->process, *cycle, speed, courses);
+    if (const auto written = put_report(answer, options.report, page); !written) {
+      return refused(written.error());
+    }
+  }
+  return answer;
 }
 
 }  // namespace
@@ -104,14 +89,10 @@ void add_verb_chatter_radius(Session& session) {
       group, "radius", "Is a cut stable at this speed and depth, constant or modulated",
       "chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5\n"
       "  steadyrest chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm "
-      "1 "
-      "--law sine --rva 0.2 --rvf 0.1");
+      "1 --law sine --rva 0.2 --rvf 0.1 --report out/growth");
   auto options = std::make_shared<Options>();
-  verb.add_option("process", options->process, "Process file (TOML): tool, cut and modes")
-      ->required();
-  verb.add_option("--speed-rpm", options->speed_rpm, "Mean spindle speed in rev/min")->required();
-  verb.add_option("--depth-mm", options->depth_mm, "Axial depth of cut")->required();
-  add_law_options(verb, options->law);
+  add_cut_point_options(verb, options->cut);
+  add_report_option(verb, options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -8,12 +8,12 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/apps/cli/law_options.hpp>
+#include <steadyrest/apps/chatter_page/cut_recorder.hpp>
+#include <steadyrest/apps/cli/cut_point_options.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_simulate.hpp>
 #include <steadyrest/apps/simulate/vibration_summary.hpp>
-#include <steadyrest/chatter/offline/process_file.hpp>
-#include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -21,15 +21,14 @@ namespace {
 namespace offline = chatter::offline;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
+using kernel::outcome::Result;
 
 struct Options {
-  std::string process;
-  double speed_rpm = 0.0;
-  double depth_mm = 0.0;
-  LawOptions law;
+  CutPointOptions cut;
   double seconds = 1.0;
   std::size_t every = 1;
   std::string output;
+  std::string report;
 };
 
 struct CloseFile {
@@ -40,11 +39,6 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 Refusal cannot_write(const std::string& path) {
   return {Kind::unavailable, path, 0, std::string{"cannot be written: "} + std::strerror(errno),
           "check the folder, the rights and the disk space"};
-}
-
-Refusal not_allowed(const char* option, double value, const char* allowed) {
-  return {Kind::bad_input, "", 0, fmt::format("{} {} is not {}", option, value, allowed),
-          fmt::format("give a number {}", allowed)};
 }
 
 /// Steps after which the forced vibration repeats; 0 under modulation.
@@ -100,66 +94,103 @@ Answer answer_of(const simulate::Summary& summary, double log_growth, std::size_
   return answer;
 }
 
-Outcome cut(const offline::Process& process, const simulate::CutSettings& settings,
-            const Options& options, Progress& progress) {
-  const auto growth = simulate::log_growth_per_tooth(process, settings);
+/// The steps as CSV, each nth of them; nothing without a path.
+class Steps {
+ public:
+  static Result<Steps> make(const std::string& path, std::size_t every) {
+    Steps out;
+    out.path_ = path;
+    out.every_ = every;
+    if (path.empty()) {
+      return out;
+    }
+    out.file_.reset(std::fopen(path.c_str(), "wb"));
+    if (!out.file_) {
+      return std::unexpected(cannot_write(path));
+    }
+    fmt::print(out.file_.get(),
+               "t_s,angle_rad,speed_rpm,x_mm,y_mm,fx_N,fy_N,torque_Nm,power_W,chip_mm\n");
+    return out;
+  }
+
+  void add(const simulate::Moment& now) {
+    if (file_ && seen_++ % every_ == 0) {
+      put_row(file_.get(), now);
+      ++rows_;
+    }
+  }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  [[nodiscard]] Result<void> finish() {
+    if (file_ && (std::fflush(file_.get()) != 0 || std::ferror(file_.get()) != 0)) {
+      return std::unexpected(cannot_write(path_));
+    }
+    return {};
+  }
+
+ private:
+  File file_;
+  std::string path_;
+  std::size_t every_ = 1;
+  std::size_t seen_ = 0;
+  std::size_t rows_ = 0;
+};
+
+Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
+  const simulate::CutSettings settings{.speed_rev_s = point.speed_rev_s,
+                                       .depth_mm = point.depth_mm,
+                                       .modulation = point.law.modulation};
+  const auto growth = simulate::log_growth_per_tooth(point.process, settings);
   if (!growth) {
     return refused(growth.error());
   }
-  const File file(options.output.empty() ? nullptr : std::fopen(options.output.c_str(), "wb"));
-  if (!options.output.empty() && !file) {
-    return refused(cannot_write(options.output));
+  auto steps = Steps::make(options.output, options.every);
+  if (!steps) {
+    return refused(steps.error());
   }
-  if (file) {
-    fmt::print(file.get(),
-               "t_s,angle_rad,speed_rpm,x_mm,y_mm,fx_N,fy_N,torque_Nm,power_W,chip_mm\n");
+  chatter_page::CutRecorder recorder(options.seconds, settings.speed_rev_s);
+  simulate::VibrationSummary summary(options.seconds, repeat_of(point.process, settings));
+  std::size_t done = 0;
+  const auto sink = [&](const simulate::Moment& now) {
+    summary.add(now);
+    steps->add(now);
+    if (!options.report.empty()) {
+      recorder.add(now);
+    }
+    if (++done % 65536 == 0) {
+      progress.update(now.t_s / options.seconds, "cutting");
+    }
+  };
+  if (auto cut = simulate::simulate(point.process, settings, options.seconds, sink); !cut) {
+    return refused(cut.error());
   }
-  simulate::VibrationSummary summary(options.seconds, repeat_of(process, settings));
-  std::size_t steps = 0;
-  std::size_t rows = 0;
-  const auto done =
-      simulate::simulate(process, settings, options.seconds, [&](const simulate::Moment& now) {
-        summary.add(now);
-        if (file && steps % options.every == 0) {
-          put_row(file.get(), now);
-          ++rows;
-        }
-        if (++steps % 65536 == 0) {
-          progress.update(now.t_s / options.seconds, "cutting");
-        }
-      });
-  if (!done) {
-    return refused(done.error());
+  if (auto written = steps->finish(); !written) {
+    return refused(written.error());
   }
-  if (file && (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0)) {
-    return refused(cannot_write(options.output));
+  Answer answer = answer_of(summary.summary(), *growth, steps->rows());
+  answer.json["speed_rpm"] = options.cut.speed_rpm;
+  answer.json["depth_mm"] = point.depth_mm;
+  put_law(answer.json, point.law, options.cut.speed_rpm);
+  if (!options.report.empty()) {
+    const auto page = chatter_page::simulate_page(answer.json, point.process, recorder);
+    if (const auto written = put_report(answer, options.report, page); !written) {
+      return refused(written.error());
+    }
   }
-  return answer_of(summary.summary(), *growth, rows);
+  return answer;
 }
 
 Outcome run(const Options& options, Progress& progress) {
-  if (!(options.speed_rpm > 0.0 && std::isfinite(options.speed_rpm))) {
-    return refused(not_allowed("--speed-rpm", options.speed_rpm, "above 0"));
-  }
-  if (!(options.depth_mm > 0.0 && std::isfinite(options.depth_mm))) {
-    return refused(not_allowed("--depth-mm", options.depth_mm, "above 0"));
-  }
   if (!(options.seconds > 0.0 && options.seconds <= 3600.0)) {
     return refused(not_allowed("--seconds", options.seconds, "above 0 and at most 3600"));
   }
-  const auto process = offline::read_process(options.process);
-  if (!process) {
-    return refused(process.error());
+  const auto point = cut_point(options.cut);
+  if (!point) {
+    return refused(point.error());
   }
-  const auto law = chosen_law(options.law, *process, options.speed_rpm);
-  if (!law) {
-    return refused(law.error());
+  if (const auto ready = ready_report(options.report); !ready) {
+    return refused(ready.error());
   }
-  const simulate::CutSettings settings{
-      .speed_rev_s = kernel::units::rev_s_from_rpm(options.speed_rpm),
-      .depth_mm = options.depth_mm,
-      .modulation = law->modulation};
-  return cut(*process, settings, options, progress);
+  return cut(*point, options, progress);
 }
 
 }  // namespace
@@ -169,13 +200,9 @@ void add_verb_chatter_simulate(Session& session) {
   CLI::App& verb = session.verb(
       group, "simulate", "A cut in time: the tool may leave the material",
       "chatter simulate examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5 "
-      "--seconds 0.5 -o out.csv");
+      "--seconds 0.5 -o out.csv --report out/cut");
   auto options = std::make_shared<Options>();
-  verb.add_option("process", options->process, "Process file (TOML): tool, cut and modes")
-      ->required();
-  verb.add_option("--speed-rpm", options->speed_rpm, "Mean spindle speed in rev/min")->required();
-  verb.add_option("--depth-mm", options->depth_mm, "Axial depth of cut")->required();
-  add_law_options(verb, options->law);
+  add_cut_point_options(verb, options->cut);
   verb.add_option("--seconds", options->seconds, "Time to cut")->capture_default_str();
   verb.add_option("--every", options->every, "Write each nth step only")
       ->check(CLI::PositiveNumber)
@@ -183,6 +210,7 @@ void add_verb_chatter_simulate(Session& session) {
   verb.add_option("-o,--output", options->output,
                   "Write t_s, angle_rad, speed_rpm, x_mm, y_mm, fx_N, fy_N, torque_Nm, power_W and "
                   "chip_mm of each step to this file");
+  add_report_option(verb, options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

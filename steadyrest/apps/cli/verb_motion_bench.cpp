@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/verb_motion_bench.hpp>
 #include <steadyrest/apps/motion_bench/bench_page.hpp>
 #include <steadyrest/motion/offline/benchmark.hpp>
@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace offline = motion::offline;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using offline::BenchRow;
 
@@ -32,17 +30,6 @@ struct Options {
   std::string csv;
   std::string page;
 };
-
-Result<void> write(const fs::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  if (!out) {
-    return std::unexpected(Refusal{Kind::unavailable, path.string(), 0, "cannot be written",
-                                   "check the folder, the rights and the disk space"});
-  }
-  return {};
-}
 
 fs::path requirement_path(const fs::path& csv) {
   return fs::path(csv).replace_extension(".requirement.csv");
@@ -140,7 +127,7 @@ Result<Json> write_files(const Options& options, const offline::Benchmark& bench
     out.emplace_back(options.page, motion_bench::to_html(motion_bench::to_json(*data)));
   }
   for (const auto& [path, text] : out) {
-    if (const auto written = write(path, text); !written) {
+    if (const auto written = write_text(path, text); !written) {
       return std::unexpected(written.error());
     }
     files.push_back(path.string());

@@ -1,34 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include <steadyrest/apps/motion_bench/bench_page.hpp>
+#include <steadyrest/apps/report/json_numbers.hpp>
 
 namespace steadyrest::apps::motion_bench {
 namespace {
 
 namespace offline = motion::offline;
 using Json = nlohmann::ordered_json;
-
-/// Six digits are enough for a picture. nlohmann-json writes what is not finite as null.
-double short_number(double value) {
-  if (!std::isfinite(value) || value == 0.0) {
-    return value;
-  }
-  const double scale = std::pow(10.0, 5.0 - std::floor(std::log10(std::abs(value))));
-  return std::round(value * scale) / scale;
-}
-
-Json numbers(const std::vector<double>& values) {
-  Json::array_t out;
-  out.reserve(values.size());
-  for (const double value : values) {
-    out.emplace_back(short_number(value));
-  }
-  return out;
-}
 
 Json to_object(const offline::ErrorFigures& e, double gain, double efficiency, double target) {
   return {{"rms", e.rms},
@@ -40,7 +22,7 @@ Json to_object(const offline::ErrorFigures& e, double gain, double efficiency, d
           {"bound_ratio", e.bound_rms_at_speed / e.rms_at_speed},
           {"efficiency", efficiency},
           {"target", target},
-          {"rms_at_lag", numbers(e.rms_at_lag)}};
+          {"rms_at_lag", report::short_numbers(e.rms_at_lag)}};
 }
 
 Json to_object(const offline::BenchRow& row) {
@@ -79,20 +61,23 @@ Json to_object(const offline::Benchmark::Scene& scene) {
 }
 
 Json to_object(const Trace& trace) {
-  return {{"name", trace.name},
-          {"t_s", numbers(trace.t_s)},
-          {"true_velocity_mm_s", numbers(trace.true_velocity_mm_s)},
-          {"true_acceleration_mm_s2", numbers(trace.true_acceleration_mm_s2)},
-          {"difference_velocity_mm_s", numbers(trace.difference_velocity_mm_s)},
-          {"difference_acceleration_mm_s2", numbers(trace.difference_acceleration_mm_s2)},
-          {"velocity_mm_s", numbers(trace.velocity_mm_s)},
-          {"velocity_bound_mm_s", numbers(trace.velocity_bound_mm_s)},
-          {"acceleration_mm_s2", numbers(trace.acceleration_mm_s2)},
-          {"acceleration_bound_mm_s2", numbers(trace.acceleration_bound_mm_s2)}};
+  return {
+      {"name", trace.name},
+      {"t_s", report::short_numbers(trace.t_s)},
+      {"true_velocity_mm_s", report::short_numbers(trace.true_velocity_mm_s)},
+      {"true_acceleration_mm_s2", report::short_numbers(trace.true_acceleration_mm_s2)},
+      {"difference_velocity_mm_s", report::short_numbers(trace.difference_velocity_mm_s)},
+      {"difference_acceleration_mm_s2", report::short_numbers(trace.difference_acceleration_mm_s2)},
+      {"velocity_mm_s", report::short_numbers(trace.velocity_mm_s)},
+      {"velocity_bound_mm_s", report::short_numbers(trace.velocity_bound_mm_s)},
+      {"acceleration_mm_s2", report::short_numbers(trace.acceleration_mm_s2)},
+      {"acceleration_bound_mm_s2", report::short_numbers(trace.acceleration_bound_mm_s2)}};
 }
 
 Json to_object(const offline::Curve& curve) {
-  return {{"name", curve.name}, {"x", numbers(curve.x)}, {"y", numbers(curve.y)}};
+  return {{"name", curve.name},
+          {"x", report::short_numbers(curve.x)},
+          {"y", report::short_numbers(curve.y)}};
 }
 
 template <class T>

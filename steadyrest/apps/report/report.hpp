@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <steadyrest/apps/report/report_data.hpp>
+#include <steadyrest/apps/report/write_files.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::apps::report {
@@ -19,13 +20,7 @@ namespace steadyrest::apps::report {
 /// server, and nothing in the data can leave its script element.
 [[nodiscard]] std::string to_html(std::string_view json);
 
-struct WrittenFiles {
-  std::filesystem::path html;
-  std::filesystem::path json;
-};
-
-/// Writes report.html and report.json into `directory`, which is made when it is missing. Each file
-/// appears whole or not at all. Refuses where the directory cannot be made or written.
+/// Both into `directory`, see write_files().
 [[nodiscard]] kernel::outcome::Result<WrittenFiles> write_report(
     const ReportData& data, const std::filesystem::path& directory);
 

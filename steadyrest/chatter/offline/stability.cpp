@@ -3,21 +3,15 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/QR>
-
+#include <steadyrest/chatter/offline/growth_course.hpp>
 #include <steadyrest/chatter/offline/stability.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 
 constexpr double kReal = 1e-6;  ///< |Im μ| of a real multiplier, relative
-constexpr std::size_t kMostStarts = 16;
-constexpr std::size_t kLeastWindow = 20;  ///< passes
-constexpr double kForget = 1e-8;          ///< what a map loses in rank is less than this share
-constexpr double kDied = 1e-4;            ///< of its peak, then it is followed no longer
 
 /// μ = e^{λT}: the vibration is e^{λt} times something periodic; of its lines (arg μ + 2πk)/T the
 /// strongest.
@@ -67,62 +61,10 @@ ChatterType type_of(const Complex& mu) {
   return mu.real() < 0.0 ? ChatterType::flip : ChatterType::fold;
 }
 
-/// ‖X·Y‖_∞ without more memory than one row.
-double row_sum_norm(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
-  double out = 0.0;
-  for (Index i = 0; i < x.rows(); ++i) {
-    out = std::max(out, (x.row(i) * y).cwiseAbs().sum());
-  }
-  return out;
-}
-
-/// The map from the pass `begin` on as X·Y with few columns in X: all but a handful of directions
-/// die within a pass or two.
-double log_growth_from(DelayCycle& cycle, std::size_t begin, std::size_t window) {
-  const Index size = cycle.state_size();
-  Eigen::MatrixXd x = Eigen::MatrixXd::Identity(size, size);
-  Eigen::MatrixXd y = x;
-  double log_scale = 0.0;
-  double peak = 0.0;
-  for (std::size_t k = 0; k < window; ++k) {
-    const std::size_t pass = (begin + k) % cycle.passes();
-    for (Index i = 0; i < x.cols(); ++i) {
-      cycle.advance(pass, x.col(i));
-    }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
-    const double largest = std::abs(qr.matrixQR()(0, 0));
-    if (!(largest > 0.0)) {
-      break;
-    }
-    Index rank = 0;
-    while (rank < x.cols() && std::abs(qr.matrixQR()(rank, rank)) > kForget * largest) {
-      ++rank;
-    }
-    Eigen::MatrixXd r = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
-    r = r * qr.colsPermutation().transpose();
-    y = (r * y).eval() / largest;
-    x = qr.householderQ() * Eigen::MatrixXd::Identity(size, rank);
-    log_scale += std::log(largest);
-    const double now = log_scale + std::log(row_sum_norm(x, y));
-    if (now < peak + std::log(kDied) && now < 0.0) {
-      break;
-    }
-    peak = std::max(peak, now);
-  }
-  return peak;
-}
-
 }  // namespace
 
 double log_peak_growth(DelayCycle& cycle) {
-  const std::size_t passes = cycle.passes();
-  const std::size_t starts = std::min(passes, kMostStarts);
-  double peak = 0.0;
-  for (std::size_t k = 0; k < starts; ++k) {
-    peak = std::max(
-        peak, log_growth_from(cycle, k * passes / starts, std::max(2 * passes, kLeastWindow)));
-  }
-  return peak;
+  return worst(growth_courses(cycle)).log_peak();
 }
 
 Stability stability(DelayCycle& cycle, const StabilityOptions& options) {
@@ -139,9 +81,20 @@ Stability stability(DelayCycle& cycle, const StabilityOptions& options) {
     out.frequency_hz = strongest_line_hz(cycle, found);
   }
   if (options.peak_growth) {
-    out.peak_growth = std::exp(std::min(700.0, log_peak_growth(cycle)));
+    out.peak_growth = worst(growth_courses(cycle)).peak();
   }
   return out;
+}
+
+kernel::outcome::Result<Stability> stability_at(const Process& process,
+                                                const DelayCycle::Config& config,
+                                                const StabilityOptions& options) {
+  auto cycle = DelayCycle::make(process, config);
+  if (!cycle) {
+    return std::unexpected(cycle.error());
+  }
+  cycle->set_depth(config.most_depth_mm);
+  return stability(*cycle, options);
 }
 
 const char* name(ChatterType type) noexcept {

@@ -49,6 +49,11 @@ struct StabilityOptions {
 /// At the cycle's present depth.
 [[nodiscard]] Stability stability(DelayCycle& cycle, const StabilityOptions& options);
 
+/// The same of a point; the depth is `config.most_depth_mm`. Refuses what DelayCycle refuses.
+[[nodiscard]] kernel::outcome::Result<Stability> stability_at(const Process& process,
+                                                              const DelayCycle::Config& config,
+                                                              const StabilityOptions& options);
+
 /// ln of the worst growth between pass boundaries.
 [[nodiscard]] double log_peak_growth(DelayCycle& cycle);
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import { CustomChart } from 'echarts/charts';
+import { type Band, bandSeries } from '../charts/band';
 import { FONT, echarts } from '../charts/echarts';
 import type { Theme } from '../theme';
 import { type Bench, type Curve, type Maybe, type Row, type Trace, label } from './data';
 import { short } from './format';
-
-echarts.use([CustomChart]);
 
 export interface Line {
   name: string;
@@ -20,7 +18,7 @@ export interface Panel {
   title: string;
   x: string;
   lines: Line[];
-  band?: { x: readonly Maybe[]; low: Maybe[]; high: Maybe[]; colour: string };
+  band?: Band;
   log?: boolean;
   min?: number;
   max?: number;
@@ -31,34 +29,14 @@ const PALETTE: Record<'light' | 'dark', string[]> = {
   dark: ['#69b3e7', '#3f7fae', '#f2955c', '#6cc090', '#b797dc', '#d3bd4e', '#e58bba', '#a9b4be', '#e4e8ec'],
 };
 
+const BOUND_OPACITY = 0.22;
 const pairs = (x: readonly Maybe[], y: readonly Maybe[]) => x.map((v, i) => [v, y[i] ?? null]);
-
-/** The bound as one polygon; where there is none it reaches out of the picture. */
-function bandSeries(band: NonNullable<Panel['band']>) {
-  const FAR = 1e6;
-  const points = [
-    ...band.x.map((x, i) => [x ?? 0, band.high[i] ?? FAR]),
-    ...band.x.map((x, i) => [x ?? 0, band.low[i] ?? -FAR]).reverse(),
-  ];
-  return {
-    type: 'custom',
-    name: 'bound',
-    silent: true,
-    clip: true,
-    data: [[0, 0]],
-    renderItem: (params: { dataIndex: number }, api: { coord: (p: number[]) => number[] }) => ({
-      type: 'polygon',
-      shape: { points: points.map((p) => api.coord(p)) },
-      style: { fill: band.colour, opacity: params.dataIndex === 0 ? 0.22 : 0 },
-    }),
-  };
-}
 
 function series(panel: Panel) {
   const out: object[] = [];
   const base = { type: 'line', showSymbol: false, silent: true };
   if (panel.band) {
-    out.push(bandSeries(panel.band));
+    out.push(bandSeries(panel.band, BOUND_OPACITY));
   }
   for (const line of panel.lines) {
     out.push({

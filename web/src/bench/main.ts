@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import '../style.css';
 import './bench.css';
+import { element, onChoice } from '../dom';
 import { onSchemeChange, theme } from '../theme';
 import { type Panel, drawPanel, figurePanels, key, lagPanels, traceKey, tracePanels } from './charts';
 import { type Bench, parseBench, scenes } from './data';
 import { type Choice, type Judge, type Quantity, renderPage, requirementTable, resultsTable } from './page';
-
-function element(id: string): HTMLElement {
-  const found = document.getElementById(id);
-  if (!found) {
-    throw new Error(`element ${id} is missing`);
-  }
-  return found;
-}
-
-/** Calls back with the pressed button's value. */
-function onChoice(id: string, callback: (value: string) => void): void {
-  const all = [...(document.getElementById(id)?.querySelectorAll('button') ?? [])];
-  for (const button of all) {
-    button.addEventListener('click', () => {
-      all.forEach((b) => b.setAttribute('aria-pressed', String(b === button)));
-      callback(button.dataset['value'] ?? '');
-    });
-  }
-}
 
 /** One chart for each panel in the host, made on first use. */
 function drawPanels(host: HTMLElement, panels: readonly Panel[]): void {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text and tables of the page of `motion bench`; the charts come afterwards into the hosts made here.
-import { escapeHtml } from '../page';
+import { buttons, escapeHtml } from '../page';
 import { type Bench, type Figures, type Requirement, type Row, label, scenes } from './data';
 import { digits, percent, short } from './format';
 
@@ -12,13 +12,6 @@ export interface Choice {
   judge: Judge;
   jerk_mm_s3: number;
   cycle_hz: number;
-}
-
-function buttons(name: string, title: string, options: [string, string][], chosen: string): string {
-  const list = options
-    .map(([value, text]) => `<button type="button" data-value="${escapeHtml(value)}" aria-pressed="${value === chosen}">${escapeHtml(text)}</button>`)
-    .join('');
-  return `<div class="choice" role="group" aria-label="${title}" id="${name}">${list}</div>`;
 }
 
 function target(figures: Figures): string {

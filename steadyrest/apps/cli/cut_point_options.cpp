@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/cut_point_options.hpp>
+#include <steadyrest/chatter/offline/process_file.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+
+namespace steadyrest::apps::cli {
+
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+void add_cut_point_options(CLI::App& verb, CutPointOptions& options) {
+  verb.add_option("process", options.process, "Process file (TOML): tool, cut and modes")
+      ->required();
+  verb.add_option("--speed-rpm", options.speed_rpm, "Mean spindle speed in rev/min")->required();
+  verb.add_option("--depth-mm", options.depth_mm, "Axial depth of cut")->required();
+  add_law_options(verb, options.law);
+}
+
+Refusal not_allowed(const char* option, double value, const char* allowed) {
+  return {kernel::outcome::Kind::bad_input, "", 0,
+          fmt::format("{} {} is not {}", option, value, allowed),
+          fmt::format("give a number {}", allowed)};
+}
+
+Result<CutPoint> cut_point(const CutPointOptions& options) {
+  if (!(options.speed_rpm > 0.0 && std::isfinite(options.speed_rpm))) {
+    return std::unexpected(not_allowed("--speed-rpm", options.speed_rpm, "above 0"));
+  }
+  if (!(options.depth_mm > 0.0 && std::isfinite(options.depth_mm))) {
+    return std::unexpected(not_allowed("--depth-mm", options.depth_mm, "above 0"));
+  }
+  auto process = chatter::offline::read_process(options.process);
+  if (!process) {
+    return std::unexpected(process.error());
+  }
+  auto law = chosen_law(options.law, *process, options.speed_rpm);
+  if (!law) {
+    return std::unexpected(law.error());
+  }
+  return CutPoint{.process = std::move(*process),
+                  .law = std::move(*law),
+                  .speed_rev_s = kernel::units::rev_s_from_rpm(options.speed_rpm),
+                  .depth_mm = options.depth_mm};
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <steadyrest/apps/chatter_page/chatter_page.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
+#include <steadyrest/apps/report/write_files.hpp>
+
+namespace steadyrest::apps::cli {
+
+using kernel::outcome::Result;
+
+void add_report_option(CLI::App& verb, std::string& directory) {
+  verb.add_option("--report", directory,
+                  "Folder for report.html and report.json; it is made when missing");
+}
+
+Result<void> ready_report(const std::string& directory) {
+  return directory.empty() ? Result<void>{} : report::make_directory(directory);
+}
+
+Result<void> put_report(Answer& answer, const std::string& directory, std::string_view page_json) {
+  const auto written = report::write_files(chatter_page::to_html(page_json), page_json, directory);
+  if (!written) {
+    return std::unexpected(written.error());
+  }
+  answer.json["report"] = written->html.string();
+  answer.text += fmt::format("report: {}\n", written->html.string());
+  return {};
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include <steadyrest/apps/cli/session.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// `--report DIR` of the chatter verbs.
+namespace steadyrest::apps::cli {
+
+void add_report_option(CLI::App& verb, std::string& directory);
+
+/// Makes the folder that was asked for, before the work; nothing when none was.
+[[nodiscard]] kernel::outcome::Result<void> ready_report(const std::string& directory);
+
+/// Writes the page with `page_json` inside and says in the answer where it is.
+[[nodiscard]] kernel::outcome::Result<void> put_report(Answer& answer, const std::string& directory,
+                                                       std::string_view page_json);
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// The files of every report: report.html for people, report.json for programs.
+namespace steadyrest::apps::report {
+
+struct WrittenFiles {
+  std::filesystem::path html;
+  std::filesystem::path json;
+};
+
+/// Makes the directory when it is missing; refuses one that cannot be made or written.
+[[nodiscard]] kernel::outcome::Result<void> make_directory(const std::filesystem::path& directory);
+
+/// Writes both files into `directory`, which is made when it is missing. Each appears whole or not
+/// at all.
+[[nodiscard]] kernel::outcome::Result<WrittenFiles> write_files(
+    std::string_view html, std::string_view json, const std::filesystem::path& directory);
+
+}  // namespace steadyrest::apps::report

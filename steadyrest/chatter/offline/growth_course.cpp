@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include <steadyrest/chatter/offline/growth_course.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+using Eigen::Index;
+
+constexpr std::size_t kMostStarts = 16;
+constexpr std::size_t kLeastWindow = 20;  ///< passes
+constexpr double kForget = 1e-8;          ///< what a map loses in rank is less than this share
+constexpr double kDied = 1e-4;            ///< of its peak, then it is followed no longer
+
+/// ‖X·Y‖_∞ without more memory than one row.
+double row_sum_norm(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
+  double out = 0.0;
+  for (Index i = 0; i < x.rows(); ++i) {
+    out = std::max(out, (x.row(i) * y).cwiseAbs().sum());
+  }
+  return out;
+}
+
+/// The map from the pass `begin` on as X·Y with few columns in X: all but a handful of directions
+/// die within a pass or two.
+GrowthCourse course_from(DelayCycle& cycle, std::size_t begin, std::size_t window) {
+  const Index size = cycle.state_size();
+  Eigen::MatrixXd x = Eigen::MatrixXd::Identity(size, size);
+  Eigen::MatrixXd y = x;
+  double log_scale = 0.0;
+  double peak = 0.0;
+  GrowthCourse out{.start_pass = begin, .log_growth = {0.0}};
+  for (std::size_t k = 0; k < window; ++k) {
+    const std::size_t pass = (begin + k) % cycle.passes();
+    for (Index i = 0; i < x.cols(); ++i) {
+      cycle.advance(pass, x.col(i));
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
+    const double largest = std::abs(qr.matrixQR()(0, 0));
+    if (!(largest > 0.0)) {
+      break;
+    }
+    Index rank = 0;
+    while (rank < x.cols() && std::abs(qr.matrixQR()(rank, rank)) > kForget * largest) {
+      ++rank;
+    }
+    Eigen::MatrixXd r = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
+    r = r * qr.colsPermutation().transpose();
+    y = (r * y).eval() / largest;
+    x = qr.householderQ() * Eigen::MatrixXd::Identity(size, rank);
+    log_scale += std::log(largest);
+    const double now = log_scale + std::log(row_sum_norm(x, y));
+    out.log_growth.push_back(now);
+    if (now < peak + std::log(kDied) && now < 0.0) {
+      break;
+    }
+    peak = std::max(peak, now);
+  }
+  return out;
+}
+
+}  // namespace
+
+double GrowthCourse::log_peak() const noexcept {
+  return *std::ranges::max_element(log_growth);
+}
+
+double GrowthCourse::peak() const noexcept {
+  return std::exp(std::min(700.0, log_peak()));
+}
+
+std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {
+  const std::size_t passes = cycle.passes();
+  const std::size_t starts = std::min(passes, kMostStarts);
+  std::vector<GrowthCourse> out;
+  for (std::size_t k = 0; k < starts; ++k) {
+    out.push_back(course_from(cycle, k * passes / starts, std::max(2 * passes, kLeastWindow)));
+  }
+  return out;
+}
+
+const GrowthCourse& worst(const std::vector<GrowthCourse>& courses) {
+  return *std::ranges::max_element(courses, {}, &GrowthCourse::log_peak);
+}
+
+}  // namespace steadyrest::chatter::offline

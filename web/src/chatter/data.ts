@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pages of the chatter verbs hold; steadyrest/apps/chatter_page is their source. `answer`
+// is what the verb prints with --json.
+
+export type Maybe = number | null;
+
+export interface LawAnswer {
+  law: string;
+  rva?: number;
+  rvf?: number;
+  amplitude_rpm?: number;
+  period_s?: Maybe;
+}
+
+export interface Point {
+  speed_rpm: number;
+  depth_mm: number;
+  spectral_radius: number;
+  log_radius: number;
+  stable: boolean;
+  type: string;
+  frequency_hz: Maybe;
+}
+
+export interface Border {
+  speed_rpm: Maybe[];
+  /** null: stable at all depths. */
+  depth_mm: Maybe[];
+}
+
+export interface LobeColumns {
+  map: { speed_rpm: number[]; depth_mm: number[]; /** [speed·depths + depth] */ log_radius: Maybe[] };
+  border: Border;
+  others: (Border & { name: string })[];
+  steps: { percent: number; speed_rpm: number; limit_depth_mm: Maybe }[];
+}
+
+interface Head {
+  schema: string;
+  version: string;
+  process: string;
+}
+
+export interface LobesPage extends Head, LobeColumns {
+  kind: 'lobes';
+  answer: LawAnswer & { point?: Point };
+}
+
+export interface GrowthPage extends Head {
+  kind: 'growth';
+  answer: LawAnswer & Point & { peak_growth: number; passes: number };
+  courses: { start_pass: number; time_s: number[]; log_growth: Maybe[] }[];
+  worst: number;
+  law_period_s: Maybe;
+  pass_s: number;
+  speed: { time_s: number[]; speed_rpm: number[] };
+}
+
+export interface SimulatePage extends Head {
+  kind: 'simulate';
+  teeth: number;
+  answer: LawAnswer & {
+    speed_rpm: number;
+    depth_mm: number;
+    peak_um: number;
+    growth_per_tooth: number;
+    stable: boolean;
+    forced_um: Maybe;
+    chatter_rms_um: Maybe;
+    chatter_frequency_hz: Maybe;
+    force_peak_N: number;
+    power_peak_W: number;
+    wall_error_um: Maybe;
+    wall_range_um: Maybe;
+  };
+  envelope: Record<'t_s' | 'x_low_um' | 'x_high_um' | 'y_low_um' | 'y_high_um' | 'force_low_N' | 'force_high_N', number[]>;
+  last: Record<'t_s' | 'turn' | 'speed_rpm' | 'x_um' | 'y_um' | 'fx_N' | 'fy_N' | 'chip_um', number[]>;
+  turns: { between: number; t_s: number[]; x_um: number[]; y_um: number[] };
+}
+
+export interface ChatterEvent {
+  start_s: number;
+  end_s: number;
+  frequency_hz: number;
+  type: string;
+  speed_rpm: number;
+  advised_speed_rpm: Maybe;
+  advised_override_percent: Maybe;
+}
+
+export interface DetectPage extends Head {
+  kind: 'detect';
+  machine: string;
+  teeth: number;
+  bin_hz: number;
+  start_s: number;
+  answer: { events: ChatterEvent[]; seconds: number; sample_rate_hz: number };
+  course: Record<'t_s' | 'low' | 'high' | 'speed_rpm', number[]>;
+  spectrogram: {
+    start_s: number;
+    column_s: number;
+    row_hz: number;
+    columns: number;
+    rows: number;
+    /** [column·rows + row] */
+    level_db: number[];
+  };
+}
+
+export interface Alternative extends LawAnswer {
+  override_percent: number[];
+  limit_depth_mm: Maybe;
+  probability: Maybe;
+  peak_growth: Maybe;
+  speed_rpm: number;
+  stable: boolean;
+  growth_is_lower_bound: boolean;
+  reasons: string[];
+}
+
+export interface PlanPage extends Head, LobeColumns {
+  kind: 'plan';
+  machine: string;
+  answer: Alternative & {
+    decision: 'keep' | 'constant' | 'law' | 'nothing';
+    depth_mm: number;
+    most_depth_mm: number;
+    likely_depth_mm: Maybe;
+    chatter_frequency_hz: Maybe;
+    notes: string[];
+    alternatives: Alternative[];
+  };
+}
+
+export type Page = LobesPage | GrowthPage | SimulatePage | DetectPage | PlanPage;
+
+const SCHEMA = 'steadyrest-chatter/1';
+
+/** The data in the page, or a sentence that says why there are none. */
+export function parsePage(text: string): Page | string {
+  let value: unknown;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    return 'The data in this page is not valid JSON; write the page again.';
+  }
+  if (typeof value !== 'object' || value === null) {
+    return 'This page holds no data yet; `steadyrest chatter VERB … --report DIR` fills it.';
+  }
+  const page = value as Page;
+  return page.schema === SCHEMA ? page : `This page reads ${SCHEMA}; its data is ${String(page.schema)}.`;
+}
+
+/** The law in the words of the shop floor. */
+export function lawText(answer: LawAnswer): string {
+  if (answer.law === 'constant') {
+    return 'constant speed';
+  }
+  const percent = `±${(100 * (answer.rva ?? 0)).toPrecision(3).replace(/\.?0+$/, '')} %`;
+  const period = answer.period_s ? ` every ${Number(answer.period_s.toPrecision(3))} s` : `, RVF ${Number((answer.rvf ?? 0).toPrecision(4))}`;
+  return `${answer.law} ${percent}${period}`;
+}

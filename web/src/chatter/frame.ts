@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all pages of the chatter verbs have in common.
+import { element } from '../dom';
+import { fixed } from '../format';
+import { escapeHtml } from '../page';
+import type { Theme } from '../theme';
+import type { Maybe } from './data';
+import { type Plot, drawPlot } from './plot';
+
+/** A page: its text with hosts in it, and what draws into them. */
+export interface View {
+  product: string;
+  title: string;
+  /** HTML. */
+  facts: string;
+  verdict: string;
+  body: string;
+  draw: (theme: Theme) => void;
+  bind?: (redraw: () => void) => void;
+}
+
+export function host(id: string, kind = ''): string {
+  return `<div class="plot ${kind}" id="${id}"></div>`;
+}
+
+export function section(title: string, body: string, hint = ''): string {
+  return `<section><h2>${title}</h2>${hint === '' ? '' : `<p class="hint">${hint}</p>`}${body}</section>`;
+}
+
+export function plot(id: string, what: Plot, theme: Theme): void {
+  drawPlot(element(id), what, theme);
+}
+
+export interface Key {
+  name: string;
+  colour: string;
+  kind?: 'line' | 'dashed' | 'area' | 'dot' | 'hoop';
+}
+
+export function keyLine(keys: readonly Key[]): string {
+  const item = (k: Key) => `<span class="key"><i class="${k.kind ?? 'line'}" style="--ink:${k.colour}"></i>${escapeHtml(k.name)}</span>`;
+  return keys.map(item).join('');
+}
+
+export interface Row {
+  label: string;
+  value: string;
+}
+
+export function figures(rows: readonly Row[]): string {
+  const row = (r: Row) => `<tr><th scope="row">${r.label}</th><td class="n">${r.value}</td></tr>`;
+  return `<table id="figures"><tbody>${rows.map(row).join('')}</tbody></table>`;
+}
+
+/** The digits that count, without noughts at the end: 0.00326, 1.406, 33.3, 5000. */
+export function plain(value: Maybe | undefined, count = 4): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) {
+    return '–';
+  }
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e7)) {
+    const [mantissa = '', exponent = ''] = value.toExponential(Math.max(0, count - 2)).split('e');
+    const up = [...exponent.replace('+', '')].map((c) => (c === '-' ? '⁻' : ('⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)] ?? c))).join('');
+    return `${mantissa.replace('-', '−')}·10${up}`;
+  }
+  const places = Math.min(6, Math.max(0, count - 1 - (size > 0 ? Math.floor(Math.log10(size)) : 0)));
+  const shown = fixed(value, places);
+  return places > 0 ? shown.replace(/\.?0+$/, '') : shown;
+}
+
+export function show(where: HTMLElement, view: View, version: string): void {
+  document.title = `${view.title} – ${view.product}`;
+  where.innerHTML = `
+  <header><p class="product">${view.product}</p><h1>${escapeHtml(view.title)}</h1><p class="facts">${view.facts}</p></header>
+  <section><p id="verdict">${view.verdict}</p></section>
+  ${view.body}
+  <footer>Steadyrest ${escapeHtml(version)}</footer>`;
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of a quantity over two axes, as a canvas that a plot stretches over its box.
+import type { Scheme } from '../scale';
+import type { Maybe } from './data';
+import { niceStep } from './plot';
+
+export interface Level {
+  from: number;
+  to: number;
+  colour: string;
+}
+
+// From the border outwards.
+const STABLE: Record<Scheme, string[]> = {
+  light: ['#eef5fa', '#d3e6f2', '#b0d2e7', '#86b9d8', '#5a9cc6'],
+  dark: ['#1b2833', '#1e3a50', '#22506f', '#28668e', '#317eae'],
+};
+const UNSTABLE: Record<Scheme, string[]> = {
+  light: ['#fdeede', '#fad7b4', '#f5b27c', '#e98a4d', '#d2622c'],
+  dark: ['#33261d', '#553521', '#7a4626', '#a35a2b', '#cc7031'],
+};
+const GROWING = [1, 1.1, 1.25, 1.5, 2];
+const DYING = [1, 0.9, 0.8, 0.65, 0.5];
+
+/** Classes of ln ρ on both sides of the border: steps of ρ where `perPass`, even steps of ln ρ else. */
+export function radiusLevels(logs: readonly Maybe[], perPass: boolean, scheme: Scheme): Level[] {
+  const finite = logs.filter((v): v is number => v !== null);
+  const reach = finite.reduce((m, v) => Math.max(m, Math.abs(v)), 0.1);
+  const step = niceStep(reach, 5);
+  const even = GROWING.map((_, i) => i * step);
+  const up = perPass ? GROWING.map(Math.log) : even;
+  const down = perPass ? DYING.map(Math.log) : even.map((v) => -v);
+  const stable = STABLE[scheme].map((colour, i) => ({ from: down[i + 1] ?? -Infinity, to: down[i] ?? 0, colour })).reverse();
+  return [...stable, ...UNSTABLE[scheme].map((colour, i) => ({ from: up[i] ?? 0, to: up[i + 1] ?? Infinity, colour }))];
+}
+
+function bytes(colour: string): number[] {
+  return [1, 3, 5].map((i) => Number.parseInt(colour.slice(i, i + 2), 16));
+}
+
+function paint(width: number, height: number, colourAt: (column: number, row: number) => readonly number[]): HTMLCanvasElement {
+  const canvas = document.createElement('canvas');
+  canvas.width = width;
+  canvas.height = height;
+  const context = canvas.getContext('2d');
+  const image = context?.createImageData(width, height);
+  if (!context || !image) {
+    return canvas;
+  }
+  for (let row = 0; row < height; ++row) {
+    for (let column = 0; column < width; ++column) {
+      const [r = 0, g = 0, b = 0] = colourAt(column, row);
+      image.data.set([r, g, b, 255], 4 * (row * width + column));
+    }
+  }
+  context.putImageData(image, 0, 0);
+  return canvas;
+}
+
+/** Index and share of the interval that holds x. */
+function place(grid: readonly number[], x: number): [number, number] {
+  let low = 0;
+  let high = grid.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if ((grid[middle] ?? 0) <= x) low = middle;
+    else high = middle;
+  }
+  const [a = 0, b = 0] = [grid[low], grid[low + 1]];
+  return [low, b > a ? Math.min(Math.max((x - a) / (b - a), 0), 1) : 0];
+}
+
+export interface Grid {
+  x: readonly number[];
+  y: readonly number[];
+  /** [x·(count of y) + y] */
+  value: readonly Maybe[];
+}
+
+/** Between the grid's points by straight lines. */
+export function valueAt(grid: Grid, x: number, y: number): number {
+  const [i, u] = place(grid.x, x);
+  const [j, v] = place(grid.y, y);
+  const at = (a: number, b: number) =>
+    grid.value[Math.min(a, grid.x.length - 1) * grid.y.length + Math.min(b, grid.y.length - 1)] ?? -Infinity;
+  const mix = (a: number, b: number, share: number) => (share === 0 ? a : a + (b - a) * share);
+  return mix(mix(at(i, j), at(i, j + 1), v), mix(at(i + 1, j), at(i + 1, j + 1), v), u);
+}
+
+const MAP_WIDTH = 1100;
+const MAP_HEIGHT = 560;
+
+/** The grid in the colours of its classes; borders between classes are sharp. */
+export function classRaster(grid: Grid, levels: readonly Level[]): HTMLCanvasElement {
+  const colours = levels.map((l) => bytes(l.colour));
+  const [x0 = 0, x1 = 0, y0 = 0, y1 = 0] = [grid.x[0], grid.x.at(-1), grid.y[0], grid.y.at(-1)];
+  return paint(MAP_WIDTH, MAP_HEIGHT, (column, row) => {
+    const value = valueAt(grid, x0 + ((x1 - x0) * (column + 0.5)) / MAP_WIDTH, y1 - ((y1 - y0) * (row + 0.5)) / MAP_HEIGHT);
+    const index = levels.findIndex((l) => value <= l.to);
+    return colours[index < 0 ? colours.length - 1 : index] ?? [];
+  });
+}
+
+// Paper for the noise, dark for what is loud.
+const LOUDNESS: Record<Scheme, string[]> = {
+  light: ['#ffffff', '#dbeaf4', '#9cc7e0', '#4f97c7', '#1d5f9c', '#0a2f5c'],
+  dark: ['#14181d', '#16293a', '#1d4a6d', '#2d7bb0', '#7cbde6', '#f0f8ff'],
+};
+
+/** A colour on the straight way through `stops`; share 0 … 1. */
+function between(stops: readonly number[][], share: number): number[] {
+  const at = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
+  const i = Math.min(Math.floor(at), stops.length - 2);
+  return (stops[i] ?? []).map((c, k) => c + (at - i) * ((stops[i + 1]?.[k] ?? c) - c));
+}
+
+/** Cell by cell, `low` … 0 dB. */
+export function loudnessRaster(levels_db: readonly number[], columns: number, rows: number, low: number, scheme: Scheme): HTMLCanvasElement {
+  const stops = LOUDNESS[scheme].map(bytes);
+  return paint(columns, rows, (column, row) => between(stops, 1 - (levels_db[column * rows + (rows - 1 - row)] ?? low) / low));
+}
+
+export function loudnessStrip(scheme: Scheme): string {
+  return `linear-gradient(to right, ${LOUDNESS[scheme].join(', ')})`;
+}
