@@ -109,7 +109,7 @@ TEST(ChatterReport, LobesUnderALawShowConstantSpeedBesideThem) {
   const Scratch scratch;
   const json page =
       report_of("chatter lobes " + kSlot +
-                    " --speeds-rpm 5000:10000:2 --depths-mm 0:1:3 --law sine --rva 0.2 --rvf 0.1 "
+                    " --speeds-rpm 5000:10000:2 --depths-mm 0:4:9 --law sine --rva 0.2 --rvf 0.1 "
                     "-o " +
                     scratch.at("map.csv"),
                 scratch)
@@ -117,7 +117,7 @@ TEST(ChatterReport, LobesUnderALawShowConstantSpeedBesideThem) {
   EXPECT_EQ(page["others"][0]["name"], "constant speed");
   EXPECT_NEAR(page["others"][0]["depth_mm"][0], 0.4086, 5e-5);
   EXPECT_NEAR(page["others"][0]["depth_mm"][1], 0.3224, 5e-5);
-  EXPECT_GT(page["border"]["depth_mm"][1], 0.33);
+  EXPECT_GT(page["border"]["depth_mm"][1], 2.0);
 }
 
 TEST(ChatterReport, GrowthHasThePeakOfTheAnswerAndTheSpeedOfTheLaw) {
@@ -196,14 +196,14 @@ TEST(ChatterReport, RefusesWhatItCannotWriteOrPlace) {
   const Scratch scratch;
   const std::string file = scratch.file("file", "");
   const std::string lobes = kLobes + " -o " + scratch.at("map.csv");
-  expect_refused("chatter radius " + kSlot + kWanted + " --report " + file, "not a directory");
-  expect_refused("chatter simulate " + kSlot + kWanted + " --report " + file, "not a directory");
+  expect_refused("chatter radius " + kSlot + kWanted + " --report " + file, "Not a directory");
+  expect_refused("chatter simulate " + kSlot + kWanted + " --report " + file, "Not a directory");
   expect_refused("chatter plan " + kSlot + kMill + kWanted + " --report " + file,
-                 "not a directory");
+                 "Not a directory");
   expect_refused(
       "chatter detect examples/logs/slot-chatter.csv --teeth 2" + kMill + " --report " + file,
-      "not a directory");
-  expect_refused(lobes + " --report " + file, "not a directory");
+      "Not a directory");
+  expect_refused(lobes + " --report " + file, "Not a directory");
   expect_refused(lobes + " --speed-rpm 5000", "belong together");
   expect_refused(lobes + " --depth-mm 1", "belong together");
   expect_refused(lobes + " --speed-rpm 0 --depth-mm 1", "--speed-rpm 0 is not above 0");

@@ -27,7 +27,12 @@ export function percent(share: Maybe): string {
   return share === null ? '–' : `${share === 1 ? '100' : (100 * share).toFixed(2)} %`;
 }
 
-/** Two digits without noughts at the end: for axes and heads. */
+/** The digits that count, without noughts at the end. */
+export function trimmed(value: Maybe | undefined, count: number): string {
+  return digits(value, count).replace(/(\.\d*?)0+(?=$|·)/, '$1').replace(/\.(?=$|·)/, '');
+}
+
+/** Two of them: for axes and heads. */
 export function short(value: number): string {
-  return digits(value, 2).replace(/(\.\d*?)0+(?=$|·)/, '$1').replace(/\.(?=$|·)/, '');
+  return trimmed(value, 2);
 }

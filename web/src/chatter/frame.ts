@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all pages of the chatter verbs have in common.
+import { trimmed } from '../bench/format';
 import { element } from '../dom';
-import { fixed } from '../format';
 import { escapeHtml } from '../page';
 import type { Theme } from '../theme';
 import type { Maybe } from './data';
@@ -52,20 +52,9 @@ export function figures(rows: readonly Row[]): string {
   return `<table id="figures"><tbody>${rows.map(row).join('')}</tbody></table>`;
 }
 
-/** The digits that count, without noughts at the end: 0.00326, 1.406, 33.3, 5000. */
+/** The digits that count: 0.00326, 1.406, 33.3, 5000. */
 export function plain(value: Maybe | undefined, count = 4): string {
-  if (value === null || value === undefined || !Number.isFinite(value)) {
-    return '–';
-  }
-  const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-4 || size >= 1e7)) {
-    const [mantissa = '', exponent = ''] = value.toExponential(Math.max(0, count - 2)).split('e');
-    const up = [...exponent.replace('+', '')].map((c) => (c === '-' ? '⁻' : ('⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)] ?? c))).join('');
-    return `${mantissa.replace('-', '−')}·10${up}`;
-  }
-  const places = Math.min(6, Math.max(0, count - 1 - (size > 0 ? Math.floor(Math.log10(size)) : 0)));
-  const shown = fixed(value, places);
-  return places > 0 ? shown.replace(/\.?0+$/, '') : shown;
+  return trimmed(value, count);
 }
 
 export function show(where: HTMLElement, view: View, version: string): void {
