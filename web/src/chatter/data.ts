@@ -43,7 +43,7 @@ interface Head {
 
 export interface LobesPage extends Head, LobeColumns {
   kind: 'lobes';
-  answer: LawAnswer & { point?: Point };
+  answer: LawAnswer & { speeds: number; depths: number; point?: Point };
 }
 
 export interface GrowthPage extends Head {

@@ -126,7 +126,8 @@ export function frequencyText(frequency_hz: number | null): string {
 }
 
 function pointLabel(point: Point, perPass: boolean): string {
-  return `${radiusText(point.log_radius, perPass)}${point.stable ? '' : frequencyText(point.frequency_hz)}`;
+  const radius = radiusText(point.log_radius, perPass);
+  return point.stable || point.frequency_hz === null ? radius : `${radius}\n${fixed(point.frequency_hz, 1)} Hz`;
 }
 
 function stepsTable(page: LobesPage): string {
@@ -173,7 +174,7 @@ export function lobesView(page: LobesPage): View {
   return {
     product: 'Steadyrest chatter lobes',
     title: page.process,
-    facts: `<b>${lawText(page.answer)}</b> · map of <b>${page.map.speed_rpm.length} × ${page.map.depth_mm.length}</b> points`,
+    facts: `<b>${lawText(page.answer)}</b> · map of <b>${page.answer.speeds} × ${page.answer.depths}</b> points`,
     verdict: verdict(page, perPass),
     body: section('Stability lobes', lobeHosts()) + stepsTable(page),
     draw: (theme) => drawLobes(view, theme, { border: perPass ? 'border, ρ = 1' : 'border under the law, ρ = 1', marked: 'the wanted cut' }),

@@ -157,6 +157,8 @@ function dotSeries(layer: Extract<Layer, { kind: 'dots' }>, theme: Theme, z: num
         fontWeight: layer.bold ? 600 : 400,
         backgroundColor: `${theme.paper}d8`,
         padding: [2, 4],
+        lineHeight: 16,
+        ...(d.side === 'top' || d.side === 'bottom' ? { align: 'center' } : {}),
       },
     })),
   };
