@@ -15,12 +15,24 @@ constexpr double kSteady = 0.003;   // relative spread of the speed that still c
 constexpr double kGuardBins = 1.5;  // half width of what a line takes of the spectrum
 constexpr double kWideBins = 8.0;   // tooth orders nearer than this leave no gap to look into
 constexpr double kJump = 4.0;       // in the tooth orders' energy: the tool enters or leaves
-constexpr double kAllJump = 2.5;    // in the whole signal's energy
-constexpr double kSlowRev = 20.0;   // memory of the energy that a jump is measured against
+constexpr double kFirstJump =
+    2.5;                           // the same, of the first cut: air has no tooth orders that sweep
+constexpr double kAllJump = 2.5;   // in the whole signal's energy
+constexpr double kSlowRev = 20.0;  // memory of the energy that a jump is measured against
 constexpr double kWitnessShare = 0.25;
 constexpr double kLearnRev = 1.5;  // until the filter knows a new cut
 constexpr double kLasting = 0.7;   // of the window's line energy that the last revolution still has
-constexpr double kLastingMoving = 0.3;
+constexpr double kOffSpindle = 2.0;   // runout's orders take a part of chatter as well
+constexpr double kFreeNoise = 2.0;    // the noise's spread
+constexpr double kFreeSteady = 0.05;  // of a line that the energy ratio finds suspect
+constexpr double kFreeSure = 0.25;    // at constant speed chatter without the other witnesses
+constexpr double kFreeMargin = 1.2;   // over what the cut has shown
+constexpr double kFreeLearnS = 0.5;
+constexpr double kFreeRiseS = 0.13;
+constexpr double kFreeFallS = 30.0;
+constexpr double kFreeOff = 0.5;
+constexpr double kEvidenceStep = 0.1;  // most that one spectrum gives
+constexpr double kEvidence = 0.15;
 constexpr double kLongestHoldS = 2.0;
 constexpr double kFloorRiseS = 0.5;
 constexpr double kFloorFallS = 2.0;
@@ -36,11 +48,10 @@ kernel::outcome::Refusal refuse(const char* what) {
 kernel::outcome::Result<Detector> Detector::make(const Config& config) {
   if (!(config.off_ratio >= 0.0 && config.on_ratio >= config.off_ratio &&
         config.sure_ratio >= config.on_ratio && config.sure_ratio <= 1.0 &&
-        config.sure_ratio_moving >= config.on_ratio && config.sure_ratio_moving <= 1.0)) {
+        config.free_ratio >= 0.0 && config.free_ratio <= 1.0)) {
     return std::unexpected(refuse("energy ratios do not rise from off over on to sure, 0…1"));
   }
-  if (!(config.line_ratio >= 10.0 && config.margin >= 1.0 && config.confirm >= 1 &&
-        config.confirm_moving >= 1)) {
+  if (!(config.line_ratio >= 10.0 && config.margin >= 1.0 && config.confirm >= 1)) {
     return std::unexpected(refuse("line ratio below 10, margin or confirmations below 1"));
   }
   if (!(config.least_energy >= 0.0 && config.learn_s >= 0.0 && config.settle_rev >= 0.0)) {
@@ -60,11 +71,18 @@ kernel::outcome::Result<Detector> Detector::make(const Config& config) {
   if (!spectrum) {
     return std::unexpected(spectrum.error());
   }
-  return Detector(config, std::move(*filter), std::move(*spectrum));
+  auto free = FreeShare::make({.sample_rate_hz = config.sample_rate_hz, .teeth = config.teeth});
+  if (!free) {
+    return std::unexpected(free.error());
+  }
+  return Detector(config, std::move(*filter), std::move(*spectrum), std::move(*free));
 }
 
-Detector::Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum)
-    : config_(config), filter_(std::move(filter)), spectrum_(std::move(spectrum)) {}
+Detector::Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum, FreeShare free)
+    : config_(config),
+      filter_(std::move(filter)),
+      spectrum_(std::move(spectrum)),
+      free_(std::move(free)) {}
 
 const Detector::Output& Detector::update(const Input& input) noexcept {
   out_.fresh = false;
@@ -91,8 +109,13 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   const bool gaps = tooth_hz > kWideBins * spectrum_.resolution_hz();
   const bool steady = state_.speed_spread < kSteady;
   const double guard_hz = gaps && steady ? kGuardBins * spectrum_.resolution_hz() : 0.0;
-  if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz); lines.fresh) {
-    judge(lines);
+  if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz);
+      lines.fresh && !free_.busy()) {
+    lines_ = lines;
+    free_.ask(lines.frequency_hz, state_.mean_speed_rev_s, state_.settled);
+  }
+  if (const auto& free = free_.update(input.value, state_.angle_rev); free.fresh) {
+    judge(lines_, free);
   }
   return out_;
 }
@@ -123,11 +146,13 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
   state_.residual_energy +=
       turn_share * (forced.residual * forced.residual - state_.residual_energy);
   state_.settled_rev += turn_share;
+  ++state_.settled;
   state_.energy += turn_share * (moving * moving - state_.energy);
   const double before = std::max(state_.slow_all, config_.least_energy);
   state_.slow_all += slow * (moving * moving - state_.slow_all);
   const bool entered =
-      state_.tooth_energy > kJump * std::max(state_.slow_energy, config_.least_energy) ||
+      state_.tooth_energy > (state_.opened ? kJump : kFirstJump) *
+                                std::max(state_.slow_energy, config_.least_energy) ||
       state_.energy > kAllJump * before;
   const double pause_rev = state_.opened ? kSlowRev : config_.settle_rev;
   const bool calm = !out_.chatter && !state_.hold && state_.suspects == 0;
@@ -136,8 +161,10 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
     state_.seen_rev = 0.0;
     filter_.open();
     state_.settled_rev = 0.0;
+    state_.settled = 0;
     state_.judged_s = 0.0;
     state_.floor_energy = 0.0;
+    state_.floor_free = 0.0;
   }
 }
 
@@ -156,27 +183,29 @@ Detector::Kind Detector::kind_of(double frequency_hz) const noexcept {
   return from_half_hz < 0.5 * spectrum_.resolution_hz() ? Kind::flip : Kind::hopf;
 }
 
-void Detector::judge(const LineSpectrum::Output& lines) noexcept {
+void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output& free) noexcept {
   const double hop_s = kHop * static_cast<double>(spectrum_.length()) / config_.sample_rate_hz;
   const double all = lines.line_energy + state_.forced_energy;
   const bool steady = state_.speed_spread < kSteady;
   out_.fresh = true;
   out_.energy_ratio = all > 0.0 ? lines.line_energy / all : 0.0;
+  const double off_orders = std::min(free.off_teeth, kOffSpindle * free.off_spindle) -
+                            kFreeNoise * free.noise_share * lines.noise_energy;
+  out_.free_ratio = free.known && free.energy > 0.0
+                        ? out_.energy_ratio * std::clamp(off_orders / free.energy, 0.0, 1.0)
+                        : 0.0;
   out_.spread_ratio = revolution_.known && revolution_.energy > 0.0
                           ? revolution_.changed_energy / revolution_.energy
                           : 0.0;
   const bool cuts = all > config_.least_energy;
   const bool settled = state_.settled_rev > config_.settle_rev;
   state_.judged_s += settled ? hop_s : 0.0;
-  const bool lasts =
-      state_.residual_energy > (steady ? kLasting : kLastingMoving) * lines.line_energy;
-  const bool line = cuts && settled && lasts && lines.peak_ratio > config_.line_ratio &&
-                    witnessed(lines.line_energy, lines.frequency_hz / state_.mean_speed_rev_s);
-  const bool grown =
-      state_.judged_s > config_.learn_s && lines.line_energy > config_.margin * state_.floor_energy;
-  const bool suspect =
-      line && (out_.energy_ratio > (steady ? config_.sure_ratio : config_.sure_ratio_moving) ||
-               (out_.energy_ratio > config_.on_ratio && grown));
+  const bool strong = cuts && settled && lines.peak_ratio > config_.line_ratio;
+  const bool line = strong && (!steady || lasts(lines) || state_.evidence > 0.0);
+  const double over =
+      strong ? std::min(out_.free_ratio - free_bound(), kEvidenceStep) : -kEvidenceStep;
+  state_.evidence = std::max(state_.evidence + over, 0.0);
+  const bool suspect = line && (over > 0.0 || (steady && suspect_steady(lines, free)));
   // Hopf chatter is no spindle order: once it is told, the runout may be learnt again, or what was
   // learnt of its beginning would stand for ever. For the same reason flip is held for a while
   // only.
@@ -185,17 +214,21 @@ void Detector::judge(const LineSpectrum::Output& lines) noexcept {
   state_.hold =
       suspicious && state_.held_s < kLongestHoldS && (!out_.chatter || out_.kind == Kind::flip);
   state_.suspects = suspect ? state_.suspects + 1 : state_.suspects - std::min(state_.suspects, 1U);
-  if (settled && !suspect && !out_.chatter) {
-    learn(lines.line_energy);
+  if (settled && !out_.chatter) {
+    learn(lines.line_energy, suspect);
   }
-  state_.quiet = out_.energy_ratio < config_.off_ratio || !line ? state_.quiet + 1 : 0;
-  if (!out_.chatter && state_.suspects >= (steady ? config_.confirm : config_.confirm_moving)) {
+  const bool below = steady ? out_.energy_ratio < config_.off_ratio
+                            : out_.free_ratio < kFreeOff * config_.free_ratio;
+  state_.quiet = below || !line ? state_.quiet + 1 : 0;
+  if (!out_.chatter &&
+      (state_.evidence >= kEvidence || (steady && state_.suspects >= config_.confirm))) {
     out_.chatter = true;
     state_.quiet = 0;
   } else if (out_.chatter && static_cast<double>(state_.quiet) * kHop >= 1.0) {
     out_.chatter = false;
     state_.judged_s = 0.0;
     state_.floor_energy = 0.0;
+    state_.floor_free = 0.0;
   }
   if (out_.chatter && line) {
     out_.frequency_hz = lines.frequency_hz;
@@ -209,8 +242,35 @@ void Detector::judge(const LineSpectrum::Output& lines) noexcept {
                              : Reason::none;
 }
 
-void Detector::learn(double line_energy) noexcept {
+/// The last revolution still has it, and the second witness does not deny it.
+bool Detector::lasts(const LineSpectrum::Output& lines) const noexcept {
+  return state_.residual_energy > kLasting * lines.line_energy &&
+         witnessed(lines.line_energy, lines.frequency_hz / state_.mean_speed_rev_s);
+}
+
+bool Detector::suspect_steady(const LineSpectrum::Output& lines,
+                              const FreeShare::Output& free) const noexcept {
+  const bool grown =
+      state_.judged_s > config_.learn_s && lines.line_energy > config_.margin * state_.floor_energy;
+  return (out_.energy_ratio > config_.sure_ratio ||
+          (out_.energy_ratio > config_.on_ratio && grown)) &&
+         (!free.known || out_.free_ratio > kFreeSteady);
+}
+
+/// What the cut has shown so far counts as its own.
+double Detector::free_bound() const noexcept {
+  const double least = state_.speed_spread < kSteady ? kFreeSure : config_.free_ratio;
+  return std::max(least, kFreeMargin * state_.floor_free);
+}
+
+void Detector::learn(double line_energy, bool suspect) noexcept {
   const double hop_s = kHop * static_cast<double>(spectrum_.length()) / config_.sample_rate_hz;
+  const double rise = out_.free_ratio - state_.floor_free;
+  const double free_s = rise > 0.0 ? kFreeRiseS : kFreeFallS;
+  state_.floor_free += state_.judged_s > kFreeLearnS ? std::min(hop_s / free_s, 1.0) * rise : 0.0;
+  if (suspect) {
+    return;
+  }
   const double memory_s = line_energy > state_.floor_energy ? kFloorRiseS : kFloorFallS;
   // The first judgements weigh as a mean.
   const double weight = std::max(hop_s / memory_s, hop_s / std::max(state_.judged_s, hop_s));
@@ -220,6 +280,8 @@ void Detector::learn(double line_energy) noexcept {
 void Detector::reset() noexcept {
   filter_.reset();
   spectrum_.reset();
+  free_.reset();
+  lines_ = {};
   spread_.reset();
   revolution_ = {};
   state_ = {};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <steadyrest/chatter/online/free_share.hpp>
 #include <steadyrest/chatter/online/line_spectrum.hpp>
 #include <steadyrest/chatter/online/order_filter.hpp>
 #include <steadyrest/chatter/online/revolution_spread.hpp>
@@ -48,7 +49,7 @@ class Detector {
     double window_s = 0.1;               ///< of the spectrum, 0.02 … 1
     double on_ratio = 0.15;              ///< off_ratio … sure_ratio
     double sure_ratio = 0.25;            ///< on_ratio … 1
-    double sure_ratio_moving = 0.8;      ///< the same while the speed moves
+    double free_ratio = 0.1;             ///< of the free vibration while the speed moves, 0 … 1
     double off_ratio = 0.07;             ///< 0 … on_ratio
     double line_ratio = 25.0;            ///< ≥ 10
     double margin = 4.0;                 ///< ≥ 1
@@ -56,7 +57,6 @@ class Detector {
     double learn_s = 0.25;               ///< ≥ 0
     double settle_rev = 3.0;             ///< ≥ 0
     unsigned confirm = 2;                ///< ≥ 1
-    unsigned confirm_moving = 2;         ///< the same while the speed moves, ≥ 1
     double moving_memory_rev = 0.7;      ///< of the tooth orders while the speed moves, OrderFilter
   };
 
@@ -80,6 +80,7 @@ class Detector {
     Kind kind = Kind::none;
     double frequency_hz = 0.0;  ///< of the strongest line of the residual; 0 = none
     double energy_ratio = 0.0;  ///< 0 … 1
+    double free_ratio = 0.0;    ///< 0 … 1, the free share of it; 0 while not known
     double spread_ratio = 0.0;  ///< 0 … 2, RevolutionSpread; 0 while not known
     double residual = 0.0;      ///< the signal without the forced vibration
     kernel::outcome::Reason reason = kernel::outcome::Reason::none;
@@ -111,6 +112,9 @@ class Detector {
     double settled_rev = 0.0;      ///< since the cut began
     double judged_s = 0.0;         ///< since then
     double floor_energy = 0.0;     ///< C of the present cut, learnt
+    double floor_free = 0.0;       ///< the largest free ratio of it, learnt
+    double evidence = 0.0;         ///< sum of what the free ratio has over its bound
+    std::size_t settled = 0;       ///< samples since the cut began
     double held_s = 0.0;           ///< that the slow orders stand still
     unsigned suspects = 0;
     unsigned quiet = 0;
@@ -119,17 +123,23 @@ class Detector {
     bool started = false;
   };
 
-  Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum);
+  Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum, FreeShare free);
   void follow_speed(const Input& input) noexcept;
   void follow_energy(const OrderFilter::Output& forced, double moving, double turn_share) noexcept;
-  void judge(const LineSpectrum::Output& lines) noexcept;
+  void judge(const LineSpectrum::Output& lines, const FreeShare::Output& free) noexcept;
+  [[nodiscard]] bool lasts(const LineSpectrum::Output& lines) const noexcept;
+  [[nodiscard]] bool suspect_steady(const LineSpectrum::Output& lines,
+                                    const FreeShare::Output& free) const noexcept;
+  [[nodiscard]] double free_bound() const noexcept;
   [[nodiscard]] bool witnessed(double line_energy, double order) const noexcept;
   [[nodiscard]] Kind kind_of(double frequency_hz) const noexcept;
-  void learn(double line_energy) noexcept;
+  void learn(double line_energy, bool suspect) noexcept;
 
   Config config_;
   OrderFilter filter_;
   LineSpectrum spectrum_;
+  FreeShare free_;
+  LineSpectrum::Output lines_;  ///< that free_ is asked about
   RevolutionSpread spread_;
   RevolutionSpread::Output revolution_;
   State state_;

@@ -136,8 +136,7 @@ TEST(Detector, RefusesWhatIsOutOfRange) {
   EXPECT_FALSE(Detector::make({.window_s = 0.0}));
   EXPECT_FALSE(Detector::make({.on_ratio = 0.5}));
   EXPECT_FALSE(Detector::make({.confirm = 0}));
-  EXPECT_FALSE(Detector::make({.confirm_moving = 0}));
-  EXPECT_FALSE(Detector::make({.sure_ratio_moving = 2.0}));
+  EXPECT_FALSE(Detector::make({.free_ratio = 2.0}));
 }
 
 }  // namespace
