@@ -71,18 +71,18 @@ kernel::outcome::Result<Detector> Detector::make(const Config& config) {
   if (!spectrum) {
     return std::unexpected(spectrum.error());
   }
-  auto free = FreeShare::make({.sample_rate_hz = config.sample_rate_hz, .teeth = config.teeth});
-  if (!free) {
-    return std::unexpected(free.error());
+  auto share = FreeShare::make({.sample_rate_hz = config.sample_rate_hz, .teeth = config.teeth});
+  if (!share) {
+    return std::unexpected(share.error());
   }
-  return Detector(config, std::move(*filter), std::move(*spectrum), std::move(*free));
+  return Detector(config, std::move(*filter), std::move(*spectrum), std::move(*share));
 }
 
-Detector::Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum, FreeShare free)
+Detector::Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum, FreeShare share)
     : config_(config),
       filter_(std::move(filter)),
       spectrum_(std::move(spectrum)),
-      free_(std::move(free)) {}
+      share_(std::move(share)) {}
 
 const Detector::Output& Detector::update(const Input& input) noexcept {
   out_.fresh = false;
@@ -110,12 +110,12 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   const bool steady = state_.speed_spread < kSteady;
   const double guard_hz = gaps && steady ? kGuardBins * spectrum_.resolution_hz() : 0.0;
   if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz);
-      lines.fresh && !free_.busy()) {
+      lines.fresh && !share_.busy()) {
     lines_ = lines;
-    free_.ask(lines.frequency_hz, state_.mean_speed_rev_s, state_.settled);
+    share_.ask(lines.frequency_hz, state_.mean_speed_rev_s, state_.settled);
   }
-  if (const auto& free = free_.update(input.value, state_.angle_rev); free.fresh) {
-    judge(lines_, free);
+  if (const auto& share = share_.update(input.value, state_.angle_rev); share.fresh) {
+    judge(lines_, share);
   }
   return out_;
 }
@@ -183,16 +183,16 @@ Detector::Kind Detector::kind_of(double frequency_hz) const noexcept {
   return from_half_hz < 0.5 * spectrum_.resolution_hz() ? Kind::flip : Kind::hopf;
 }
 
-void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output& free) noexcept {
+void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output& share) noexcept {
   const double hop_s = kHop * static_cast<double>(spectrum_.length()) / config_.sample_rate_hz;
   const double all = lines.line_energy + state_.forced_energy;
   const bool steady = state_.speed_spread < kSteady;
   out_.fresh = true;
   out_.energy_ratio = all > 0.0 ? lines.line_energy / all : 0.0;
-  const double off_orders = std::min(free.off_teeth, kOffSpindle * free.off_spindle) -
-                            kFreeNoise * free.noise_share * lines.noise_energy;
-  out_.free_ratio = free.known && free.energy > 0.0
-                        ? out_.energy_ratio * std::clamp(off_orders / free.energy, 0.0, 1.0)
+  const double off_orders = std::min(share.off_teeth, kOffSpindle * share.off_spindle) -
+                            kFreeNoise * share.noise_share * lines.noise_energy;
+  out_.free_ratio = share.known && share.energy > 0.0
+                        ? out_.energy_ratio * std::clamp(off_orders / share.energy, 0.0, 1.0)
                         : 0.0;
   out_.spread_ratio = revolution_.known && revolution_.energy > 0.0
                           ? revolution_.changed_energy / revolution_.energy
@@ -204,8 +204,8 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   const bool line = strong && (!steady || lasts(lines) || state_.evidence > 0.0);
   const double over =
       strong ? std::min(out_.free_ratio - free_bound(), kEvidenceStep) : -kEvidenceStep;
-  state_.evidence = std::max(state_.evidence + over, 0.0);
-  const bool suspect = line && (over > 0.0 || (steady && suspect_steady(lines, free)));
+  state_.evidence = std::clamp(state_.evidence + over, 0.0, kEvidence);
+  const bool suspect = line && (over > 0.0 || (steady && suspect_steady(lines, share)));
   // Hopf chatter is no spindle order: once it is told, the runout may be learnt again, or what was
   // learnt of its beginning would stand for ever. For the same reason flip is held for a while
   // only.
@@ -220,16 +220,26 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   const bool below = steady ? out_.energy_ratio < config_.off_ratio
                             : out_.free_ratio < kFreeOff * config_.free_ratio;
   state_.quiet = below || !line ? state_.quiet + 1 : 0;
+  decide(steady);
+  name(lines, line, cuts);
+}
+
+void Detector::decide(bool steady) noexcept {
   if (!out_.chatter &&
       (state_.evidence >= kEvidence || (steady && state_.suspects >= config_.confirm))) {
     out_.chatter = true;
     state_.quiet = 0;
   } else if (out_.chatter && static_cast<double>(state_.quiet) * kHop >= 1.0) {
     out_.chatter = false;
+    state_.suspects = 0;
+    state_.evidence = 0.0;
     state_.judged_s = 0.0;
     state_.floor_energy = 0.0;
     state_.floor_free = 0.0;
   }
+}
+
+void Detector::name(const LineSpectrum::Output& lines, bool line, bool cuts) noexcept {
   if (out_.chatter && line) {
     out_.frequency_hz = lines.frequency_hz;
     out_.kind = kind_of(lines.frequency_hz);
@@ -249,12 +259,12 @@ bool Detector::lasts(const LineSpectrum::Output& lines) const noexcept {
 }
 
 bool Detector::suspect_steady(const LineSpectrum::Output& lines,
-                              const FreeShare::Output& free) const noexcept {
+                              const FreeShare::Output& share) const noexcept {
   const bool grown =
       state_.judged_s > config_.learn_s && lines.line_energy > config_.margin * state_.floor_energy;
   return (out_.energy_ratio > config_.sure_ratio ||
           (out_.energy_ratio > config_.on_ratio && grown)) &&
-         (!free.known || out_.free_ratio > kFreeSteady);
+         (!share.known || out_.free_ratio > kFreeSteady);
 }
 
 /// What the cut has shown so far counts as its own.
@@ -280,7 +290,7 @@ void Detector::learn(double line_energy, bool suspect) noexcept {
 void Detector::reset() noexcept {
   filter_.reset();
   spectrum_.reset();
-  free_.reset();
+  share_.reset();
   lines_ = {};
   spread_.reset();
   revolution_ = {};

@@ -18,18 +18,21 @@ namespace steadyrest::chatter::online {
 /// modulated speed.
 ///
 /// Law. The signal less what OrderFilter says is forced gives the residual; LineSpectrum finds its
-/// lines. With C the energy of the lines and P that of the forced vibration,
-///   energy ratio = C/(C + P).
-/// A spectrum is suspect when its strongest line stands `line_ratio` above the noise, and either
-/// the energy ratio is above `sure_ratio`, or it is above `on_ratio` and C above `margin` times
-/// what the present cut has shown so far (learnt while nothing is suspect, from `learn_s` on), and
-/// the second witness does not deny it: the revolution's spread must be at least a quarter of what
-/// a line of this order and energy gives. While the speed moves `sure_ratio_moving` stands in:
-/// resonances that the tooth orders sweep over leave up to 0.8 in stable cuts. A line that the last
-/// revolution no longer has (70 % of its energy, 30 % while the speed moves) is a vibration that
-/// dies away. `confirm` suspect spectra, less those between that were not, are chatter; it is over
-/// once the energy ratio was below `off_ratio` for a whole window. For `settle_rev` revolutions
-/// after the signal's energy jumped (the tool enters) nothing is judged.
+/// lines, FreeShare says of the strongest which share φ neither an order nor a damped mode gives.
+/// With C the energy of the lines and P that of the forced vibration,
+///   energy ratio R = C/(C + P),  free ratio F = φ·R.
+/// Only a spectrum whose strongest line stands `line_ratio` above the noise counts. Two ways:
+///   E += min(F − b, 0.1), never below 0; chatter at E ≥ 0.15. The bound b is `free_ratio` while
+///   the speed moves, else 0.25, and at least 1.2 times what the cut has shown in F before. (R
+///   alone says nothing there: a tooth order that sweeps over a resonance gives 0.9 in stable
+///   cuts.) At constant speed as well: R above `sure_ratio`, or above `on_ratio` with C above
+///   `margin` times what the present cut has shown (learnt while nothing is suspect, from `learn_s`
+///   on), in `confirm` spectra, less those between that were not; unless F is below 0.05, the last
+///   revolution has less than 70 % of the line (it dies away), or the revolution's spread is below
+///   a quarter of what a line of this order and energy gives.
+/// Chatter is over once R was below `off_ratio`, while the speed moves F below half of
+/// `free_ratio`, for a whole window. For `settle_rev` revolutions after the signal's energy jumped
+/// (the tool enters) nothing is judged.
 ///
 /// The frequency is that of the strongest line of the residual, see LineSpectrum for its accuracy.
 /// Flip: within a line's width of a half-odd tooth order; the lines there are never taken as forced
@@ -123,13 +126,15 @@ class Detector {
     bool started = false;
   };
 
-  Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum, FreeShare free);
+  Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum, FreeShare share);
   void follow_speed(const Input& input) noexcept;
   void follow_energy(const OrderFilter::Output& forced, double moving, double turn_share) noexcept;
-  void judge(const LineSpectrum::Output& lines, const FreeShare::Output& free) noexcept;
+  void judge(const LineSpectrum::Output& lines, const FreeShare::Output& share) noexcept;
+  void decide(bool steady) noexcept;
+  void name(const LineSpectrum::Output& lines, bool line, bool cuts) noexcept;
   [[nodiscard]] bool lasts(const LineSpectrum::Output& lines) const noexcept;
   [[nodiscard]] bool suspect_steady(const LineSpectrum::Output& lines,
-                                    const FreeShare::Output& free) const noexcept;
+                                    const FreeShare::Output& share) const noexcept;
   [[nodiscard]] double free_bound() const noexcept;
   [[nodiscard]] bool witnessed(double line_energy, double order) const noexcept;
   [[nodiscard]] Kind kind_of(double frequency_hz) const noexcept;
@@ -138,8 +143,8 @@ class Detector {
   Config config_;
   OrderFilter filter_;
   LineSpectrum spectrum_;
-  FreeShare free_;
-  LineSpectrum::Output lines_;  ///< that free_ is asked about
+  FreeShare share_;
+  LineSpectrum::Output lines_;  ///< that share_ is asked about
   RevolutionSpread spread_;
   RevolutionSpread::Output revolution_;
   State state_;

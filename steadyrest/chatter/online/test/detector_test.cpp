@@ -54,8 +54,8 @@ Heard listen(const CutSignal& signal, std::size_t teeth, double noise, bool angl
       heard.frequency_hz = heard.last.frequency_hz;
       heard.kind = heard.last.kind;
     }
-    if (!heard.last.chatter && heard.first_s >= 0.0 && heard.end_s < 0.0) {
-      heard.end_s = t;
+    if (heard.first_s >= 0.0 && heard.last.chatter == (heard.end_s >= 0.0)) {
+      heard.end_s = heard.last.chatter ? -1.0 : t;
     }
   }
   return heard;
@@ -102,6 +102,44 @@ TEST(Detector, IsSilentUnderModulation) {
       EXPECT_LT(listen(signal, 2, noise * truth.forced_rms).first_s, 0.0) << noise;
     }
   }
+}
+
+TEST(Detector, HearsChatterUnderModulationInTime) {
+  for (const Law law : {Law::sine, Law::triangle}) {
+    CutModel model = slot(1.8);
+    model.law = law;
+    model.rva = 0.1;
+    const CutSignal signal = simulate(model, 1.5);
+    const Truth truth = truth_of(model, signal);
+    ASSERT_TRUE(truth.chatters);
+    for (const double noise : {0.01, 0.2, 1.0}) {
+      const Heard heard = listen(signal, 2, noise * truth.forced_rms);
+      EXPECT_GT(heard.first_s, 0.2) << noise;
+      EXPECT_LT(heard.first_s, truth.onset_s + 0.15) << noise;
+    }
+  }
+}
+
+TEST(Detector, IsSilentWhereAToothOrderSweepsOverAResonance) {
+  CutModel model = slot(0.05);
+  model.accelerometer = true;
+  model.law = Law::sine;
+  model.rva = 0.15;
+  const CutSignal signal = simulate(model, 3.0);
+  ASSERT_TRUE(truth_of(model, signal).stable);
+  auto detector = Detector::make({.sample_rate_hz = signal.rate_hz, .teeth = 2});
+  ASSERT_TRUE(detector);
+  double energy_ratio = 0.0;
+  double free_ratio = 0.0;
+  for (std::size_t i = 0; i < signal.value.size(); ++i) {
+    const auto& out =
+        detector->update({.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i]});
+    EXPECT_FALSE(out.chatter);
+    energy_ratio = std::max(energy_ratio, out.energy_ratio);
+    free_ratio = std::max(free_ratio, out.free_ratio);
+  }
+  EXPECT_GT(energy_ratio, 0.3);  // the ratio of energies alone takes it for chatter
+  EXPECT_LT(free_ratio, 0.1);
 }
 
 TEST(Detector, FallsSilentOnceTheChatterIsOver) {
