@@ -15,6 +15,8 @@ using simulate::Moment;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kUm = 1000.0;
 constexpr double kStretches = 700.0;
+constexpr double kLeastStretches = 200.0;
+constexpr double kWhole = 1e-6;  ///< short of a whole number counts as one
 constexpr double kMostTurns = 4000.0;
 constexpr double kLastTurns = 6.0;
 constexpr std::size_t kMostLast = 8000;
@@ -51,8 +53,10 @@ Json columns_of(const std::vector<Moment>& moments) {
 
 }  // namespace
 
-CutRecorder::CutRecorder(double seconds, double mean_rev_s)
-    : stretch_s_(seconds / kStretches),
+CutRecorder::CutRecorder(double seconds, double mean_rev_s, std::size_t teeth)
+    : stretch_s_(std::max(
+          seconds / kStretches,
+          std::min(seconds / kLeastStretches, 1.0 / (mean_rev_s * static_cast<double>(teeth))))),
       stride_(
           static_cast<std::size_t>(std::max(1.0, std::ceil(seconds * mean_rev_s / kMostTurns)))) {}
 
@@ -70,7 +74,7 @@ void CutRecorder::add(const Moment& now) {
 void CutRecorder::widen(const Moment& now) {
   const std::array value{kUm * now.cut.displacement_mm[0], kUm * now.cut.displacement_mm[1],
                          std::hypot(now.cut.force_n[0], now.cut.force_n[1])};
-  const double stretch = std::floor(now.t_s / stretch_s_);
+  const double stretch = std::min(std::floor(now.t_s / stretch_s_), last_stretch_);
   const bool fresh = stretch > stretch_;
   stretch_ = std::max(stretch, stretch_);
   if (fresh) {

@@ -16,12 +16,13 @@ namespace steadyrest::apps::chatter_page {
 
 class CutRecorder {
  public:
-  /// `seconds` > 0 and `mean_rev_s` > 0 of the cut that is to come.
-  CutRecorder(double seconds, double mean_rev_s);
+  /// `seconds` > 0, `mean_rev_s` > 0 and `teeth` ≥ 1 of the cut that is to come.
+  CutRecorder(double seconds, double mean_rev_s, std::size_t teeth);
 
   void add(const simulate::Moment& now);
 
-  /// x, y in µm and |F| in N: the extremes within each of 700 even stretches of the time.
+  /// x, y in µm and |F| in N: the extremes within even stretches of the time, a tooth pass or more
+  /// each where there are enough of them; at most 700.
   struct Envelope {
     std::vector<double> t_s;
     std::array<std::vector<double>, 3> low;
@@ -45,6 +46,7 @@ class CutRecorder {
   void turn(const simulate::Moment& now);
 
   double stretch_s_;
+  double last_stretch_;  ///< what is left of the time after it is its own
   std::size_t stride_;
   double stretch_ = -1.0;
   double turned_ = 0.0;

@@ -25,8 +25,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// At most `most` of `count` indices, even ones, both ends among them.
 std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
-  std::vector<std::size_t> out;
   const std::size_t n = std::min(count, most);
+  std::vector<std::size_t> out;
+  out.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     out.push_back(n == 1 ? 0 : i * (count - 1) / (n - 1));
   }
@@ -48,6 +49,7 @@ std::vector<double> in_rpm(std::vector<double> speed_rev_s) {
 
 std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
   std::vector<double> out;
+  out.reserve(values.size());
   for (const auto& value : values) {
     out.push_back(value.value_or(kNaN));
   }

@@ -20,6 +20,7 @@ constexpr double kBeyond = 0.05;  ///< of the programmed speed, on both sides of
 
 std::vector<double> even(double from, double to, std::size_t count) {
   std::vector<double> out;
+  out.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     out.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(count - 1));
   }

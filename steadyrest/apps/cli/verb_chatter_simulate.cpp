@@ -147,7 +147,8 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
   if (!steps) {
     return refused(steps.error());
   }
-  chatter_page::CutRecorder recorder(options.seconds, settings.speed_rev_s);
+  chatter_page::CutRecorder recorder(options.seconds, settings.speed_rev_s,
+                                     point.process.tool.teeth);
   simulate::VibrationSummary summary(options.seconds, repeat_of(point.process, settings));
   std::size_t done = 0;
   const auto sink = [&](const simulate::Moment& now) {

@@ -77,6 +77,7 @@ std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {
   const std::size_t passes = cycle.passes();
   const std::size_t starts = std::min(passes, kMostStarts);
   std::vector<GrowthCourse> out;
+  out.reserve(starts);
   for (std::size_t k = 0; k < starts; ++k) {
     out.push_back(course_from(cycle, k * passes / starts, std::max(2 * passes, kLeastWindow)));
   }

@@ -4,7 +4,7 @@ import { fixed } from '../format';
 import type { Theme } from '../theme';
 import { type GrowthPage, type Maybe, lawText } from './data';
 import { type View, figures, host, keyLine, plain, plot, section } from './frame';
-import { type Layer, type Plot, roomy } from './plot';
+import { type Dot, type Layer, type Plot, roomy } from './plot';
 
 interface Peak {
   start_s: number;
@@ -59,12 +59,13 @@ function growthPlot(page: GrowthPage, theme: Theme): Plot {
   });
   layers.push({ kind: 'line', x: scaled(worst?.time_s ?? [], scale.times), y: worst?.log_growth ?? [], colour: theme.run.without, width: 2.4 });
   const share = (peak.time_s * scale.times) / scale.end;
+  const side: Partial<Dot> = share < 0.15 ? { side: 'right' } : share > 0.85 ? { side: 'left', lift: 16 } : { side: 'top' };
   layers.push({
     kind: 'dots',
     colour: theme.run.without,
     size: 11,
     bold: true,
-    dots: [{ x: peak.time_s * scale.times, y: peak.log_growth, label: `${plain(Math.exp(peak.log_growth), 3)}-fold, ln ${fixed(peak.log_growth, 2)}`, side: share > 0.75 ? 'left' : 'right' }],
+    dots: [{ x: peak.time_s * scale.times, y: peak.log_growth, label: `${plain(page.answer.peak_growth, 3)}-fold, ln ${fixed(peak.log_growth, 2)}`, ...side }],
   });
   return {
     title: 'Growth of a vibration',

@@ -23,6 +23,8 @@ export interface Dot {
   label?: string;
   /** Where the label stands. */
   side?: 'left' | 'right' | 'top' | 'bottom';
+  /** Upwards from there, px. */
+  lift?: number;
 }
 
 export type Layer =
@@ -152,6 +154,7 @@ function dotSeries(layer: Extract<Layer, { kind: 'dots' }>, theme: Theme, z: num
         show: d.label !== undefined,
         formatter: d.label ?? '',
         position: d.side ?? 'right',
+        offset: [0, -(d.lift ?? 0)],
         color: theme.text,
         fontSize: 12,
         fontWeight: layer.bold ? 600 : 400,

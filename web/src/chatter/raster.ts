@@ -20,12 +20,13 @@ const UNSTABLE: Record<Scheme, string[]> = {
   dark: ['#33261d', '#553521', '#7a4626', '#a35a2b', '#cc7031'],
 };
 const GROWING = [1, 1.1, 1.25, 1.5, 2];
+const MOST = 0.9; // of the points are within the even steps
 const DYING = [1, 0.9, 0.8, 0.65, 0.5];
 
 /** Classes of ln ρ on both sides of the border: steps of ρ where `perPass`, even steps of ln ρ else. */
 export function radiusLevels(logs: readonly Maybe[], perPass: boolean, scheme: Scheme): Level[] {
-  const finite = logs.filter((v): v is number => v !== null);
-  const reach = finite.reduce((m, v) => Math.max(m, Math.abs(v)), 0.1);
+  const sizes = logs.flatMap((v) => (v === null ? [] : [Math.abs(v)])).sort((a, b) => a - b);
+  const reach = Math.max(sizes[Math.floor(MOST * (sizes.length - 1))] ?? 0, 0.1);
   const step = niceStep(reach, 5);
   const even = GROWING.map((_, i) => i * step);
   const up = perPass ? GROWING.map(Math.log) : even;
