@@ -50,6 +50,15 @@ TEST(ChatterPlan, SaysWhyALawCannotBe) {
   EXPECT_THAT(law["reasons"][0], HasSubstr("needs 33333 rpm/s, the drive gives 4000 rpm/s"));
 }
 
+TEST(ChatterPlan, LawsAloneThatDoNotHelpNameTheStepThatDoes) {
+  const std::string line =
+      kPlan + kMill +
+      "--speed-rpm 5000 --depth-mm 1 --laws-only --laws triangle --rva 0.2 --rvf 0.1";
+  EXPECT_EQ(answer_of(line)["helping_override_percent"], 110.0);
+  EXPECT_THAT(run_line(line).out,
+              HasSubstr("No law helps at 1 mm; a constant 110 % = 5500 rpm does\n"));
+}
+
 TEST(ChatterPlan, SpeaksToPeople) {
   const std::string text = run_line(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1").out;
   EXPECT_THAT(text, HasSubstr("Set the spindle override to 110 % = 5500 rpm\n"));

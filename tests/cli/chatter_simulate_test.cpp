@@ -58,6 +58,14 @@ TEST(ChatterSimulate, AModulationStopsWhatGrowsAtConstantSpeed) {
   EXPECT_TRUE(sine["forced_um"].is_null());
 }
 
+TEST(ChatterSimulate, KnowsTheFrequencyUnderModulationToo) {
+  // Square law: ρ = 12.7 over 20 teeth.
+  const json square =
+      answer_to(kSlot + " --depth-mm 1 --law square --rva 0.2 --rvf 0.1 --seconds 0.1");
+  EXPECT_FALSE(square["stable"].get<bool>());
+  EXPECT_NEAR(square["chatter_frequency_hz"].get<double>(), 940.0, 60.0);
+}
+
 TEST(ChatterSimulate, RefusesWhatCannotBeCut) {
   for (const std::string bad : {" --depth-mm 0", " --depth-mm 1 --seconds 0", " --depth-mm nan",
                                 " --depth-mm 1 --law sine --rva 1", " --depth-mm 1 --law wave",

@@ -47,6 +47,8 @@ TEST(ChatterRadius, TakesAModulationInRatiosAndInTheWordsOfTheShopFloor) {
   EXPECT_NEAR(ratios["amplitude_rpm"], 1000.0, 1e-9);
   EXPECT_NEAR(ratios["period_s"], 0.12, 1e-12);
   EXPECT_FALSE(ratios.contains("wanted_rvf"));
+  EXPECT_NEAR(ratios["frequency_hz"], 922.0, 100.0);
+  EXPECT_NEAR(ratios["frequency_step_hz"], 1.0 / 0.12, 1e-9);
   const double log_radius = ratios["log_radius"];
   for (const char* words : {" --amplitude-rpm 1000", " --amplitude-percent 20"}) {
     const json same = answer_of(kPoint + " --law sine --period-s 0.12" + words);

@@ -28,8 +28,9 @@ struct Options {
 
 /// Sections for a process file.
 std::string modes_toml(const offline::ModeFit& fit, const Options& options) {
-  std::string out = fmt::format("# Fitted by steadyrest chatter fit: {} modes, residual {:.3g} %\n",
-                                fit.modes.size(), 100.0 * fit.residual);
+  std::string out =
+      fmt::format("# Fitted by steadyrest chatter fit: {} {}, residual {:.3g} %\n",
+                  fit.modes.size(), fit.modes.size() == 1 ? "mode" : "modes", 100.0 * fit.residual);
   for (const offline::FittedMode& mode : fit.modes) {
     fmt::format_to(std::back_inserter(out),
                    "\n[[mode]]\naxis = \"{}\"\nfrequency_hz = {:#.8g}\ndamping_ratio = {:#.6g}\n"

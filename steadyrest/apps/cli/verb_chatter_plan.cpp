@@ -73,6 +73,8 @@ void put(Json& json, const Alternative& a, double speed_rpm) {
   json["limit_depth_mm"] = or_null(a.limit_depth_mm);
   json["probability"] = or_null(a.probability);
   json["peak_growth"] = or_null(a.peak_growth);
+  json["log_radius"] = or_null(a.log_radius);
+  json["written_log_radius"] = or_null(a.written_log_radius);
   json["speed_rpm"] = speed_rpm * a.ratio;
   json["amplitude_rpm"] = is_law(a) ? a.modulation.rva * speed_rpm : 0.0;
   json["period_s"] = is_law(a) ? Json(period_s(a, speed_rpm)) : Json(nullptr);
@@ -86,6 +88,8 @@ Json to_json(const offline::Plan& plan, const Options& options) {
   out["most_depth_mm"] = plan.most_depth_mm;
   out["likely_depth_mm"] =
       plan.decision == PlanDecision::nothing ? Json(plan.likely_depth_mm) : Json(nullptr);
+  out["helping_override_percent"] =
+      plan.helping_ratio ? percents({*plan.helping_ratio})[0] : Json(nullptr);
   out["chatter_frequency_hz"] = or_null(plan.chatter_frequency_hz);
   out["notes"] = plan.notes;
   out["alternatives"] = Json::array();
@@ -123,6 +127,10 @@ std::string growth_text(const Alternative& a) {
              : "–";
 }
 
+std::string log_text(const std::optional<double>& log_radius) {
+  return log_radius && std::isfinite(*log_radius) ? fmt::format("{:.3g}", *log_radius) : "–";
+}
+
 std::string headline(const offline::Plan& plan, const Options& options) {
   const std::string choice = choice_words(plan.chosen, options.speed_rpm);
   switch (plan.decision) {
@@ -133,6 +141,11 @@ std::string headline(const offline::Plan& plan, const Options& options) {
     case PlanDecision::law:
       return fmt::format("Modulate the spindle speed: {}", choice);
     case PlanDecision::nothing:
+      if (plan.helping_ratio) {
+        return fmt::format("No law helps at {:.4g} mm; a constant {:.4g} % = {:.0f} rpm does",
+                           options.depth_mm, units::percent_from_ratio(*plan.helping_ratio),
+                           options.speed_rpm * *plan.helping_ratio);
+      }
       return fmt::format("Nothing helps at {:.4g} mm", options.depth_mm);
   }
   return {};
@@ -140,10 +153,12 @@ std::string headline(const offline::Plan& plan, const Options& options) {
 
 std::string for_people(const offline::Plan& plan, const Options& options) {
   std::string out = headline(plan, options) + "\n\n";
-  Table table({"choice", "border, mm", "stable cuts, %", "growth", "verdict"});
+  Table table(
+      {"choice", "border, mm", "stable cuts, %", "growth", "ln ρ", "as written", "verdict"});
   for (const Alternative& a : plan.alternatives) {
     table.row({choice_words(a, options.speed_rpm), limit_text(a, plan.most_depth_mm),
                a.probability ? fmt::format("{:.0f}", 100.0 * *a.probability) : "–", growth_text(a),
+               log_text(a.log_radius), log_text(a.written_log_radius),
                a.accepted() ? "good" : "no"});
   }
   out += table.text() + "\n";

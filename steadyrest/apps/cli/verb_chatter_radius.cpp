@@ -30,6 +30,7 @@ Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
   put_stability(json, found);
   json["log_radius_per_pass"] = found.log_radius_per_pass;
   json["peak_growth"] = found.peak_growth;
+  json["frequency_step_hz"] = found.frequency_step_hz;
   json["passes"] = found.passes;
   json["law_periods"] = found.law_periods;
   json["speed_rpm"] = options.speed_rpm;
@@ -45,7 +46,9 @@ Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
   table.row({"its logarithm", fmt::format("{:.6g}", found.log_radius)});
   table.row({"worst growth on the way", fmt::format("{:.4g}", found.peak_growth)});
   if (found.frequency_hz) {
-    table.row({"frequency", fmt::format("{:.1f} Hz", *found.frequency_hz)});
+    table.row({"frequency", constant ? fmt::format("{:.1f} Hz", *found.frequency_hz)
+                                     : fmt::format("{:.1f} Hz, and lines {:.3g} Hz apart about it",
+                                                   *found.frequency_hz, found.frequency_step_hz)});
   }
   answer.text = table.text() + "speed: " + law_text(law, options.speed_rpm) + "\n";
   return answer;

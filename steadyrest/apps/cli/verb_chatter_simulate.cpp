@@ -14,6 +14,7 @@
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_simulate.hpp>
 #include <steadyrest/apps/simulate/vibration_summary.hpp>
+#include <steadyrest/chatter/offline/stability.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -63,6 +64,22 @@ void put_row(std::FILE* file, const simulate::Moment& now) {
 
 Json number(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
+}
+
+/// Of the chatter: at constant speed out of the cut itself, under modulation, where its lines
+/// smear, that of the dominant multiplier.
+std::optional<double> frequency_hz(const offline::Process& process,
+                                   const simulate::CutSettings& settings,
+                                   const simulate::Summary& summary) {
+  if (settings.modulation.law == chatter::online::Law::constant) {
+    return summary.frequency_hz;
+  }
+  offline::DelayCycle::Config config;
+  config.speed_rev_s = settings.speed_rev_s;
+  config.modulation = settings.modulation;
+  config.most_depth_mm = settings.depth_mm;
+  const auto found = offline::stability_at(process, config, {.frequency = true});
+  return found ? found->frequency_hz : std::nullopt;
 }
 
 Answer answer_of(const simulate::Summary& summary, double log_growth, std::size_t rows) {
@@ -167,7 +184,11 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
   if (auto written = steps->finish(); !written) {
     return refused(written.error());
   }
-  Answer answer = answer_of(summary.summary(), *growth, steps->rows());
+  simulate::Summary made = summary.summary();
+  if (*growth >= 0.0) {
+    made.frequency_hz = frequency_hz(point.process, settings, made);
+  }
+  Answer answer = answer_of(made, *growth, steps->rows());
   answer.json["speed_rpm"] = options.cut.speed_rpm;
   answer.json["depth_mm"] = point.depth_mm;
   put_law(answer.json, point.law, options.cut.speed_rpm);

@@ -10,6 +10,7 @@
 #include <steadyrest/chatter/offline/alternative_check.hpp>
 #include <steadyrest/chatter/offline/depth_line.hpp>
 #include <steadyrest/chatter/offline/limit_depth.hpp>
+#include <steadyrest/chatter/offline/override_course.hpp>
 #include <steadyrest/chatter/offline/stability.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -58,9 +59,11 @@ double log_growth_seen(DelayCycle& cycle) {
 
 }  // namespace
 
-AlternativeCheck::AlternativeCheck(const Process& process, double programmed_rev_s, double depth_mm,
-                                   double most_depth_mm, const PlanOptions& options)
+AlternativeCheck::AlternativeCheck(const Process& process, const kernel::machine::Machine& machine,
+                                   double programmed_rev_s, double depth_mm, double most_depth_mm,
+                                   const PlanOptions& options)
     : process_(&process),
+      machine_(&machine),
       speed_rev_s_(programmed_rev_s),
       depth_mm_(depth_mm),
       most_depth_mm_(most_depth_mm),
@@ -137,6 +140,7 @@ double AlternativeCheck::log_radius(Alternative& law) const {
   }
   const Stability found = stability(*cycle, {});
   law.stable = found.stable;
+  law.log_radius = found.log_radius;
   if (!found.stable) {
     law.reasons.emplace_back("unstable");
   }
@@ -165,6 +169,43 @@ void AlternativeCheck::judge(Alternative& law) const {
   reject_unlikely(law);
   if (law.accepted()) {
     too_much(log_peak_growth(*cycle), false);
+  }
+  if (law.accepted()) {
+    reject_unstable_as_written(law);
+  }
+}
+
+/// What the override makes of the law: its steps, scans and slew, the drive's ramps.
+void AlternativeCheck::reject_unstable_as_written(Alternative& law) const {
+  auto course = override_course(*machine_, speed(law), law.modulation);
+  if (!course) {
+    law.reasons.push_back(course.error().what);
+    return;
+  }
+  DelayCycle::Config config;
+  config.course = std::move(*course);
+  config.speed_rev_s = speed(law);
+  config.most_depth_mm = depth_mm_;
+  auto cycle = DelayCycle::make(*process_, config);
+  if (!cycle) {
+    law.reasons.push_back(cycle.error().what);
+    return;
+  }
+  cycle->set_depth(depth_mm_);
+  law.written_log_radius = stability(*cycle, {}).log_radius;
+  if (*law.written_log_radius >= 0.0) {
+    law.reasons.push_back(fmt::format(
+        "stable as the law has it (ln ρ {:.3g}), but unstable as the override writes it "
+        "(ln ρ {:.3g})",
+        law.log_radius.value_or(0.0), *law.written_log_radius));
+    return;
+  }
+  const double grown = log_growth_seen(*cycle);
+  if (grown > std::log(options_->most_growth)) {
+    law.reasons.push_back(fmt::format(
+        "as the override writes the law, a vibration grows at least {:.3g}-fold before it dies; "
+        "{:.3g}-fold is allowed",
+        std::exp(std::min(700.0, grown)), options_->most_growth));
   }
 }
 

@@ -10,9 +10,10 @@ namespace steadyrest::chatter::offline {
 
 class AlternativeCheck {
  public:
-  /// Refers to `options`, which must live on.
-  AlternativeCheck(const Process& process, double programmed_rev_s, double depth_mm,
-                   double most_depth_mm, const PlanOptions& options);
+  /// Refers to all three, which must live on.
+  AlternativeCheck(const Process& process, const kernel::machine::Machine& machine,
+                   double programmed_rev_s, double depth_mm, double most_depth_mm,
+                   const PlanOptions& options);
 
   /// An override step: everything about it. `demand` must be filled.
   void step(Alternative& alternative) const;
@@ -29,9 +30,11 @@ class AlternativeCheck {
   [[nodiscard]] double speed(const Alternative& a) const { return speed_rev_s_ * a.ratio; }
   [[nodiscard]] double probability(const Alternative& a, double depth_mm) const;
   void reject_unlikely(Alternative& a) const;
+  void reject_unstable_as_written(Alternative& law) const;
   void reject_below_depth(Alternative& a) const;
 
   const Process* process_;
+  const kernel::machine::Machine* machine_;
   double speed_rev_s_;
   double depth_mm_;
   double most_depth_mm_;

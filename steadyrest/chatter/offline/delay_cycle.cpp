@@ -53,7 +53,13 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
   out.mean_rev_s_ = config.speed_rev_s;
   const bool even = process.even_pitch();
   out.pass_rad_ = even ? kTurn / static_cast<double>(process.tool.teeth) : kTurn;
-  const SpeedProfile speed(config.speed_rev_s, config.modulation);
+  const auto whole = [&out](double angle_rad) {
+    return std::max(1.0, std::round(angle_rad / out.pass_rad_)) * out.pass_rad_;
+  };
+  const SpeedProfile speed =
+      config.course.empty()
+          ? SpeedProfile(config.speed_rev_s, config.modulation)
+          : SpeedProfile(config.course, whole(SpeedProfile::angle_rad(config.course)));
   if (!speed.constant()) {
     const double q = speed.period_rad() / out.pass_rad_;
     out.passes_ = 0;
@@ -111,7 +117,7 @@ std::vector<double> DelayCycle::borders(const SpeedProfile& speed) const {
 void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
   depth_mm_ = config.most_depth_mm;
   const CuttingCoefficients coefficients(process_, depth_mm_);
-  const double slowest_rev_s = mean_rev_s_ * (speed.constant() ? 1.0 : 1.0 - config.modulation.rva);
+  const double slowest_rev_s = speed.slowest_rad_s() / kTurn;
   const double fastest = fastest_rad_s(process_, config.most_depth_mm, slowest_rev_s);
   std::vector<Piece> pass;
   const std::vector<double> corners = borders(speed);

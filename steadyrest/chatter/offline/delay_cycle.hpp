@@ -35,6 +35,9 @@ class DelayCycle {
   struct Config {
     double speed_rev_s = 0.0;  ///< mean, > 0
     Modulation modulation;
+    /// When not empty it counts instead of `modulation`: one period of the speed, stretched to the
+    /// nearest whole number of passes.
+    std::vector<SpeedRamp> course;
     double most_depth_mm = 1.0;  ///< set_depth() stays accurate up to here
     double fineness = 1.0;       ///< nodes over the usual; for convergence studies
   };

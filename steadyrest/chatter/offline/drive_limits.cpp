@@ -44,6 +44,22 @@ double rpm(double rev_s) {
   return 60.0 * rev_s;
 }
 
+/// Two numbers with as many decimals, two at least, as it takes to tell them apart.
+struct Apart {
+  std::string needed;
+  std::string given;
+};
+
+Apart apart(double needed, double given) {
+  constexpr int kMostDecimals = 12;
+  for (int decimals = 2;; ++decimals) {
+    Apart out{fmt::format("{:.{}f}", needed, decimals), fmt::format("{:.{}f}", given, decimals)};
+    if (out.needed != out.given || decimals == kMostDecimals) {
+      return out;
+    }
+  }
+}
+
 void add(DriveDemand& out, DriveLimit limit, std::string reason) {
   out.violations.push_back({limit, std::move(reason)});
 }
@@ -259,19 +275,20 @@ void DriveLimits::check_jumps(double speed, const Modulation& m, const Shape& s,
 void DriveLimits::check_load(double speed, DriveDemand& out) const {
   const double cut = cutting_power_w(speed);
   if (out.power_w > spindle_.rated_power_w * (1.0 + kSame)) {
+    const Apart kw = apart(1e-3 * out.power_w, 1e-3 * spindle_.rated_power_w);
     add(out, DriveLimit::power,
-        fmt::format("needs {:.2f} kW ({:.2f} kW of it the cut), the drive is rated {:.2f} kW",
-                    1e-3 * out.power_w, 1e-3 * cut, 1e-3 * spindle_.rated_power_w));
+        fmt::format("needs {} kW ({:.2f} kW of it the cut), the drive is rated {} kW", kw.needed,
+                    1e-3 * cut, kw.given));
   }
   if (out.torque_n_m > spindle_.max_torque_n_m * (1.0 + kSame)) {
+    const Apart torque = apart(out.torque_n_m, spindle_.max_torque_n_m);
     add(out, DriveLimit::torque,
-        fmt::format("needs {:.2f} N·m, the drive gives {:.2f} N·m", out.torque_n_m,
-                    spindle_.max_torque_n_m));
+        fmt::format("needs {} N·m, the drive gives {} N·m", torque.needed, torque.given));
   }
   if (out.rms_torque_n_m > spindle_.rated_torque_n_m * (1.0 + kSame)) {
+    const Apart rms = apart(out.rms_torque_n_m, spindle_.rated_torque_n_m);
     add(out, DriveLimit::heat,
-        fmt::format("heats the motor with {:.2f} N·m RMS, it bears {:.2f} N·m", out.rms_torque_n_m,
-                    spindle_.rated_torque_n_m));
+        fmt::format("heats the motor with {} N·m RMS, it bears {} N·m", rms.needed, rms.given));
   }
 }
 

@@ -155,11 +155,16 @@ class CsvReader {
                  "sort the rows by rising frequency");
     }
     seen_.push_back(value[0]);
+    const std::complex<double> h =
+        polar_ ? mm_n_ * value[1] * std::polar(1.0, value[2] * std::numbers::pi / 180.0)
+               : mm_n_ * std::complex<double>(value[1], value[2]);
+    if (!possible(h)) {
+      return bad(fmt::format("the response at {} Hz is out of range", value[0]),
+                 "check the unit in the head");
+    }
     if (value[0] > 0.0) {
       out_.frequency_hz.push_back(value[0]);
-      out_.compliance_mm_n.push_back(
-          polar_ ? mm_n_ * value[1] * std::polar(1.0, value[2] * std::numbers::pi / 180.0)
-                 : mm_n_ * std::complex<double>(value[1], value[2]));
+      out_.compliance_mm_n.push_back(h);
     }
     return std::nullopt;
   }

@@ -30,4 +30,9 @@ struct Frf {
 
 inline constexpr std::size_t kLeastPoints = 8;
 
+/// A compliance in mm/N that can be worked with: finite, and so is its square.
+[[nodiscard]] inline bool possible(const std::complex<double>& compliance_mm_n) noexcept {
+  return std::abs(compliance_mm_n) <= 1e12;
+}
+
 }  // namespace steadyrest::chatter::offline

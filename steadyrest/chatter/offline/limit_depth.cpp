@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
 #include <steadyrest/chatter/offline/limit_depth.hpp>
 
@@ -8,20 +9,66 @@ namespace steadyrest::chatter::offline {
 namespace {
 constexpr double kFirst = 1.0 / 256.0;  ///< of the greatest depth
 constexpr double kGrowth = 0.06;        ///< step over depth
+constexpr double kGolden = 0.3819660112501051;
+constexpr double kNarrowest = 1e-4;  ///< of the depth: islands thinner than this are left
+constexpr double kPeak = 3.0;        ///< of the fall to the sides, by which a maximum may be higher
+constexpr int kMostSections = 40;
 }  // namespace
 
+std::optional<double> island_mm(DepthLine& line, const std::array<double, 3>& depth_mm,
+                                const std::array<double, 3>& log_radius) {
+  auto [a, m, b] = depth_mm;
+  auto [fa, fm, fb] = log_radius;
+  for (int i = 0; i < kMostSections && b - a > kNarrowest * b; ++i) {
+    // How high it can be: the steeper fall, carried on over the top.
+    const double slope = std::max((fm - fa) / (m - a), (fm - fb) / (b - m));
+    if (fm + kPeak * slope * std::max(m - a, b - m) < 0.0) {
+      return std::nullopt;
+    }
+    const double x = m - a > b - m ? m - kGolden * (m - a) : m + kGolden * (b - m);
+    const double fx = line.log_radius(x);
+    if (fx >= 0.0) {
+      return x;
+    }
+    if (fx > fm) {
+      (x < m ? b : a) = m;
+      (x < m ? fb : fa) = fm;
+      m = x;
+      fm = fx;
+    } else {
+      (x < m ? a : b) = x;
+      (x < m ? fa : fb) = fx;
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<double> limit_depth_mm(DepthLine& line, double most_depth_mm) {
-  double low = 0.0;
-  double log_low = line.log_radius(0.0);
-  while (low < most_depth_mm) {
+  std::array<double, 3> depth{0.0, 0.0, 0.0};
+  std::array<double, 3> log_radius{line.log_radius(0.0), 0.0, 0.0};
+  std::size_t seen = 1;
+  while (depth[seen - 1] < most_depth_mm) {
+    const double low = depth[seen - 1];
     const double high =
         std::min(most_depth_mm, low + std::max(kFirst * most_depth_mm, kGrowth * low));
     const double log_high = line.log_radius(high);
-    if (log_high >= 0.0) {
-      return line.crossing_mm(low, log_low, high, log_high);
+    if (seen == 3) {
+      std::shift_left(depth.begin(), depth.end(), 1);
+      std::shift_left(log_radius.begin(), log_radius.end(), 1);
+      --seen;
     }
-    low = high;
-    log_low = log_high;
+    depth[seen] = high;
+    log_radius[seen] = log_high;
+    ++seen;
+    const bool peak = seen == 3 && log_radius[1] >= log_radius[0] && log_radius[1] > log_high;
+    if (peak && log_high < 0.0) {
+      if (const auto island = island_mm(line, depth, log_radius)) {
+        return line.crossing_mm(depth[0], log_radius[0], *island, line.log_radius(*island));
+      }
+    }
+    if (log_high >= 0.0) {
+      return line.crossing_mm(low, log_radius[seen - 2], high, log_high);
+    }
   }
   return std::nullopt;
 }

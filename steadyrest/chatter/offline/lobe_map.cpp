@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cstddef>
 #include <mutex>
 
@@ -7,6 +8,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <steadyrest/chatter/offline/depth_line.hpp>
+#include <steadyrest/chatter/offline/limit_depth.hpp>
 #include <steadyrest/chatter/offline/lobe_map.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -41,16 +43,25 @@ void fill(DepthLine& line, std::size_t speed, LobeMap& map) {
   for (std::size_t i = 0; i < depths; ++i) {
     map.log_radius[speed * depths + i] = line.log_radius(map.depth_mm[i]);
   }
+  const double* const log_radius = &map.log_radius[speed * depths];
   double low = 0.0;
   double log_low = line.log_radius(0.0);
   for (std::size_t i = 0; i < depths; ++i) {
-    const double log_high = map.log_radius[speed * depths + i];
-    if (log_high >= 0.0) {
-      map.border_mm[speed] = line.crossing_mm(low, log_low, map.depth_mm[i], log_high);
+    if (log_radius[i] >= 0.0) {
+      map.border_mm[speed] = line.crossing_mm(low, log_low, map.depth_mm[i], log_radius[i]);
       return;
     }
+    if (i + 1 < depths && map.depth_mm[i] > low && log_radius[i] >= log_low &&
+        log_radius[i] > log_radius[i + 1]) {
+      const std::array depth{low, map.depth_mm[i], map.depth_mm[i + 1]};
+      const auto island = island_mm(line, depth, {log_low, log_radius[i], log_radius[i + 1]});
+      if (island) {
+        map.border_mm[speed] = line.crossing_mm(low, log_low, *island, line.log_radius(*island));
+        return;
+      }
+    }
     low = map.depth_mm[i];
-    log_low = log_high;
+    log_low = log_radius[i];
   }
 }
 

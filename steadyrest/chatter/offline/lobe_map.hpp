@@ -24,8 +24,8 @@ struct LobeMap {
   std::vector<double> depth_mm;
   /// [speed·depths + depth], over one period of the law; over one pass when constant.
   std::vector<double> log_radius;
-  /// The lowest crossing of ρ = 1 at each speed, between depths of the map, to 1e-9; empty: stable
-  /// at all of them.
+  /// The lowest crossing of ρ = 1 at each speed, to 1e-9, between depths of the map or in an island
+  /// about one of them (island_mm); empty: stable.
   std::vector<std::optional<double>> border_mm;
 };
 

@@ -109,7 +109,7 @@ class Planner {
 };
 
 Plan Planner::run() {
-  const AlternativeCheck check(process_, speed_, depth_, out_.most_depth_mm, options_);
+  const AlternativeCheck check(process_, machine_, speed_, depth_, out_.most_depth_mm, options_);
   progress(0.0, "override steps");
   steps(check);
   const auto same = std::ranges::find_if(
@@ -121,6 +121,10 @@ Plan Planner::run() {
     choose(PlanDecision::constant, *best);
   } else {
     laws(check);
+  }
+  if (out_.decision == PlanDecision::nothing && !options_.try_steps) {
+    const Alternative* step = best_step();
+    out_.helping_ratio = step != nullptr ? std::optional(step->ratio) : std::nullopt;
   }
   explain(check);
   progress(1.0, "done");
@@ -299,6 +303,11 @@ std::string words(const Alternative& a) {
 }
 
 void Planner::explain_nothing(const AlternativeCheck& check) {
+  if (out_.helping_ratio) {
+    note(fmt::format("no law helps at {:.4g} mm; a constant {:.4g} % does, which was not asked for",
+                     depth_, 100.0 * *out_.helping_ratio));
+    return;
+  }
   const Alternative* deepest = nullptr;
   for (const Alternative& a : out_.alternatives) {
     if (a.demand.possible() && a.limit_depth_mm &&
@@ -332,12 +341,9 @@ void Planner::explain(const AlternativeCheck& check) {
   DelayCycle::Config config;
   config.speed_rev_s = speed_;
   config.most_depth_mm = depth_;
-  if (auto cycle = DelayCycle::make(process_, config)) {
-    cycle->set_depth(depth_);
-    const Stability found = stability(*cycle, {.frequency = true});
-    if (!found.stable) {
-      out_.chatter_frequency_hz = found.frequency_hz;
-    }
+  if (const auto found = stability_at(process_, config, {.frequency = true});
+      found && !found->stable) {
+    out_.chatter_frequency_hz = found->frequency_hz;
   }
   if (out_.decision == PlanDecision::nothing) {
     explain_nothing(check);

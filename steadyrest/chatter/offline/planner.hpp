@@ -19,7 +19,8 @@
 /// An alternative is accepted when the cut is stable from depth 0 up to the wanted one, when the
 /// share of possible cuts (Uncertainty) that are stable at the wanted depth reaches
 /// `least_probability`, when the drive and the override can follow it, and for a law when a
-/// vibration grows by no more than `most_growth` on its way (see Stability).
+/// vibration grows by no more than `most_growth` on its way (see Stability) and the cut is stable
+/// and grows no more under the staircase too that the override makes of the law.
 ///   keep      100 % is accepted.
 ///   constant  else the accepted override step with the highest probability; of equals (within 1.5
 ///             samples) the one nearest to 100 %, then the faster.
@@ -44,6 +45,10 @@ struct Alternative {
                                          ///< empty: not computed
   std::optional<double> probability;     ///< share of possible cuts that are stable
   std::optional<double> peak_growth;
+  std::optional<double> log_radius;  ///< of a law: ln ρ over its period, as the law has it
+  /// The same with the speed that the machine makes of it (override_course); of laws alone that
+  /// everything else speaks for.
+  std::optional<double> written_log_radius;
   bool growth_is_lower_bound = false;  ///< it was enough to reject the alternative
   std::vector<std::string> reasons;    ///< why it is rejected; empty: accepted
 
@@ -74,6 +79,8 @@ struct Plan {
   double likely_depth_mm = 0.0;  ///< when nothing helps: the depth, to 1 % of the wanted one, that
                                  ///< the alternative with the deepest border reaches with the
                                  ///< probability asked for
+  std::optional<double> helping_ratio;  ///< laws alone were asked for and none helps: the override
+                                        ///< step that would
   std::optional<double> chatter_frequency_hz;  ///< at the programmed speed when unstable
   std::vector<std::string> notes;              ///< what the user should know, in words
 };

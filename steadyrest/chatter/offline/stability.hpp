@@ -33,10 +33,14 @@ struct Stability {
   bool stable = false;
   std::complex<double> multiplier;       ///< dominant, over the principal period
   ChatterType type = ChatterType::none;  ///< of the dominant multiplier when unstable
-  std::optional<double> frequency_hz;    ///< the strongest line of the dominant vibration; at
-                                         ///< constant speed alone
-  double peak_growth = 1.0;              ///< see above; only when asked for, else 1
-  std::size_t passes = 1;                ///< in the principal period
+  /// The strongest line of the dominant vibration e^{λt}·p(t), p repeating with the principal
+  /// period. The multiplier e^{λT} gives a frequency but for multiples of 1/T: at constant speed
+  /// the strongest line stands out, under modulation there are lines of nearly its strength 1/T
+  /// apart. Empty beyond 400 passes.
+  std::optional<double> frequency_hz;
+  double frequency_step_hz = 0.0;  ///< 1/T
+  double peak_growth = 1.0;        ///< see above; only when asked for, else 1
+  std::size_t passes = 1;          ///< in the principal period
   std::size_t law_periods = 1;
 };
 

@@ -321,8 +321,12 @@ class UffReader {
       const std::complex<double> rate = response.kind == kVelocity       ? iw
                                         : response.kind == kAcceleration ? iw * iw
                                                                          : 1.0;
+      const std::complex<double> compliance = scale * h / rate;
+      if (!possible(compliance)) {
+        return bad(fmt::format("the response at {} Hz is out of range", f), "check the units");
+      }
       frf.frequency_hz.push_back(f);
-      frf.compliance_mm_n.push_back(scale * h / rate);
+      frf.compliance_mm_n.push_back(compliance);
     }
     if (frf.frequency_hz.size() < kLeastPoints) {
       return bad(fmt::format("{} points above 0 Hz; at least {} are needed",

@@ -131,6 +131,8 @@ SpeedTable::Advice SpeedTable::from_table(const Question& question) const noexce
 SpeedTable::Advice SpeedTable::from_rule(const Question& question) const noexcept {
   const double waves_rev_s = question.frequency_hz / static_cast<double>(config_.teeth);
   const double here = question.programmed_rev_s * question.ratio;
+  const double here_waves = waves_rev_s / here;
+  const double here_off = std::abs(here_waves - std::max(1.0, std::round(here_waves)));
   Advice best;
   double best_way = std::numeric_limits<double>::infinity();
   for (const double ratio : config_.step_ratio) {
@@ -139,7 +141,7 @@ SpeedTable::Advice SpeedTable::from_rule(const Question& question) const noexcep
     const double miss = std::abs(speed * k / waves_rev_s - 1.0);
     const double way = std::abs(speed - here);
     if (permitted(ratio, speed) && std::abs(ratio - question.ratio) >= kSameRatio &&
-        miss < kRuleReach && miss * k < kRuleWaves && way < best_way) {
+        miss < kRuleReach && miss * k < std::min(kRuleWaves, here_off) && way < best_way) {
       best = found(ratio, speed, Reason::chatter_rule_speed);
       best.waves = static_cast<unsigned>(std::min(k, 1e6));
       best_way = way;

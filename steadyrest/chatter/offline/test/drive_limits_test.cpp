@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -169,6 +170,20 @@ TEST(DriveLimits, ConstantSpeedMustBeOneOfTheSpindle) {
   expect_only(limits_of(m).constant(kSpeed, 1.1), DriveLimit::speed);
   m.spindle.rated_power_w = 0.5 * limits_of(m).cutting_power_w(kSpeed);
   expect_only(limits_of(m).constant(kSpeed, 1.0), DriveLimit::power);
+}
+
+TEST(DriveLimits, WhatIsPassedByLittleIsPrintedWithTheDigitsThatShowIt) {
+  Machine m = strong_machine();
+  const Modulation law{Law::sine, 0.1, 0.1, 1};
+  const double needed = limits_of(m).modulated(kSpeed, law).torque_n_m;
+  m.spindle.max_torque_n_m = needed * (1.0 - 1e-6);
+  m.spindle.rated_torque_n_m = 1e3;
+  const DriveDemand demand = limits_of(m).modulated(kSpeed, law);
+  expect_only(demand, DriveLimit::torque);
+  const std::string& said = demand.violations[0].reason;
+  const std::size_t comma = said.find(", the drive gives ");
+  ASSERT_NE(comma, std::string::npos) << said;
+  EXPECT_NE(said.substr(6, comma - 6), said.substr(comma + 18)) << said;
 }
 
 }  // namespace

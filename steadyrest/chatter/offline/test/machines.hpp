@@ -21,8 +21,11 @@ inline kernel::machine::Machine light_spindle(std::initializer_list<int> percent
   m.spindle_override.scan_period_s = 0.005;
   for (const int p : percent) {
     m.spindle_override.ratio.push_back(0.01 * p);
-    m.spindle_override.code.push_back(static_cast<std::uint32_t>(p));
   }
+  for (int p = 0; p <= 120; p += 5) {
+    m.feed_override.ratio.push_back(0.01 * p);
+  }
+  m.feed_override.scan_period_s = 0.005;
   return m;
 }
 

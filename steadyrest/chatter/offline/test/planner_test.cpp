@@ -146,6 +146,39 @@ TEST(Planner, GrowthKeepsSlowLawsOut) {
   EXPECT_THAT(all_reasons(p), HasSubstr("grows at least"));
 }
 
+/// Steps of 10 %: the triangle has ln ρ −14.3 in a period, the staircase dwells where it is
+/// unstable.
+TEST(Planner, ALawThatIsUnstableAsTheOverrideWritesItIsRefused) {
+  PlanOptions options;
+  options.try_steps = false;
+  options.laws = {Law::triangle};
+  options.rva = {0.2};
+  options.rvf = {0.0625};
+  const Plan coarse = plan_at(light_spindle({80, 90, 100, 110, 120}), 4000.0, 0.8, options);
+  EXPECT_EQ(coarse.decision, PlanDecision::nothing);
+  const Alternative& law = coarse.alternatives.back();
+  EXPECT_TRUE(law.stable);
+  EXPECT_LT(*law.log_radius, -10.0);
+  EXPECT_GT(*law.written_log_radius, 1.0);
+  EXPECT_THAT(all_reasons(coarse), HasSubstr("but unstable as the override writes it"));
+  const Plan fine = plan_at(all_steps(), 4000.0, 0.8, options);
+  ASSERT_EQ(fine.decision, PlanDecision::law);
+  EXPECT_LT(*fine.chosen.written_log_radius, 0.0);
+}
+
+TEST(Planner, LawsAloneThatDoNotHelpNameTheStepThatDoes) {
+  PlanOptions options;
+  options.try_steps = false;
+  options.laws = {Law::square};
+  options.rva = {0.05};
+  options.rvf = {0.05};
+  const Plan p = plan_at(all_steps(), 5000.0, 1.0, options);
+  EXPECT_EQ(p.decision, PlanDecision::nothing);
+  ASSERT_TRUE(p.helping_ratio.has_value());
+  EXPECT_DOUBLE_EQ(*p.helping_ratio, 1.1);
+  EXPECT_THAT(p.notes.at(0), HasSubstr("no law helps at 1 mm; a constant 110 % does"));
+}
+
 /// Between the first lobes only a large change of speed or less depth helps.
 TEST(Planner, SaysWhenNothingHelpsAndWhatDepthWould) {
   PlanOptions options;

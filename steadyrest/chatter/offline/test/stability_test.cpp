@@ -165,5 +165,25 @@ TEST(Stability, RefusesAModulationWithoutPrincipalPeriod) {
   EXPECT_FALSE(DelayCycle::make(benchmark_cut(1.0, Direction::up), config).has_value());
 }
 
+/// A small swing must not move the frequency: the strongest of the lines 1/T apart is the constant
+/// speed's own.
+TEST(Stability, FrequencyUnderModulationIsThatOfTheStrongestLine) {
+  const Process slot = benchmark_cut(1.0, Direction::up);
+  const auto at = [&](const Modulation& law) {
+    DelayCycle::Config config;
+    config.speed_rev_s = 5000.0 / 60.0;
+    config.modulation = law;
+    config.most_depth_mm = 0.5;
+    return stability_at(slot, config, {.frequency = true}).value();
+  };
+  const Stability constant = at({});
+  const Stability swung = at({online::Law::sine, 1e-3, 0.1, 1});
+  EXPECT_NEAR(constant.frequency_step_hz, 2.0 * 5000.0 / 60.0, 1e-9);
+  EXPECT_NEAR(swung.frequency_step_hz, 0.1 * 5000.0 / 60.0, 1e-9);
+  EXPECT_NEAR(*swung.frequency_hz, *constant.frequency_hz, 0.1);
+  // A true swing: a line about the mode's 922 Hz.
+  EXPECT_NEAR(*at({online::Law::square, 0.2, 0.1, 1}).frequency_hz, 940.0, 60.0);
+}
+
 }  // namespace
 }  // namespace steadyrest::chatter::offline::test

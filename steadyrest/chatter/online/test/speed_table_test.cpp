@@ -73,6 +73,18 @@ TEST(SpeedTable, WithoutATableWholeWavesLieBetweenTwoTeeth) {
   EXPECT_EQ(advice.waves, 5U);
 }
 
+TEST(SpeedTable, TheRuleDoesNotLeaveASpeedThatFitsItBetter) {
+  SpeedTable::Config config;
+  config.step_ratio = panel();
+  const auto table = SpeedTable::make(config);
+  ASSERT_TRUE(table);
+  // 5 waves and a hundredth here; 55 % would have 9.1.
+  const auto advice =
+      table->ask({.programmed_rev_s = 922.0 / 2.0 / 5.01, .ratio = 1.0, .frequency_hz = 922.0});
+  EXPECT_EQ(advice.reason, Reason::chatter_no_better_speed);
+  EXPECT_EQ(advice.request.ratio, 1.0);
+}
+
 TEST(SpeedTable, KeepsTheLimitsForAnyQuestion) {
   SpeedTable::Config config = slot();
   config.min_rev_s = 70.0;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string kTap = "examples/processes/tap-922hz.csv";
+
+const std::string kTool =
+    "[tool]\nteeth = 2\n[cut]\nradial_immersion = 1.0\n"
+    "tangential_N_mm2 = 600.0\nradial_N_mm2 = 200.0\n";
+
+/// The tap test was made of 922 Hz, 1.1 % and 0.03993 kg, with noise.
+TEST(ChatterFit, FindsTheModeThatTheTapTestWasMadeOf) {
+  const json fit = answer_of("chatter fit " + kTap + " --axis x");
+  ASSERT_EQ(fit["order"], 1);
+  const json mode = fit["modes"][0];
+  EXPECT_EQ(mode["axis"], "x");
+  EXPECT_NEAR(mode["frequency_hz"], 922.0, 0.2);
+  EXPECT_NEAR(mode["damping_ratio"], 0.011, 3e-4);
+  EXPECT_NEAR(mode["mass_kg"], 0.03993, 1e-3);
+  EXPECT_GT(fit["residual"], 0.0);
+  EXPECT_LT(fit["residual"], 0.1);
+  EXPECT_EQ(answer_of("chatter fit " + kTap + " --axis y")["modes"][0]["axis"], "y");
+}
+
+TEST(ChatterFit, WritesSectionsThatAProcessFileTakes) {
+  const Scratch scratch;
+  const std::string out = scratch.at("modes.toml");
+  EXPECT_EQ(run_line("chatter fit " + kTap + " --axis x -o " + out).code, 0);
+  const std::string modes = text_of_file(out);
+  EXPECT_THAT(modes, HasSubstr("chatter fit: 1 mode, residual"));
+  const std::string process = scratch.file("fitted.toml", kTool + modes);
+  const json point = answer_of("chatter radius " + process + " --speed-rpm 5000 --depth-mm 0.2");
+  EXPECT_NEAR(point["spectral_radius"], 0.81974278, 5e-3);
+}
+
+TEST(ChatterFit, AProcessTakesTheResponseItself) {
+  const json tapped = answer_of(
+      "chatter radius examples/processes/slot-tapped.toml --speed-rpm 5000 --depth-mm 0.2");
+  EXPECT_NEAR(tapped["spectral_radius"], 0.81974278, 5e-3);
+}
+
+TEST(ChatterFit, RefusesBadUsage) {
+  const Scratch scratch;
+  expect_refused("chatter fit");
+  expect_refused("chatter fit " + kTap);
+  expect_refused("chatter fit " + kTap + " --axis z");
+  expect_refused("chatter fit no/such.uff --axis x", "no/such.uff");
+  expect_refused("chatter fit " + kTap + " --axis x --modes 0");
+  expect_refused("chatter fit " + kTap + " --axis x --modes 17");
+  expect_refused("chatter fit " + kTap + " --axis x --from-hz 5000", "points in the band");
+  EXPECT_EQ(run_line("chatter fit " + kTap + " --axis x -o no/such/modes.toml").code, 1);
+}
+
+TEST(ChatterFit, SaysFileAndLineOfABadResponse) {
+  const std::string corpus = STEADYREST_SOURCE_DIR "/tests/refused/frf/";
+  expect_refused("chatter fit " + corpus + "unit-inches-per-pound.csv --axis x",
+                 "unit-inches-per-pound.csv:2: units \"in/lbf\"");
+  expect_refused("chatter fit " + corpus + "end-delimiter-missing.uff --axis x",
+                 "end-delimiter-missing.uff:17: the file ends within a dataset");
+  expect_refused("chatter fit " + corpus + "empty.csv --axis x", "has 0 points");
+}
+
+TEST(ChatterFit, SaysWhereAProcessNamesABadResponse) {
+  const Scratch scratch;
+  const auto refused = [&](const std::string& section, const std::string& why) {
+    const std::string file = scratch.file("bad.toml", kTool + section);
+    expect_refused("chatter radius " + file + " --speed-rpm 5000 --depth-mm 1", why);
+  };
+  refused("[[frf]]\nfile = \"none.csv\"\naxis = \"x\"\n", "bad.toml:8: [[frf]]");
+  const std::string tap = scratch.file("tap.csv", "frequency_khz,real_um_N,imag_um_N\n");
+  EXPECT_FALSE(tap.empty());
+  refused("[[frf]]\nfile = \"tap.csv\"\naxis = \"x\"\n", "tap.csv:1: frequency in \"khz\"");
+  refused("[[frf]]\nfile = \"tap.csv\"\n", "axis");
+  refused("[[frf]]\naxis = \"x\"\n", "file");
+  refused("[[frf]]\nfile = \"tap.csv\"\naxis = \"z\"\n", "axis = \"z\"");
+  refused("[frf]\nfile = \"tap.csv\"\naxis = \"x\"\n", "frf");
+}
+
+}  // namespace
+}  // namespace steadyrest::test
