@@ -152,6 +152,7 @@ Result<Json> point_json(const Options& options, const offline::Process& process,
       offline::stability_at(process,
                             {.speed_rev_s = kernel::units::rev_s_from_rpm(*options.speed_rpm),
                              .modulation = law.modulation,
+                             .course = {},
                              .most_depth_mm = *options.depth_mm},
                             {.frequency = true});
   if (!found) {

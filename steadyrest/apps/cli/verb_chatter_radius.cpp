@@ -65,6 +65,7 @@ Outcome run(const Options& options, Progress& progress) {
   progress.update(0.0, "one point");
   auto cycle = offline::DelayCycle::make(cut->process, {.speed_rev_s = cut->speed_rev_s,
                                                         .modulation = cut->law.modulation,
+                                                        .course = {},
                                                         .most_depth_mm = cut->depth_mm});
   if (!cycle) {
     return refused(cycle.error());

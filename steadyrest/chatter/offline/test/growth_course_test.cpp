@@ -16,9 +16,10 @@ using online::Law;
 
 DelayCycle cycle_at(double depth_mm, const Modulation& modulation = {}) {
   DelayCycle out =
-      DelayCycle::make(
-          benchmark_cut(1.0, Direction::up),
-          {.speed_rev_s = 5000.0 / 60.0, .modulation = modulation, .most_depth_mm = depth_mm})
+      DelayCycle::make(benchmark_cut(1.0, Direction::up), {.speed_rev_s = 5000.0 / 60.0,
+                                                           .modulation = modulation,
+                                                           .course = {},
+                                                           .most_depth_mm = depth_mm})
           .value();
   out.set_depth(depth_mm);
   return out;
