@@ -63,8 +63,24 @@ CuttingProcess::CuttingProcess(const Config& config, CuttingEdges edges)
       drop_1_mm_(config.cut.turning || config.keeps_contact ? 0.0 : 1.0 / config.cut.diameter_mm),
       modes_(config.cut.modes.size()),
       steps_(config.cut.modes.size()),
+      shape_(config.cut.modes.size()),
       surface_(edges_.edges.size() * edges_.steps),
-      active_(edges_.edges.size()) {}
+      active_(edges_.edges.size()) {
+  std::ranges::transform(cut_.modes, shape_.begin(), &CuttingMode::shape);
+}
+
+void CuttingProcess::turn_to(const std::array<double, 2>& direction) noexcept {
+  if (direction == direction_) {
+    return;
+  }
+  direction_ = direction;
+  const auto [c, s] = direction;
+  for (std::size_t m = 0; m < shape_.size(); ++m) {
+    const std::array<double, 2>& shape = cut_.modes[m].shape;
+    shape_[m] = {c * shape[0] + s * shape[1], c * shape[1] - s * shape[0]};
+  }
+  period_s_ = 0.0;  // what depends on the shapes is made anew
+}
 
 double CuttingProcess::angle_rad() const noexcept {
   return kTurn * static_cast<double>(turns_) + static_cast<double>(cell_) * edges_.step_rad;
@@ -82,7 +98,7 @@ void CuttingProcess::set_period(double period_s) noexcept {
     steps_[m] = modal_step(mode, period_s);
     for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t k = 0; k < 2; ++k) {
-        const double both = 1000.0 / mode.mass_kg * mode.shape[i] * mode.shape[k];
+        const double both = 1000.0 / mode.mass_kg * shape_[m][i] * shape_[m][k];
         answer_[i][k] += both * steps_[m].position.g1;
         answer_rate_[i][k] += both * steps_[m].velocity.g1;
       }
@@ -155,8 +171,8 @@ CuttingProcess::Motion CuttingProcess::free_motion() const noexcept {
     const double v =
         step.velocity.q * state.q + step.velocity.v * state.v + step.velocity.g0 * state.g;
     for (std::size_t i = 0; i < 2; ++i) {
-      out.x[i] += cut_.modes[m].shape[i] * q;
-      out.v[i] += cut_.modes[m].shape[i] * v;
+      out.x[i] += shape_[m][i] * q;
+      out.v[i] += shape_[m][i] * v;
     }
   }
   return out;
@@ -250,7 +266,7 @@ void CuttingProcess::move_modes() noexcept {
   for (std::size_t m = 0; m < modes_.size(); ++m) {
     ModeState& state = modes_[m];
     const ModalStep& step = steps_[m];
-    const double g = 1000.0 / cut_.modes[m].mass_kg * dot(cut_.modes[m].shape, force_);
+    const double g = 1000.0 / cut_.modes[m].mass_kg * dot(shape_[m], force_);
     const double q = step.position.q * state.q + step.position.v * state.v +
                      step.position.g0 * state.g + step.position.g1 * g;
     state.v = step.velocity.q * state.q + step.velocity.v * state.v + step.velocity.g0 * state.g +
@@ -262,6 +278,7 @@ void CuttingProcess::move_modes() noexcept {
 
 CuttingProcess::Output CuttingProcess::step(const Input& input) noexcept {
   const double speed = std::max(std::abs(input.speed_rev_s), 1e-6);
+  turn_to(input.feed_direction);
   set_period(1.0 / (speed * static_cast<double>(edges_.steps)));
   damping_n_s_mm2_ = cut_.process_damping_n_mm / (std::numbers::pi * cut_.diameter_mm * speed);
   if (input.in_cut && !in_cut_) {

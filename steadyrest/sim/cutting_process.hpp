@@ -27,10 +27,12 @@ namespace steadyrest::sim {
 /// that no step is unstable by itself. Second order: with the default 40 steps in the fastest
 /// mode's period border depths are good to 0.5 %. Memory: teeth · slices · steps cells; step()
 /// allocates nothing.
-/// Where it ends: one engagement for all heights, x follows the feed (a path that turns takes the
-/// modes along), cutting forces in proportion to the chip (no size effect), no torsion.
-/// Sources: Tlusty, Ismail, CIRP Annals 30 (1981) 299 (multiple regeneration); Schmitz, Smith,
-/// Machining Dynamics, 2nd ed. 2019, ch. 4 (time domain, process damping).
+/// Modes keep their direction when the path turns; the surface of the last turn is taken along with
+/// the feed, which is exact on a straight path and good to the angle that the path turns in a turn
+/// of the spindle. Where it ends: one engagement for all heights, cutting forces in proportion to
+/// the chip (no size effect), no torsion. Sources: Tlusty, Ismail, CIRP Annals 30 (1981) 299
+/// (multiple regeneration); Schmitz, Smith, Machining Dynamics, 2nd ed. 2019, ch. 4 (time domain,
+/// process damping).
 class CuttingProcess {
  public:
   struct Config {
@@ -44,6 +46,9 @@ class CuttingProcess {
     double speed_rev_s = 0.0;  ///< during this step, > 0
     double feed_per_tooth_mm = 0.0;
     bool in_cut = true;  ///< false: the tool turns in air; the next cut finds a fresh surface
+    /// Direction of the feed in the frame of the modes, a unit vector; what the step shows is in
+    /// the feed's own frame.
+    std::array<double, 2> feed_direction{1.0, 0.0};
   };
   struct Output {
     double period_s = 0.0;  ///< what this step took
@@ -99,6 +104,7 @@ class CuttingProcess {
   };
 
   CuttingProcess(const Config& config, CuttingEdges edges);
+  void turn_to(const std::array<double, 2>& direction) noexcept;
   void set_period(double period_s) noexcept;
   void lay_surface(double feed_per_tooth_mm) noexcept;
   void gather() noexcept;
@@ -116,6 +122,8 @@ class CuttingProcess {
   double drop_1_mm_;  ///< 1/D in milling
   std::vector<ModeState> modes_;
   std::vector<ModalStep> steps_;
+  std::vector<std::array<double, 2>> shape_;  ///< of the modes in the feed's frame
+  std::array<double, 2> direction_{1.0, 0.0};
   std::vector<Surface> surface_;
   std::vector<Active> active_;
   std::size_t active_count_ = 0;

@@ -13,6 +13,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+constexpr double kPlunge = 0.05;  ///< less of the path's speed than this lies in the XY plane
+
 kernel::signal::AxisValues start_of(const nc::plan::PlannedPath& path) noexcept {
   kernel::signal::AxisValues position{};
   if (!path.segments.empty()) {
@@ -41,17 +43,29 @@ Result<std::unique_ptr<SimulatedMachine>> SimulatedMachine::make(const Config& c
   if (!interpolator) {
     return std::unexpected(interpolator.error());
   }
+  std::optional<CuttingVibration> cutting;
+  if (config.cutting) {
+    auto made = CuttingVibration::make(*config.cutting);
+    if (!made) {
+      return std::unexpected(made.error());
+    }
+    cutting = *std::move(made);
+  }
   body->reset(start_of(*config.path));
   return std::unique_ptr<SimulatedMachine>(
-      new SimulatedMachine(config, *std::move(body), *std::move(interpolator)));
+      new SimulatedMachine(config, *std::move(body), *std::move(interpolator), std::move(cutting)));
 }
 
 SimulatedMachine::SimulatedMachine(const Config& config, MachineBody body,
-                                   nc::plan::Interpolator interpolator)
+                                   nc::plan::Interpolator interpolator,
+                                   std::optional<CuttingVibration> cutting)
     : path_(config.path),
       periods_per_cycle_(config.periods_per_cycle),
+      period_s_(config.machine.control.interpolator_period_s),
+      turning_(config.cutting && config.cutting->cut.turning),
       body_(std::move(body)),
-      interpolator_(std::move(interpolator)) {
+      interpolator_(std::move(interpolator)),
+      cutting_(std::move(cutting)) {
   capability_ = {.feed_override = body_.feed_input().has_value(),
                  .spindle_override = body_.spindle_input().has_value(),
                  .axis_offset = config.machine.envelope.max_offset_mm > 0.0,
@@ -63,11 +77,40 @@ kernel::port::Capability SimulatedMachine::capability() const noexcept {
   return capability_;
 }
 
+/// The cut of one period, at the mean of the spindle's speeds at both ends.
+void SimulatedMachine::vibrate(const nc::plan::Setpoint& setpoint, double before_rev_s) noexcept {
+  const double x = setpoint.velocity[0];
+  const double y = setpoint.velocity[1];
+  const double across_mm_s = std::sqrt(x * x + y * y);
+  const bool feeds = setpoint.motion == kernel::signal::Motion::feed;
+  CuttingVibration::Input input{
+      .period_s = period_s_,
+      .speed_rev_s = 0.5 * (before_rev_s + body_.truth().spindle_rev_s),
+      .path_speed_mm_s = turning_ ? setpoint.path_speed_mm_s : across_mm_s,
+      .in_cut = feeds && (turning_ || across_mm_s > kPlunge * setpoint.path_speed_mm_s)};
+  if (!turning_ && across_mm_s > 0.0) {
+    input.feed_direction = {x / across_mm_s, y / across_mm_s};
+  }
+  cutting_->advance(input);
+}
+
 Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
+  if (cutting_) {
+    cutting_->begin_cycle();
+  }
   for (std::uint32_t i = 0; i < periods_per_cycle_; ++i) {
-    body_.end(interpolator_.update(body_.begin(command_)));
+    const double before_rev_s = body_.truth().spindle_rev_s;
+    const nc::plan::Setpoint setpoint = interpolator_.update(body_.begin(command_));
+    body_.end(setpoint);
+    if (cutting_) {
+      vibrate(setpoint, before_rev_s);
+    }
   }
   kernel::signal::Frame frame = body_.frame();
+  if (cutting_) {
+    frame.vibration = cutting_->samples();
+    frame.vibration_rate_hz = cutting_->sensor_rate_hz();
+  }
   frame.path = path_->segments;
   return frame;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -10,6 +11,7 @@
 #include <steadyrest/kernel/port/port.hpp>
 #include <steadyrest/nc/plan/interpolator.hpp>
 #include <steadyrest/nc/plan/planned_path.hpp>
+#include <steadyrest/sim/cutting_vibration.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 
 namespace steadyrest::sim {
@@ -30,6 +32,9 @@ class SimulatedMachine final : public kernel::port::Port {
     // NOLINTNEXTLINE(readability-redundant-member-init)
     std::vector<OperatorAction> operator_actions = {};
     std::uint32_t periods_per_cycle = 1;  ///< interpolator periods in one cycle of the layer, ≥ 1
+    /// What the tool cuts during G1–G3 in the XY plane (turning: any), vibration and all; a plunge
+    /// along Z cuts nothing. Empty: air.
+    std::optional<CuttingVibration::Config> cutting = std::nullopt;
   };
 
   /// The machine stands at the path's start, panel at 100 % (the step nearest to it).
@@ -43,16 +48,25 @@ class SimulatedMachine final : public kernel::port::Port {
   [[nodiscard]] bool finished() const noexcept { return interpolator_.finished(); }
   /// What really happened at the end of the last cycle.
   [[nodiscard]] const Truth& truth() const noexcept { return body_.truth(); }
+  /// The cut in the last cycle; nullptr where it cuts air.
+  [[nodiscard]] const CuttingVibration* cutting() const noexcept {
+    return cutting_ ? &*cutting_ : nullptr;
+  }
   [[nodiscard]] kernel::signal::PathView path() const noexcept { return path_->segments; }
 
  private:
-  SimulatedMachine(const Config& config, MachineBody body, nc::plan::Interpolator interpolator);
+  SimulatedMachine(const Config& config, MachineBody body, nc::plan::Interpolator interpolator,
+                   std::optional<CuttingVibration> cutting);
+  void vibrate(const nc::plan::Setpoint& setpoint, double before_rev_s) noexcept;
 
   std::shared_ptr<const nc::plan::PlannedPath> path_;
   kernel::port::Capability capability_;
   std::uint32_t periods_per_cycle_;
+  double period_s_;
+  bool turning_;
   MachineBody body_;
   nc::plan::Interpolator interpolator_;
+  std::optional<CuttingVibration> cutting_;
   kernel::signal::Command command_;
 };
 

@@ -209,7 +209,8 @@ void Supervisor::estimate(signal::Frame& frame, bool fit) noexcept {
   motion_.update(frame, fit);
   if (std::isfinite(frame.time_s)) {
     last_frame_ = frame;
-    last_frame_.path = {};  // its owner may not outlive the cycle
+    last_frame_.path = {};  // their owner may not outlive the cycle
+    last_frame_.vibration = {};
   }
   if (contour_) {
     estimates_.contour = contour_->update(frame);

@@ -86,6 +86,11 @@ class Supervisor {
   [[nodiscard]] const kernel::signal::Frame& frame() const noexcept { return last_frame_; }
 
   void set_mode(kernel::machine::Mode mode) noexcept { state_.mode_wanted = mode; }
+  /// Another modulation of the spindle's speed from now on; false and nothing changes where the
+  /// chatter room is off or a value is out of its range.
+  [[nodiscard]] bool modulate(const chatter::online::Modulation& modulation) noexcept {
+    return chatter_ && chatter_->change(modulation);
+  }
   [[nodiscard]] kernel::machine::Mode mode_in_force() const noexcept {
     return state_.mode_in_force;
   }

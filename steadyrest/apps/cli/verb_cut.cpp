@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/cut_chatter.hpp>
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/program_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
@@ -37,6 +38,7 @@ struct Options {
   std::string report;
   std::optional<double> limit_um;
   std::optional<std::string> strategy;
+  CutChatterOptions chatter;
 };
 
 const std::map<std::string, ContourStrategy> kStrategies = {
@@ -162,14 +164,16 @@ std::string text_of(const std::vector<report::MotionFigures>& motion, const Mach
   return "\n" + table.text();
 }
 
-Result<Recorder> cut_once(const Machine& machine, const PathPointer& path, bool with_layer,
-                          Progress& progress) {
+Result<Recorder> cut_once(const Machine& machine, const PathPointer& path,
+                          const CutChatter& chatter, bool with_layer, Progress& progress) {
   const double from = with_layer ? 0.5 : 0.0;
   const char* what = with_layer ? "cutting with the layer" : "cutting without the layer";
-  return cut::run(
-      {.machine = machine, .path = path, .with_layer = with_layer, .progress = [&](double share) {
-         progress.update(from + share / 2, what);
-       }});
+  return cut::run({.machine = machine,
+                   .path = path,
+                   .with_layer = with_layer,
+                   .cutting = chatter.cutting,
+                   .choices = chatter.choices,
+                   .progress = [&](double share) { progress.update(from + share / 2, what); }});
 }
 
 Outcome run(const Options& options, Progress& progress) {
@@ -184,11 +188,15 @@ Outcome run(const Options& options, Progress& progress) {
   if (!path) {
     return std::move(path.error());
   }
-  const auto without = cut_once(*machine, *path, false, progress);
+  const auto chatter = cut_chatter(options.chatter, **path, *machine, progress);
+  if (!chatter) {
+    return std::unexpected(chatter.error());
+  }
+  const auto without = cut_once(*machine, *path, *chatter, false, progress);
   if (!without) {
     return refused(without.error());
   }
-  const auto with = cut_once(*machine, *path, true, progress);
+  const auto with = cut_once(*machine, *path, *chatter, true, progress);
   if (!with) {
     return refused(with.error());
   }
@@ -202,6 +210,7 @@ Outcome run(const Options& options, Progress& progress) {
   answer.json["motion"] = json_of(with->motion());
   answer.text = text_of(without->figures(), with->figures(), machine->contour.limit_mm) +
                 text_of(with->motion(), *machine);
+  put_vibration(answer, *chatter, *without, *with);
   if (!options.report.empty()) {
     const auto data = cut::compare(options.program.file, *machine, *without, *with);
     const auto written = report::write_report(data, options.report);
@@ -231,6 +240,7 @@ void add_verb_cut(Session& session) {
                   "Contour error limit instead of the machine file's");
   verb.add_option("--strategy", options->strategy, "Strategy instead of the machine file's")
       ->check(CLI::IsMember(kStrategies));
+  add_cut_chatter_options(verb, options->chatter);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

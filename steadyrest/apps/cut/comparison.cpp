@@ -52,6 +52,10 @@ report::Run run_of(const Recorder& record) {
   for (const auto& [reason, seconds] : record.time_by_reason()) {
     run.reasons.push_back({reason, seconds});
   }
+  if (record.vibration()) {
+    run.vibration = record.vibration()->figures();
+    run.vibration_course = record.vibration()->course();
+  }
   return run;
 }
 

@@ -103,15 +103,23 @@ double length_of(const nc::plan::PlannedPath& path) {
 }
 
 /// The product's own layer, acting.
-Result<Layer> make_supervisor(const kernel::machine::Machine& machine,
-                              const kernel::port::Capability& capability) {
-  auto made = supervisor::Supervisor::make(machine, capability);
+Result<Layer> make_supervisor(const Job& job, const kernel::port::Capability& capability) {
+  auto made = supervisor::Supervisor::make(job.machine, capability);
   if (!made) {
     return std::unexpected(made.error());
   }
   auto layer = std::make_shared<supervisor::Supervisor>(std::move(*made));
   layer->set_mode(kernel::machine::Mode::act);
-  return [layer](Frame& frame) {
+  return [layer, choices = job.choices, now = 0.0](Frame& frame) mutable {
+    if (!choices.empty() && frame.spindle_programmed_rev_s != now) {
+      now = frame.spindle_programmed_rev_s;
+      const ChatterChoice* choice = choice_for(choices, now);
+      // What has no choice keeps the programmed speed; a machine without a spindle override has no
+      // modulator that could be told.
+      [[maybe_unused]] const bool told = layer->modulate(
+          choice != nullptr ? choice->modulation
+                            : chatter::online::Modulation{.law = chatter::online::Law::constant});
+    }
     const kernel::signal::Command command = layer->update(frame);
     frame.axis = layer->frame().axis;
     return command;
@@ -119,11 +127,17 @@ Result<Layer> make_supervisor(const kernel::machine::Machine& machine,
 }
 
 Result<std::unique_ptr<sim::SimulatedMachine>> machine_of(const Job& job) {
-  return sim::SimulatedMachine::make({.machine = job.machine, .path = job.path});
+  return sim::SimulatedMachine::make(
+      {.machine = job.machine,
+       .path = job.path,
+       .operator_actions = job.with_layer ? operator_for(job.choices, job.machine)
+                                          : std::vector<sim::OperatorAction>{},
+       .cutting = job.cutting});
 }
 
 Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& layer,
-                 const OnSample& on_sample, MotionScore* motion = nullptr) {
+                 const OnSample& on_sample, MotionScore* motion = nullptr,
+                 VibrationRecord* vibration = nullptr) {
   auto error = TrueError::make(job.machine);
   if (!error) {
     return std::unexpected(error.error());
@@ -148,6 +162,9 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
     if (motion != nullptr) {
       motion->add(*frame, machine.truth().motor_mm_s, machine.truth().motor_mm_s2);
     }
+    if (vibration != nullptr && machine.cutting() != nullptr) {
+      vibration->add(frame->time_s, frame->spindle_actual_rev_s, machine.cutting()->cycle());
+    }
     on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()), reason));
     if (standstill.too_long(*frame)) {
       return std::unexpected(Refusal{Kind::bad_input, "", frame->program_line,
@@ -170,7 +187,7 @@ Result<Recorder> run(const Job& job) {
   }
   Layer layer;
   if (job.with_layer) {
-    auto made = make_supervisor(job.machine, (*machine)->capability());
+    auto made = make_supervisor(job, (*machine)->capability());
     if (!made) {
       return std::unexpected(made.error());
     }
@@ -182,14 +199,18 @@ Result<Recorder> run(const Job& job) {
   if (!motion) {
     return std::unexpected(motion.error());
   }
+  VibrationRecord vibration;
   const auto done = cut(
       job, **machine, layer, [&](const Sample& sample) { record.add(sample); },
-      layer ? &*motion : nullptr);
+      layer ? &*motion : nullptr, &vibration);
   if (!done) {
     return std::unexpected(done.error());
   }
   if (layer) {
     record.set_motion(motion->figures());
+  }
+  if (job.cutting) {
+    record.set_vibration(std::move(vibration));
   }
   return record;
 }

@@ -3,13 +3,17 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include <steadyrest/apps/cut/chatter_choice.hpp>
 #include <steadyrest/apps/cut/recorder.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/command.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/nc/plan/planned_path.hpp>
+#include <steadyrest/sim/cutting_vibration.hpp>
 
 namespace steadyrest::apps::cut {
 
@@ -18,6 +22,11 @@ struct Job {
   kernel::machine::Machine machine;
   std::shared_ptr<const nc::plan::PlannedPath> path;
   bool with_layer = false;  ///< the supervisor acts; without it nobody touches the overrides
+  // Designated initialisers may leave these out.
+  // NOLINTBEGIN(readability-redundant-member-init)
+  std::optional<sim::CuttingVibration::Config> cutting = {};  ///< empty: it cuts air
+  std::vector<ChatterChoice> choices = {};  ///< what the modulator runs at which programmed speed
+  // NOLINTEND(readability-redundant-member-init)
   /// Called now and then with the share of the path that is cut, 0 … 1.
   std::function<void(double share)> progress = [](double) {};
 };

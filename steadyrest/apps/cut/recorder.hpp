@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include <steadyrest/apps/cut/vibration_record.hpp>
 #include <steadyrest/apps/report/report_data.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
@@ -61,6 +63,9 @@ class Recorder {
   /// What the layer's estimates of the axes' motion were worth; empty where there was no layer.
   void set_motion(std::vector<report::MotionFigures> motion) { motion_ = std::move(motion); }
   [[nodiscard]] const std::vector<report::MotionFigures>& motion() const { return motion_; }
+  /// Of the tool's vibration; empty where the machine cut air.
+  void set_vibration(VibrationRecord vibration) { vibration_ = std::move(vibration); }
+  [[nodiscard]] const std::optional<VibrationRecord>& vibration() const { return vibration_; }
   /// By line number of the program; only lines with cutting motion.
   [[nodiscard]] std::vector<LineError> line_errors() const;
 
@@ -77,6 +82,7 @@ class Recorder {
   std::vector<double> error_by_line_;  ///< signed; NaN where the line never cut
   std::vector<Sample> trace_;
   std::vector<report::MotionFigures> motion_;
+  std::optional<VibrationRecord> vibration_;
   std::size_t group_size_ = 1;
   std::size_t in_group_ = 0;
 };

@@ -29,6 +29,40 @@ Json to_object(const Figures& figures) {
           {"override_changes", figures.override_changes}};
 }
 
+Json or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_object(const VibrationFigures& v) {
+  return {{"vibration_rms_um", v.rms_um},
+          {"vibration_peak_um", v.peak_um},
+          {"unforced_rms_um", v.unforced_rms_um},
+          {"force_peak_n", v.force_peak_n},
+          {"power_peak_w", v.power_peak_w},
+          {"chip_peak_um", v.chip_peak_um},
+          {"surface_error_um", or_null(v.surface_error_um)},
+          {"surface_range_um", or_null(v.surface_range_um)}};
+}
+
+Json to_object(const std::vector<VibrationPoint>& course) {
+  constexpr double kThousandths = 1e3;
+  constexpr double kTenths = 1e1;
+  Json time = Json::array();
+  Json peak = Json::array();
+  Json unforced = Json::array();
+  Json speed = Json::array();
+  for (const VibrationPoint& p : course) {
+    time.push_back(rounded(p.time_s, kThousandths));
+    peak.push_back(rounded(p.peak_um, kThousandths));
+    unforced.push_back(rounded(p.unforced_um, kThousandths));
+    speed.push_back(rounded(p.speed_rpm, kTenths));
+  }
+  return {{"time_s", std::move(time)},
+          {"peak_um", std::move(peak)},
+          {"unforced_um", std::move(unforced)},
+          {"speed_rpm", std::move(speed)}};
+}
+
 /// One array for each quantity: a tenth of the size of one object for each sample.
 template <class Value>
 Json column(const std::vector<TracePoint>& trace, Value value) {
@@ -73,9 +107,14 @@ Json to_object(const Run& run) {
                        {"sentence", kernel::outcome::sentence(entry.reason)},
                        {"seconds", entry.seconds}});
   }
-  return {{"figures", to_object(run.figures)},
-          {"reasons", std::move(reasons)},
-          {"trace", to_object(run.trace)}};
+  Json out = {{"figures", to_object(run.figures)},
+              {"reasons", std::move(reasons)},
+              {"trace", to_object(run.trace)}};
+  if (run.vibration) {
+    out["vibration"] = {{"figures", to_object(*run.vibration)},
+                        {"course", to_object(run.vibration_course)}};
+  }
+  return out;
 }
 
 Json to_object(const MotionFigures& m) {
@@ -89,6 +128,10 @@ Json to_object(const MotionFigures& m) {
 }
 
 }  // namespace
+
+std::string to_json(const VibrationFigures& vibration) {
+  return to_object(vibration).dump();
+}
 
 std::string to_json(const ReportData& data) {
   Json table = Json::array();

@@ -15,6 +15,8 @@ namespace steadyrest::apps::report {
 /// person can use (1e-4 s, 1e-4 mm, 0.01 µm). Not-finite values become null, bytes that are not
 /// UTF-8 the replacement character.
 [[nodiscard]] std::string to_json(const ReportData& data);
+/// One object in text; null where there is no number.
+[[nodiscard]] std::string to_json(const VibrationFigures& vibration);
 
 /// `report.html`: the page (built from web/) with the JSON inside. It opens from disk, without any
 /// server, and nothing in the data can leave its script element.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,27 @@
 
 /// What `cut` has to show, in the units of people: the report is a border.
 namespace steadyrest::apps::report {
+
+/// What a tool that vibrates in the cut left and bore; over all the time in the cut.
+struct VibrationFigures {
+  double rms_um = 0.0;           ///< of the displacement about its mean, both axes together
+  double peak_um = 0.0;          ///< largest displacement from rest
+  double unforced_rms_um = 0.0;  ///< of what does not repeat from tooth to tooth: chatter
+  double force_peak_n = 0.0;     ///< on the tool, in the plane
+  double power_peak_w = 0.0;     ///< at the spindle
+  double chip_peak_um = 0.0;
+  /// The finished wall (in milling with one): mean place, > 0: too much is cut off …
+  std::optional<double> surface_error_um;
+  std::optional<double> surface_range_um;  ///< … and highest less lowest place
+};
+
+/// One stretch of the vibration's course.
+struct VibrationPoint {
+  double time_s = 0.0;
+  double peak_um = 0.0;
+  double unforced_um = 0.0;  ///< RMS
+  double speed_rpm = 0.0;    ///< of the spindle, mean
+};
 
 /// Figures of one run, taken over every control cycle. Errors over cutting motion (G1–G3) alone: a
 /// rapid leaves no surface.
@@ -61,6 +83,11 @@ struct Run {
   Figures figures;
   std::vector<TracePoint> trace;
   std::vector<ReasonTime> reasons;
+  // Designated initialisers may leave these out.
+  // NOLINTBEGIN(readability-redundant-member-init)
+  std::optional<VibrationFigures> vibration = {};  ///< where the cut of a process was simulated
+  std::vector<VibrationPoint> vibration_course = {};
+  // NOLINTEND(readability-redundant-member-init)
 };
 
 /// One line of the program with the largest error on it (signed), NaN where a run has none.

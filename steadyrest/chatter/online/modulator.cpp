@@ -108,7 +108,11 @@ Reason Modulator::fault_of(const Frame& frame) const noexcept {
 }
 
 bool Modulator::wanted(const Frame& frame) const noexcept {
-  return frame.motion == Motion::feed && (config_.always || frame.speed_modulation);
+  // A better constant speed is there before the tool is: it would chatter where it enters.
+  const bool to_come = state_.modulation.law == Law::constant &&
+                       (frame.motion == Motion::rapid || frame.motion == Motion::dwell ||
+                        frame.motion == Motion::idle || frame.motion == Motion::spindle_wait);
+  return (frame.motion == Motion::feed || to_come) && (config_.always || frame.speed_modulation);
 }
 
 Modulator::Limits Modulator::limits(const Frame& frame) const noexcept {

@@ -48,9 +48,10 @@ struct Modulation {
 /// Where the operator or another room lowers the feed, q falls below q₁: that is theirs. Feed per
 /// revolution follows the spindle by itself and is left alone.
 ///
-/// Active while the tool cuts, the spindle turns and the program (or the setting) wants it. Else it
-/// fades, then is neutral; in threads and taps and on unfit input it is neutral at once and the
-/// envelope takes the override back. O(log steps) a cycle, noexcept, without allocation.
+/// Active while the tool cuts, the spindle turns and the program (or the setting) wants it; a
+/// constant speed also between cuts, so that the tool enters with it. Else it fades, then is
+/// neutral; in threads and taps and on unfit input it is neutral at once and the envelope takes the
+/// override back. O(log steps) a cycle, noexcept, without allocation.
 ///
 /// Accuracy: the swing has the steps of the table; a step acts a scan and a dead time late. A
 /// control that shows `age` beyond its time is not known here: the supervisor's check withdraws.

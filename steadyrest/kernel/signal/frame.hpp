@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include <steadyrest/kernel/signal/path.hpp>
 
@@ -59,6 +60,10 @@ struct Frame {
   double spindle_programmed_rev_s = 0.0;  ///< S of the program at 100 %, signed; 0 = stands still
   double spindle_command_rev_s = 0.0;     ///< what the drive is told, override included
   double spindle_actual_rev_s = 0.0;
+  /// What a vibration sensor at the spindle has shown since the last frame, oldest first, evenly
+  /// sampled up to `time_s`; any unit. Valid as long as the path. Empty: no sensor.
+  std::span<const double> vibration;
+  double vibration_rate_hz = 0.0;
   PathView path;                  ///< empty when the program's path is not known to the layer
   std::size_t path_index = 0;     ///< segment in which the commanded point stands
   double path_position_mm = 0.0;  ///< commanded path length since the program's start
