@@ -34,10 +34,31 @@ export interface ReasonTime {
   seconds: number;
 }
 
+/** Of a tool that vibrates in the cut. */
+export interface VibrationFigures {
+  vibration_rms_um: number;
+  vibration_peak_um: number;
+  unforced_rms_um: number;
+  force_peak_n: number;
+  power_peak_w: number;
+  chip_peak_um: number;
+  surface_error_um: number | null;
+  surface_range_um: number | null;
+}
+
+export interface VibrationCourse {
+  time_s: (number | null)[];
+  peak_um: (number | null)[];
+  unforced_um: (number | null)[];
+  speed_rpm: (number | null)[];
+}
+
 export interface Run {
   figures: Figures;
   trace: Trace;
   reasons: ReasonTime[];
+  /** Where the cut of a process was simulated. */
+  vibration?: { figures: VibrationFigures; course: VibrationCourse };
 }
 
 export interface WorstLine {

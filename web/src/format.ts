@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Figures, MotionFigures } from './data';
+import type { Figures, MotionFigures, VibrationFigures } from './data';
 
 /** A number with a fixed count of decimals, a thin space between thousands and a true minus sign. */
 export function fixed(value: number | null | undefined, decimals: number): string {
@@ -124,4 +124,23 @@ export function verdict(without: Figures, withLayer: Figures, limit_um: number):
     `and ${limit}; the cycle takes ${seconds(withLayer.cycle_time_s)} instead of ` +
     `${seconds(without.cycle_time_s)}${sameTime ? '' : ` (${time})`}.`
   );
+}
+
+/** The table of the vibration, as text. */
+export function vibrationRows(without: VibrationFigures, withLayer: VibrationFigures): FigureRow[] {
+  const row = (key: keyof VibrationFigures, label: string, unit: string, decimals: number): FigureRow => {
+    const [a, b] = [without[key], withLayer[key]];
+    const show = (v: number | null) => (v === null ? '–' : `${fixed(v, decimals)} ${unit}`);
+    return { key, label, without: show(a), with: show(b), change: a === null || b === null ? '–' : change(a, b) };
+  };
+  return [
+    row('unforced_rms_um', 'Chatter: not from tooth to tooth, RMS', 'µm', 2),
+    row('vibration_rms_um', 'Vibration, RMS', 'µm', 1),
+    row('vibration_peak_um', 'Largest displacement', 'µm', 1),
+    row('surface_range_um', 'Finished wall, highest less lowest', 'µm', 1),
+    row('surface_error_um', 'Finished wall, mean place', 'µm', 1),
+    row('chip_peak_um', 'Thickest chip', 'µm', 0),
+    row('force_peak_n', 'Largest force on the tool', 'N', 1),
+    row('power_peak_w', 'Largest power at the spindle', 'W', 0),
+  ];
 }

@@ -3,6 +3,7 @@ import './style.css';
 import { type Abscissa, COURSE_HEIGHT_PX, CourseChart } from './charts/course_chart';
 import { echarts } from './charts/echarts';
 import { PathChart } from './charts/path_chart';
+import { VIBRATION_HEIGHT_PX, VibrationChart } from './charts/vibration_chart';
 import { RUNS, type Report, parseReport } from './data';
 import { element, onChoice } from './dom';
 import { legend, renderPage } from './page';
@@ -23,6 +24,15 @@ function largestError(report: Report): number {
   return largest;
 }
 
+/** Of a cut that was simulated with its vibration. */
+function vibrationChart(report: Report): VibrationChart | undefined {
+  if (!report.without.vibration) {
+    return undefined;
+  }
+  element('vibration').style.height = `${VIBRATION_HEIGHT_PX}px`;
+  return new VibrationChart(element('vibration'), report);
+}
+
 function show(report: Report): void {
   document.title = `${report.program} – Steadyrest report`;
   renderPage(element('report'), report);
@@ -34,6 +44,7 @@ function show(report: Report): void {
   ];
   echarts.connect(paths.map((p) => p.chart));
   const course = new CourseChart(element('course'), report);
+  const vibration = vibrationChart(report);
   const largest_um = largestError(report);
   const state = { plane: 'xy' as Plane, abscissa: 'time_s' as Abscissa, printing: false };
 
@@ -48,6 +59,7 @@ function show(report: Report): void {
   const drawAll = () => {
     drawPaths();
     drawCourse();
+    vibration?.draw(theme(state.printing));
   };
   const print = (printing: boolean) => {
     state.printing = printing;
@@ -75,7 +87,7 @@ function show(report: Report): void {
     }
   });
   drawAll();
-  Object.assign(window, { steadyrestCharts: { paths: paths.map((p) => p.chart), course: course.chart } });
+  Object.assign(window, { steadyrestCharts: { paths: paths.map((p) => p.chart), course: course.chart, vibration: vibration?.chart } });
 }
 
 const report = parseReport(element('report-data').textContent ?? '');

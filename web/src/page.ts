@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's text and tables; the charts come afterwards into the hosts made here.
 import type { ReasonTime, Report } from './data';
-import { change, figureRows, fixed, micrometres, motionRows, seconds, verdict } from './format';
+import { change, figureRows, fixed, micrometres, motionRows, seconds, verdict, vibrationRows, type FigureRow } from './format';
 import type { ErrorClass } from './scale';
 
 export function escapeHtml(text: string): string {
@@ -23,15 +23,26 @@ function headline(key: string, label: string, before: number, after: number, sho
     <p class="change">${change(before, after)}</p></div>`;
 }
 
-function figuresTable(report: Report): string {
-  const rows = figureRows(report.without.figures, report.with.figures)
+function comparisonTable(id: string, compared: readonly FigureRow[]): string {
+  const rows = compared
     .map(
       (r) => `<tr data-key="${r.key}"><th scope="row">${r.label}</th><td class="n">${r.without}</td>
       <td class="n">${r.with}</td><td class="n">${r.change}</td></tr>`,
     )
     .join('');
-  return `<table id="figures"><thead><tr><th scope="col">Figure</th><th scope="col" class="n">without</th>
+  return `<table id="${id}"><thead><tr><th scope="col">Figure</th><th scope="col" class="n">without</th>
     <th scope="col" class="n">with</th><th scope="col" class="n">change</th></tr></thead><tbody>${rows}</tbody></table>`;
+}
+
+/** Empty where the machine cut air. */
+function vibrationSection({ without, with: layer }: Report): string {
+  if (!without.vibration || !layer.vibration) {
+    return '';
+  }
+  const rows = vibrationRows(without.vibration.figures, layer.vibration.figures);
+  return `<section><div class="bar-head"><h2>Vibration of the tool</h2>
+    <div class="controls"><span class="key"><i class="without"></i>without</span><span class="key"><i class="with"></i>with the layer</span></div></div>
+    <div id="vibration"></div><div class="wide">${comparisonTable('vibration-figures', rows)}</div></section>`;
 }
 
 function worstTable(report: Report): string {
@@ -123,6 +134,10 @@ const EXPLANATION = `
     <dd>RMS error of velocity and acceleration against what the simulated machine really did, over every control cycle of the
       cut with the layer: as a control takes them from the differences of the encoder's counts, and as estimated from the edges
       and their times. Bound held: the share of cycles in which the error was within the bound that the estimate gave.</dd>
+    <dt>Vibration of the tool</dt>
+    <dd>Where the cut of a process was simulated: forced vibration repeats from tooth to tooth, chatter does not; what does not
+      repeat is shown by itself. While the spindle's speed is modulated forced vibration repeats only roughly. Vibration is
+      not part of the contour error, which is that of the axes.</dd>
     <dt>Thinning</dt>
     <dd>The figures are taken from every control cycle. The curves show a thinned trace in which each thinned group keeps its
       largest contour error.</dd>
@@ -164,9 +179,10 @@ export function renderPage(host: HTMLElement, report: Report): void {
     <p class="hint">Ctrl + wheel or the slider zooms. Rapids leave a gap in the error and run off the top of the feed.</p>
   </section>
   <div class="two">
-    <section><h2>Figures</h2>${figuresTable(report)}</section>
+    <section><h2>Figures</h2>${comparisonTable('figures', figureRows(without.figures, layer.figures))}</section>
     <section><h2>Reasons</h2>${reasonsTable(layer.reasons)}${steps(report)}</section>
   </div>
+  ${vibrationSection(report)}
   <section><h2>Motion of the axes</h2>${motionTable(report)}</section>
   <section><h2>Worst lines of the program</h2>${worstTable(report)}</section>
   <section class="explanation"><h2>How to read this</h2>${EXPLANATION}</section>
