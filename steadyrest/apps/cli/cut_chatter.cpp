@@ -161,7 +161,13 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     }
     out.choices = std::move(*choices);
     out.by_plan = true;
-    machine = cut::with_modulator(std::move(machine));
+    const bool acts = std::ranges::any_of(out.choices, [](const ChatterChoice& choice) {
+      return choice.decision == PlanDecision::constant || choice.decision == PlanDecision::law;
+    });
+    machine.chatter.enabled = false;
+    if (acts) {
+      machine = cut::with_modulator(std::move(machine));
+    }
   }
   out.cutting = {.cut = simulate::cutting_of(*process, *options.depth_mm),
                  .slowest_rev_s = slowest * lowest_ratio(out, machine)};
