@@ -43,7 +43,7 @@ Result<CutPoint> cut_point(const CutPointOptions& options) {
     return std::unexpected(law.error());
   }
   return CutPoint{.process = std::move(*process),
-                  .law = std::move(*law),
+                  .law = *law,
                   .speed_rev_s = kernel::units::rev_s_from_rpm(options.speed_rpm),
                   .depth_mm = options.depth_mm};
 }

@@ -222,7 +222,7 @@ std::expected<Task, Refusals> task_of(const Options& options) {
   if (!law) {
     return no(law.error());
   }
-  out.law = std::move(*law);
+  out.law = *law;
   if (!options.machine.empty()) {
     auto machine = read_machine(options.machine);
     if (!machine) {
