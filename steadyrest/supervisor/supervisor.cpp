@@ -205,6 +205,18 @@ Reason Supervisor::inspect(const signal::Frame& frame) noexcept {
   return fault;
 }
 
+/// What was answered runs as the modulator's constant speed, so that the feed goes with it.
+void Supervisor::hear(const signal::Frame& frame, bool fit) noexcept {
+  if (!listener_) {
+    return;
+  }
+  estimates_.heard = listener_->update(frame, fit);
+  const signal::SpindleRequest& request = estimates_.heard->request;
+  const bool wish = kernel::override::is_wish(request.ratio, request.reason);
+  [[maybe_unused]] const bool taken = chatter_->change(
+      {.law = chatter::online::Law::constant, .mean_ratio = wish ? request.ratio : 1.0});
+}
+
 void Supervisor::estimate(signal::Frame& frame, bool fit) noexcept {
   motion_.update(frame, fit);
   if (std::isfinite(frame.time_s)) {
@@ -216,6 +228,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit) noexcept {
     estimates_.contour = contour_->update(frame);
   }
   if (chatter_) {
+    hear(frame, fit);
     estimates_.chatter = chatter_->update(frame);
   }
 }
@@ -350,6 +363,10 @@ void Supervisor::restore(const State& state) noexcept {
   if (chatter_) {
     chatter_->reset();
     estimates_.chatter.reset();
+  }
+  if (listener_) {
+    listener_->reset();
+    estimates_.heard.reset();
   }
   handed_back_ = false;
 }

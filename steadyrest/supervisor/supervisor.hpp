@@ -17,6 +17,7 @@
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
 #include <steadyrest/supervisor/frame_check.hpp>
+#include <steadyrest/supervisor/listening_stage.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
 
 namespace steadyrest::supervisor {
@@ -44,6 +45,7 @@ class Supervisor {
   struct Estimates {
     std::optional<contour::online::FeedGovernor::Output> contour;
     std::optional<chatter::online::Modulator::Output> chatter;
+    std::optional<chatter::online::BetterSpeed::Output> heard;
   };
 
   /// Without the rooms' estimates: those start anew after restore().
@@ -91,6 +93,15 @@ class Supervisor {
   [[nodiscard]] bool modulate(const chatter::online::Modulation& modulation) noexcept {
     return chatter_ && chatter_->change(modulation);
   }
+  /// Hears the frames' vibration from now on. When it chatters, the better speed of the table
+  /// becomes the modulator's constant mean: feed per tooth, slew and withdrawal are those of the
+  /// modulator. False and nothing changes where the chatter room is off.
+  [[nodiscard]] bool listen(const ListeningStage& listener) noexcept {
+    if (chatter_) {
+      listener_ = listener;
+    }
+    return chatter_.has_value();
+  }
   [[nodiscard]] kernel::machine::Mode mode_in_force() const noexcept {
     return state_.mode_in_force;
   }
@@ -112,6 +123,7 @@ class Supervisor {
                                  bool read_now) noexcept;
   kernel::outcome::Reason inspect(const kernel::signal::Frame& frame) noexcept;
   void settle_mode() noexcept;
+  void hear(const kernel::signal::Frame& frame, bool fit) noexcept;
   void estimate(kernel::signal::Frame& frame, bool fit) noexcept;
   [[nodiscard]] Decisions arbitrate(const kernel::signal::Frame& frame, const Requests& requests,
                                     kernel::outcome::Reason unfit) noexcept;
@@ -123,6 +135,7 @@ class Supervisor {
   MotionStage motion_;
   std::optional<contour::online::FeedGovernor> contour_;
   std::optional<chatter::online::Modulator> chatter_;
+  std::optional<ListeningStage> listener_;
   Estimates estimates_;
   std::optional<kernel::override::Channel> feed_;
   std::optional<kernel::override::Channel> spindle_;

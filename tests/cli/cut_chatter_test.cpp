@@ -76,6 +76,26 @@ TEST(CutChatter, DiesAndGrowsOnEitherSideOfThePublishedBorder) {
   EXPECT_GT(at_time(above, 5.0), 10.0 * at_time(above, 2.0));
 }
 
+TEST(CutChatter, HearsItAndTakesTheBetterStepOfTheTable) {
+  // At 100 % on the operator's switch the layer can only slow the spindle down.
+  const json answer = answer_of(at_depth(0.6, " --chatter detect"));
+  ASSERT_EQ(answer["heard"].size(), 1U);
+  const json& heard = answer["heard"][0];
+  EXPECT_GT(heard["time_s"].get<double>(), 1.8) << "the slot is entered then";
+  EXPECT_LT(heard["time_s"].get<double>(), 2.6);
+  EXPECT_LT(heard["spindle_percent"].get<double>(), 100.0);
+  const json limit =
+      answer_of("chatter radius examples/processes/slot-922hz.toml --depth-mm 0.6" +
+                fmt::format(" --speed-rpm {}", 50.0 * heard["spindle_percent"].get<double>()));
+  EXPECT_TRUE(limit["stable"].get<bool>());
+  EXPECT_LT(answer["with"]["unforced_rms_um"].get<double>(),
+            0.8 * answer["without"]["unforced_rms_um"].get<double>());
+}
+
+TEST(CutChatter, HearsNothingInAStableCut) {
+  EXPECT_TRUE(answer_of(at_depth(0.3, " --chatter detect"))["heard"].empty());
+}
+
 TEST(CutChatter, ByTheMachineFileNothingIsPlanned) {
   const json answer = answer_of(at_depth(1.0, " --chatter machine"));
   EXPECT_FALSE(answer.contains("chatter"));

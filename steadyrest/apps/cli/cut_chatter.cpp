@@ -26,6 +26,7 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
 constexpr const char* kPlan = "plan";
+constexpr const char* kDetect = "detect";
 constexpr const char* kMachine = "machine";
 
 std::unexpected<Refusals> one(Refusal refusal) {
@@ -50,7 +51,7 @@ double lowest_ratio(const Modulation& m) {
 }
 
 double lowest_ratio(const CutChatter& chatter, const Machine& machine) {
-  double lowest = 1.0;
+  double lowest = chatter.listener ? machine.envelope.min_spindle_ratio : 1.0;
   for (const ChatterChoice& choice : chatter.choices) {
     lowest = std::min(lowest, lowest_ratio(choice.modulation));
   }
@@ -124,8 +125,9 @@ void add_cut_chatter_options(CLI::App& verb, CutChatterOptions& options) {
   verb.add_option("--depth-mm", options.depth_mm, "Depth of cut of that process")->needs(process);
   verb.add_option("--chatter", options.source,
                   "What the layer does against chatter: plan (ask the planner for each spindle "
-                  "speed), machine ([chatter] of the machine file as it stands)")
-      ->check(CLI::IsMember({kPlan, kMachine}))
+                  "speed), detect (hear it, then take the better step of the planner's table), "
+                  "machine ([chatter] of the machine file as it stands)")
+      ->check(CLI::IsMember({kPlan, kDetect, kMachine}))
       ->capture_default_str()
       ->needs(process);
 }
@@ -169,6 +171,16 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
       machine = cut::with_modulator(std::move(machine));
     }
   }
+  if (options.source == kDetect) {
+    const sim::CuttingVibration::Config sensor;
+    auto listener = cut::listener_for(*process, machine, cut::cutting_speeds(path),
+                                      *options.depth_mm, sensor.sensor_rate_hz);
+    if (!listener) {
+      return one(listener.error());
+    }
+    out.listener = std::move(*listener);
+    machine = cut::with_modulator(std::move(machine));
+  }
   out.cutting = {.cut = simulate::cutting_of(*process, *options.depth_mm),
                  .slowest_rev_s = slowest * lowest_ratio(out, machine)};
   return out;
@@ -185,6 +197,19 @@ void put_vibration(Answer& answer, const CutChatter& chatter, const cut::Recorde
     answer.json["without"].update(Json::parse(report::to_json(*before)));
     answer.json["with"].update(Json::parse(report::to_json(*after)));
     answer.text += vibration_text(*before, *after);
+  }
+  if (chatter.listener) {
+    answer.json["heard"] = Json::array();
+    for (const cut::HeardChatter& heard : with.heard()) {
+      answer.json["heard"].push_back(
+          {{"time_s", heard.time_s},
+           {"frequency_hz", heard.frequency_hz},
+           {"spindle_percent", units::percent_from_ratio(heard.spindle_ratio)}});
+      answer.text +=
+          fmt::format("{:.3f} s: chatter at {:.0f} Hz; spindle override {:.4g} %\n", heard.time_s,
+                      heard.frequency_hz, units::percent_from_ratio(heard.spindle_ratio));
+    }
+    answer.text += with.heard().empty() ? "no chatter was heard, or no step is better\n" : "";
   }
   if (!chatter.by_plan) {
     return;

@@ -22,7 +22,7 @@ namespace steadyrest::apps::cli {
 struct CutChatterOptions {
   std::string process;
   std::optional<double> depth_mm;
-  std::string source = "plan";  ///< of the layer's choice: plan, machine
+  std::string source = "plan";  ///< of the layer's choice: plan, detect, machine
 };
 
 void add_cut_chatter_options(CLI::App& verb, CutChatterOptions& options);
@@ -31,6 +31,7 @@ void add_cut_chatter_options(CLI::App& verb, CutChatterOptions& options);
 struct CutChatter {
   std::optional<sim::CuttingVibration::Config> cutting;  ///< empty: no process was given
   std::vector<cut::ChatterChoice> choices;
+  std::optional<supervisor::ListeningStage> listener;
   bool by_plan = false;
 };
 

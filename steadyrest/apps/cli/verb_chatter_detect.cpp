@@ -13,9 +13,9 @@
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_detect.hpp>
-#include <steadyrest/chatter/offline/limit_depth.hpp>
 #include <steadyrest/chatter/offline/process_file.hpp>
 #include <steadyrest/chatter/offline/signal_file.hpp>
+#include <steadyrest/chatter/offline/speed_table_of.hpp>
 #include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/chatter/online/speed_table.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -172,44 +172,17 @@ std::vector<Event> events_of(const offline::RecordedSignal& signal, online::Dete
   return out;
 }
 
-/// The limiting depth at the speed of each override step, for a table that is asked at
-/// `programmed_rev_s`.
-std::optional<Refusal> add_depths(const offline::Process& process, const Options& options,
-                                  double programmed_rev_s, online::SpeedTable::Config& config) {
-  const double most_mm = options.depth_mm ? 5.0 * *options.depth_mm : kMostDepthMm;
-  for (const double ratio : config.step_ratio) {
-    const double speed = ratio * programmed_rev_s;
-    if (!(speed > 0.0) || speed < config.min_rev_s || speed > config.max_rev_s ||
-        (!config.speed_rev_s.empty() && speed <= config.speed_rev_s.back())) {
-      continue;
-    }
-    const auto limit = offline::limit_depth_mm(process, speed, {}, most_mm);
-    if (!limit) {
-      return limit.error();
-    }
-    config.speed_rev_s.push_back(speed);
-    config.limit_depth_mm.push_back(limit->value_or(most_mm));
-  }
-  return std::nullopt;
-}
-
 std::optional<Refusal> advise(const Options& options, const Machine& machine, std::size_t teeth,
                               const std::optional<offline::Process>& process, Event& event) {
-  online::SpeedTable::Config config;
-  for (const double ratio : machine.spindle_override.ratio) {
-    config.step_ratio.push_back(std::min(ratio, machine.spindle_override.max_ratio));
-  }
+  online::SpeedTable::Config config = offline::steps_of(machine);
   config.teeth = teeth;
-  config.min_ratio = machine.envelope.min_spindle_ratio;
-  config.max_ratio = machine.envelope.max_spindle_ratio;
-  config.min_rev_s = machine.spindle.min_rev_s;
-  config.max_rev_s = machine.spindle.max_rev_s;
   const double programmed = options.programmed_rpm
                                 ? kernel::units::rev_s_from_rpm(*options.programmed_rpm)
                                 : event.speed_rev_s;
   if (process) {
-    if (auto refusal = add_depths(*process, options, programmed, config)) {
-      return refusal;
+    const double most_mm = options.depth_mm ? 5.0 * *options.depth_mm : kMostDepthMm;
+    if (auto added = offline::add_depths(*process, {programmed}, most_mm, config); !added) {
+      return added.error();
     }
   }
   const auto table = online::SpeedTable::make(std::move(config));

@@ -173,6 +173,7 @@ Result<Recorder> cut_once(const Machine& machine, const PathPointer& path,
                    .with_layer = with_layer,
                    .cutting = chatter.cutting,
                    .choices = chatter.choices,
+                   .listener = chatter.listener,
                    .progress = [&](double share) { progress.update(from + share / 2, what); }});
 }
 

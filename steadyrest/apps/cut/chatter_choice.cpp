@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cut/chatter_choice.hpp>
+#include <steadyrest/chatter/offline/speed_table_of.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cut {
@@ -109,6 +110,34 @@ const ChatterChoice* choice_for(const std::vector<ChatterChoice>& choices,
     return same(c.speed_rev_s, std::abs(programmed_rev_s));
   });
   return found == choices.end() ? nullptr : &*found;
+}
+
+Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process& process,
+                                                const kernel::machine::Machine& machine,
+                                                const std::vector<double>& speeds_rev_s,
+                                                double depth_mm, double sensor_rate_hz) {
+  constexpr double kMostDepth = 5.0;     // of the wanted one: as deep as the planner looks
+  constexpr double kSilence_mm_s = 0.1;  // a quieter tool is not in a cut
+  chatter::online::BetterSpeed::Config config;
+  config.detector.sample_rate_hz = sensor_rate_hz;
+  config.detector.teeth = process.tool.teeth;
+  config.detector.least_energy = kSilence_mm_s * kSilence_mm_s;
+  config.table = chatter::offline::steps_of(machine);
+  config.table.teeth = process.tool.teeth;
+  if (!machine.spindle_override.layer_may_exceed_panel) {
+    config.table.max_ratio = std::min(config.table.max_ratio, 1.0);
+  }
+  auto added =
+      chatter::offline::add_depths(process, speeds_rev_s, kMostDepth * depth_mm, config.table);
+  if (!added) {
+    return std::unexpected(added.error());
+  }
+  auto better = chatter::online::BetterSpeed::make(std::move(config));
+  if (!better) {
+    return std::unexpected(better.error());
+  }
+  return supervisor::ListeningStage({.sample_rate_hz = sensor_rate_hz, .depth_mm = depth_mm},
+                                    *std::move(better));
 }
 
 std::vector<sim::OperatorAction> operator_for(const std::vector<ChatterChoice>& choices,

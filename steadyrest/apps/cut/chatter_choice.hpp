@@ -12,6 +12,7 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/plan/planned_path.hpp>
 #include <steadyrest/sim/operator_panel.hpp>
+#include <steadyrest/supervisor/listening_stage.hpp>
 
 namespace steadyrest::apps::cut {
 
@@ -42,6 +43,12 @@ inline constexpr std::size_t kMostSpeeds = 32;
 /// The choice for a programmed speed; nullptr where there was none to make.
 [[nodiscard]] const ChatterChoice* choice_for(const std::vector<ChatterChoice>& choices,
                                               double programmed_rev_s) noexcept;
+
+/// The ear of the layer: detector and planner's table of the process at the override's steps, as
+/// far as the operator's switch at 100 % lets the layer go. Refuses what they refuse.
+[[nodiscard]] kernel::outcome::Result<supervisor::ListeningStage> listener_for(
+    const chatter::offline::Process& process, const kernel::machine::Machine& machine,
+    const std::vector<double>& speeds_rev_s, double depth_mm, double sensor_rate_hz);
 
 /// The operator turns the spindle switch up for them before the program starts, where 100 % is not
 /// enough.

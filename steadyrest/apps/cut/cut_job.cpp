@@ -103,13 +103,23 @@ double length_of(const nc::plan::PlannedPath& path) {
 }
 
 /// The product's own layer, acting.
-Result<Layer> make_supervisor(const Job& job, const kernel::port::Capability& capability) {
+Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
+    const Job& job, const kernel::port::Capability& capability) {
   auto made = supervisor::Supervisor::make(job.machine, capability);
   if (!made) {
     return std::unexpected(made.error());
   }
   auto layer = std::make_shared<supervisor::Supervisor>(std::move(*made));
   layer->set_mode(kernel::machine::Mode::act);
+  if (job.listener && !layer->listen(*job.listener)) {
+    return std::unexpected(Refusal{
+        Kind::bad_input, "", 0, "chatter cannot be answered: the machine has no spindle override",
+        "give [override.spindle], or take --chatter machine"});
+  }
+  return layer;
+}
+
+Layer layer_of(const std::shared_ptr<supervisor::Supervisor>& layer, const Job& job) {
   return [layer, choices = job.choices, now = 0.0](Frame& frame) mutable {
     if (!choices.empty() && frame.spindle_programmed_rev_s != now) {
       now = frame.spindle_programmed_rev_s;
@@ -186,12 +196,14 @@ Result<Recorder> run(const Job& job) {
     return std::unexpected(machine.error());
   }
   Layer layer;
+  std::shared_ptr<supervisor::Supervisor> supervisor;
   if (job.with_layer) {
     auto made = make_supervisor(job, (*machine)->capability());
     if (!made) {
       return std::unexpected(made.error());
     }
-    layer = std::move(*made);
+    supervisor = std::move(*made);
+    layer = layer_of(supervisor, job);
   }
   Recorder record({.limit_mm = job.machine.contour.limit_mm,
                    .cycle_s = job.machine.control.interpolator_period_s});
@@ -201,7 +213,16 @@ Result<Recorder> run(const Job& job) {
   }
   VibrationRecord vibration;
   const auto done = cut(
-      job, **machine, layer, [&](const Sample& sample) { record.add(sample); },
+      job, **machine, layer,
+      [&](const Sample& sample) {
+        record.add(sample);
+        if (supervisor && supervisor->estimates().heard) {
+          const auto& heard = *supervisor->estimates().heard;
+          record.add_heard({.time_s = sample.time_s,
+                            .frequency_hz = heard.frequency_hz,
+                            .spindle_ratio = heard.request.ratio});
+        }
+      },
       layer ? &*motion : nullptr, &vibration);
   if (!done) {
     return std::unexpected(done.error());

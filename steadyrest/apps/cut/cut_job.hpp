@@ -26,6 +26,7 @@ struct Job {
   // NOLINTBEGIN(readability-redundant-member-init)
   std::optional<sim::CuttingVibration::Config> cutting = {};  ///< empty: it cuts air
   std::vector<ChatterChoice> choices = {};  ///< what the modulator runs at which programmed speed
+  std::optional<supervisor::ListeningStage> listener = {};  ///< it hears the vibration
   // NOLINTEND(readability-redundant-member-init)
   /// Called now and then with the share of the path that is cut, 0 … 1.
   std::function<void(double share)> progress = [](double) {};

@@ -33,6 +33,13 @@ struct Sample {
 
 using report::Figures;
 
+/// The layer heard chatter and asked for another spindle speed.
+struct HeardChatter {
+  double time_s = 0.0;
+  double frequency_hz = 0.0;
+  double spindle_ratio = 1.0;  ///< asked for from then on
+};
+
 /// Largest contour error on one line of the program.
 struct LineError {
   std::uint32_t line = 0;
@@ -66,6 +73,14 @@ class Recorder {
   /// Of the tool's vibration; empty where the machine cut air.
   void set_vibration(VibrationRecord vibration) { vibration_ = std::move(vibration); }
   [[nodiscard]] const std::optional<VibrationRecord>& vibration() const { return vibration_; }
+  /// In order of time; each another ratio than the one before.
+  void add_heard(const HeardChatter& heard) {
+    if (heard_.empty() ? heard.spindle_ratio != 1.0
+                       : heard_.back().spindle_ratio != heard.spindle_ratio) {
+      heard_.push_back(heard);
+    }
+  }
+  [[nodiscard]] const std::vector<HeardChatter>& heard() const { return heard_; }
   /// By line number of the program; only lines with cutting motion.
   [[nodiscard]] std::vector<LineError> line_errors() const;
 
@@ -83,6 +98,7 @@ class Recorder {
   std::vector<Sample> trace_;
   std::vector<report::MotionFigures> motion_;
   std::optional<VibrationRecord> vibration_;
+  std::vector<HeardChatter> heard_;
   std::size_t group_size_ = 1;
   std::size_t in_group_ = 0;
 };

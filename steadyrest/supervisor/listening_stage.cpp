@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <steadyrest/supervisor/listening_stage.hpp>
+
+namespace steadyrest::supervisor {
+
+void ListeningStage::reset() noexcept {
+  better_.reset();
+  out_ = {};
+  last_rev_s_ = 0.0;
+}
+
+const chatter::online::BetterSpeed::Output& ListeningStage::update(
+    const kernel::signal::Frame& frame, bool fit) noexcept {
+  const double now_rev_s = std::abs(frame.spindle_actual_rev_s);
+  const double before_rev_s = last_rev_s_ > 0.0 ? last_rev_s_ : now_rev_s;
+  last_rev_s_ = now_rev_s;
+  const bool known_rate =
+      std::abs(frame.vibration_rate_hz - config_.sample_rate_hz) <= 1e-6 * config_.sample_rate_hz;
+  if (!fit || !known_rate || frame.motion != kernel::signal::Motion::feed) {
+    return out_;
+  }
+  const auto most = static_cast<std::size_t>(config_.sample_rate_hz);
+  const std::size_t count = std::min(frame.vibration.size(), most);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i + 1) / static_cast<double>(count);
+    out_ = better_.update({.value = frame.vibration[i],
+                           .speed_rev_s = before_rev_s + share * (now_rev_s - before_rev_s),
+                           .programmed_rev_s = std::abs(frame.spindle_programmed_rev_s),
+                           .ratio = frame.spindle.effective_ratio,
+                           .depth_mm = config_.depth_mm});
+  }
+  return out_;
+}
+
+}  // namespace steadyrest::supervisor
