@@ -17,7 +17,6 @@ namespace {
 
 namespace units = kernel::units;
 using chatter::offline::PlanDecision;
-using chatter::offline::Process;
 using chatter::online::Law;
 using chatter::online::Modulation;
 using cut::ChatterChoice;
