@@ -57,6 +57,7 @@ CutRecorder::CutRecorder(double seconds, double mean_rev_s, std::size_t teeth)
     : stretch_s_(std::max(
           seconds / kStretches,
           std::min(seconds / kLeastStretches, 1.0 / (mean_rev_s * static_cast<double>(teeth))))),
+      last_stretch_(std::max(0.0, std::floor(seconds / stretch_s_ + kWhole) - 1.0)),
       stride_(
           static_cast<std::size_t>(std::max(1.0, std::ceil(seconds * mean_rev_s / kMostTurns)))) {}
 

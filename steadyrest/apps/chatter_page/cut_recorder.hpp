@@ -46,7 +46,7 @@ class CutRecorder {
   void turn(const simulate::Moment& now);
 
   double stretch_s_;
-  double last_stretch_;  ///< what is left of the time after it is its own
+  double last_stretch_;  ///< index of the last; what is left of the time is its own
   std::size_t stride_;
   double stretch_ = -1.0;
   double turned_ = 0.0;

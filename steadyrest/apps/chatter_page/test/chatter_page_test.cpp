@@ -88,6 +88,7 @@ TEST(CutRecorder, SamplesOnceARevolutionAndKeepsExtremes) {
   EXPECT_NEAR(std::ranges::max(cut.envelope().high[1]), 2.0, 1e-2);
   EXPECT_NEAR(std::ranges::min(cut.envelope().low[1]), -2.0, 1e-2);
   EXPECT_EQ(cut.envelope().low[2].front(), 5.0);
+  EXPECT_EQ(cut.envelope().t_s.size(), 400U) << "one for each tooth pass";
   const auto last = cut.last();
   EXPECT_NEAR(last.back().angle_rad - last.front().angle_rad, 6.0 * kTurn, kTurn / 49.0);
 }
@@ -99,7 +100,7 @@ TEST(CutRecorder, OfALongCutTakesNoMoreRoom) {
   }
   EXPECT_EQ(cut.turns_between(), 5U);
   EXPECT_LE(cut.turns().t_s.size(), 4000U);
-  EXPECT_LE(cut.envelope().t_s.size(), 700U);
+  EXPECT_EQ(cut.envelope().t_s.size(), 700U);
   EXPECT_LE(cut.last().size(), 8000U);
 }
 
