@@ -24,6 +24,13 @@ if(STEADYREST_SANITIZE)
   target_link_options(steadyrest_flags INTERFACE -fsanitize=${STEADYREST_SANITIZE})
 endif()
 
+# What reads options and writes text takes long to compile and no time to run: sanitized builds leave it unoptimised.
+function(steadyrest_not_hot target)
+  if(STEADYREST_SANITIZE)
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-O0>)
+  endif()
+endfunction()
+
 # steadyrest_room(NAME kernel SOURCES a.cpp … DEPENDS steadyrest_math … TESTS test/a_test.cpp … TEST_DEPENDS …)
 # makes the library steadyrest_<NAME> and, where TESTS are named, the executable steadyrest_<NAME>_test.
 function(steadyrest_room)

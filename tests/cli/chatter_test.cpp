@@ -65,12 +65,12 @@ TEST(ChatterRadius, TellsSlowModulationThoughTheRadiusIsNothing) {
 
 TEST(ChatterRadius, KnowsEveryLaw) {
   for (const char* law : {"square", "pulse", "triangle", "sine", "random", "stop"}) {
-    const json found = answer_of(kPoint + " --rva 0.1 --rvf 0.1 --law " + law);
+    const json found = answer_of(kPoint + " --rva 0.1 --rvf 0.5 --law " + law);
     EXPECT_EQ(found["law"], law);
     EXPECT_GT(found["spectral_radius"], 0.0) << law;
   }
-  const json one = answer_of(kPoint + " --law random --rva 0.1 --rvf 0.1 --seed 7");
-  const json other = answer_of(kPoint + " --law random --rva 0.1 --rvf 0.1 --seed 8");
+  const json one = answer_of(kPoint + " --law random --rva 0.1 --rvf 0.5 --seed 7");
+  const json other = answer_of(kPoint + " --law random --rva 0.1 --rvf 0.5 --seed 8");
   EXPECT_NE(one["log_radius"], other["log_radius"]);
   EXPECT_EQ(answer_of(kPoint + " --law constant")["spectral_radius"],
             answer_of(kPoint)["spectral_radius"]);
