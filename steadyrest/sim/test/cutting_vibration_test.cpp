@@ -13,7 +13,7 @@ namespace {
 constexpr double kSpeed_rev_s = 5000.0 / 60.0;
 constexpr double kPeriod_s = 0.002;
 
-/// Two teeth, slot, 922 Hz: at 5000 rpm its border lies at 0.2 mm < a < 0.3 mm (Insperger and
+/// Two teeth, slot, 922 Hz: at 5000 rpm its border lies at 0.4086 mm (Insperger and
 /// Stépán's benchmark; the chatter room's reference has the digits).
 CuttingVibration::Config benchmark(double depth_mm) {
   CuttingVibration::Config config;
