@@ -76,6 +76,41 @@ TEST(CutChatter, DiesAndGrowsOnEitherSideOfThePublishedBorder) {
   EXPECT_GT(at_time(above, 5.0), 10.0 * at_time(above, 2.0));
 }
 
+TEST(CutChatter, EachSpindleSpeedOfTheProgramGetsItsOwnChoice) {
+  const Scratch scratch;
+  const std::string program = scratch.file("two-speeds.mpf",
+                                           "N10 G71 G90 G94 S5000 M3\n"
+                                           "N20 G0 X0 Y0 Z5\n"
+                                           "N30 G4 F1\n"
+                                           "N40 G1 Z0 F500\n"
+                                           "N50 G1 X40 F1000\n"
+                                           "N60 G0 Z50\n"
+                                           "N70 S10000 M3\n"
+                                           "N80 G4 F1\n"
+                                           "N90 G1 Z0 F2000\n"
+                                           "N100 G1 X0 F2000\n"
+                                           "N110 G0 Z50\n"
+                                           "N120 M30\n");
+  const json answer = answer_of("cut " + program + " --machine examples/machines/vmc-840d.toml" +
+                                kProcess + " --depth-mm 0.5");
+  ASSERT_EQ(answer["chatter"].size(), 2U);
+  for (const json& choice : answer["chatter"]) {
+    // The solver, whose borders are the published ones, is asked about the step that was taken.
+    const double speed_rpm = choice["speed_rpm"].get<double>();
+    EXPECT_EQ(choice["decision"], "constant") << speed_rpm;
+    const json at_step = answer_of(
+        "chatter radius examples/processes/slot-922hz.toml --depth-mm 0.5" +
+        fmt::format(" --speed-rpm {}", speed_rpm * choice["mean_percent"].get<double>() / 100.0));
+    EXPECT_TRUE(at_step["stable"].get<bool>()) << speed_rpm;
+    const json programmed =
+        answer_of("chatter radius examples/processes/slot-922hz.toml --depth-mm 0.5" +
+                  fmt::format(" --speed-rpm {}", speed_rpm));
+    EXPECT_FALSE(programmed["stable"].get<bool>()) << speed_rpm;
+  }
+  EXPECT_LT(answer["with"]["unforced_rms_um"].get<double>(),
+            0.1 * answer["without"]["unforced_rms_um"].get<double>());
+}
+
 TEST(CutChatter, HearsItAndTakesTheBetterStepOfTheTable) {
   // At 100 % on the operator's switch the layer can only slow the spindle down.
   const json answer = answer_of(at_depth(0.6, " --chatter detect"));
