@@ -17,40 +17,17 @@ using kernel::outcome::Refusal;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr std::size_t kMostPasses = 4096;
 constexpr std::size_t kMostLawPeriods = 64;
-constexpr double kSameAngle = 1e-10;  ///< rad
 /// Angle of the fastest oscillation in one piece, and nodes for it: 1e-9 in the multipliers.
 constexpr double kPiecePhase = 14.0;
 constexpr double kNodesPerRadian = 0.75;
 constexpr double kNodesAtLeast = 11.0;
-
-double modulo(double angle, double period) {
-  const double out = angle - std::floor(angle / period) * period;
-  return out >= period - kSameAngle ? 0.0 : out;
-}
-
-/// The fastest that anything oscillates, or dies by process damping, at this depth and speed.
-double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s) {
-  const double stiffness =
-      depth_mm * std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2);
-  const double damping = depth_mm * process.cut.process_damping_n_mm /
-                         (std::numbers::pi * process.tool.diameter_mm * speed_rev_s);
-  double fastest = 0.0;
-  for (const Mode& mode : process.modes) {
-    const double w = kTurn * mode.frequency_hz;
-    const double per_mass = 1000.0 / mode.mass_kg;
-    fastest = std::max(fastest, std::sqrt(w * w + per_mass * stiffness) + per_mass * damping);
-  }
-  return fastest;
-}
 
 }  // namespace
 
 kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, const Config& config) {
   DelayCycle out;
   out.process_ = process;
-  out.components_ =
-      std::ranges::all_of(process.modes, [](const Mode& m) { return m.shape[1] == 0.0; }) ? 1 : 2;
-  out.mean_rev_s_ = config.speed_rev_s;
+  out.components_ = directions(process);
   const bool even = process.even_pitch();
   out.pass_rad_ = even ? kTurn / static_cast<double>(process.tool.teeth) : kTurn;
   const auto whole = [&out](double angle_rad) {
@@ -84,51 +61,21 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
   return out;
 }
 
-/// Angles within a pass at which something is not smooth.
-std::vector<double> DelayCycle::borders(const SpeedProfile& speed) const {
-  const CuttingCoefficients coefficients(process_, depth_mm_);
-  std::vector<double> corners{0.0};
-  const bool even = process_.even_pitch();
-  for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
-    for (const double c : coefficients.corners_rad(j)) {
-      corners.push_back(modulo(c, pass_rad_));
-      // Uneven pitch: what is not smooth comes back with each tooth's delay.
-      for (std::size_t k = 0; !even && k < coefficients.teeth(); ++k) {
-        corners.push_back(modulo(c + process_.pitch_rad(k), pass_rad_));
-      }
-    }
-  }
-  for (std::size_t r = 0; r < law_periods_; ++r) {
-    for (const double c : speed.corners_rad()) {
-      corners.push_back(modulo(c + static_cast<double>(r) * speed.period_rad(), pass_rad_));
-    }
-  }
-  std::ranges::sort(corners);
-  std::vector<double> out;
-  for (const double c : corners) {
-    if (out.empty() || c - out.back() > kSameAngle) {
-      out.push_back(c);
-    }
-  }
-  out.push_back(pass_rad_);
-  return out;
-}
-
 void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
   depth_mm_ = config.most_depth_mm;
   const CuttingCoefficients coefficients(process_, depth_mm_);
   const double slowest_rev_s = speed.slowest_rad_s() / kTurn;
   const double fastest = fastest_rad_s(process_, config.most_depth_mm, slowest_rev_s);
   std::vector<Piece> pass;
-  const std::vector<double> corners = borders(speed);
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    const double middle = 0.5 * (corners[i] + corners[i + 1]);
-    bool cuts = false;
-    for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
-      for (double turn = 0.0; turn < kTurn - kSameAngle; turn += pass_rad_) {
-        cuts = cuts || coefficients.stiffness(j, middle + turn).cwiseAbs().maxCoeff() > 0.0;
-      }
+  std::vector<double> of_speed;
+  for (std::size_t r = 0; r < law_periods_; ++r) {
+    for (const double c : speed.corners_rad()) {
+      of_speed.push_back(c + static_cast<double>(r) * speed.period_rad());
     }
+  }
+  const std::vector<double> corners = corners_of_pass(process_, coefficients, pass_rad_, of_speed);
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const bool cuts = cuts_at(coefficients, pass_rad_, 0.5 * (corners[i] + corners[i + 1]));
     const double length = corners[i + 1] - corners[i];
     const double phase = length / (kTurn * slowest_rev_s) * fastest;
     const double parts = std::max(1.0, std::ceil(phase / kPiecePhase));
@@ -161,62 +108,10 @@ void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
             static_cast<double>(p) * pass_rad_ + piece.begin_rad + length * gauss.node[n];
         piece.sigma_s[n] = length / speed.speed_rad_s(angle);
       }
-      fill_modes(piece);
+      static_cast<ModalAnswers&>(piece) = modal_answers(process_, gauss, piece.sigma_s, components_,
+                                                        process_.cut.process_damping_n_mm > 0.0);
       if (piece.cuts) {
         fill_reads(i + p * pass.size());
-      }
-    }
-  }
-}
-
-/// The modes' answers within one piece: [I + 2ζω·Σ + ω²·Σ²]·v = v₀ − ω²·q₀·Σ1 + Σ·f with Σ =
-/// S·diag(σ).
-void DelayCycle::fill_modes(Piece& piece) const {
-  const GaussNodes& gauss = GaussNodes::of(piece.nodes);
-  const Index n = piece.nodes;
-  const Index size = n * components_;
-  const auto modes = static_cast<Index>(process_.modes.size());
-  const Eigen::MatrixXd s = gauss.integral * piece.sigma_s.asDiagonal();
-  const Eigen::MatrixXd s2 = s * s;
-  const Eigen::RowVectorXd end = gauss.weight.cwiseProduct(piece.sigma_s).transpose();
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(n);
-  piece.phi.setZero(size, 2 * modes);
-  piece.phi_rate.setZero(size, 2 * modes);
-  piece.k.setZero(size, size);
-  piece.k_rate.setZero(size, size);
-  piece.e.setZero(2 * modes, 2 * modes);
-  piece.r.setZero(2 * modes, size);
-  for (Index m = 0; m < modes; ++m) {
-    const Mode& mode = process_.modes[static_cast<std::size_t>(m)];
-    const double w = kTurn * mode.frequency_hz;
-    const double d = 2.0 * mode.damping_ratio * w;
-    Eigen::MatrixXd a = d * s + w * w * s2;
-    a.diagonal().array() += 1.0;
-    // Columns: from q₀, from v₀/ω, from the force.
-    Eigen::MatrixXd right(n, n + 2);
-    right.col(0) = -w * w * (s * ones);
-    right.col(1) = w * ones;
-    right.rightCols(n) = 1000.0 / mode.mass_kg * s;
-    const Eigen::MatrixXd v = a.partialPivLu().solve(right);
-    Eigen::MatrixXd q = s * v;
-    q.col(0) += ones;
-    const Eigen::RowVectorXd q_end = end * v;
-    Eigen::RowVectorXd v_end = -w * w * (end * q) - d * q_end;
-    v_end.tail(n) += 1000.0 / mode.mass_kg * end;
-    piece.e(2 * m, 2 * m) = 1.0 + q_end[0];
-    piece.e(2 * m, 2 * m + 1) = q_end[1];
-    piece.e(2 * m + 1, 2 * m) = v_end[0] / w;
-    piece.e(2 * m + 1, 2 * m + 1) = 1.0 + v_end[1] / w;
-    for (Index c = 0; c < components_; ++c) {
-      const double out = mode.shape[static_cast<std::size_t>(c)];
-      piece.phi.block(c * n, 2 * m, n, 2) = out * q.leftCols(2);
-      piece.phi_rate.block(c * n, 2 * m, n, 2) = out * v.leftCols(2);
-      piece.r.block(2 * m, c * n, 1, n) = out * q_end.tail(n);
-      piece.r.block(2 * m + 1, c * n, 1, n) = out * v_end.tail(n) / w;
-      for (Index b = 0; b < components_; ++b) {
-        const double both = out * mode.shape[static_cast<std::size_t>(b)];
-        piece.k.block(c * n, b * n, n, n) += both * q.rightCols(n);
-        piece.k_rate.block(c * n, b * n, n, n) += both * v.rightCols(n);
       }
     }
   }
@@ -241,8 +136,7 @@ void DelayCycle::fill_reads(std::size_t index) {
         h += coefficients.stiffness(other, angle);
       }
       delayed.h.push_back(h);
-      delayed.read.push_back(even ? Read{i, true, n, {}}
-                                  : read_at(angle - process_.pitch_rad(j), i, n));
+      delayed.read.push_back(even ? Read{i, true, n, {}} : read_at(angle - process_.pitch_rad(j)));
     }
     const bool answers = std::ranges::any_of(
         delayed.h, [](const Eigen::Matrix2d& h) { return h.cwiseAbs().maxCoeff() > 0.0; });
@@ -250,10 +144,10 @@ void DelayCycle::fill_reads(std::size_t index) {
       piece.delayed.push_back(std::move(delayed));
     }
   }
-  fill_cut(piece, mean_rev_s_);
+  fill_cut(piece);
 }
 
-DelayCycle::Read DelayCycle::read_at(double angle_rad, std::size_t own, Index node) const {
+DelayCycle::Read DelayCycle::read_at(double angle_rad) const {
   const bool before = angle_rad < 0.0;
   const double within = before ? angle_rad + pass_rad_ : angle_rad;
   const auto& pass = pieces_[0];
@@ -265,19 +159,16 @@ DelayCycle::Read DelayCycle::read_at(double angle_rad, std::size_t own, Index no
   Read out{i, before, 0, {}};
   out.row =
       gauss.interpolation((within - pass[i].begin_rad) / (pass[i].end_rad - pass[i].begin_rad));
-  (void)own;
-  (void)node;
   return out;
 }
 
-void DelayCycle::fill_cut(Piece& piece, double speed_rev_s) const {
+void DelayCycle::fill_cut(Piece& piece) const {
   const GaussNodes& gauss = GaussNodes::of(piece.nodes);
   const CuttingCoefficients coefficients(process_, depth_mm_);
   const Index n = piece.nodes;
   const bool damped = process_.cut.process_damping_n_mm > 0.0;
   piece.hk.setZero(n * components_, n * components_);
   piece.hphi.setZero(n * components_, piece.phi.cols());
-  (void)speed_rev_s;
   for (Index i = 0; i < n; ++i) {
     Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
     for (const Delayed& delayed : piece.delayed) {

@@ -9,6 +9,7 @@
 
 #include <steadyrest/chatter/offline/cutting_coefficients.hpp>
 #include <steadyrest/chatter/offline/gauss_nodes.hpp>
+#include <steadyrest/chatter/offline/modal_answers.hpp>
 #include <steadyrest/chatter/offline/process.hpp>
 #include <steadyrest/chatter/offline/speed_profile.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -82,20 +83,14 @@ class DelayCycle {
     std::vector<Eigen::Matrix2d> h;  ///< of the tooth at each node
     std::vector<Read> read;          ///< at each node
   };
-  struct Piece {
+  struct Piece : ModalAnswers {
     double begin_rad = 0.0;  ///< within the pass
     double end_rad = 0.0;
     Eigen::Index nodes = 0;
     bool cuts = false;
-    Eigen::VectorXd sigma_s;   ///< length of the piece over Ω at each node
-    Eigen::MatrixXd phi;       ///< displacement at the nodes from the state, N×2m
-    Eigen::MatrixXd phi_rate;  ///< its rate
-    Eigen::MatrixXd k;         ///< … from the forces, N×N
-    Eigen::MatrixXd k_rate;
-    Eigen::MatrixXd e;     ///< state at the end from the state, 2m×2m
-    Eigen::MatrixXd r;     ///< … from the forces, 2m×N
-    Eigen::MatrixXd hk;    ///< HK + PK̇
-    Eigen::MatrixXd hphi;  ///< HΦ + PΦ̇
+    Eigen::VectorXd sigma_s;  ///< length of the piece over Ω at each node
+    Eigen::MatrixXd hk;       ///< HK + PK̇
+    Eigen::MatrixXd hphi;     ///< HΦ + PΦ̇
     std::vector<Delayed> delayed;
     // At the present depth, the forces eliminated; `back` are the delayed answers at the nodes:
     Eigen::MatrixXd x_state;  ///< displacement at the nodes from the state …
@@ -107,12 +102,10 @@ class DelayCycle {
   };
 
   DelayCycle() = default;
-  [[nodiscard]] std::vector<double> borders(const SpeedProfile& speed) const;
   void plan(const SpeedProfile& speed, const Config& config);
-  void fill_modes(Piece& piece) const;
-  void fill_cut(Piece& piece, double speed_rev_s) const;
+  void fill_cut(Piece& piece) const;
   void fill_reads(std::size_t index);
-  [[nodiscard]] Read read_at(double angle_rad, std::size_t own, Eigen::Index node) const;
+  [[nodiscard]] Read read_at(double angle_rad) const;
   [[nodiscard]] Eigen::VectorXd delayed(const Piece& piece,
                                         const Eigen::Ref<Eigen::VectorXd>& state) const;
 
@@ -121,7 +114,6 @@ class DelayCycle {
   double pass_rad_ = 0.0;
   double period_s_ = 0.0;
   double depth_mm_ = 0.0;
-  double mean_rev_s_ = 0.0;
   std::size_t passes_ = 1;
   std::size_t law_periods_ = 1;
   std::vector<std::vector<Piece>> pieces_;  ///< [pass][piece]; the same borders in each pass

@@ -14,6 +14,8 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kMostXi = 3.0;     ///< smaller multipliers are left to Arnoldi's method
+constexpr double kFollowed = 1.35;  ///< zeros farther out over the nearest are left
+constexpr double kSpan = 0.2;       ///< of the depth, for which one disc is to serve
 constexpr double kSame = 1e-7;      ///< two zeros are one, relative
 constexpr double kLastStep = 1e-5;  ///< relative; the error left is far smaller
 constexpr double kNudge = 1e-3;     ///< for derivatives, relative
@@ -44,7 +46,7 @@ Complex upper(Complex xi) {
 
 DepthTracker::DepthTracker(Process process, double speed_rev_s, double most_depth_mm)
     : process_(std::move(process)), speed_rev_s_(speed_rev_s), most_depth_mm_(most_depth_mm) {
-  for (const Complex& mu : pass(kMostXi, 0.0).free()) {
+  for (const Complex& mu : pass(0.0).free()) {
     if (std::abs(mu) * kMostXi > 1.0) {
       roots_.push_back({upper(1.0 / mu), 0.0});
     }
@@ -58,17 +60,18 @@ void DepthTracker::sort() {
     return std::abs(a.xi - b.xi) < kSame * std::abs(a.xi);
   };
   roots_.erase(std::unique(roots_.begin(), roots_.end(), same), roots_.end());
-  std::erase_if(roots_, [](const Root& r) { return std::abs(r.xi) > kMostXi; });
+  const double most =
+      roots_.empty() ? kMostXi : std::min(kMostXi, kFollowed * std::abs(roots_[0].xi));
+  std::erase_if(roots_, [most](const Root& r) { return std::abs(r.xi) > most; });
   if (roots_.size() > kMostRoots) {
     roots_.resize(kMostRoots);
   }
 }
 
-const PassMatrix& DepthTracker::pass(double size, double depth_mm) {
-  const double z = (1.0 + size) * depth_mm;
+const PassMatrix& DepthTracker::pass(double z_mm) {
   double most = (1.0 + 2.0 * kMostXi) * most_depth_mm_;
   std::size_t level = 0;
-  while (level + 1 < kLevels && z <= most / kLevelRatio) {
+  while (level + 1 < kLevels && z_mm <= most / kLevelRatio) {
     most /= kLevelRatio;
     ++level;
   }
@@ -78,19 +81,53 @@ const PassMatrix& DepthTracker::pass(double size, double depth_mm) {
   return *pass_[level];
 }
 
+void DepthTracker::aim(double size, double depth_mm) {
+  if (disc_ && disc_->holds(depth_mm, size * depth_mm)) {
+    return;
+  }
+  for (double span = kSpan; span > 0.02; span *= 0.25) {
+    const double center = (1.0 + 0.5 * span) * depth_mm;
+    const double radius = 0.5 * span * depth_mm + size * (1.0 + span) * depth_mm;
+    disc_ = PassDisc::make(pass(center + radius), center, radius, terms_);
+    if (disc_) {
+      terms_ = disc_->terms();
+      return;
+    }
+  }
+}
+
+void DepthTracker::g(std::span<const Complex> xi, double depth_mm, std::span<Complex> out) {
+  double square = 0.0;
+  for (const Complex& x : xi) {
+    square = std::max(square, std::norm(x));
+  }
+  const double size = std::sqrt(square);
+  if (disc_ && disc_->holds(depth_mm, size * depth_mm)) {
+    disc_->g(xi, depth_mm, out);
+    return;
+  }
+  const PassMatrix& matrix = pass((1.0 + size) * depth_mm);
+  for (std::size_t k = 0; k < xi.size(); k += PassMatrix::kLanes) {
+    PassMatrix::Lanes lanes;
+    std::copy_n(&xi[k], lanes.size(), lanes.begin());
+    std::ranges::copy(matrix.g_lanes(lanes, depth_mm), &out[k]);
+  }
+}
+
 /// Halley's steps, the derivatives from neighbours on either side; empty: they lead nowhere.
 std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm) {
   Complex x = start;
   double h = kNudge * std::abs(start);
   for (int i = 0; i < kMostSteps; ++i) {
-    const auto g = pass(std::abs(x) + h, depth_mm).g_lanes({x, x + h, x - h, x}, depth_mm);
-    const Complex slope = (g[1] - g[2]) / (2.0 * h);
-    const Complex bend = (g[1] - 2.0 * g[0] + g[2]) / (h * h);
-    const Complex below = 2.0 * slope * slope - g[0] * bend;
+    PassMatrix::Lanes at;
+    g(PassMatrix::Lanes{x, x + h, x - h, x}, depth_mm, at);
+    const Complex slope = (at[1] - at[2]) / (2.0 * h);
+    const Complex bend = (at[1] - 2.0 * at[0] + at[2]) / (h * h);
+    const Complex below = 2.0 * slope * slope - at[0] * bend;
     if (std::abs(below) == 0.0) {
-      return g[0] == 0.0 ? std::optional<Complex>(x) : std::nullopt;
+      return at[0] == 0.0 ? std::optional<Complex>(x) : std::nullopt;
     }
-    const Complex step = 2.0 * g[0] * slope / below;
+    const Complex step = 2.0 * at[0] * slope / below;
     x -= step;
     if (!(std::abs(x) < 2.0 * kMostXi)) {
       return std::nullopt;
@@ -142,22 +179,22 @@ std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
     double angle;
     Complex g;
   };
-  const PassMatrix& g = pass(radius, depth_mm);
   const auto at = [&](double angle) {
-    return Point{angle, g.g(std::polar(radius, angle), depth_mm)};
+    const Complex xi = std::polar(radius, angle);
+    PassMatrix::Lanes value;
+    g(PassMatrix::Lanes{xi, xi, xi, xi}, depth_mm, value);
+    return Point{angle, value[0]};
   };
   std::array<Point, kArc> arc{};
-  for (std::size_t k = 0; k < kArc; k += PassMatrix::kLanes) {
-    PassMatrix::Lanes xi;
-    for (std::size_t i = 0; i < xi.size(); ++i) {
-      arc[k + i].angle =
-          std::numbers::pi * static_cast<double>(k + i) / static_cast<double>(kArc - 1);
-      xi[i] = std::polar(radius, arc[k + i].angle);
-    }
-    const PassMatrix::Lanes values = g.g_lanes(xi, depth_mm);
-    for (std::size_t i = 0; i < xi.size(); ++i) {
-      arc[k + i].g = values[i];
-    }
+  std::array<Complex, kArc> xi;
+  std::array<Complex, kArc> value;
+  for (std::size_t k = 0; k < kArc; ++k) {
+    arc[k].angle = std::numbers::pi * static_cast<double>(k) / static_cast<double>(kArc - 1);
+    xi[k] = std::polar(radius, arc[k].angle);
+  }
+  g(xi, depth_mm, value);
+  for (std::size_t k = 0; k < kArc; ++k) {
+    arc[k].g = value[k];
   }
   double turn = 0.0;
   Point last = arc[0];
@@ -263,6 +300,7 @@ void DepthTracker::seed(double depth_mm) {
 }
 
 Complex DepthTracker::dominant(double depth_mm) {
+  aim(kOutside * kFollowed * (roots_.empty() ? 1.0 : std::abs(roots_[0].xi)), depth_mm);
   if (depth_mm != depth_mm_) {
     std::erase_if(roots_, [&](Root& root) { return !follow(root, depth_mm_, depth_mm); });
     sort();
@@ -283,8 +321,8 @@ double DepthTracker::cross(double stable_mm, double unstable_mm, double log_unst
   double a = stable_mm;
   double b = unstable_mm;
   double fa = stable_mm > 0.0 ? std::log(std::abs(dominant(stable_mm)))
-                              : std::log(std::abs(pass(1.0, 0.0).free()[0]));
-  for (const Complex& mu : pass(1.0, 0.0).free()) {
+                              : std::log(std::abs(pass(0.0).free()[0]));
+  for (const Complex& mu : pass(0.0).free()) {
     fa = stable_mm > 0.0 ? fa : std::max(fa, std::log(std::abs(mu)));
   }
   double fb = log_unstable;

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <steadyrest/chatter/offline/delay_cycle.hpp>
+#include <steadyrest/chatter/offline/pass_disc.hpp>
 #include <steadyrest/chatter/offline/pass_matrix.hpp>
 
 /// The dominant multiplier at one speed for depths that rise: constant speed, even pitch, straight
@@ -46,8 +48,12 @@ class DepthTracker {
   [[nodiscard]] bool follow(Root& root, double from_mm, double to_mm);
   [[nodiscard]] std::optional<Complex> refine(Complex start, double depth_mm);
   [[nodiscard]] std::optional<int> zeros_within(double radius, double depth_mm);
-  /// g for |ξ| ≤ `size`.
-  [[nodiscard]] const PassMatrix& pass(double size, double depth_mm);
+  /// For |z| ≤ `z_mm`.
+  [[nodiscard]] const PassMatrix& pass(double z_mm);
+  /// Makes the disc for |ξ| ≤ `size` at this depth and at what comes next.
+  void aim(double size, double depth_mm);
+  /// A multiple of PassMatrix::kLanes of them.
+  void g(std::span<const Complex> xi, double depth_mm, std::span<Complex> out);
   void seed(double depth_mm);
   [[nodiscard]] double cross(double stable_mm, double unstable_mm, double log_unstable);
   [[nodiscard]] bool verified(double depth_mm);
@@ -61,6 +67,8 @@ class DepthTracker {
   static constexpr std::size_t kLevels = 4;
   /// For |z| up to the greatest over 1, 3, 9 …: the fewer, the quicker. Made when first used.
   std::array<std::unique_ptr<PassMatrix>, kLevels> pass_;
+  std::optional<PassDisc> disc_;
+  std::size_t terms_ = 0;  ///< of the last disc
   std::unique_ptr<DelayCycle> cycle_;
   std::vector<Root> roots_;  ///< Im ξ ≥ 0, the smallest |ξ| first
   double depth_mm_ = 0.0;

@@ -6,8 +6,7 @@
 
 #include <Eigen/LU>
 
-#include <steadyrest/chatter/offline/cutting_coefficients.hpp>
-#include <steadyrest/chatter/offline/gauss_nodes.hpp>
+#include <steadyrest/chatter/offline/modal_answers.hpp>
 #include <steadyrest/chatter/offline/pass_matrix.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -15,6 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kPiecePhase = 5.0;  ///< of the fastest oscillation
@@ -22,145 +22,117 @@ constexpr Index kNodes = 14;
 constexpr std::size_t kMostTerms = 32;
 constexpr double kLeastTerm = 1e-14;
 
-/// The modes' answers over one piece of equal step at constant speed; the same for all pieces of
-/// that length.
-struct Answers {
-  Eigen::MatrixXd phi;  ///< displacement at the nodes from the state, cn×2m; c directions
-  Eigen::MatrixXd k;    ///< … from the forces, cn×cn
-  Eigen::MatrixXd e;    ///< state at the end from the state
-  Eigen::MatrixXd r;    ///< … from the forces
-};
-
-Answers answers(const Process& process, double step_s, Index components) {
-  const GaussNodes& gauss = GaussNodes::of(kNodes);
-  const auto modes = static_cast<Index>(process.modes.size());
-  const Eigen::MatrixXd s = step_s * gauss.integral;
-  const Eigen::RowVectorXd end = step_s * gauss.weight.transpose();
-  const Index size = components * kNodes;
-  Answers out{Eigen::MatrixXd::Zero(size, 2 * modes), Eigen::MatrixXd::Zero(size, size),
-              Eigen::MatrixXd::Zero(2 * modes, 2 * modes), Eigen::MatrixXd::Zero(2 * modes, size)};
-  for (Index m = 0; m < modes; ++m) {
-    const Mode& mode = process.modes[static_cast<std::size_t>(m)];
-    const double w = kTurn * mode.frequency_hz;
-    const double d = 2.0 * mode.damping_ratio * w;
-    Eigen::MatrixXd a = d * s + w * w * step_s * step_s * gauss.integral2;
-    a.diagonal().array() += 1.0;
-    Eigen::MatrixXd right(kNodes, kNodes + 2);
-    right.col(0) = -w * w * s.rowwise().sum();
-    right.col(1).setConstant(w);
-    right.rightCols(kNodes) = 1000.0 / mode.mass_kg * s;
-    const Eigen::MatrixXd v = a.partialPivLu().solve(right);
-    Eigen::MatrixXd q = s * v;
-    q.col(0).array() += 1.0;
-    const Eigen::RowVectorXd q_end = end * v;
-    Eigen::RowVectorXd v_end = -w * w * (end * q) - d * q_end;
-    v_end.tail(kNodes) += 1000.0 / mode.mass_kg * end;
-    out.e.block(2 * m, 2 * m, 1, 2) = q_end.head(2);
-    out.e.block(2 * m + 1, 2 * m, 1, 2) = v_end.head(2) / w;
-    out.e(2 * m, 2 * m) += 1.0;
-    out.e(2 * m + 1, 2 * m + 1) += 1.0;
-    for (Index c = 0; c < components; ++c) {
-      const double shape = mode.shape[static_cast<std::size_t>(c)];
-      out.phi.block(c * kNodes, 2 * m, kNodes, 2) = shape * q.leftCols(2);
-      out.r.block(2 * m, c * kNodes, 1, kNodes) = shape * q_end.tail(kNodes);
-      out.r.block(2 * m + 1, c * kNodes, 1, kNodes) = shape * v_end.tail(kNodes) / w;
-      for (Index b = 0; b < components; ++b) {
-        const double both = shape * mode.shape[static_cast<std::size_t>(b)];
-        out.k.block(c * kNodes, b * kNodes, kNodes, kNodes) += both * q.rightCols(kNodes);
-      }
-    }
-  }
-  return out;
-}
-
-/// 2×2 matrices by rows, one in each lane.
+/// N×N matrices by rows, one in each lane.
 using Wide = double __attribute__((vector_size(PassMatrix::kLanes * sizeof(double))));
+template <std::size_t N>
 struct Matrices {
   Wide z_re{};
   Wide z_im{};
-  std::array<Wide, 4> re{Wide{1.0, 1.0, 1.0, 1.0}, Wide{}, Wide{}, Wide{1.0, 1.0, 1.0, 1.0}};
-  std::array<Wide, 4> im{};
+  std::array<Wide, N * N> re{};
+  std::array<Wide, N * N> im{};
 };
 
 /// From the left by Σ term[k]·z^k. Real polynomials at complex points need half of Horner's work:
 /// b_k = c_k + 2·Re z·b_{k+1} − |z|²·b_{k+2} (Knuth, TAOCP 2, 4.6.4).
+template <std::size_t N>
 [[gnu::always_inline]] inline void step_lanes(const double* number, std::size_t terms,
-                                              Matrices& m) {
+                                              Matrices<N>& m) {
   const Wide r = m.z_re + m.z_re;
   const Wide s = m.z_re * m.z_re + m.z_im * m.z_im;
-  std::array<Wide, 4> b1{};
-  std::array<Wide, 4> b2{};
+  std::array<Wide, N * N> b1{};
+  std::array<Wide, N * N> b2{};
   for (std::size_t k = terms - 1; k > 0; --k) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Wide b = number[4 * k + i] + r * b1[i] - s * b2[i];
+    for (std::size_t i = 0; i < N * N; ++i) {
+      const Wide b = number[N * N * k + i] + r * b1[i] - s * b2[i];
       b2[i] = b1[i];
       b1[i] = b;
     }
   }
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < N * N; ++i) {
     b2[i] = number[i] + m.z_re * b1[i] - s * b2[i];  // now the real part
     b1[i] = m.z_im * b1[i];                          // and the imaginary one
   }
   const auto re = m.re;
   const auto im = m.im;
-  for (std::size_t row = 0; row < 2; ++row) {
-    for (std::size_t col = 0; col < 2; ++col) {
-      const std::size_t p = 2 * row;
-      m.re[p + col] =
-          b2[p] * re[col] - b1[p] * im[col] + b2[p + 1] * re[2 + col] - b1[p + 1] * im[2 + col];
-      m.im[p + col] =
-          b2[p] * im[col] + b1[p] * re[col] + b2[p + 1] * im[2 + col] + b1[p + 1] * re[2 + col];
+  for (std::size_t row = 0; row < N; ++row) {
+    for (std::size_t col = 0; col < N; ++col) {
+      Wide sum_re{};
+      Wide sum_im{};
+      for (std::size_t k = 0; k < N; ++k) {
+        sum_re += b2[N * row + k] * re[N * k + col] - b1[N * row + k] * im[N * k + col];
+        sum_im += b2[N * row + k] * im[N * k + col] + b1[N * row + k] * re[N * k + col];
+      }
+      m.re[N * row + col] = sum_re;
+      m.im[N * row + col] = sum_im;
     }
   }
 }
 
 #if defined(__x86_64__)
 /// The same numbers, the lanes in one register: no product is fused with a sum.
+template <std::size_t N>
 __attribute__((target("avx2"))) void step_avx2(const double* number, std::size_t terms,
-                                               Matrices& m) {
-  step_lanes(number, terms, m);
+                                               Matrices<N>& m) {
+  step_lanes<N>(number, terms, m);
 }
 #endif
 
-void step(const double* number, std::size_t terms, Matrices& m) {
+template <std::size_t N>
+void step(const double* number, std::size_t terms, Matrices<N>& m) {
 #if defined(__x86_64__)
   static const bool kWide = __builtin_cpu_supports("avx2") != 0;
   if (kWide) {
-    step_avx2(number, terms, m);
+    step_avx2<N>(number, terms, m);
     return;
   }
 #endif
-  step_lanes(number, terms, m);
+  step_lanes<N>(number, terms, m);
 }
 
-/// Borders of what is smooth within one pass.
-std::vector<double> borders(const CuttingCoefficients& coefficients, double pass_rad) {
-  std::vector<double> all{0.0, pass_rad};
-  for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
-    for (const double c : coefficients.corners_rad(j)) {
-      all.push_back(c - std::floor(c / pass_rad + 1e-12) * pass_rad);
-    }
-  }
-  std::ranges::sort(all);
-  std::vector<double> out;
-  for (const double c : all) {
-    if (out.empty() || c - out.back() > 1e-10) {
-      out.push_back(c);
-    }
-  }
-  out.back() = pass_rad;
-  return out;
-}
-
-double fastest_rad_s(const Process& process, double most_z_mm) {
-  const double stiffness =
-      most_z_mm * std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2);
+double largest(const PassMatrix::Lanes& z) {
   double square = 0.0;
-  for (const Mode& mode : process.modes) {
-    const double w = kTurn * mode.frequency_hz;
-    square = std::max(square, w * w + 1000.0 / mode.mass_kg * stiffness);
+  for (const Complex& each : z) {
+    square = std::max(square, std::norm(each));
   }
   return std::sqrt(square);
+}
+
+std::size_t terms_for(const std::vector<double>& reach_mm, double size_mm) {
+  std::size_t terms = reach_mm.size() - 1;
+  while (terms > 1 && size_mm <= reach_mm[terms - 1]) {
+    --terms;
+  }
+  return terms;
+}
+
+/// The product of all pieces at four z.
+template <std::size_t N, typename AllSeries>
+Matrices<N> product(const AllSeries& all, const std::vector<double>& number,
+                    const PassMatrix::Lanes& z) {
+  Matrices<N> m;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    m.z_re[i] = z[i].real();
+    m.z_im[i] = z[i].imag();
+    for (std::size_t row = 0; row < N; ++row) {
+      m.re[(N + 1) * row][i] = 1.0;
+    }
+  }
+  const double size = largest(z);
+  for (const auto& series : all) {
+    step<N>(&number[series.begin], terms_for(series.reach_mm, size), m);
+  }
+  return m;
+}
+
+template <std::size_t N>
+void entries(const Matrices<N>& m, PassMatrix::Lanes* out) {
+  for (std::size_t col = 0; col < N; ++col) {
+    for (std::size_t row = 0; row < N; ++row) {
+      for (std::size_t i = 0; i < PassMatrix::kLanes; ++i) {
+        out[N * col + row][i] = Complex(m.re[N * row + col][i], m.im[N * row + col][i]);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -171,132 +143,191 @@ bool PassMatrix::simple(const Process& process) noexcept {
 }
 
 PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z_mm)
-    : order_(2 * static_cast<Index>(process.modes.size())), most_z_mm_(most_z_mm) {
+    : order_(2 * static_cast<Index>(process.modes.size())),
+      functions_(order_ == 2 ? 1 : static_cast<std::size_t>(order_ * order_)),
+      most_z_mm_(most_z_mm) {
   const CuttingCoefficients coefficients(process, 0.0);
   const double pass_rad = kTurn / static_cast<double>(process.tool.teeth);
   const double pass_s = pass_rad / (kTurn * speed_rev_s);
-  const double fastest = fastest_rad_s(process, most_z_mm);
-  const GaussNodes& gauss = GaussNodes::of(kNodes);
+  const double fastest = fastest_rad_s(process, most_z_mm, speed_rev_s);
   for (const Mode& mode : process.modes) {
     const double w = kTurn * mode.frequency_hz;
     const double z = mode.damping_ratio;
     free_.push_back(std::exp(Complex(-z * w, w * std::sqrt(1.0 - z * z)) * pass_s));
     free_determinant_ *= std::exp(-2.0 * z * w * pass_s);
   }
-  const Index components =
-      std::ranges::all_of(process.modes, [](const Mode& m) { return m.shape[1] == 0.0; }) ? 1 : 2;
-  const std::vector<double> corner = borders(coefficients, pass_rad);
+  const std::vector<double> corner = corners_of_pass(process, coefficients, pass_rad);
   for (std::size_t i = 0; i + 1 < corner.size(); ++i) {
     const double length = corner[i + 1] - corner[i];
     const double length_s = length / pass_rad * pass_s;
-    const double parts = std::max(1.0, std::ceil(length_s * fastest / kPiecePhase));
-    const Answers a = answers(process, length_s / parts, components);
-    for (double part = 0.0; part < parts; part += 1.0) {
-      Eigen::MatrixXd hphi = Eigen::MatrixXd::Zero(components * kNodes, order_);
-      Eigen::MatrixXd hk = Eigen::MatrixXd::Zero(components * kNodes, components * kNodes);
-      for (Index n = 0; n < kNodes; ++n) {
-        const double angle = corner[i] + length * (part + gauss.node[n]) / parts;
-        Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
-        for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
-          h += coefficients.stiffness(j, angle);
-        }
-        for (Index c = 0; c < components; ++c) {
-          for (Index b = 0; b < components; ++b) {
-            hphi.row(c * kNodes + n) += h(c, b) * a.phi.row(b * kNodes + n);
-            hk.row(c * kNodes + n) += h(c, b) * a.k.row(b * kNodes + n);
-          }
-        }
-      }
-      // (I + z·HK)⁻¹ as a series: HK is a Volterra operator, its powers fall as 1/(2k)!.
-      Series series;
-      series.term.push_back(a.e);
-      Eigen::MatrixXd force = -hphi;
-      double power = 1.0;
-      while (series.term.size() < kMostTerms) {
-        series.term.emplace_back(a.r * force);
-        power *= most_z_mm;
-        if (series.term.back().cwiseAbs().maxCoeff() * power < kLeastTerm) {
-          break;
-        }
-        force = (-(hk * force)).eval();
-      }
-      series_.push_back(std::move(series));
+    if (!cuts_at(coefficients, pass_rad, corner[i] + 0.5 * length)) {
+      add_free(free_answer(process, length_s));
+      continue;
     }
-  }
-  if (order_ == 2) {
-    flatten();
+    const double pieces = std::max(1.0, std::ceil(length_s * fastest / kPiecePhase));
+    add_cutting(process, corner[i], length, length_s, static_cast<Index>(pieces));
   }
 }
 
-void PassMatrix::flatten() {
-  for (const Series& series : series_) {
-    Flat flat{number_.size(), std::vector<double>(series.term.size() + 1)};
-    for (const Eigen::MatrixXd& t : series.term) {
-      number_.insert(number_.end(), {t(0, 0), t(0, 1), t(1, 0), t(1, 1)});
+void PassMatrix::add_free(const Eigen::MatrixXd& e) {
+  series_.push_back({number_.size(), {0.0, most_z_mm_ * 1.0000001}});
+  number_.resize(number_.size() + static_cast<std::size_t>(order_ * order_));
+  Eigen::Map<RowMajor>(&number_[series_.back().begin], order_, order_) = e;
+}
+
+/// Pieces of one length side by side, since the modes' answers are the same in all of them.
+void PassMatrix::add_cutting(const Process& process, double begin_rad, double length_rad,
+                             double length_s, Index pieces) {
+  const GaussNodes& gauss = GaussNodes::of(kNodes);
+  const CuttingCoefficients coefficients(process, 0.0);
+  const Index c = directions(process);
+  const auto parts = static_cast<double>(pieces);
+  const ModalAnswers answers =
+      modal_answers(process, gauss, Eigen::VectorXd::Constant(kNodes, length_s / parts), c, false);
+  std::vector<Eigen::Matrix2d> h(static_cast<std::size_t>(pieces * kNodes));
+  for (Index p = 0; p < pieces; ++p) {
+    for (Index n = 0; n < kNodes; ++n) {
+      Eigen::Matrix2d& sum = h[static_cast<std::size_t>(p * kNodes + n)];
+      sum.setZero();
+      const double angle =
+          begin_rad + length_rad * (static_cast<double>(p) + gauss.node[n]) / parts;
+      for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
+        sum += coefficients.stiffness(j, angle);
+      }
+    }
+  }
+  // −H·y, piece by piece.
+  const auto answer = [&](const Eigen::MatrixXd& y, Eigen::MatrixXd& force) {
+    for (Index col = 0; col < force.cols(); ++col) {
+      for (Index n = 0; n < kNodes; ++n) {
+        const Eigen::Matrix2d& at = h[static_cast<std::size_t>(col / order_ * kNodes + n)];
+        for (Index to = 0; to < c; ++to) {
+          double sum = 0.0;
+          for (Index from = 0; from < c; ++from) {
+            sum += at(to, from) * y(from * kNodes + n, col);
+          }
+          force(to * kNodes + n, col) = -sum;
+        }
+      }
+    }
+  };
+  // (I + z·HK)⁻¹ as a series: HK is a Volterra operator, its powers fall as 1/(2k)!.
+  std::vector<Eigen::MatrixXd> term{answers.e.replicate(1, pieces)};
+  Eigen::MatrixXd y = answers.phi.replicate(1, pieces);
+  Eigen::MatrixXd force(c * kNodes, order_ * pieces);
+  double power = 1.0;
+  while (term.size() < kMostTerms) {
+    answer(y, force);
+    term.emplace_back(answers.r.lazyProduct(force));
+    power *= most_z_mm_;
+    if (term.back().cwiseAbs().maxCoeff() * power < kLeastTerm) {
+      break;
+    }
+    y.noalias() = answers.k * force;
+  }
+  for (Index p = 0; p < pieces; ++p) {
+    Series series{number_.size(), std::vector<double>(term.size() + 1)};
+    number_.resize(number_.size() + term.size() * static_cast<std::size_t>(order_ * order_));
+    double* out = &number_[series.begin];
+    for (const Eigen::MatrixXd& t : term) {
+      Eigen::Map<RowMajor>(out, order_, order_) = t.middleCols(p * order_, order_);
+      out += order_ * order_;
     }
     double reach = most_z_mm_ * 1.0000001;
-    for (std::size_t k = series.term.size(); k-- > 1;) {
-      flat.reach_mm[k + 1] = reach;
-      const double size = series.term[k].cwiseAbs().maxCoeff();
+    for (std::size_t k = term.size(); k-- > 1;) {
+      series.reach_mm[k + 1] = reach;
+      const double size = term[k].middleCols(p * order_, order_).cwiseAbs().maxCoeff();
       reach = std::min(
           reach, size > 0.0 ? std::pow(kLeastTerm / size, 1.0 / static_cast<double>(k)) : reach);
     }
-    flat.reach_mm[1] = reach;
-    flat_.push_back(std::move(flat));
+    series.reach_mm[1] = reach;
+    series_.push_back(std::move(series));
   }
-  series_.clear();
 }
 
-Complex PassMatrix::g(Complex xi, double depth_mm) const {
-  if (order_ == 2) {
-    return g_lanes(Lanes{xi, xi, xi, xi}, depth_mm)[0];
+void PassMatrix::values(const Lanes& z, Lanes* out) const {
+  switch (order_) {
+    case 2: {
+      const Matrices<2> m = product<2>(series_, number_, z);
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        (*out)[i] = Complex(m.re[0][i] + m.re[3][i], m.im[0][i] + m.im[3][i]);
+      }
+      return;
+    }
+    case 4:
+      entries(product<4>(series_, number_, z), out);
+      return;
+    case 6:
+      entries(product<6>(series_, number_, z), out);
+      return;
+    default:
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const Eigen::MatrixXcd m = matrix(z[i]);
+        for (std::size_t f = 0; f < functions_; ++f) {
+          out[f][i] = m(static_cast<Index>(f));
+        }
+      }
   }
-  return g_any(xi, depth_mm * (1.0 - xi));
 }
 
-/// One mode: 1 − ξ·tr M + ξ²·det M, and the determinant does not depend on the cut (Liouville).
-PassMatrix::Lanes PassMatrix::g_lanes(const Lanes& xi, double depth_mm) const {
+Eigen::MatrixXcd PassMatrix::matrix(Complex z) const {
+  Eigen::MatrixXcd m = Eigen::MatrixXcd::Identity(order_, order_);
+  for (const Series& series : series_) {
+    const auto term = [&](std::size_t k) {
+      return Eigen::Map<const RowMajor>(
+          &number_[series.begin + k * static_cast<std::size_t>(order_ * order_)], order_, order_);
+    };
+    std::size_t k = terms_for(series.reach_mm, std::abs(z)) - 1;
+    Eigen::MatrixXcd p = term(k).cast<Complex>();
+    while (k-- > 0) {
+      p = p * z + term(k);
+    }
+    m = (p * m).eval();
+  }
+  return m;
+}
+
+PassMatrix::Lanes PassMatrix::g_of(const Lanes& xi, const Lanes* value) const {
   Lanes out;
-  if (order_ != 2) {
+  if (order_ == 2) {
     for (std::size_t i = 0; i < kLanes; ++i) {
-      out[i] = g_any(xi[i], depth_mm * (1.0 - xi[i]));
+      out[i] = 1.0 - xi[i] * ((*value)[i] - xi[i] * free_determinant_);
     }
     return out;
   }
-  Matrices m;
-  double most = 0.0;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const Complex z = depth_mm * (1.0 - xi[i]);
-    m.z_re[i] = z.real();
-    m.z_im[i] = z.imag();
-    most = std::max(most, std::abs(z));
-  }
-  for (const Flat& flat : flat_) {
-    std::size_t terms = flat.reach_mm.size() - 1;
-    while (terms > 1 && most <= flat.reach_mm[terms - 1]) {
-      --terms;
+  constexpr int kMost = 8;
+  using Small = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
+  const auto determinant = [&]<typename Matrix>(Matrix m, std::size_t i) {
+    for (std::size_t f = 0; f < functions_; ++f) {
+      m(static_cast<Index>(f)) = -xi[i] * value[f][i];
     }
-    step(&number_[flat.begin], terms, m);
-  }
+    m.diagonal().array() += 1.0;
+    return m.partialPivLu().determinant();
+  };
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const Complex trace(m.re[0][i] + m.re[3][i], m.im[0][i] + m.im[3][i]);
-    out[i] = 1.0 - xi[i] * trace + xi[i] * xi[i] * free_determinant_;
+    out[i] = order_ <= kMost ? determinant(Small(order_, order_), i)
+                             : determinant(Eigen::MatrixXcd(order_, order_), i);
   }
   return out;
 }
 
-Complex PassMatrix::g_any(Complex xi, Complex z) const {
-  Eigen::MatrixXcd m = Eigen::MatrixXcd::Identity(order_, order_);
-  for (const Series& series : series_) {
-    Eigen::MatrixXcd p = series.term.back().cast<Complex>();
-    for (std::size_t k = series.term.size() - 1; k-- > 0;) {
-      p = p * z + series.term[k];
-    }
-    m = (p * m).eval();
+Complex PassMatrix::g(Complex xi, double depth_mm) const {
+  return g_lanes(Lanes{xi, xi, xi, xi}, depth_mm)[0];
+}
+
+PassMatrix::Lanes PassMatrix::g_lanes(const Lanes& xi, double depth_mm) const {
+  Lanes z;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    z[i] = depth_mm * (1.0 - xi[i]);
   }
-  m *= -xi;
-  m.diagonal().array() += 1.0;
-  return m.partialPivLu().determinant();
+  if (functions_ == 1) {
+    Lanes trace;
+    values(z, &trace);
+    return g_of(xi, &trace);
+  }
+  std::vector<Lanes> value(functions_);
+  values(z, value.data());
+  return g_of(xi, value.data());
 }
 
 }  // namespace steadyrest::chatter::offline

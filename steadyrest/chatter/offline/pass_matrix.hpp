@@ -24,6 +24,9 @@ namespace steadyrest::chatter::offline {
 class PassMatrix {
  public:
   using Complex = std::complex<double>;
+  /// So many z or ξ at once, for little more than the price of one.
+  static constexpr std::size_t kLanes = 4;
+  using Lanes = std::array<Complex, kLanes>;
 
   /// The process must be `simple()`.
   PassMatrix(const Process& process, double speed_rev_s, double most_z_mm);
@@ -31,33 +34,36 @@ class PassMatrix {
   /// Even pitch, straight teeth, no process damping.
   [[nodiscard]] static bool simple(const Process& process) noexcept;
 
+  /// What g is made of besides ξ: the trace of M where M is 2×2 (then its determinant does not
+  /// depend on the cut, by Liouville), else its entries by columns.
+  [[nodiscard]] std::size_t functions() const noexcept { return functions_; }
+  /// At four z, `functions()` of them from `out` on.
+  void values(const Lanes& z, Lanes* out) const;
+  /// g of four ξ from those of z = a·(1 − ξ).
+  [[nodiscard]] Lanes g_of(const Lanes& xi, const Lanes* value) const;
+
   [[nodiscard]] Complex g(Complex xi, double depth_mm) const;
-  /// At four ξ for little more than the price of one.
-  static constexpr std::size_t kLanes = 4;
-  using Lanes = std::array<Complex, kLanes>;
   [[nodiscard]] Lanes g_lanes(const Lanes& xi, double depth_mm) const;
   [[nodiscard]] double most_z_mm() const noexcept { return most_z_mm_; }
   /// Multipliers of the free vibration, one of each conjugate pair.
   [[nodiscard]] const std::vector<Complex>& free() const noexcept { return free_; }
 
  private:
-  /// M of one piece is Σ term[k]·z^k.
+  /// M of one piece is Σ term[k]·z^k; the terms by rows from `begin` on.
   struct Series {
-    std::vector<Eigen::MatrixXd> term;
-  };
-  /// The same where the order is 2: terms of four numbers, by rows, from `begin` on.
-  struct Flat {
     std::size_t begin = 0;
     std::vector<double> reach_mm;  ///< |z| up to which that many terms suffice
   };
-  void flatten();
-  [[nodiscard]] Complex g_any(Complex xi, Complex z) const;
+  void add_free(const Eigen::MatrixXd& e);
+  void add_cutting(const Process& process, double begin_rad, double length_rad, double length_s,
+                   Eigen::Index pieces);
+  [[nodiscard]] Eigen::MatrixXcd matrix(Complex z) const;
 
   Eigen::Index order_;
+  std::size_t functions_;
   double most_z_mm_;
   double free_determinant_ = 1.0;
   std::vector<Series> series_;
-  std::vector<Flat> flat_;
   std::vector<double> number_;
   std::vector<Complex> free_;
 };

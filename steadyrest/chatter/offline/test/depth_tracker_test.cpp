@@ -60,5 +60,41 @@ TEST(DepthTracker, AgreesWithArnoldiAtEveryDepth) {
   }
 }
 
+/// Modes along x, y and between them; the deep end has multipliers of some thousands.
+TEST(DepthTracker, AgreesWithArnoldiForSeveralModes) {
+  Process two = benchmark_cut(0.3, Direction::down);
+  two.tool.teeth = 4;
+  Mode y = two.modes[0];
+  y.shape = {0.0, 1.0};
+  y.frequency_hz = 1100.0;
+  y.damping_ratio = 0.02;
+  two.modes.push_back(y);
+  Process three = benchmark_cut(1.0, Direction::up);
+  three.tool.teeth = 3;
+  Mode oblique = three.modes[0];
+  oblique.shape = {0.8, 0.6};
+  oblique.frequency_hz = 1890.0;
+  three.modes.push_back(y);
+  three.modes.push_back(oblique);
+  for (const Process& cut : {two, three}) {
+    for (const double rpm : {6200.0, 8589.74358974359, 21000.0}) {
+      DepthTracker tracker(cut, rpm / 60.0, 10.0);
+      DelayCycle::Config config;
+      config.speed_rev_s = rpm / 60.0;
+      config.most_depth_mm = 10.0;
+      DelayCycle cycle = DelayCycle::make(cut, config).value();
+      for (int i = 1; i <= 99; ++i) {
+        const double depth = 10.0 * i / 99.0;
+        const double log_modulus = std::log(std::abs(tracker.dominant(depth)));
+        if (i % 7 == 1) {
+          cycle.set_depth(depth);
+          EXPECT_NEAR(log_modulus, multipliers(cycle, 1).log_modulus[0], 1e-8)
+              << cut.modes.size() << " modes, " << rpm << " " << depth;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace steadyrest::chatter::offline::test
