@@ -28,6 +28,7 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
   DelayCycle out;
   out.process_ = process;
   out.components_ = directions(process);
+  out.plain_ = process.even_pitch() && process.cut.process_damping_n_mm == 0.0;
   const bool even = process.even_pitch();
   out.pass_rad_ = even ? kTurn / static_cast<double>(process.tool.teeth) : kTurn;
   const auto whole = [&out](double angle_rad) {
@@ -110,11 +111,37 @@ void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
       }
       static_cast<ModalAnswers&>(piece) = modal_answers(process_, gauss, piece.sigma_s, components_,
                                                         process_.cut.process_damping_n_mm > 0.0);
-      if (piece.cuts) {
+      if (piece.cuts && plain_) {
+        fill_plain(piece);
+      } else if (piece.cuts) {
         fill_reads(i + p * pass.size());
       }
     }
   }
+}
+
+/// KH and RH of all teeth; what else there is of K is not needed.
+void DelayCycle::fill_plain(Piece& piece) const {
+  const GaussNodes& gauss = GaussNodes::of(piece.nodes);
+  const CuttingCoefficients coefficients(process_, depth_mm_);
+  const Index n = piece.nodes;
+  piece.answer.setZero(piece.k.rows(), piece.k.cols());
+  piece.rh.setZero(piece.r.rows(), piece.r.cols());
+  for (Index i = 0; i < n; ++i) {
+    const double angle = piece.begin_rad + (piece.end_rad - piece.begin_rad) * gauss.node[i];
+    Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
+    for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
+      h += coefficients.stiffness(j, angle);
+    }
+    for (Index c = 0; c < components_; ++c) {
+      for (Index b = 0; b < components_; ++b) {
+        piece.answer.col(b * n + i) += h(c, b) * piece.k.col(c * n + i);
+        piece.rh.col(b * n + i) += h(c, b) * piece.r.col(c * n + i);
+      }
+    }
+  }
+  piece.k.resize(0, 0);
+  piece.r.resize(0, 0);
 }
 
 /// H and P at the nodes, and where each tooth's delayed displacement is read.
@@ -167,7 +194,7 @@ void DelayCycle::fill_cut(Piece& piece) const {
   const CuttingCoefficients coefficients(process_, depth_mm_);
   const Index n = piece.nodes;
   const bool damped = process_.cut.process_damping_n_mm > 0.0;
-  piece.hk.setZero(n * components_, n * components_);
+  piece.answer.setZero(n * components_, n * components_);
   piece.hphi.setZero(n * components_, piece.phi.cols());
   for (Index i = 0; i < n; ++i) {
     Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
@@ -185,10 +212,10 @@ void DelayCycle::fill_cut(Piece& piece) const {
     }
     for (Index c = 0; c < components_; ++c) {
       for (Index b = 0; b < components_; ++b) {
-        piece.hk.row(c * n + i) += h(c, b) * piece.k.row(b * n + i);
+        piece.answer.row(c * n + i) += h(c, b) * piece.k.row(b * n + i);
         piece.hphi.row(c * n + i) += h(c, b) * piece.phi.row(b * n + i);
         if (damped) {
-          piece.hk.row(c * n + i) += p(c, b) * piece.k_rate.row(b * n + i);
+          piece.answer.row(c * n + i) += p(c, b) * piece.k_rate.row(b * n + i);
           piece.hphi.row(c * n + i) += p(c, b) * piece.phi_rate.row(b * n + i);
         }
       }
@@ -201,23 +228,17 @@ void DelayCycle::set_depth(double depth_mm) {
   for (auto& pass : pieces_) {
     for (Piece& piece : pass) {
       if (piece.cuts) {
-        Eigen::MatrixXd a = depth_mm * piece.hk;
-        a.diagonal().array() += 1.0;
-        const Eigen::MatrixXd inverse = depth_mm * a.partialPivLu().inverse();
-        piece.x_back.noalias() = piece.k * inverse;
-        piece.e_back.noalias() = piece.r * inverse;
-        piece.x_state = piece.phi - piece.x_back * piece.hphi;
-        piece.e_state = piece.e - piece.e_back * piece.hphi;
+        piece.inverse.make(piece.answer, depth_mm);
       }
     }
   }
 }
 
 /// Σ_j H_j·x(θ − δ_j) at the nodes.
-Eigen::VectorXd DelayCycle::delayed(const Piece& piece,
-                                    const Eigen::Ref<Eigen::VectorXd>& state) const {
+void DelayCycle::delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& state,
+                         Eigen::Ref<Eigen::VectorXd> out) const {
   const Index n = piece.nodes;
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(n * components_);
+  out.setZero();
   for (const Delayed& term : piece.delayed) {
     for (Index i = 0; i < n; ++i) {
       const Read& read = term.read[static_cast<std::size_t>(i)];
@@ -240,27 +261,47 @@ Eigen::VectorXd DelayCycle::delayed(const Piece& piece,
       }
     }
   }
-  return out;
 }
 
 void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
   // A piece's values of this pass take the place of the last one's as soon as it is passed: no
   // delay is longer than a pass.
   const Index modal_size = 2 * static_cast<Index>(process_.modes.size());
-  Eigen::VectorXd modal = state.head(modal_size);
+  modal_ = state.head(modal_size);
   for (Piece& piece : pieces_[pass]) {
     if (!piece.cuts) {
-      piece.x = piece.phi * modal;
-      modal = piece.e * modal;
+      piece.x.noalias() = piece.phi * modal_;
+      modal_ = piece.e * modal_;
       continue;
     }
-    const Eigen::VectorXd back = delayed(piece, state);
-    piece.x.noalias() = piece.x_state * modal;
-    piece.x.noalias() += piece.x_back * back;
-    modal = (piece.e_state * modal + piece.e_back * back).eval();
-    state.segment(piece.slot, piece.x.size()) = piece.x;
+    const Index size = piece.nodes * components_;
+    auto before = state.segment(piece.slot, size);
+    const auto solve = [&] {
+      solved_.resize(size);
+      piece.inverse.apply({right_.data(), static_cast<std::size_t>(size)},
+                          {solved_.data(), static_cast<std::size_t>(size)});
+    };
+    right_.resize(size);
+    if (plain_) {
+      right_ = -before;
+      right_.noalias() += piece.phi * modal_;
+      solve();
+      piece.x = before + solved_;
+      modal_ = piece.e * modal_;
+      modal_.noalias() -= piece.rh * (depth_mm_ * solved_);
+    } else {
+      delayed(piece, state, right_);
+      right_.noalias() -= piece.hphi * modal_;
+      solve();
+      solved_ *= depth_mm_;
+      piece.x.noalias() = piece.phi * modal_;
+      piece.x.noalias() += piece.k * solved_;
+      modal_ = piece.e * modal_;
+      modal_.noalias() += piece.r * solved_;
+    }
+    before = piece.x;
   }
-  state.head(modal_size) = modal;
+  state.head(modal_size) = modal_;
 }
 
 // A Ref is a view, cheap to hand on.

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <steadyrest/chatter/offline/cutting_coefficients.hpp>
 #include <steadyrest/chatter/offline/gauss_nodes.hpp>
 #include <steadyrest/chatter/offline/modal_answers.hpp>
 #include <steadyrest/chatter/offline/process.hpp>
+#include <steadyrest/chatter/offline/small_inverse.hpp>
 #include <steadyrest/chatter/offline/speed_profile.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -24,8 +24,9 @@
 /// are collocated at Gauss–Legendre nodes. With K the modes' answer to forces at the nodes and
 /// Φ·s that to the state at the piece's start, the forces follow from (I + a·(HK + PK̇))·F =
 /// −a·(HΦ + PΦ̇)·s + a·Σ H_j·x_delayed; the depth a enters linearly (but for helical teeth), so that
-/// K is made once for a speed. The error falls exponentially with the nodes: at the default
-/// accuracy multipliers are good to 1e-9.
+/// K is made once for a speed. With one delay and no damping the displacements themselves follow
+/// without F: (I + a·KH)·(x − x_delayed) = Φ·s − x_delayed. The error falls exponentially with the
+/// nodes: at the default accuracy multipliers are good to 1e-9.
 ///
 /// State: q and v/ω of each mode, then the displacements at the nodes of the cutting pieces within
 /// the longest delay before the period's end. Unit: mm.
@@ -89,28 +90,27 @@ class DelayCycle {
     Eigen::Index nodes = 0;
     bool cuts = false;
     Eigen::VectorXd sigma_s;  ///< length of the piece over Ω at each node
-    Eigen::MatrixXd hk;       ///< HK + PK̇
+    Eigen::MatrixXd answer;   ///< KH, or HK + PK̇ of the forces
     Eigen::MatrixXd hphi;     ///< HΦ + PΦ̇
+    Eigen::MatrixXd rh;       ///< RH
     std::vector<Delayed> delayed;
-    // At the present depth, the forces eliminated; `back` are the delayed answers at the nodes:
-    Eigen::MatrixXd x_state;  ///< displacement at the nodes from the state …
-    Eigen::MatrixXd x_back;   ///< … and from what comes back
-    Eigen::MatrixXd e_state;  ///< state at the end from the state …
-    Eigen::MatrixXd e_back;   ///< … and from what comes back
-    Eigen::VectorXd x;        ///< displacements when last passed
-    Eigen::Index slot = -1;   ///< where they stand in the state; −1: nobody reads them
+    SmallInverse inverse;    ///< of I + a·answer at the present depth
+    Eigen::VectorXd x;       ///< displacements when last passed
+    Eigen::Index slot = -1;  ///< where they stand in the state; −1: nobody reads them
   };
 
   DelayCycle() = default;
   void plan(const SpeedProfile& speed, const Config& config);
+  void fill_plain(Piece& piece) const;
   void fill_cut(Piece& piece) const;
   void fill_reads(std::size_t index);
   [[nodiscard]] Read read_at(double angle_rad) const;
-  [[nodiscard]] Eigen::VectorXd delayed(const Piece& piece,
-                                        const Eigen::Ref<Eigen::VectorXd>& state) const;
+  void delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& state,
+               Eigen::Ref<Eigen::VectorXd> out) const;
 
   Process process_;
   Eigen::Index components_ = 1;  ///< 1: x alone vibrates
+  bool plain_ = true;            ///< one delay and no process damping
   double pass_rad_ = 0.0;
   double period_s_ = 0.0;
   double depth_mm_ = 0.0;
@@ -118,6 +118,9 @@ class DelayCycle {
   std::size_t law_periods_ = 1;
   std::vector<std::vector<Piece>> pieces_;  ///< [pass][piece]; the same borders in each pass
   Eigen::Index state_size_ = 0;
+  Eigen::VectorXd modal_;  ///< of advance()
+  Eigen::VectorXd right_;
+  Eigen::VectorXd solved_;
 };
 
 }  // namespace steadyrest::chatter::offline
