@@ -16,13 +16,14 @@ constexpr double kGuardBins = 1.5;  // half width of what a line takes of the sp
 constexpr double kWideBins = 8.0;   // tooth orders nearer than this leave no gap to look into
 constexpr double kJump = 4.0;       // in the tooth orders' energy: the tool enters or leaves
 constexpr double kFirstJump =
-    2.5;                           // the same, of the first cut: air has no tooth orders that sweep
-constexpr double kAllJump = 2.5;   // in the whole signal's energy
-constexpr double kSlowRev = 20.0;  // memory of the energy that a jump is measured against
+    2.5;                          // the same, of the first cut: air has no tooth orders that sweep
+constexpr double kAllJump = 2.5;  // in the whole signal's energy
+constexpr double kNoiseJump = 7.0;  // the same into the first cut, over the noise's own spread
+constexpr double kSlowRev = 20.0;   // memory of the energy that a jump is measured against
 constexpr double kWitnessShare = 0.25;
 constexpr double kLearnRev = 1.5;  // until the filter knows a new cut
 constexpr double kLasting = 0.7;   // of the window's line energy that the last revolution still has
-constexpr double kOffSpindle = 2.0;   // runout's orders take a part of chatter as well
+constexpr double kOffSpindle = 6.0;   // runout's orders take a part of chatter as well
 constexpr double kFreeNoise = 2.0;    // the noise's spread
 constexpr double kFreeSteady = 0.05;  // of a line that the energy ratio finds suspect
 constexpr double kFreeSure = 0.25;    // at constant speed chatter without the other witnesses
@@ -31,8 +32,12 @@ constexpr double kFreeLearnS = 0.5;
 constexpr double kFreeRiseS = 0.13;
 constexpr double kFreeFallS = 30.0;
 constexpr double kFreeOff = 0.5;
-constexpr double kEvidenceStep = 0.1;  // most that one spectrum gives
-constexpr double kEvidence = 0.15;
+constexpr double kEvidenceStep = 0.2;  // most that one spectrum gives
+constexpr double kEvidenceFall = 0.1;  // most that one takes
+constexpr double kEvidence = 0.25;
+constexpr double kLaterS = 0.17;  // a cut that was stable so long is believed more
+constexpr double kLaterEvidence = 0.45;
+constexpr double kLaterBound = 1.5;
 constexpr double kLongestHoldS = 2.0;
 constexpr double kFloorRiseS = 0.5;
 constexpr double kFloorFallS = 2.0;
@@ -150,10 +155,12 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
   state_.energy += turn_share * (moving * moving - state_.energy);
   const double before = std::max(state_.slow_all, config_.least_energy);
   state_.slow_all += slow * (moving * moving - state_.slow_all);
+  // A mean over a revolution of white noise's energy spreads by √turn_share; air has nothing else.
+  const double first_jump = std::min(kAllJump, 1.0 + kNoiseJump * std::sqrt(turn_share));
   const bool entered =
       state_.tooth_energy > (state_.opened ? kJump : kFirstJump) *
                                 std::max(state_.slow_energy, config_.least_energy) ||
-      state_.energy > kAllJump * before;
+      state_.energy > (state_.opened ? kAllJump : first_jump) * before;
   const double pause_rev = state_.opened ? kSlowRev : config_.settle_rev;
   const bool calm = !out_.chatter && !state_.hold && state_.suspects == 0;
   if (entered && calm && state_.settled_rev > pause_rev) {
@@ -203,8 +210,9 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   const bool strong = cuts && settled && lines.peak_ratio > config_.line_ratio;
   const bool line = strong && (!steady || lasts(lines) || state_.evidence > 0.0);
   const double over =
-      strong ? std::min(out_.free_ratio - free_bound(), kEvidenceStep) : -kEvidenceStep;
-  state_.evidence = std::clamp(state_.evidence + over, 0.0, kEvidence);
+      strong ? std::clamp(out_.free_ratio - free_bound(), -kEvidenceFall, kEvidenceStep)
+             : -kEvidenceFall;
+  state_.evidence = std::clamp(state_.evidence + over, 0.0, enough());
   const bool suspect = line && (over > 0.0 || (steady && suspect_steady(lines, share)));
   // Hopf chatter is no spindle order: once it is told, the runout may be learnt again, or what was
   // learnt of its beginning would stand for ever. For the same reason flip is held for a while
@@ -226,7 +234,7 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
 
 void Detector::decide(bool steady) noexcept {
   if (!out_.chatter &&
-      (state_.evidence >= kEvidence || (steady && state_.suspects >= config_.confirm))) {
+      (state_.evidence >= enough() || (steady && state_.suspects >= config_.confirm))) {
     out_.chatter = true;
     state_.quiet = 0;
   } else if (out_.chatter && static_cast<double>(state_.quiet) * kHop >= 1.0) {
@@ -270,7 +278,15 @@ bool Detector::suspect_steady(const LineSpectrum::Output& lines,
 /// What the cut has shown so far counts as its own.
 double Detector::free_bound() const noexcept {
   const double least = state_.speed_spread < kSteady ? kFreeSure : config_.free_ratio;
-  return std::max(least, kFreeMargin * state_.floor_free);
+  return std::max(later() ? kLaterBound * least : least, kFreeMargin * state_.floor_free);
+}
+
+bool Detector::later() const noexcept {
+  return static_cast<double>(state_.settled) > kLaterS * config_.sample_rate_hz;
+}
+
+double Detector::enough() const noexcept {
+  return later() ? kLaterEvidence : kEvidence;
 }
 
 void Detector::learn(double line_energy, bool suspect) noexcept {

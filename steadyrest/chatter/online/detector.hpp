@@ -22,17 +22,21 @@ namespace steadyrest::chatter::online {
 /// With C the energy of the lines and P that of the forced vibration,
 ///   energy ratio R = C/(C + P),  free ratio F = φ·R.
 /// Only a spectrum whose strongest line stands `line_ratio` above the noise counts. Two ways:
-///   E += min(F − b, 0.1), never below 0; chatter at E ≥ 0.15. The bound b is `free_ratio` while
-///   the speed moves, else 0.25, and at least 1.2 times what the cut has shown in F before. (R
-///   alone says nothing there: a tooth order that sweeps over a resonance gives 0.9 in stable
-///   cuts.) At constant speed as well: R above `sure_ratio`, or above `on_ratio` with C above
-///   `margin` times what the present cut has shown (learnt while nothing is suspect, from `learn_s`
-///   on), in `confirm` spectra, less those between that were not; unless F is below 0.05, the last
-///   revolution has less than 70 % of the line (it dies away), or the revolution's spread is below
-///   a quarter of what a line of this order and energy gives.
+///   E += F − b, held within −0.1…0.2, never below 0; chatter at E ≥ 0.25. The bound b is
+///   `free_ratio` while the speed moves, else 0.25, and at least 1.2 times what the cut has shown
+///   in F before. (R alone says nothing there: a tooth order that sweeps over a resonance gives 0.9
+///   in stable cuts.) From 0.17 s after the entry on, E ≥ 0.45 and 1.5 times the bound are asked
+///   for: chatter mostly comes with the tool's entry, and a cut near its border lets vibration grow
+///   for a while in each period of the modulation. At constant speed as well: R above `sure_ratio`,
+///   or above `on_ratio` with C above `margin` times what the present cut has shown (learnt while
+///   nothing is suspect, from `learn_s` on), in `confirm` spectra, less those between that were
+///   not; unless F is below 0.05, the last revolution has less than 70 % of the line (it dies
+///   away), or the revolution's spread is below a quarter of what a line of this order and energy
+///   gives.
 /// Chatter is over once R was below `off_ratio`, while the speed moves F below half of
 /// `free_ratio`, for a whole window. For `settle_rev` revolutions after the signal's energy jumped
-/// (the tool enters) nothing is judged.
+/// (the tool enters; out of the air it counts from seven times the spread of the noise's own
+/// energy on, so that noise as loud as the cut does not hide it) nothing is judged.
 ///
 /// The frequency is that of the strongest line of the residual, see LineSpectrum for its accuracy.
 /// Flip: within a line's width of a half-odd tooth order; the lines there are never taken as forced
@@ -136,6 +140,8 @@ class Detector {
   [[nodiscard]] bool suspect_steady(const LineSpectrum::Output& lines,
                                     const FreeShare::Output& share) const noexcept;
   [[nodiscard]] double free_bound() const noexcept;
+  [[nodiscard]] bool later() const noexcept;
+  [[nodiscard]] double enough() const noexcept;
   [[nodiscard]] bool witnessed(double line_energy, double order) const noexcept;
   [[nodiscard]] Kind kind_of(double frequency_hz) const noexcept;
   void learn(double line_energy, bool suspect) noexcept;

@@ -33,10 +33,11 @@ struct Heard {
   Detector::Output last;
 };
 
-Heard listen(const CutSignal& signal, std::size_t teeth, double noise, bool angle = false) {
+Heard listen(const CutSignal& signal, std::size_t teeth, double noise, bool angle = false,
+             unsigned seed = 5) {
   auto detector = Detector::make({.sample_rate_hz = signal.rate_hz, .teeth = teeth});
   EXPECT_TRUE(detector);
-  std::mt19937_64 rng(5);
+  std::mt19937_64 rng(seed);
   std::normal_distribution<double> gauss(0.0, noise > 0.0 ? noise : 1.0);
   Heard heard;
   const kernel::rt::testing::AllocationGuard guard;
@@ -140,6 +141,89 @@ TEST(Detector, IsSilentWhereAToothOrderSweepsOverAResonance) {
   }
   EXPECT_GT(energy_ratio, 0.3);  // the ratio of energies alone takes it for chatter
   EXPECT_LT(free_ratio, 0.1);
+}
+
+TEST(Detector, IsSilentWhenTheToolEntersIntoNoiseAsLoudAsTheCut) {
+  CutModel model = slot(0.49);  // two cuts whose entry raises the energy no more than twofold
+  model.accelerometer = true;
+  model.frequency_hz = {670.0, 730.0};
+  model.damping_ratio = {0.028, 0.025};
+  model.stiffness_n_mm = {8700.0, 4000.0};
+  model.immersion = 0.6;
+  model.speed_rev_s = 70.0;
+  CutModel other = model;
+  other.up = false;
+  other.teeth = 3;
+  other.depth_mm = 0.34;
+  other.frequency_hz = {460.0, 660.0};
+  other.damping_ratio = {0.016, 0.016};
+  other.stiffness_n_mm = {3200.0, 7600.0};
+  other.immersion = 0.65;
+  other.speed_rev_s = 68.0;
+  for (const CutModel& cut : {model, other}) {
+    const CutSignal signal = simulate(cut, 1.2);
+    const Truth truth = truth_of(cut, signal);
+    ASSERT_TRUE(truth.stable);
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+      EXPECT_LT(listen(signal, cut.teeth, truth.forced_rms, false, seed).first_s, 0.0) << seed;
+    }
+  }
+}
+
+/// In both the modulation lets vibration grow for a while in each of its periods.
+TEST(Detector, IsSilentInCutsThatModulationKeepsStable) {
+  CutModel triangle = slot(0.56);
+  triangle.accelerometer = true;
+  triangle.law = Law::triangle;
+  triangle.rva = 0.13;
+  triangle.rvf = 0.068;
+  triangle.speed_rev_s = 195.0;
+  triangle.teeth = 5;
+  triangle.frequency_hz = {462.0, 585.0};
+  triangle.damping_ratio = {0.012, 0.037};
+  triangle.stiffness_n_mm = {7907.0, 7446.0};
+  triangle.immersion = 0.64;
+  CutModel sine = triangle;
+  sine.depth_mm = 0.3;
+  sine.law = Law::sine;
+  sine.rva = 0.17;
+  sine.rvf = 0.111;
+  sine.speed_rev_s = 82.0;
+  sine.teeth = 3;
+  sine.frequency_hz = {1441.0, 718.0};
+  sine.damping_ratio = {0.022, 0.014};
+  sine.stiffness_n_mm = {9708.0, 8855.0};
+  sine.immersion = 0.93;
+  for (const CutModel& model : {triangle, sine}) {
+    const CutSignal signal = simulate(model, 2.0);
+    const Truth truth = truth_of(model, signal);
+    ASSERT_TRUE(truth.stable);
+    for (const double noise : {0.01, 0.05, 0.2, 0.5}) {
+      EXPECT_LT(listen(signal, model.teeth, noise * truth.forced_rms).first_s, 0.0) << noise;
+    }
+  }
+}
+
+/// Rates over cuts drawn by chance; bench/chatter/detector_hunt draws more of them.
+TEST(Detector, HearsModulatedCutsDrawnByChanceInTime) {
+  std::mt19937_64 rng(3);
+  int chattering = 0;
+  int in_time = 0;
+  while (chattering < 15) {
+    CutModel model = random_cut(rng, true);
+    model.air_s = 0.2;
+    const CutSignal signal = simulate(model, 1.0);
+    const Truth truth = truth_of(model, signal);
+    if (!truth.chatters || truth.onset_s > 0.8) {
+      continue;
+    }
+    ++chattering;
+    for (const double noise : {0.05, 0.5}) {
+      const Heard heard = listen(signal, model.teeth, noise * truth.forced_rms);
+      in_time += heard.first_s >= 0.0 && heard.first_s <= truth.onset_s + 0.15 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(in_time, 28);  // 95 % of 30 is 28.5
 }
 
 TEST(Detector, FallsSilentOnceTheChatterIsOver) {
