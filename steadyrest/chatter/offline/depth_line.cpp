@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/chatter/offline/crossing.hpp>
 #include <steadyrest/chatter/offline/depth_line.hpp>
 #include <steadyrest/chatter/offline/multipliers.hpp>
 
@@ -18,9 +19,6 @@ using kernel::outcome::Result;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kTolerance = 1e-10;  ///< of the multipliers
-constexpr double kBracket = 1e-10;    ///< of the border, relative
-constexpr double kOnBorder = 1e-12;   ///< ln ρ
-constexpr int kMostSteps = 60;
 
 std::unexpected<Refusal> refusal(std::string what, std::string to_do) {
   return std::unexpected(Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)});
@@ -62,7 +60,9 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
   out.config_.modulation = modulation;
   out.config_.most_depth_mm = most_depth_mm;
   const double decay = least_decay_1_s(process);
-  if (constant && PassMatrix::simple(process)) {
+  const bool straight =
+      process.tool.helix_rad == 0.0 || process.cut.operation == Operation::turning;
+  if (constant && PassMatrix::simple(process) && (straight || process.modes.size() == 1)) {
     out.tracker_ = std::make_unique<DepthTracker>(process, speed_rev_s, most_depth_mm);
     out.free_log_radius_ = -decay / (speed_rev_s * static_cast<double>(process.tool.teeth));
     return out;
@@ -72,7 +72,7 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
     return std::unexpected(cycle.error());
   }
   out.free_log_radius_ = -decay * cycle->period_s() / static_cast<double>(cycle->law_periods());
-  if (process.tool.helix_rad == 0.0 || process.cut.operation == Operation::turning) {
+  if (straight) {
     out.cycle_ = std::make_unique<DelayCycle>(std::move(*cycle));
   }
   return out;
@@ -102,35 +102,8 @@ double DepthLine::log_radius(double depth_mm) {
 
 double DepthLine::crossing_mm(double stable_mm, double log_stable, double unstable_mm,
                               double log_unstable) {
-  // Illinois: regula falsi that halves the ordinate of an end that stays, so that both ends close
-  // in; ln ρ is smooth but for exchanges of the lead.
-  double a = stable_mm;
-  double b = unstable_mm;
-  double fa = log_stable;
-  double fb = log_unstable;
-  bool last_was_a = false;
-  for (int i = 0; i < kMostSteps && b - a > kBracket * b; ++i) {
-    double middle = (a * fb - b * fa) / (fb - fa);
-    if (!(middle > a && middle < b) || i % 12 == 11) {
-      middle = 0.5 * (a + b);
-    }
-    const double f = log_radius(middle);
-    if (std::abs(f) < kOnBorder) {
-      return middle;
-    }
-    if (f < 0.0) {
-      fb *= i > 0 && last_was_a ? 0.5 : 1.0;
-      a = middle;
-      fa = f;
-      last_was_a = true;
-    } else {
-      fa *= i > 0 && !last_was_a ? 0.5 : 1.0;
-      b = middle;
-      fb = f;
-      last_was_a = false;
-    }
-  }
-  return 0.5 * (a + b);
+  return crossing([this](double depth_mm) { return log_radius(depth_mm); }, {stable_mm, log_stable},
+                  {unstable_mm, log_unstable});
 }
 
 }  // namespace steadyrest::chatter::offline

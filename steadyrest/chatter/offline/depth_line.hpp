@@ -11,9 +11,10 @@
 
 /// ln ρ over the depth of cut at one speed, by the quickest method that is exact for the process.
 ///
-/// Even pitch, straight teeth, constant speed, no process damping: DepthTracker. Else the
-/// DelayCycle, made once for all depths; with helix, where the engagement depends on the depth, for
-/// each depth anew.
+/// Even pitch, constant speed, no process damping: DepthTracker, with helix where there is one mode
+/// (with several it gains nothing, since each depth has its own matrices). Else the DelayCycle,
+/// made once for all depths; with helix, where the engagement depends on the depth, for each depth
+/// anew.
 namespace steadyrest::chatter::offline {
 
 class DepthLine {

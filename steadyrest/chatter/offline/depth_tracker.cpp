@@ -5,7 +5,9 @@
 #include <numbers>
 #include <utility>
 
+#include <steadyrest/chatter/offline/crossing.hpp>
 #include <steadyrest/chatter/offline/depth_tracker.hpp>
+#include <steadyrest/chatter/offline/modal_answers.hpp>
 #include <steadyrest/chatter/offline/multipliers.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -16,6 +18,8 @@ using Complex = std::complex<double>;
 constexpr double kMostXi = 3.0;     ///< smaller multipliers are left to Arnoldi's method
 constexpr double kFollowed = 1.35;  ///< zeros farther out over the nearest are left
 constexpr double kSpan = 0.2;       ///< of the depth, for which one disc is to serve
+constexpr double kLeastSpan = 0.02;
+constexpr double kSpare = 1.05;     ///< of |z| over what is needed
 constexpr double kSame = 1e-7;      ///< two zeros are one, relative
 constexpr double kLastStep = 1e-5;  ///< relative; the error left is far smaller
 constexpr double kNudge = 1e-3;     ///< for derivatives, relative
@@ -29,11 +33,7 @@ constexpr std::size_t kStarts = 9;
 constexpr double kOutside = 1.12;  ///< radius of the counting circle over the zero within
 constexpr double kBetween = 1.03;  ///< a zero nearer to the circle than this is taken inside
 constexpr std::size_t kArc = 16;   ///< points on the half circle, a multiple of the lanes
-constexpr double kMostTurn = 1.6;  ///< rad between neighbours
 constexpr int kMostHalvings = 7;
-constexpr int kMostCrossing = 60;
-constexpr double kCrossed = 1e-10;   ///< bracket of the border, relative
-constexpr double kOnBorder = 1e-12;  ///< ln|μ|
 
 /// One of a conjugate pair; a real zero exactly real.
 Complex upper(Complex xi) {
@@ -42,11 +42,23 @@ Complex upper(Complex xi) {
                                                     : xi;
 }
 
+int quadrant(Complex g) {
+  if (g.imag() >= 0.0) {
+    return g.real() > 0.0 ? 0 : g.imag() > 0.0 ? 1 : 2;
+  }
+  return g.real() < 0.0 ? 2 : 3;
+}
+
 }  // namespace
 
 DepthTracker::DepthTracker(Process process, double speed_rev_s, double most_depth_mm)
-    : process_(std::move(process)), speed_rev_s_(speed_rev_s), most_depth_mm_(most_depth_mm) {
-  for (const Complex& mu : pass(0.0).free()) {
+    : process_(std::move(process)),
+      speed_rev_s_(speed_rev_s),
+      most_depth_mm_(most_depth_mm),
+      each_depth_(process_.tool.helix_rad != 0.0 && process_.cut.operation == Operation::milling) {
+  const double pass_s = 1.0 / (static_cast<double>(process_.tool.teeth) * speed_rev_s_);
+  for (const Complex& mu : free_multipliers(process_, pass_s)) {
+    free_log_radius_ = std::max(free_log_radius_, std::log(std::abs(mu)));
     if (std::abs(mu) * kMostXi > 1.0) {
       roots_.push_back({upper(1.0 / mu), 0.0});
     }
@@ -68,7 +80,15 @@ void DepthTracker::sort() {
   }
 }
 
-const PassMatrix& DepthTracker::pass(double z_mm) {
+const PassMatrix& DepthTracker::pass(double z_mm, double depth_mm) {
+  if (each_depth_) {
+    if (!pass_[0] || depth_mm != made_for_mm_ || pass_[0]->most_z_mm() < z_mm) {
+      disc_.reset();
+      made_for_mm_ = depth_mm;
+      pass_[0] = std::make_unique<PassMatrix>(process_, speed_rev_s_, kSpare * z_mm, depth_mm);
+    }
+    return *pass_[0];
+  }
   double most = (1.0 + 2.0 * kMostXi) * most_depth_mm_;
   std::size_t level = 0;
   while (level + 1 < kLevels && z_mm <= most / kLevelRatio) {
@@ -76,19 +96,20 @@ const PassMatrix& DepthTracker::pass(double z_mm) {
     ++level;
   }
   if (!pass_[level]) {
-    pass_[level] = std::make_unique<PassMatrix>(process_, speed_rev_s_, most);
+    pass_[level] = std::make_unique<PassMatrix>(process_, speed_rev_s_, most, depth_mm);
   }
   return *pass_[level];
 }
 
 void DepthTracker::aim(double size, double depth_mm) {
-  if (disc_ && disc_->holds(depth_mm, size * depth_mm)) {
+  const bool same = !each_depth_ || depth_mm == made_for_mm_;
+  if (same && disc_ && disc_->holds(depth_mm, size * depth_mm)) {
     return;
   }
-  for (double span = kSpan; span > 0.02; span *= 0.25) {
+  for (double span = each_depth_ ? kLeastSpan : kSpan; span >= kLeastSpan; span *= 0.25) {
     const double center = (1.0 + 0.5 * span) * depth_mm;
     const double radius = 0.5 * span * depth_mm + size * (1.0 + span) * depth_mm;
-    disc_ = PassDisc::make(pass(center + radius), center, radius, terms_);
+    disc_ = PassDisc::make(pass(center + radius, depth_mm), center, radius, terms_);
     if (disc_) {
       terms_ = disc_->terms();
       return;
@@ -102,11 +123,12 @@ void DepthTracker::g(std::span<const Complex> xi, double depth_mm, std::span<Com
     square = std::max(square, std::norm(x));
   }
   const double size = std::sqrt(square);
-  if (disc_ && disc_->holds(depth_mm, size * depth_mm)) {
+  const bool same = !each_depth_ || depth_mm == made_for_mm_;
+  if (same && disc_ && disc_->holds(depth_mm, size * depth_mm)) {
     disc_->g(xi, depth_mm, out);
     return;
   }
-  const PassMatrix& matrix = pass((1.0 + size) * depth_mm);
+  const PassMatrix& matrix = pass((1.0 + size) * depth_mm, depth_mm);
   for (std::size_t k = 0; k < xi.size(); k += PassMatrix::kLanes) {
     PassMatrix::Lanes lanes;
     std::copy_n(&xi[k], lanes.size(), lanes.begin());
@@ -115,28 +137,37 @@ void DepthTracker::g(std::span<const Complex> xi, double depth_mm, std::span<Com
 }
 
 /// Halley's steps, the derivatives from neighbours on either side; empty: they lead nowhere.
-std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm) {
+std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm,
+                                            std::span<const Complex> but) {
   Complex x = start;
   double h = kNudge * std::abs(start);
   for (int i = 0; i < kMostSteps; ++i) {
     PassMatrix::Lanes at;
-    g(PassMatrix::Lanes{x, x + h, x - h, x}, depth_mm, at);
+    const PassMatrix::Lanes xi{x, x + h, x - h, x};
+    g(xi, depth_mm, at);
+    for (const Complex& zero : but) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        at[k] /= zero.imag() == 0.0 ? xi[k] - zero : (xi[k] - zero) * (xi[k] - std::conj(zero));
+      }
+    }
     const Complex slope = (at[1] - at[2]) / (2.0 * h);
     const Complex bend = (at[1] - 2.0 * at[0] + at[2]) / (h * h);
     const Complex below = 2.0 * slope * slope - at[0] * bend;
-    if (std::abs(below) == 0.0) {
+    if (below == 0.0) {
       return at[0] == 0.0 ? std::optional<Complex>(x) : std::nullopt;
     }
-    const Complex step = 2.0 * at[0] * slope / below;
+    const Complex step = 2.0 * at[0] * slope * std::conj(below) / std::norm(below);
     x -= step;
-    if (!(std::abs(x) < 2.0 * kMostXi)) {
+    const double size = std::sqrt(std::norm(x));
+    const double moved = std::sqrt(std::norm(step));
+    if (!(size < 2.0 * kMostXi)) {
       return std::nullopt;
     }
     // What is left is about the cube of the step, and its product with the error of the slope.
-    if (std::abs(step) < kLastStep * std::abs(x)) {
+    if (moved < kLastStep * size) {
       return x;
     }
-    h = std::clamp(0.3 * std::abs(step), kLeastNudge * std::abs(x), kNudge * std::abs(x));
+    h = std::clamp(0.3 * moved, kLeastNudge * size, kNudge * size);
   }
   return std::nullopt;
 }
@@ -175,38 +206,38 @@ bool DepthTracker::follow(Root& root, double from_mm, double to_mm) {
 /// Zeros of g with |ξ| < radius by the turns of its argument; empty: the circle passes too near to
 /// one. Conjugate symmetry: half of the circle is enough.
 std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
+  static const std::array<Complex, kArc> kUnit = [] {
+    std::array<Complex, kArc> out;
+    for (std::size_t k = 0; k < kArc; ++k) {
+      out[k] = std::polar(1.0, std::numbers::pi * static_cast<double>(k) / (kArc - 1.0));
+    }
+    return out;
+  }();
   struct Point {
-    double angle;
+    Complex unit;
     Complex g;
   };
-  const auto at = [&](double angle) {
-    const Complex xi = std::polar(radius, angle);
-    PassMatrix::Lanes value;
-    g(PassMatrix::Lanes{xi, xi, xi, xi}, depth_mm, value);
-    return Point{angle, value[0]};
-  };
-  std::array<Point, kArc> arc{};
   std::array<Complex, kArc> xi;
   std::array<Complex, kArc> value;
   for (std::size_t k = 0; k < kArc; ++k) {
-    arc[k].angle = std::numbers::pi * static_cast<double>(k) / static_cast<double>(kArc - 1);
-    xi[k] = std::polar(radius, arc[k].angle);
+    xi[k] = radius * kUnit[k];
   }
   g(xi, depth_mm, value);
-  for (std::size_t k = 0; k < kArc; ++k) {
-    arc[k].g = value[k];
-  }
-  double turn = 0.0;
-  Point last = arc[0];
+  // Real where ξ is.
+  value.front() = value.front().real();
+  value.back() = value.back().real();
+  int quarters = 0;
+  Point last{kUnit[0], value[0]};
   for (std::size_t k = 1; k < kArc; ++k) {
     std::array<Point, kMostHalvings + 1> ahead{};
     std::size_t depth = 0;
-    ahead[0] = arc[k];
+    ahead[0] = {kUnit[k], value[k]};
     while (true) {
       const Point& next = ahead[depth];
-      const double change = std::arg(next.g / last.g);
-      if (std::abs(change) < kMostTurn) {
-        turn += change;
+      // Less than a quarter turn: then the quadrants tell how many of them there are in all.
+      if (next.g.real() * last.g.real() + next.g.imag() * last.g.imag() > 0.0) {
+        const int step = quadrant(next.g) - quadrant(last.g);
+        quarters += step == 3 ? -1 : step == -3 ? 1 : step;
         last = next;
         if (depth == 0) {
           break;
@@ -217,11 +248,15 @@ std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
       if (depth + 1 == ahead.size()) {
         return std::nullopt;
       }
-      ahead[depth + 1] = at(0.5 * (last.angle + next.angle));
-      ++depth;
+      Complex between = last.unit + next.unit;
+      between /= std::sqrt(std::norm(between));
+      const Complex at = radius * between;
+      PassMatrix::Lanes there;
+      g(PassMatrix::Lanes{at, at, at, at}, depth_mm, there);
+      ahead[++depth] = {between, there[0]};
     }
   }
-  return static_cast<int>(std::lround(turn / std::numbers::pi));
+  return quarters / 2;
 }
 
 /// All zeros within a circle that leaves the dominant one well inside are among those followed.
@@ -246,26 +281,34 @@ bool DepthTracker::verified(double depth_mm) {
   return inside.has_value() && *inside == expected;
 }
 
-/// Looks for zeros that have come near from outside.
-void DepthTracker::search(double depth_mm) {
+/// Looks for zeros that have come near from outside, those that are known divided out, until none
+/// is missing.
+bool DepthTracker::search(double depth_mm) {
   const double radius = roots_.empty() ? 1.0 : std::abs(roots_[0].xi);
-  std::vector<Root> found;
+  std::vector<Complex> known;
+  known.reserve(roots_.size() + kStarts);
+  for (const Root& root : roots_) {
+    known.push_back(root.xi);
+  }
   for (std::size_t k = 0; k < kStarts; ++k) {
     const double angle =
         std::numbers::pi * static_cast<double>(k) / static_cast<double>(kStarts - 1);
-    if (const auto xi = refine(std::polar(radius, angle), depth_mm); xi) {
-      found.push_back({upper(*xi), 0.0});
-    }
-  }
-  for (const Root& root : found) {
-    const bool known = std::ranges::any_of(roots_, [&](const Root& other) {
-      return std::abs(other.xi - root.xi) < kSame * std::abs(root.xi);
+    const auto near = refine(std::polar(radius, angle), depth_mm, known);
+    const auto xi = near ? refine(*near, depth_mm) : std::nullopt;
+    const bool is_known = !xi || std::ranges::any_of(known, [&](const Complex& other) {
+      return std::abs(other - upper(*xi)) < kSame * std::abs(other);
     });
-    if (!known) {
-      roots_.push_back(root);
+    if (is_known) {
+      continue;
+    }
+    known.push_back(upper(*xi));
+    roots_.push_back({known.back(), 0.0});
+    sort();
+    if (verified(depth_mm)) {
+      return true;
     }
   }
-  sort();
+  return false;
 }
 
 Complex DepthTracker::by_arnoldi(double depth_mm) {
@@ -289,10 +332,10 @@ Complex DepthTracker::by_arnoldi(double depth_mm) {
 }
 
 void DepthTracker::seed(double depth_mm) {
-  if (!cycle_) {
+  if (!cycle_ || each_depth_) {
     DelayCycle::Config config;
     config.speed_rev_s = speed_rev_s_;
-    config.most_depth_mm = most_depth_mm_;
+    config.most_depth_mm = each_depth_ ? depth_mm : most_depth_mm_;
     auto made = DelayCycle::make(process_, config);
     cycle_ = std::make_unique<DelayCycle>(std::move(made.value()));
   }
@@ -306,61 +349,26 @@ Complex DepthTracker::dominant(double depth_mm) {
     sort();
     depth_mm_ = depth_mm;
   }
-  if (!verified(depth_mm)) {
-    search(depth_mm);
-    if (!verified(depth_mm)) {
-      return by_arnoldi(depth_mm);
-    }
+  if (!verified(depth_mm) && !search(depth_mm)) {
+    return by_arnoldi(depth_mm);
   }
   return upper(1.0 / roots_[0].xi);
 }
 
-/// Regula falsi that halves the ordinate of an end that stays (Illinois): ln|μ| is smooth but for
-/// exchanges of the lead.
-double DepthTracker::cross(double stable_mm, double unstable_mm, double log_unstable) {
-  double a = stable_mm;
-  double b = unstable_mm;
-  double fa = stable_mm > 0.0 ? std::log(std::abs(dominant(stable_mm)))
-                              : std::log(std::abs(pass(0.0).free()[0]));
-  for (const Complex& mu : pass(0.0).free()) {
-    fa = stable_mm > 0.0 ? fa : std::max(fa, std::log(std::abs(mu)));
-  }
-  double fb = log_unstable;
-  int stayed = 0;  // > 0: the upper end
-  for (int i = 0; i < kMostCrossing && b - a > kCrossed * b; ++i) {
-    double middle = (a * fb - b * fa) / (fb - fa);
-    if (!(middle > a && middle < b) || i % 12 == 11) {
-      middle = 0.5 * (a + b);
-    }
-    const double f = std::log(std::abs(dominant(middle)));
-    if (std::abs(f) < kOnBorder) {
-      return middle;
-    }
-    if (f < 0.0) {
-      fb *= stayed > 0 ? 0.5 : 1.0;
-      a = middle;
-      fa = f;
-      stayed = 1;
-    } else {
-      fa *= stayed < 0 ? 0.5 : 1.0;
-      b = middle;
-      fb = f;
-      stayed = -1;
-    }
-  }
-  return 0.5 * (a + b);
-}
-
 std::optional<double> DepthTracker::border_mm(std::size_t steps) {
   double low = 0.0;
+  double log_low = free_log_radius_;
+  const auto log_radius = [this](double depth_mm) {
+    return std::log(std::abs(dominant(depth_mm)));
+  };
   for (std::size_t k = 1; k <= steps; ++k) {
     const double high = most_depth_mm_ * static_cast<double>(k) / static_cast<double>(steps);
-    const double log_high = std::log(std::abs(dominant(high)));
-    if (log_high < 0.0) {
-      low = high;
-      continue;
+    const double log_high = log_radius(high);
+    if (log_high >= 0.0) {
+      return crossing(log_radius, {low, log_low}, {high, log_high});
     }
-    return cross(low, high, log_high);
+    low = high;
+    log_low = log_high;
   }
   return std::nullopt;
 }

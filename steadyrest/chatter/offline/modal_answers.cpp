@@ -3,9 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/LU>
-
 #include <steadyrest/chatter/offline/modal_answers.hpp>
+#include <steadyrest/chatter/offline/small_inverse.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
@@ -92,18 +91,22 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
                    Eigen::MatrixXd::Zero(rates ? size : 0, size),
                    Eigen::MatrixXd::Zero(2 * modes, 2 * modes),
                    Eigen::MatrixXd::Zero(2 * modes, size)};
+  SmallInverse inverse;
   for (Index m = 0; m < modes; ++m) {
     const Mode& mode = process.modes[static_cast<std::size_t>(m)];
     const double w = kTurn * mode.frequency_hz;
     const double d = 2.0 * mode.damping_ratio * w;
-    Eigen::MatrixXd a = d * s + w * w * s2;
-    a.diagonal().array() += 1.0;
+    inverse.make(d * s + w * w * s2, 1.0);
     // Columns: from q₀, from v₀/ω, from the force.
     Eigen::MatrixXd right(n, n + 2);
     right.col(0) = -w * w * s.rowwise().sum();
     right.col(1).setConstant(w);
     right.rightCols(n) = 1000.0 / mode.mass_kg * s;
-    const Eigen::MatrixXd v = a.partialPivLu().solve(right);
+    Eigen::MatrixXd v(n, n + 2);
+    for (Index col = 0; col < n + 2; ++col) {
+      inverse.apply({right.col(col).data(), static_cast<std::size_t>(n)},
+                    {v.col(col).data(), static_cast<std::size_t>(n)});
+    }
     Eigen::MatrixXd q = s * v;
     q.col(0).array() += 1.0;
     const Eigen::RowVectorXd q_end = end * v;
@@ -129,6 +132,17 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
         }
       }
     }
+  }
+  return out;
+}
+
+std::vector<std::complex<double>> free_multipliers(const Process& process, double length_s) {
+  std::vector<std::complex<double>> out;
+  out.reserve(process.modes.size());
+  for (const Mode& mode : process.modes) {
+    const double turn = kTurn * mode.frequency_hz * length_s;
+    const double z = mode.damping_ratio;
+    out.push_back(std::exp(std::complex<double>(-z, std::sqrt(1.0 - z * z)) * turn));
   }
   return out;
 }

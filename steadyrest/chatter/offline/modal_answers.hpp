@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <complex>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,6 +33,10 @@ struct ModalAnswers {
 
 /// Of the free vibration over that time, in closed form: e of the above.
 [[nodiscard]] Eigen::MatrixXd free_answer(const Process& process, double length_s);
+
+/// Multipliers of the free vibration over that time, one of each conjugate pair.
+[[nodiscard]] std::vector<std::complex<double>> free_multipliers(const Process& process,
+                                                                 double length_s);
 
 /// 1: x alone vibrates, else 2.
 [[nodiscard]] Eigen::Index directions(const Process& process) noexcept;

@@ -8,6 +8,7 @@
 
 #include <steadyrest/chatter/offline/modal_answers.hpp>
 #include <steadyrest/chatter/offline/pass_matrix.hpp>
+#include <steadyrest/chatter/offline/piece_terms.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
@@ -18,8 +19,6 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kPiecePhase = 5.0;  ///< of the fastest oscillation
-constexpr Index kNodes = 14;
-constexpr std::size_t kMostTerms = 32;
 constexpr double kLeastTerm = 1e-14;
 
 /// N×N matrices by rows, one in each lane.
@@ -138,24 +137,18 @@ void entries(const Matrices<N>& m, PassMatrix::Lanes* out) {
 }  // namespace
 
 bool PassMatrix::simple(const Process& process) noexcept {
-  return process.even_pitch() && process.cut.process_damping_n_mm == 0.0 &&
-         (process.tool.helix_rad == 0.0 || process.cut.operation == Operation::turning);
+  return process.even_pitch() && process.cut.process_damping_n_mm == 0.0;
 }
 
-PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z_mm)
+PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z_mm,
+                       double depth_mm)
     : order_(2 * static_cast<Index>(process.modes.size())),
       functions_(order_ == 2 ? 1 : static_cast<std::size_t>(order_ * order_)),
       most_z_mm_(most_z_mm) {
-  const CuttingCoefficients coefficients(process, 0.0);
+  const CuttingCoefficients coefficients(process, depth_mm);
   const double pass_rad = kTurn / static_cast<double>(process.tool.teeth);
   const double pass_s = pass_rad / (kTurn * speed_rev_s);
   const double fastest = fastest_rad_s(process, most_z_mm, speed_rev_s);
-  for (const Mode& mode : process.modes) {
-    const double w = kTurn * mode.frequency_hz;
-    const double z = mode.damping_ratio;
-    free_.push_back(std::exp(Complex(-z * w, w * std::sqrt(1.0 - z * z)) * pass_s));
-    free_determinant_ *= std::exp(-2.0 * z * w * pass_s);
-  }
   const std::vector<double> corner = corners_of_pass(process, coefficients, pass_rad);
   for (std::size_t i = 0; i + 1 < corner.size(); ++i) {
     const double length = corner[i + 1] - corner[i];
@@ -165,7 +158,12 @@ PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z
       continue;
     }
     const double pieces = std::max(1.0, std::ceil(length_s * fastest / kPiecePhase));
-    add_cutting(process, corner[i], length, length_s, static_cast<Index>(pieces));
+    add_cutting(
+        {process, coefficients, speed_rev_s, corner[i], length, static_cast<std::size_t>(pieces)});
+  }
+  for (const Series& series : series_) {
+    determinant_ *=
+        Eigen::Map<const RowMajor>(&number_[series.begin], order_, order_).determinant();
   }
 }
 
@@ -175,70 +173,25 @@ void PassMatrix::add_free(const Eigen::MatrixXd& e) {
   Eigen::Map<RowMajor>(&number_[series_.back().begin], order_, order_) = e;
 }
 
-/// Pieces of one length side by side, since the modes' answers are the same in all of them.
-void PassMatrix::add_cutting(const Process& process, double begin_rad, double length_rad,
-                             double length_s, Index pieces) {
-  const GaussNodes& gauss = GaussNodes::of(kNodes);
-  const CuttingCoefficients coefficients(process, 0.0);
-  const Index c = directions(process);
-  const auto parts = static_cast<double>(pieces);
-  const ModalAnswers answers =
-      modal_answers(process, gauss, Eigen::VectorXd::Constant(kNodes, length_s / parts), c, false);
-  std::vector<Eigen::Matrix2d> h(static_cast<std::size_t>(pieces * kNodes));
-  for (Index p = 0; p < pieces; ++p) {
-    for (Index n = 0; n < kNodes; ++n) {
-      Eigen::Matrix2d& sum = h[static_cast<std::size_t>(p * kNodes + n)];
-      sum.setZero();
-      const double angle =
-          begin_rad + length_rad * (static_cast<double>(p) + gauss.node[n]) / parts;
-      for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
-        sum += coefficients.stiffness(j, angle);
+/// The pieces of one stretch side by side: the modes' answers are the same in all of them.
+void PassMatrix::add_cutting(const Stretch& stretch) {
+  const PieceTerms terms(stretch, static_cast<std::size_t>(order_), most_z_mm_);
+  for (std::size_t p = 0; p < stretch.pieces; ++p) {
+    Series series{number_.size(), std::vector<double>(terms.count() + 1)};
+    std::vector<double> size(terms.count());
+    for (std::size_t t = 0; t < terms.count(); ++t) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(order_ * order_); ++i) {
+        const double number = terms.at(t, p, i);
+        number_.push_back(number);
+        size[t] = std::max(size[t], std::abs(number));
       }
-    }
-  }
-  // −H·y, piece by piece.
-  const auto answer = [&](const Eigen::MatrixXd& y, Eigen::MatrixXd& force) {
-    for (Index col = 0; col < force.cols(); ++col) {
-      for (Index n = 0; n < kNodes; ++n) {
-        const Eigen::Matrix2d& at = h[static_cast<std::size_t>(col / order_ * kNodes + n)];
-        for (Index to = 0; to < c; ++to) {
-          double sum = 0.0;
-          for (Index from = 0; from < c; ++from) {
-            sum += at(to, from) * y(from * kNodes + n, col);
-          }
-          force(to * kNodes + n, col) = -sum;
-        }
-      }
-    }
-  };
-  // (I + z·HK)⁻¹ as a series: HK is a Volterra operator, its powers fall as 1/(2k)!.
-  std::vector<Eigen::MatrixXd> term{answers.e.replicate(1, pieces)};
-  Eigen::MatrixXd y = answers.phi.replicate(1, pieces);
-  Eigen::MatrixXd force(c * kNodes, order_ * pieces);
-  double power = 1.0;
-  while (term.size() < kMostTerms) {
-    answer(y, force);
-    term.emplace_back(answers.r.lazyProduct(force));
-    power *= most_z_mm_;
-    if (term.back().cwiseAbs().maxCoeff() * power < kLeastTerm) {
-      break;
-    }
-    y.noalias() = answers.k * force;
-  }
-  for (Index p = 0; p < pieces; ++p) {
-    Series series{number_.size(), std::vector<double>(term.size() + 1)};
-    number_.resize(number_.size() + term.size() * static_cast<std::size_t>(order_ * order_));
-    double* out = &number_[series.begin];
-    for (const Eigen::MatrixXd& t : term) {
-      Eigen::Map<RowMajor>(out, order_, order_) = t.middleCols(p * order_, order_);
-      out += order_ * order_;
     }
     double reach = most_z_mm_ * 1.0000001;
-    for (std::size_t k = term.size(); k-- > 1;) {
-      series.reach_mm[k + 1] = reach;
-      const double size = term[k].middleCols(p * order_, order_).cwiseAbs().maxCoeff();
-      reach = std::min(
-          reach, size > 0.0 ? std::pow(kLeastTerm / size, 1.0 / static_cast<double>(k)) : reach);
+    for (std::size_t t = terms.count(); t-- > 1;) {
+      series.reach_mm[t + 1] = reach;
+      if (size[t] > 0.0) {
+        reach = std::min(reach, std::pow(kLeastTerm / size[t], 1.0 / static_cast<double>(t)));
+      }
     }
     series.reach_mm[1] = reach;
     series_.push_back(std::move(series));
@@ -291,7 +244,7 @@ PassMatrix::Lanes PassMatrix::g_of(const Lanes& xi, const Lanes* value) const {
   Lanes out;
   if (order_ == 2) {
     for (std::size_t i = 0; i < kLanes; ++i) {
-      out[i] = 1.0 - xi[i] * ((*value)[i] - xi[i] * free_determinant_);
+      out[i] = 1.0 - xi[i] * ((*value)[i] - xi[i] * determinant_);
     }
     return out;
   }

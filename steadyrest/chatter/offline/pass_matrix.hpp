@@ -10,16 +10,19 @@
 
 #include <steadyrest/chatter/offline/process.hpp>
 
-/// The tooth pass as a small matrix, for even pitch, straight teeth and constant speed.
+/// The tooth pass as a small matrix, for even pitch, constant speed and no process damping.
 ///
 /// A Floquet solution has x(t − T) = x(t)/μ, so within it the delay is a factor: the cut is an
 /// ordinary periodic equation with the stiffness z·H(θ), z = a·(1 − ξ), ξ = 1/μ, and its 2m×2m
 /// matrix M(z) of one pass has μ as an eigenvalue,
 ///   g(ξ) = det(I − ξ·M(a·(1 − ξ))) = 0.
 /// g is entire in ξ; the dominant multiplier is 1/ξ of its smallest zero. M is a product of short
-/// pieces, each a power series in z whose terms fall as 1/(2k)!. Relative error of M 1e-12 for
-/// |z| ≤ `most_z_mm`; beyond it is not to be used.
+/// pieces, each a power series in z whose terms fall as 1/(2k)!. With straight teeth M depends
+/// on z alone and serves all depths, with helical ones it holds for one. Relative
+/// error of M 1e-12 for |z| ≤ `most_z_mm`; beyond it is not to be used.
 namespace steadyrest::chatter::offline {
+
+struct Stretch;
 
 class PassMatrix {
  public:
@@ -28,14 +31,14 @@ class PassMatrix {
   static constexpr std::size_t kLanes = 4;
   using Lanes = std::array<Complex, kLanes>;
 
-  /// The process must be `simple()`.
-  PassMatrix(const Process& process, double speed_rev_s, double most_z_mm);
-
-  /// Even pitch, straight teeth, no process damping.
+  /// Even pitch, no process damping.
   [[nodiscard]] static bool simple(const Process& process) noexcept;
 
-  /// What g is made of besides ξ: the trace of M where M is 2×2 (then its determinant does not
-  /// depend on the cut, by Liouville), else its entries by columns.
+  /// The process must be `simple()`. `depth_mm` matters for helical teeth alone.
+  PassMatrix(const Process& process, double speed_rev_s, double most_z_mm, double depth_mm);
+
+  /// What g is made of besides ξ: the trace of M where M is 2×2 (its determinant does not
+  /// depend on z, by Liouville), else its entries by columns.
   [[nodiscard]] std::size_t functions() const noexcept { return functions_; }
   /// At four z, `functions()` of them from `out` on.
   void values(const Lanes& z, Lanes* out) const;
@@ -45,8 +48,6 @@ class PassMatrix {
   [[nodiscard]] Complex g(Complex xi, double depth_mm) const;
   [[nodiscard]] Lanes g_lanes(const Lanes& xi, double depth_mm) const;
   [[nodiscard]] double most_z_mm() const noexcept { return most_z_mm_; }
-  /// Multipliers of the free vibration, one of each conjugate pair.
-  [[nodiscard]] const std::vector<Complex>& free() const noexcept { return free_; }
 
  private:
   /// M of one piece is Σ term[k]·z^k; the terms by rows from `begin` on.
@@ -55,17 +56,15 @@ class PassMatrix {
     std::vector<double> reach_mm;  ///< |z| up to which that many terms suffice
   };
   void add_free(const Eigen::MatrixXd& e);
-  void add_cutting(const Process& process, double begin_rad, double length_rad, double length_s,
-                   Eigen::Index pieces);
+  void add_cutting(const Stretch& stretch);
   [[nodiscard]] Eigen::MatrixXcd matrix(Complex z) const;
 
   Eigen::Index order_;
   std::size_t functions_;
   double most_z_mm_;
-  double free_determinant_ = 1.0;
+  double determinant_ = 1.0;  ///< of M, the same for all z (Liouville)
   std::vector<Series> series_;
   std::vector<double> number_;
-  std::vector<Complex> free_;
 };
 
 }  // namespace steadyrest::chatter::offline

@@ -96,5 +96,34 @@ TEST(DepthTracker, AgreesWithArnoldiForSeveralModes) {
   }
 }
 
+/// With helix each depth has its own angles of entry and exit; the long edge winds round the tool.
+TEST(DepthTracker, AgreesWithArnoldiForHelicalTeeth) {
+  for (const double immersion : {0.05, 0.5, 1.0}) {
+    Process cut = benchmark_cut(immersion, Direction::down);
+    cut.tool.diameter_mm = 8.0;
+    cut.tool.helix_rad = 0.7;
+    if (immersion == 0.5) {
+      Mode y = cut.modes[0];
+      y.shape = {0.0, 1.0};
+      y.frequency_hz = 1100.0;
+      cut.modes.push_back(y);
+    }
+    for (const double rpm : {5100.0, 18209.0}) {
+      DepthTracker tracker(cut, rpm / 60.0, 12.0);
+      for (int i = 1; i <= 24; ++i) {
+        const double depth = 0.5 * i;
+        DelayCycle::Config config;
+        config.speed_rev_s = rpm / 60.0;
+        config.most_depth_mm = depth;
+        DelayCycle cycle = DelayCycle::make(cut, config).value();
+        cycle.set_depth(depth);
+        EXPECT_NEAR(std::log(std::abs(tracker.dominant(depth))),
+                    multipliers(cycle, 1).log_modulus[0], 1e-8)
+            << immersion << " " << rpm << " " << depth;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace steadyrest::chatter::offline::test
