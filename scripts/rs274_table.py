@@ -56,7 +56,8 @@ class Oracle:
         """(accepted, message, list of (kind, numbers, unit_mm, feed_mm_min))"""
         self.fresh()
         done = subprocess.run([self.rs274, "-g", "-t", self.path("tool.tbl"), "-v", self.path("my.var"), os.path.abspath(program)],
-                              stdin=subprocess.DEVNULL, capture_output=True, timeout=120, cwd=self.folder,
+                              stdin=subprocess.DEVNULL, capture_output=True, timeout=120,
+                              cwd=os.path.dirname(os.path.abspath(program)),  # where it looks for subprograms
                               env={**os.environ, "HOME": self.folder})
         lines = done.stdout.decode("latin-1").splitlines()
         moves, unit, plane, feed, noise = [], 1.0, "XY", 0.0, []

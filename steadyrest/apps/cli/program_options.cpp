@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <utility>
 
 #include <steadyrest/apps/cli/program_options.hpp>
@@ -24,6 +25,9 @@ CLI::Option* add_common(CLI::App& verb, ProgramOptions& options) {
   verb.add_option("--data-units", options.units,
                   "Unit of the lengths in the tool table and the variable file")
       ->check(CLI::IsMember({"mm", "inch"}));
+  verb.add_option("--subprograms", options.subprograms,
+                  "Folders of subprogram files, in the order of the search; the program's own "
+                  "folder when none is given");
   verb.add_flag("--block-delete", options.block_delete, "Leave out the lines that begin with /");
   verb.add_flag("--least-increment", options.least_increment,
                 "fanuc: X100 is 0.100 mm (without it: 100 mm)");
@@ -62,6 +66,11 @@ Result<Config> program_config(const ProgramOptions& options) {
   config.decimal_rule = options.least_increment ? nc::interpret::DecimalRule::least_increment
                                                 : nc::interpret::DecimalRule::calculator;
   const double unit_mm = options.units == "inch" ? 25.4 : 1.0;
+  config.data_unit_mm = unit_mm;
+  config.subprogram_folders = options.subprograms;
+  if (options.subprograms.empty()) {
+    config.subprogram_folders.push_back(std::filesystem::path(options.file).parent_path().string());
+  }
   if (!options.variables.empty()) {
     if (auto read = nc::interpret::read_variables(options.variables, unit_mm, config); !read) {
       return std::unexpected(read.error());

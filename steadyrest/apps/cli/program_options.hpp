@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -21,6 +22,7 @@ struct ProgramOptions {
   std::string variables;  ///< LinuxCNC variable file, empty for none
   std::string units = "mm";
   std::string axes = "XYZABC";
+  std::vector<std::string> subprograms;  ///< folders; empty: the program's own
   bool block_delete = false;
   bool least_increment = false;
 };

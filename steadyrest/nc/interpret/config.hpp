@@ -17,6 +17,9 @@ struct Tool {
   std::int32_t number = 0;
   Axes offset{};  ///< mm and degrees
   double diameter_mm = 0.0;
+  double front_angle_deg = 0.0;  ///< I, J, Q of the tool table: lathe tools
+  double back_angle_deg = 0.0;
+  std::int32_t orientation = 0;
 };
 
 /// Work offsets G54–G59.3, in this order; for sinumerik G54–G57, G505 ….
@@ -43,6 +46,11 @@ struct Config {
   /// Without a table every tool exists, with length 0: positions are then those of the tool tip of
   /// a tool without length. With a table a tool that is not in it is refused.
   std::optional<std::vector<Tool>> tools;
+  double data_unit_mm = 1.0;  ///< unit in which #5161 … #5410 are written: 1 or 25.4
+  /// Folders in which `o<name> call` looks for NAME.ngc, in this order.
+  std::vector<std::string> subprogram_folders;
+  /// Lines that a program may execute in loops and subprograms together; then it is refused.
+  std::uint64_t most_repeated_lines = 20'000'000;
   std::int32_t tool_in_spindle = 0;
   std::int32_t modulation_on = 0;  ///< M word that switches the speed modulation on; 0 = none
   std::int32_t modulation_off = 0;

@@ -80,6 +80,7 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
     return true;
   }
   sink_ = &sink;
+  state_.line = block.line();
   step_.reset(block);
   return decode(block, step_) && check(step_) && act(step_);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,7 @@
 #include <steadyrest/nc/interpret/arc.hpp>
 #include <steadyrest/nc/interpret/config.hpp>
 #include <steadyrest/nc/interpret/move.hpp>
+#include <steadyrest/nc/interpret/parameters.hpp>
 #include <steadyrest/nc/interpret/state.hpp>
 #include <steadyrest/nc/interpret/step.hpp>
 #include <steadyrest/nc/read/block.hpp>
@@ -35,6 +37,11 @@ class Interpreter {
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] const read::Refused& refused() const noexcept { return refused_; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// What expressions of the program ask for. Stays valid while the interpreter is not moved.
+  [[nodiscard]] Parameters& parameters() noexcept {
+    parameters_->bind(state_, config_);
+    return *parameters_;
+  }
   /// Looks at a block's words without executing: false when a word is not in the dialect.
   bool survey(const read::Block& block);
 
@@ -127,6 +134,7 @@ class Interpreter {
 
   Config config_;
   State state_;
+  std::unique_ptr<Parameters> parameters_ = std::make_unique<Parameters>();
   Step step_{};
   std::uint32_t axes_allowed_ = 0;  ///< mask of the axis letters that the machine has
   Move move_;

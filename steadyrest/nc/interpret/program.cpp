@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <utility>
 
+#include <steadyrest/nc/interpret/flow_control.hpp>
 #include <steadyrest/nc/interpret/interpreter.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/interpret/program_files.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -31,39 +33,70 @@ class Counter final : public Sink {
 class Run {
  public:
   Run(LineSource& source, const Config& config, Interpreter interpreter, Sink& sink)
-      : source_(source),
+      : files_(source, config.subprogram_folders),
         reader_(config.dialect),
         interpreter_(std::move(interpreter)),
-        counter_(sink, report_) {}
+        flow_(files_, interpreter_.parameters(), reader_, config.most_repeated_lines),
+        block_delete_(config.block_delete),
+        counter_(sink, report_) {
+    if (config.dialect == read::Dialect::linuxcnc) {
+      reader_.set_values(&interpreter_.parameters());
+    }
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+  ~Run() = default;
 
   Report execute() {
-    while (!interpreter_.finished()) {
-      if (!next_line()) {
-        break;
-      }
-      if (!reader_.read(source_.line(), source_.number(), source_.ending_length(), block_)) {
-        report_.refused.push_back(reader_.refused());
-        break;
-      }
-      if (!interpreter_.execute(block_, counter_)) {
-        report_.refused.push_back(interpreter_.refused());
-        break;
-      }
-      report_.blocks += block_.words().empty() ? 0U : 1U;
+    while (!interpreter_.finished() && next_line() && line()) {
     }
-    if (!report_.refused.empty() && !source_failed_) {
+    if (!report_.refused.empty() && !source_failed_ && files_.in_main()) {
       survey();
     }
     return std::move(report_);
   }
 
  private:
+  /// False when it is refused.
+  bool line() {
+    if (!flow_.count_line()) {
+      return refuse(flow_.refused());
+    }
+    if (flow_.passing_over()) {
+      return flow_.pass_over(block_) || refuse(flow_.refused());
+    }
+    const LineSource& source = files_.now();
+    if (!reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
+      return refuse(reader_.refused());
+    }
+    if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
+      return flow_.act(block_) || refuse(flow_.refused());
+    }
+    if (!interpreter_.execute(block_, counter_)) {
+      return refuse(interpreter_.refused());
+    }
+    report_.blocks += block_.words().empty() ? 0U : 1U;
+    return true;
+  }
+
+  bool refuse(const Refused& refused) {
+    report_.refused.push_back(refused);
+    if (!files_.in_main()) {
+      report_.refused.back().file = files_.path();
+    }
+    return false;
+  }
+
   bool next_line() {
-    switch (source_.next()) {
+    switch (files_.next()) {
       case LineSource::Status::line:
         ++report_.lines;
         return true;
       case LineSource::Status::end:
+        if (flow_.refuse_end()) {
+          source_failed_ = true;
+          return refuse(flow_.refused());
+        }
         refuse_end();
         return false;
       case LineSource::Status::too_long:
@@ -79,7 +112,7 @@ class Run {
 
   void refuse_source(std::string_view reason, std::string_view text) {
     source_failed_ = true;
-    report_.refused.push_back({.line = source_.number(),
+    report_.refused.push_back({.line = files_.now().number(),
                                .word = {},
                                .reason = std::string{reason},
                                .text = std::string{text}});
@@ -98,9 +131,14 @@ class Run {
   // behind a refused block is not known.
   void survey() {
     while (report_.refused.size() < Report::kMostRefused &&
-           source_.next() == LineSource::Status::line) {
+           files_.next() == LineSource::Status::line) {
       ++report_.lines;
-      if (!reader_.read(source_.line(), source_.number(), source_.ending_length(), block_)) {
+      const LineSource& source = files_.now();
+      // What values would be here is not known.
+      if (source.line().find_first_of("#[") != std::string_view::npos) {
+        continue;
+      }
+      if (!reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
         add(reader_.refused());
       } else if (!block_.words().empty() && !interpreter_.survey(block_)) {
         add(interpreter_.refused());
@@ -121,9 +159,11 @@ class Run {
     }
   }
 
-  LineSource& source_;
+  ProgramFiles files_;
   Reader reader_;
   Interpreter interpreter_;
+  FlowControl flow_;
+  bool block_delete_;
   Report report_;
   Counter counter_;
   Block block_;

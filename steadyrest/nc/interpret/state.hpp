@@ -48,6 +48,7 @@ struct State {
   bool work_offset_on = true;  ///< false after G500
   Axes g92{};                  ///< in force (G92, G52)
   Axes g92_stored{};           ///< what G92.3 brings back
+  bool g92_on = false;         ///< G92 or G52 in force (#5210)
   bool g92_used = false;       ///< G92 has set an origin in this program
   bool g52_used = false;       ///< G52 has set a shift in this program
   Axes tool_offset{};
@@ -78,6 +79,13 @@ struct State {
   double coolant = 0.0;              ///< 0 off, 1 mist, 2 flood, 3 both
   std::int32_t selected_tool = 0;
   std::int32_t tool_in_spindle = 0;
+  Tool tool;  ///< the one in the spindle, where a tool table knows it
+
+  std::array<double, kWorkOffsets> rotation_deg{};  ///< of the work offsets (G10 L2 R)
+  Axes probe{};           ///< where the last probing move was programmed to end
+  int cutter_side = 0;    ///< G41 −1, G42 +1
+  bool diameter = false;  ///< G7
+  std::uint32_t line = 0;
 };
 
 }  // namespace steadyrest::nc::interpret

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include <steadyrest/nc/read/name.hpp>
+
 namespace steadyrest::nc::read {
 
 /// How a word's value is meant, where the dialect can say so for a single word.
@@ -32,6 +34,35 @@ struct Word {
   std::string_view text;  ///< the whole word as it stands in the line; of a string, its content
 };
 
+/// What a line says about the order of execution: an O-word with its keyword.
+enum class FlowKind : std::uint8_t {
+  none,
+  label,  ///< `O1234` alone: the number of a program or subprogram
+  sub,
+  endsub,
+  call,
+  return_,
+  if_,
+  elseif,
+  else_,
+  endif,
+  while_,
+  endwhile,
+  do_,
+  repeat,
+  endrepeat,
+  break_,
+  continue_
+};
+
+struct Flow {
+  static constexpr std::size_t kMostArguments = 30;
+  FlowKind kind = FlowKind::none;
+  Name label;  ///< a whole number, or a name in lower case
+  std::size_t count = 0;
+  std::array<double, kMostArguments> values;  ///< arguments, condition or returned value
+};
+
 /// One line of a program, split into words. Reused from line to line: no allocation.
 class Block {
  public:
@@ -42,7 +73,7 @@ class Block {
     count_ = 0;
     deleted_ = false;
     end_mark_ = false;
-    program_number_ = false;
+    flow_.kind = FlowKind::none;
   }
   /// False when the block is full.
   bool push(const Word& word) noexcept {
@@ -61,16 +92,16 @@ class Block {
   /// The line is the closing `%`.
   [[nodiscard]] bool end_mark() const noexcept { return end_mark_; }
   void set_end_mark() noexcept { end_mark_ = true; }
-  /// The line is a program number (`O1234` alone).
-  [[nodiscard]] bool program_number() const noexcept { return program_number_; }
-  void set_program_number() noexcept { program_number_ = true; }
+  /// The line's O-word.
+  [[nodiscard]] const Flow& flow() const noexcept { return flow_; }
+  [[nodiscard]] Flow& flow() noexcept { return flow_; }
 
  private:
   std::uint32_t line_ = 0;
   std::size_t count_ = 0;
   bool deleted_ = false;
   bool end_mark_ = false;
-  bool program_number_ = false;
+  Flow flow_;
   std::array<Word, kMostWords> words_{};
 };
 

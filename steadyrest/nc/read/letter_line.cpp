@@ -3,8 +3,11 @@
 #include <cstddef>
 
 #include <steadyrest/nc/read/character.hpp>
+#include <steadyrest/nc/read/expression.hpp>
 #include <steadyrest/nc/read/letter_line.hpp>
+#include <steadyrest/nc/read/name.hpp>
 #include <steadyrest/nc/read/number.hpp>
+#include <steadyrest/nc/read/o_word.hpp>
 
 namespace steadyrest::nc::read {
 namespace {
@@ -51,6 +54,9 @@ bool LetterLine::one_item() {
   }
   if (c == ';') {
     return rest_of_line();
+  }
+  if (c == '#' && reader_.values_ != nullptr) {
+    return assignment();
   }
   return refuse_character();
 }
@@ -114,6 +120,10 @@ bool LetterLine::word() {
   if (word.letter == 'O') {
     return o_word(word_begin);
   }
+  if (block_.flow().kind != FlowKind::none) {
+    at_ = end_;
+    return refuse(since(word_begin), "o_word", "words behind an O-word; write them in a line of their own");
+  }
   if (!value(word_begin, word)) {
     return false;
   }
@@ -143,7 +153,7 @@ bool LetterLine::value(const char* word_begin, Word& word) {
   skip_blanks();
   const Number number = read_number({at_, static_cast<std::size_t>(end_ - at_)});
   if (number.length == 0) {
-    return refuse_value(word_begin);
+    return reader_.values_ != nullptr ? expression(word_begin, word) : refuse_value(word_begin);
   }
   at_ += number.length;
   word.value = number.value;
@@ -178,7 +188,91 @@ bool LetterLine::spaced_number(const char* word_begin, Word& word) {
   return true;
 }
 
+// A value that is no plain number: `X#5`, `X[…]`, `X-#5`, `XSIN[…]`.
+bool LetterLine::expression(const char* word_begin, Word& word) {
+  const bool signs = at_ != end_ && (*at_ == '-' || *at_ == '+');
+  const char* look = at_;
+  while (look != end_ && (is_blank(*look) || *look == '-' || *look == '+')) {
+    ++look;
+  }
+  if (look == end_ || (signs && (is_digit(*look) || *look == '.')) ||
+      !(*look == '#' || *look == '[' || is_letter(*look))) {
+    return refuse_value(word_begin);
+  }
+  Expression expression(line(), static_cast<std::size_t>(at_ - begin_), *reader_.values_);
+  if (!expression.read(word.value)) {
+    if (is_letter(*look) && expression.reason() == "missing_value") {
+      return refuse_value(word_begin);
+    }
+    at_ += expression.length();
+    return refuse(since(word_begin), expression.reason(), expression.text());
+  }
+  at_ += expression.length();
+  word.decimal_point = true;  // a calculated value is in units, never in increments
+  return true;
+}
+
+bool LetterLine::refuse_assignment(const char* from, Lookup lookup) {
+  return lookup == Lookup::found ||
+         (lookup == Lookup::no_such_number
+              ? refuse(since(from), "no_such_parameter", "a parameter that the control has not")
+              : refuse(since(from), "read_only_parameter", "a parameter that cannot be set"));
+}
+
+// `#5 = …`, `#<name> = …`: acts when the whole line has been read.
+bool LetterLine::assignment() {
+  const char* const from = at_++;
+  skip_blanks();
+  Name name;
+  int index = 0;
+  const bool named = at_ != end_ && *at_ == '<';
+  if (named) {
+    const char* const after = read_name(at_, end_, name);
+    if (after == nullptr) {
+      at_ = end_;
+      return refuse(since(from), "bad_parameter",
+                    "a parameter's name that is empty, too long or not closed by >");
+    }
+    at_ = after;
+  } else {
+    Expression number(line(), static_cast<std::size_t>(at_ - begin_), *reader_.values_);
+    const bool read = number.parameter_number(index);
+    at_ += number.length();
+    if (!read) {
+      return refuse(since(from), number.reason(), number.text());
+    }
+  }
+  skip_blanks();
+  if (at_ == end_ || *at_ != '=') {
+    return refuse(since(from), "bad_assignment", "a parameter in front of nothing; write #5 = 2");
+  }
+  ++at_;
+  double value = 0.0;
+  Expression right(line(), static_cast<std::size_t>(at_ - begin_), *reader_.values_);
+  const bool read = right.read(value);
+  at_ += right.length();
+  if (!read) {
+    return refuse(since(from), right.reason(), right.text());
+  }
+  return refuse_assignment(from, named ? reader_.values_->set_name(name.view(), value)
+                                       : reader_.values_->set_number(index, value));
+}
+
 bool LetterLine::o_word(const char* word_begin) {
+  if (reader_.values_ == nullptr || reader_.dialect_ != Dialect::linuxcnc) {
+    return program_number(word_begin);
+  }
+  if (!block_.words().empty() || block_.flow().kind != FlowKind::none) {
+    at_ = end_;
+    return refuse(since(word_begin), "o_word", "an O-word behind other words; it comes first");
+  }
+  OWord word(line(), static_cast<std::size_t>(at_ - begin_), *reader_.values_);
+  const bool read = word.read(block_.flow(), true);
+  at_ += word.length();
+  return read || refuse(since(word_begin), word.reason(), word.text());
+}
+
+bool LetterLine::program_number(const char* word_begin) {
   skip_blanks();
   const Number number = read_number({at_, static_cast<std::size_t>(end_ - at_)});
   at_ += number.length;
@@ -195,7 +289,7 @@ bool LetterLine::o_word(const char* word_begin) {
                   "an O-word (subprogram, loop or condition); only a program number alone in its "
                   "line is read");
   }
-  block_.set_program_number();
+  block_.flow().kind = FlowKind::label;
   return true;
 }
 

@@ -6,13 +6,14 @@
 
 #include <steadyrest/nc/read/block.hpp>
 #include <steadyrest/nc/read/reader.hpp>
+#include <steadyrest/nc/read/values.hpp>
 
 namespace steadyrest::nc::read {
 
 /// One line of the dialects whose words are a letter and a number (`linuxcnc`, `fanuc`).
 ///
-/// Blanks have no meaning outside of comments. What later versions may read (expressions `[…]`,
-/// parameters `#…`, O-words) is refused by name.
+/// Blanks have no meaning outside of comments. Where the reader has values (`Reader::set_values`),
+/// expressions, parameters, assignments and O-words are read; else they are refused by name.
 class LetterLine {
  public:
   LetterLine(Reader& reader, std::string_view line, std::uint32_t number, Block& block) noexcept
@@ -34,9 +35,16 @@ class LetterLine {
   bool value(const char* word_begin, Word& word);
   bool spaced_number(const char* word_begin, Word& word);
   bool o_word(const char* word_begin);
+  bool program_number(const char* word_begin);
+  bool expression(const char* word_begin, Word& word);
+  bool assignment();
+  bool refuse_assignment(const char* from, Lookup lookup);
   bool refuse_value(const char* word_begin);
   bool refuse_character();
   void skip_blanks() noexcept;
+  [[nodiscard]] std::string_view line() const noexcept {
+    return {begin_, static_cast<std::size_t>(end_ - begin_)};
+  }
   [[nodiscard]] std::string_view since(const char* from) const noexcept {
     return {from, static_cast<std::size_t>(at_ - from)};
   }

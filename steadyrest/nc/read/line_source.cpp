@@ -37,13 +37,13 @@ kernel::outcome::Result<LineSource> LineSource::open(const std::string& path) {
   LineSource source;
   source.descriptor_ = descriptor;
   source.buffer_.resize(kLongestLine + kChunk);
-  source.at_ = source.end_ = source.buffer_.data();
+  source.begin_ = source.at_ = source.end_ = source.buffer_.data();
   return source;
 }
 
 LineSource LineSource::from_text(std::string_view text) {
   LineSource source;
-  source.at_ = text.data();
+  source.begin_ = source.at_ = text.data();
   source.end_ = text.data() + text.size();
   source.exhausted_ = true;
   return source;
@@ -60,7 +60,9 @@ LineSource& LineSource::operator=(LineSource&& other) noexcept {
     }
     descriptor_ = std::exchange(other.descriptor_, -1);
     buffer_ = std::move(other.buffer_);  // a moved vector keeps its storage: the views stay valid
+    begin_ = other.begin_;
     at_ = other.at_;
+    base_ = other.base_;
     end_ = other.end_;
     exhausted_ = other.exhausted_;
     failed_ = other.failed_;
@@ -86,6 +88,7 @@ bool LineSource::refill() noexcept {
     return false;
   }
   std::memmove(buffer_.data(), at_, rest);
+  base_ += static_cast<std::uint64_t>(at_ - begin_);
   at_ = buffer_.data();
   ssize_t got = 0;
   do {
@@ -95,6 +98,21 @@ bool LineSource::refill() noexcept {
   exhausted_ = got <= 0;
   end_ = at_ + rest + (got > 0 ? static_cast<std::size_t>(got) : 0);
   return got > 0;
+}
+
+bool LineSource::seek(std::uint64_t offset, std::uint32_t number) noexcept {
+  number_ = number;
+  if (offset >= base_ && offset <= base_ + static_cast<std::uint64_t>(end_ - begin_)) {
+    at_ = begin_ + (offset - base_);
+    return true;
+  }
+  if (descriptor_ < 0 || ::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0) {
+    return false;
+  }
+  base_ = offset;
+  at_ = end_ = begin_;
+  exhausted_ = failed_ = false;
+  return true;
 }
 
 LineSource::Status LineSource::take(const char* stop, std::size_t ending) noexcept {

@@ -39,6 +39,13 @@ class LineSource {
   Status next() noexcept;
   [[nodiscard]] std::string_view line() const noexcept { return line_; }   ///< without LF, CR LF
   [[nodiscard]] std::uint32_t number() const noexcept { return number_; }  ///< 1-based
+  /// Where the next line begins, in bytes from the file's beginning.
+  [[nodiscard]] std::uint64_t offset() const noexcept {
+    return base_ + static_cast<std::uint64_t>(at_ - begin_);
+  }
+  /// Goes on at a place that offset() and number() told before. False when the file cannot go
+  /// back (a pipe).
+  [[nodiscard]] bool seek(std::uint64_t offset, std::uint32_t number) noexcept;
   /// Bytes of the line's end: 0 at the end of the file, 1 for LF, 2 for CR LF.
   [[nodiscard]] std::size_t ending_length() const noexcept { return ending_length_; }
 
@@ -49,8 +56,10 @@ class LineSource {
 
   int descriptor_ = -1;
   std::vector<char> buffer_;
+  const char* begin_ = nullptr;  ///< what is held: the text, or the chunk
   const char* at_ = nullptr;
   const char* end_ = nullptr;
+  std::uint64_t base_ = 0;  ///< offset of begin_ in the file
   bool exhausted_ = false;
   bool failed_ = false;
   std::string_view line_;

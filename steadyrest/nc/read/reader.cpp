@@ -2,6 +2,7 @@
 #include <string>
 
 #include <steadyrest/nc/read/letter_line.hpp>
+#include <steadyrest/nc/read/o_word.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 #include <steadyrest/nc/read/sinumerik_line.hpp>
 
@@ -90,8 +91,24 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
     return accepted;
   }
   seen_line_ = true;
-  return dialect_ == Dialect::sinumerik ? SinumerikLine(*this, line, number, block).read()
-                                        : LetterLine(*this, line, number, block).read();
+  const bool accepted = dialect_ == Dialect::sinumerik
+                            ? SinumerikLine(*this, line, number, block).read()
+                            : LetterLine(*this, line, number, block).read();
+  if (values_ != nullptr) {
+    accepted ? values_->commit() : values_->drop();
+  }
+  return accepted;
+}
+
+bool Reader::read_flow(std::string_view line, std::uint32_t number, Block& block) {
+  block.reset(number);
+  const std::size_t at = o_word_at(line);
+  if (at == 0 || values_ == nullptr) {
+    return true;
+  }
+  OWord word(line, at, *values_);
+  return word.read(block.flow(), false) ||
+         refuse(number, line.substr(at - 1, word.length() + 1), word.reason(), word.text());
 }
 
 }  // namespace steadyrest::nc::read

@@ -7,6 +7,7 @@
 
 #include <steadyrest/nc/read/block.hpp>
 #include <steadyrest/nc/read/refused.hpp>
+#include <steadyrest/nc/read/values.hpp>
 
 namespace steadyrest::nc::read {
 
@@ -30,6 +31,14 @@ class Reader {
   /// The block refers to the line's characters: keep them while it is in use.
   bool read(std::string_view line, std::uint32_t number, std::size_t ending_length, Block& block);
 
+  /// Of a line that is passed over: its O-word, label and keyword alone, nothing evaluated but the
+  /// label. False when that is refused.
+  bool read_flow(std::string_view line, std::uint32_t number, Block& block);
+
+  /// What expressions ask and assignments set; nullptr: expressions are refused. Must outlive the
+  /// reading.
+  void set_values(Values* values) noexcept { values_ = values; }
+
   [[nodiscard]] const Refused& refused() const noexcept { return refused_; }
   /// The program began with `%`: it must end with one (or with its end word).
   [[nodiscard]] bool percent_opened() const noexcept { return percent_opened_; }
@@ -42,6 +51,7 @@ class Reader {
   bool percent(std::string_view line, std::uint32_t number, Block& block);
 
   Dialect dialect_;
+  Values* values_ = nullptr;
   bool seen_line_ = false;
   bool percent_opened_ = false;
   Refused refused_;

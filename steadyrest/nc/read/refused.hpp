@@ -13,6 +13,9 @@ struct Refused {
   std::string word;        ///< as it stands in the program; unprintable bytes as \xNN
   std::string reason;      ///< stable identifier: `expression`, `unknown_g_code`, …
   std::string text;        ///< one sentence: what is wrong and what is allowed
+  // Designated initialisers may leave it out.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::string file{};  ///< of a subprogram; empty = the program itself
 };
 
 /// `text` with bytes that are not printable ASCII written as \xNN, at most 60 characters of it.

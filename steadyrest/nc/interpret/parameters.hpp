@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <steadyrest/nc/interpret/config.hpp>
+#include <steadyrest/nc/interpret/state.hpp>
+#include <steadyrest/nc/read/values.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// The parameters of a program: numbered (#1 … #5601), named local (#<a>) and global (#<_a>), and
+/// what the interpreter itself answers for (#5061 … #5070, #5161 …, #5400 …, #<_x> …).
+///
+/// #1 … #30 and the local names belong to a call: enter() saves them, leave() brings them back.
+/// The answers follow LinuxCNC 2.9 (rs274, by experiment): offsets, reference points and tool data
+/// in the units of the machine's files (`Config::data_unit_mm`), positions in the units in force.
+/// What only the running machine knows (#<_hal[…]>, #<_ini[…]>) is not answered. A probing move is
+/// taken to end where it was programmed, and #5061 … say so.
+class Parameters final : public read::Values {
+ public:
+  static constexpr int kNumbers = 5602;
+  static constexpr std::size_t kLocals = 30;
+
+  Parameters();
+
+  /// Whose state is asked and set; both must stay where they are while it is used.
+  void bind(State& state, const Config& config) noexcept {
+    state_ = &state;
+    config_ = &config;
+  }
+
+  [[nodiscard]] read::Lookup number(int index, double& value) const override;
+  [[nodiscard]] read::Lookup name(std::string_view name, double& value) const override;
+  read::Lookup set_number(int index, double value) override;
+  read::Lookup set_name(std::string_view name, double value) override;
+  void commit() override;
+  void drop() noexcept override;
+
+  /// A call with its arguments: #1 … are set to them, the rest of the thirty to zero.
+  void enter(std::span<const double> arguments);
+  /// A call that shares #1 … and the names with its caller (M98).
+  void enter_shared();
+  /// The end of a call; `returned` what #<_value> is then.
+  void leave(const double* returned);
+  [[nodiscard]] std::size_t calls() const noexcept { return calls_.size(); }
+
+ private:
+  struct Hash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view text) const noexcept {
+      return std::hash<std::string_view>{}(text);
+    }
+  };
+  using Names = std::unordered_map<std::string, double, Hash, std::equal_to<>>;
+  struct Call {
+    std::array<double, kLocals> saved{};
+    Names names;
+    bool shared = false;
+  };
+  [[nodiscard]] Names& local_names() noexcept;
+  [[nodiscard]] const Names& local_names() const noexcept;
+
+  [[nodiscard]] bool of_state(int index, double& value) const;
+  [[nodiscard]] bool of_state(std::string_view name, double& value) const;
+  /// Where a stored offset or reference point lies in the state; nullptr when it is none of them.
+  [[nodiscard]] double* stored(int index, bool& rotary) const noexcept;
+  void assign(int index, double value);
+
+  State* state_ = nullptr;
+  const Config* config_ = nullptr;
+  std::vector<double> numbers_;
+  Names globals_;
+  Names main_names_;
+  std::vector<Call> calls_;
+  double value_ = 0.0;
+  double value_returned_ = 0.0;
+  std::vector<std::pair<int, double>> pending_numbers_;
+  std::vector<std::pair<std::string, double>> pending_names_;
+};
+
+}  // namespace steadyrest::nc::interpret

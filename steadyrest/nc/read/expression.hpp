@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include <steadyrest/nc/read/values.hpp>
+
+namespace steadyrest::nc::read {
+
+/// Real values of the dialects with `#` and `[ ]` (`linuxcnc`, `fanuc`), at a place in a line:
+/// a number, `#5`, `#<name>`, `##5`, `#[…]`, `[…]`, a function `SIN[…]`, `ATAN[y]/[x]`,
+/// `EXISTS[#<name>]`, each with signs before it.
+///
+/// Law as LinuxCNC 2.9's interpreter shows it (rs274, by experiment): all operators are
+/// left-associative; from strong to weak `**`; `* / MOD`; `+ -`; `EQ NE GT GE LT LE`;
+/// `AND OR XOR`; a sign binds to its value before all of them. EQ and NE hold two numbers for
+/// equal that differ by less than 0.0001. Angles are degrees. MOD has the sign of a positive
+/// number. A result that is not finite is refused. Blanks have no meaning, between the digits of a
+/// number neither. Nesting is bounded by `kDeepest`. Never allocates.
+class Expression {
+ public:
+  static constexpr int kDeepest = 64;
+
+  /// `values` answers for parameters; both outlive the object.
+  Expression(std::string_view line, std::size_t at, const Values& values) noexcept
+      : begin_(line.data() + at),
+        at_(line.data() + at),
+        end_(line.data() + line.size()),
+        values_(values) {}
+
+  /// Reads one real value. False when it is refused: see reason() and text().
+  bool read(double& value);
+  /// Reads what stands between # and = : the number of a parameter, or its name when `<` follows.
+  bool parameter_number(int& index);
+
+  /// Where it stopped, characters behind `at`.
+  [[nodiscard]] std::size_t length() const noexcept {
+    return static_cast<std::size_t>(at_ - begin_);
+  }
+  [[nodiscard]] std::string_view reason() const noexcept { return reason_; }
+  [[nodiscard]] std::string_view text() const noexcept { return text_; }
+
+ private:
+  enum class Operator : unsigned char;
+  bool value(double& out);
+  bool bracket(double& out);
+  bool sum_of(double& out, int weakest);
+  bool operator_at(Operator& found, int& rank);
+  bool apply(Operator op, double& left, double right);
+  bool function(double& out);
+  bool named_function(std::string_view name, double& out);
+  bool arc_tangent(double& out);
+  bool exists(double& out);
+  bool parameter(double& out);
+  bool spaced_number(double& out);
+  bool looked_up(Lookup lookup);
+  bool finite(double value);
+  void skip_blanks() noexcept;
+  [[nodiscard]] char peek() noexcept;
+  bool fail(std::string_view reason, std::string_view text) noexcept;
+
+  const char* begin_;
+  const char* at_;
+  const char* end_;
+  const Values& values_;
+  int depth_ = 0;
+  std::string_view reason_;
+  std::string_view text_;
+};
+
+}  // namespace steadyrest::nc::read

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace steadyrest::nc::read {
+
+/// Why a parameter could not be read or written.
+enum class Lookup : std::uint8_t {
+  found,
+  no_such_number,  ///< outside of what the control has
+  no_such_name,    ///< a named parameter that was never set
+  read_only,
+  not_known_here  ///< exists on the control, but its value is known only there
+};
+
+/// What expressions ask for and assignments write to.
+class Values {
+ public:
+  Values() = default;
+  Values(const Values&) = delete;
+  Values& operator=(const Values&) = delete;
+  virtual ~Values() = default;
+
+  [[nodiscard]] virtual Lookup number(int index, double& value) const = 0;
+  /// `name` in lower case without blanks; a name that begins with `_` is global.
+  [[nodiscard]] virtual Lookup name(std::string_view name, double& value) const = 0;
+  /// Assignments take effect together, when the whole line has been read: see commit().
+  virtual Lookup set_number(int index, double value) = 0;
+  virtual Lookup set_name(std::string_view name, double value) = 0;
+  virtual void commit() = 0;
+  virtual void drop() noexcept = 0;  ///< forgets assignments that were not committed
+};
+
+}  // namespace steadyrest::nc::read
