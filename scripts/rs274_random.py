@@ -65,6 +65,78 @@ def line(r):
     return " ".join(r.choice(["G0","G1","G2","X1","Y1","Z1","I1","R1","P1","Q1","L2","F1","S1","T1","M3","M6","G43","H1","G90","G53","G80","G81","G92","G28","A1","D1","G91","K1","G4","M0","G10","M1","M8","M61","G98","G64","G17","G33"]) for _ in range(r.randint(1,4)))
 
 
+def value(r, depth=0):
+    k = r.random()
+    if depth > 2 or k < .3: return num(r, -9, 9).lstrip("-") if depth else num(r, -9, 9)
+    if k < .45: return "#%d" % r.randint(1, 5)
+    if k < .5: return r.choice(["#<a>", "#<_b>", "#<_x>", "#5421", "#<_feed>", "#[1+#1*0]", "#<_value>", "#<_call_level>", "#<_motion_mode>", "#5220", "#5221"])
+    if k < .6: return r.choice(["ABS", "COS", "SIN", "FIX", "FUP", "ROUND", "EXISTS"]) .replace("EXISTS", "ABS") + "[" + value(r, depth + 1) + "]"
+    if k < .63: return "ATAN[" + value(r, depth + 1) + "]/[" + value(r, depth + 1) + "]"
+    if k < .66: return r.choice(["EXISTS[#<a>]", "EXISTS[#<zz>]", "SQRT[ABS[%s]]" % value(r, depth + 1), "-[%s]" % value(r, depth + 1)])
+    operators = ["+", "-", "*", "/", "**", "MOD", " EQ ", " NE ", " LT ", " GE ", " AND ", " OR ", " XOR ", "GT", "LE"]
+    return "[" + value(r, depth + 1) + "".join(r.choice(operators[:4] if r.random() < .7 else operators) + value(r, depth + 1) for _ in range(r.randint(1, 3))) + "]"
+
+
+def blocks(r, labels, depth, loops, in_sub):
+    """Lines with nested O-words; every loop counts in a parameter of its own, so that it ends."""
+    lines = []
+    for _ in range(r.randint(1, 4)):
+        k = r.random()
+        if depth > 3 or k < .45:
+            lines.append(r.choice(["G0 X%s", "G0 Y%s", "G1 X%s F90", "G91 G0 X%s", "G90 G0 Z%s", "G0 X%s #1=[#1+1]", "G0 Y%s #<a>=[#<a>*0.5]"]) % value(r))
+            continue
+        if k < .55:
+            lines.append(r.choice(["#%d = %s" % (r.randint(1, 5), value(r)), "#<a>=%s" % value(r), "#<_b> = %s" % value(r), "#5221=%s" % num(r, -3, 3)]))
+            continue
+        labels[0] += 1
+        o = "o%d" % labels[0] if r.random() < .8 else "O<n%d>" % labels[0]
+        if k < .7:
+            lines.append(f"{o} if [{value(r)}]")
+            lines += blocks(r, labels, depth + 1, loops, in_sub)
+            if r.random() < .4:
+                lines.append(f"{o} elseif [{value(r)}]")
+                lines += blocks(r, labels, depth + 1, loops, in_sub)
+            if r.random() < .5:
+                lines.append(f"{o} else")
+                lines += blocks(r, labels, depth + 1, loops, in_sub)
+            lines.append(f"{o} endif")
+        elif k < .78:
+            lines.append(f"{o} repeat [{r.choice(['0', '1', '2', '3', '1.6', '-1'])}]")
+            lines += blocks(r, labels, depth + 1, loops + [(o, "repeat")], in_sub)
+            lines.append(f"{o} endrepeat")
+        elif k < .93:
+            counter = "#%d" % (100 + labels[0])
+            lines.append(f"{counter}=0")
+            kind = r.choice(["while", "do"])
+            lines.append(f"{o} while [{counter} LT {r.randint(0, 4)}]" if kind == "while" else f"{o} do")
+            lines.append(f"{counter}=[{counter}+1]")
+            lines += blocks(r, labels, depth + 1, loops + [(o, kind)], in_sub)
+            lines.append(f"{o} endwhile" if kind == "while" else f"{o} while [{counter} LT {r.randint(0, 4)}]")
+        elif loops and r.random() < .7:
+            target, kind = r.choice(loops[-2:])
+            labels[0] += 1
+            lines += [f"o{labels[0]} if [{value(r)}]", f"{target} {r.choice(['break', 'continue'] if kind != 'repeat' else ['break'])}", f"o{labels[0]} endif"]
+        elif in_sub:
+            lines += [f"o{labels[0]} if [{value(r)}]", f"{in_sub} return [{value(r)}]", f"o{labels[0]} endif"]
+    return lines
+
+
+def structured(r):
+    labels = [10]
+    lines = ["F100 S100 M3", "#<a>=2", "#<_b>=3"]
+    subs = ["o1", "o<Two>"][:r.randint(0, 2)]
+    for index, sub in enumerate(subs):
+        body = [f"{sub} sub", "#<a>=1"] + blocks(r, labels, 1, [], sub)
+        if index:
+            body.append(f"{subs[0]} call [{value(r)}]")
+        lines += body + [f"{sub} endsub" + r.choice(["", f" [{value(r)}]"])]
+    for _ in range(r.randint(1, 3)):
+        lines += blocks(r, labels, 0, [], "")
+        if subs:
+            lines.append(f"{r.choice(subs)} call [{value(r)}] [{value(r)}]")
+    return lines
+
+
 def variables():
     return "".join(f"{number}\t{OFFSETS.get(number, 0):.6f}\n" for number in range(5161, 5401))
 
@@ -85,7 +157,8 @@ def main():
     bad = 0
     for index in range(arguments.count):
         r = random.Random(arguments.seed * 1000003 + index)
-        body = ["F100 S100 M3", "G0 X1 Y2 Z3"] + [line(r) for _ in range(r.randint(3, 9))] + ["M2"]
+        body = structured(r) if index % 2 else ["F100 S100 M3", "G0 X1 Y2 Z3"] + [line(r) for _ in range(r.randint(3, 9))]
+        body.append("M2")
         text = "\n".join(body) + "\n"
         if re.search(r"M6\b", text) and re.search(r"G43", text):
             continue  # rs274 alone forgets the tool's length at M6

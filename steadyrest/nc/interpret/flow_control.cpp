@@ -166,9 +166,10 @@ bool FlowControl::evaluate(Block& block) {
 
 bool FlowControl::refuse_end() {
   if (passing_over()) {
-    return !refuse(passing_from_, passing_label_, "o_word_without_end",
-                   "the file ends before what belongs to this O-word (its sub, endsub, else, endif, "
-                   "endwhile, endrepeat or while)");
+    return !refuse(
+        passing_from_, passing_label_, "o_word_without_end",
+        "the file ends before what belongs to this O-word (its sub, endsub, else, endif, "
+        "endwhile, endrepeat or while)");
   }
   if (in_call()) {
     return !refuse(files_.now().number() - 1, frames_.back().sub, "o_word_without_end",
@@ -249,8 +250,7 @@ bool FlowControl::head_of_while(const Block& block) {
   if (found != nullptr && found->kind == FlowKind::do_) {
     if (goes_on) {
       const Place head = found->head;
-      frames_.back().open.resize(
-          static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
+      frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
       return go(block.line(), head);
     }
     drop_to(*found);
@@ -398,7 +398,8 @@ bool FlowControl::end_of_sub(const Block& block) {
 
 bool FlowControl::end_program(std::uint32_t line) {
   if (!in_call()) {
-    return refuse(line, {}, "endless_program", "M99 in the main program: it would begin again for ever");
+    return refuse(line, {}, "endless_program",
+                  "M99 in the main program: it would begin again for ever");
   }
   Frame& frame = frames_.back();
   if (frame.left > 0.5) {

@@ -60,7 +60,7 @@ class FlowControl {
     to_endif,
     to_endwhile,
     to_endrepeat,
-    to_while,  ///< behind the `while` that ends a do loop
+    to_while,     ///< behind the `while` that ends a do loop
     to_condition  ///< to that `while` itself
   };
   struct Open {

@@ -9,18 +9,18 @@ namespace {
 
 using read::Lookup;
 
-constexpr int kProbe = 5061;          // … 5069, and 5070 whether it touched
-constexpr int kHome = 5161;           // … 5169
-constexpr int kSecondHome = 5181;     // … 5189
+constexpr int kProbe = 5061;       // … 5069, and 5070 whether it touched
+constexpr int kHome = 5161;        // … 5169
+constexpr int kSecondHome = 5181;  // … 5189
 constexpr int kG92InForce = 5210;
-constexpr int kG92 = 5211;            // … 5219
+constexpr int kG92 = 5211;  // … 5219
 constexpr int kActiveOffset = 5220;
-constexpr int kOffsets = 5221;        // nine of twenty numbers each; the tenth is the rotation
+constexpr int kOffsets = 5221;  // nine of twenty numbers each; the tenth is the rotation
 constexpr int kOffsetStride = 20;
 constexpr int kTool = 5400;
-constexpr int kToolOffset = 5401;     // … 5409
-constexpr int kToolDiameter = 5410;   // then front angle, back angle, orientation
-constexpr int kPosition = 5420;       // … 5428
+constexpr int kToolOffset = 5401;    // … 5409
+constexpr int kToolDiameter = 5410;  // then front angle, back angle, orientation
+constexpr int kPosition = 5420;      // … 5428
 constexpr int kAxes = 9;
 
 constexpr bool within(int index, int first) noexcept {
@@ -30,8 +30,8 @@ constexpr bool is_rotary(int axis) noexcept {
   return axis >= 3 && axis < 6;
 }
 constexpr bool reads_only(int index) noexcept {
-  return (index >= kTool && index <= kPosition + kAxes) || (index >= kProbe && index < kProbe + 10) ||
-         index == kG92InForce || index == kActiveOffset;
+  return (index >= kTool && index <= kPosition + kAxes) ||
+         (index >= kProbe && index < kProbe + 10) || index == kG92InForce || index == kActiveOffset;
 }
 
 }  // namespace
@@ -68,7 +68,8 @@ double* Parameters::stored(int index, bool& rotary) const noexcept {
 
 bool Parameters::of_state(int index, double& value) const {
   const auto in_force = [&](const Axes& axes, int first, double unit_mm) {
-    value = axes[static_cast<std::size_t>(index - first)] / (is_rotary(index - first) ? 1.0 : unit_mm);
+    value =
+        axes[static_cast<std::size_t>(index - first)] / (is_rotary(index - first) ? 1.0 : unit_mm);
     return true;
   };
   if (within(index, kProbe)) {
@@ -121,15 +122,24 @@ bool Parameters::of_state(std::string_view name, double& value) const {
       {"_vmajor", [](const State&) { return 2.9; }},
       {"_vminor", [](const State&) { return 0.0; }},
       {"_motion_mode", [](const State& s) { return static_cast<double>(s.motion); }},
-      {"_plane", [](const State& s) { return s.plane == Plane::xy ? 170.0 : s.plane == Plane::zx ? 180.0 : 190.0; }},
-      {"_ccomp", [](const State& s) { return s.cutter_side == 0 ? 400.0 : s.cutter_side < 0 ? 410.0 : 420.0; }},
+      {"_plane",
+       [](const State& s) {
+         return s.plane == Plane::xy ? 170.0 : s.plane == Plane::zx ? 180.0 : 190.0;
+       }},
+      {"_ccomp",
+       [](const State& s) {
+         return s.cutter_side == 0 ? 400.0 : s.cutter_side < 0 ? 410.0 : 420.0;
+       }},
       {"_metric", [](const State& s) { return kTruth(s.unit_mm == 1.0); }},
       {"_imperial", [](const State& s) { return kTruth(s.unit_mm != 1.0); }},
       {"_absolute", [](const State& s) { return kTruth(!s.incremental); }},
       {"_incremental", [](const State& s) { return kTruth(s.incremental); }},
-      {"_inverse_time", [](const State& s) { return kTruth(s.feed_mode == FeedMode::inverse_time); }},
-      {"_units_per_minute", [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_minute); }},
-      {"_units_per_rev", [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_revolution); }},
+      {"_inverse_time",
+       [](const State& s) { return kTruth(s.feed_mode == FeedMode::inverse_time); }},
+      {"_units_per_minute",
+       [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_minute); }},
+      {"_units_per_rev",
+       [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_revolution); }},
       {"_coord_system",
        [](const State& s) {
          const auto set = static_cast<double>(s.active_offset);
@@ -145,8 +155,10 @@ bool Parameters::of_state(std::string_view name, double& value) const {
       {"_lathe_radius_mode", [](const State& s) { return kTruth(!s.diameter); }},
       {"_spindle_on", [](const State& s) { return kTruth(s.spindle_direction != 0); }},
       {"_spindle_cw", [](const State& s) { return kTruth(s.spindle_direction > 0); }},
-      {"_mist", [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 1U) != 0); }},
-      {"_flood", [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 2U) != 0); }},
+      {"_mist",
+       [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 1U) != 0); }},
+      {"_flood",
+       [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 2U) != 0); }},
       {"_speed_override", [](const State&) { return 1.0; }},
       {"_feed_override", [](const State& s) { return kTruth(!s.override_off); }},
       {"_adaptive_feed", [](const State&) { return 0.0; }},
@@ -200,8 +212,8 @@ Lookup Parameters::number(int index, double& value) const {
 }
 
 const Parameters::Names& Parameters::local_names() const noexcept {
-  const auto own = std::find_if(calls_.rbegin(), calls_.rend(),
-                                [](const Call& call) { return !call.shared; });
+  const auto own =
+      std::find_if(calls_.rbegin(), calls_.rend(), [](const Call& call) { return !call.shared; });
   return own == calls_.rend() ? main_names_ : own->names;
 }
 
@@ -244,7 +256,8 @@ Lookup Parameters::set_number(int index, double value) {
 
 Lookup Parameters::set_name(std::string_view name, double value) {
   double ignored = 0.0;
-  if (name.front() == '_' && (of_state(name, ignored) || name.find('[') != std::string_view::npos)) {
+  if (name.front() == '_' &&
+      (of_state(name, ignored) || name.find('[') != std::string_view::npos)) {
     return Lookup::read_only;
   }
   pending_names_.emplace_back(name, value);

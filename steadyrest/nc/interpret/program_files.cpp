@@ -35,9 +35,8 @@ std::optional<Place> ProgramFiles::find(std::string_view name) {
     if (known != paths_.end()) {
       return Place{.file = static_cast<std::uint32_t>(known - paths_.begin())};
     }
-    auto source = opened_.size() < kMostFiles
-                      ? LineSource::open(path)
-                      : std::unexpected(kernel::outcome::Refusal{});
+    auto source = opened_.size() < kMostFiles ? LineSource::open(path)
+                                              : std::unexpected(kernel::outcome::Refusal{});
     if (source) {
       opened_.push_back(std::move(*source));
       sources_.push_back(&opened_.back());

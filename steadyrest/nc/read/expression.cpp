@@ -12,7 +12,8 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr double kEqual = 1e-4;  // LinuxCNC: EQ, NE, and how far an index may be from a whole number
+constexpr double kEqual =
+    1e-4;  // LinuxCNC: EQ, NE, and how far an index may be from a whole number
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 constexpr char lower(char c) noexcept {
@@ -24,7 +25,21 @@ constexpr int kWeakest = 1;  // AND OR XOR
 }  // namespace
 
 enum class Expression::Operator : unsigned char {
-  power, times, over, modulo, plus, minus, eq, ne, gt, ge, lt, le, both, either, one
+  power,
+  times,
+  over,
+  modulo,
+  plus,
+  minus,
+  eq,
+  ne,
+  gt,
+  ge,
+  lt,
+  le,
+  both,
+  either,
+  one
 };
 
 const char* read_name(const char* at, const char* end, Name& name) noexcept {
@@ -55,8 +70,7 @@ char Expression::peek() noexcept {
 }
 
 bool Expression::finite(double value) {
-  return std::isfinite(value) ||
-         fail("not_finite", "a calculation without a finite result");
+  return std::isfinite(value) || fail("not_finite", "a calculation without a finite result");
 }
 
 bool Expression::read(double& out) {
@@ -70,11 +84,13 @@ bool Expression::value(double& out) {
     ++at_;
   }
   const char c = peek();
-  const bool read = c == '['                                   ? bracket(out)
-                    : c == '#'                                 ? parameter(out)
-                    : is_digit(c) || c == '.'                  ? spaced_number(out)
-                    : is_letter(c)                             ? function(out)
-                    : fail("missing_value", "a value is missing: a number, a parameter or [ ] belongs here");
+  const bool read =
+      c == '['                  ? bracket(out)
+      : c == '#'                ? parameter(out)
+      : is_digit(c) || c == '.' ? spaced_number(out)
+      : is_letter(c)
+          ? function(out)
+          : fail("missing_value", "a value is missing: a number, a parameter or [ ] belongs here");
   if (read && negative) {
     out = -out;
   }
@@ -117,8 +133,9 @@ bool Expression::bracket(double& out) {
     return false;
   }
   if (peek() != ']') {
-    return fail("unclosed_expression", at_ == end_ ? "an expression that is not closed; write ] at its end"
-                                                   : "an operator or ] belongs here");
+    return fail("unclosed_expression", at_ == end_
+                                           ? "an expression that is not closed; write ] at its end"
+                                           : "an operator or ] belongs here");
   }
   ++at_;
   --depth_;
@@ -156,11 +173,14 @@ bool Expression::operator_at(Operator& found, int& rank) {
     int rank;
   };
   static constexpr std::array kSigns = {
-      Sign{"**", Operator::power, 5},  Sign{"*", Operator::times, 4},   Sign{"/", Operator::over, 4},
-      Sign{"mod", Operator::modulo, 4}, Sign{"+", Operator::plus, 3},   Sign{"-", Operator::minus, 3},
-      Sign{"eq", Operator::eq, 2},     Sign{"ne", Operator::ne, 2},     Sign{"gt", Operator::gt, 2},
-      Sign{"ge", Operator::ge, 2},     Sign{"lt", Operator::lt, 2},     Sign{"le", Operator::le, 2},
-      Sign{"and", Operator::both, 1},  Sign{"or", Operator::either, 1}, Sign{"xor", Operator::one, 1},
+      Sign{"**", Operator::power, 5}, Sign{"*", Operator::times, 4},
+      Sign{"/", Operator::over, 4},   Sign{"mod", Operator::modulo, 4},
+      Sign{"+", Operator::plus, 3},   Sign{"-", Operator::minus, 3},
+      Sign{"eq", Operator::eq, 2},    Sign{"ne", Operator::ne, 2},
+      Sign{"gt", Operator::gt, 2},    Sign{"ge", Operator::ge, 2},
+      Sign{"lt", Operator::lt, 2},    Sign{"le", Operator::le, 2},
+      Sign{"and", Operator::both, 1}, Sign{"or", Operator::either, 1},
+      Sign{"xor", Operator::one, 1},
   };
   for (const Sign& sign : kSigns) {
     const char* at = at_;
@@ -195,7 +215,9 @@ bool Expression::apply(Operator op, double& left, double right) {
       }
       left = std::pow(a, right);
       break;
-    case Operator::times: left = a * right; break;
+    case Operator::times:
+      left = a * right;
+      break;
     case Operator::over:
       if (right == 0.0) {
         return fail("division_by_zero", "a division by zero");
@@ -206,17 +228,39 @@ bool Expression::apply(Operator op, double& left, double right) {
       left = std::fmod(a, right);
       left += left < 0.0 ? std::abs(right) : 0.0;
       break;
-    case Operator::plus: left = a + right; break;
-    case Operator::minus: left = a - right; break;
-    case Operator::eq: left = truth(equal); break;
-    case Operator::ne: left = truth(!equal); break;
-    case Operator::gt: left = truth(a > right); break;
-    case Operator::ge: left = truth(a >= right); break;
-    case Operator::lt: left = truth(a < right); break;
-    case Operator::le: left = truth(a <= right); break;
-    case Operator::both: left = truth(a != 0.0 && right != 0.0); break;
-    case Operator::either: left = truth(a != 0.0 || right != 0.0); break;
-    case Operator::one: left = truth((a != 0.0) != (right != 0.0)); break;
+    case Operator::plus:
+      left = a + right;
+      break;
+    case Operator::minus:
+      left = a - right;
+      break;
+    case Operator::eq:
+      left = truth(equal);
+      break;
+    case Operator::ne:
+      left = truth(!equal);
+      break;
+    case Operator::gt:
+      left = truth(a > right);
+      break;
+    case Operator::ge:
+      left = truth(a >= right);
+      break;
+    case Operator::lt:
+      left = truth(a < right);
+      break;
+    case Operator::le:
+      left = truth(a <= right);
+      break;
+    case Operator::both:
+      left = truth(a != 0.0 && right != 0.0);
+      break;
+    case Operator::either:
+      left = truth(a != 0.0 || right != 0.0);
+      break;
+    case Operator::one:
+      left = truth((a != 0.0) != (right != 0.0));
+      break;
   }
   return finite(left);
 }
@@ -234,7 +278,9 @@ bool Expression::function(double& out) {
     at_ = first;
     return fail("missing_value", "a value is missing: a number, a parameter or [ ] belongs here");
   }
-  return text == "exists" ? exists(out) : text == "atan" ? arc_tangent(out) : named_function(text, out);
+  return text == "exists" ? exists(out)
+         : text == "atan" ? arc_tangent(out)
+                          : named_function(text, out);
 }
 
 bool Expression::named_function(std::string_view name, double& out) {
@@ -277,8 +323,9 @@ bool Expression::named_function(std::string_view name, double& out) {
   } else if (name == "tan") {
     out = std::tan(x * kDegree);
   } else {
-    return fail("unknown_function", "a function that is not known; ABS ACOS ASIN ATAN COS EXISTS EXP FIX "
-                                    "FUP LN ROUND SIN SQRT TAN are");
+    return fail("unknown_function",
+                "a function that is not known; ABS ACOS ASIN ATAN COS EXISTS EXP FIX "
+                "FUP LN ROUND SIN SQRT TAN are");
   }
   return finite(out);
 }
@@ -355,14 +402,17 @@ bool Expression::parameter_number(int& index) {
 
 bool Expression::looked_up(Lookup lookup) {
   switch (lookup) {
-    case Lookup::found: return true;
+    case Lookup::found:
+      return true;
     case Lookup::no_such_number:
       return fail("no_such_parameter", "a parameter that the control has not");
     case Lookup::no_such_name:
-      return fail("unset_parameter", "a named parameter that was never set; set it before, or ask EXISTS");
+      return fail("unset_parameter",
+                  "a named parameter that was never set; set it before, or ask EXISTS");
     case Lookup::read_only:
       return fail("read_only_parameter", "a parameter that cannot be set");
-    case Lookup::not_known_here: break;
+    case Lookup::not_known_here:
+      break;
   }
   return fail("parameter_of_the_machine", "a parameter whose value only the running control knows");
 }

@@ -122,7 +122,8 @@ bool LetterLine::word() {
   }
   if (block_.flow().kind != FlowKind::none) {
     at_ = end_;
-    return refuse(since(word_begin), "o_word", "words behind an O-word; write them in a line of their own");
+    return refuse(since(word_begin), "o_word",
+                  "words behind an O-word; write them in a line of their own");
   }
   if (!value(word_begin, word)) {
     return false;

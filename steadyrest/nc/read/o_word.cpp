@@ -102,7 +102,8 @@ bool OWord::label(Flow& flow) {
   flow.label.clear();
   const char first = peek();
   if (first == '<') {
-    const char* const after = read_name(line_.data() + at_, line_.data() + line_.size(), flow.label);
+    const char* const after =
+        read_name(line_.data() + at_, line_.data() + line_.size(), flow.label);
     if (after == nullptr) {
       return fail("o_word", "an O-word's name that is empty, too long or not closed by >");
     }
@@ -125,8 +126,8 @@ bool OWord::label(Flow& flow) {
     return fail("o_word", "an O-word whose label is not a whole number from 0");
   }
   std::array<char, 16> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(),
-                                 static_cast<long>(whole)).ptr;
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<long>(whole)).ptr;
   for (const char* at = digits.data(); at != end; ++at) {
     flow.label.push(*at);
   }
