@@ -24,7 +24,7 @@ MM_PER_INCH = 25.4
 HALF_DIGIT = 0.00005  # rs274 prints four decimals
 TOOLS = "".join(f"T{n} P{n} Z{n * 0.5:g} D{n * 0.05:g}\n" for n in range(1, 100))  # inches: rs274's own unit
 CALL = re.compile(r"^\s*\d+ N\S*\s+([A-Z_0-9]+)\((.*)\)\s*$")
-KINDS = {"STRAIGHT_TRAVERSE": "rapid", "STRAIGHT_FEED": "linear", "ARC_FEED": "arc", "DWELL": "dwell"}
+KINDS = {"STRAIGHT_TRAVERSE": "rapid", "STRAIGHT_FEED": "linear", "ARC_FEED": "arc", "DWELL": "dwell", "STRAIGHT_PROBE": "probe"}
 
 
 def numbers(text):

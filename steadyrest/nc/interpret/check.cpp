@@ -131,29 +131,34 @@ bool Interpreter::check_unused(const Step& step) {
            !refuse(step, letter, "unused_word",
                    std::string{"a "} + letter + " word, but no word of the block uses it");
   };
-  if (unused('D', step.code(GGroup::spindle_mode) == 960) || unused('E', false) ||
+  const int io = step.code(MGroup::io);
+  const bool orients = step.code(MGroup::spindle) == 19;
+  if (unused('D', step.code(GGroup::spindle_mode) == 960) || unused('E', io >= 66) ||
       unused('H', tool_length == 430 || tool_length == 432)) {
     return false;
   }
   const bool arc = is_arc(motion);
-  if (unused('I', arc || motion == 870) || unused('J', arc || motion == 870) ||
+  const bool tool_data = non_modal == 100;
+  if (unused('I', arc || motion == 870 || tool_data) ||
+      unused('J', arc || motion == 870 || tool_data) ||
       unused('K', arc || motion == 870 || motion == 330)) {
     return false;
   }
-  if (unused('L', drilling || non_modal == 100)) {
+  if (unused('L', drilling || non_modal == 100 || io == 66 || step.code(MGroup::program) == 98)) {
     return false;
   }
   const bool p_override = override_switch >= 50;
-  if (unused('P', arc || non_modal == 40 || non_modal == 100 || p_override ||
+  const bool p_elsewhere = (io >= 62 && io <= 66) || orients || step.code(MGroup::program) == 98;
+  if (unused('P', p_elsewhere || arc || non_modal == 40 || non_modal == 100 || p_override ||
                       step.code(GGroup::path_mode) == 640 || motion == 820 || motion == 860 ||
                       motion == 880 || motion == 890 || motion == 840 || motion == 740)) {
     return false;
   }
   if (unused('Q', motion == 730 || motion == 830 || step.code(GGroup::path_mode) == 640 ||
-                      step.code(MGroup::tool_change) == 61)) {
+                      step.code(MGroup::tool_change) == 61 || tool_data || io >= 66 || orients)) {
     return false;
   }
-  return !unused('R', arc || drilling || non_modal == 100);
+  return !unused('R', arc || drilling || non_modal == 100 || orients);
 }
 
 }  // namespace steadyrest::nc::interpret

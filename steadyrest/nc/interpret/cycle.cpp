@@ -111,8 +111,12 @@ bool Interpreter::cycle(const Step& step) {
   hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
   const PathMode path_mode = state_.path_mode;
   state_.path_mode = PathMode::exact_path;
-  double height =
-      lifts ? std::max(state_.position[axes.normal], hole.clear_mm) : state_.position[axes.normal];
+  // LinuxCNC lifts to the clearance first where the cycle goes on without its G word.
+  const bool goes_on = step.code(GGroup::motion) == kNoCode;
+  double height = state_.position[axes.normal];
+  if (lifts) {
+    height = std::max(height, goes_on ? hole.clear_mm : hole.retract_mm);
+  }
   bool accepted = true;
   for (double repeat = 0.0; repeat < repeats && accepted; repeat += 1.0) {
     Axes over = state_.position;
@@ -121,6 +125,11 @@ bool Interpreter::cycle(const Step& step) {
         const double value = component(step, axis);
         over[axis] = state_.incremental ? over[axis] + value : value;
       }
+    }
+    if (step.polar) {
+      over[0] = state_.position[0];
+      over[1] = state_.position[1];
+      polar_point(step, over);
     }
     over[axes.normal] = height;
     emit(MoveKind::rapid, over);

@@ -12,13 +12,37 @@ using read::Word;
 
 bool Interpreter::decode_linuxcnc(const Block& block, Step& step) {
   for (const Word& word : block.words()) {
-    const bool accepted = word.letter == 'G'   ? take_g(word, step)
-                          : word.letter == 'M' ? take_m(word, step)
-                                               : take_letter(word, step);
+    const bool accepted = word.letter == '@' || word.letter == '^' ? take_polar(word, step)
+                          : word.letter == 'G'                     ? take_g(word, step)
+                          : word.letter == 'M'                     ? take_m(word, step)
+                                                                   : take_letter(word, step);
     if (!accepted) {
       return false;
     }
   }
+  if (step.polar && (step.mask & (Step::bit('X') | Step::bit('Y'))) != 0) {
+    return refuse(step, step.has('X') ? 'X' : 'Y', "polar_and_axis_words",
+                  "polar coordinates (@ ^) beside an X or Y word");
+  }
+  if (step.polar) {  // for the checks: both axes are programmed
+    if (state_.plane != Plane::xy) {
+      return refuse_word(step.line, block.words().front(), "polar_off_xy",
+                         "polar coordinates (@ ^) outside of G17");
+    }
+    step.set('X', 0.0);
+    step.set('Y', 0.0);
+  }
+  return true;
+}
+
+bool Interpreter::take_polar(const Word& word, Step& step) {
+  double& place = word.letter == '@' ? step.polar_radius : step.polar_angle_deg;
+  if (!std::isnan(place)) {
+    return refuse_word(step.line, word, "word_twice",
+                       "a second polar word of its kind in one block");
+  }
+  place = word.value;
+  step.polar = true;
   return true;
 }
 
@@ -40,6 +64,12 @@ bool Interpreter::put_g(const Word& word, int code, Step& step) {
                : refuse_word(step.line, word, "g_code_not_interpreted", note);
   }
   std::int16_t& place = step.g[static_cast<std::size_t>(found.group)];
+  constexpr int kEndOfCycle = 800;  // stands beside another motion and yields to it
+  if (place != kNoCode && found.group == GGroup::motion &&
+      (place == kEndOfCycle) != (code == kEndOfCycle)) {
+    place = static_cast<std::int16_t>(place == kEndOfCycle ? code : place);
+    return true;
+  }
   if (place != kNoCode) {
     return refuse_word(step.line, word, "same_modal_group",
                        "a second G word of the same modal group in one block");
@@ -74,7 +104,9 @@ bool Interpreter::take_m(const Word& word, Step& step) {
 
 bool Interpreter::put_m(const Word& word, int code, Step& step) {
   const GroupOfM found = group_of_m(code);
-  if (!found.known) {
+  const bool linuxcnc_alone = found.group == MGroup::io || found.group == MGroup::modes ||
+                              found.group == MGroup::program || code == 19;
+  if (!found.known || (linuxcnc_alone && config_.dialect != read::Dialect::linuxcnc)) {
     const std::string_view note = known_but_refused_m(code);
     return note.empty()
                ? refuse_word(step.line, word, "unknown_m_code", "an M word that is not known")

@@ -389,7 +389,8 @@ bool FlowControl::enter(std::uint32_t line, std::string_view label, Passing how,
 
 bool FlowControl::end_of_sub(const Block& block) {
   const read::Flow& flow = block.flow();
-  if (!in_call() || frames_.back().by_number || frames_.back().sub != flow.label.view()) {
+  if (!in_call() || frames_.back().by_number ||
+      (flow.kind == FlowKind::endsub && frames_.back().sub != flow.label.view())) {
     return refuse(block.line(), flow.label.view(), "o_word_unmatched",
                   "the end of a subprogram that is not being executed");
   }

@@ -52,8 +52,10 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
   }
   state_.work_offset = config_.work_offset;
   state_.active_offset = config_.active_offset;
+  state_.work_in_force = state_.work_offset[state_.active_offset];
   state_.g92 = config_.g92;
   state_.g92_stored = config_.g92;
+  state_.g92_on = config_.g92 != Axes{};
   state_.home = config_.home;
   state_.unit_mm = config_.inch ? kMmPerInch : 1.0;
   state_.feed_unit_mm = state_.unit_mm;
@@ -68,6 +70,7 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
 }
 
 bool Interpreter::execute(const Block& block, Sink& sink) {
+  program_call_.kind = ProgramCall::Kind::none;
   if (block.deleted() && config_.block_delete) {
     return true;
   }
@@ -116,8 +119,9 @@ bool Interpreter::act(const Step& step) {
     set_units(step);
   }
   return set_feed(step) && set_spindle_speed(step) && select_tool(step) && change_tool(step) &&
-         set_spindle(step) && (set_coolant(step), true) && set_override(step) && set_modes(step) &&
-         non_modal(step) && move(step) && stop(step);
+         keep_modes(step) && set_spindle(step) && (set_coolant(step), true) && set_override(step) &&
+         set_io(step) && set_modes(step) && non_modal(step) && move(step) && call_program(step) &&
+         stop(step);
 }
 
 // mm/min, mm/rev or 1/min to the inner unit. On LinuxCNC an F word acts in the units that were in
@@ -242,6 +246,9 @@ bool Interpreter::change_tool(const Step& step) {
 bool Interpreter::set_spindle(const Step& step) {
   const int code = step.code(MGroup::spindle);
   if (code != kNoCode) {
+    if (code == 19 && !step.has('R')) {
+      return refuse_code(step, 'M', 19, "angle_missing", "M19 without the spindle's angle (R)");
+    }
     state_.spindle_direction = code == 3 ? 1 : code == 4 ? -1 : 0;
     emit_spindle();
   }

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/arc.hpp>
@@ -42,6 +44,16 @@ class Interpreter {
     parameters_->bind(state_, config_);
     return *parameters_;
   }
+  /// A subprogram begins or ends: what M70 and M73 kept belongs to it.
+  void enter_call();
+  void leave_call(Sink& sink);
+  /// M98 or M99 of the block that was executed last.
+  struct ProgramCall {
+    enum class Kind : std::uint8_t { none, call, end } kind = Kind::none;
+    std::int32_t number = 0;
+    double repeats = 1.0;
+  };
+  [[nodiscard]] const ProgramCall& program_call() const noexcept { return program_call_; }
   /// Looks at a block's words without executing: false when a word is not in the dialect.
   bool survey(const read::Block& block);
 
@@ -53,6 +65,7 @@ class Interpreter {
   bool decode_linuxcnc(const read::Block& block, Step& step);
   bool decode_fanuc(const read::Block& block, Step& step);
   bool decode_sinumerik(const read::Block& block, Step& step);
+  bool take_polar(const read::Word& word, Step& step);
   bool take_g(const read::Word& word, Step& step);
   bool take_m(const read::Word& word, Step& step);
   [[nodiscard]] bool is_modulation(const read::Word& word) const noexcept;
@@ -94,6 +107,13 @@ class Interpreter {
   bool set_path_mode(const Step& step);
   bool non_modal(const Step& step);
   bool set_data(const Step& step);
+  bool set_work_data(const Step& step, double form);
+  bool set_tool_data(const Step& step, double form);
+  Tool* place_of_tool(std::int32_t number);
+  bool set_io(const Step& step);
+  bool keep_modes(const Step& step);
+  void restore_modes(const State& kept);
+  bool call_program(const Step& step);
   bool set_g92(const Step& step, int code);
   bool home(const Step& step, std::size_t which);
   bool move(const Step& step);
@@ -102,6 +122,8 @@ class Interpreter {
   // motion
   bool straight(const Step& step);
   bool thread(const Step& step);
+  bool probe(const Step& step);
+  void polar_point(const Step& step, Axes& point) const;
   bool arc(const Step& step);
   bool arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end, PlanePoint& centre);
   bool arc_fault(const Step& step, ArcFault fault);
@@ -141,6 +163,12 @@ class Interpreter {
   Sink* sink_ = nullptr;
   int motion_now_ = -1;  ///< motion of the block in hand; −1 = none
   bool finished_ = false;
+  ProgramCall program_call_;
+  struct KeptModes {
+    std::optional<State> state;
+    bool restores_itself = false;  ///< M73
+  };
+  std::vector<KeptModes> kept_{1};
   double rounding_mm_ = 0.0;   ///< sinumerik ADIS in force
   std::string selected_name_;  ///< sinumerik T="NAME", until M6
   read::Refused refused_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <numbers>
 
 #include <steadyrest/nc/interpret/interpreter.hpp>
 
@@ -47,6 +48,9 @@ bool Interpreter::move(const Step& step) {
   if (motion == 330) {
     return thread(step);
   }
+  if (motion >= 382 && motion <= 385) {
+    return probe(step);
+  }
   return motion == 20 || motion == 30 ? arc(step) : straight(step);
 }
 
@@ -69,7 +73,28 @@ bool Interpreter::end_point(const Step& step, Axes& end) {
       end[i] = incremental ? state_.position[i] + value : value;
     }
   }
+  if (step.polar) {
+    end[0] = state_.position[0];
+    end[1] = state_.position[1];
+    polar_point(step, end);
+  }
   return true;
+}
+
+// @ and ^ from the point `point`: the distance from the origin and the angle, each the present one
+// where it is not given; in G91 both are added. Always in the XY plane, as on LinuxCNC.
+void Interpreter::polar_point(const Step& step, Axes& point) const {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  double radius = std::hypot(point[0], point[1]);
+  double angle = std::atan2(point[1], point[0]);
+  if (!std::isnan(step.polar_radius)) {
+    radius = step.polar_radius * state_.unit_mm + (state_.incremental ? radius : 0.0);
+  }
+  if (!std::isnan(step.polar_angle_deg)) {
+    angle = step.polar_angle_deg * kDegree + (state_.incremental ? angle : 0.0);
+  }
+  point[0] = radius * std::cos(angle);
+  point[1] = radius * std::sin(angle);
 }
 
 bool Interpreter::has_feed(const Step& step) {
@@ -106,6 +131,38 @@ bool Interpreter::straight(const Step& step) {
   }
   emit(cutting ? MoveKind::linear : MoveKind::rapid, end);
   state_.path_mode = mode;
+  return true;
+}
+
+// G38.2 to G38.5: where it really ends only the machine knows. It is given as programmed; the probe
+// is taken to touch there and the axes to stand 0.254 mm (after G20 0.01 in, which is the same)
+// before, as in LinuxCNC's own interpreter without a machine.
+bool Interpreter::probe(const Step& step) {
+  constexpr double kBefore_mm = 0.254;
+  if (!has_feed(step)) {
+    return false;
+  }
+  Axes end;
+  if (!end_point(step, end)) {
+    return false;
+  }
+  for (std::size_t i = 3; i < end.size(); ++i) {
+    if (end[i] != state_.position[i]) {
+      return refuse(step, kAxisLetters[i], "probe_axis", "probing moves X, Y and Z alone");
+    }
+  }
+  const Axes start = state_.position;
+  const double distance = std::hypot(end[0] - start[0], end[1] - start[1], end[2] - start[2]);
+  const bool may_fail = motion_now_ == 383 || motion_now_ == 385;
+  if (!(distance > 0.0) && !may_fail) {
+    return refuse_code(step, 'G', 38, "probe_too_short", "a probing move that goes nowhere");
+  }
+  emit(MoveKind::probe, end);
+  parameters_->bind(state_, config_);
+  parameters_->record_probe(end);
+  for (std::size_t i = 0; i < 3 && distance > 0.0; ++i) {
+    state_.position[i] -= kBefore_mm * (end[i] - start[i]) / distance;
+  }
   return true;
 }
 

@@ -47,7 +47,7 @@ void Interpreter::set_units(const Step& step) {
 // The machine stays where it is when an offset changes: the work position takes the difference.
 void Interpreter::update_offset() noexcept {
   for (std::size_t i = 0; i < state_.offset.size(); ++i) {
-    const double work = state_.work_offset_on ? state_.work_offset[state_.active_offset][i] : 0.0;
+    const double work = state_.work_offset_on ? state_.work_in_force[i] : 0.0;
     const double offset = work + state_.g92[i] + state_.tool_offset[i];
     state_.position[i] += state_.offset[i] - offset;
     state_.offset[i] = offset;
@@ -94,8 +94,14 @@ bool Interpreter::set_work_offset(const Step& step) {
   if (step.zero_offset) {
     state_.work_offset_on = false;
   } else if (code != kNoCode) {
-    state_.active_offset =
+    const auto active =
         static_cast<std::size_t>(code <= 590 ? (code - 540) / 10 : 5 + (code - 590));
+    // LinuxCNC goes on with what it has when the system is in force already, although a program may
+    // have set its numbers (#5221 …) anew.
+    if (active != state_.active_offset || !state_.work_offset_on) {
+      state_.work_in_force = state_.work_offset[active];
+    }
+    state_.active_offset = active;
     state_.work_offset_on = true;
   } else {
     return true;
@@ -164,12 +170,15 @@ bool Interpreter::set_g92(const Step& step, int code) {
     case 921:
       state_.g92 = {};
       state_.g92_stored = {};
+      state_.g92_on = false;
       break;
     case 922:
       state_.g92 = {};
+      state_.g92_on = false;
       break;
     case 923:
       state_.g92 = state_.g92_stored;
+      state_.g92_on = true;
       break;
     default:
       for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
@@ -179,40 +188,9 @@ bool Interpreter::set_g92(const Step& step, int code) {
         }
       }
       state_.g92_stored = state_.g92;
+      state_.g92_on = true;
       (code == 520 ? state_.g52_used : state_.g92_used) = true;
       break;
-  }
-  update_offset();
-  return true;
-}
-
-// G10 L2 and L20: the work offsets.
-bool Interpreter::set_data(const Step& step) {
-  const double form = step.has('L') ? step['L'] : -1.0;
-  if (form != 2.0 && form != 20.0) {
-    return refuse_code(step, 'G', 10, "g10_form",
-                       "this form of G10 is not interpreted; L2 and L20 (work offsets) are");
-  }
-  const double number = step.has('P') ? step['P'] : -1.0;
-  if (number != std::floor(number) || number < 0.0 || number > 9.0) {
-    return refuse_code(step, 'G', 10, "g10_form",
-                       "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
-  }
-  if (step.has('R') && step['R'] != 0.0) {
-    return refuse(step, 'R', "rotation", "a rotated coordinate system (G10 R) is not interpreted");
-  }
-  if (!state_.work_offset_on && number == 0.0) {
-    return refuse_code(step, 'G', 10, "g10_form", "no work offset is active");
-  }
-  Axes& offset =
-      state_
-          .work_offset[number == 0.0 ? state_.active_offset : static_cast<std::size_t>(number) - 1];
-  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
-    if (step.has(kAxisLetters[i])) {
-      const double value = component(step, i);
-      const double machine = state_.position[i] + state_.offset[i];
-      offset[i] = form == 2.0 ? value : machine - state_.g92[i] - state_.tool_offset[i] - value;
-    }
   }
   update_offset();
   return true;

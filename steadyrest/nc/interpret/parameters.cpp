@@ -30,8 +30,8 @@ constexpr bool is_rotary(int axis) noexcept {
   return axis >= 3 && axis < 6;
 }
 constexpr bool reads_only(int index) noexcept {
-  return (index >= kTool && index <= kPosition + kAxes) ||
-         (index >= kProbe && index < kProbe + 10) || index == kG92InForce || index == kActiveOffset;
+  return (index >= kTool && index <= kPosition + kAxes) || index == kG92InForce ||
+         index == kActiveOffset;
 }
 
 }  // namespace
@@ -72,9 +72,6 @@ bool Parameters::of_state(int index, double& value) const {
         axes[static_cast<std::size_t>(index - first)] / (is_rotary(index - first) ? 1.0 : unit_mm);
     return true;
   };
-  if (within(index, kProbe)) {
-    return in_force(state_->probe, kProbe, state_->unit_mm);
-  }
   if (within(index, kPosition)) {
     return in_force(state_->position, kPosition, state_->unit_mm);
   }
@@ -87,9 +84,6 @@ bool Parameters::of_state(int index, double& value) const {
     return true;
   }
   switch (index) {
-    case kProbe + kAxes:
-      value = 0.0;
-      return true;
     case kG92InForce:
       value = state_->g92_on ? 1.0 : 0.0;
       return true;
@@ -204,7 +198,7 @@ Lookup Parameters::number(int index, double& value) const {
   if (index < 1 || index >= kNumbers) {
     return Lookup::no_such_number;
   }
-  if (index >= kProbe && of_state(index, value)) {
+  if (index >= kHome && of_state(index, value)) {
     return Lookup::found;
   }
   value = numbers_[static_cast<std::size_t>(index)];
@@ -266,7 +260,7 @@ Lookup Parameters::set_name(std::string_view name, double value) {
 
 void Parameters::assign(int index, double value) {
   bool rotary = false;
-  if (double* const place = index >= kProbe ? stored(index, rotary) : nullptr; place != nullptr) {
+  if (double* const place = index >= kHome ? stored(index, rotary) : nullptr; place != nullptr) {
     *place = rotary ? value : value * config_->data_unit_mm;
     return;
   }
@@ -287,6 +281,14 @@ void Parameters::commit() {
 void Parameters::drop() noexcept {
   pending_numbers_.clear();
   pending_names_.clear();
+}
+
+void Parameters::record_probe(const Axes& end) {
+  for (int axis = 0; axis < kAxes; ++axis) {
+    numbers_[static_cast<std::size_t>(kProbe + axis)] =
+        end[static_cast<std::size_t>(axis)] / (is_rotary(axis) ? 1.0 : state_->unit_mm);
+  }
+  numbers_[kProbe + kAxes] = 0.0;
 }
 
 void Parameters::enter(std::span<const double> arguments) {

@@ -45,6 +45,8 @@ class Parameters final : public read::Values {
   void commit() override;
   void drop() noexcept override;
 
+  /// #5061 … #5069 after a probing move: its end as programmed, mm and degrees.
+  void record_probe(const Axes& end);
   /// A call with its arguments: #1 … are set to them, the rest of the thirty to zero.
   void enter(std::span<const double> arguments);
   /// A call that shares #1 … and the names with its caller (M98).

@@ -63,20 +63,42 @@ class Run {
       return refuse(flow_.refused());
     }
     if (flow_.passing_over()) {
-      return flow_.pass_over(block_) || refuse(flow_.refused());
+      return follow(flow_.pass_over(block_));
     }
     const LineSource& source = files_.now();
     if (!reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
       return refuse(reader_.refused());
     }
     if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
-      return flow_.act(block_) || refuse(flow_.refused());
+      return follow(flow_.act(block_));
     }
     if (!interpreter_.execute(block_, counter_)) {
       return refuse(interpreter_.refused());
     }
     report_.blocks += block_.words().empty() ? 0U : 1U;
+    const Interpreter::ProgramCall& call = interpreter_.program_call();
+    switch (call.kind) {
+      case Interpreter::ProgramCall::Kind::none:
+        return true;
+      case Interpreter::ProgramCall::Kind::call:
+        return call.repeats < 0.5 ||
+               follow(flow_.call_program(block_.line(), std::to_string(call.number), call.repeats));
+      case Interpreter::ProgramCall::Kind::end:
+        return follow(flow_.end_program(block_.line()));
+    }
     return true;
+  }
+
+  /// Tells the interpreter of calls that began or ended.
+  bool follow(bool accepted) {
+    const std::size_t calls = interpreter_.parameters().calls();
+    for (; calls_ < calls; ++calls_) {
+      interpreter_.enter_call();
+    }
+    for (; calls_ > calls; --calls_) {
+      interpreter_.leave_call(counter_);
+    }
+    return accepted || refuse(flow_.refused());
   }
 
   bool refuse(const Refused& refused) {
@@ -164,6 +186,7 @@ class Run {
   Interpreter interpreter_;
   FlowControl flow_;
   bool block_delete_;
+  std::size_t calls_ = 0;
   Report report_;
   Counter counter_;
   Block block_;

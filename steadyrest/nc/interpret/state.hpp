@@ -44,6 +44,7 @@ struct State {
   Axes position{};  ///< active work coordinates
   Axes offset{};    ///< machine = position + offset; sum of the three below
   std::array<Axes, kWorkOffsets> work_offset{};
+  Axes work_in_force{};  ///< of the active one: what #5221 … say later acts when it is chosen anew
   std::size_t active_offset = 0;
   bool work_offset_on = true;  ///< false after G500
   Axes g92{};                  ///< in force (G92, G52)
@@ -82,9 +83,8 @@ struct State {
   Tool tool;  ///< the one in the spindle, where a tool table knows it
 
   std::array<double, kWorkOffsets> rotation_deg{};  ///< of the work offsets (G10 L2 R)
-  Axes probe{};           ///< where the last probing move was programmed to end
-  int cutter_side = 0;    ///< G41 −1, G42 +1
-  bool diameter = false;  ///< G7
+  int cutter_side = 0;                              ///< G41 −1, G42 +1
+  bool diameter = false;                            ///< G7
   std::uint32_t line = 0;
 };
 

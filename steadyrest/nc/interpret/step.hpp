@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include <steadyrest/nc/read/block.hpp>
@@ -30,8 +31,17 @@ enum class GGroup : std::uint8_t {
 inline constexpr std::size_t kGGroups = 14;
 
 /// Modal groups of M words.
-enum class MGroup : std::uint8_t { stopping, tool_change, spindle, coolant, override_switch };
-inline constexpr std::size_t kMGroups = 5;
+enum class MGroup : std::uint8_t {
+  stopping,
+  tool_change,
+  spindle,
+  coolant,
+  override_switch,
+  io,      ///< M62–M68: outputs and inputs
+  modes,   ///< M70–M73: modal state kept and brought back
+  program  ///< M98 M99: subprograms by number
+};
+inline constexpr std::size_t kMGroups = 8;
 
 inline constexpr std::int16_t kNoCode = -1;
 
@@ -46,8 +56,11 @@ struct Step {
   std::array<double, 26> value;
   std::array<std::int16_t, kGGroups> g;
   std::array<std::int16_t, kMGroups> m;
-  std::uint32_t absolute = 0;          ///< words that are absolute whatever G90/G91 say
-  std::uint32_t incremental = 0;       ///< words that are incremental whatever G90/G91 say
+  std::uint32_t absolute = 0;     ///< words that are absolute whatever G90/G91 say
+  std::uint32_t incremental = 0;  ///< words that are incremental whatever G90/G91 say
+  bool polar = false;             ///< X and Y are given by @ and ^
+  double polar_radius = std::numeric_limits<double>::quiet_NaN();  ///< as written; NaN: not given
+  double polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
   bool machine_frame = false;          ///< G53 that rules this block (also sinumerik SUPA)
   bool exact_stop = false;             ///< G9: exact stop at the end of this block
   bool zero_offset = false;            ///< sinumerik G500
@@ -64,6 +77,8 @@ struct Step {
     m.fill(kNoCode);
     absolute = 0;
     incremental = 0;
+    polar = false;
+    polar_radius = polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
     machine_frame = false;
     exact_stop = false;
     zero_offset = false;

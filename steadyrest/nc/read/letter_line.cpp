@@ -58,6 +58,9 @@ bool LetterLine::one_item() {
   if (c == '#' && reader_.values_ != nullptr) {
     return assignment();
   }
+  if ((c == '@' || c == '^') && reader_.dialect_ == Dialect::linuxcnc) {
+    return word();
+  }
   return refuse_character();
 }
 

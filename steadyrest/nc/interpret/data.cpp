@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/nc/interpret/interpreter.hpp>
+
+// G10: work offsets (L2, L20) and the tool table (L1, L10, L11).
+namespace steadyrest::nc::interpret {
+
+bool Interpreter::set_data(const Step& step) {
+  const double form = step.has('L') ? step['L'] : -1.0;
+  if (form == 2.0 || form == 20.0) {
+    return set_work_data(step, form);
+  }
+  if (form == 1.0 || form == 10.0 || form == 11.0) {
+    return set_tool_data(step, form);
+  }
+  return refuse_code(step, 'G', 10, "g10_form",
+                     "this form of G10 is not interpreted; L1, L10, L11 (tool table), L2 and L20 "
+                     "(work offsets) are");
+}
+
+bool Interpreter::set_work_data(const Step& step, double form) {
+  const double number = step.has('P') ? step['P'] : -1.0;
+  if (number != std::floor(number) || number < 0.0 || number > 9.0) {
+    return refuse_code(step, 'G', 10, "g10_form",
+                       "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
+  }
+  if (step.has('R') && step['R'] != 0.0) {
+    return refuse(step, 'R', "rotation", "a rotated coordinate system (G10 R) is not interpreted");
+  }
+  if (!state_.work_offset_on && number == 0.0) {
+    return refuse_code(step, 'G', 10, "g10_form", "no work offset is active");
+  }
+  const std::size_t set =
+      number == 0.0 ? state_.active_offset : static_cast<std::size_t>(number) - 1;
+  Axes& offset = state_.work_offset[set];
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (step.has(kAxisLetters[i])) {
+      const double value = component(step, i);
+      const double machine = state_.position[i] + state_.offset[i];
+      offset[i] = form == 2.0 ? value : machine - state_.g92[i] - state_.tool_offset[i] - value;
+    }
+  }
+  if (set == state_.active_offset) {
+    state_.work_in_force = offset;
+  }
+  update_offset();
+  return true;
+}
+
+Tool* Interpreter::place_of_tool(std::int32_t number) {
+  if (!config_.tools) {
+    return nullptr;
+  }
+  const auto found = std::ranges::find(*config_.tools, number, &Tool::number);
+  return found == config_.tools->end() ? nullptr : &*found;
+}
+
+// L1 sets a tool's data; L10 and L11 so that the tip would stand at the given place of the present
+// work offset or of G59.3. What is in force changes with the next G43.
+bool Interpreter::set_tool_data(const Step& step, double form) {
+  const double number = step.has('P') ? step['P'] : -1.0;
+  Tool* const tool = number == std::floor(number) && number > 0.0 && number < 1e6
+                         ? place_of_tool(static_cast<std::int32_t>(number))
+                         : nullptr;
+  if (tool == nullptr) {
+    return refuse_code(step, 'G', 10, "no_such_tool",
+                       "G10 names a tool (P) that is not in the tool table");
+  }
+  constexpr std::size_t kFixtures = 8;  // G59.3
+  const Axes& frame = form == 11.0 ? state_.work_offset[kFixtures] : state_.work_in_force;
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (!step.has(kAxisLetters[i])) {
+      continue;
+    }
+    const double value = component(step, i);
+    const double machine = state_.position[i] + state_.offset[i];
+    const double shift = form == 10.0 ? state_.g92[i] : 0.0;
+    tool->offset[i] = form == 1.0 ? value : machine - frame[i] - shift - value;
+  }
+  if (step.has('R')) {
+    tool->diameter_mm = 2.0 * step['R'] * state_.unit_mm;
+  }
+  if (step.has('I')) {
+    tool->front_angle_deg = step['I'];
+  }
+  if (step.has('J')) {
+    tool->back_angle_deg = step['J'];
+  }
+  if (step.has('Q')) {
+    if (step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0 || step['Q'] > 9.0) {
+      return refuse(step, 'Q', "out_of_range", "a lathe tool's orientation (Q) is 0 to 9");
+    }
+    tool->orientation = static_cast<std::int32_t>(step['Q']);
+  }
+  return true;
+}
+
+}  // namespace steadyrest::nc::interpret
