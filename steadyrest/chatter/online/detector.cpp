@@ -166,7 +166,7 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
   if (entered && calm && state_.settled_rev > pause_rev) {
     state_.opened = true;
     state_.seen_rev = 0.0;
-    filter_.open();
+    filter_.open(state_.speed_spread >= kSteady);
     state_.settled_rev = 0.0;
     state_.settled = 0;
     state_.judged_s = 0.0;

@@ -9,8 +9,9 @@
 namespace steadyrest::chatter::online {
 namespace {
 
-constexpr double kUnknown = 10.0;  // p at the start, as in the source
-constexpr double kHighest = 0.45;  // of the sample rate
+constexpr double kUnknown = 10.0;    // p at the start, as in the source
+constexpr double kSlowStart = 0.01;  // the same of runout, as if 100 samples had been heard
+constexpr double kHighest = 0.45;    // of the sample rate
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 kernel::outcome::Refusal refuse(std::string what) {
@@ -110,9 +111,9 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
   return out;
 }
 
-void OrderFilter::open() noexcept {
+void OrderFilter::open(bool moving) noexcept {
   for (Order& o : orders_) {
-    o.p = kUnknown;
+    o.p = o.tooth || moving ? kUnknown : kSlowStart;
   }
 }
 

@@ -46,8 +46,10 @@ class OrderFilter {
   /// constant.
   Output update(double value, double angle_rev, double speed_rev_s, bool moving,
                 bool hold) noexcept;
-  /// The cut has begun anew: learns as at the start, from the present values.
-  void open() noexcept;
+  /// The cut has begun anew: learns as at the start, from the present values. At constant speed the
+  /// orders that runout gives are learnt over some revolutions, or they would take up the beginning
+  /// of a chatter next to them at once.
+  void open(bool moving) noexcept;
   void reset() noexcept;
 
  private:
