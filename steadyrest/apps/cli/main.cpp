@@ -15,8 +15,11 @@
 #include <steadyrest/apps/cli/verb_motion_estimate.hpp>
 #include <steadyrest/apps/cli/verb_motion_units.hpp>
 #include <steadyrest/apps/cli/verb_program_check.hpp>
+#include <steadyrest/apps/cli/verb_program_compensate.hpp>
 #include <steadyrest/apps/cli/verb_program_moves.hpp>
+#include <steadyrest/apps/cli/verb_program_strip.hpp>
 #include <steadyrest/apps/cli/verb_program_time.hpp>
+#include <steadyrest/apps/cli/verb_program_verify.hpp>
 
 /// The command line: every verb that works is registered here, in the order in which --help has
 /// them.
@@ -40,5 +43,8 @@ int main(int argc, char** argv) {
   add_verb_program_check(session);
   add_verb_program_moves(session);
   add_verb_program_time(session);
+  add_verb_program_compensate(session);
+  add_verb_program_strip(session);
+  add_verb_program_verify(session);
   return session.main(argc, argv);
 }

@@ -30,7 +30,9 @@ class Counter final : public Sink {
   Report& report_;
 };
 
-class Run {
+}  // namespace
+
+class ProgramRun::Run {
  public:
   Run(LineSource& source, const Config& config, Interpreter interpreter, Sink& sink)
       : files_(source, config.subprogram_folders),
@@ -47,9 +49,9 @@ class Run {
   Run& operator=(const Run&) = delete;
   ~Run() = default;
 
-  Report execute() {
-    while (!interpreter_.finished() && next_line() && line()) {
-    }
+  bool step() { return !interpreter_.finished() && next_line() && line(); }
+
+  Report take() {
     if (!report_.refused.empty() && !source_failed_ && files_.in_main()) {
       survey();
     }
@@ -62,6 +64,10 @@ class Run {
     if (!flow_.count_line()) {
       return refuse(flow_.refused());
     }
+    executed_ = false;
+    at_top_ = files_.in_main() && !flow_.repeating();
+    in_main_ = files_.in_main();
+    line_ = files_.now().number();
     if (flow_.passing_over()) {
       return follow(flow_.pass_over(block_));
     }
@@ -72,6 +78,7 @@ class Run {
     if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
       return follow(flow_.act(block_));
     }
+    executed_ = true;
     if (!interpreter_.execute(block_, counter_)) {
       return refuse(interpreter_.refused());
     }
@@ -191,16 +198,60 @@ class Run {
   Counter counter_;
   Block block_;
   bool source_failed_ = false;
+  std::uint32_t line_ = 0;
+  bool executed_ = false;
+  bool at_top_ = false;
+  bool in_main_ = true;
+
+  friend class ProgramRun;
 };
 
-}  // namespace
+ProgramRun::ProgramRun(std::unique_ptr<Run> run) : run_(std::move(run)) {}
+ProgramRun::ProgramRun(ProgramRun&& other) noexcept = default;
+ProgramRun::~ProgramRun() = default;
 
-kernel::outcome::Result<Report> run_lines(LineSource& source, const Config& config, Sink& sink) {
+kernel::outcome::Result<ProgramRun> ProgramRun::make(LineSource& source, const Config& config,
+                                                     Sink& sink) {
   auto interpreter = Interpreter::make(config);
   if (!interpreter) {
     return std::unexpected(interpreter.error());
   }
-  return Run(source, config, std::move(*interpreter), sink).execute();
+  return ProgramRun(std::make_unique<Run>(source, config, std::move(*interpreter), sink));
+}
+
+bool ProgramRun::step() {
+  return run_->step();
+}
+Report ProgramRun::take() {
+  return run_->take();
+}
+std::uint32_t ProgramRun::line() const noexcept {
+  return run_->line_;
+}
+bool ProgramRun::executed() const noexcept {
+  return run_->executed_;
+}
+bool ProgramRun::at_top() const noexcept {
+  return run_->at_top_;
+}
+bool ProgramRun::in_main() const noexcept {
+  return run_->in_main_;
+}
+const Block& ProgramRun::block() const noexcept {
+  return run_->block_;
+}
+const State& ProgramRun::state() const noexcept {
+  return run_->interpreter_.state();
+}
+
+kernel::outcome::Result<Report> run_lines(LineSource& source, const Config& config, Sink& sink) {
+  auto run = ProgramRun::make(source, config, sink);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  while (run->step()) {
+  }
+  return run->take();
 }
 
 kernel::outcome::Result<Report> run_file(const std::string& path, const Config& config,

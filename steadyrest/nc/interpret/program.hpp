@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,8 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/config.hpp>
 #include <steadyrest/nc/interpret/move.hpp>
+#include <steadyrest/nc/interpret/state.hpp>
+#include <steadyrest/nc/read/block.hpp>
 #include <steadyrest/nc/read/line_source.hpp>
 #include <steadyrest/nc/read/refused.hpp>
 
@@ -26,6 +29,36 @@ struct Report {
   std::vector<read::Refused> refused;
 
   static constexpr std::size_t kMostRefused = 50;
+};
+
+/// Executes a program line by line, for those who look at the state between two lines.
+class ProgramRun {
+ public:
+  /// `source` and `sink` outlive the run.
+  static kernel::outcome::Result<ProgramRun> make(read::LineSource& source, const Config& config,
+                                                  Sink& sink);
+  ProgramRun(ProgramRun&& other) noexcept;
+  ~ProgramRun();
+
+  /// Goes on by one line. False when the program is at its end or refused.
+  bool step();
+  /// The report; call once, after the last step.
+  [[nodiscard]] Report take();
+
+  // Of the line that step() has just been at:
+  [[nodiscard]] std::uint32_t line() const noexcept;
+  /// Its words have been executed: it was not passed over and has no O-word.
+  [[nodiscard]] bool executed() const noexcept;
+  /// It stands in the program itself, outside of every subprogram, condition and loop.
+  [[nodiscard]] bool at_top() const noexcept;
+  [[nodiscard]] bool in_main() const noexcept;  ///< not in a subprogram's own file
+  [[nodiscard]] const read::Block& block() const noexcept;
+  [[nodiscard]] const State& state() const noexcept;  ///< as it stands now
+
+ private:
+  class Run;
+  explicit ProgramRun(std::unique_ptr<Run> run);
+  std::unique_ptr<Run> run_;
 };
 
 /// Executes a whole program from a file, in bounded memory. An error is a file that cannot be

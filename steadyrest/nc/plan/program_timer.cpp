@@ -83,6 +83,7 @@ class ProgramTimer::Runner final : public PathReceiver {
 
   PathStream stream;
   ProgramTime time;
+  Arrival arrival;
 
  private:
   void step() {
@@ -113,12 +114,18 @@ class ProgramTimer::Runner final : public PathReceiver {
   }
 
   void account(const Setpoint& s, double period) {
+    if (arrival && s.line != line_) {
+      line_ = s.line;
+      arrival(s.line, time.total_s);
+    }
     time.total_s += period;
     time.tools.back().seconds += period;
-    if (s.line >= time.line_s.size()) {
-      time.line_s.resize(s.line + 1U, 0.0);
+    if (!arrival) {
+      if (s.line >= time.line_s.size()) {
+        time.line_s.resize(s.line + 1U, 0.0);
+      }
+      time.line_s[s.line] += period;
     }
-    time.line_s[s.line] += period;
     switch (s.motion) {
       case Motion::rapid:
         time.rapid_s += period;
@@ -146,6 +153,7 @@ class ProgramTimer::Runner final : public PathReceiver {
   std::size_t event_end_ = 0;
   std::size_t tools_seen_ = 0;
   double spindle_rev_s_ = 0.0;
+  std::uint32_t line_ = 0;
 };
 
 Result<ProgramTimer> ProgramTimer::make(const Machine& machine) {
@@ -167,6 +175,10 @@ void ProgramTimer::on_move(const interpret::Move& move) {
 
 void ProgramTimer::on_event(const interpret::Event& event) {
   runner_->stream.on_event(event);
+}
+
+void ProgramTimer::set_arrival(Arrival arrival) {
+  runner_->arrival = std::move(arrival);
 }
 
 Result<ProgramTime> ProgramTimer::take() {

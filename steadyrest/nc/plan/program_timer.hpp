@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -48,6 +49,11 @@ class ProgramTimer final : public interpret::Sink {
   /// The result; call once after the last move. Refuses what the planner refuses, and a program
   /// that would take longer than `kMost_s`.
   [[nodiscard]] kernel::outcome::Result<ProgramTime> take();
+
+  /// Called with a move's line when the machine gets to it, and the time since the program's
+  /// start; `line_s` stays empty then, so that memory does not grow with the lines.
+  using Arrival = std::function<void(std::uint32_t line, double time_s)>;
+  void set_arrival(Arrival arrival);
 
   static constexpr double kMost_s = 30.0 * 24.0 * 3600.0;
 

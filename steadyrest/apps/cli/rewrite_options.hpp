@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <expected>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <steadyrest/apps/cli/program_options.hpp>
+#include <steadyrest/apps/cli/session.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/nc/interpret/config.hpp>
+#include <steadyrest/nc/rewrite/plan_file.hpp>
+#include <steadyrest/nc/rewrite/settings.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// What `program compensate` and `program verify` are told beside their files.
+struct RewriteOptions {
+  ProgramOptions program;
+  std::string plan;
+  std::string machine;  ///< empty: the one that the plan names
+  std::string control;
+  double window_s = 60.0;
+};
+
+/// Everything read.
+struct RewriteTask {
+  nc::rewrite::Plan plan;
+  kernel::machine::Machine machine;
+  nc::interpret::Config config;
+  nc::rewrite::Settings settings;
+};
+
+/// Adds all but the programs' own names.
+void add_rewrite_options(CLI::App& verb, RewriteOptions& options);
+[[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                                     Progress& progress);
+
+}  // namespace steadyrest::apps::cli

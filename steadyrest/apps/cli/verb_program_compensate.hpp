@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/apps/cli/session.hpp>
+
+namespace steadyrest::apps::cli {
+
+void add_verb_program_compensate(Session& session);
+
+}  // namespace steadyrest::apps::cli

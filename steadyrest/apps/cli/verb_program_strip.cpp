@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/verb_program_strip.hpp>
+#include <steadyrest/nc/rewrite/tag.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string output;
+};
+
+Outcome run(const Options& options) {
+  const auto removed = nc::rewrite::strip(options.file, options.output);
+  if (!removed) {
+    return refused(removed.error());
+  }
+  Answer answer;
+  answer.json["removed_lines"] = *removed;
+  answer.text = fmt::format("{} lines taken out\n", *removed);
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_program_strip(Session& session) {
+  CLI::App& group = session.group("program", "NC programs");
+  CLI::App& verb =
+      session.verb(group, "strip", "Takes the corrections out of an NC program, byte for byte",
+                   "program strip examples/programs/rib-pocket.ngc -o /tmp/rib-pocket.ngc");
+  auto options = std::make_shared<Options>();
+  verb.add_option("FILE", options->file, "The changed program")->required();
+  verb.add_option("-o,--output", options->output, "The original again; may be FILE itself")
+      ->required();
+  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+}
+
+}  // namespace steadyrest::apps::cli

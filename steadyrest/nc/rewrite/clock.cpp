@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+#include <utility>
+
+#include <steadyrest/nc/rewrite/clock.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using kernel::outcome::Result;
+
+Result<std::unique_ptr<Clock>> Clock::make(const kernel::machine::Machine& machine, Told told) {
+  auto timer = plan::ProgramTimer::make(machine);
+  if (!timer) {
+    return std::unexpected(timer.error());
+  }
+  std::unique_ptr<Clock> made(new Clock(std::move(*timer), std::move(told)));
+  made->timer_.set_arrival([clock = made.get()](std::uint32_t sequence, double time_s) {
+    clock->arrived(sequence, time_s);
+  });
+  return made;
+}
+
+void Clock::arrived(std::uint32_t sequence, double time_s) {
+  while (!asked_.empty() && asked_.front().sequence <= sequence) {
+    told_(asked_.front().ticket, time_s);
+    asked_.pop_front();
+  }
+}
+
+// A block's events come before its moves, but for a stop and the program's end.
+void Clock::feed(const Walk& walk) {
+  for (interpret::Event event : walk.events()) {
+    if (event.kind != interpret::EventKind::end && event.kind != interpret::EventKind::stop) {
+      event.line = ++sequence_;
+      timer_.on_event(event);
+    }
+  }
+  for (interpret::Move move : walk.moves()) {
+    move.line = ++sequence_;
+    timer_.on_move(move);
+  }
+  for (interpret::Event event : walk.events()) {
+    if (event.kind == interpret::EventKind::end || event.kind == interpret::EventKind::stop) {
+      event.line = ++sequence_;
+      timer_.on_event(event);
+    }
+  }
+}
+
+Result<double> Clock::finish() {
+  const auto time = timer_.take();
+  if (!time) {
+    return std::unexpected(time.error());
+  }
+  arrived(std::numeric_limits<std::uint32_t>::max(), time->total_s);
+  return time->total_s;
+}
+
+}  // namespace steadyrest::nc::rewrite

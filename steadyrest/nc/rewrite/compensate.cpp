@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/rewrite/clock.hpp>
+#include <steadyrest/nc/rewrite/compensate.hpp>
+#include <steadyrest/nc/rewrite/file_writer.hpp>
+#include <steadyrest/nc/rewrite/schedule.hpp>
+#include <steadyrest/nc/rewrite/source_lines.hpp>
+#include <steadyrest/nc/rewrite/survey.hpp>
+#include <steadyrest/nc/rewrite/tag.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+/// A line that does something to the frame in which a correction stands, or the program's end.
+struct FrameLine {
+  std::uint32_t line = 0;
+  std::uint32_t top_line = 0;
+  Frame frame = Frame::kept;
+  bool may_write = false;
+  bool moves_axis = false;
+  bool incremental = false;
+  std::size_t before = 0;  ///< active offset
+  std::size_t behind = 0;
+  double unit_before_mm = 1.0;
+  double unit_behind_mm = 1.0;
+};
+
+struct Text {
+  std::string before_line;
+  std::vector<std::size_t> insertions;  ///< indices into Compensated::insertions
+};
+
+class Rewriter {
+ public:
+  Rewriter(const std::string& program, const Plan& plan, const interpret::Config& config,
+           const kernel::machine::Machine& machine, const Settings& settings)
+      : program_(program),
+        plan_(plan),
+        config_(config),
+        machine_(machine),
+        settings_(settings),
+        frames_(plan.axes.size()) {
+    for (const AxisPlan& axis : plan.axes) {
+      schedules_.emplace_back(axis, settings.window_s);
+    }
+  }
+
+  Result<Compensated> run(const std::string& output) {
+    Result<void> done = look_at_text();
+    if (done) {
+      done = walk();
+    }
+    for (std::size_t axis = 0; done && axis < plan_.axes.size(); ++axis) {
+      done = place(axis);
+    }
+    if (done) {
+      done = write(output);
+    }
+    if (!done) {
+      return std::unexpected(done.error());
+    }
+    return std::move(result_);
+  }
+
+ private:
+  Result<void> refuse(std::uint32_t line, std::string what, std::string to_do) const {
+    return std::unexpected(
+        Refusal{Kind::bad_input, program_, line, std::move(what), std::move(to_do)});
+  }
+
+  void progress(double share, std::string_view what) const {
+    if (settings_.progress) {
+      settings_.progress(share, what);
+    }
+  }
+
+  Result<void> look_at_text() {
+    std::error_code ignored;
+    if (std::filesystem::exists(program_, ignored) &&
+        !std::filesystem::is_regular_file(program_, ignored)) {
+      return refuse(0, "not a file that can be read twice", "give a file, not a pipe or a folder");
+    }
+    auto lines = SourceLines::open(program_);
+    if (!lines) {
+      return std::unexpected(lines.error());
+    }
+    while (lines->next()) {
+      if (is_inserted(lines->line())) {
+        return refuse(lines->number(), "carries the mark of a correction already",
+                      "take the corrections out first: program strip");
+      }
+      const auto blank = lines->line().find_first_not_of(" \t") == std::string_view::npos;
+      if (head_line_ == 0 && !blank) {
+        head_line_ = lines->line().find_first_not_of(" \t%") == std::string_view::npos
+                         ? lines->number() + 1
+                         : lines->number();
+      }
+    }
+    return lines->whole();
+  }
+
+  Result<void> walk() {
+    auto surveyed = survey(program_, config_);
+    if (!surveyed) {
+      return std::unexpected(surveyed.error());
+    }
+    survey_ = std::move(*surveyed);
+    auto walk = Walk::make(program_, config_, survey_);
+    auto clock = Clock::make(machine_, [this](std::uint64_t /*ticket*/, double time_s) {
+      waiting_.front().second.time_s = time_s;
+      schedules_[waiting_.front().first].offer(waiting_.front().second);
+      waiting_.pop_front();
+    });
+    if (!walk || !clock) {
+      return std::unexpected(walk ? clock.error() : walk.error());
+    }
+    while ((*walk)->step()) {
+      look(**walk, **clock);
+    }
+    const auto total = (*clock)->finish();
+    if (!total) {
+      Refusal refusal = total.error();
+      refusal.file = program_;
+      return std::unexpected(std::move(refusal));
+    }
+    result_.program_s = *total;
+    return check_total(plan_, *total);
+  }
+
+  void look(const Walk& walk, Clock& clock) {
+    constexpr std::uint32_t kEvery = 1U << 14U;
+    if (walk.line() % kEvery == 0) {
+      progress(0.5 * walk.line() / std::max(survey_.end_line, 1U), "timing");
+    }
+    for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) {
+      const auto& [letter, index, steps] = plan_.axes[axis];
+      const Site site = walk.site(letter, index);
+      const bool writable =
+          site != Site::clearance ||
+          !restate_text(letter, walk.before().position[index], walk.before().unit_mm, "\n").empty();
+      if (site != Site::none && writable) {
+        clock.ask(0);
+        waiting_.emplace_back(axis, Place{.line = walk.line(),
+                                          .site = site,
+                                          .time_s = 0.0,
+                                          .position_mm = walk.before().position[index],
+                                          .unit_mm = walk.before().unit_mm,
+                                          .active_offset = walk.before().active_offset});
+      }
+      const Frame frame = walk.frame(letter, index);
+      if (walk.ends() || (frame != Frame::kept && in_work_offset(settings_.method))) {
+        const auto& now = walk.run().state();
+        frames_[axis].push_back({.line = walk.line(),
+                                 .top_line = walk.top_line(),
+                                 .frame = walk.ends() ? Frame::kept : frame,
+                                 .may_write = walk.may_write(),
+                                 .moves_axis = walk.moves_axis(index),
+                                 .incremental = walk.before().incremental,
+                                 .before = walk.before().active_offset,
+                                 .behind = now.active_offset,
+                                 .unit_before_mm = walk.before().unit_mm,
+                                 .unit_behind_mm = now.unit_mm});
+      }
+    }
+    clock.feed(walk);
+  }
+
+  Result<void> place(std::size_t axis) {
+    const AxisPlan& plan = plan_.axes[axis];
+    if (plan.steps.empty()) {
+      return {};
+    }
+    const auto chosen = schedules_[axis].choose();
+    if (!chosen) {
+      Refusal refusal = chosen.error();
+      refusal.file = program_;
+      return std::unexpected(std::move(refusal));
+    }
+    std::size_t next = 0;
+    double stands_mm = 0.0;
+    for (const FrameLine& frame : frames_[axis]) {
+      // A correction before the very line acts first; below it, in a subprogram, likewise.
+      while (next < chosen->size() && (*chosen)[next].place.line <= frame.top_line) {
+        if (auto put = put_correction(plan, *chosen, next, stands_mm); !put) {
+          return put;
+        }
+      }
+      if (auto put = put_frame(plan, frame, stands_mm); !put) {
+        return put;
+      }
+    }
+    return {};
+  }
+
+  Result<void> put_correction(const AxisPlan& plan, const std::vector<Chosen>& chosen,
+                              std::size_t& next, double& stands_mm) {
+    const std::size_t first = next;
+    const Place& place = chosen[first].place;
+    while (next < chosen.size() && chosen[next].place.line == place.line) {
+      ++next;
+    }
+    if (settings_.method != Method::linuxcnc && place.unit_mm != chosen.front().place.unit_mm) {
+      return refuse(place.line, "the program changes its units between two corrections",
+                    "write the program in one unit");
+    }
+    const double before_mm = stands_mm;
+    double from_mm = stands_mm;
+    for (std::size_t i = first; i < next; ++i) {
+      const double to_mm = correction_mm(settings_, place.unit_mm, chosen[i].step.displacement_um);
+      texts_[place.line].insertions.push_back(result_.insertions.size());
+      result_.insertions.push_back({.line = 0,
+                                    .original_line = place.line,
+                                    .axis = plan.letter,
+                                    .time_s = place.time_s,
+                                    .planned_s = chosen[i].step.time_s,
+                                    .delta_um = (to_mm - from_mm) * 1e3,
+                                    .total_um = to_mm * 1e3,
+                                    .site = place.site});
+      from_mm = to_mm;
+    }
+    stands_mm = from_mm;
+    std::string& text = texts_[place.line].before_line;
+    text += change_text(settings_.method,
+                        {.letter = plan.letter,
+                         .from_mm = before_mm,
+                         .to_mm = stands_mm,
+                         .unit_mm = place.unit_mm,
+                         .active_offset = place.active_offset,
+                         .incremental = false},
+                        "\n");
+    if (place.site == Site::clearance) {
+      text += restate_text(plan.letter, place.position_mm, place.unit_mm, "\n");
+    }
+    return {};
+  }
+
+  Result<void> put_frame(const AxisPlan& plan, const FrameLine& frame, double& stands_mm) {
+    const bool end = frame.frame == Frame::kept;
+    if (stands_mm == 0.0) {
+      return {};
+    }
+    if (frame.frame == Frame::measured) {
+      return refuse(frame.line,
+                    fmt::format("measures another work offset (G10 L20) while a "
+                                "correction of {} stands",
+                                plan.letter),
+                    "measure before the first correction, or leave this axis out of the plan");
+    }
+    if (!frame.may_write) {
+      return refuse(frame.line,
+                    end ? "the program ends in a subprogram, a loop, cutter compensation or a "
+                          "rotated frame: the correction cannot be taken off"
+                        : "the work offset changes in a subprogram, a loop, cutter compensation or "
+                          "a rotated frame while a correction stands",
+                    end ? "end the program at its top level" : "change it at the top level");
+    }
+    if (frame.moves_axis && !end) {
+      return refuse(frame.line,
+                    fmt::format("the work offset changes in a line that moves {} while a "
+                                "correction stands",
+                                plan.letter),
+                    "change the work offset in a line of its own");
+    }
+    if (settings_.method != Method::linuxcnc && !end && frame.incremental) {
+      return refuse(frame.line, "the work offset changes under G91 while a correction stands",
+                    "change it under G90");
+    }
+    const auto change = [&](double from_mm, double to_mm, bool behind) {
+      return change_text(settings_.method,
+                         {.letter = plan.letter,
+                          .from_mm = from_mm,
+                          .to_mm = to_mm,
+                          .unit_mm = behind ? frame.unit_behind_mm : frame.unit_before_mm,
+                          .active_offset = behind ? frame.behind : frame.before,
+                          .incremental = frame.incremental},
+                         "\n");
+    };
+    texts_[frame.line].before_line += change(stands_mm, 0.0, false);
+    if (end) {
+      stands_mm = 0.0;
+    } else {
+      texts_[frame.line + 1].before_line += change(0.0, stands_mm, true);
+    }
+    return {};
+  }
+
+  Result<void> write(const std::string& output) {
+    std::string head;
+    for (const AxisPlan& axis : plan_.axes) {
+      head += axis.steps.empty() ? "" : head_text(settings_.method, axis.letter, "\n");
+    }
+    if (!head.empty()) {
+      std::string& first = texts_[head_line_].before_line;
+      first.insert(0, head);
+      for (const std::size_t index : texts_[head_line_].insertions) {
+        result_.insertions[index].line +=
+            static_cast<std::uint32_t>(std::ranges::count(head, '\n'));
+      }
+    }
+    auto lines = SourceLines::open(program_);
+    auto writer = FileWriter::open(output);
+    if (!lines || !writer) {
+      return std::unexpected(lines ? writer.error() : lines.error());
+    }
+    copy(*lines, *writer);
+    if (auto whole = lines->whole(); !whole) {
+      return whole;
+    }
+    if (auto flushed = writer->flush(); !flushed) {
+      return flushed;
+    }
+    progress(0.5, "proving");
+    auto proof = verify(program_, writer->path(), plan_, config_, machine_, settings_);
+    if (!proof) {
+      Refusal refusal = proof.error();
+      refusal.what = "the changed program would not do what is planned: " + refusal.what;
+      refusal.file = refusal.file == writer->path() ? output : refusal.file;
+      return std::unexpected(std::move(refusal));
+    }
+    result_.proof = *proof;
+    return writer->commit();
+  }
+
+  void copy(SourceLines& lines, FileWriter& writer) {
+    std::string ending;
+    auto text = texts_.begin();
+    while (lines.next()) {
+      if (ending.empty()) {
+        ending = lines.ending();
+      }
+      if (text != texts_.end() && text->first == lines.number()) {
+        for (const std::size_t index : text->second.insertions) {
+          result_.insertions[index].line +=
+              lines.number() + static_cast<std::uint32_t>(result_.inserted_lines);
+        }
+        for (const char c : text->second.before_line) {
+          writer.write(c == '\n' ? std::string_view{ending.empty() ? "\n" : ending}
+                                 : std::string_view{&c, 1});
+          result_.inserted_lines += c == '\n' ? 1U : 0U;
+        }
+        ++text;
+      }
+      writer.write(lines.line());
+      writer.write(lines.ending());
+      if (!lines.ending().empty()) {
+        ending = lines.ending();
+      }
+    }
+  }
+
+  const std::string& program_;
+  const Plan& plan_;
+  const interpret::Config& config_;
+  const kernel::machine::Machine& machine_;
+  const Settings& settings_;
+  Survey survey_;
+  std::vector<Schedule> schedules_;
+  std::vector<std::vector<FrameLine>> frames_;  ///< by axis, in the order of execution
+  std::deque<std::pair<std::size_t, Place>> waiting_;
+  std::map<std::uint32_t, Text> texts_;  ///< what is written before a line
+  std::uint32_t head_line_ = 0;
+  Compensated result_;
+};
+
+}  // namespace
+
+Result<Compensated> compensate(const std::string& program, const std::string& output,
+                               const Plan& plan, const interpret::Config& config,
+                               const kernel::machine::Machine& machine, const Settings& settings) {
+  if (auto checked = check_plan(plan, settings, config); !checked) {
+    return std::unexpected(checked.error());
+  }
+  return Rewriter(program, plan, config, machine, settings).run(output);
+}
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// Corrections written into the text of an NC program, taken out again, and proved.
+namespace steadyrest::nc::rewrite {
+
+/// From `time_s` on, the axis stands corrected against `displacement_um` altogether.
+struct PlannedStep {
+  double time_s = 0.0;           ///< since the program's start
+  double displacement_um = 0.0;  ///< Σ δ so far; the machine's axis is moved by its negative
+};
+
+struct AxisPlan {
+  char letter = 'Z';
+  std::size_t index = 2;           ///< in interpret::Axes
+  std::vector<PlannedStep> steps;  ///< in the order of time; only where the sum changes
+};
+
+/// The system R of corrections: {n; {t_j}; {δ_j}} for each transition, n the number of intervals,
+/// t_j their durations, δ_j the further displacement that is corrected at the START of interval j.
+/// The sum is carried over from transition to transition.
+struct Plan {
+  std::string file;
+  std::string machine;  ///< machine file that the plan names; empty for none
+  double total_s = 0.0;
+  std::vector<AxisPlan> axes;
+};
+
+/// Reads PLAN.json (README.md has its keys). Refused with the line or the key: what is not JSON,
+/// keys that are not known, a key twice, lists whose length is not n, numbers out of range.
+[[nodiscard]] kernel::outcome::Result<Plan> read_plan(const std::string& path);
+[[nodiscard]] kernel::outcome::Result<Plan> parse_plan(std::string_view text,
+                                                       const std::string& path);
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/rewrite/settings.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+Result<void> check_plan(const Plan& plan, const Settings& settings,
+                        const interpret::Config& config) {
+  constexpr std::size_t kMostSteps = 10'000;
+  constexpr double kHalfDigit_mm = 5e-7;
+  const auto refuse = [&](std::string what, std::string to_do) {
+    return std::unexpected(
+        Refusal{Kind::bad_input, plan.file, 0, std::move(what), std::move(to_do)});
+  };
+  for (const AxisPlan& axis : plan.axes) {
+    if (config.axes.find(axis.letter) == std::string::npos) {
+      return refuse(fmt::format("the machine has no axis {}; it has {}", axis.letter, config.axes),
+                    "plan for an axis that the machine has");
+    }
+    if (settings.method != Method::linuxcnc && axis.letter >= 'U' && axis.letter <= 'W') {
+      return refuse(fmt::format("{} is an increment in this dialect", axis.letter),
+                    "plan for X, Y or Z");
+    }
+    if (axis.steps.size() > kMostSteps) {
+      return refuse(fmt::format("{} corrections of {}; at most {} are allowed", axis.steps.size(),
+                                axis.letter, kMostSteps),
+                    "plan with a larger share of the tolerance");
+    }
+    for (const PlannedStep& step : axis.steps) {
+      if (std::abs(step.displacement_um) * 1e-3 > settings.clamp_mm + kHalfDigit_mm) {
+        return refuse(
+            fmt::format(
+                "a correction of {} by {:g} um at {:g} min; the machine file allows {:g} um",
+                axis.letter, -step.displacement_um, step.time_s / 60.0, settings.clamp_mm * 1e3),
+            "raise envelope.max_offset_mm if the machine may be moved that far, or plan again");
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> check_total(const Plan& plan, double program_s) {
+  if (std::abs(plan.total_s - program_s) <= std::max(kFit_s, kFitShare * program_s)) {
+    return {};
+  }
+  return std::unexpected(
+      Refusal{Kind::bad_input, plan.file, 0,
+              fmt::format("the plan is for {:.1f} s, the program takes {:.1f} s on this machine; "
+                          "2 % or 30 s of difference are allowed",
+                          plan.total_s, program_s),
+              "make the plan from this program and this machine file"});
+}
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/config.hpp>
+#include <steadyrest/nc/rewrite/plan_file.hpp>
+#include <steadyrest/nc/rewrite/writing.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// What compensate() and verify() must know beside the files.
+struct Settings {
+  Method method = Method::linuxcnc;
+  double window_s = 60.0;  ///< how far from its planned instant a correction may be placed
+  double clamp_mm = 0.2;   ///< the machine's limit of a correction (envelope.max_offset_mm)
+  /// Told how much of the work is done, 0 … 1; may be empty.
+  std::function<void(double share, std::string_view what)> progress;
+};
+
+/// A plan fits a program when their total times differ by at most this share, or this time.
+inline constexpr double kFitShare = 0.02;
+inline constexpr double kFit_s = 30.0;
+
+/// Refused: corrections beyond the clamp, more steps than are held, axes the machine has not.
+[[nodiscard]] kernel::outcome::Result<void> check_plan(const Plan& plan, const Settings& settings,
+                                                       const interpret::Config& config);
+/// Refused with both figures: a plan for another time than the program takes.
+[[nodiscard]] kernel::outcome::Result<void> check_total(const Plan& plan, double program_s);
+
+/// The correction that stands from a step on: against the displacement, as it can be written.
+[[nodiscard]] inline double correction_mm(const Settings& settings, double unit_mm,
+                                          double displacement_um) noexcept {
+  return writable_mm(settings.method, unit_mm, -displacement_um * 1e-3);
+}
+
+}  // namespace steadyrest::nc::rewrite

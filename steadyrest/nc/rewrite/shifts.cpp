@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <steadyrest/nc/interpret/step.hpp>
+#include <steadyrest/nc/rewrite/shifts.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using interpret::kAxisLetters;
+using interpret::Move;
+using interpret::MoveKind;
+
+namespace {
+
+std::uint32_t bit(std::size_t axis) noexcept {
+  return std::uint32_t{1} << axis;
+}
+
+}  // namespace
+
+Shifts::Shifts(const Plan& plan) {
+  for (const AxisPlan& axis : plan.axes) {
+    planned_ |= bit(axis.index);
+  }
+}
+
+std::string Shifts::add(const Move& move, double most_mm) {
+  if (move.kind != MoveKind::rapid) {
+    return "an inserted line moves otherwise than by a rapid";
+  }
+  for (std::size_t i = 0; i < shift_.size(); ++i) {
+    const double distance_mm = move.end[i] - move.start[i];
+    if (distance_mm != 0.0 &&
+        ((planned_ & bit(i)) == 0 || std::abs(distance_mm) > most_mm + kSame_mm)) {
+      return "an inserted line moves more than a correction";
+    }
+    shift_[i] += distance_mm;
+  }
+  return {};
+}
+
+std::string Shifts::pair(const Move& before, const Move& after, const Frames& frames) {
+  for (std::size_t i = 0; i < shift_.size(); ++i) {
+    if (std::string fault = one_axis(i, before, after, frames); !fault.empty()) {
+      return fault;
+    }
+  }
+  return {};
+}
+
+std::string Shifts::one_axis(std::size_t axis, const Move& before, const Move& after,
+                             const Frames& frames) {
+  const double offset_mm = after.offset[axis] - before.offset[axis];
+  const double start_mm = after.start[axis] - before.start[axis] + offset_mm;
+  const double end_mm = after.end[axis] - before.end[axis] + offset_mm;
+  if (!same(start_mm, shift_[axis])) {
+    return "a move begins where the one before it did not end";
+  }
+  const bool may_keep = (frames.acts_at_once & bit(axis)) == 0 &&
+                        (frames.incremental || same(before.start[axis], before.end[axis]));
+  double error_mm = std::abs(end_mm - wanted[axis]);
+  if (may_keep) {
+    error_mm = std::min(error_mm, std::abs(end_mm - start_mm));
+  }
+  if (frames.machine) {
+    error_mm = std::min(error_mm, std::abs(end_mm));
+  }
+  if (!(error_mm <= kSame_mm)) {
+    return fmt::format("{} is off by {:.9f} mm after this line; the plan wants {:.6f} mm",
+                       kAxisLetters[axis], end_mm, wanted[axis]);
+  }
+  const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
+  if (!straight && !same(start_mm, end_mm)) {
+    return fmt::format("a correction of {} begins in a move that is not straight: it would bend it",
+                       kAxisLetters[axis]);
+  }
+  if (before.kind == MoveKind::arc && axis < before.normal.size() && before.normal[axis] == 0.0) {
+    const double centre_mm = after.centre_mm[axis] - before.centre_mm[axis] + offset_mm;
+    if (!same(centre_mm, start_mm)) {
+      return fmt::format("the centre of an arc is off by {:.9f} mm in {}", centre_mm,
+                         kAxisLetters[axis]);
+    }
+  }
+  shift_[axis] = end_mm;
+  largest_error_mm_ = std::max(largest_error_mm_, error_mm);
+  return {};
+}
+
+}  // namespace steadyrest::nc::rewrite

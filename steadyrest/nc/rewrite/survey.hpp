@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/config.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// What must be known of a whole program before a place in it can be judged.
+struct Survey {
+  /// Lines that are executed in a subprogram, a condition or a loop; a bit for each line.
+  std::vector<bool> repeated;
+  /// From a tool change to the line that puts the tool's length on (G43, D), both included,
+  /// counted in steps of the run.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> without_length;
+  std::uint32_t end_line = 0;  ///< the line that ends the program
+  bool end_at_top = false;
+
+  [[nodiscard]] bool is_repeated(std::uint32_t line) const noexcept {
+    return line < repeated.size() && repeated[line];
+  }
+};
+
+/// Runs the program once. Refused: what the interpreter refuses.
+[[nodiscard]] kernel::outcome::Result<Survey> survey(const std::string& path,
+                                                     const interpret::Config& config);
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// By this every inserted line is found again. Looked for in the whole line, in any dialect.
+inline constexpr std::string_view kTag = "STEADYREST ";
+
+/// The line was inserted: it holds a comment that begins with the tag, `(STEADYREST …)`,
+/// `(ABORT,STEADYREST …)` or `;STEADYREST …`. A program in which the author wrote such a comment
+/// himself is refused by compensate().
+[[nodiscard]] bool is_inserted(std::string_view line) noexcept;
+
+/// The inserted line belongs to the program's head (head_text): it runs only after an abort.
+[[nodiscard]] bool is_head(std::string_view inserted_line) noexcept;
+
+/// Writes `program` without its inserted lines to `output`, all other bytes as they are. Gives the
+/// number of lines taken out.
+[[nodiscard]] kernel::outcome::Result<std::size_t> strip(const std::string& program,
+                                                         const std::string& output);
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/nc/rewrite/test/workshop.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using test::kGrowth;
+using test::kPasses;
+using test::read_file;
+using test::replaced;
+using test::Workshop;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string one_step(double minutes, double rest_min, double delta_um) {
+  return "{\"transitions\": [{\"n\": 2, \"t_min\": [" + std::to_string(minutes) + ", " +
+         std::to_string(rest_min) + "], \"delta_um\": [0, " + std::to_string(delta_um) + "]}]}";
+}
+
+TEST(Compensate, PutsEveryCorrectionBeforeAnAbsoluteRapidOfItsAxis) {
+  const Workshop shop;
+  const auto done = shop.compensate(kPasses, kGrowth).value();
+  ASSERT_EQ(done.insertions.size(), 3U);
+  const std::string text = read_file(shop.changed());
+  // Between the passes `G0 Z5` and `G0 Z2` program Z; the nearest to 60 s, 120 s, 180 s is taken.
+  for (const auto& one : done.insertions) {
+    EXPECT_EQ(one.site, Site::rapid);
+    EXPECT_LT(std::abs(one.time_s - one.planned_s), 15.0);
+  }
+  EXPECT_NEAR(done.insertions[0].delta_um, -10.0, 1e-9);
+  EXPECT_NEAR(done.insertions[2].delta_um, 5.0, 1e-9);
+  EXPECT_NEAR(done.insertions[2].total_um, -15.0, 1e-9);
+  EXPECT_THAT(text, HasSubstr("G10 L20 P0 Z[#<_z>+0.0100] #<_steadyrest_z>=-0.0100"));
+  EXPECT_THAT(text, HasSubstr("(STEADYREST Z0.0000 mm)\nM30"));
+}
+
+TEST(Compensate, TellsTheLineInTheChangedProgram) {
+  const Workshop shop;
+  const auto done = shop.compensate(kPasses, kGrowth).value();
+  const std::string text = read_file(shop.changed());
+  for (const auto& one : done.insertions) {
+    std::size_t at = 0;
+    for (std::uint32_t line = 1; line < one.line; ++line) {
+      at = text.find('\n', at) + 1;
+    }
+    EXPECT_EQ(text.compare(at, 10, "G10 L20 P0"), 0) << one.line;
+  }
+}
+
+TEST(Compensate, MovesTheAxisAgainstTheDisplacement) {
+  const Workshop shop;
+  ASSERT_TRUE(shop.compensate(kPasses, kGrowth));
+  // Without our own proof: the last pass is cut at −1 − 0.015 mm in machine coordinates.
+  struct Lowest final : interpret::Sink {
+    void on_move(const interpret::Move& move) override {
+      if (move.end[0] == 100.0) {
+        depth.push_back(move.end[2] + move.offset[2]);
+      }
+    }
+    void on_event(const interpret::Event& /*event*/) override {}
+    std::vector<double> depth;
+  } sink;
+  ASSERT_TRUE(interpret::run_file(shop.changed(), shop.config, sink));
+  ASSERT_GE(sink.depth.size(), 4U);
+  EXPECT_NEAR(sink.depth[0], -1.0, 1e-12);
+  EXPECT_THAT(sink.depth, ::testing::Contains(::testing::DoubleNear(-1.010, 1e-12)));
+  EXPECT_THAT(sink.depth, ::testing::Contains(::testing::DoubleNear(-1.020, 1e-12)));
+  EXPECT_THAT(sink.depth, ::testing::Contains(::testing::DoubleNear(-1.015, 1e-12)));
+}
+
+TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
+  Workshop shop;
+  shop.settings.window_s = 20.0;
+  const std::string program =
+      "G21 G90 G94\nG0 Z5\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nG0 Z20\nM2\n";
+  const auto done = shop.compensate(program, one_step(1.0, 1.05, 10)).value();
+  ASSERT_EQ(done.insertions.size(), 1U);
+  EXPECT_EQ(done.insertions[0].site, Site::clearance);
+  EXPECT_EQ(done.proof.added, 1U);
+  EXPECT_THAT(read_file(shop.changed()), HasSubstr("G0 Z5.0000 (STEADYREST restated)\nG0 X0"));
+}
+
+TEST(Compensate, TurnsTheCorrectionOverWhenTheWorkOffsetChanges) {
+  Workshop shop;
+  shop.config.work_offset[1][2] = 7.5;
+  const std::string program = replaced(kPasses, "G0 X0 Y20\n", "G55\nG0 X0 Y20\n");
+  const auto done = shop.compensate(program, kGrowth).value();
+  const std::string text = read_file(shop.changed());
+  EXPECT_EQ(done.inserted_lines, 8U + 3U + 2U + 1U);
+  EXPECT_THAT(text, HasSubstr("(STEADYREST Z0.0000 mm)\nG55\nG10 L20 P0"));
+}
+
+TEST(Compensate, RefusesAWorkOffsetThatChangesWithTheAxis) {
+  Workshop shop;
+  const std::string program = replaced(kPasses, "G0 X0 Y30\n", "G55 G0 X0 Y30 Z6\n");
+  const auto refused = shop.compensate(program, kGrowth);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().line, 19U);
+  EXPECT_THAT(refused.error().what, HasSubstr("moves Z"));
+}
+
+// Each of these makes the only place near the instant unsafe.
+TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
+  struct Case {
+    const char* unsafe;
+    const char* program;
+  };
+  const Case kCases[] = {
+      {"G91", "G21 G90 G94\nG0 Z5\nG91\nG1 X100 F100\nG0 Z5\nG1 X100\nG90\nM2\n"},
+      {"cycle",
+       "G21 G90 G94\nG0 Z5\nG1 X100 F100\nG81 X1 Z-1 R2 F900\nG0 Z5\nG81 X2 Z-1 R2\n"
+       "G80\nG1 X102 F100\nM2\n"},
+      {"loop",
+       "G21 G90 G94\nG0 Z5\no1 repeat [2]\nG0 Z5\nG1 X100 F100\nG0 Z5\nG1 X0\no1 endrepeat\n"
+       "M2\n"},
+      {"arcs", "G21 G90 G94 G17\nG0 Z5\nG2 X20 I10 F60\nG1 Z4\nG2 X40 I10\nM2\n"},
+      {"G93", "G21 G90 G94\nG0 Z5\nG93 G1 X100 F1\nG0 Z5\nG1 X0 F1\nG94\nM2\n"},
+      {"G53", "G21 G90 G94\nG0 Z5\nG1 X100 F100\nG53 G0 Z5\nG1 X0\nM2\n"},
+      {"before G43", "G21 G90 G94\nG0 Z5\nG1 X100 F100\nT1 M6\nG0 Z5\nG43 H1\nG1 X0\nM2\n"},
+      {"block delete", "G21 G90 G94\nG0 Z5\nG1 X100 F100\n/G0 Z5\nG1 X0\nM2\n"},
+      {"condition", "G21 G90 G94\nG0 Z5\nG1 X100 F100\no1 if [1]\nG0 Z5\no1 endif\nG1 X0\nM2\n"},
+  };
+  for (const Case& one : kCases) {
+    Workshop shop;
+    shop.settings.window_s = 20.0;
+    shop.machine.control.tool_change_s = 0.5;
+    const double minutes = std::string(one.unsafe) == "arcs" ? 0.52 : 1.0;
+    const double total = std::string(one.unsafe) == "loop" ? 3.0 : minutes;
+    const auto refused = shop.compensate(one.program, one_step(minutes, total, 10));
+    ASSERT_FALSE(refused) << one.unsafe << "\n" << read_file(shop.changed());
+    EXPECT_THAT(refused.error().what, HasSubstr("no safe place")) << one.unsafe;
+    EXPECT_FALSE(std::filesystem::exists(shop.changed()));
+  }
+}
+
+TEST(Compensate, RefusesAPlanForAnotherProgramWithBothFigures) {
+  const Workshop shop;
+  const auto refused = shop.compensate(kPasses, one_step(1.0, 10.0, 10));
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("660.0 s"));
+  EXPECT_THAT(refused.error().what, HasSubstr("s on this machine"));
+}
+
+TEST(Compensate, RefusesACorrectionBeyondTheClamp) {
+  Workshop shop;
+  shop.settings.clamp_mm = 0.015;
+  const auto refused = shop.compensate(kPasses, kGrowth);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("-20 um"));
+  EXPECT_THAT(refused.error().what, HasSubstr("allows 15 um"));
+}
+
+TEST(Compensate, RefusesAProgramThatIsCompensatedAlready) {
+  const Workshop shop;
+  ASSERT_TRUE(shop.compensate(kPasses, kGrowth));
+  const auto refused = shop.compensate(read_file(shop.changed()), kGrowth);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().to_do, HasSubstr("program strip"));
+}
+
+TEST(Compensate, LeavesTheOldFileWhenItRefuses) {
+  const Workshop shop;
+  test::write_file(shop.changed(), "old");
+  ASSERT_FALSE(shop.compensate(kPasses, one_step(1.0, 10.0, 10)));
+  EXPECT_EQ(read_file(shop.changed()), "old");
+  const auto files = std::filesystem::directory_iterator(shop.folder());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 2) << "nothing half-written lies about";
+}
+
+TEST(Compensate, MayReplaceTheProgramItself) {
+  const Workshop shop;
+  test::write_file(shop.original(), kPasses);
+  const auto plan = parse_plan(kGrowth, "plan.json").value();
+  ASSERT_TRUE(
+      compensate(shop.original(), shop.original(), plan, shop.config, shop.machine, shop.settings));
+  EXPECT_THAT(read_file(shop.original()), HasSubstr("STEADYREST"));
+  ASSERT_TRUE(strip(shop.original(), shop.original()));
+  EXPECT_EQ(read_file(shop.original()), kPasses);
+}
+
+TEST(Compensate, APlanThatCorrectsNothingCopiesTheProgram) {
+  const Workshop shop;
+  const auto done =
+      shop.compensate(kPasses, R"({"transitions": [{"n": 1, "t_min": [4.2], "delta_um": [0]}]})");
+  ASSERT_TRUE(done);
+  EXPECT_EQ(read_file(shop.changed()), kPasses);
+}
+
+TEST(Compensate, WritesMillimetresIntoAProgramInInches) {
+  const Workshop shop;
+  const std::string program =
+      "G20 G90 G94\nG0 Z1\nG1 X4 F4\nG0 Z1\nG0 X0\nG0 Z.5\nG1 X4 F4\nG0 Z1\nM2\n";
+  ASSERT_TRUE(shop.compensate(program, one_step(1.0, 1.05, 10)));
+  EXPECT_THAT(read_file(shop.changed()), HasSubstr("Z[#<_z>+0.0100/25.4]"));
+}
+
+}  // namespace
+}  // namespace steadyrest::nc::rewrite

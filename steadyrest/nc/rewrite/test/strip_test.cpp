@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <random>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <steadyrest/nc/rewrite/test/workshop.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using test::read_file;
+using test::Workshop;
+
+/// A program of passes with ends of lines, comments and formats as they come; its bytes need not
+/// be ASCII in comments.
+std::string random_program(std::mt19937& random) {
+  const auto one_of = [&](auto... texts) {
+    const std::string list[] = {texts...};
+    return list[random() % sizeof...(texts)];
+  };
+  const std::string usual = one_of("\n", "\r\n");
+  std::string text;
+  const auto line = [&](const std::string& words) {
+    const std::string note =
+        one_of("", "", " (pass)", " (\xd1\x84\xe4\xff)", "  ; STEADY\xb5", " (STEADYREST)");
+    text += one_of("", "", "N10 ", "  ") + words + note +
+            (random() % 9 == 0 ? one_of("\n", "\r\n") : usual);
+    if (random() % 7 == 0) {
+      text += one_of("", " ", "(only a comment)", ";") + usual;
+    }
+  };
+  const bool percent = random() % 2 == 0;
+  if (percent) {
+    text += "%" + usual;
+  }
+  line("G21 G90 G94 G17");
+  line("G0 X0 Y0 Z20");
+  for (int pass = 0; pass < 6; ++pass) {
+    line("G0 Z5");
+    line("G0 X0 Y" + std::to_string(pass));
+    line(one_of("G0 Z2.5", "G00 Z1", "g0z2"));
+    line(one_of("G1 Z-1 F600", "G1 Z-.5 F500"));
+    line(one_of("G1 X100 F200", "G2 X100 I50 F200", "X100 F200"));
+  }
+  line("G0 Z20");
+  text += percent && random() % 2 == 0 ? "%" : one_of("M2", "M30");
+  text += one_of("", "\n", "\r\n", "\r\nbehind the end");
+  return text;
+}
+
+RC_GTEST_PROP(Strip, RestoresEveryProgramByteForByte, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<unsigned>());
+  Workshop shop;
+  shop.machine.control.interpolator_period_s = 0.05;
+  const std::string program = random_program(random);
+  const double first = 20.0 + static_cast<double>(random() % 100);
+  const double delta = static_cast<double>(random() % 200) / 7.0 - 14.0;
+  // The program's own time first: the plan must fit.
+  const auto unknown =
+      shop.compensate(program, R"({"transitions": [{"n": 1, "t_min": [40000], "delta_um": [0]}]})");
+  RC_ASSERT(!unknown);
+  const std::string& what = unknown.error().what;
+  const auto at = what.find("program takes ");
+  RC_ASSERT(at != std::string::npos);
+  const double total_s = std::stod(what.substr(at + 14));
+  const auto minutes = [](double s) { return std::to_string(s / 60.0); };
+  const std::string plan = "{\"transitions\": [{\"n\": 3, \"t_min\": [" + minutes(first) + ", " +
+                           minutes(30.0) + ", " + minutes(total_s - first - 30.0) +
+                           "], \"delta_um\": [0, " + std::to_string(delta) + ", 3.3]}]}";
+  const auto done = shop.compensate(program, plan);
+  RC_ASSERT(done.has_value());
+  RC_ASSERT(done->inserted_lines > 0U);
+  RC_ASSERT(strip(shop.changed(), shop.changed()).value() == done->inserted_lines);
+  RC_ASSERT(read_file(shop.changed()) == program);
+}
+
+TEST(Strip, LeavesOtherCommentsAlone) {
+  const Workshop shop;
+  const std::string program = "(STEADYREST)\n(made for STEADYREST 1)\n;a STEADYREST b\nM2";
+  test::write_file(shop.original(), program);
+  EXPECT_EQ(strip(shop.original(), shop.changed()).value(), 0U);
+  EXPECT_EQ(read_file(shop.changed()), program);
+}
+
+TEST(Strip, RefusesATargetThatIsAFolder) {
+  const Workshop shop;
+  test::write_file(shop.original(), "M2\n");
+  EXPECT_FALSE(strip(shop.original(), shop.folder()));
+  EXPECT_FALSE(strip(shop.original(), shop.folder() + "/none/changed.nc"));
+  EXPECT_FALSE(strip(shop.folder() + "/none.nc", shop.changed()));
+  EXPECT_FALSE(std::filesystem::exists(shop.changed()));
+}
+
+}  // namespace
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/nc/rewrite/test/workshop.hpp>
+
+// Each test spoils a right pair of programs in one way.
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using test::kGrowth;
+using test::kPasses;
+using test::read_file;
+using test::replaced;
+using test::Workshop;
+using ::testing::HasSubstr;
+
+const std::string kFirst =
+    "G10 L20 P0 Z[#<_z>+0.0100] #<_steadyrest_z>=-0.0100 #<_steadyrest_system_z>=#5220 "
+    "(STEADYREST Z-0.0100 mm)\n";
+
+class Verify : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    shop_.settings.window_s = 30.0;
+    ASSERT_TRUE(shop_.compensate(kPasses, kGrowth));
+    text_ = read_file(shop_.changed());
+  }
+  [[nodiscard]] std::string fault(const std::string& text) const {
+    return shop_.fault(kGrowth, text);
+  }
+  /// The first correction taken from where it stands and put before the first `line`.
+  [[nodiscard]] std::string moved_before(const std::string& line) const {
+    return replaced(replaced(text_, kFirst, ""), line, kFirst + line);
+  }
+  Workshop shop_;
+  std::string text_;
+};
+
+TEST_F(Verify, ProvesWhatIsRight) {
+  EXPECT_EQ(fault(text_), "");
+  const auto proof = shop_.verify(kGrowth).value();
+  EXPECT_EQ(proof.changes, 4U);
+  EXPECT_GT(proof.corrected, 10U);
+  EXPECT_LT(proof.largest_error_mm, 1e-12);
+}
+
+TEST_F(Verify, CatchesAWrongSign) {
+  EXPECT_THAT(fault(replaced(text_, "Z[#<_z>+0.0100]", "Z[#<_z>-0.0100]")),
+              HasSubstr("stands corrected by 0.010000 mm"));
+}
+
+TEST_F(Verify, CatchesAWrongAmount) {
+  EXPECT_THAT(fault(replaced(text_, "Z[#<_z>+0.0100]", "Z[#<_z>+0.0101]")),
+              HasSubstr("stands corrected by -0.010100 mm"));
+}
+
+TEST_F(Verify, CatchesAWrongAxis) {
+  EXPECT_NE(fault(replaced(text_, "P0 Z[#<_z>+0.0100]", "P0 X[#<_x>+0.0100]")), "");
+}
+
+TEST_F(Verify, CatchesAShiftBeforeAnArc) {
+  EXPECT_THAT(fault(moved_before("G2 X20")), HasSubstr("no safe place"));
+}
+
+TEST_F(Verify, CatchesAShiftThatNeverTakesEffect) {
+  EXPECT_THAT(fault(moved_before("G0 X0 Y10")), HasSubstr("does not act"));
+  // In G91 a shift would act nowhere.
+  const std::string program = replaced(kPasses, "G0 X0 Y10\n", "G91\nG0 X0 Z1\nG90\nG0 X0 Y10\n");
+  ASSERT_TRUE(shop_.compensate(program, kGrowth));
+  text_ = read_file(shop_.changed());
+  EXPECT_EQ(fault(text_), "");
+  EXPECT_THAT(fault(moved_before("G0 X0 Z1\n")), HasSubstr("no safe place"));
+}
+
+TEST_F(Verify, CatchesAMissingReset) {
+  const auto at = text_.rfind("G10 L20");
+  const auto end = text_.find('\n', at) + 1;
+  EXPECT_THAT(fault(text_.substr(0, at) + text_.substr(end)), HasSubstr("leaves another"));
+}
+
+TEST_F(Verify, CatchesAMissingCorrection) {
+  EXPECT_THAT(fault(replaced(text_, kFirst, "")), HasSubstr("stands corrected by"));
+}
+
+TEST_F(Verify, CatchesACorrectionBeyondTheWindow) {
+  EXPECT_THAT(fault(moved_before("G0 Z5\n")), HasSubstr("acts at"));
+}
+
+TEST_F(Verify, CatchesOneDigitElsewhere) {
+  EXPECT_THAT(fault(replaced(text_, "G0 X0 Y30", "G0 X0 Y31")),
+              HasSubstr("outside of the inserted lines"));
+  EXPECT_THAT(fault(replaced(text_, "G1 X100 F100\n", "G1 X100 F100\r\n")),
+              HasSubstr("outside of the inserted lines"));
+  EXPECT_THAT(fault(text_ + "G0 X1\n"), HasSubstr("goes on where the original has ended"));
+  EXPECT_THAT(fault(text_.substr(0, text_.size() - 1)), HasSubstr("outside of the inserted lines"));
+}
+
+TEST_F(Verify, CatchesAnInsertedLineThatDoesMore) {
+  EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "S99 M3 (STEADYREST Z)\n")), "");
+  EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "G0 X1 (STEADYREST Z)\n")), "");
+  EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "F1 (STEADYREST Z)\n")), "");
+  EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "G91 (STEADYREST Z)\n")), "");
+  EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "G1 Z5 (STEADYREST Z)\n")), "");
+}
+
+TEST_F(Verify, CatchesAHeadThatWouldUndoTheWrongWay) {
+  EXPECT_THAT(fault(replaced(text_, "#<_z>+#<_steadyrest_z>", "#<_z>-#<_steadyrest_z>")),
+              HasSubstr("head"));
+}
+
+TEST_F(Verify, CatchesAnotherPlan) {
+  test::write_file(shop_.changed(), text_);
+  EXPECT_FALSE(shop_.verify(replaced(kGrowth, "[0, 10]", "[0, 11]")));
+  EXPECT_FALSE(shop_.verify(replaced(kGrowth, "[1, 1]", "[1, 9]")));
+  EXPECT_FALSE(shop_.verify(replaced(kGrowth, R"({"tr)", R"({"axis": "X", "tr)")));
+}
+
+}  // namespace
+}  // namespace steadyrest::nc::rewrite

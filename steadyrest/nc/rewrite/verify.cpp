@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/interpret/step.hpp>
+#include <steadyrest/nc/rewrite/clock.hpp>
+#include <steadyrest/nc/rewrite/compare.hpp>
+#include <steadyrest/nc/rewrite/shifts.hpp>
+#include <steadyrest/nc/rewrite/survey.hpp>
+#include <steadyrest/nc/rewrite/tag.hpp>
+#include <steadyrest/nc/rewrite/text_pair.hpp>
+#include <steadyrest/nc/rewrite/verify.hpp>
+#include <steadyrest/nc/rewrite/walk.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using interpret::Axes;
+using interpret::Move;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+/// Moves of the changed program since the last look.
+class Moves final : public interpret::Sink {
+ public:
+  void on_move(const Move& move) override { moves.push_back(move); }
+  void on_event(const interpret::Event& event) override {
+    events.push_back(event);
+    events.back().tool_name = {};
+  }
+  void clear() {
+    moves.clear();
+    events.clear();
+  }
+  std::vector<Move> moves;
+  std::vector<interpret::Event> events;
+};
+
+/// Runs both programs, line beside line.
+class Prover {
+ public:
+  Prover(const std::string& original, const std::string& changed, const Plan& plan,
+         const interpret::Config& config, const kernel::machine::Machine& machine,
+         const Settings& settings)
+      : original_(original),
+        changed_(changed),
+        plan_(plan),
+        config_(config),
+        machine_(machine),
+        settings_(settings),
+        shifts_(plan),
+        done_(plan.axes.size(), 0) {}
+
+  Result<Proof> run() {
+    auto text = compare_text(original_, changed_);
+    if (!text) {
+      return std::unexpected(text.error());
+    }
+    inserted_ = std::move(text->lines);
+    head_lines_ = text->head_lines;
+    proof_.inserted_lines = inserted_.size();
+    if (!head_is_right(text->head)) {
+      return std::unexpected(refusal_);
+    }
+    auto surveyed = survey(original_, config_);
+    if (!surveyed) {
+      return std::unexpected(surveyed.error());
+    }
+    survey_ = std::move(*surveyed);
+    if (!open() || !walk()) {
+      return std::unexpected(refusal_);
+    }
+    proof_.largest_error_mm = shifts_.largest_error_mm();
+    return proof_;
+  }
+
+ private:
+  bool refuse(std::string what, std::string to_do = "make the changed program anew") {
+    return refuse_at(changed_, changed_run_ ? changed_run_->line() : 0, std::move(what),
+                     std::move(to_do));
+  }
+  bool refuse_at(const std::string& file, std::uint32_t line, std::string what, std::string to_do) {
+    refusal_ = {Kind::bad_input, file, line, std::move(what), std::move(to_do)};
+    return false;
+  }
+  bool refuse(Refusal refusal, const std::string& file) {
+    refusal_ = std::move(refusal);
+    refusal_.file = refusal_.file.empty() ? file : refusal_.file;
+    return false;
+  }
+
+  // The head does nothing in this run: its text is compared.
+  bool head_is_right(const std::string& head) {
+    std::string wanted;
+    for (const AxisPlan& axis : plan_.axes) {
+      wanted += axis.steps.empty() ? "" : head_text(settings_.method, axis.letter, "\n");
+    }
+    return head == wanted || refuse("the head is not the one that belongs to this plan");
+  }
+
+  bool open() {
+    auto source = read::LineSource::open(changed_);
+    if (!source) {
+      return refuse(source.error(), changed_);
+    }
+    changed_source_.emplace(std::move(*source));
+    auto run = interpret::ProgramRun::make(*changed_source_, config_, changed_moves_);
+    if (!run) {
+      return refuse(run.error(), changed_);
+    }
+    changed_run_.emplace(std::move(*run));
+    offset_before_ = changed_run_->state().offset;
+    auto walk = Walk::make(original_, config_, survey_);
+    if (!walk) {
+      return refuse(walk.error(), original_);
+    }
+    walk_ = std::move(*walk);
+    auto clock = Clock::make(machine_, [this](std::uint64_t ticket, double time_s) {
+      told(asked_.front(), ticket, time_s);
+      asked_.pop_front();
+    });
+    if (!clock) {
+      return refuse(clock.error(), {});
+    }
+    clock_ = std::move(*clock);
+    return true;
+  }
+
+  bool walk() {
+    constexpr std::uint32_t kEvery = 1U << 14U;
+    while (walk_->step()) {
+      if (!inserted_lines() || !pair()) {
+        return false;
+      }
+      clock_->feed(*walk_);
+      if (settings_.progress && walk_->line() % kEvery == 0) {
+        settings_.progress(0.5 + 0.5 * walk_->line() / std::max(survey_.end_line, 1U), "proving");
+      }
+    }
+    if (changed_run_->step()) {
+      return refuse("goes on where the original has ended");
+    }
+    return at_end();
+  }
+
+  [[nodiscard]] bool is_inserted_line(std::uint32_t line) {
+    const auto at = std::ranges::lower_bound(inserted_, line);
+    inserted_before_ = static_cast<std::uint32_t>(at - inserted_.begin());
+    return at != inserted_.end() && *at == line;
+  }
+
+  /// Runs the changed program up to and with the line that pairs with the original's.
+  bool inserted_lines() {
+    const Modes modes = modes_of(changed_run_->state());
+    for (bool as_it_was = true;;) {
+      changed_moves_.clear();
+      if (!changed_run_->step()) {
+        const auto report = changed_run_->take();
+        return report.refused.empty()
+                   ? refuse("ends before the original does")
+                   : refuse(interpret::first_refusal(report, changed_), changed_);
+      }
+      const bool main = changed_run_->in_main();
+      if (!main || !is_inserted_line(changed_run_->line())) {
+        const std::uint32_t before = main ? inserted_before_ : 0U;
+        if (!as_it_was) {
+          return refuse("the inserted lines before this one change more than an offset");
+        }
+        return changed_run_->line() - before == walk_->line() || refuse("another line is executed");
+      }
+      executed_inserted_ += changed_run_->executed() ? 1U : 0U;
+      if (!added_moves()) {
+        return false;
+      }
+      offset_before_ = changed_run_->state().offset;
+      as_it_was = modes_of(changed_run_->state()) == modes;
+    }
+  }
+
+  /// Moves of an inserted line: a rapid of planned axes alone, to where they stand in the original
+  /// and what is to stand.
+  bool added_moves() {
+    if (!changed_moves_.events.empty()) {
+      return refuse("an inserted line does more than move an axis");
+    }
+    for (const Move& move : changed_moves_.moves) {
+      if (auto fault = shifts_.add(move, 2.0 * settings_.clamp_mm); !fault.empty()) {
+        return refuse(std::move(fault));
+      }
+      ++proof_.added;
+      restated_ = true;
+    }
+    return true;
+  }
+
+  /// The same line in both: what stands, and every move.
+  bool pair() {
+    if (changed_run_->executed() != walk_->run().executed()) {
+      return refuse("executes another line than the original");
+    }
+    const Walk::Before& before = walk_->before();
+    acts_at_once_ = 0;
+    for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
+      const AxisPlan& axis = plan_.axes[i];
+      if (!what_stands(axis, done_[i], offset_before_[axis.index] - before.offset[axis.index])) {
+        return false;
+      }
+    }
+    restated_ = false;
+    offset_before_ = changed_run_->state().offset;
+    return compare_moves();
+  }
+
+  /// Before the paired line: the correction that stands is the last one, or changes here.
+  bool what_stands(const AxisPlan& axis, std::size_t& done, double stands_mm) {
+    double& wanted_mm = shifts_.wanted[axis.index];
+    if (same(stands_mm, wanted_mm)) {
+      return true;
+    }
+    const bool frame = walk_->frame(axis.letter, axis.index) == Frame::changed;
+    if (same(stands_mm, 0.0) && walk_->may_write() && (walk_->ends() || frame)) {
+      if (walk_->ends()) {
+        wanted_mm = 0.0;
+        ++proof_.changes;
+        return done == axis.steps.size() ||
+               refuse(fmt::format("the correction of {} planned at {:.1f} s is missing",
+                                  axis.letter, axis.steps[done].time_s));
+      }
+      return !walk_->moves_axis(axis.index) ||
+             refuse("the correction is off in a line that moves its axis");
+    }
+    return changes(axis, done, stands_mm);
+  }
+
+  bool changes(const AxisPlan& axis, std::size_t& done, double stands_mm) {
+    double& wanted_mm = shifts_.wanted[axis.index];
+    const double unit_mm = walk_->before().unit_mm;
+    std::size_t to = done;
+    while (to < axis.steps.size() &&
+           !same(correction_mm(settings_, unit_mm, axis.steps[to].displacement_um), stands_mm)) {
+      ++to;
+    }
+    if (to == axis.steps.size()) {
+      return refuse(fmt::format(
+          "{} stands corrected by {:.6f} mm here; the plan wants {:.6f} mm{}", axis.letter,
+          stands_mm, wanted_mm,
+          done == axis.steps.size()
+              ? ""
+              : fmt::format(" or {:.6f} mm",
+                            correction_mm(settings_, unit_mm, axis.steps[done].displacement_um))));
+    }
+    const Site site = walk_->site(axis.letter, axis.index);
+    if (site == Site::none) {
+      return refuse(
+          fmt::format("a correction of {} begins before a line that is no safe place for "
+                      "it",
+                      axis.letter));
+    }
+    const double shift_mm = shifts_.now(axis.index);
+    if (site == Site::clearance && !(restated_ && same(shift_mm, stands_mm))) {
+      return refuse(
+          fmt::format("a correction of {} does not act: the axis is not programmed "
+                      "here",
+                      axis.letter));
+    }
+    acts_at_once_ |= site == Site::clearance ? 0U : std::uint32_t{1} << axis.index;
+    clock_->ask(done);
+    asked_.push_back({.axis = &axis, .to = to, .line = changed_run_->line()});
+    done = to + 1;
+    wanted_mm = stands_mm;
+    ++proof_.changes;
+    return true;
+  }
+
+  struct Asked {
+    const AxisPlan* axis;
+    std::size_t to;
+    std::uint32_t line;
+  };
+  void told(const Asked& asked, std::uint64_t from, double time_s) {
+    for (std::size_t i = from; i <= asked.to && !too_far_; ++i) {
+      const double planned_s = asked.axis->steps[i].time_s;
+      if (std::abs(time_s - planned_s) > settings_.window_s) {
+        too_far_ = Refusal{
+            Kind::bad_input, changed_, asked.line,
+            fmt::format(
+                "a correction of {} acts at {:.1f} s; it is planned at {:.1f} s, and {:g} s "
+                "of difference are allowed",
+                asked.axis->letter, time_s, planned_s, settings_.window_s),
+            "make the changed program anew, or allow a wider --window-s"};
+      }
+    }
+  }
+
+  bool compare_moves() {
+    const auto& before = walk_->moves();
+    const auto& after = changed_moves_.moves;
+    if (before.size() != after.size() || !equal_events(walk_->events(), changed_moves_.events)) {
+      return refuse("makes other moves, or other events, than the original here");
+    }
+    const Frames frames = {
+        .incremental = walk_->before().incremental || walk_->run().state().incremental,
+        .machine = walk_->machine_frame(),
+        .acts_at_once = acts_at_once_};
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      ++proof_.moves;
+      if (const auto other = first_difference(before[i], after[i]); !other.empty()) {
+        return refuse(fmt::format("differs from the original in its {}", other));
+      }
+      if (before[i].kind == interpret::MoveKind::dwell) {
+        continue;
+      }
+      if (auto fault = shifts_.pair(before[i], after[i], frames); !fault.empty()) {
+        return refuse(std::move(fault));
+      }
+      proof_.corrected += shifts_.any() ? 1U : 0U;
+    }
+    return true;
+  }
+
+  bool at_end() {
+    const auto total = clock_->finish();
+    if (!total) {
+      return refuse(total.error(), original_);
+    }
+    proof_.program_s = *total;
+    if (auto fits = check_total(plan_, *total); !fits) {
+      return refuse(fits.error(), plan_.file);
+    }
+    if (too_far_) {
+      return refuse(*too_far_, changed_);
+    }
+    for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
+      const AxisPlan& axis = plan_.axes[i];
+      if (done_[i] != axis.steps.size()) {
+        return refuse(fmt::format("the correction of {} planned at {:.1f} s is missing",
+                                  axis.letter, axis.steps[done_[i]].time_s));
+      }
+    }
+    if (executed_inserted_ + head_lines_ != inserted_.size()) {
+      return refuse("not every inserted line is executed exactly once");
+    }
+    const std::string_view left = state_difference(walk_->run().state(), changed_run_->state());
+    return left.empty() || refuse(fmt::format("leaves another {} behind than the original", left));
+  }
+
+  const std::string& original_;
+  const std::string& changed_;
+  const Plan& plan_;
+  const interpret::Config& config_;
+  const kernel::machine::Machine& machine_;
+  const Settings& settings_;
+  Survey survey_;
+  std::vector<std::uint32_t> inserted_;  ///< lines of the changed program
+  std::size_t head_lines_ = 0;
+  std::size_t executed_inserted_ = 0;
+  std::uint32_t inserted_before_ = 0;  ///< of these, before the line in hand
+  std::optional<read::LineSource> changed_source_;
+  Moves changed_moves_;
+  std::optional<interpret::ProgramRun> changed_run_;
+  std::unique_ptr<Walk> walk_;
+  std::deque<Asked> asked_;
+  std::unique_ptr<Clock> clock_;
+  Shifts shifts_;
+  std::vector<std::size_t> done_;  ///< by axis of the plan: steps that stand or have stood
+  Axes offset_before_{};
+  bool restated_ = false;
+  std::uint32_t acts_at_once_ = 0;  ///< axes whose correction must act in this line, a mask
+  std::optional<Refusal> too_far_;
+  Refusal refusal_;
+  Proof proof_;
+};
+
+}  // namespace
+
+Result<Proof> verify(const std::string& original, const std::string& changed, const Plan& plan,
+                     const interpret::Config& config, const kernel::machine::Machine& machine,
+                     const Settings& settings) {
+  if (auto checked = check_plan(plan, settings, config); !checked) {
+    return std::unexpected(checked.error());
+  }
+  return Prover(original, changed, plan, config, machine, settings).run();
+}
+
+}  // namespace steadyrest::nc::rewrite
