@@ -63,7 +63,7 @@ void add_verb_program_compensate(Session& session) {
       group, "compensate", "Writes the corrections of a plan into an NC program, and proves it",
       "program compensate examples/programs/rib-pocket.ngc --dialect linuxcnc --plan "
       "examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml "
-      "-o /tmp/rib-pocket-compensated.ngc");
+      "-o rib-pocket-compensated.ngc");
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->rewrite.program);
   add_rewrite_options(verb, options->rewrite);

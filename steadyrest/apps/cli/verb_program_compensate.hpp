@@ -5,6 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
+/// `steadyrest program compensate`: writes a plan of corrections into an NC program, and proves it.
 void add_verb_program_compensate(Session& session);
 
 }  // namespace steadyrest::apps::cli

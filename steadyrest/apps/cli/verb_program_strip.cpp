@@ -31,7 +31,7 @@ void add_verb_program_strip(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
   CLI::App& verb =
       session.verb(group, "strip", "Takes the corrections out of an NC program, byte for byte",
-                   "program strip examples/programs/rib-pocket.ngc -o /tmp/rib-pocket.ngc");
+                   "program strip examples/programs/rib-pocket.ngc -o rib-pocket.ngc");
   auto options = std::make_shared<Options>();
   verb.add_option("FILE", options->file, "The changed program")->required();
   verb.add_option("-o,--output", options->output, "The original again; may be FILE itself")

@@ -5,6 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
+/// `steadyrest program strip`: takes the corrections out of an NC program, byte for byte.
 void add_verb_program_strip(Session& session);
 
 }  // namespace steadyrest::apps::cli

@@ -47,7 +47,7 @@ void add_verb_program_verify(Session& session) {
   CLI::App& verb = session.verb(
       group, "verify", "Proves that a changed program differs by a plan's corrections alone",
       "program verify examples/programs/rib-pocket.ngc "
-      "examples/programs/rib-pocket-compensated.ngc --dialect linuxcnc --plan "
+      "examples/plans/rib-pocket-compensated.ngc --dialect linuxcnc --plan "
       "examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml");
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->rewrite.program);

@@ -5,6 +5,8 @@
 
 namespace steadyrest::apps::cli {
 
+/// `steadyrest program verify`: proves that a changed program differs by a plan's corrections
+/// alone.
 void add_verb_program_verify(Session& session);
 
 }  // namespace steadyrest::apps::cli

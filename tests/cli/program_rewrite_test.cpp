@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <string>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kProgram = "examples/programs/rib-pocket.ngc";
+const std::string kPlan =
+    " --plan examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml";
+
+TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
+  const Scratch scratch;
+  const std::string changed = scratch.at("changed.ngc");
+  const auto answer = answer_of("program compensate " + kProgram + kPlan + " -o " + changed);
+  ASSERT_EQ(answer["insertions"].size(), 3U);
+  for (const auto& one : answer["insertions"]) {
+    EXPECT_NEAR(one["time_s"].get<double>(), one["planned_s"].get<double>(), 60.0);
+    EXPECT_GT(one["line"].get<int>(), 0);
+  }
+  EXPECT_NEAR(answer["insertions"][0]["delta_um"].get<double>(), -10.0, 1e-9);
+  EXPECT_EQ(text_of_file(changed),
+            text_of_file(project_file("examples/plans/rib-pocket-compensated.ngc")));
+  const auto proof = answer_of("program verify " + kProgram + " " + changed + kPlan);
+  EXPECT_TRUE(proof["proved"].get<bool>());
+  EXPECT_EQ(proof["inserted_lines"], answer["inserted_lines"]);
+  const auto removed = answer_of("program strip " + changed + " -o " + changed);
+  EXPECT_EQ(removed["removed_lines"], answer["inserted_lines"]);
+  EXPECT_EQ(text_of_file(changed), text_of_file(project_file(kProgram)));
+}
+
+TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
+  const Scratch scratch;
+  const std::string to = " -o " + scratch.at("changed.ngc");
+  expect_refused("program compensate " + kProgram + kPlan + to + " --window-s 0.5",
+                 "no safe place");
+  const auto unwritten =
+      run_line("program compensate " + kProgram + kPlan + " -o " + scratch.at("none/x.ngc"));
+  EXPECT_EQ(unwritten.code, 1);
+  EXPECT_THAT(unwritten.err, HasSubstr("cannot be written"));
+  expect_refused(
+      "program compensate examples/programs/rib-pocket.mpf --dialect sinumerik" + kPlan + to,
+      "sinumerik");
+  expect_refused("program compensate examples/plans/rib-pocket-compensated.ngc" + kPlan + to,
+                 "program strip");
+  expect_refused("program verify " + kProgram + " " + kProgram + kPlan, "head");
+  EXPECT_FALSE(std::filesystem::exists(scratch.at("changed.ngc")));
+}
+
+}  // namespace
+}  // namespace steadyrest::test
