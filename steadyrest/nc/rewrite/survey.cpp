@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/read/line_source.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
@@ -16,14 +18,11 @@ class Changes final : public interpret::Sink {
 };
 
 bool puts_length_on(const read::Block& block, read::Dialect dialect) {
-  for (const read::Word& word : block.words()) {
+  return std::ranges::any_of(block.words(), [dialect](const read::Word& word) {
     const bool g43 = word.letter == 'G' && word.value >= 43.0 && word.value < 44.0;
     const bool edge = dialect == read::Dialect::sinumerik && word.letter == 'D' && word.value > 0.0;
-    if (g43 || edge) {
-      return true;
-    }
-  }
-  return false;
+    return g43 || edge;
+  });
 }
 
 }  // namespace

@@ -5,13 +5,10 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
-#include <steadyrest/nc/interpret/state.hpp>
 #include <steadyrest/nc/rewrite/writing.hpp>
 
 namespace steadyrest::nc::rewrite {
 namespace {
-
-using interpret::kMmPerInch;
 
 constexpr int kLinuxcncPlaces = 6;
 constexpr int kMmPlaces = 4;

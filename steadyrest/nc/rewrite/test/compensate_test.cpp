@@ -15,11 +15,10 @@ using test::read_file;
 using test::replaced;
 using test::Workshop;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::string one_step(double minutes, double rest_min, double delta_um) {
-  return "{\"transitions\": [{\"n\": 2, \"t_min\": [" + std::to_string(minutes) + ", " +
-         std::to_string(rest_min) + "], \"delta_um\": [0, " + std::to_string(delta_um) + "]}]}";
+  return R"({"transitions": [{"n": 2, "t_min": [)" + std::to_string(minutes) + ", " +
+         std::to_string(rest_min) + R"(], "delta_um": [0, )" + std::to_string(delta_um) + "]}]}";
 }
 
 TEST(Compensate, PutsEveryCorrectionBeforeAnAbsoluteRapidOfItsAxis) {

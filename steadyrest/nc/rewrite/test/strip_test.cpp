@@ -66,9 +66,9 @@ RC_GTEST_PROP(Strip, RestoresEveryProgramByteForByte, ()) {
   RC_ASSERT(at != std::string::npos);
   const double total_s = std::stod(what.substr(at + 14));
   const auto minutes = [](double s) { return std::to_string(s / 60.0); };
-  const std::string plan = "{\"transitions\": [{\"n\": 3, \"t_min\": [" + minutes(first) + ", " +
+  const std::string plan = R"({"transitions": [{"n": 3, "t_min": [)" + minutes(first) + ", " +
                            minutes(30.0) + ", " + minutes(total_s - first - 30.0) +
-                           "], \"delta_um\": [0, " + std::to_string(delta) + ", 3.3]}]}";
+                           R"(], "delta_um": [0, )" + std::to_string(delta) + ", 3.3]}]}";
   const auto done = shop.compensate(program, plan);
   RC_ASSERT(done.has_value());
   RC_ASSERT(done->inserted_lines > 0U);
