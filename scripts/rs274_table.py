@@ -178,6 +178,45 @@ def tool_length_in_change(text):
     return re.search(r"[mM]0*6(?!\d)", text) is not None
 
 
+def value_at(line, at):
+    """Where the value ends that begins at `at`: signs, then #…, [ ] or a function with its brackets."""
+    while line[at] in "+- ":
+        at += 1
+    while line[at] not in "[" and (line[at].isalnum() or line[at] in "#."):
+        at += 1
+        if at == len(line):
+            return at
+    depth = 0
+    while at < len(line) and line[at] == "[" or depth:
+        depth += {"[": 1, "]": -1}.get(line[at], 0)
+        at += 1
+    return at
+
+
+def macro_line(line, inch):
+    """A line with custom macros in LinuxCNC's words: what an address takes is rounded to its increment; #4003 and #5001 … have
+    other numbers; M98 has no repeats in P."""
+    scale = 10000 if inch else 1000
+    line = re.sub(r"#(50[04]\d)", lambda m: f"#{int(m.group(1)) - 5001 + 5420}", line)
+    line = line.replace("#4003", "[90+#<_incremental>]")
+    line = re.sub(r"M98\s*P(\d+)(\d{4})(?!\d)", lambda m: f"M98 P{int(m.group(2))}" + (f" L{int(m.group(1))}" if int(m.group(1)) else ""), line)
+    line = re.sub(r"^(\s*)[:O]0*(\d+)", r"\1O\2", line)
+    line = re.sub(r"ATAN\[([^][,]*)\](?!/)", r"ATAN[\1]/[1]", line)
+    if re.match(r"\s*(N\d+\s*)?#", line):
+        return re.sub(r"=(.*)$", lambda m: f"=[{m.group(1)}]", line)
+    out, at = "", 0
+    while at < len(line):
+        word = re.compile(r"([XYZABCIJKRQ])(?=\s*[-+]?\s*[#\[])").match(line, at)
+        if word:
+            end = value_at(line, word.end())
+            out += f"{word.group(1)}[ROUND[[{line[word.end():end]}]*{scale}]/{scale}]"
+            at = end
+        else:
+            out += line[at]
+            at += 1
+    return out
+
+
 def equivalent_of(program, dialect, oracle):
     """The same program in LinuxCNC's words, derived mechanically, where the meaning is common; None where it is not."""
     text = open(program, errors="replace").read()
@@ -190,7 +229,9 @@ def equivalent_of(program, dialect, oracle):
                 line = re.sub(r"G0*[01](?![\d.])", "", line, count=1)
             if re.search(r"G28.*G91|G91.*G28", code):
                 lines.append("G91")
-            lines.append(line)
+            inch = re.search(r"G20(?!\d)", text) is not None
+            macros = "#" in re.sub(r"\(.*?\)", "", text) or re.search(r"M98", text)
+            lines.append(macro_line(re.sub(r"\(.*?\)", "", line), inch) if macros else line)
         body = "\n".join(lines) + "\n"
         body = body.replace("%\n", "%\nG98\n", 1) if body.startswith("%") else "G98\n" + body
     else:

@@ -149,6 +149,13 @@ bool Interpreter::fanuc_letter(const Word& word, Step& step) {
         !word.decimal_point && config_.decimal_rule == DecimalRule::least_increment;
     return put_letter(word, 'P', increments ? value * 1e-3 : value, step);
   }
+  if (step.code(MGroup::program) == 98 && (letter == 'P' || letter == 'L')) {
+    return put_letter(word, letter, value, step);
+  }
+  if (letter == 'P' && step.code(MGroup::program) == 99) {
+    return refuse_word(step.line, word, "flow_control",
+                       "M99 with a block number (P) is a jump, which is not interpreted");
+  }
   if (letter == 'P') {
     const bool with_time = dwell || is_cycle(step.code(GGroup::motion)) ||
                            (step.code(GGroup::motion) == kNoCode && is_cycle(state_.motion));
@@ -175,8 +182,39 @@ bool Interpreter::fanuc_letter(const Word& word, Step& step) {
   return put_letter(word, letter, value, step);
 }
 
+// M98 P…: eight digits are four of repeats and four of the program's number; or P and L.
+bool Interpreter::fanuc_call(Step& step) {
+  constexpr double kNumbers = 10000.0;
+  if (step.code(MGroup::program) != 98 || !step.has('P')) {
+    return true;
+  }
+  const double p = step['P'];
+  if (step.has('L') && (!(step['L'] >= 1.0) || p >= kNumbers)) {
+    return refuse(step, 'L', "bad_value",
+                  p >= kNumbers ? "repeats both in L and in the digits of P"
+                                : "the number of repeats (L) is at least 1");
+  }
+  if (p >= kNumbers) {
+    step.set('L', std::floor(p / kNumbers));
+    step.set('P', std::fmod(p, kNumbers));
+  }
+  return true;
+}
+
 // Where these controls do otherwise than LinuxCNC.
 bool Interpreter::fanuc_finish(Step& step) {
+  if (step.code(GGroup::units) != kNoCode) {
+    for (const Word& word : step.block->words()) {
+      if (word.calculated) {
+        return refuse_word(step.line, word, "units_beside_variables",
+                           "a calculated value beside G20 or G21: which unit it is rounded in is "
+                           "not known; write the units in a block before");
+      }
+    }
+  }
+  if (!fanuc_call(step)) {
+    return false;
+  }
   const int non_modal = step.code(GGroup::non_modal);
   if (non_modal == 530) {
     step.machine_frame = true;

@@ -104,8 +104,9 @@ bool Interpreter::take_m(const Word& word, Step& step) {
 
 bool Interpreter::put_m(const Word& word, int code, Step& step) {
   const GroupOfM found = group_of_m(code);
-  const bool linuxcnc_alone = found.group == MGroup::io || found.group == MGroup::modes ||
-                              found.group == MGroup::program || code == 19;
+  const bool programs = found.group == MGroup::program && config_.dialect != read::Dialect::fanuc;
+  const bool linuxcnc_alone =
+      found.group == MGroup::io || found.group == MGroup::modes || programs || code == 19;
   if (!found.known || (linuxcnc_alone && config_.dialect != read::Dialect::linuxcnc)) {
     const std::string_view note = known_but_refused_m(code);
     return note.empty()

@@ -11,11 +11,11 @@ using read::Block;
 using read::FlowKind;
 
 FlowControl::FlowControl(ProgramFiles& files, Parameters& parameters, read::Reader& reader,
-                         std::uint64_t most_repeated_lines)
+                         const Config& config)
     : files_(files),
       parameters_(parameters),
       reader_(reader),
-      most_repeated_lines_(most_repeated_lines),
+      most_repeated_lines_(config.most_repeated_lines),
       frames_(1) {}
 
 bool FlowControl::refuse(std::uint32_t line, std::string_view label, std::string_view reason,

@@ -29,7 +29,7 @@ class FlowControl {
 
   /// All outlive the object.
   FlowControl(ProgramFiles& files, Parameters& parameters, read::Reader& reader,
-              std::uint64_t most_repeated_lines);
+              const Config& config);
 
   /// The next lines are passed over: give them to pass_over() instead of executing them.
   [[nodiscard]] bool passing_over() const noexcept { return passing_ != Passing::nothing; }
@@ -39,6 +39,9 @@ class FlowControl {
   /// M98 P… L… and M99.
   bool call_program(std::uint32_t line, std::string_view label, double repeats);
   bool end_program(std::uint32_t line);
+  /// M98 of fanuc: a program of the same file, before or behind, else a file in the folders named
+  /// after its number.
+  bool call_numbered(std::uint32_t line, std::int32_t number, double repeats);
   /// To be called for each line; false when the bound is reached.
   bool count_line();
   /// Why the file must not end here; false when it may.
@@ -80,6 +83,7 @@ class FlowControl {
 
   bool sub(const read::Block& block);
   bool call(const read::Block& block);
+  bool note_programs(std::uint32_t line, std::uint32_t file);
   bool enter(std::uint32_t line, std::string_view label, Passing how, Frame frame);
   bool leave(const double* returned);
   bool end_of_sub(const read::Block& block);
@@ -113,6 +117,7 @@ class FlowControl {
   std::map<std::string, Place> subs_;      ///< label → behind the line of its `sub`
   std::map<std::string, Place> programs_;  ///< number → behind the line of its O
   std::map<std::string, Place> heads_;     ///< labels that head a block
+  bool programs_noted_ = false;
   Passing passing_ = Passing::nothing;
   std::string passing_label_;
   std::uint32_t passing_from_ = 0;

@@ -78,6 +78,7 @@ class Interpreter {
   bool fanuc_m(const read::Word& word, Step& step);
   bool fanuc_letter(const read::Word& word, Step& step);
   bool fanuc_finish(Step& step);
+  bool fanuc_call(Step& step);
   bool sinumerik_g(const read::Word& word, Step& step);
   bool sinumerik_m(const read::Word& word, Step& step);
   bool sinumerik_letter(const read::Word& word, Step& step);

@@ -4,6 +4,7 @@
 
 #include <steadyrest/nc/interpret/flow_control.hpp>
 #include <steadyrest/nc/interpret/interpreter.hpp>
+#include <steadyrest/nc/interpret/macro_variables.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/interpret/program_files.hpp>
 #include <steadyrest/nc/read/reader.hpp>
@@ -38,11 +39,15 @@ class ProgramRun::Run {
       : files_(source, config.subprogram_folders),
         reader_(config.dialect),
         interpreter_(std::move(interpreter)),
-        flow_(files_, interpreter_.parameters(), reader_, config.most_repeated_lines),
+        flow_(files_, interpreter_.parameters(), reader_, config),
+        macro_(interpreter_.state()),
+        dialect_(config.dialect),
         block_delete_(config.block_delete),
         counter_(sink, report_) {
     if (config.dialect == read::Dialect::linuxcnc) {
       reader_.set_values(&interpreter_.parameters());
+    } else if (config.dialect == read::Dialect::fanuc) {
+      reader_.set_values(&macro_);
     }
   }
   Run(const Run&) = delete;
@@ -75,6 +80,9 @@ class ProgramRun::Run {
     if (!reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
       return refuse(reader_.refused());
     }
+    if (dialect_ != read::Dialect::linuxcnc && !ends_in_order()) {
+      return false;
+    }
     if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
       return follow(flow_.act(block_));
     }
@@ -88,12 +96,31 @@ class ProgramRun::Run {
       case Interpreter::ProgramCall::Kind::none:
         return true;
       case Interpreter::ProgramCall::Kind::call:
+        if (dialect_ == read::Dialect::fanuc) {
+          return follow(flow_.call_numbered(block_.line(), call.number, call.repeats));
+        }
         return call.repeats < 0.5 ||
                follow(flow_.call_program(block_.line(), std::to_string(call.number), call.repeats));
       case Interpreter::ProgramCall::Kind::end:
         return follow(flow_.end_program(block_.line()));
     }
     return true;
+  }
+
+  /// A subprogram ends with its word, a program before the next one begins.
+  bool ends_in_order() {
+    const bool label = block_.flow().kind == read::FlowKind::label;
+    if (block_.end_mark() && !files_.in_main() && block_.line() == 1) {
+      block_.reset(1);  // % at the head of a subprogram's file
+      return true;
+    }
+    if (!(flow_.in_call() && (block_.end_mark() || label)) && !(label && report_.blocks > 0)) {
+      return true;
+    }
+    return refuse({.line = block_.line(),
+                   .word = label ? "O" : "%",
+                   .reason = "no_program_end",
+                   .text = "the program or subprogram before is not ended; write M30 or M99"});
   }
 
   /// Tells the interpreter of calls that began or ended.
@@ -192,6 +219,8 @@ class ProgramRun::Run {
   Reader reader_;
   Interpreter interpreter_;
   FlowControl flow_;
+  MacroVariables macro_;
+  read::Dialect dialect_;
   bool block_delete_;
   std::size_t calls_ = 0;
   Report report_;

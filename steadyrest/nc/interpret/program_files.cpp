@@ -27,21 +27,32 @@ bool ProgramFiles::go(const Place& place) noexcept {
   return sources_[current_]->seek(place.offset, place.line);
 }
 
+std::optional<Place> ProgramFiles::open(const std::string& path) {
+  const auto known = std::ranges::find(paths_, path);
+  if (known != paths_.end()) {
+    return Place{.file = static_cast<std::uint32_t>(known - paths_.begin())};
+  }
+  auto source = opened_.size() < kMostFiles ? LineSource::open(path)
+                                            : std::unexpected(kernel::outcome::Refusal{});
+  if (!source) {
+    return std::nullopt;
+  }
+  opened_.push_back(std::move(*source));
+  sources_.push_back(&opened_.back());
+  paths_.push_back(path);
+  return Place{.file = static_cast<std::uint32_t>(paths_.size() - 1)};
+}
+
 std::optional<Place> ProgramFiles::find(std::string_view name) {
+  return find(std::vector{std::string{name} + ".ngc"});
+}
+
+std::optional<Place> ProgramFiles::find(const std::vector<std::string>& names) {
   for (const std::string& folder : folders_) {
-    const std::string path =
-        (folder.empty() ? std::string{} : folder + "/") + std::string{name} + ".ngc";
-    const auto known = std::ranges::find(paths_, path);
-    if (known != paths_.end()) {
-      return Place{.file = static_cast<std::uint32_t>(known - paths_.begin())};
-    }
-    auto source = opened_.size() < kMostFiles ? LineSource::open(path)
-                                              : std::unexpected(kernel::outcome::Refusal{});
-    if (source) {
-      opened_.push_back(std::move(*source));
-      sources_.push_back(&opened_.back());
-      paths_.push_back(path);
-      return Place{.file = static_cast<std::uint32_t>(paths_.size() - 1)};
+    for (const std::string& name : names) {
+      if (const auto place = open((folder.empty() ? std::string{} : folder + "/") + name)) {
+        return place;
+      }
     }
   }
   return std::nullopt;

@@ -37,9 +37,13 @@ class ProgramFiles {
   [[nodiscard]] bool go(const Place& place) noexcept;
   /// The beginning of the file of a subprogram; nothing when there is none that can be read.
   [[nodiscard]] std::optional<Place> find(std::string_view name);
+  /// The same for the first of `names` (with what follows the point) that a folder has.
+  [[nodiscard]] std::optional<Place> find(const std::vector<std::string>& names);
 
  private:
   static constexpr std::size_t kMostFiles = 1000;
+
+  std::optional<Place> open(const std::string& path);
 
   std::vector<std::string> folders_;
   std::vector<read::LineSource> opened_;

@@ -28,6 +28,7 @@ struct Word {
   char letter = 0;  ///< upper case; 0 when the address is a name of several letters
   Qualifier qualifier = Qualifier::none;
   bool decimal_point = false;  ///< the value was written with a decimal point
+  bool calculated = false;     ///< the value was an expression
   bool has_value = false;      ///< sinumerik: SUPA, FNORM, … stand alone
   double value = 0.0;
   std::string_view name;  ///< sinumerik: the address as written, `CR`, `TURN`, `SUPA`

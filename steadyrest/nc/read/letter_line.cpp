@@ -17,6 +17,8 @@ constexpr bool continues_number(char c) noexcept {
   return is_digit(c) || c == '.';
 }
 
+constexpr std::string_view kStatementText =
+    "an assignment stands in a block of its own in this dialect";
 constexpr std::string_view kControlText =
     "a control character that no NC text contains; the file is not a text or is damaged";
 
@@ -47,7 +49,10 @@ void LetterLine::skip_blanks() noexcept {
 bool LetterLine::one_item() {
   const char c = *at_;
   if (is_letter(c)) {
-    return word();
+    return macro_keyword() && word();
+  }
+  if (c == ':' && reader_.dialect_ == Dialect::fanuc) {
+    return program_number(at_++);
   }
   if (c == '(') {
     return round_comment();
@@ -56,7 +61,7 @@ bool LetterLine::one_item() {
     return rest_of_line();
   }
   if (c == '#' && reader_.values_ != nullptr) {
-    return assignment();
+    return reader_.dialect_ == Dialect::fanuc ? macro_statement() : assignment();
   }
   if ((c == '@' || c == '^') && reader_.dialect_ == Dialect::linuxcnc) {
     return word();
@@ -131,6 +136,9 @@ bool LetterLine::word() {
   if (!value(word_begin, word)) {
     return false;
   }
+  if (assigned_) {
+    return refuse(since(word_begin), "macro_statement", kStatementText);
+  }
   word.has_value = true;
   word.text = since(word_begin);
   word.name = {word_begin, 1};
@@ -202,6 +210,9 @@ bool LetterLine::expression(const char* word_begin, Word& word) {
   if (look == end_ || (signs && (is_digit(*look) || *look == '.')) ||
       !(*look == '#' || *look == '[' || is_letter(*look))) {
     return refuse_value(word_begin);
+  }
+  if (reader_.dialect_ == Dialect::fanuc) {
+    return macro_value(word_begin, word);
   }
   Expression expression(line(), static_cast<std::size_t>(at_ - begin_), *reader_.values_);
   if (!expression.read(word.value)) {

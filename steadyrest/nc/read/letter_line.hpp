@@ -13,7 +13,9 @@ namespace steadyrest::nc::read {
 /// One line of the dialects whose words are a letter and a number (`linuxcnc`, `fanuc`).
 ///
 /// Blanks have no meaning outside of comments. Where the reader has values (`Reader::set_values`),
-/// expressions, parameters, assignments and O-words are read; else they are refused by name.
+/// expressions, parameters and
+/// assignments are read, of `linuxcnc` O-words too; else they are refused by name. In `fanuc` an
+/// assignment is a macro statement, which stands in a block of its own.
 class LetterLine {
  public:
   LetterLine(Reader& reader, std::string_view line, std::uint32_t number, Block& block) noexcept
@@ -36,6 +38,9 @@ class LetterLine {
   bool spaced_number(const char* word_begin, Word& word);
   bool o_word(const char* word_begin);
   bool program_number(const char* word_begin);
+  bool macro_keyword();
+  bool macro_statement();
+  bool macro_value(const char* word_begin, Word& word);
   bool expression(const char* word_begin, Word& word);
   bool assignment();
   bool refuse_assignment(const char* from, Lookup lookup);
@@ -58,6 +63,7 @@ class LetterLine {
   const char* end_;
   std::uint32_t number_;
   Block& block_;
+  bool assigned_ = false;  ///< a macro statement has been read
 };
 
 }  // namespace steadyrest::nc::read

@@ -30,6 +30,8 @@ class Values {
   virtual Lookup set_number(int index, double value) = 0;
   virtual Lookup set_name(std::string_view name, double value) = 0;
   virtual void commit() = 0;
+  /// What a value is rounded to that is calculated for a word with this letter; 0: it is not.
+  [[nodiscard]] virtual double increment(char /*letter*/) const { return 0.0; }
   virtual void drop() noexcept = 0;  ///< forgets assignments that were not committed
 };
 
