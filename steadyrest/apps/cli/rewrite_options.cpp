@@ -87,6 +87,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
     return std::unexpected(method.error());
   }
   task.settings.method = *method;
+  task.config.external_offset = *method != Method::haas;
   task.settings.window_s = options.window_s;
   task.settings.clamp_mm = task.machine.envelope.max_offset_mm;
   task.settings.progress = [&progress](double share, std::string_view what) {

@@ -37,6 +37,8 @@ struct Config {
   bool block_delete = false;  ///< the operator's switch: lines that begin with / are left out
   DecimalRule decimal_rule = DecimalRule::calculator;
   bool inch = false;            ///< units in force at the start (G20)
+  bool external_offset = true;  ///< fanuc: G10 L2 P0 is the external offset; false: G52 (Haas)
+  Axes external{};              ///< fanuc: external work offset in force at the start
   std::string axes = "XYZABC";  ///< letters of the axes that the machine has
   Axes start{};                 ///< machine position at the start, mm and degrees
   std::array<Axes, kWorkOffsets> work_offset{};

@@ -9,6 +9,9 @@ namespace steadyrest::nc::interpret {
 
 bool Interpreter::set_data(const Step& step) {
   const double form = step.has('L') ? step['L'] : -1.0;
+  if (config_.dialect == read::Dialect::fanuc) {
+    return set_fanuc_data(step, form);
+  }
   if (form == 2.0 || form == 20.0) {
     return set_work_data(step, form);
   }
@@ -43,6 +46,38 @@ bool Interpreter::set_work_data(const Step& step, double form) {
     }
   }
   if (set == state_.active_offset) {
+    state_.work_in_force = offset;
+  }
+  update_offset();
+  return true;
+}
+
+// L2 alone: P1 to P6 are G54 to G59, P0 is the external offset that is added to all of them; on a
+// Haas P0 is G52. In G91 the words are added to what the offset has.
+bool Interpreter::set_fanuc_data(const Step& step, double form) {
+  if (form != 2.0) {
+    return refuse_code(step, 'G', 10, "g10_form",
+                       "this form of G10 is not interpreted; L2 (work offsets) is");
+  }
+  const double number = step.has('P') ? step['P'] : -1.0;
+  if (number != std::floor(number) || number < 0.0 || number > 6.0) {
+    return refuse_code(step, 'G', 10, "g10_form",
+                       "G10 L2 names no work offset; P0 (external) to P6 (G59) are allowed");
+  }
+  if (number == 0.0 && !config_.external_offset) {
+    return refuse_code(step, 'G', 10, "g10_form", "G10 L2 P0 is G52 on this control; write G52");
+  }
+  if (step.has('R')) {
+    return refuse(step, 'R', "unused_word", "an R word with G10 L2");
+  }
+  Axes& offset =
+      number == 0.0 ? state_.external : state_.work_offset[static_cast<std::size_t>(number) - 1];
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (step.has(kAxisLetters[i])) {
+      offset[i] = component(step, i) + (state_.incremental ? offset[i] : 0.0);
+    }
+  }
+  if (number == static_cast<double>(state_.active_offset) + 1.0) {
     state_.work_in_force = offset;
   }
   update_offset();

@@ -22,7 +22,6 @@ struct Note {
 constexpr std::array kNotes = {
     Note{70, "g_code_not_interpreted", "G7/G07 is another function on every control"},
     Note{80, "g_code_not_interpreted", "G8/G08 (look-ahead control) is not interpreted"},
-    Note{100, "g_code_not_interpreted", "data setting (G10) is not interpreted in this dialect"},
     Note{150, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
     Note{160, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
     Note{270, "g_code_not_interpreted", "the reference check (G27) is not interpreted"},
@@ -157,6 +156,9 @@ bool Interpreter::fanuc_letter(const Word& word, Step& step) {
                        "M99 with a block number (P) is a jump, which is not interpreted");
   }
   if (letter == 'P') {
+    if (step.code(GGroup::non_modal) == 100) {
+      return put_letter(word, 'P', value, step);  // which work offset
+    }
     const bool with_time = dwell || is_cycle(step.code(GGroup::motion)) ||
                            (step.code(GGroup::motion) == kNoCode && is_cycle(state_.motion));
     if (!with_time) {

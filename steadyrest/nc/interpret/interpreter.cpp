@@ -38,7 +38,7 @@ kernel::outcome::Result<Interpreter> Interpreter::make(Config config) {
   const auto finite = [](const Axes& axes) {
     return std::ranges::all_of(axes, [](double value) { return std::isfinite(value); });
   };
-  if (!finite(config.start) || !finite(config.g92) ||
+  if (!finite(config.start) || !finite(config.g92) || !finite(config.external) ||
       !std::ranges::all_of(config.work_offset, finite) ||
       !std::ranges::all_of(config.home, finite)) {
     return refuse("an offset or start position that is not finite", "give finite numbers");
@@ -53,6 +53,7 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
   state_.work_offset = config_.work_offset;
   state_.active_offset = config_.active_offset;
   state_.work_in_force = state_.work_offset[state_.active_offset];
+  state_.external = config_.external;
   state_.g92 = config_.g92;
   state_.g92_stored = config_.g92;
   state_.g92_on = config_.g92 != Axes{};

@@ -109,6 +109,7 @@ class Interpreter {
   bool non_modal(const Step& step);
   bool set_data(const Step& step);
   bool set_work_data(const Step& step, double form);
+  bool set_fanuc_data(const Step& step, double form);
   bool set_tool_data(const Step& step, double form);
   Tool* place_of_tool(std::int32_t number);
   bool set_io(const Step& step);

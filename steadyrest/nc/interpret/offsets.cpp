@@ -48,7 +48,7 @@ void Interpreter::set_units(const Step& step) {
 void Interpreter::update_offset() noexcept {
   for (std::size_t i = 0; i < state_.offset.size(); ++i) {
     const double work = state_.work_offset_on ? state_.work_in_force[i] : 0.0;
-    const double offset = work + state_.g92[i] + state_.tool_offset[i];
+    const double offset = work + state_.external[i] + state_.g92[i] + state_.tool_offset[i];
     state_.position[i] += state_.offset[i] - offset;
     state_.offset[i] = offset;
   }

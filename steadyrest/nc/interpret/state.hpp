@@ -47,6 +47,7 @@ struct State {
   Axes work_in_force{};  ///< of the active one: what #5221 … say later acts when it is chosen anew
   std::size_t active_offset = 0;
   bool work_offset_on = true;  ///< false after G500
+  Axes external{};             ///< fanuc: added to every work offset (G10 L2 P0)
   Axes g92{};                  ///< in force (G92, G52)
   Axes g92_stored{};           ///< what G92.3 brings back
   bool g92_on = false;         ///< G92 or G52 in force (#5210)

@@ -29,7 +29,8 @@ struct FrameLine {
   Frame frame = Frame::kept;
   bool may_write = false;
   bool moves_axis = false;
-  bool incremental = false;
+  bool incremental_before = false;
+  bool incremental_behind = false;
   std::size_t before = 0;  ///< active offset
   std::size_t behind = 0;
   double unit_before_mm = 1.0;
@@ -166,7 +167,8 @@ class Rewriter {
                                  .frame = walk.ends() ? Frame::kept : frame,
                                  .may_write = walk.may_write(),
                                  .moves_axis = walk.moves_axis(index),
-                                 .incremental = walk.before().incremental,
+                                 .incremental_before = walk.before().incremental,
+                                 .incremental_behind = now.incremental,
                                  .before = walk.before().active_offset,
                                  .behind = now.active_offset,
                                  .unit_before_mm = walk.before().unit_mm,
@@ -272,19 +274,16 @@ class Rewriter {
                                 plan.letter),
                     "change the work offset in a line of its own");
     }
-    if (settings_.method != Method::linuxcnc && !end && frame.incremental) {
-      return refuse(frame.line, "the work offset changes under G91 while a correction stands",
-                    "change it under G90");
-    }
     const auto change = [&](double from_mm, double to_mm, bool behind) {
-      return change_text(settings_.method,
-                         {.letter = plan.letter,
-                          .from_mm = from_mm,
-                          .to_mm = to_mm,
-                          .unit_mm = behind ? frame.unit_behind_mm : frame.unit_before_mm,
-                          .active_offset = behind ? frame.behind : frame.before,
-                          .incremental = frame.incremental},
-                         "\n");
+      return change_text(
+          settings_.method,
+          {.letter = plan.letter,
+           .from_mm = from_mm,
+           .to_mm = to_mm,
+           .unit_mm = behind ? frame.unit_behind_mm : frame.unit_before_mm,
+           .active_offset = behind ? frame.behind : frame.before,
+           .incremental = behind ? frame.incremental_behind : frame.incremental_before},
+          "\n");
     };
     texts_[frame.line].before_line += change(stands_mm, 0.0, false);
     if (end) {

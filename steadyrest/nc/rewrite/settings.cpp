@@ -59,4 +59,20 @@ Result<void> check_total(const Plan& plan, double program_s) {
               "make the plan from this program and this machine file"});
 }
 
+interpret::Config with_unknown_offsets(interpret::Config config) {
+  constexpr double kOwn_mm = 0.375;
+  const auto none = [](const interpret::Axes& axes) { return axes == interpret::Axes{}; };
+  if (none(config.external) && config.dialect == read::Dialect::fanuc && config.external_offset) {
+    std::fill_n(config.external.begin(), 3, kOwn_mm);
+  }
+  if (std::ranges::all_of(config.work_offset, none)) {
+    double own_mm = 0.0;
+    for (interpret::Axes& axes : config.work_offset) {
+      own_mm += kOwn_mm;
+      std::fill_n(axes.begin(), 3, own_mm);
+    }
+  }
+  return config;
+}
+
 }  // namespace steadyrest::nc::rewrite

@@ -31,6 +31,10 @@ inline constexpr double kFit_s = 30.0;
 /// Refused with both figures: a plan for another time than the program takes.
 [[nodiscard]] kernel::outcome::Result<void> check_total(const Plan& plan, double program_s);
 
+/// Where the caller has named no offsets, some that no program knows: a correction that is written
+/// as an absolute value would show.
+[[nodiscard]] interpret::Config with_unknown_offsets(interpret::Config config);
+
 /// The correction that stands from a step on: against the displacement, as it can be written.
 [[nodiscard]] inline double correction_mm(const Settings& settings, double unit_mm,
                                           double displacement_um) noexcept {

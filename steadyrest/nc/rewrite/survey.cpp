@@ -27,6 +27,20 @@ bool puts_length_on(const read::Block& block, read::Dialect dialect) {
 
 }  // namespace
 
+void Survey::mark(std::uint32_t line, std::vector<bool>& seen, bool again) {
+  if (line >= seen.size()) {
+    seen.resize(line + 1U);
+  }
+  again = again || seen[line];
+  seen[line] = true;
+  if (again && line >= repeated.size()) {
+    repeated.resize(line + 1U);
+  }
+  if (again) {
+    repeated[line] = true;
+  }
+}
+
 kernel::outcome::Result<Survey> survey(const std::string& path, const interpret::Config& config) {
   auto source = read::LineSource::open(path);
   if (!source) {
@@ -38,15 +52,13 @@ kernel::outcome::Result<Survey> survey(const std::string& path, const interpret:
     return std::unexpected(run.error());
   }
   Survey found;
+  std::vector<bool> seen;
   std::uint64_t steps = 0;
   std::uint64_t changed_at = 0;
   while (run->step()) {
     ++steps;
-    if (run->in_main() && !run->at_top()) {
-      if (run->line() >= found.repeated.size()) {
-        found.repeated.resize(run->line() + 1U);
-      }
-      found.repeated[run->line()] = true;
+    if (run->in_main()) {
+      found.mark(run->line(), seen, !run->at_top());
     }
     if (!run->executed()) {
       continue;

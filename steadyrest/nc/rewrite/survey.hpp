@@ -13,7 +13,7 @@ namespace steadyrest::nc::rewrite {
 
 /// What must be known of a whole program before a place in it can be judged.
 struct Survey {
-  /// Lines that are executed in a subprogram, a condition or a loop; a bit for each line.
+  /// Lines that are executed in a subprogram, a condition or a loop, or twice; a bit for each line.
   std::vector<bool> repeated;
   /// From a tool change to the line that puts the tool's length on (G43, D), both included,
   /// counted in steps of the run.
@@ -21,6 +21,8 @@ struct Survey {
   std::uint32_t end_line = 0;  ///< the line that ends the program
   bool end_at_top = false;
 
+  /// `line` is executed, perhaps where it may be executed `again`; `seen` keeps what was.
+  void mark(std::uint32_t line, std::vector<bool>& seen, bool again);
   [[nodiscard]] bool is_repeated(std::uint32_t line) const noexcept {
     return line < repeated.size() && repeated[line];
   }

@@ -52,7 +52,7 @@ class Prover {
       : original_(original),
         changed_(changed),
         plan_(plan),
-        config_(config),
+        config_(with_unknown_offsets(config)),
         machine_(machine),
         settings_(settings),
         shifts_(plan),
@@ -354,7 +354,7 @@ class Prover {
   const std::string& original_;
   const std::string& changed_;
   const Plan& plan_;
-  const interpret::Config& config_;
+  interpret::Config config_;
   const kernel::machine::Machine& machine_;
   const Settings& settings_;
   Survey survey_;

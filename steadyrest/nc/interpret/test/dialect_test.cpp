@@ -24,6 +24,28 @@ void expect_same(const std::vector<Move>& left, const std::vector<Move>& right) 
   }
 }
 
+TEST(Fanuc, AddsTheExternalOffsetToEveryWorkOffset) {
+  Config config = in(Dialect::fanuc);
+  config.work_offset[1][2] = 100.0;
+  const auto moves = moves_of(
+      "G90 G54 G0 Z0\nG91 G10 L2 P0 Z-0.01\nG90\nZ0\nG55 Z0\nG91 G10 L2 P0 Z0.01\nG90 Z0\n"
+      "G10 L2 P2 Z50.\nZ0\nM30\n",
+      config);
+  const auto machine = [&](std::size_t i) { return moves.at(i).end[2] + moves.at(i).offset[2]; };
+  EXPECT_DOUBLE_EQ(machine(0), 0.0);
+  EXPECT_DOUBLE_EQ(machine(1), -0.01);
+  EXPECT_DOUBLE_EQ(machine(2), 99.99);
+  EXPECT_DOUBLE_EQ(machine(3), 100.0);
+  EXPECT_DOUBLE_EQ(machine(4), 50.0);
+}
+
+TEST(Fanuc, TakesP0ForG52OnAHaasAndRefusesIt) {
+  Config config = in(Dialect::fanuc);
+  config.external_offset = false;
+  Kept kept;
+  EXPECT_FALSE(run_text("G10 L2 P0 Z1.\nM30\n", config, kept).value().refused.empty());
+}
+
 TEST(Sinumerik, SaysTheSameAsLinuxcncInOtherWords) {
   const auto theirs = moves_of(
       "N10 G17 G71 G90 G94 G0 X=10 Y20 Z5 ; start\nG1 Z-1 F200\nG2 X20 CR=5 F=300\n"

@@ -55,6 +55,10 @@ TEST_F(Verify, CatchesAWrongAmount) {
               HasSubstr("stands corrected by -0.010100 mm"));
 }
 
+TEST_F(Verify, CatchesAnAbsoluteValueInTheWorkOffset) {
+  EXPECT_NE(fault(replaced(text_, "L20 P0 Z[#<_z>+0.0100]", "L2 P0 Z-0.0100")), "");
+}
+
 TEST_F(Verify, CatchesAWrongAxis) {
   EXPECT_NE(fault(replaced(text_, "P0 Z[#<_z>+0.0100]", "P0 X[#<_x>+0.0100]")), "");
 }

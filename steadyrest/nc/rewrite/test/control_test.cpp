@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/nc/rewrite/test/workshop.hpp>
+
+// The same passes for controls that have no expressions.
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using test::kGrowth;
+using test::kPasses;
+using test::read_file;
+using test::replaced;
+using test::Workshop;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string kFanuc = replaced(kPasses, "%\n", "%\r\nO1234 (PASSES)\n");
+
+class Fanuc : public ::testing::Test {
+ protected:
+  explicit Fanuc(Method method = Method::fanuc) {
+    shop_.settings.method = method;
+    shop_.settings.window_s = 30.0;
+    shop_.config.dialect = read::Dialect::fanuc;
+    shop_.config.external_offset = method == Method::fanuc;
+  }
+  Workshop shop_;
+};
+
+class Haas : public Fanuc {
+ protected:
+  Haas() : Fanuc(Method::haas) {}
+};
+
+TEST_F(Fanuc, MovesTheExternalOffsetByIncrements) {
+  const auto done = shop_.compensate(kFanuc, kGrowth);
+  ASSERT_TRUE(done) << done.error().what;
+  const std::string text = read_file(shop_.changed());
+  EXPECT_THAT(text, HasSubstr("G91 G10 L2 P0 Z-0.0100 (STEADYREST Z-0.0100 mm)\n"
+                              "G90 (STEADYREST Z-0.0100 mm)\n"));
+  EXPECT_THAT(text, HasSubstr("G91 G10 L2 P0 Z0.0150 (STEADYREST Z0.0000 mm)\n"
+                              "G90 (STEADYREST Z0.0000 mm)\nM30"));
+  ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
+  EXPECT_EQ(read_file(shop_.changed()), kFanuc);
+}
+
+TEST_F(Fanuc, NeedsNoCareWhenTheWorkOffsetChanges) {
+  shop_.config.work_offset[1][2] = -3.0;
+  const std::string program = replaced(kFanuc, "G0 X0 Y20\n", "G55 G0 X0 Y20 Z5\n");
+  const auto done = shop_.compensate(program, kGrowth);
+  ASSERT_TRUE(done) << done.error().what;
+  EXPECT_EQ(done->inserted_lines, 8U);
+}
+
+TEST_F(Fanuc, LeavesG91InForceAtTheEnd) {
+  const std::string program = replaced(kFanuc, "M30\n", "G91 G28 Z0\nM30\n");
+  const auto done = shop_.compensate(program, kGrowth);
+  ASSERT_TRUE(done) << done.error().what;
+  EXPECT_THAT(read_file(shop_.changed()),
+              HasSubstr("G91 G28 Z0\nG91 G10 L2 P0 Z0.0150 (STEADYREST Z0.0000 mm)\nM30"));
+}
+
+TEST_F(Fanuc, RefusesAProgramThatSetsTheExternalOffsetItself) {
+  EXPECT_FALSE(
+      shop_.compensate(replaced(kFanuc, "G0 X0 Y30\n", "G10 L2 P0 Z0\nG0 X0 Y30\n"), kGrowth));
+}
+
+TEST_F(Fanuc, WritesInchesToFivePlaces) {
+  const std::string program =
+      "G20 G90 G94\nG0 Z1.\nG1 X4. F4.\nG0 Z1.\nG0 X0\nG0 Z.5\nG1 X4. F4.\nG0 Z1.\nM30\n";
+  const auto done = shop_.compensate(
+      program, R"({"transitions": [{"n": 2, "t_min": [1, 1.05], "delta_um": [0, 10]}]})");
+  ASSERT_TRUE(done) << done.error().what;
+  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.00039 (STEADYREST Z-0.009906"));
+  EXPECT_NEAR(done->insertions.at(0).total_um, -9.906, 1e-9);
+}
+
+TEST_F(Fanuc, VerifyCatchesAMissingG90) {
+  ASSERT_TRUE(shop_.compensate(kFanuc, kGrowth));
+  const std::string text = read_file(shop_.changed());
+  EXPECT_NE(shop_.fault(kGrowth, replaced(text, "G90 (STEADYREST Z-0.0100 mm)\n", "")), "");
+  EXPECT_NE(shop_.fault(kGrowth, replaced(text, "G91 G10", "G10")), "");
+  EXPECT_NE(shop_.fault(kGrowth, replaced(text, "P0 Z-0.0100", "P0 Z0.0100")), "");
+  EXPECT_NE(shop_.fault(kGrowth, replaced(text, "P0 Z-0.0100", "P2 Z-0.0100")), "");
+}
+
+TEST_F(Haas, MovesTheActiveWorkOffsetAndTurnsItOver) {
+  shop_.config.work_offset[1][2] = -3.0;
+  const std::string program = replaced(kFanuc, "G0 X0 Y20\n", "G55\nG0 X0 Y20\n");
+  const auto done = shop_.compensate(program, kGrowth);
+  ASSERT_TRUE(done) << done.error().what;
+  const std::string text = read_file(shop_.changed());
+  EXPECT_THAT(text, HasSubstr("G91 G10 L2 P1 Z-0.0100"));
+  EXPECT_THAT(text, HasSubstr("\nG55\nG91 G10 L2 P2 Z-0."));
+  EXPECT_THAT(text, Not(HasSubstr("P0")));
+}
+
+}  // namespace
+}  // namespace steadyrest::nc::rewrite
