@@ -57,7 +57,7 @@ def line(r):
     if k<.85: return r.choice(["G43 H1","G43 H2","G49","G43.1 Z"+num(r,-2,2),"G43.2 H1","T2 M6","T1","M6","G43"])
     if k<.88: return r.choice(["G28","G30","G28 "+axes(r),"G30 "+axes(r),"G28.1","G30.1"])
     if k<.90: return r.choice(["G98","G99"])
-    if k<.92: return r.choice(["G10 L2 P%d "%r.randint(0,4),"G10 L20 P%d "%r.randint(0,4)])+axes(r)
+    if k<.92: return r.choice(["G10 L2 P%d "%r.randint(0,4)+r.choice(["","","R%s "%num(r,-90,90)]),"G10 L20 P%d "%r.randint(0,4)])+axes(r)
     if k<.94: return "G53 "+r.choice(["G0","G1",""])+" "+axes(r)
     if k<.96: return r.choice(["G93","G94","G94","G95","S100","F100","F7.5","M3","M4","M5","M3 S50","G96 S50","G97 S60","G97"])
     if k<.965: return r.choice(["G0 G80","G80 G1 X1","G0 @%s ^%s"%(num(r,0,9),num(r,-90,200)),"G1 ^%s"%num(r,-90,90),"@%s"%num(r,1,5),"G91 G81 ^15 Z-1 R1 L2","M19 R30","M62 P1","M66 P0 L0","M70","M72","M73","G38.2 Z%s"%num(r,-9,9),"G38.3 X%s F50"%num(r,-9,9),"G10 L1 P1 Z1 R2","G10 L10 P2 Z%s"%num(r,-5,5),"G10 L11 P1 X1 Z2","#5221=1.5","#5243=2","#5211=3","#5161=4","G0 X#5063 Y#5161 Z#5222","G0 X#5403 Y#5410 Z#5220"])

@@ -42,6 +42,7 @@ struct Config {
   std::string axes = "XYZABC";  ///< letters of the axes that the machine has
   Axes start{};                 ///< machine position at the start, mm and degrees
   std::array<Axes, kWorkOffsets> work_offset{};
+  std::array<double, kWorkOffsets> rotation_deg{};  ///< of the work offsets about Z
   std::size_t active_offset = 0;  ///< index into work_offset that is in force at the start
   Axes g92{};                     ///< G92 offset in force at the start
   std::array<Axes, 2> home{};     ///< G28 and G30, machine coordinates

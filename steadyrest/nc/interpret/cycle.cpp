@@ -47,9 +47,9 @@ bool Interpreter::remember_cycle(const Step& step) {
       Sticky{normal, &memory.bottom, true, "a canned cycle without the depth of its hole"},
       Sticky{'Q', &memory.peck, pecks, "a peck cycle without the depth of a peck (Q)"},
       Sticky{'P', &memory.dwell_s, dwells && !fanuc, "a cycle with a dwell, without its time (P)"},
-      Sticky{"IJK"[axes.first], &memory.shift_first, back, "G87 without its shift (I J K)"},
-      Sticky{"IJK"[axes.second], &memory.shift_second, back, "G87 without its shift (I J K)"},
-      Sticky{"IJK"[axes.normal], &memory.counterbore, back, "G87 without its upper depth (I J K)"},
+      Sticky{"IJK"[axes.first], &memory.ijk[axes.first], back, "G87 without its shift (I J K)"},
+      Sticky{"IJK"[axes.second], &memory.ijk[axes.second], back, "G87 without its shift (I J K)"},
+      Sticky{"IJK"[axes.normal], &memory.ijk[axes.normal], back, "G87 without its upper depth (I J K)"},
   };
   for (const Sticky& word : words) {
     if (step.has(word.letter)) {
@@ -251,11 +251,11 @@ bool Interpreter::back_bore(const Step& step, const Hole& hole) {
   const CycleMemory& memory = state_.cycle;
   const double unit = state_.unit_mm;
   const PlaneAxes axes = hole.axes;
-  const double upper = memory.counterbore * unit + (state_.incremental ? hole.bottom_mm : 0.0);
+  const double upper = memory.ijk[axes.normal] * unit + (state_.incremental ? hole.bottom_mm : 0.0);
   const Axes above = state_.position;
   Axes beside = above;
-  beside[axes.first] += memory.shift_first * unit;
-  beside[axes.second] += memory.shift_second * unit;
+  beside[axes.first] += memory.ijk[axes.first] * unit;
+  beside[axes.second] += memory.ijk[axes.second] * unit;
   emit(MoveKind::rapid, beside);
   state_.spindle_direction = 0;
   emit_spindle();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <steadyrest/nc/interpret/frame.hpp>
 #include <steadyrest/nc/interpret/interpreter.hpp>
 
 // G10: work offsets (L2, L20) and the tool table (L1, L10, L11).
@@ -29,8 +30,8 @@ bool Interpreter::set_work_data(const Step& step, double form) {
     return refuse_code(step, 'G', 10, "g10_form",
                        "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
   }
-  if (step.has('R') && step['R'] != 0.0) {
-    return refuse(step, 'R', "rotation", "a rotated coordinate system (G10 R) is not interpreted");
+  if (step.has('R') && form == 20.0) {
+    return refuse(step, 'R', "g10_form", "a rotation (R) in G10 L20; G10 L2 takes one");
   }
   if (!state_.work_offset_on && number == 0.0) {
     return refuse_code(step, 'G', 10, "g10_form", "no work offset is active");
@@ -38,12 +39,17 @@ bool Interpreter::set_work_data(const Step& step, double form) {
   const std::size_t set =
       number == 0.0 ? state_.active_offset : static_cast<std::size_t>(number) - 1;
   Axes& offset = state_.work_offset[set];
-  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
-    if (step.has(kAxisLetters[i])) {
-      const double value = component(step, i);
-      const double machine = state_.position[i] + state_.offset[i];
-      offset[i] = form == 2.0 ? value : machine - state_.g92[i] - state_.tool_offset[i] - value;
+  if (step.has('R')) {
+    state_.rotation_deg[set] = step['R'];
+  }
+  if (form == 2.0) {
+    for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+      if (step.has(kAxisLetters[i])) {
+        offset[i] = component(step, i);
+      }
     }
+  } else {
+    place_here(step, state_.rotation_deg[set], offset);
   }
   if (set == state_.active_offset) {
     state_.work_in_force = offset;
@@ -84,6 +90,31 @@ bool Interpreter::set_fanuc_data(const Step& step, double form) {
   return true;
 }
 
+// L20: `offset` so that the machine stands where the words say, in the coordinates turned by it.
+void Interpreter::place_here(const Step& step, double rotation_deg, Axes& offset) const {
+  const Axes machine = to_machine(state_.position);
+  if (rotation_deg == 0.0) {
+    for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+      if (step.has(kAxisLetters[i])) {
+        offset[i] = machine[i] - state_.g92[i] - state_.tool_offset[i] - component(step, i);
+      }
+    }
+    return;
+  }
+  Axes from_origin{};
+  for (std::size_t i = 0; i < from_origin.size(); ++i) {
+    from_origin[i] = machine[i] - state_.tool_offset[i] - offset[i];
+  }
+  Axes shift = turned(from_origin, -rotation_deg);
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    shift[i] = step.has(kAxisLetters[i]) ? shift[i] - state_.g92[i] - component(step, i) : 0.0;
+  }
+  shift = turned(shift, rotation_deg);
+  for (std::size_t i = 0; i < shift.size(); ++i) {
+    offset[i] += shift[i];
+  }
+}
+
 Tool* Interpreter::place_of_tool(std::int32_t number) {
   if (!config_.tools) {
     return nullptr;
@@ -105,14 +136,14 @@ bool Interpreter::set_tool_data(const Step& step, double form) {
   }
   constexpr std::size_t kFixtures = 8;  // G59.3
   const Axes& frame = form == 11.0 ? state_.work_offset[kFixtures] : state_.work_in_force;
+  const Axes machine = to_machine(state_.position);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (!step.has(kAxisLetters[i])) {
       continue;
     }
     const double value = component(step, i);
-    const double machine = state_.position[i] + state_.offset[i];
     const double shift = form == 10.0 ? state_.g92[i] : 0.0;
-    tool->offset[i] = form == 1.0 ? value : machine - frame[i] - shift - value;
+    tool->offset[i] = form == 1.0 ? value : machine[i] - frame[i] - shift - value;
   }
   if (step.has('R')) {
     tool->diameter_mm = 2.0 * step['R'] * state_.unit_mm;

@@ -66,7 +66,7 @@ bool Interpreter::put_g(const Word& word, int code, Step& step) {
   std::int16_t& place = step.g[static_cast<std::size_t>(found.group)];
   constexpr int kEndOfCycle = 800;  // stands beside another motion and yields to it
   if (place != kNoCode && found.group == GGroup::motion &&
-      (place == kEndOfCycle) != (code == kEndOfCycle)) {
+      (place == kEndOfCycle || code == kEndOfCycle)) {
     place = static_cast<std::int16_t>(place == kEndOfCycle ? code : place);
     return true;
   }

@@ -51,6 +51,7 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
     axes_allowed_ |= Step::bit(letter);
   }
   state_.work_offset = config_.work_offset;
+  state_.rotation_deg = config_.rotation_deg;
   state_.active_offset = config_.active_offset;
   state_.work_in_force = state_.work_offset[state_.active_offset];
   state_.external = config_.external;
@@ -65,9 +66,7 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
   state_.retract_to_initial = config_.dialect == Dialect::fanuc;  // G98 when switched on
   state_.position = config_.start;
   update_offset();
-  for (std::size_t i = 0; i < state_.position.size(); ++i) {
-    state_.position[i] = config_.start[i] - state_.offset[i];
-  }
+  state_.position = to_work(config_.start);
 }
 
 bool Interpreter::execute(const Block& block, Sink& sink) {

@@ -110,6 +110,7 @@ class Interpreter {
   bool set_data(const Step& step);
   bool set_work_data(const Step& step, double form);
   bool set_fanuc_data(const Step& step, double form);
+  void place_here(const Step& step, double rotation_deg, Axes& offset) const;
   bool set_tool_data(const Step& step, double form);
   Tool* place_of_tool(std::int32_t number);
   bool set_io(const Step& step);
@@ -139,6 +140,7 @@ class Interpreter {
   bool back_bore(const Step& step, const Hole& hole);
   bool has_feed(const Step& step);
   bool end_point(const Step& step, Axes& end);
+  void machine_end(const Step& step, Axes& end) const;
   double component(const Step& step, std::size_t axis) const noexcept;
 
   void emit(MoveKind kind, const Axes& end);
@@ -147,6 +149,8 @@ class Interpreter {
   void emit_spindle();
   void emit_event(EventKind kind, double value);
   void update_offset() noexcept;
+  [[nodiscard]] Axes to_machine(const Axes& work) const noexcept;
+  [[nodiscard]] Axes to_work(const Axes& machine) const noexcept;
   const Tool* find_tool(std::int32_t number) const noexcept;
   bool tool_number(const Step& step, char letter, std::int32_t& number);
 

@@ -135,8 +135,8 @@ bool put_variable(Config& config, int number, double value, double unit_mm) {
     const auto axis = slot(5221) % 20;
     if (axis < kAxes) {
       config.work_offset[set][axis] = scaled(axis);
-    } else if (axis == kAxes && value != 0.0) {
-      return false;
+    } else if (axis == kAxes) {
+      config.rotation_deg[set] = value;
     }
   }
   return true;
@@ -174,8 +174,8 @@ Result<void> read_variables(const std::string& path, double unit_mm, Config& con
     const int index = static_cast<int>(number.value);
     g92_on = g92_on || (index == 5210 && value.value != 0.0);
     if (!put_variable(config, index, value.value, unit_mm)) {
-      return refuse(path, source->number(), "a rotated or unknown coordinate system",
-                    "set the rotation to 0 and the active system to 1–9");
+      return refuse(path, source->number(), "an active coordinate system that does not exist",
+                    "set number 5220 to 1–9");
     }
   }
   if (!g92_on) {

@@ -54,8 +54,31 @@ bool Interpreter::move(const Step& step) {
   return motion == 20 || motion == 30 ? arc(step) : straight(step);
 }
 
+// G53: the named axes go to machine coordinates, the machine's others stay. The tool's length stays
+// in force on SINUMERIK, on the others it is suppressed as well.
+void Interpreter::machine_end(const Step& step, Axes& end) const {
+  const bool keeps_tool = config_.dialect == read::Dialect::sinumerik;
+  Axes machine = to_machine(end);
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (step.has(kAxisLetters[i])) {
+      machine[i] = component(step, i) + (keeps_tool ? state_.tool_offset[i] : 0.0);
+    }
+  }
+  const Axes work = to_work(machine);
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    const bool turns = i < 2 && state_.rotation_in_force_deg != 0.0;
+    if (step.has(kAxisLetters[i]) || turns) {
+      end[i] = work[i];
+    }
+  }
+}
+
 bool Interpreter::end_point(const Step& step, Axes& end) {
   end = state_.position;
+  if (step.machine_frame) {
+    machine_end(step, end);
+    return true;
+  }
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     const char letter = kAxisLetters[i];
     if (!step.has(letter)) {
@@ -65,13 +88,7 @@ bool Interpreter::end_point(const Step& step, Axes& end) {
     const bool incremental =
         (step.incremental & bit) != 0 || (state_.incremental && (step.absolute & bit) == 0);
     const double value = component(step, i);
-    if (step.machine_frame) {
-      // The tool's length stays in force on SINUMERIK, on the others it is suppressed as well.
-      const bool keeps_tool = config_.dialect == read::Dialect::sinumerik;
-      end[i] = value - state_.offset[i] + (keeps_tool ? state_.tool_offset[i] : 0.0);
-    } else {
-      end[i] = incremental ? state_.position[i] + value : value;
-    }
+    end[i] = incremental ? state_.position[i] + value : value;
   }
   if (step.polar) {
     end[0] = state_.position[0];
@@ -295,9 +312,10 @@ bool Interpreter::home(const Step& step, std::size_t which) {
     return false;
   }
   emit(MoveKind::rapid, end);
+  const Axes reference = to_work(state_.home[which]);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (!some || step.has(kAxisLetters[i])) {
-      end[i] = state_.home[which][i] - state_.offset[i];
+      end[i] = reference[i];
     }
   }
   emit(MoveKind::rapid, end);
@@ -309,6 +327,7 @@ void Interpreter::emit(MoveKind kind, const Axes& end) {
   move_.start = state_.position;
   move_.end = end;
   move_.offset = state_.offset;
+  move_.rotation_deg = state_.rotation_in_force_deg;
   const bool cutting = kind != MoveKind::rapid;
   move_.feed_mode = state_.feed_mode;
   move_.feed_mm_s = !cutting                                  ? 0.0
@@ -333,6 +352,7 @@ void Interpreter::emit_dwell(double seconds) {
   dwell.start = state_.position;
   dwell.end = state_.position;
   dwell.offset = state_.offset;
+  dwell.rotation_deg = state_.rotation_in_force_deg;
   dwell.feed_mode = state_.feed_mode;
   dwell.path_mode = state_.path_mode;
   dwell.path_tolerance_mm = state_.path_tolerance_mm;

@@ -24,15 +24,14 @@ enum class PathMode : std::uint8_t {
 /// prints them so).
 using Axes = std::array<double, 9>;
 
-/// One motion or dwell. Positions are in the active work coordinates; add `offset` for machine
-/// coordinates.
+/// One motion or dwell. Positions are in the active work coordinates; see machine_of().
 struct Move {
   MoveKind kind = MoveKind::rapid;
   std::uint32_t line = 0;  ///< 1-based line in the file
   Axes start{};
   Axes end{};
-  Axes
-      offset{};  ///< machine = work + offset (work offsets, G92/G52, tool length), at the end point
+  Axes offset{};  ///< work offsets, G92/G52, tool length; machine = work + offset without rotation
+  double rotation_deg = 0.0;  ///< of the work coordinates about Z, from machine to work
   double feed_mm_s = 0.0;  ///< path feed; degrees/s where only rotary axes move. For inverse_time:
                            ///< moves/s; for per_revolution: mm/rev; 0 for
                            /// rapids and dwells
@@ -52,6 +51,9 @@ struct Move {
   double dwell_s = 0.0;
   bool speed_modulation = false;  ///< the spindle's speed is to be modulated (M38)
 };
+
+/// Machine coordinates of a point of the move: turned about Z by `rotation_deg`, then shifted.
+[[nodiscard]] Axes machine_of(const Move& move, const Axes& work) noexcept;
 
 enum class EventKind : std::uint8_t {
   spindle,      ///< value = rev/s, signed; 0 = stop

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include <steadyrest/nc/interpret/frame.hpp>
 #include <steadyrest/nc/interpret/interpreter.hpp>
 
 // Modes, offsets and coordinate systems: what changes the meaning of positions without moving.
@@ -44,13 +45,39 @@ void Interpreter::set_units(const Step& step) {
   }
 }
 
+Axes Interpreter::to_machine(const Axes& work) const noexcept {
+  Axes out = turned(work, state_.rotation_in_force_deg);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] += state_.offset[i];
+  }
+  return out;
+}
+
+Axes Interpreter::to_work(const Axes& machine) const noexcept {
+  Axes out = machine;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] -= state_.offset[i];
+  }
+  return turned(out, -state_.rotation_in_force_deg);
+}
+
 // The machine stays where it is when an offset changes: the work position takes the difference.
+// machine = R·(position + g92) + work offset + tool, R the rotation of the work offset.
 void Interpreter::update_offset() noexcept {
+  const double rotation_deg =
+      state_.work_offset_on ? state_.rotation_deg[state_.active_offset] : 0.0;
+  const bool turns = rotation_deg != 0.0 || state_.rotation_in_force_deg != 0.0;
+  const Axes machine = to_machine(state_.position);
+  const Axes g92 = turned(state_.g92, rotation_deg);
   for (std::size_t i = 0; i < state_.offset.size(); ++i) {
     const double work = state_.work_offset_on ? state_.work_in_force[i] : 0.0;
-    const double offset = work + state_.external[i] + state_.g92[i] + state_.tool_offset[i];
+    const double offset = work + state_.external[i] + g92[i] + state_.tool_offset[i];
     state_.position[i] += state_.offset[i] - offset;
     state_.offset[i] = offset;
+  }
+  state_.rotation_in_force_deg = rotation_deg;
+  if (turns) {
+    state_.position = to_work(machine);
   }
 }
 
@@ -148,10 +175,7 @@ bool Interpreter::non_modal(const Step& step) {
       return home(step, code == 280 ? 0 : 1);
     case 281:
     case 301: {
-      Axes& place = state_.home[code == 281 ? 0 : 1];
-      for (std::size_t i = 0; i < place.size(); ++i) {
-        place[i] = state_.position[i] + state_.offset[i];
-      }
+      state_.home[code == 281 ? 0 : 1] = to_machine(state_.position);
       return true;
     }
     case 520:

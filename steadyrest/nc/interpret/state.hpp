@@ -33,16 +33,15 @@ struct CycleMemory {
   double retract = 0.0;      ///< R word
   double peck = 0.0;         ///< Q word
   double dwell_s = 0.0;      ///< P word
-  double shift_first = 0.0;  ///< I, J, K words of G87
-  double shift_second = 0.0;
-  double counterbore = 0.0;
+  std::array<double, 3> ijk{};  ///< I, J, K words of G87: shifts in the plane, upper depth
   double initial_mm = 0.0;  ///< where the normal axis stood when the row of cycles began
 };
 
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
 struct State {
   Axes position{};  ///< active work coordinates
-  Axes offset{};    ///< machine = position + offset; sum of the three below
+  Axes offset{};    ///< sum of the three below (G92's turned); machine = turned position + offset
+  double rotation_in_force_deg = 0.0;  ///< of the work coordinates against the machine, about Z
   std::array<Axes, kWorkOffsets> work_offset{};
   Axes work_in_force{};  ///< of the active one: what #5221 … say later acts when it is chosen anew
   std::size_t active_offset = 0;

@@ -254,6 +254,7 @@ bool PathStream::split_flat_arc(const Move& move) {
   arc.end_mm = {move.end[0], move.end[1], move.end[2]};
   Move bare = move;
   bare.offset = {};
+  bare.rotation_deg = 0.0;
   set_arc(arc, bare);
   if (arc.radius_mm * (1.0 - std::cos(arc.sweep_rad / 2.0)) >= tolerance_mm) {
     return false;

@@ -6,6 +6,7 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
+#include <steadyrest/nc/interpret/frame.hpp>
 #include <steadyrest/nc/plan/axes_at.hpp>
 #include <steadyrest/nc/plan/piece.hpp>
 
@@ -70,9 +71,13 @@ double line_length(const PathSegment& s, const std::array<bool, kMaxAxes>& rotar
 void set_arc(PathSegment& s, const Move& move) {
   s.geometry = Geometry::arc;
   const double sign = move.turns < 0 ? -1.0 : 1.0;
+  const auto& c = move.centre_mm;
+  const auto centre = interpret::machine_of(move, {c[0], c[1], c[2]});
+  const auto normal =
+      interpret::turned({move.normal[0], move.normal[1], move.normal[2]}, move.rotation_deg);
   for (std::size_t i = 0; i < 3; ++i) {
-    s.centre_mm[i] = move.centre_mm[i] + move.offset[i];
-    s.axis[i] = sign * move.normal[i];
+    s.centre_mm[i] = centre[i];
+    s.axis[i] = sign * normal[i];
   }
   // The interpreter's centre may stand anywhere along the normal; bring it to the start's height.
   const double lift = dot(subtract(s.start_mm, s.centre_mm), s.axis);
@@ -108,12 +113,12 @@ PieceMaker::PieceMaker(const Machine& machine) : machine_(machine), limits_(mach
   }
 }
 
-AxisValues PieceMaker::machine_position(const Axes& work, const Axes& offset) const {
+AxisValues PieceMaker::machine_position(const Axes& machine) const {
   AxisValues out{};
-  for (std::size_t letter = 0; letter < work.size(); ++letter) {
+  for (std::size_t letter = 0; letter < machine.size(); ++letter) {
     const std::size_t axis = axis_of_[letter];
     if (axis != kNoAxis) {
-      const double value = work[letter] + offset[letter];
+      const double value = machine[letter];
       out[axis] = letter >= 3 && letter < 6 ? kernel::units::rad_from_deg(value) : value;
     }
   }
@@ -177,8 +182,8 @@ Result<std::optional<Piece>> PieceMaker::make(const Move& move) const {
   };
   Piece out;
   PathSegment& s = out.segment;
-  const AxisValues start = machine_position(move.start, move.offset);
-  const AxisValues end = machine_position(move.end, move.offset);
+  const AxisValues start = machine_position(interpret::machine_of(move, move.start));
+  const AxisValues end = machine_position(interpret::machine_of(move, move.end));
   s.start_mm = xyz_of(start);
   s.end_mm = xyz_of(end);
   std::copy(start.begin() + 3, start.end(), s.other_start.begin());

@@ -51,8 +51,7 @@ class PieceMaker {
   [[nodiscard]] const PathLimits& limits() const noexcept { return limits_; }
 
  private:
-  [[nodiscard]] kernel::signal::AxisValues machine_position(const interpret::Axes& work,
-                                                            const interpret::Axes& offset) const;
+  [[nodiscard]] kernel::signal::AxisValues machine_position(const interpret::Axes& machine) const;
   [[nodiscard]] double spindle_of(const kernel::signal::PathSegment& s,
                                   const interpret::Move& move) const;
   void set_speed(Piece& out, const interpret::Move& move) const;
