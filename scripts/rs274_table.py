@@ -78,6 +78,12 @@ class Oracle:
                 sync = float(values.split(",")[0])
             elif name == "STOP_SPEED_FEED_SYNCH":
                 sync = None
+            elif name == "NURBS_FEED":
+                moves.append(("spline", [], unit, plane, feed))
+            elif name == "RIGID_TAP":  # in and out again
+                back = moves[-1][1][:3] if moves and moves[-1][0] in ("rapid", "linear", "thread") else None
+                moves.append(("thread", numbers(values)[:3], unit, plane, feed))
+                moves.append(("thread", back or [], unit, plane, feed))
             elif name in KINDS:
                 kind = "thread" if sync is not None and name == "STRAIGHT_FEED" else KINDS[name]
                 moves.append((kind, numbers(values), unit, plane, feed))
@@ -124,7 +130,7 @@ def compare(moves, rows):
         where = f"move {index + 1}, line {row['line']}"
         if kind != row["kind"]:
             return f"{where}: rs274 {kind}, ours {row['kind']}"
-        if kind == "dwell":
+        if kind in ("dwell", "spline"):
             continue
         end, centre, turns = end_of(kind, values, plane)
         for axis, printed in end.items():

@@ -35,7 +35,8 @@ bool Interpreter::choose_motion(const Step& step) {
     } else if (axes_taken) {
       return refuse_code(step, 'G', motion / 10, "two_users_of_axis_words",
                          "two G words in one block that both use the axis words");
-    } else if (!axis_words && (is_cycle(motion) || motion == 330)) {
+    } else if (!axis_words && (is_cycle(motion) || motion == 330 || motion == 331 ||
+                               motion == 760 || motion == 50 || motion == 51)) {
       return refuse_code(step, 'G', motion / 10, "axis_words_missing",
                          "a motion without any axis word");
     }
@@ -133,32 +134,38 @@ bool Interpreter::check_unused(const Step& step) {
   };
   const int io = step.code(MGroup::io);
   const bool orients = step.code(MGroup::spindle) == 19;
-  if (unused('D', step.code(GGroup::spindle_mode) == 960) || unused('E', io >= 66) ||
-      unused('H', tool_length == 430 || tool_length == 432)) {
+  if (unused('D', step.code(GGroup::spindle_mode) == 960) ||
+      unused('E', io >= 66 || motion == 760) ||
+      unused('H', tool_length == 430 || tool_length == 432 || motion == 760)) {
     return false;
   }
   const bool arc = is_arc(motion);
   const bool tool_data = non_modal == 100;
-  if (unused('I', arc || motion == 870 || tool_data) ||
-      unused('J', arc || motion == 870 || tool_data) ||
-      unused('K', arc || motion == 870 || motion == 330)) {
+  const bool spline = motion == 50 || motion == 51;
+  const bool threads = motion == 760;
+  if (unused('I', arc || spline || threads || motion == 870 || motion == 331 || tool_data) ||
+      unused('J', arc || spline || threads || motion == 870 || tool_data) ||
+      unused('K', arc || threads || motion == 870 || motion == 330 || motion == 331)) {
     return false;
   }
-  if (unused('L', drilling || non_modal == 100 || io == 66 || step.code(MGroup::program) == 98)) {
+  if (unused('L', drilling || threads || motion == 52 || non_modal == 100 || io == 66 ||
+                      step.code(MGroup::program) == 98)) {
     return false;
   }
   const bool p_override = override_switch >= 50;
   const bool p_elsewhere = (io >= 62 && io <= 66) || orients || step.code(MGroup::program) == 98;
-  if (unused('P', p_elsewhere || arc || non_modal == 40 || non_modal == 100 || p_override ||
+  if (unused('P', p_elsewhere || arc || motion == 50 || motion == 52 || threads ||
+                      non_modal == 40 || non_modal == 100 || p_override ||
                       step.code(GGroup::path_mode) == 640 || motion == 820 || motion == 860 ||
                       motion == 880 || motion == 890 || motion == 840 || motion == 740)) {
     return false;
   }
-  if (unused('Q', motion == 730 || motion == 830 || step.code(GGroup::path_mode) == 640 ||
-                      step.code(MGroup::tool_change) == 61 || tool_data || io >= 66 || orients)) {
+  if (unused('Q', motion == 50 || threads || motion == 730 || motion == 830 ||
+                      step.code(GGroup::path_mode) == 640 || step.code(MGroup::tool_change) == 61 ||
+                      tool_data || io >= 66 || orients)) {
     return false;
   }
-  return !unused('R', arc || drilling || non_modal == 100 || orients);
+  return !unused('R', arc || drilling || threads || non_modal == 100 || orients);
 }
 
 }  // namespace steadyrest::nc::interpret

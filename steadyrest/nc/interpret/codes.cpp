@@ -21,7 +21,8 @@ constexpr std::array kGroups = {
     Range{180, 180, GGroup::plane},        Range{190, 190, GGroup::plane},
     Range{200, 200, GGroup::units},        Range{210, 210, GGroup::units},
     Range{280, 281, GGroup::non_modal},    Range{300, 301, GGroup::non_modal},
-    Range{330, 330, GGroup::motion},       Range{382, 385, GGroup::motion},
+    Range{330, 331, GGroup::motion},       Range{50, 53, GGroup::motion},
+    Range{760, 760, GGroup::motion},       Range{382, 385, GGroup::motion},
     Range{400, 400, GGroup::cutter},       Range{430, 432, GGroup::tool_length},
     Range{490, 490, GGroup::tool_length},  Range{520, 520, GGroup::non_modal},
     Range{530, 530, GGroup::non_modal},    Range{540, 540, GGroup::work_offset},
@@ -64,8 +65,6 @@ struct Note {
 };
 
 constexpr std::array kRefusedG = {
-    Note{50, 53, "a spline (G5, G5.1, G5.2, G5.3) is not interpreted"},
-    Note{331, 331, "rigid tapping (G33.1) is not interpreted"},
     Note{410, 411,
          "cutter radius compensation (G41) is not interpreted; let the CAM system "
          "compensate"},
@@ -73,7 +72,6 @@ constexpr std::array kRefusedG = {
          "cutter radius compensation (G42) is not interpreted; let the CAM system "
          "compensate"},
     Note{700, 722, "a lathe cycle is not interpreted"},
-    Note{760, 760, "the threading cycle (G76) is not interpreted"},
 };
 
 constexpr std::array kRefusedM = {

@@ -24,7 +24,7 @@ bool Interpreter::remember_cycle(const Step& step) {
   const bool fanuc = config_.dialect == read::Dialect::fanuc;
   const bool fresh = fanuc ? !is_cycle(state_.motion) : state_.motion != motion_now_;
   if (!is_cycle(state_.motion)) {
-    memory.initial_mm = state_.position[axes_of(state_.plane).normal];
+    memory.initial = state_.position[axes_of(state_.plane).normal] / state_.unit_mm;
   }
   const char normal = kNormalLetters[axes_of(state_.plane).normal];
   struct Sticky {
@@ -49,7 +49,8 @@ bool Interpreter::remember_cycle(const Step& step) {
       Sticky{'P', &memory.dwell_s, dwells && !fanuc, "a cycle with a dwell, without its time (P)"},
       Sticky{"IJK"[axes.first], &memory.ijk[axes.first], back, "G87 without its shift (I J K)"},
       Sticky{"IJK"[axes.second], &memory.ijk[axes.second], back, "G87 without its shift (I J K)"},
-      Sticky{"IJK"[axes.normal], &memory.ijk[axes.normal], back, "G87 without its upper depth (I J K)"},
+      Sticky{"IJK"[axes.normal], &memory.ijk[axes.normal], back,
+             "G87 without its upper depth (I J K)"},
   };
   for (const Sticky& word : words) {
     if (step.has(word.letter)) {
@@ -86,8 +87,8 @@ bool Interpreter::cycle(const Step& step) {
   }
   const PlaneAxes axes = axes_of(state_.plane);
   const CycleMemory& memory = state_.cycle;
-  const double initial = memory.initial_mm;
   const double unit = state_.unit_mm;
+  const double initial = memory.initial * unit;
   Hole hole{.axes = axes, .retract_mm = 0.0, .bottom_mm = 0.0, .clear_mm = 0.0};
   hole.retract_mm = memory.retract * unit + (state_.incremental ? initial : 0.0);
   hole.bottom_mm = memory.bottom * unit + (state_.incremental ? hole.retract_mm : 0.0);

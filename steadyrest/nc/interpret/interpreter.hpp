@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -125,6 +127,17 @@ class Interpreter {
   // motion
   bool straight(const Step& step);
   bool thread(const Step& step);
+  bool spindle_turns(const Step& step);
+  void emit_thread(const Axes& end, double pitch_mm);
+  struct ThreadCycle;
+  bool thread_cycle(const Step& step);
+  void thread_pass(const ThreadCycle& cycle, double depth_mm);
+  bool spline(const Step& step);
+  bool cubic(const Step& step);
+  bool quadratic(const Step& step);
+  bool control_point(const Step& step);
+  bool end_spline(const Step& step);
+  void emit_spline(std::span<const SplinePoint> points, int order, const Axes& end);
   bool probe(const Step& step);
   void polar_point(const Step& step, Axes& point) const;
   bool arc(const Step& step);
@@ -169,6 +182,11 @@ class Interpreter {
   Sink* sink_ = nullptr;
   int motion_now_ = -1;  ///< motion of the block in hand; −1 = none
   bool finished_ = false;
+  std::array<double, 2> cubic_tangent_mm_{};  ///< P and Q of the G5 before
+  bool cubic_goes_on_ = false;
+  std::vector<SplinePoint> spline_points_;  ///< of G5.2
+  int spline_order_ = 0;
+  Axes spline_end_{};
   ProgramCall program_call_;
   struct KeptModes {
     std::optional<State> state;

@@ -29,7 +29,8 @@ bool only_rotary_moves(const Axes& from, const Axes& to) noexcept {
 /// The word of an axis in mm or degrees.
 double Interpreter::component(const Step& step, std::size_t axis) const noexcept {
   const double value = step[kAxisLetters[axis]];
-  return is_rotary(axis) ? value : value * state_.unit_mm;
+  const double scale = axis == 0 && state_.diameter ? 0.5 * state_.unit_mm : state_.unit_mm;
+  return is_rotary(axis) ? value : value * scale;
 }
 
 bool Interpreter::move(const Step& step) {
@@ -44,9 +45,20 @@ bool Interpreter::move(const Step& step) {
   if (is_cycle(motion)) {
     return cycle(step);
   }
+  if (!spline_points_.empty() && motion != 52 && motion != 53) {
+    return refuse_code(step, 'G', motion / 10, "spline_words",
+                       "another motion among the control points of G5.2; G5.3 ends them");
+  }
   state_.motion = motion;
-  if (motion == 330) {
+  cubic_goes_on_ = cubic_goes_on_ && motion == 50;
+  if (motion == 330 || motion == 331) {
     return thread(step);
+  }
+  if (motion == 760) {
+    return thread_cycle(step);
+  }
+  if (motion >= 50 && motion <= 53) {
+    return spline(step);
   }
   if (motion >= 382 && motion <= 385) {
     return probe(step);
@@ -180,28 +192,6 @@ bool Interpreter::probe(const Step& step) {
   for (std::size_t i = 0; i < 3 && distance > 0.0; ++i) {
     state_.position[i] -= kBefore_mm * (end[i] - start[i]) / distance;
   }
-  return true;
-}
-
-// G33: the feed follows the spindle, K is the travel in a revolution.
-bool Interpreter::thread(const Step& step) {
-  if (!step.has('K')) {
-    return refuse_code(step, 'G', 33, "pitch_missing", "G33 without its pitch (K)");
-  }
-  if (state_.spindle_direction == 0 ||
-      (state_.spindle_speed_rev_s == 0.0 && state_.surface_speed_mm_s == 0.0)) {
-    return refuse_code(step, 'G', 33, "spindle_stands", "threading while the spindle stands");
-  }
-  Axes end;
-  if (!end_point(step, end)) {
-    return false;
-  }
-  const State kept = state_;
-  state_.feed_mode = FeedMode::per_revolution;
-  state_.feed_mm_s = std::abs(step['K']) * state_.unit_mm;
-  emit(MoveKind::thread, end);
-  state_.feed_mode = kept.feed_mode;
-  state_.feed_mm_s = kept.feed_mm_s;
   return true;
 }
 

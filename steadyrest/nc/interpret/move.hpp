@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 /// What a program makes a machine do, free of dialect: the boundary between the interpreter and
@@ -24,6 +25,13 @@ enum class PathMode : std::uint8_t {
 /// prints them so).
 using Axes = std::array<double, 9>;
 
+/// A control point of a spline in the XY plane, work coordinates.
+struct SplinePoint {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  double weight = 1.0;
+};
+
 /// One motion or dwell. Positions are in the active work coordinates; see machine_of().
 struct Move {
   MoveKind kind = MoveKind::rapid;
@@ -41,6 +49,10 @@ struct Move {
   std::array<double, 3> normal{};  ///< unit normal of the plane: +Z for G17, +Y for G18, +X for G19
   int turns = 0;  ///< > 0 counter-clockwise seen against `normal`, < 0 clockwise; |turns| = full
                   ///< turns begun
+  // splines: the control points of a rational B-spline of order `spline_order` (degree + 1) over
+  // the clamped uniform knots; valid during the call only
+  std::span<const SplinePoint> spline;
+  int spline_order = 0;
   // modal state that time and simulation need
   PathMode path_mode = PathMode::continuous;
   double path_tolerance_mm = 0.0;    ///< G64 P; 0 = none given

@@ -16,6 +16,10 @@ bool Interpreter::set_modes(const Step& step) {
     state_.plane = plane == 170 ? Plane::xy : plane == 180 ? Plane::zx : Plane::yz;
   }
   set_units(step);
+  const int diameter = step.code(GGroup::lathe_diameter);
+  if (diameter != kNoCode) {
+    state_.diameter = diameter == 70;
+  }
   if (!set_tool_length(step) || !set_work_offset(step) || !set_path_mode(step)) {
     return false;
   }

@@ -29,12 +29,12 @@ struct PlaneAxes {
 /// What a canned cycle keeps from block to block, in program units as written: a change of G20/G21
 /// inside a row of cycles changes their meaning, as on LinuxCNC.
 struct CycleMemory {
-  double bottom = 0.0;       ///< Z word
-  double retract = 0.0;      ///< R word
-  double peck = 0.0;         ///< Q word
-  double dwell_s = 0.0;      ///< P word
+  double bottom = 0.0;          ///< Z word
+  double retract = 0.0;         ///< R word
+  double peck = 0.0;            ///< Q word
+  double dwell_s = 0.0;         ///< P word
   std::array<double, 3> ijk{};  ///< I, J, K words of G87: shifts in the plane, upper depth
-  double initial_mm = 0.0;  ///< where the normal axis stood when the row of cycles began
+  double initial_mm = 0.0;      ///< where the normal axis stood when the row of cycles began
 };
 
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
