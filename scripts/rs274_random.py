@@ -17,7 +17,7 @@ import sys
 import rs274_table
 
 OFFSETS = {5161: 1, 5162: 0.5, 5163: 2, 5181: -1, 5210: 1, 5212: 0.2, 5220: 1, 5221: 0.1, 5243: -0.3}  # inches
-REFUSED_BY_US_ALONE = {"tapping_off_xy", "g10_form"}
+REFUSED_BY_US_ALONE = {"rotation_with_shift", "tapping_off_xy", "g10_form"}
 
 
 def num(r,lo,hi):
@@ -167,6 +167,8 @@ def main():
             continue  # rs274 alone forgets the tool's length at M6
         if re.search(r"G43[\s\S]*(G2[01]\b|M72|M73)", text):
             continue  # rs274 keeps the tool's length as a number when the unit changes
+        if re.search(r"G91[\s\S]*G5\.2", text):
+            continue  # not interpreted
         with open(program, "w") as out:
             out.write(text)
         result = rs274_table.judge(os.path.abspath(arguments.steadyrest), oracle, program,

@@ -54,6 +54,9 @@ bool Interpreter::set_work_data(const Step& step, double form) {
   if (set == state_.active_offset) {
     state_.work_in_force = offset;
   }
+  if (!rotation_may_change(step)) {
+    return false;
+  }
   update_offset();
   return true;
 }

@@ -20,6 +20,15 @@ struct Note {
 };
 
 constexpr std::array kNotes = {
+    Note{50, "g_code_not_interpreted", "G5 (high-speed machining) is not interpreted"},
+    Note{51, "g_code_not_interpreted", "G5.1 (contour control, Q1) is not interpreted"},
+    Note{52, "g_code_not_interpreted", "G5.2 is not interpreted"},
+    Note{53, "g_code_not_interpreted", "G5.3 is not interpreted"},
+    Note{331, "ambiguous_code", "G33.1 is no code of this dialect"},
+    Note{382, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
+    Note{383, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
+    Note{384, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
+    Note{385, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
     Note{70, "g_code_not_interpreted", "G7/G07 is another function on every control"},
     Note{80, "g_code_not_interpreted", "G8/G08 (look-ahead control) is not interpreted"},
     Note{150, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},

@@ -107,6 +107,7 @@ class Interpreter {
   void set_units(const Step& step);
   bool set_tool_length(const Step& step);
   bool set_work_offset(const Step& step);
+  bool rotation_may_change(const Step& step);
   bool set_path_mode(const Step& step);
   bool non_modal(const Step& step);
   bool set_data(const Step& step);

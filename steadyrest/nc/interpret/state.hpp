@@ -34,7 +34,7 @@ struct CycleMemory {
   double peck = 0.0;            ///< Q word
   double dwell_s = 0.0;         ///< P word
   std::array<double, 3> ijk{};  ///< I, J, K words of G87: shifts in the plane, upper depth
-  double initial_mm = 0.0;      ///< where the normal axis stood when the row of cycles began
+  double initial = 0.0;         ///< where the normal axis stood when the row of cycles began
 };
 
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
