@@ -128,8 +128,8 @@ bool Interpreter::sinumerik_m(const Word& word, Step& step) {
   }
   constexpr std::array kKnown = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 30.0};
   if (word.value == 17.0) {
-    return refuse_word(step.line, word, "m_code_not_interpreted",
-                       "the end of a subprogram (M17); give the main program");
+    step.m[static_cast<std::size_t>(MGroup::program)] = 99;
+    return true;
   }
   if (std::ranges::find(kKnown, word.value) == kKnown.end()) {
     return refuse_word(step.line, word, "unknown_m_code",
@@ -195,6 +195,16 @@ bool Interpreter::sinumerik_letter(const Word& word, Step& step) {
 
 bool Interpreter::sinumerik_name(const Word& word, Step& step) {
   const auto without_effect = [&](std::string_view known) { return equal(word.name, known); };
+  if (equal(word.name, "RET")) {
+    if (step.block->words().size() > 1 || word.has_value) {
+      return refuse_word(step.line, word, "subprogram_end", "RET stands in a block of its own");
+    }
+    step.m[static_cast<std::size_t>(MGroup::program)] = 99;
+    return true;
+  }
+  if (equal(word.name, "TRAFOOF")) {
+    return true;  // transformations are refused: none can be on
+  }
   if (equal(word.name, "SUPA")) {
     step.machine_frame = true;
     return true;

@@ -51,6 +51,8 @@ bool FlowControl::act(const Block& block) {
   switch (block.flow().kind) {
     case FlowKind::none:
     case FlowKind::label:
+    case FlowKind::cycle:
+    case FlowKind::modal_cycle:
       return true;
     case FlowKind::sub:
       return sub(block);

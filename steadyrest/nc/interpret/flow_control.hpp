@@ -42,6 +42,8 @@ class FlowControl {
   /// M98 of fanuc: a program of the same file, before or behind, else a file in the folders named
   /// after its number.
   bool call_numbered(std::uint32_t line, std::int32_t number, double repeats);
+  /// A call by name of sinumerik: NAME.SPF or NAME.MPF in the folders.
+  bool call_named(const read::Block& block);
   /// To be called for each line; false when the bound is reached.
   bool count_line();
   /// Why the file must not end here; false when it may.
@@ -83,6 +85,8 @@ class FlowControl {
 
   bool sub(const read::Block& block);
   bool call(const read::Block& block);
+  bool enter_numbered(std::uint32_t line, std::string_view label, const Place& head,
+                      double repeats);
   bool note_programs(std::uint32_t line, std::uint32_t file);
   bool enter(std::uint32_t line, std::string_view label, Passing how, Frame frame);
   bool leave(const double* returned);

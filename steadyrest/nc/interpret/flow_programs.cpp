@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -98,15 +99,48 @@ bool FlowControl::call_numbered(std::uint32_t line, std::int32_t number, double 
     }
     found = programs_.try_emplace(label, *file).first;
   }
-  const Place head = found->second;
+  return enter_numbered(line, label, found->second, repeats);
+}
+
+bool FlowControl::enter_numbered(std::uint32_t line, std::string_view label, const Place& head,
+                                 double repeats) {
   parameters_.enter_shared();
-  frames_.push_back({.sub = label,
+  frames_.push_back({.sub = std::string{label},
                      .back = files_.line_end(),
                      .head = head,
                      .left = repeats - 1.0,
                      .by_number = true,
                      .open = {}});
   return go(line, head);
+}
+
+bool FlowControl::call_named(const read::Block& block) {
+  const std::string name{block.flow().label.view()};
+  if (frames_.size() > kDeepestCall) {
+    return refuse(block.line(), name, "calls_too_deep",
+                  "subprograms that call each other more than ten deep");
+  }
+  std::string big = name;
+  std::string small = name;
+  std::ranges::transform(name, big.begin(), read::upper);
+  std::ranges::transform(name, small.begin(), [](char c) {
+    return read::is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
+  });
+  std::vector<std::string> names;
+  for (const std::string& stem : {name, big, small}) {
+    for (const std::string_view tail : {".SPF", ".spf", ".MPF", ".mpf"}) {
+      names.push_back(stem + std::string{tail});
+    }
+  }
+  const auto file = files_.find(names);
+  if (!file) {
+    refuse(block.line(), name, "no_such_program",
+           "neither a word that is known nor a subprogram (NAME.SPF or NAME.MPF) in the folders of "
+           "subprograms");
+    refused_.word = name;
+    return false;
+  }
+  return enter_numbered(block.line(), name, *file, block.flow().repeats);
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -85,7 +85,11 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   sink_ = &sink;
   state_.line = block.line();
   step_.reset(block);
-  return decode(block, step_) && check(step_) && act(step_);
+  if (!(decode(block, step_) && check(step_) && act(step_))) {
+    return false;
+  }
+  return !modal_cycle_ || motion_now_ < 0 || (step_.mask & kAxisMask) == 0 ||
+         drill_call(*modal_cycle_);
 }
 
 bool Interpreter::survey(const Block& block) {

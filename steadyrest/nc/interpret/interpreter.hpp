@@ -49,6 +49,8 @@ class Interpreter {
   /// A subprogram begins or ends: what M70 and M73 kept belongs to it.
   void enter_call();
   void leave_call(Sink& sink);
+  /// A call of a drilling cycle (sinumerik); MCALL: after each block that moves, from now on.
+  bool execute_cycle(const read::Block& block, Sink& sink);
   /// M98 or M99 of the block that was executed last.
   struct ProgramCall {
     enum class Kind : std::uint8_t { none, call, end } kind = Kind::none;
@@ -86,6 +88,13 @@ class Interpreter {
   bool sinumerik_letter(const read::Word& word, Step& step);
   bool sinumerik_name(const read::Word& word, Step& step);
   bool sinumerik_finish(Step& step);
+  struct DrillCall;
+  bool drill_call(const read::Flow& call);
+  bool drill_planes(const read::Flow& call, DrillCall& hole);
+  bool tap_call(const read::Flow& call, const DrillCall& hole);
+  void ream_call(const read::Flow& call, const DrillCall& hole);
+  void bore_call(const read::Flow& call, const DrillCall& hole);
+  bool refuse_call(const read::Flow& call, std::string_view reason, std::string_view text);
 
   // checks
   bool choose_motion(const Step& step);
@@ -189,6 +198,7 @@ class Interpreter {
   int spline_order_ = 0;
   Axes spline_end_{};
   ProgramCall program_call_;
+  std::optional<read::Flow> modal_cycle_;  ///< sinumerik MCALL
   struct KeptModes {
     std::optional<State> state;
     bool restores_itself = false;  ///< M73

@@ -7,6 +7,7 @@
 #include <steadyrest/nc/interpret/macro_variables.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/interpret/program_files.hpp>
+#include <steadyrest/nc/interpret/sinumerik_variables.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -48,7 +49,10 @@ class ProgramRun::Run {
       reader_.set_values(&interpreter_.parameters());
     } else if (config.dialect == read::Dialect::fanuc) {
       reader_.set_values(&macro_);
+    } else {
+      reader_.set_typed_values(&typed_);
     }
+    reader_.set_block_delete(config.block_delete);
   }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -83,6 +87,17 @@ class ProgramRun::Run {
     if (dialect_ != read::Dialect::linuxcnc && !ends_in_order()) {
       return false;
     }
+    const bool sinumerik = dialect_ == read::Dialect::sinumerik;
+    if (sinumerik && flow_.in_call() && typed_.values_left() &&
+        !(block_.words().empty() && block_.flow().kind == read::FlowKind::none)) {
+      return refuse({.line = block_.line(),
+                     .word = {},
+                     .reason = "subprogram_call",
+                     .text = "a call with more values than the subprogram takes (PROC)"});
+    }
+    if (sinumerik && block_.flow().kind != read::FlowKind::none) {
+      return call();
+    }
     if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
       return follow(flow_.act(block_));
     }
@@ -91,6 +106,12 @@ class ProgramRun::Run {
       return refuse(interpreter_.refused());
     }
     report_.blocks += block_.words().empty() ? 0U : 1U;
+    if (sinumerik && interpreter_.finished() && flow_.in_call()) {
+      return refuse({.line = block_.line(),
+                     .word = {},
+                     .reason = "subprogram_end",
+                     .text = "the end of a program in a subprogram; write M17 or RET"});
+    }
     const Interpreter::ProgramCall& call = interpreter_.program_call();
     switch (call.kind) {
       case Interpreter::ProgramCall::Kind::none:
@@ -102,9 +123,36 @@ class ProgramRun::Run {
         return call.repeats < 0.5 ||
                follow(flow_.call_program(block_.line(), std::to_string(call.number), call.repeats));
       case Interpreter::ProgramCall::Kind::end:
-        return follow(flow_.end_program(block_.line()));
+        return end_of_subprogram();
     }
     return true;
+  }
+
+  /// sinumerik: a cycle or subprogram by its name.
+  bool call() {
+    if (block_.deleted() && block_delete_) {
+      return true;
+    }
+    if (block_.flow().kind == read::FlowKind::call) {
+      return follow(flow_.call_named(block_));
+    }
+    ++report_.blocks;
+    return interpreter_.execute_cycle(block_, counter_) || refuse(interpreter_.refused());
+  }
+
+  bool end_of_subprogram() {
+    if (dialect_ == read::Dialect::sinumerik && !flow_.in_call()) {
+      return refuse({.line = block_.line(),
+                     .word = {},
+                     .reason = "subprogram_end",
+                     .text = "the end of a subprogram (M17, RET) in the main program; end it with "
+                             "M30"});
+    }
+    const bool accepted = follow(flow_.end_program(block_.line()));
+    if (again_) {
+      typed_.restart();
+    }
+    return accepted;
   }
 
   /// A subprogram ends with its word, a program before the next one begins.
@@ -126,11 +174,14 @@ class ProgramRun::Run {
   /// Tells the interpreter of calls that began or ended.
   bool follow(bool accepted) {
     const std::size_t calls = interpreter_.parameters().calls();
+    again_ = calls_ == calls;
     for (; calls_ < calls; ++calls_) {
       interpreter_.enter_call();
+      typed_.enter(block_.flow());
     }
     for (; calls_ > calls; --calls_) {
       interpreter_.leave_call(counter_);
+      typed_.leave();
     }
     return accepted || refuse(flow_.refused());
   }
@@ -220,6 +271,8 @@ class ProgramRun::Run {
   Interpreter interpreter_;
   FlowControl flow_;
   MacroVariables macro_;
+  SinumerikVariables typed_;
+  bool again_ = false;  ///< a subprogram begins again: neither entered nor left
   read::Dialect dialect_;
   bool block_delete_;
   std::size_t calls_ = 0;

@@ -53,7 +53,9 @@ enum class FlowKind : std::uint8_t {
   repeat,
   endrepeat,
   break_,
-  continue_
+  continue_,
+  cycle,       ///< sinumerik CYCLE…( )
+  modal_cycle  ///< sinumerik MCALL; without a label its end
 };
 
 struct Flow {
@@ -61,6 +63,8 @@ struct Flow {
   FlowKind kind = FlowKind::none;
   Name label;  ///< a whole number, or a name in lower case
   std::size_t count = 0;
+  std::uint32_t given = 0;                    ///< sinumerik: bit n: value n is not left out
+  double repeats = 1.0;                       ///< sinumerik: P
   std::array<double, kMostArguments> values;  ///< arguments, condition or returned value
 };
 

@@ -411,6 +411,7 @@ bool Expression::looked_up(Lookup lookup) {
                   "a named parameter that was never set; set it before, or ask EXISTS");
     case Lookup::read_only:
       return fail("read_only_parameter", "a parameter that cannot be set");
+    case Lookup::assigned_in_block:
     case Lookup::not_known_here:
       break;
   }

@@ -85,6 +85,9 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   if (first == std::string_view::npos) {
     return true;
   }
+  if (dialect_ == Dialect::sinumerik && number == 1 && line.substr(first).starts_with("%_N_")) {
+    return true;  // the name of the program, as the control writes it into archives
+  }
   if (line[first] == '%') {
     const bool accepted = percent(line, number, block);
     seen_line_ = true;
@@ -95,7 +98,7 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
                             ? SinumerikLine(*this, line, number, block).read()
                             : LetterLine(*this, line, number, block).read();
   if (values_ != nullptr) {
-    accepted ? values_->commit() : values_->drop();
+    accepted && !(block_delete_ && block.deleted()) ? values_->commit() : values_->drop();
   }
   return accepted;
 }

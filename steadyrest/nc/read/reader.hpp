@@ -7,6 +7,7 @@
 
 #include <steadyrest/nc/read/block.hpp>
 #include <steadyrest/nc/read/refused.hpp>
+#include <steadyrest/nc/read/typed_values.hpp>
 #include <steadyrest/nc/read/values.hpp>
 
 namespace steadyrest::nc::read {
@@ -39,6 +40,11 @@ class Reader {
   /// reading.
   void set_values(Values* values) noexcept { values_ = values; }
 
+  /// The same for sinumerik, whose variables have types.
+  void set_typed_values(TypedValues* values) noexcept { values_ = typed_values_ = values; }
+  /// Lines that begin with / are left out: what they assign is forgotten.
+  void set_block_delete(bool on) noexcept { block_delete_ = on; }
+
   [[nodiscard]] const Refused& refused() const noexcept { return refused_; }
   /// The program began with `%`: it must end with one (or with its end word).
   [[nodiscard]] bool percent_opened() const noexcept { return percent_opened_; }
@@ -52,6 +58,8 @@ class Reader {
 
   Dialect dialect_;
   Values* values_ = nullptr;
+  TypedValues* typed_values_ = nullptr;
+  bool block_delete_ = false;
   bool seen_line_ = false;
   bool percent_opened_ = false;
   Refused refused_;

@@ -108,6 +108,10 @@ bool SinumerikLine::push(const char* word_begin, Word& word) {
   if (word.qualifier != Qualifier::text) {
     word.text = since(word_begin);
   }
+  if (assigned_) {
+    return refuse(since(word_begin), "assignment_and_words",
+                  "a word beside the assignment of a variable; write two blocks");
+  }
   if (!block_.push(word)) {
     return refuse(since(word_begin), "too_many_words", "more words than a block may have (128)");
   }
@@ -119,6 +123,9 @@ bool SinumerikLine::item() {
     return refuse_character();
   }
   const char* const word_begin = at_;
+  if (block_.flow().kind != FlowKind::none) {
+    return repeats(word_begin);
+  }
   const bool name_follows = at_ + 1 != end_ && (is_letter(at_[1]) || at_[1] == '_');
   if (name_follows || *at_ == '_') {
     return named(word_begin);
@@ -128,6 +135,15 @@ bool SinumerikLine::item() {
   word.name = {word_begin, 1};
   if (word.letter == 'N') {
     return refuse(since(word_begin), "misplaced_n", "a block number behind other words");
+  }
+  if (word.letter == 'R' && reader_.typed_values_ != nullptr) {
+    return parameter_assignment(word_begin);
+  }
+  if (word.letter == 'L' && reader_.typed_values_ != nullptr) {
+    while (at_ != end_ && is_digit(*at_)) {
+      ++at_;
+    }
+    return call(word_begin, since(word_begin), FlowKind::call);
   }
   if (word.letter == 'R') {
     while (at_ != end_ && !is_blank(*at_)) {
@@ -173,7 +189,8 @@ bool SinumerikLine::plain_number(const char* word_begin, Word& word) {
   }
   if (look != end_ && (*look == '+' || *look == '-' || *look == '*')) {
     at_ = end_;
-    return refuse(since(word_begin), "expression", "an expression; only plain numbers are read");
+    return refuse(since(word_begin), "expression",
+                  "an expression without = before it; write X=1+2");
   }
   word.value = number.value;
   word.decimal_point = number.decimal_point;
@@ -189,6 +206,10 @@ bool SinumerikLine::named(const char* word_begin) {
   word.name = since(word_begin);
   if (equal(word.name, "MSG")) {
     return message(word_begin, word);
+  }
+  bool done = false;
+  if (!statement(word_begin, word.name, done) || done) {
+    return done;
   }
   if (!known_name(word.name)) {
     if (const RefusedName* const refused = refused_name(word.name)) {
@@ -221,7 +242,23 @@ bool SinumerikLine::assigned(const char* word_begin, Word& word) {
   if (end_ - at_ >= 3 && is_letter(*at_) && is_letter(at_[1])) {
     return qualified(word_begin, word);
   }
-  return plain_number(word_begin, word) && push(word_begin, word);
+  if (reader_.typed_values_ == nullptr) {
+    return plain_number(word_begin, word) && push(word_begin, word);
+  }
+  const Number number = read_number(rest());
+  const char* look = at_ + number.length;
+  while (look != end_ && is_blank(*look)) {
+    ++look;
+  }
+  if (number.length != 0 && (look == end_ || *look == ';')) {
+    at_ = look;
+    word.value = number.value;
+    word.decimal_point = number.decimal_point;
+    word.has_value = true;
+    return push(word_begin, word);
+  }
+  return calculated(word_begin, word.value) && ((word.has_value = word.calculated = true)) &&
+         push(word_begin, word);
 }
 
 bool SinumerikLine::qualified(const char* word_begin, Word& word) {
@@ -232,25 +269,23 @@ bool SinumerikLine::qualified(const char* word_begin, Word& word) {
     ++look;
   }
   if ((!absolute && !equal(head, "IC")) || look == end_ || *look != '(') {
-    return refuse_value(word_begin);
+    return reader_.typed_values_ == nullptr
+               ? refuse_value(word_begin)
+               : calculated(word_begin, word.value) && ((word.has_value = true)) &&
+                     push(word_begin, word);
   }
   at_ = look + 1;
-  skip_blanks();
-  const Number number = read_number(rest());
-  if (number.length == 0) {
-    return refuse_value(word_begin);
+  if (!calculated(word_begin, word.value)) {
+    return false;
   }
-  at_ += number.length;
   skip_blanks();
   if (at_ == end_ || *at_ != ')') {
     at_ = end_;
-    return refuse(since(word_begin), "expression",
-                  "an expression in AC( ) or IC( ); only plain numbers are read");
+    return refuse(since(word_begin), "unclosed_expression",
+                  "AC( ) or IC( ) that is not closed, or an operator is missing");
   }
   ++at_;
   word.qualifier = absolute ? Qualifier::absolute : Qualifier::incremental;
-  word.value = number.value;
-  word.decimal_point = number.decimal_point;
   word.has_value = true;
   return push(word_begin, word);
 }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include <steadyrest/nc/read/name.hpp>
+#include <steadyrest/nc/read/values.hpp>
+
+namespace steadyrest::nc::read {
+
+/// An expression of `sinumerik` at a place in a line: numbers (`1.5`, `1.5EX-3`), `R1`, `R[…]`,
+/// variables, TRUE, FALSE, `( )`, functions.
+///
+/// Law of the manual "Job planning", "Priority of the operations", from strong to weak: NOT B_NOT
+/// and signs; `* / DIV MOD`; `+ -`; B_AND; B_XOR; B_OR; AND; XOR; OR; `== <> < > <= >=`; equals
+/// from left to right. Comparisons hold numbers for equal that differ by 10⁻¹² of their size.
+/// Functions: SIN COS TAN ASIN ACOS ATAN2 SQRT ABS POT TRUNC ROUND LN EXP MINVAL MAXVAL BOUND;
+/// angles are degrees, ATAN2(y, x) −180° … 180°. DIV and MOD of negative numbers are refused.
+/// Nesting is bounded by `kDeepest`. Never allocates.
+class SinumerikExpression {
+ public:
+  static constexpr int kDeepest = 64;
+
+  SinumerikExpression(std::string_view line, std::size_t at, const Values& values) noexcept
+      : begin_(line.data() + at),
+        at_(line.data() + at),
+        end_(line.data() + line.size()),
+        values_(values) {}
+
+  bool read(double& out);
+
+  [[nodiscard]] std::size_t length() const noexcept {
+    return static_cast<std::size_t>(at_ - begin_);
+  }
+  [[nodiscard]] std::string_view reason() const noexcept { return reason_; }
+  [[nodiscard]] std::string_view text() const noexcept { return text_; }
+
+ private:
+  enum class Operator : unsigned char;
+  bool operand(double& out);
+  bool sum_of(double& out, int weakest);
+  bool operator_at(Operator& found, int& rank) noexcept;
+  bool apply(Operator op, double& left, double right);
+  bool arithmetic(Operator op, double& left, double right);
+  bool bits(Operator op, double& left, double right);
+  bool number(double& out);
+  bool word(double& out);
+  bool parameter(double& out, std::string_view name);
+  bool function(std::string_view name, double& out);
+  bool arguments(std::array<double, 3>& values, std::size_t wanted);
+  bool looked_up(Lookup lookup);
+  bool closing(char bracket);
+  bool finite(double value);
+  [[nodiscard]] char peek() noexcept;
+  bool fail(std::string_view reason, std::string_view text) noexcept;
+
+  const char* begin_;
+  const char* at_;
+  const char* end_;
+  const Values& values_;
+  int depth_ = 0;
+  std::string_view reason_;
+  std::string_view text_;
+};
+
+/// The name of a variable in lower case; false when it is too long.
+bool lower_name(std::string_view written, Name& name) noexcept;
+
+/// Why a parameter or variable could not be read or set.
+struct SinumerikLookup {
+  std::string_view reason;
+  std::string_view text;
+};
+[[nodiscard]] SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept;
+
+}  // namespace steadyrest::nc::read
