@@ -69,6 +69,7 @@ void Walk::on_event(const interpret::Event& event) {
 // The state as it stands before the next line.
 void Walk::remember() {
   const interpret::State& state = run_->state();
+  const Axes offset = before_.offset;
   before_.position = state.position;
   before_.offset = state.offset;
   before_.work_offset = state.work_offset[state.active_offset];
@@ -84,14 +85,22 @@ void Walk::remember() {
   if (!moves_.empty()) {
     before_.last_move = moves_.back().kind;
     any_move_ = true;
-    for (std::size_t i = 0; i < interpret::kAxisLetters.size(); ++i) {
-      if (moves_axis(i)) {
-        const std::uint32_t bit = std::uint32_t{1} << i;
-        before_.in_machine_frame =
-            facts_.machine_frame ? before_.in_machine_frame | bit : before_.in_machine_frame & ~bit;
-      }
+  }
+  for (std::size_t i = 0; i < interpret::kAxisLetters.size(); ++i) {
+    const std::uint32_t bit = std::uint32_t{1} << i;
+    if (gives(i)) {
+      before_.given |= bit;
+    } else if (moves_axis(i) || state.offset[i] != offset[i]) {
+      before_.given &= ~bit;
     }
   }
+}
+
+/// The last line has sent the axis to a place in work coordinates.
+bool Walk::gives(std::size_t index) const noexcept {
+  return moves_.size() == 1 && !facts_.machine_frame && !run_->state().incremental &&
+         (facts_.axes & Step::bit(interpret::kAxisLetters[index])) != 0 &&
+         straight(moves_.front().kind) && run_->state().motion <= 10;
 }
 
 bool Walk::step() {
@@ -177,8 +186,8 @@ Site Walk::site(char letter, std::size_t index) const {
   }
   const bool between_rapids = any_move_ && before_.last_move == MoveKind::rapid &&
                               move.kind == MoveKind::rapid && before_.motion == 0;
-  const bool known = (before_.in_machine_frame & (std::uint32_t{1} << index)) == 0;
-  return between_rapids && known && (facts_.incremental & bit) == 0 ? Site::clearance : Site::none;
+  const bool given = (before_.given & (std::uint32_t{1} << index)) != 0;
+  return between_rapids && given && (facts_.incremental & bit) == 0 ? Site::clearance : Site::none;
 }
 
 bool Walk::moves_axis(std::size_t index) const noexcept {

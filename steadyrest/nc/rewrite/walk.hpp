@@ -74,7 +74,8 @@ class Walk final : private interpret::Sink {
     bool rotated = false;
     bool diameter = false;
     interpret::MoveKind last_move = interpret::MoveKind::rapid;
-    std::uint32_t in_machine_frame = 0;  ///< axes that went last to machine coordinates, a mask
+    /// Axes whose work position the program has given, whatever the offsets are, a mask.
+    std::uint32_t given = 0;
   };
   [[nodiscard]] const Before& before() const noexcept { return before_; }
 
@@ -95,6 +96,7 @@ class Walk final : private interpret::Sink {
   void on_move(const interpret::Move& move) override { moves_.push_back(move); }
   void on_event(const interpret::Event& event) override;
   void remember();
+  [[nodiscard]] bool gives(std::size_t index) const noexcept;
   void look(const read::Block& block);
   void look_at_g(double code);
   [[nodiscard]] bool calm() const noexcept;

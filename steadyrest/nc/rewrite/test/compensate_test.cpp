@@ -16,6 +16,11 @@ using test::replaced;
 using test::Workshop;
 using ::testing::HasSubstr;
 
+struct Case {
+  const char* unsafe;
+  const char* program;
+};
+
 std::string one_step(double minutes, double rest_min, double delta_um) {
   return R"({"transitions": [{"n": 2, "t_min": [)" + std::to_string(minutes) + ", " +
          std::to_string(rest_min) + R"(], "delta_um": [0, )" + std::to_string(delta_um) + "]}]}";
@@ -84,6 +89,24 @@ TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
   EXPECT_THAT(read_file(shop.changed()), HasSubstr("G0 Z5.0000 (STEADYREST restated)\nG0 X0"));
 }
 
+// Where the axis stands is not known then: a number in its place would move it by the work offset.
+TEST(Compensate, RestatesNoAxisThatTheProgramHasNotSentToItsPlace) {
+  const Case cases[] = {
+      {"never moved", "G21 G90 G94\nG0 X0\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
+      {"by machine coordinates",
+       "G21 G90 G94\nG53 G0 Z0\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
+      {"another work offset",
+       "G21 G90 G94\nG0 Z5\nG55\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
+  };
+  for (const Case& one : cases) {
+    Workshop shop;
+    shop.settings.window_s = 20.0;
+    const auto refused = shop.compensate(one.program, one_step(1.0, 1.0, 10));
+    ASSERT_FALSE(refused) << one.unsafe;
+    EXPECT_THAT(refused.error().what, HasSubstr("no safe place")) << one.unsafe;
+  }
+}
+
 TEST(Compensate, TurnsTheCorrectionOverWhenTheWorkOffsetChanges) {
   Workshop shop;
   shop.config.work_offset[1][2] = 7.5;
@@ -105,10 +128,6 @@ TEST(Compensate, RefusesAWorkOffsetThatChangesWithTheAxis) {
 
 // Each of these makes the only place near the instant unsafe.
 TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
-  struct Case {
-    const char* unsafe;
-    const char* program;
-  };
   const Case kCases[] = {
       {"G91", "G21 G90 G94\nG0 Z5\nG91\nG1 X100 F100\nG0 Z5\nG1 X100\nG90\nM2\n"},
       {"cycle",
