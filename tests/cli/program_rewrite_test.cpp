@@ -49,7 +49,7 @@ TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
   EXPECT_THAT(unwritten.err, HasSubstr("cannot be written"));
   expect_refused(
       "program compensate examples/programs/rib-pocket.mpf --dialect sinumerik" + kPlan + to,
-      "sinumerik");
+      "--r-parameter");
   expect_refused("program compensate examples/plans/rib-pocket-compensated.ngc" + kPlan + to,
                  "program strip");
   expect_refused("program verify " + kProgram + " " + kProgram + kPlan, "head");

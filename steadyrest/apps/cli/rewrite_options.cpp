@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <utility>
 
@@ -28,8 +30,14 @@ std::expected<Method, Refusals> method_of(const RewriteOptions& options,
         Refusals{Refusal{Kind::bad_input, {}, 0, std::move(what), std::move(to_do)}});
   };
   if (dialect == nc::read::Dialect::sinumerik) {
-    return refuse("corrections are not written into programs of dialect sinumerik",
-                  "give the correction to the machine's own temperature compensation");
+    if (options.r_parameter == kNoParameter) {
+      return refuse("corrections in dialect sinumerik need the R-parameter that the PLC takes over",
+                    "give --r-parameter N, and let the PLC move the axis by its value in mm");
+    }
+    return Method::r_parameter;
+  }
+  if (options.r_parameter != kNoParameter) {
+    return refuse("--r-parameter with a control that is no SINUMERIK", "leave it out");
   }
   if (dialect == nc::read::Dialect::linuxcnc) {
     if (options.control == "haas") {
@@ -53,6 +61,9 @@ void add_rewrite_options(CLI::App& verb, RewriteOptions& options) {
   verb.add_option("--control", options.control,
                   "fanuc: the make of the control; G10 L2 P0 is another offset on a Haas")
       ->check(CLI::IsMember({"fanuc", "haas"}));
+  verb.add_option("--r-parameter", options.r_parameter,
+                  "sinumerik: number of the R-parameter that holds the correction in mm")
+      ->check(CLI::Range(0, 32535));
   verb.add_option("--window-s", options.window_s,
                   "How far from its planned instant a correction may be placed, in s")
       ->check(CLI::Range(0.0, 86400.0));
@@ -87,6 +98,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
     return std::unexpected(method.error());
   }
   task.settings.method = *method;
+  task.settings.r_parameter = static_cast<std::uint32_t>(std::max(options.r_parameter, 0));
   task.config.external_offset = *method != Method::haas;
   task.settings.window_s = options.window_s;
   task.settings.clamp_mm = task.machine.envelope.max_offset_mm;

@@ -15,12 +15,15 @@
 
 namespace steadyrest::apps::cli {
 
+inline constexpr int kNoParameter = -1;
+
 /// What `program compensate` and `program verify` are told beside their files.
 struct RewriteOptions {
   ProgramOptions program;
   std::string plan;
   std::string machine;  ///< empty: the one that the plan names
   std::string control;
+  int r_parameter = kNoParameter;
   double window_s = 60.0;
 };
 

@@ -148,8 +148,11 @@ class Rewriter {
       const auto& [letter, index, steps] = plan_.axes[axis];
       const Site site = walk.site(letter, index);
       const bool writable =
-          site != Site::clearance ||
-          !restate_text(letter, walk.before().position[index], walk.before().unit_mm, "\n").empty();
+          beside_program(settings_.method)
+              ? site != Site::feed
+              : site != Site::clearance || !restate_text(letter, walk.before().position[index],
+                                                         walk.before().unit_mm, "\n")
+                                                .empty();
       if (site != Site::none && writable) {
         clock.ask(0);
         waiting_.emplace_back(axis, Place{.line = walk.line(),
@@ -212,7 +215,7 @@ class Rewriter {
     while (next < chosen.size() && chosen[next].place.line == place.line) {
       ++next;
     }
-    if (settings_.method != Method::linuxcnc && place.unit_mm != chosen.front().place.unit_mm) {
+    if (!unit_free(settings_.method) && place.unit_mm != chosen.front().place.unit_mm) {
       return refuse(place.line, "the program changes its units between two corrections",
                     "write the program in one unit");
     }
@@ -239,9 +242,10 @@ class Rewriter {
                          .to_mm = stands_mm,
                          .unit_mm = place.unit_mm,
                          .active_offset = place.active_offset,
+                         .parameter = settings_.r_parameter,
                          .incremental = false},
                         "\n");
-    if (place.site == Site::clearance) {
+    if (place.site == Site::clearance && !beside_program(settings_.method)) {
       text += restate_text(plan.letter, place.position_mm, place.unit_mm, "\n");
     }
     return {};
@@ -282,6 +286,7 @@ class Rewriter {
            .to_mm = to_mm,
            .unit_mm = behind ? frame.unit_behind_mm : frame.unit_before_mm,
            .active_offset = behind ? frame.behind : frame.before,
+           .parameter = settings_.r_parameter,
            .incremental = behind ? frame.incremental_behind : frame.incremental_before},
           "\n");
     };
@@ -297,7 +302,9 @@ class Rewriter {
   Result<void> write(const std::string& output) {
     std::string head;
     for (const AxisPlan& axis : plan_.axes) {
-      head += axis.steps.empty() ? "" : head_text(settings_.method, axis.letter, "\n");
+      head += axis.steps.empty()
+                  ? ""
+                  : head_text(settings_.method, axis.letter, settings_.r_parameter, "\n");
     }
     if (!head.empty()) {
       std::string& first = texts_[head_line_].before_line;

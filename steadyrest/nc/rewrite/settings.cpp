@@ -29,6 +29,9 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
       return refuse(fmt::format("{} is an increment in this dialect", axis.letter),
                     "plan for X, Y or Z");
     }
+    if (settings.method == Method::r_parameter && plan.axes.size() > 1) {
+      return refuse("corrections of several axes, but one R-parameter", "plan for one axis");
+    }
     if (axis.steps.size() > kMostSteps) {
       return refuse(fmt::format("{} corrections of {}; at most {} are allowed", axis.steps.size(),
                                 axis.letter, kMostSteps),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string_view>
 
@@ -15,8 +16,9 @@ namespace steadyrest::nc::rewrite {
 /// What compensate() and verify() must know beside the files.
 struct Settings {
   Method method = Method::linuxcnc;
-  double window_s = 60.0;  ///< how far from its planned instant a correction may be placed
-  double clamp_mm = 0.2;   ///< the machine's limit of a correction (envelope.max_offset_mm)
+  std::uint32_t r_parameter = 0;  ///< its number, for that method
+  double window_s = 60.0;         ///< how far from its planned instant a correction may be placed
+  double clamp_mm = 0.2;          ///< the machine's limit of a correction (envelope.max_offset_mm)
   /// Told how much of the work is done, 0 … 1; may be empty.
   std::function<void(double share, std::string_view what)> progress;
 };

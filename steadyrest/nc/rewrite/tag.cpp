@@ -19,6 +19,7 @@ bool is_inserted(std::string_view line) noexcept {
 
 bool is_head(std::string_view inserted_line) noexcept {
   return inserted_line.find("(STEADYREST head ") != std::string_view::npos ||
+         inserted_line.find(";STEADYREST head ") != std::string_view::npos ||
          inserted_line.find("(ABORT,STEADYREST ") != std::string_view::npos;
 }
 

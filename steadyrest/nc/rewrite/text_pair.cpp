@@ -9,7 +9,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-Result<Inserted> compare_text(const std::string& original, const std::string& changed) {
+Result<Inserted> compare_text(const std::string& original, const std::string& changed,
+                              bool with_groups) {
   auto before = SourceLines::open(original);
   auto after = SourceLines::open(changed);
   if (!before || !after) {
@@ -25,6 +26,9 @@ Result<Inserted> compare_text(const std::string& original, const std::string& ch
     if (is_head(after->line())) {
       inserted.head.append(after->line()).append("\n");
       ++inserted.head_lines;
+      inserted.head_before = before->number();
+    } else if (with_groups) {
+      inserted.groups[before->number()].append(after->line()).append("\n");
     }
   };
   while (before->next()) {

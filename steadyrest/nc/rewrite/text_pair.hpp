@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,15 @@ struct Inserted {
   std::vector<std::uint32_t> lines;  ///< their numbers
   std::string head;                  ///< the text of those of the head, one under the other
   std::size_t head_lines = 0;
+  std::uint32_t head_before = 0;  ///< line of the original before which it ends
+  /// The others, by the line of the original before which they stand, one under the other.
+  std::map<std::uint32_t, std::string> groups;
 };
 
 /// Compares two programs byte by byte, inserted lines of `changed` left out. Refused at the first
 /// line that differs otherwise.
 [[nodiscard]] kernel::outcome::Result<Inserted> compare_text(const std::string& original,
-                                                             const std::string& changed);
+                                                             const std::string& changed,
+                                                             bool with_groups = false);
 
 }  // namespace steadyrest::nc::rewrite

@@ -16,6 +16,7 @@
 #include <steadyrest/nc/rewrite/tag.hpp>
 #include <steadyrest/nc/rewrite/text_pair.hpp>
 #include <steadyrest/nc/rewrite/verify.hpp>
+#include <steadyrest/nc/rewrite/verify_beside.hpp>
 #include <steadyrest/nc/rewrite/walk.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -100,7 +101,9 @@ class Prover {
   bool head_is_right(const std::string& head) {
     std::string wanted;
     for (const AxisPlan& axis : plan_.axes) {
-      wanted += axis.steps.empty() ? "" : head_text(settings_.method, axis.letter, "\n");
+      wanted += axis.steps.empty()
+                    ? ""
+                    : head_text(settings_.method, axis.letter, settings_.r_parameter, "\n");
     }
     return head == wanted || refuse("the head is not the one that belongs to this plan");
   }
@@ -385,6 +388,9 @@ Result<Proof> verify(const std::string& original, const std::string& changed, co
                      const Settings& settings) {
   if (auto checked = check_plan(plan, settings, config); !checked) {
     return std::unexpected(checked.error());
+  }
+  if (beside_program(settings.method)) {
+    return verify_beside(original, changed, plan, config, machine, settings);
   }
   return Prover(original, changed, plan, config, machine, settings).run();
 }

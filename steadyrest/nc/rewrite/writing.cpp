@@ -24,7 +24,9 @@ double rounded(double value, int places) noexcept {
 }
 
 int places_of(Method method, double unit_mm) noexcept {
-  return method == Method::linuxcnc ? kLinuxcncPlaces : unit_mm == 1.0 ? kMmPlaces : kInchPlaces;
+  return method == Method::linuxcnc                        ? kLinuxcncPlaces
+         : unit_mm == 1.0 || method == Method::r_parameter ? kMmPlaces
+                                                           : kInchPlaces;
 }
 
 /// At least four digits behind the point (five in inches), more where they say something.
@@ -68,15 +70,26 @@ std::string fanuc_change(Method method, const Change& change, std::string_view e
   return text;
 }
 
+// The control reads blocks ahead of the motion: STOPRE makes it write the value when the machine
+// gets here.
+std::string parameter_change(const Change& change, std::string_view ending) {
+  const std::string value = number(change.to_mm, kMmPlaces, kMmPlaces);
+  return fmt::format("STOPRE ;STEADYREST {0}{1} mm{3}R{2}={1} ;STEADYREST {0}{1} mm{3}",
+                     change.letter, value, change.parameter, ending);
+}
+
 }  // namespace
 
 double writable_mm(Method method, double unit_mm, double correction_mm) noexcept {
   const int places = places_of(method, unit_mm);
-  return method == Method::linuxcnc ? rounded(correction_mm, places)
-                                    : rounded(correction_mm / unit_mm, places) * unit_mm;
+  return unit_free(method) ? rounded(correction_mm, places)
+                           : rounded(correction_mm / unit_mm, places) * unit_mm;
 }
 
 std::string change_text(Method method, const Change& change, std::string_view ending) {
+  if (method == Method::r_parameter) {
+    return parameter_change(change, ending);
+  }
   return method == Method::linuxcnc ? linuxcnc_change(change, ending)
                                     : fanuc_change(method, change, ending);
 }
@@ -94,7 +107,11 @@ std::string restate_text(char letter, double position_mm, double unit_mm, std::s
 
 // The global parameters live as long as LinuxCNC runs: after an abort they say what stands in the
 // work offset. Stands it in another one than is active now, nobody but the operator can undo it.
-std::string head_text(Method method, char letter, std::string_view ending) {
+std::string head_text(Method method, char letter, std::uint32_t parameter,
+                      std::string_view ending) {
+  if (method == Method::r_parameter) {  // keeps its value over an abort and over power off
+    return fmt::format("R{}=0.0000 ;STEADYREST head {}{}", parameter, letter, ending);
+  }
   if (method != Method::linuxcnc) {
     return {};
   }

@@ -97,5 +97,56 @@ TEST_F(Haas, MovesTheActiveWorkOffsetAndTurnsItOver) {
   EXPECT_THAT(text, Not(HasSubstr("P0")));
 }
 
+class Sinumerik : public Fanuc {
+ protected:
+  Sinumerik() : Fanuc(Method::r_parameter) {
+    shop_.config.dialect = read::Dialect::sinumerik;
+    shop_.settings.r_parameter = 50;
+  }
+  void SetUp() override {
+    const auto done = shop_.compensate(kProgram, kGrowth);
+    ASSERT_TRUE(done) << done.error().what;
+    text_ = read_file(shop_.changed());
+  }
+  const std::string kProgram = replaced(replaced(kPasses, "%\nG21", "G71"), "M30\n%\n", "M30\n");
+  std::string text_;
+};
+
+TEST_F(Sinumerik, WritesTheParameterWhenTheMachineGetsThere) {
+  EXPECT_EQ(text_.substr(0, text_.find('\n')), "R50=0.0000 ;STEADYREST head Z");
+  EXPECT_THAT(text_, HasSubstr("STOPRE ;STEADYREST Z-0.0100 mm\nR50=-0.0100 ;STEADYREST"));
+  EXPECT_THAT(text_, HasSubstr("R50=0.0000 ;STEADYREST Z0.0000 mm\nM30"));
+  EXPECT_EQ(shop_.verify(kGrowth).value().changes, 4U);
+  ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
+  EXPECT_EQ(read_file(shop_.changed()), kProgram);
+}
+
+TEST_F(Sinumerik, VerifyCatchesEachFault) {
+  const std::string first = "STOPRE ;STEADYREST Z-0.0100 mm\nR50=-0.0100 ;STEADYREST Z-0.0100 mm\n";
+  const auto moved = [&](const std::string& line) {
+    return replaced(replaced(text_, first, ""), line, first + line);
+  };
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text_, "R50=-0.0100", "R50=0.0100")),
+              HasSubstr("no step of the plan"));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text_, "R50=-0.0100", "R51=-0.0100")),
+              HasSubstr("no step of the plan"));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text_, "STOPRE ;STEADYREST Z-0.0100 mm\n", "")),
+              HasSubstr("no step of the plan"));
+  const std::string second =
+      replaced(replaced(first, "0.0100", "0.0200"), "R50=-0.0100 ;STEADYREST Z-0.0100",
+               "R50=-0.0200 ;STEADYREST Z-0.0200");
+  EXPECT_THAT(
+      shop_.fault(kGrowth, replaced(replaced(text_, second, ""), "G2 X20", second + "G2 X20")),
+      HasSubstr("no safe place"));
+  EXPECT_THAT(shop_.fault(kGrowth, moved("G1 X100")), HasSubstr("no safe place"));
+  EXPECT_THAT(shop_.fault(kGrowth, moved("G0 Z5")), HasSubstr("acts at"));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text_, "R50=0.0000 ;STEADYREST head Z\n", "")),
+              HasSubstr("head"));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text_, "G0 X0 Y30", "G0 X0 Y31")),
+              HasSubstr("outside of the inserted lines"));
+  const auto reset = text_.rfind("STOPRE");
+  EXPECT_THAT(shop_.fault(kGrowth, text_.substr(0, reset) + "M30\n"), HasSubstr("left at the end"));
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/rewrite/clock.hpp>
+#include <steadyrest/nc/rewrite/survey.hpp>
+#include <steadyrest/nc/rewrite/text_pair.hpp>
+#include <steadyrest/nc/rewrite/verify_beside.hpp>
+#include <steadyrest/nc/rewrite/walk.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+class Prover {
+ public:
+  Prover(const std::string& original, const std::string& changed, const Plan& plan,
+         const Settings& settings)
+      : original_(original), changed_(changed), axis_(plan.axes.front()), settings_(settings) {}
+
+  Result<Proof> run(const Plan& plan, const interpret::Config& config,
+                    const kernel::machine::Machine& machine) {
+    auto text = compare_text(original_, changed_, true);
+    auto surveyed = survey(original_, config);
+    if (!text || !surveyed) {
+      return std::unexpected(text ? surveyed.error() : text.error());
+    }
+    text_ = std::move(*text);
+    auto walk = Walk::make(original_, config, *surveyed);
+    auto clock = Clock::make(machine, [this](std::uint64_t step, double time_s) {
+      told(static_cast<std::size_t>(step), time_s);
+    });
+    if (!walk || !clock) {
+      return std::unexpected(walk ? clock.error() : walk.error());
+    }
+    while (!refusal_ && (*walk)->step()) {
+      line(**walk, **clock);
+      (*clock)->feed(**walk);
+    }
+    if (refusal_) {
+      return std::unexpected(*refusal_);
+    }
+    const auto total = (*clock)->finish();
+    if (!total) {
+      return std::unexpected(total.error());
+    }
+    proof_.program_s = *total;
+    proof_.inserted_lines = text_.lines.size();
+    if (auto fits = check_total(plan, *total); !fits) {
+      return std::unexpected(fits.error());
+    }
+    at_end();
+    if (refusal_) {
+      return std::unexpected(*refusal_);
+    }
+    return proof_;
+  }
+
+ private:
+  void refuse(std::uint32_t line, std::string what) {
+    if (!refusal_) {
+      refusal_ = Refusal{Kind::bad_input, original_, line, std::move(what),
+                         "make the changed program anew"};
+    }
+  }
+
+  [[nodiscard]] std::string text_to(double to_mm) const {
+    return change_text(settings_.method,
+                       {.letter = axis_.letter,
+                        .from_mm = stands_mm_,
+                        .to_mm = to_mm,
+                        .unit_mm = 1.0,
+                        .active_offset = 0,
+                        .parameter = settings_.r_parameter,
+                        .incremental = false},
+                       "\n");
+  }
+
+  void line(const Walk& walk, Clock& clock) {
+    if (text_.head_before == walk.line() && proof_.moves > 0) {
+      refuse(walk.line(), "the head stands behind the first move");
+    }
+    if (const auto group = text_.groups.find(walk.line()); group != text_.groups.end()) {
+      change(walk, clock, group->second);
+      text_.groups.erase(group);
+    }
+    proof_.moves += walk.moves().size();
+    proof_.corrected += stands_mm_ == 0.0 ? 0U : walk.moves().size();
+  }
+
+  void change(const Walk& walk, Clock& clock, const std::string& group) {
+    ++proof_.changes;
+    if (walk.ends() && walk.may_write() && group == text_to(0.0)) {
+      stands_mm_ = 0.0;
+      return;
+    }
+    for (std::size_t step = done_; step < axis_.steps.size(); ++step) {
+      const double to_mm = correction_mm(settings_, 1.0, axis_.steps[step].displacement_um);
+      if (group != text_to(to_mm)) {
+        continue;
+      }
+      const Site site = walk.site(axis_.letter, axis_.index);
+      if (site != Site::rapid && site != Site::clearance) {
+        refuse(walk.line(), fmt::format("a correction of {} begins before a line that is no safe "
+                                        "place for it",
+                                        axis_.letter));
+      }
+      first_of_[step] = done_;
+      clock.ask(step);
+      done_ = step + 1;
+      stands_mm_ = to_mm;
+      return;
+    }
+    refuse(walk.line(), fmt::format("the inserted lines before this line belong to no step of the "
+                                    "plan: {}",
+                                    group.substr(0, group.find('\n'))));
+  }
+
+  void told(std::size_t step, double time_s) {
+    for (std::size_t i = first_of_[step]; i <= step; ++i) {
+      if (std::abs(time_s - axis_.steps[i].time_s) > settings_.window_s) {
+        refuse(0, fmt::format("a correction of {} acts at {:.1f} s; it is planned at {:.1f} s, and "
+                              "{:g} s of difference are allowed",
+                              axis_.letter, time_s, axis_.steps[i].time_s, settings_.window_s));
+      }
+    }
+  }
+
+  void at_end() {
+    if (!text_.groups.empty()) {
+      refuse(text_.groups.begin()->first, "inserted lines that are never executed");
+    }
+    if (text_.head != (axis_.steps.empty() ? ""
+                                           : head_text(settings_.method, axis_.letter,
+                                                       settings_.r_parameter, "\n"))) {
+      refuse(0, "the head is not the one that belongs to this plan");
+    }
+    if (done_ != axis_.steps.size()) {
+      refuse(0, fmt::format("the correction of {} planned at {:.1f} s is missing", axis_.letter,
+                            axis_.steps[done_].time_s));
+    }
+    if (stands_mm_ != 0.0) {
+      refuse(0, fmt::format("a correction of {} is left at the end", axis_.letter));
+    }
+  }
+
+  const std::string& original_;
+  const std::string& changed_;
+  const AxisPlan& axis_;
+  const Settings& settings_;
+  Inserted text_;
+  std::map<std::size_t, std::size_t> first_of_;  ///< step → first of the steps placed with it
+  std::size_t done_ = 0;
+  double stands_mm_ = 0.0;
+  std::optional<Refusal> refusal_;
+  Proof proof_;
+};
+
+}  // namespace
+
+Result<Proof> verify_beside(const std::string& original, const std::string& changed,
+                            const Plan& plan, const interpret::Config& config,
+                            const kernel::machine::Machine& machine, const Settings& settings) {
+  return Prover(original, changed, plan, settings).run(plan, config, machine);
+}
+
+}  // namespace steadyrest::nc::rewrite
