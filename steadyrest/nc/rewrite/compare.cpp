@@ -25,8 +25,11 @@ std::string_view first_difference(const Move& a, const Move& b) {
   if (a.feed_mm_s != b.feed_mm_s || a.feed_mode != b.feed_mode) {
     return "feed";
   }
-  if (a.normal != b.normal || a.turns != b.turns) {
+  if (a.normal != b.normal || a.turns != b.turns || a.spline_order != b.spline_order) {
     return "arc's plane or turns";
+  }
+  if (a.rotation_deg != b.rotation_deg) {
+    return "rotation";
   }
   if (a.path_mode != b.path_mode || a.path_tolerance_mm != b.path_tolerance_mm) {
     return "path mode";
@@ -48,6 +51,7 @@ bool equal_events(const std::vector<Event>& a, const std::vector<Event>& b) {
 
 Modes modes_of(const State& state) {
   return {.active_offset = state.active_offset,
+          .rotation_deg = state.rotation_in_force_deg,
           .unit_mm = state.unit_mm,
           .plane = state.plane,
           .incremental = state.incremental,

@@ -25,6 +25,7 @@ inline constexpr double kSame_mm = 1e-9;
 /// What an inserted line must leave as it was.
 struct Modes {
   std::size_t active_offset = 0;
+  double rotation_deg = 0.0;
   double unit_mm = 1.0;
   interpret::Plane plane = interpret::Plane::xy;
   bool incremental = false;

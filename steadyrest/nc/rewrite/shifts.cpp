@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
+
 #include <fmt/core.h>
 
 #include <steadyrest/nc/interpret/step.hpp>
@@ -6,6 +8,7 @@
 
 namespace steadyrest::nc::rewrite {
 
+using interpret::Axes;
 using interpret::kAxisLetters;
 using interpret::Move;
 using interpret::MoveKind;
@@ -14,6 +17,18 @@ namespace {
 
 std::uint32_t bit(std::size_t axis) noexcept {
   return std::uint32_t{1} << axis;
+}
+
+Axes centre_of(const Move& move) {
+  Axes centre = move.start;
+  std::ranges::copy(move.centre_mm, centre.begin());
+  return centre;
+}
+
+// A spline keeps what stands from its start to its end, so its points are those of the original in
+// work coordinates.
+bool same_points(const interpret::SplinePoint& a, const interpret::SplinePoint& b) {
+  return same(a.x_mm, b.x_mm) && same(a.y_mm, b.y_mm) && a.weight == b.weight;
 }
 
 }  // namespace
@@ -40,19 +55,31 @@ std::string Shifts::add(const Move& move, double most_mm) {
 }
 
 std::string Shifts::pair(const Move& before, const Move& after, const Frames& frames) {
+  const auto difference = [&](const Axes& old_work, const Axes& new_work) {
+    const Axes was = machine_of(before, old_work);
+    Axes is = machine_of(after, new_work);
+    std::ranges::transform(is, was, is.begin(), std::minus{});
+    return is;
+  };
+  const Difference found = {.start = difference(before.start, after.start),
+                            .end = difference(before.end, after.end),
+                            .centre = before.kind == MoveKind::arc
+                                          ? difference(centre_of(before), centre_of(after))
+                                          : Axes{}};
   for (std::size_t i = 0; i < shift_.size(); ++i) {
-    if (std::string fault = one_axis(i, before, after, frames); !fault.empty()) {
+    if (std::string fault = one_axis(i, before, found, frames); !fault.empty()) {
       return fault;
     }
   }
-  return {};
+  return std::ranges::equal(before.spline, after.spline, same_points)
+             ? std::string{}
+             : "the points of a spline are others";
 }
 
-std::string Shifts::one_axis(std::size_t axis, const Move& before, const Move& after,
+std::string Shifts::one_axis(std::size_t axis, const Move& before, const Difference& difference,
                              const Frames& frames) {
-  const double offset_mm = after.offset[axis] - before.offset[axis];
-  const double start_mm = after.start[axis] - before.start[axis] + offset_mm;
-  const double end_mm = after.end[axis] - before.end[axis] + offset_mm;
+  const double start_mm = difference.start[axis];
+  const double end_mm = difference.end[axis];
   if (!same(start_mm, shift_[axis])) {
     return "a move begins where the one before it did not end";
   }
@@ -75,7 +102,7 @@ std::string Shifts::one_axis(std::size_t axis, const Move& before, const Move& a
                        kAxisLetters[axis]);
   }
   if (before.kind == MoveKind::arc && axis < before.normal.size() && before.normal[axis] == 0.0) {
-    const double centre_mm = after.centre_mm[axis] - before.centre_mm[axis] + offset_mm;
+    const double centre_mm = difference.centre[axis];
     if (!same(centre_mm, start_mm)) {
       return fmt::format("the centre of an arc is off by {:.9f} mm in {}", centre_mm,
                          kAxisLetters[axis]);

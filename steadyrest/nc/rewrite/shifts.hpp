@@ -44,8 +44,14 @@ class Shifts {
   interpret::Axes wanted{};  ///< the correction that stands by the plan
 
  private:
+  /// Where a pair of moves differs in machine coordinates, by axis.
+  struct Difference {
+    interpret::Axes start{};
+    interpret::Axes end{};
+    interpret::Axes centre{};
+  };
   [[nodiscard]] std::string one_axis(std::size_t axis, const interpret::Move& before,
-                                     const interpret::Move& after, const Frames& frames);
+                                     const Difference& difference, const Frames& frames);
 
   interpret::Axes shift_{};
   std::uint32_t planned_ = 0;

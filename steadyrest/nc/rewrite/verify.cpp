@@ -28,22 +28,6 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-/// Moves of the changed program since the last look.
-class Moves final : public interpret::Sink {
- public:
-  void on_move(const Move& move) override { moves.push_back(move); }
-  void on_event(const interpret::Event& event) override {
-    events.push_back(event);
-    events.back().tool_name = {};
-  }
-  void clear() {
-    moves.clear();
-    events.clear();
-  }
-  std::vector<Move> moves;
-  std::vector<interpret::Event> events;
-};
-
 /// Runs both programs, line beside line.
 class Prover {
  public:
@@ -366,7 +350,7 @@ class Prover {
   std::size_t executed_inserted_ = 0;
   std::uint32_t inserted_before_ = 0;  ///< of these, before the line in hand
   std::optional<read::LineSource> changed_source_;
-  Moves changed_moves_;
+  KeptMoves changed_moves_;
   std::optional<interpret::ProgramRun> changed_run_;
   std::unique_ptr<Walk> walk_;
   std::deque<Asked> asked_;

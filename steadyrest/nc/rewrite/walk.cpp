@@ -52,18 +52,12 @@ Result<std::unique_ptr<Walk>> Walk::make(const std::string& path, const interpre
     return std::unexpected(source.error());
   }
   std::unique_ptr<Walk> made(new Walk(std::move(*source), survey));
-  auto run = interpret::ProgramRun::make(made->source_, config, *made);
+  auto run = interpret::ProgramRun::make(made->source_, config, made->kept_);
   if (!run) {
     return std::unexpected(run.error());
   }
   made->run_.emplace(std::move(*run));
   return made;
-}
-
-void Walk::on_event(const interpret::Event& event) {
-  ends_ = ends_ || event.kind == interpret::EventKind::end;
-  events_.push_back(event);
-  events_.back().tool_name = {};
 }
 
 // The state as it stands before the next line.
@@ -80,10 +74,10 @@ void Walk::remember() {
   before_.incremental = state.incremental;
   before_.inverse_time = state.feed_mode == interpret::FeedMode::inverse_time;
   before_.cutter = state.cutter_side != 0;
-  before_.rotated = state.rotation_deg[state.active_offset] != 0.0;
+  before_.rotated = state.rotation_in_force_deg != 0.0;
   before_.diameter = state.diameter;
-  if (!moves_.empty()) {
-    before_.last_move = moves_.back().kind;
+  if (!moves().empty()) {
+    before_.last_move = moves().back().kind;
     any_move_ = true;
   }
   for (std::size_t i = 0; i < interpret::kAxisLetters.size(); ++i) {
@@ -98,18 +92,20 @@ void Walk::remember() {
 
 /// The last line has sent the axis to a place in work coordinates.
 bool Walk::gives(std::size_t index) const noexcept {
-  return moves_.size() == 1 && !facts_.machine_frame && !run_->state().incremental &&
+  return moves().size() == 1 && !facts_.machine_frame && !run_->state().incremental &&
          (facts_.axes & Step::bit(interpret::kAxisLetters[index])) != 0 &&
-         straight(moves_.front().kind) && run_->state().motion <= 10;
+         straight(moves().front().kind) && run_->state().motion <= 10;
 }
 
 bool Walk::step() {
   remember();
-  moves_.clear();
-  events_.clear();
+  kept_.clear();
   facts_ = {};
   const bool more = run_->step();
   ++steps_;
+  ends_ = std::ranges::any_of(events(), [](const interpret::Event& event) {
+    return event.kind == interpret::EventKind::end;
+  });
   while (interval_ < survey_.without_length.size() &&
          survey_.without_length[interval_].second < steps_) {
     ++interval_;
@@ -157,7 +153,7 @@ bool Walk::may_write() const noexcept {
   const interpret::State& now = run_->state();
   return run_->at_top() && run_->executed() && !run_->block().deleted() &&
          !survey_.is_repeated(run_->line()) && !before_.cutter && now.cutter_side == 0 &&
-         !before_.rotated && now.rotation_deg[now.active_offset] == 0.0;
+         !before_.rotated && now.rotation_in_force_deg == 0.0;
 }
 
 // No mode in force, before and behind the line, in which a shift would bend something.
@@ -174,11 +170,11 @@ bool Walk::calm() const noexcept {
 }
 
 Site Walk::site(char letter, std::size_t index) const {
-  if (moves_.size() != 1 || !calm()) {
+  if (moves().size() != 1 || !calm()) {
     return Site::none;
   }
   const std::uint32_t bit = Step::bit(letter);
-  const interpret::Move& move = moves_.front();
+  const interpret::Move& move = moves().front();
   if ((facts_.axes & bit) != 0) {
     return move.kind == MoveKind::rapid    ? Site::rapid
            : move.kind == MoveKind::linear ? Site::feed
@@ -191,7 +187,7 @@ Site Walk::site(char letter, std::size_t index) const {
 }
 
 bool Walk::moves_axis(std::size_t index) const noexcept {
-  return std::ranges::any_of(moves_, [index](const interpret::Move& move) {
+  return std::ranges::any_of(moves(), [index](const interpret::Move& move) {
     return move.kind != MoveKind::dwell && move.start[index] != move.end[index];
   });
 }

@@ -10,6 +10,7 @@
 #include <steadyrest/nc/interpret/move.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/read/line_source.hpp>
+#include <steadyrest/nc/rewrite/kept_moves.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -32,7 +33,7 @@ enum class Frame : std::uint8_t {
 
 /// Goes through a program line by line and judges the place before each line. The law of a safe
 /// place stands in README.md.
-class Walk final : private interpret::Sink {
+class Walk {
  public:
   /// The survey must be of the same program and configuration.
   static kernel::outcome::Result<std::unique_ptr<Walk>> make(const std::string& path,
@@ -55,8 +56,10 @@ class Walk final : private interpret::Sink {
   /// The last line outside of subprograms and loops, this one included.
   [[nodiscard]] std::uint32_t top_line() const noexcept { return top_line_; }
   [[nodiscard]] const interpret::ProgramRun& run() const noexcept { return *run_; }
-  [[nodiscard]] const std::vector<interpret::Move>& moves() const noexcept { return moves_; }
-  [[nodiscard]] const std::vector<interpret::Event>& events() const noexcept { return events_; }
+  [[nodiscard]] const std::vector<interpret::Move>& moves() const noexcept { return kept_.moves; }
+  [[nodiscard]] const std::vector<interpret::Event>& events() const noexcept {
+    return kept_.events;
+  }
   [[nodiscard]] bool ends() const noexcept { return ends_; }  ///< it ended the program
 
   /// The state before the line.
@@ -93,8 +96,6 @@ class Walk final : private interpret::Sink {
 
   Walk(read::LineSource source, const Survey& survey)
       : source_(std::move(source)), survey_(survey) {}
-  void on_move(const interpret::Move& move) override { moves_.push_back(move); }
-  void on_event(const interpret::Event& event) override;
   void remember();
   [[nodiscard]] bool gives(std::size_t index) const noexcept;
   void look(const read::Block& block);
@@ -104,8 +105,7 @@ class Walk final : private interpret::Sink {
   read::LineSource source_;
   const Survey& survey_;
   std::optional<interpret::ProgramRun> run_;
-  std::vector<interpret::Move> moves_;
-  std::vector<interpret::Event> events_;
+  KeptMoves kept_;
   Before before_;
   Facts facts_;
   bool any_move_ = false;
