@@ -196,6 +196,7 @@ class Interpreter {
   bool cubic_goes_on_ = false;
   std::vector<SplinePoint> spline_points_;  ///< of G5.2
   int spline_order_ = 0;
+  int motion_before_spline_ = -1;
   Axes spline_end_{};
   ProgramCall program_call_;
   std::optional<read::Flow> modal_cycle_;  ///< sinumerik MCALL

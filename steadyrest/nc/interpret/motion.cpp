@@ -49,16 +49,16 @@ bool Interpreter::move(const Step& step) {
     return refuse_code(step, 'G', motion / 10, "spline_words",
                        "another motion among the control points of G5.2; G5.3 ends them");
   }
+  if (motion >= 50 && motion <= 53) {
+    return spline(step);
+  }
   state_.motion = motion;
-  cubic_goes_on_ = cubic_goes_on_ && motion == 50;
+  cubic_goes_on_ = false;
   if (motion == 330 || motion == 331) {
     return thread(step);
   }
   if (motion == 760) {
     return thread_cycle(step);
-  }
-  if (motion >= 50 && motion <= 53) {
-    return spline(step);
   }
   if (motion >= 382 && motion <= 385) {
     return probe(step);

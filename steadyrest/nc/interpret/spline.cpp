@@ -5,6 +5,7 @@
 #include <steadyrest/nc/interpret/interpreter.hpp>
 
 // G5 (cubic), G5.1 (quadratic), G5.2 … G5.3 (control points with weights): splines in the XY plane.
+// Behind a spline the motion that was in force before it goes on.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -69,7 +70,6 @@ bool Interpreter::cubic(const Step& step) {
       SplinePoint{end[0], end[1], 1.0}};
   emit_spline(points, 4, end);
   cubic_goes_on_ = true;
-  state_.motion = -1;  // each block has its own G word
   return true;
 }
 
@@ -89,7 +89,7 @@ bool Interpreter::quadratic(const Step& step) {
       SplinePoint{start[0] + step['I'] * unit, start[1] + step['J'] * unit, 1.0},
       SplinePoint{end[0], end[1], 1.0}};
   emit_spline(points, 3, end);
-  state_.motion = -1;
+  cubic_goes_on_ = false;
   return true;
 }
 
@@ -111,6 +111,9 @@ bool Interpreter::control_point(const Step& step) {
     }
     spline_points_.push_back({state_.position[0], state_.position[1], step['P']});
     spline_end_ = state_.position;
+    motion_before_spline_ = state_.motion;
+    state_.motion = kPoints;
+    cubic_goes_on_ = false;
   } else if (step.has('L')) {
     return refuse(step, 'L', "spline_words", "the order (L) stands in the first block of a spline");
   }
@@ -134,7 +137,7 @@ bool Interpreter::end_spline(const Step& step) {
   }
   emit_spline(spline_points_, spline_order_, spline_end_);
   spline_points_.clear();
-  state_.motion = -1;
+  state_.motion = motion_before_spline_;
   return true;
 }
 

@@ -5,9 +5,11 @@
 
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
+#include <steadyrest/nc/interpret/spline_curve.hpp>
 #include <steadyrest/nc/plan/axes_at.hpp>
 #include <steadyrest/nc/plan/corner.hpp>
 #include <steadyrest/nc/plan/path_builder.hpp>
+#include <steadyrest/nc/plan/spline_lines.hpp>
 
 namespace steadyrest::nc::plan {
 
@@ -32,6 +34,8 @@ using math::geometry::subtract;
 namespace {
 
 constexpr double kUsable = 1.0 - 1e-6;
+/// A spline is planned as chords that miss it by no more.
+constexpr double kSplineTolerance_mm = 5e-4;
 constexpr std::size_t kMostMerged = 512;
 
 bool others_move(const PathSegment& s) {
@@ -278,11 +282,15 @@ void PathStream::on_move(const Move& move) {
     return;
   }
   if (move.kind == MoveKind::spline) {
-    refusal_ = Refusal{Kind::bad_input,
-                       {},
-                       move.line,
-                       "a spline move is not planned yet",
-                       "output lines or arcs from the CAM system"};
+    if (move.spline_order < 2 || interpret::spline_spans(move.spline, move.spline_order) < 1) {
+      refusal_ = Refusal{Kind::bad_input,
+                         {},
+                         move.line,
+                         "a spline without its control points",
+                         "output lines or arcs from the CAM system"};
+      return;
+    }
+    spline_lines(move, kSplineTolerance_mm, [this](const Move& line) { on_move(line); });
     return;
   }
   if (move.kind == MoveKind::dwell) {
