@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -8,17 +13,27 @@
 #include <steadyrest/apps/cli/program_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_program_time.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/plan/program_timer.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
 
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::units::mm_min_from_mm_s;
+using kernel::units::rpm_from_rev_s;
 using nc::plan::ProgramTime;
 
 struct Options {
   ProgramOptions program;
   std::string machine;
   bool lines = false;
+  double feed_percent = 100.0;
+  double rapid_percent = 100.0;
+  double spindle_percent = 100.0;
+  std::string cyclogram;
 };
 
 void put_time(Answer& answer, const ProgramTime& time, bool lines) {
@@ -35,6 +50,17 @@ void put_time(Answer& answer, const ProgramTime& time, bool lines) {
   for (const auto& tool : time.tools) {
     answer.json["tools"].push_back({{"tool", tool.number}, {"seconds", tool.seconds}});
   }
+  answer.json["cyclogram"] = Json::array();
+  for (const auto& t : time.cyclogram) {
+    answer.json["cyclogram"].push_back({{"start_s", t.start_s},
+                                        {"seconds", t.seconds},
+                                        {"tool", t.tool},
+                                        {"speed_rpm", rpm_from_rev_s(t.speed_rev_s)},
+                                        {"feed_mm_min", mm_min_from_mm_s(t.feed_mm_s())},
+                                        {"cut_s", t.cut_s},
+                                        {"load", name(t.load())},
+                                        {"line", t.line}});
+  }
   if (lines) {
     answer.json["lines"] = Json::array();
     for (std::size_t line = 0; line < time.line_s.size(); ++line) {
@@ -43,6 +69,28 @@ void put_time(Answer& answer, const ProgramTime& time, bool lines) {
       }
     }
   }
+}
+
+/// The cyclogram as TOML, what `thermal` reads.
+Result<void> write_cyclogram(const ProgramTime& time, const Options& options) {
+  std::string text = fmt::format("# What the machine does in {}, transition by transition.\n",
+                                 std::filesystem::path(options.program.file).filename().string());
+  for (const auto& t : time.cyclogram) {
+    text += fmt::format(
+        "\n[[transition]]\nminutes = {:.6f}\nspeed_rpm = {:.3f}\nfeed_mm_min = {:.3f}\n"
+        "load = \"{}\"\ntool = {}\nline = {}\n",
+        t.seconds / 60.0, rpm_from_rev_s(t.speed_rev_s), mm_min_from_mm_s(t.feed_mm_s()),
+        name(t.load()), t.tool, t.line);
+  }
+  std::ofstream out(options.cyclogram, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) {
+    return std::unexpected(Refusal{Kind::unavailable, options.cyclogram, 0,
+                                   std::string{"cannot be written: "} + std::strerror(errno),
+                                   "check the folder, the rights and the disk space"});
+  }
+  return {};
 }
 
 std::string text_of(const ProgramTime& time) {
@@ -62,6 +110,20 @@ std::string text_of(const ProgramTime& time) {
     }
     text += tools.text();
   }
+  constexpr std::size_t kShown = 20;
+  Table cyclogram({"from s", "s", "tool", "rpm", "mm/min", "load"});
+  for (std::size_t i = 0; i < std::min(time.cyclogram.size(), kShown); ++i) {
+    const auto& t = time.cyclogram[i];
+    cyclogram.row({seconds(t.start_s), seconds(t.seconds), fmt::format("T{}", t.tool),
+                   fmt::format("{:.0f}", rpm_from_rev_s(t.speed_rev_s)),
+                   fmt::format("{:.0f}", mm_min_from_mm_s(t.feed_mm_s())),
+                   std::string{name(t.load())}});
+  }
+  text += cyclogram.text();
+  if (time.cyclogram.size() > kShown) {
+    text += fmt::format("… {} more (--json or --cyclogram FILE has all)\n",
+                        time.cyclogram.size() - kShown);
+  }
   return text;
 }
 
@@ -78,6 +140,8 @@ Outcome run(const Options& options) {
   if (!timer) {
     return refused(timer.error());
   }
+  timer->set_overrides(options.feed_percent / 100.0, options.rapid_percent / 100.0,
+                       options.spindle_percent / 100.0);
   const auto report = nc::interpret::run_file(options.program.file, *config, *timer);
   if (!report) {
     return refused(report.error());
@@ -92,6 +156,11 @@ Outcome run(const Options& options) {
     auto refusal = time.error();
     refusal.file = options.program.file;
     return refused(std::move(refusal));
+  }
+  if (!options.cyclogram.empty()) {
+    if (const auto written = write_cyclogram(*time, options); !written) {
+      return refused(written.error());
+    }
   }
   put_time(answer, *time, options.lines);
   answer.text = text_of(*time);
@@ -110,6 +179,15 @@ void add_verb_program_time(Session& session) {
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);
   verb.add_flag("--lines", options->lines, "With --json: also the seconds of each line");
+  const auto percent = [&verb](const char* flag, double& value, const char* text) {
+    verb.add_option(flag, value, text)->check(CLI::Range(1.0, 200.0));
+  };
+  percent("--feed-percent", options->feed_percent, "Feed override in force, %");
+  percent("--rapid-percent", options->rapid_percent, "Rapid override in force, %");
+  percent("--spindle-percent", options->spindle_percent, "Spindle override in force, %");
+  verb.add_option(
+      "--cyclogram", options->cyclogram,
+      "Write the transitions (tool, spindle speed, feed, load, time) to this TOML file");
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

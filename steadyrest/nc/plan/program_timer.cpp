@@ -77,6 +77,7 @@ class ProgramTimer::Runner final : public PathReceiver {
     while (!interpolator_->finished() && !stuck()) {
       step();
     }
+    time.cyclogram = cyclogram_.transitions();
   }
 
   [[nodiscard]] bool stuck() const { return time.total_s > kMost_s; }
@@ -84,17 +85,20 @@ class ProgramTimer::Runner final : public PathReceiver {
   PathStream stream;
   ProgramTime time;
   Arrival arrival;
+  Overrides overrides;
 
  private:
   void step() {
     const double period = machine_.control.interpolator_period_s;
     const std::size_t event = interpolator_->first_event_in_use();
-    const Setpoint s = interpolator_->update({1.0, 1.0, spindle_rev_s_});
+    const Setpoint s = interpolator_->update(
+        {overrides.feed_ratio, overrides.rapid_ratio, spindle_rev_s_, overrides.spindle_ratio});
     if (s.finished) {
       return;
     }
     const double reach = machine_.spindle.acceleration_rev_s2 * period;
-    spindle_rev_s_ += std::clamp(s.spindle_rev_s - spindle_rev_s_, -reach, reach);
+    const double wanted_rev_s = s.spindle_rev_s * overrides.spindle_ratio;
+    spindle_rev_s_ += std::clamp(wanted_rev_s - spindle_rev_s_, -reach, reach);
     for (std::size_t i = event; i < event_end_; ++i) {  // the change in hand, and those just passed
       const PathEvent& e = events_[i & (events_.size() - 1)];
       const bool passed = i < interpolator_->first_event_in_use();
@@ -118,6 +122,9 @@ class ProgramTimer::Runner final : public PathReceiver {
       line_ = s.line;
       arrival(s.line, time.total_s);
     }
+    Setpoint in_force = s;
+    in_force.spindle_rev_s *= overrides.spindle_ratio;
+    cyclogram_.add(in_force, time.tools.back().number, time.total_s, period);
     time.total_s += period;
     time.tools.back().seconds += period;
     if (!arrival) {
@@ -152,6 +159,7 @@ class ProgramTimer::Runner final : public PathReceiver {
   std::size_t end_ = 0;
   std::size_t event_end_ = 0;
   std::size_t tools_seen_ = 0;
+  Cyclogram cyclogram_;
   double spindle_rev_s_ = 0.0;
   std::uint32_t line_ = 0;
 };
@@ -179,6 +187,12 @@ void ProgramTimer::on_event(const interpret::Event& event) {
 
 void ProgramTimer::set_arrival(Arrival arrival) {
   runner_->arrival = std::move(arrival);
+}
+
+void ProgramTimer::set_overrides(double feed_ratio, double rapid_ratio, double spindle_ratio) {
+  runner_->overrides.feed_ratio = feed_ratio;
+  runner_->overrides.rapid_ratio = rapid_ratio;
+  runner_->overrides.spindle_ratio = spindle_ratio;
 }
 
 Result<ProgramTime> ProgramTimer::take() {

@@ -10,10 +10,11 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 #include <steadyrest/nc/interpret/move.hpp>
+#include <steadyrest/nc/plan/cyclogram.hpp>
 
 namespace steadyrest::nc::plan {
 
-/// Where the time of a program goes, at 100 % override.
+/// Where the time of a program goes.
 struct ProgramTime {
   struct Tool {
     std::int64_t number = 0;  ///< 0 before the first tool change
@@ -28,14 +29,15 @@ struct ProgramTime {
   double cut_mm = 0.0;
   double rapid_mm = 0.0;
   std::uint64_t moves = 0;
-  std::vector<Tool> tools;     ///< in the order of use, one entry for each change
+  std::vector<Tool> tools;            ///< in the order of use, one entry for each change
+  std::vector<Transition> cyclogram;  ///< what the machine does, in order
   std::vector<double> line_s;  ///< by line of the program (index 0 unused); repeated lines add up
 };
 
 /// Times a program by running it through the planner and the interpolator, period by period.
 ///
 /// A moving window over the path is held: memory does not grow with the path, only `line_s` (8
-/// bytes for each line) and `tools` do. The spindle reaches its speed with
+/// bytes for each line), `tools` and `cyclogram` do. The spindle reaches its speed with
 /// machine.spindle.acceleration. Resolution: one interpolator period for each stop.
 class ProgramTimer final : public interpret::Sink {
  public:
@@ -54,6 +56,9 @@ class ProgramTimer final : public interpret::Sink {
   /// start; `line_s` stays empty then, so that memory does not grow with the lines.
   using Arrival = std::function<void(std::uint32_t line, double time_s)>;
   void set_arrival(Arrival arrival);
+
+  /// Feed, rapid and spindle override in force throughout; 1 without.
+  void set_overrides(double feed_ratio, double rapid_ratio, double spindle_ratio);
 
   static constexpr double kMost_s = 30.0 * 24.0 * 3600.0;
 

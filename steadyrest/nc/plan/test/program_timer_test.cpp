@@ -68,6 +68,60 @@ TEST(ProgramTimer, TheMovingWindowGivesTheTimeOfTheWholePath) {
   }
 }
 
+TEST(ProgramTimer, TheCyclogramHasATransitionForEachSpeedAndTool) {
+  auto m = mill();
+  m.control.tool_change_s = 2.0;
+  m.spindle.acceleration_rev_s2 = 1000.0;
+  auto timer = ProgramTimer::make(m).value();
+  Program p;
+  p.line(100, 0, 25);
+  p.dwell(3.0);
+  p.line(0, 0, 50);
+  timer.on_event({EventKind::spindle, 1, 50.0});
+  timer.on_move(p.moves[0]);
+  timer.on_event({EventKind::spindle, 2, 0.0});
+  timer.on_event({EventKind::tool_change, 3, 7.0});
+  timer.on_event({EventKind::spindle, 4, -20.0});
+  timer.on_move(p.moves[1]);
+  timer.on_event({EventKind::spindle, 5, 30.0});
+  timer.on_move(p.moves[2]);
+  timer.on_event({EventKind::end, 9, 0.0});
+  const auto t = timer.take().value();
+  ASSERT_EQ(t.cyclogram.size(), 4U);
+  EXPECT_EQ(t.cyclogram[0].load(), Load::cutting);
+  EXPECT_NEAR(t.cyclogram[0].seconds, 4.0, 0.1);
+  EXPECT_NEAR(t.cyclogram[0].feed_mm_s(), 25.0, 0.2);
+  EXPECT_EQ(t.cyclogram[1].load(), Load::standing);
+  EXPECT_NEAR(t.cyclogram[1].seconds, 2.0, 0.02);
+  EXPECT_EQ(t.cyclogram[2].load(), Load::running);
+  EXPECT_EQ(t.cyclogram[2].speed_rev_s, -20.0);
+  EXPECT_EQ(t.cyclogram[2].tool, 7);
+  EXPECT_NEAR(t.cyclogram[2].seconds, 3.0, 0.02);
+  EXPECT_EQ(t.cyclogram[3].load(), Load::cutting);
+  double at = 0.0;
+  for (const auto& transition : t.cyclogram) {
+    EXPECT_NEAR(transition.start_s, at, 1e-9);
+    at += transition.seconds;
+  }
+  EXPECT_NEAR(at, t.total_s, 1e-9);
+}
+
+TEST(ProgramTimer, OverridesStretchTheTime) {
+  const auto seconds = [](double feed, double rapid) {
+    const auto m = mill();
+    auto timer = ProgramTimer::make(m).value();
+    timer.set_overrides(feed, rapid, 1.0);
+    Program p;
+    p.line(200, 0, 10);
+    timer.on_move(p.moves[0]);
+    timer.on_event({EventKind::end, 9, 0.0});
+    return timer.take().value().total_s;
+  };
+  EXPECT_NEAR(seconds(1.0, 1.0), 20.0, 0.05);
+  EXPECT_NEAR(seconds(0.5, 1.0), 40.0, 0.05);
+  EXPECT_NEAR(seconds(1.0, 0.5), 20.0, 0.05);
+}
+
 TEST(ProgramTimer, EventsWithoutMovesPass) {
   auto m = mill();
   m.control.tool_change_s = 0.5;
