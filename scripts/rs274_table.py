@@ -272,6 +272,20 @@ def sinumerik_drilling(name, values, names):
     return lines + [f"G0 Z[{rtp}]"]
 
 
+def sinumerik_frame(frame, names):
+    """TRANS, ATRANS, ROT, AROT as G10 L2; the frame is kept in parameters, which LinuxCNC calculates."""
+    adds, turns = frame.group(1) == "A", frame.group(2) == "ROT"
+    words = {name: sinumerik_value(value, names) for name, value in re.findall(r"(RPL|[XYZ])\s*=?\s*(\S+)", frame.group(3))}
+    out = [] if adds else [f"#<_f{axis}>=0" for axis in "xyzr"]
+    if turns:
+        out += [f"#<_fr>=[#<_fr>+[{value}]]" for value in words.values()]
+    else:
+        x, y, z = (words.get(axis, "0") for axis in "XYZ")
+        out += [f"#<_fx>=[#<_fx>+[{x}]*COS[#<_fr>]-[{y}]*SIN[#<_fr>]]", f"#<_fy>=[#<_fy>+[{x}]*SIN[#<_fr>]+[{y}]*COS[#<_fr>]]",
+                f"#<_fz>=[#<_fz>+[{z}]]"]
+    return out + ["G10 L2 P1 X#<_fx> Y#<_fy> Z#<_fz> R#<_fr>"]
+
+
 def sinumerik_lines(lines):
     """Variables, expressions and drilling cycles in LinuxCNC's words, line by line."""
     names, out, modal = set(), [], []
@@ -284,6 +298,10 @@ def sinumerik_lines(lines):
                 value = sinumerik_value(value or "0", names)
                 names.add(name.upper())
                 out.append(f"#<{name}>=" + (f"ROUND[{value}]" if define.group(1).upper() == "INT" else f"[{value}]"))
+            continue
+        frame = re.match(r"\s*(A?)(TRANS|ROT)\b(.*)", line)
+        if frame:
+            out += sinumerik_frame(frame, names)
             continue
         call = re.match(r"(?i)(MCALL)?\s*(CYCLE8[12])\((.*)\)\s*$", line)
         if call or re.match(r"(?i)MCALL\s*$", line):
@@ -343,7 +361,7 @@ def equivalent_of(program, dialect, oracle):
     else:
         lines = []
         text = re.sub(r";.*", "", text)
-        if re.search(r"(?m)^\s*(N\d+\s*)?(DEF|R\d+|R\[|M?CALL|CYCLE|SETMS|TRAFOOF|%_N_)", text):
+        if re.search(r"(?m)^\s*(N\d+\s*)?(DEF|R\d+|R\[|M?CALL|CYCLE|SETMS|TRAFOOF|A?TRANS|A?ROT|%_N_)", text):
             text = "\n".join(sinumerik_lines(re.sub(r'MSG\(.*?\)|T="[^"]*"', lambda m: "T1" * (m.group(0)[0] == "T"), text).splitlines()))
             text = text.replace("SUPA", "G53")
         for line in text.splitlines():

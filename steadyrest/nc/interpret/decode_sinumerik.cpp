@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <steadyrest/nc/interpret/interpreter.hpp>
 
@@ -202,6 +203,17 @@ bool Interpreter::sinumerik_name(const Word& word, Step& step) {
     step.m[static_cast<std::size_t>(MGroup::program)] = 99;
     return true;
   }
+  constexpr std::array<std::pair<std::string_view, char>, 4> kFrames = {
+      {{"TRANS", 'T'}, {"ATRANS", 't'}, {"ROT", 'R'}, {"AROT", 'r'}}};
+  for (const auto& [name, frame] : kFrames) {
+    if (equal(word.name, name)) {
+      if (step.frame != 0 || word.has_value) {
+        return refuse_word(step.line, word, "frame", "a frame stands in a block of its own");
+      }
+      step.frame = frame;
+      return true;
+    }
+  }
   if (equal(word.name, "TRAFOOF")) {
     return true;  // transformations are refused: none can be on
   }
@@ -217,6 +229,10 @@ bool Interpreter::sinumerik_name(const Word& word, Step& step) {
   }
   if (word.qualifier != Qualifier::none) {
     return refuse_word(step.line, word, "bad_value", "a plain number belongs here");
+  }
+  if (equal(word.name, "RPL")) {
+    step.frame_angle_deg = word.value;
+    return true;
   }
   if (equal(word.name, "CR")) {
     return put_letter(word, 'R', word.value, step);
@@ -237,6 +253,10 @@ bool Interpreter::sinumerik_name(const Word& word, Step& step) {
 }
 
 bool Interpreter::sinumerik_finish(Step& step) {
+  if (!std::isnan(step.frame_angle_deg) && step.frame != 'R' && step.frame != 'r') {
+    return refuse_word(step.line, step.block->words().front(), "unused_word",
+                       "RPL without ROT or AROT");
+  }
   if (step.code(GGroup::non_modal) == 530) {
     step.machine_frame = true;
     step.g[static_cast<std::size_t>(GGroup::non_modal)] = kNoCode;

@@ -85,7 +85,13 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   sink_ = &sink;
   state_.line = block.line();
   step_.reset(block);
-  if (!(decode(block, step_) && check(step_) && act(step_))) {
+  if (!decode(block, step_)) {
+    return false;
+  }
+  if (step_.frame != 0) {
+    return set_frame(step_);
+  }
+  if (!(check(step_) && frame_settles(step_) && act(step_))) {
     return false;
   }
   return !modal_cycle_ || motion_now_ < 0 || (step_.mask & kAxisMask) == 0 ||

@@ -88,6 +88,8 @@ class Interpreter {
   bool sinumerik_letter(const read::Word& word, Step& step);
   bool sinumerik_name(const read::Word& word, Step& step);
   bool sinumerik_finish(Step& step);
+  bool set_frame(const Step& step);
+  bool frame_settles(const Step& step);
   struct DrillCall;
   bool drill_call(const read::Flow& call);
   bool drill_planes(const read::Flow& call, DrillCall& hole);

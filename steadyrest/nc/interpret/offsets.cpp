@@ -66,16 +66,19 @@ Axes Interpreter::to_work(const Axes& machine) const noexcept {
 }
 
 // The machine stays where it is when an offset changes: the work position takes the difference.
-// machine = R·(position + g92) + work offset + tool, R the rotation of the work offset.
+// machine = R·(position + g92) + work offset + frame + tool, R the rotation of the work offset and
+// of sinumerik's programmed frame.
 void Interpreter::update_offset() noexcept {
-  const double rotation_deg =
+  const double settable_deg =
       state_.work_offset_on ? state_.rotation_deg[state_.active_offset] : 0.0;
+  const double rotation_deg = settable_deg + state_.frame_rotation_deg;
+  const Axes frame = turned(state_.frame_shift, settable_deg);
   const bool turns = rotation_deg != 0.0 || state_.rotation_in_force_deg != 0.0;
   const Axes machine = to_machine(state_.position);
   const Axes g92 = turned(state_.g92, rotation_deg);
   for (std::size_t i = 0; i < state_.offset.size(); ++i) {
     const double work = state_.work_offset_on ? state_.work_in_force[i] : 0.0;
-    const double offset = work + state_.external[i] + g92[i] + state_.tool_offset[i];
+    const double offset = work + state_.external[i] + frame[i] + g92[i] + state_.tool_offset[i];
     state_.position[i] += state_.offset[i] - offset;
     state_.offset[i] = offset;
   }
@@ -122,6 +125,12 @@ bool Interpreter::set_tool_length(const Step& step) {
 
 bool Interpreter::set_work_offset(const Step& step) {
   const int code = step.code(GGroup::work_offset);
+  if ((step.zero_offset || code != kNoCode) &&
+      (state_.frame_rotation_deg != 0.0 || state_.frame_shift != Axes{})) {
+    return refuse_word(step.line, step.block->words().front(), "frame_and_offset",
+                       "another settable offset while a programmed frame (TRANS, ROT) is in force; "
+                       "take the frame back before");
+  }
   if (step.zero_offset) {
     state_.work_offset_on = false;
   } else if (code != kNoCode) {

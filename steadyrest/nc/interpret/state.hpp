@@ -41,6 +41,11 @@ struct CycleMemory {
 struct State {
   Axes position{};  ///< active work coordinates
   Axes offset{};    ///< sum of the three below (G92's turned); machine = turned position + offset
+  Axes frame_shift{};               ///< sinumerik TRANS, in the settable frame
+  double frame_rotation_deg = 0.0;  ///< sinumerik ROT, about Z
+  std::uint32_t frame_pending =
+      0;                      ///< axes that have not been programmed since their shift changed
+  bool frame_turned = false;  ///< X and Y have not been programmed since the rotation changed
   double rotation_in_force_deg = 0.0;  ///< of the work coordinates against the machine, about Z
   std::array<Axes, kWorkOffsets> work_offset{};
   Axes work_in_force{};  ///< of the active one: what #5221 … say later acts when it is chosen anew

@@ -61,14 +61,16 @@ struct Step {
   bool polar = false;             ///< X and Y are given by @ and ^
   double polar_radius = std::numeric_limits<double>::quiet_NaN();  ///< as written; NaN: not given
   double polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
-  bool machine_frame = false;          ///< G53 that rules this block (also sinumerik SUPA)
-  bool exact_stop = false;             ///< G9: exact stop at the end of this block
-  bool zero_offset = false;            ///< sinumerik G500
-  bool work_feed = true;               ///< F follows G20/G21 (not with sinumerik G70/G71)
-  std::int8_t modulation = -1;         ///< Config::modulation_on 1, off 0; < 0 = not given
-  double rounding_mm = -1.0;           ///< sinumerik ADIS; < 0 = not given
-  std::string_view tool_name;          ///< sinumerik T="NAME"
-  const read::Block* block = nullptr;  ///< the text, for refusals
+  bool machine_frame = false;   ///< G53 that rules this block (also sinumerik SUPA)
+  bool exact_stop = false;      ///< G9: exact stop at the end of this block
+  bool zero_offset = false;     ///< sinumerik G500
+  bool work_feed = true;        ///< F follows G20/G21 (not with sinumerik G70/G71)
+  std::int8_t modulation = -1;  ///< Config::modulation_on 1, off 0; < 0 = not given
+  double rounding_mm = -1.0;    ///< sinumerik ADIS; < 0 = not given
+  char frame = 0;               ///< sinumerik T TRANS, t ATRANS, R ROT, r AROT
+  double frame_angle_deg = std::numeric_limits<double>::quiet_NaN();  ///< RPL
+  std::string_view tool_name;                                         ///< sinumerik T="NAME"
+  const read::Block* block = nullptr;                                 ///< the text, for refusals
 
   void reset(const read::Block& source) noexcept {
     line = source.line();
@@ -85,6 +87,8 @@ struct Step {
     work_feed = true;
     modulation = -1;
     rounding_mm = -1.0;
+    frame = 0;
+    frame_angle_deg = std::numeric_limits<double>::quiet_NaN();
     tool_name = {};
     block = &source;
   }

@@ -49,7 +49,7 @@ void LetterLine::skip_blanks() noexcept {
 bool LetterLine::one_item() {
   const char c = *at_;
   if (is_letter(c)) {
-    return macro_keyword() && word();
+    return (reader_.dialect_ != Dialect::fanuc || macro_keyword()) && word();
   }
   if (c == ':' && reader_.dialect_ == Dialect::fanuc) {
     return program_number(at_++);

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 11> kKeywords = {
 
 // False when a statement that begins with a word of several letters stands here.
 bool LetterLine::macro_keyword() {
-  if (reader_.dialect_ != Dialect::fanuc || at_ + 1 == end_ || !is_letter(at_[1])) {
+  if (at_ + 1 == end_ || !is_letter(at_[1])) {
     return true;
   }
   const char* stop = at_;

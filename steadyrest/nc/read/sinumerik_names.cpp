@@ -8,9 +8,9 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr std::array<std::string_view, 13> kKnownNames = {
-    "CR",    "TURN", "SUPA",  "ADIS", "ADISPOS", "FNORM",  "CFC",
-    "CFTCP", "CFIN", "FFWOF", "SOFT", "RET",     "TRAFOOF"};
+constexpr std::array<std::string_view, 18> kKnownNames = {
+    "CR",    "TURN", "SUPA", "ADIS",    "ADISPOS", "FNORM",  "CFC", "CFTCP", "CFIN",
+    "FFWOF", "SOFT", "RET",  "TRAFOOF", "TRANS",   "ATRANS", "ROT", "AROT",  "RPL"};
 
 constexpr std::array kRefusedNames = {
     RefusedName{"IF", "flow_control", "a condition (IF)"},
@@ -34,10 +34,10 @@ constexpr std::array kRefusedNames = {
     RefusedName{"CALL", "subprogram_call", "an indirect call (CALL) is not interpreted"},
     RefusedName{"PCALL", "subprogram_call", "a call by path (PCALL) is not interpreted"},
     RefusedName{"STOPRE", "unknown_word", "the stop of look-ahead (STOPRE) is not interpreted"},
-    RefusedName{"TRANS", "frame", "a programmed frame (TRANS) is not interpreted"},
-    RefusedName{"ATRANS", "frame", "a programmed frame (ATRANS) is not interpreted"},
-    RefusedName{"ROT", "frame", "a programmed frame (ROT) is not interpreted"},
-    RefusedName{"AROT", "frame", "a programmed frame (AROT) is not interpreted"},
+    RefusedName{"ASCALE", "frame", "a programmed frame (ASCALE) is not interpreted"},
+    RefusedName{"AMIRROR", "frame", "a programmed frame (AMIRROR) is not interpreted"},
+    RefusedName{"ROTS", "frame", "a programmed frame (ROTS) is not interpreted"},
+    RefusedName{"AROTS", "frame", "a programmed frame (AROTS) is not interpreted"},
     RefusedName{"SCALE", "frame", "a programmed frame (SCALE) is not interpreted"},
     RefusedName{"MIRROR", "frame", "a programmed frame (MIRROR) is not interpreted"},
     RefusedName{"TRAORI", "transformation", "a transformation (TRAORI) is not interpreted"},

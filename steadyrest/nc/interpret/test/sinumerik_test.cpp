@@ -240,6 +240,53 @@ TEST(SinumerikCycles, AreRefusedByName) {
   EXPECT_EQ(reason_of_block("SETMS(2)"), "spindle_selection");
 }
 
+/// Where the machine stands at the end of a move.
+std::pair<double, double> machine(const Move& move) {
+  const Axes at = machine_of(move, move.end);
+  return {at[0], at[1]};
+}
+
+// "Fundamentals", TRANS and ROT: TRANS counts from the settable offset, ATRANS along the turned
+// axes.
+TEST(SinumerikFrames, ShiftAndTurnOnTopOfTheSettableOffset) {
+  Config config = sinumerik();
+  config.work_offset[0] = {100.0, 50.0, 20.0};
+  const auto moves = moves_of(
+      "G54\nTRANS X10 Y20 Z5\nG0 X1 Y2 Z3\nAROT Z90\nX1 Y2\nATRANS X5\nX1 Y2\nROT RPL=-90\n"
+      "X1 Y2\nTRANS\nX1 Y2 Z3\nM30\n",
+      config);
+  ASSERT_EQ(moves.size(), 5U);
+  const auto near = [](double x, double y) {
+    return testing::Pair(testing::DoubleNear(x, 1e-9), testing::DoubleNear(y, 1e-9));
+  };
+  EXPECT_THAT(machine(moves[0]), near(111, 72));
+  EXPECT_EQ(machine_of(moves[0], moves[0].end)[2], 28.0);
+  EXPECT_THAT(machine(moves[1]), near(108, 71));  // (1, 2) turned by 90° is (-2, 1)
+  EXPECT_THAT(machine(moves[2]), near(108, 76));  // X of the turned frame is Y
+  EXPECT_THAT(machine(moves[3]), near(102, 49));  // ROT deletes the shift
+  EXPECT_THAT(machine(moves[4]), near(101, 52));
+}
+
+TEST(SinumerikFrames, LeaveTheMachineWhereItIs) {
+  const auto moves = moves_of("G0 X10 Y5\nTRANS X3\nROT Z30\nG0 Z1\nSUPA X7\nM30\n", sinumerik());
+  EXPECT_NEAR(machine(moves.at(1)).first, 10.0, 1e-9);
+  EXPECT_NEAR(machine(moves.at(1)).second, 5.0, 1e-9);
+  EXPECT_NEAR(machine(moves.at(2)).first, 7.0, 1e-9);
+  EXPECT_NEAR(machine(moves.at(2)).second, 5.0, 1e-9);
+}
+
+TEST(SinumerikFrames, AreRefusedWhereASettingOfTheControlDecides) {
+  EXPECT_EQ(reason_of_block("ROT X30"), "frame_rotation");
+  EXPECT_EQ(reason_of_block("G18\nROT RPL=30"), "frame_rotation");
+  EXPECT_EQ(reason_of_block("G0 TRANS X30"), "frame");
+  EXPECT_EQ(reason_of_block("ATRANS"), "missing_value");
+  EXPECT_EQ(reason_of_block("TRANS X5\nG55"), "frame_and_offset");
+  EXPECT_EQ(reason_of_block("TRANS X5\nG0 X=IC(3)"), "frame_incremental");
+  EXPECT_EQ(reason_of_block("G91\nTRANS X5\nG0 X3"), "frame_incremental");
+  EXPECT_EQ(reason_of_block("ROT Z5\nG0 X3"), "frame_axis");
+  EXPECT_EQ(reason_of_block("SCALE X2"), "frame");
+}
+
 TEST(SinumerikFlow, IsRefusedByName) {
   for (const char* const text : {"IF R1>5 GOTOF END", "GOTOB MARK1", "FOR I=1 TO 5", "WHILE R1<5",
                                  "LOOP", "REPEAT", "CASE R1 OF 1 GOTOF A1", "ELSE", "ENDLOOP"}) {
