@@ -101,6 +101,11 @@ class Rewriter {
         return refuse(lines->number(), "carries the mark of a correction already",
                       "take the corrections out first: program strip");
       }
+      if (beside_program(settings_.method) &&
+          uses_parameter(lines->line(), settings_.r_parameter)) {
+        return refuse(lines->number(), fmt::format("may use R{} itself", settings_.r_parameter),
+                      "give the correction another R-parameter");
+      }
       const auto blank = lines->line().find_first_not_of(" \t") == std::string_view::npos;
       if (head_line_ == 0 && !blank) {
         head_line_ = lines->line().find_first_not_of(" \t%") == std::string_view::npos

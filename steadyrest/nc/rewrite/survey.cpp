@@ -57,6 +57,7 @@ kernel::outcome::Result<Survey> survey(const std::string& path, const interpret:
   std::uint64_t changed_at = 0;
   while (run->step()) {
     ++steps;
+    found.leaves_file = found.leaves_file || !run->in_main();
     if (run->in_main()) {
       found.mark(run->line(), seen, !run->at_top());
     }
@@ -73,7 +74,6 @@ kernel::outcome::Result<Survey> survey(const std::string& path, const interpret:
     changes.changed = false;
   }
   found.end_line = run->line();
-  found.end_at_top = run->at_top() && run->executed();
   const interpret::Report report = run->take();
   if (!report.refused.empty()) {
     return std::unexpected(interpret::first_refusal(report, path));

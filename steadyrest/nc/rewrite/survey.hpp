@@ -19,7 +19,7 @@ struct Survey {
   /// counted in steps of the run.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> without_length;
   std::uint32_t end_line = 0;  ///< the line that ends the program
-  bool end_at_top = false;
+  bool leaves_file = false;    ///< lines of other files are executed: subprograms
 
   /// `line` is executed, perhaps where it may be executed `again`; `seen` keeps what was.
   void mark(std::uint32_t line, std::vector<bool>& seen, bool again);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <steadyrest/nc/read/line_source.hpp>
+#include <algorithm>
+
 #include <steadyrest/nc/rewrite/file_writer.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
 #include <steadyrest/nc/rewrite/tag.hpp>
@@ -21,6 +22,37 @@ bool is_head(std::string_view inserted_line) noexcept {
   return inserted_line.find("(STEADYREST head ") != std::string_view::npos ||
          inserted_line.find(";STEADYREST head ") != std::string_view::npos ||
          inserted_line.find("(ABORT,STEADYREST ") != std::string_view::npos;
+}
+
+bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
+  line = line.substr(0, line.find(';'));
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto in_name = [](char c) {
+    return c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+  };
+  for (std::size_t at = line.find_first_of("Rr"); at != std::string_view::npos;
+       at = line.find_first_of("Rr", at + 1)) {
+    if (at > 0 && in_name(line[at - 1])) {
+      continue;  // within another name
+    }
+    std::size_t next = line.find_first_not_of(" \t", at + 1);
+    if (next == std::string_view::npos) {
+      return false;
+    }
+    if (line[next] == '[') {
+      return true;
+    }
+    std::uint64_t value = 0;
+    const std::size_t first = next;
+    for (; next < line.size() && is_digit(line[next]); ++next) {
+      value =
+          std::min<std::uint64_t>(value * 10 + static_cast<unsigned>(line[next] - '0'), 1U << 20U);
+    }
+    if (next > first && value == number) {
+      return true;
+    }
+  }
+  return false;
 }
 
 kernel::outcome::Result<std::size_t> strip(const std::string& program, const std::string& output) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,10 @@ inline constexpr std::string_view kTag = "STEADYREST ";
 
 /// The inserted line belongs to the program's head (head_text): it runs only after an abort.
 [[nodiscard]] bool is_head(std::string_view inserted_line) noexcept;
+
+/// A SINUMERIK line names the R-parameter itself, or one by a value that is not looked at: R[…],
+/// $R[…]. Comments do not count.
+[[nodiscard]] bool uses_parameter(std::string_view line, std::uint32_t number) noexcept;
 
 /// Writes `program` without its inserted lines to `output`, all other bytes as they are. Gives the
 /// number of lines taken out.

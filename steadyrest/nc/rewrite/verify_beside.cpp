@@ -7,7 +7,9 @@
 #include <fmt/core.h>
 
 #include <steadyrest/nc/rewrite/clock.hpp>
+#include <steadyrest/nc/rewrite/source_lines.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
+#include <steadyrest/nc/rewrite/tag.hpp>
 #include <steadyrest/nc/rewrite/text_pair.hpp>
 #include <steadyrest/nc/rewrite/verify_beside.hpp>
 #include <steadyrest/nc/rewrite/walk.hpp>
@@ -33,6 +35,9 @@ class Prover {
       return std::unexpected(text ? surveyed.error() : text.error());
     }
     text_ = std::move(*text);
+    if (auto own = uses_it_itself(*surveyed); !own.what.empty()) {
+      return std::unexpected(std::move(own));
+    }
     auto walk = Walk::make(original_, config, *surveyed);
     auto clock = Clock::make(machine, [this](std::uint64_t step, double time_s) {
       told(static_cast<std::size_t>(step), time_s);
@@ -69,6 +74,21 @@ class Prover {
       refusal_ = Refusal{Kind::bad_input, original_, line, std::move(what),
                          "make the changed program anew"};
     }
+  }
+
+  /// The program, or a subprogram that is not looked into, may use the parameter itself.
+  [[nodiscard]] Refusal uses_it_itself(const Survey& found) const {
+    auto lines = SourceLines::open(original_);
+    bool uses = !lines || found.leaves_file;
+    while (!uses && lines->next()) {
+      uses = uses_parameter(lines->line(), settings_.r_parameter);
+    }
+    if (!uses) {
+      return {};
+    }
+    return {Kind::bad_input, original_, lines && !found.leaves_file ? lines->number() : 0U,
+            fmt::format("the program or a subprogram may use R{} itself", settings_.r_parameter),
+            "give the correction another R-parameter, or one file without subprograms of others"};
   }
 
   [[nodiscard]] std::string text_to(double to_mm) const {

@@ -148,5 +148,21 @@ TEST_F(Sinumerik, VerifyCatchesEachFault) {
   EXPECT_THAT(shop_.fault(kGrowth, text_.substr(0, reset) + "M30\n"), HasSubstr("left at the end"));
 }
 
+TEST_F(Sinumerik, RefusesAProgramThatUsesTheParameterItself) {
+  for (const char* line : {"R50=1", "R050=1", "X=R50", "N10 G0 X=R1+R50", "r 50=2", "N10R50=1",
+                           "R[R1]=3", "X=$R[1]", "Y=-R50*2"}) {
+    EXPECT_TRUE(uses_parameter(line, 50)) << line;
+  }
+  for (const char* line : {"R5=1", "R500=1", "CR=50", "X=R51 ;R50", "TR50=1", "G0 X50"}) {
+    EXPECT_FALSE(uses_parameter(line, 50)) << line;
+  }
+  const auto refused =
+      shop_.compensate(replaced(kProgram, "G0 X0 Y30\n", "R50=1\nG0 X0 Y30\n"), kGrowth);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("R50"));
+  EXPECT_EQ(refused.error().line, 18U);
+  EXPECT_TRUE(shop_.compensate(replaced(kProgram, "G0 X0 Y30\n", "R51=1\nG0 X0 Y30\n"), kGrowth));
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::rewrite
