@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -65,38 +65,26 @@ rewrite::Plan plan_for(double total_s) {
   return plan;
 }
 
-}  // namespace
-
-// The first byte chooses the control, the rest is a program, and a plan in its own right.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) {
-    return 0;
-  }
-  const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
-  static_cast<void>(rewrite::parse_plan(text, "plan.json"));
-  constexpr std::array kMethods = {rewrite::Method::linuxcnc, rewrite::Method::fanuc,
-                                   rewrite::Method::haas, rewrite::Method::r_parameter};
-  constexpr std::array kDialects = {
-      steadyrest::nc::read::Dialect::linuxcnc, steadyrest::nc::read::Dialect::fanuc,
-      steadyrest::nc::read::Dialect::fanuc, steadyrest::nc::read::Dialect::sinumerik};
+/// A program that can be corrected is restored by strip, byte for byte.
+void play(std::string_view text, rewrite::Method method, steadyrest::nc::read::Dialect dialect) {
   rewrite::Settings settings;
-  settings.method = kMethods[data[0] % kMethods.size()];
+  settings.method = method;
   settings.r_parameter = 50;
   interpret::Config config;
-  config.dialect = kDialects[data[0] % kDialects.size()];
-  config.external_offset = settings.method != rewrite::Method::haas;
+  config.dialect = dialect;
+  config.external_offset = method != rewrite::Method::haas;
   config.most_repeated_lines = 2000;
   Length length;
   const auto report = interpret::run_text(text, config, length);
   if (!report || !report->refused.empty() || !(length.seconds < 5000.0)) {
-    return 0;
+    return;
   }
   static const Machine machine = mill();
   auto timer = steadyrest::nc::plan::ProgramTimer::make(machine);
   static_cast<void>(interpret::run_text(text, config, *timer));
   const auto time = timer->take();
   if (!time) {
-    return 0;
+    return;
   }
   static const std::string folder =
       std::filesystem::temp_directory_path() / ("rewrite-fuzz-" + std::to_string(::getpid()));
@@ -112,5 +100,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!restored) {
     std::abort();
   }
+}
+
+}  // namespace
+
+// The text is a plan, and a program for every control.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using rewrite::Method;
+  using steadyrest::nc::read::Dialect;
+  const std::string_view text{reinterpret_cast<const char*>(data), size};
+  static_cast<void>(rewrite::parse_plan(text, "plan.json"));
+  play(text, Method::linuxcnc, Dialect::linuxcnc);
+  play(text, Method::fanuc, Dialect::fanuc);
+  play(text, Method::haas, Dialect::fanuc);
+  play(text, Method::r_parameter, Dialect::sinumerik);
   return 0;
 }
