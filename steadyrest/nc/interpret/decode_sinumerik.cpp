@@ -65,8 +65,8 @@ bool equal(std::string_view text, std::string_view upper_name) noexcept {
 }
 
 // Dynamics of the control, exact-stop criteria: no influence on the moves.
-constexpr std::array<std::string_view, 7> kWithoutEffect = {"FNORM", "CFC",  "CFTCP", "CFIN",
-                                                            "FFWOF", "SOFT", "MSG"};
+constexpr std::array<std::string_view, 8> kWithoutEffect = {"STOPRE", "FNORM", "CFC",  "CFTCP",
+                                                            "CFIN",   "FFWOF", "SOFT", "MSG"};
 
 }  // namespace
 

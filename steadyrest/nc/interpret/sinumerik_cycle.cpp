@@ -31,7 +31,12 @@ constexpr double value(const Flow& call, std::size_t place) noexcept {
 }
 
 // Places of the values.
-enum : std::size_t { kRtp, kRfp, kSdis, kDp, kDpr, kDtb };
+constexpr std::size_t kRtp = 0;
+constexpr std::size_t kRfp = 1;
+constexpr std::size_t kSdis = 2;
+constexpr std::size_t kDp = 3;
+constexpr std::size_t kDpr = 4;
+constexpr std::size_t kDtb = 5;
 
 // Metric coarse threads, ISO 261: MPIT is the nominal size.
 double coarse_pitch(double size) noexcept {

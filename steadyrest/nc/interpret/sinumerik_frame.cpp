@@ -29,8 +29,8 @@ bool Interpreter::set_frame(const Step& step) {
   if (empty && adds) {
     return refuse_frame("missing_value", "ATRANS or AROT without a value");
   }
-  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
-    if (step.has(kAxisLetters[i]) && !(std::abs(step[kAxisLetters[i]]) <= 1e7)) {
+  for (const char letter : kAxisLetters) {
+    if (step.has(letter) && !(std::abs(step[letter]) <= 1e7)) {
       return refuse_frame("out_of_range", "a value beyond every machine");
     }
   }

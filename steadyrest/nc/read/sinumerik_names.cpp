@@ -8,9 +8,9 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr std::array<std::string_view, 18> kKnownNames = {
-    "CR",    "TURN", "SUPA", "ADIS",    "ADISPOS", "FNORM",  "CFC", "CFTCP", "CFIN",
-    "FFWOF", "SOFT", "RET",  "TRAFOOF", "TRANS",   "ATRANS", "ROT", "AROT",  "RPL"};
+constexpr std::array<std::string_view, 19> kKnownNames = {
+    "CR",   "TURN", "SUPA",    "ADIS",  "ADISPOS", "FNORM", "CFC",  "CFTCP", "CFIN",  "FFWOF",
+    "SOFT", "RET",  "TRAFOOF", "TRANS", "ATRANS",  "ROT",   "AROT", "RPL",   "STOPRE"};
 
 constexpr std::array kRefusedNames = {
     RefusedName{"IF", "flow_control", "a condition (IF)"},
@@ -33,7 +33,6 @@ constexpr std::array kRefusedNames = {
     RefusedName{"GOTOS", "flow_control", "a jump (GOTOS)"},
     RefusedName{"CALL", "subprogram_call", "an indirect call (CALL) is not interpreted"},
     RefusedName{"PCALL", "subprogram_call", "a call by path (PCALL) is not interpreted"},
-    RefusedName{"STOPRE", "unknown_word", "the stop of look-ahead (STOPRE) is not interpreted"},
     RefusedName{"ASCALE", "frame", "a programmed frame (ASCALE) is not interpreted"},
     RefusedName{"AMIRROR", "frame", "a programmed frame (AMIRROR) is not interpreted"},
     RefusedName{"ROTS", "frame", "a programmed frame (ROTS) is not interpreted"},
