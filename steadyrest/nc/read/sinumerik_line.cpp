@@ -159,6 +159,11 @@ bool SinumerikLine::item() {
   if (!plain_number(word_begin, word)) {
     return false;
   }
+  if (at_ != end_ && *at_ == '=' && word.value == 1.0 && !word.decimal_point &&
+      (word.letter == 'S' || word.letter == 'M')) {
+    ++at_;  // S1=500, M1=3: the first spindle, which is the master
+    return assigned(word_begin, word);
+  }
   if (at_ != end_ && *at_ == '=') {
     while (at_ != end_ && !is_blank(*at_)) {
       ++at_;

@@ -124,7 +124,9 @@ TEST(Macro, CallsProgramsOfTheSameFileByTheirNumber) {
               ElementsAre(1, 11, 1011, 1111));
 }
 
+// Robur F1 series, concise guide FANUC, page 86: "subprogram 8003 six times: M98 P68003".
 TEST(Macro, RepeatsByLAndByTheDigitsOfP) {
+  EXPECT_THAT(x_of("G91\nM98 P68003\nM30\nO8003\nG0X1.\nM99\n"), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(x_of("G91\nM98P2L3\nM30\n:2\nG0X1.\nM99\n"), ElementsAre(1, 2, 3));
   EXPECT_THAT(x_of("G91\nM98P30002\nM30\nO2\nG0X1.\nM99\n"), ElementsAre(1, 2, 3));
 }

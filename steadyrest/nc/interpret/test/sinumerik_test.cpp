@@ -240,6 +240,13 @@ TEST(SinumerikCycles, AreRefusedByName) {
   EXPECT_EQ(reason_of_block("SETMS(2)"), "spindle_selection");
 }
 
+TEST(SinumerikSpindle, OfNumberOneIsTheMaster) {
+  const auto moves = moves_of("S1=600 M1=4\nG1 X1 F100\nM30\n", sinumerik());
+  EXPECT_DOUBLE_EQ(moves.at(0).spindle_rev_s, -10.0);
+  EXPECT_EQ(reason_of_block("S2=600"), "extended_address");
+  EXPECT_EQ(reason_of_block("M2=3"), "extended_address");
+}
+
 /// Where the machine stands at the end of a move.
 std::pair<double, double> machine(const Move& move) {
   const Axes at = machine_of(move, move.end);
