@@ -37,6 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   interpret::Config config;
   config.dialect = static_cast<steadyrest::nc::read::Dialect>(data[0] % 3U);
+  config.most_repeated_lines = 2000;
   Watch watch;
   const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
   const auto report = interpret::run_text(text, config, watch);
