@@ -89,6 +89,9 @@ TEST(ProgramTimeAgainstLinuxCnc, RealProgramsAgreeWithTheRecordedFigures) {
       {data + "/nc/cncjs/g2-arc.gcode", 52.086},
       {"/usr/share/linuxcnc/ncfiles/3dtest.ngc", 48.691},
       {"/usr/share/linuxcnc/ncfiles/arcspiral.ngc", 253.718},
+      {"/usr/share/linuxcnc/ncfiles/3D_Chips.ngc", 51.771},  // parameters in every word
+      {"/usr/share/linuxcnc/ncfiles/polar.ngc", 25.355},
+      {"/usr/share/linuxcnc/ncfiles/hole-circle.ngc", 21.078},
       {"/usr/share/doc/linuxcnc/examples/sample-configs/sim/craftsman/screens/craftsmancnc.ngc",
        38.119},
   };
