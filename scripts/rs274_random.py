@@ -8,6 +8,7 @@ Prints the first programs that disagree; exit code 1 then, 77 where rs274 is abs
 but for the words that README.md of steadyrest/nc names.
 """
 import argparse
+import math
 import os
 import random
 import re
@@ -17,7 +18,7 @@ import sys
 import rs274_table
 
 OFFSETS = {5161: 1, 5162: 0.5, 5163: 2, 5181: -1, 5210: 1, 5212: 0.2, 5220: 1, 5221: 0.1, 5243: -0.3}  # inches
-REFUSED_BY_US_ALONE = {"rotation_with_shift", "tapping_off_xy", "g10_form"}
+REFUSED_BY_US_ALONE = {"rotation_with_shift", "tapping_off_xy", "g10_form", "cutter_comp_stop", "cutter_comp_shift"}
 
 
 def num(r,lo,hi):
@@ -140,6 +141,82 @@ def structured(r):
     return lines
 
 
+FORBIDDEN = ["G18", "G19", "G54", "G55", "G43 H1", "G49", "G64", "G61", "G98", "G92 X1", "G52 X1", "G28", "G28.1", "G30 X1",
+             "G53 G0 X1", "M6", "T2", "M48", "M62 P1", "M66 P0 L0", "G81 X1 Z-1 R1", "G38.2 Z-9", "G41 D1", "G42", "G10 L2 P1 X1",
+             "G10 L2 P3 X1", "G10 L1 P1 Z1", "G10 L20 P0 X1", "#1=#5420", "#1=#<_x> #2=#<_ccomp>", "G0 X#<_y>", "#1=#5421", "G17",
+             "G1 X[#<_x>+1]", "M50 P0", "G20", "G21", "M19 R1", "M8", "G4 P.1", "G80", "G97", "(note)", "D1", "G41.1", "G92.2",
+             "M60", "G8", "G96 S50", "G40 G1 X3 Y4", "G40 G49", "G40 G18", "G40 G2 X1 I1", "M2", "T1 M6", "G5 X9 I1 J1 P1 Q1"]
+
+
+def contour(r):
+    """Compensated contours: lines and arcs at every kind of corner, both sides, with what stands between."""
+    first, second, centre = r.choice([("X", "Y", "IJ"), ("X", "Y", "IJ"), ("Z", "X", "KI")])
+    other = "Y" if first == "Z" else "Z"
+    size = r.choice([0.3, 1, 3])  # length of the pieces
+    lines = ["F100 S100 M3", "G18" if first == "Z" else "G17"] + (["G20"] if r.random() < .15 else [])
+    tool = r.choice([2, 2, 1, 4, 0.5, 6, -2, 0])
+    on = r.choice(["G41", "G42"])
+    if r.random() < .3:
+        number = r.choice([0, 1, 1, 2, 3, 7, 30])
+        lines += r.choice([["T%d" % number, "M6", on], [on + " D%d" % number], ["T%d M6" % number, on + " D0"], [on]])
+    else:
+        lines += [on + ".1 D%g" % tool + (" L%d" % r.randint(0, 9) if first == "Z" and r.random() < .4 else "")]
+    u = v = 0.0
+    heading = r.uniform(0, 6.283)
+    handed = r.choice([-1, 1])
+    if r.random() < .1:
+        lines[-1] += " G1 %s%.3f %s%.3f" % (first, 9, second, 9)
+        u = v = 9.0
+    for index in range(r.randint(2, 9)):
+        if r.random() < .12:
+            lines.append(r.choice(["G1 %s%s" % (other, num(r, -5, 5)), "G0 %s%s" % (other, num(r, -5, 5)), "A%s" % num(r, 0, 90), "F%d" % r.randint(10, 900), "G4 P.1", "M5",
+                                   "M3", "G0", "G1"] + (["M0", "M1"] if r.random() < .2 else [])))
+        if r.random() < .03:
+            lines.append(r.choice(FORBIDDEN))
+        if r.random() < .05:
+            lines.append("G40")
+            if r.random() < .5:
+                lines.append(r.choice(["G0 %s5" % other, "G1 %s%.3f" % (first, u + 3), "G4 P1", "M0", "G0", "G92.1", "G81 X3 Z-1 R1 G98", "G53 G0 X1", "G38.2 Z-9 F9", "G28", "G80", "G92 X3"]))
+            if r.random() < .6:
+                lines.append(r.choice(["G41.1 D2", "G42.1 D1", "G42 D3"]))
+        k = r.random()
+        heading += r.choice([0, 0, 1.5708, -1.5708, 3.14159, r.uniform(-.12, .12), handed * r.uniform(0, 3.1), r.uniform(-3.1, 3.1)])
+        length = r.choice([1, 1, 5, 20]) * size * r.uniform(.5, 3)
+        height = " %s%s" % (other, num(r, -5, 5)) if r.random() < .1 else ""
+        speed = " F%d" % r.randint(10, 900) if r.random() < .1 else ""
+        if k < .55:
+            u += length * math.cos(heading)
+            v += length * math.sin(heading)
+            lines.append("%s %s%.4f %s%.4f%s%s" % (r.choice(["G1", "G1", "G1", "G0"]), first, u, second, v, height, speed))
+            continue
+        turn = r.choice([-1, 1])
+        radius = length
+        sweep = r.choice([1.5708, 3.14159, r.uniform(.1, 6), r.uniform(.1, 3)])
+        a = heading + math.pi / 2 * turn
+        cu, cv = radius * math.cos(a), radius * math.sin(a)
+        nu = u + cu - radius * math.cos(a + turn * sweep)
+        nv = v + cv - radius * math.sin(a + turn * sweep)
+        code = "G3" if turn > 0 else "G2"
+        if r.random() < .35:
+            lines.append("%s %s%.4f %s%.4f R%.4f%s%s" % (code, first, nu, second, nv, radius * (1.00001 if sweep < 3.1 else -1.00001), height, speed))
+        else:
+            off = r.choice([0, 0, 0, .01, .02])
+            lines.append("%s %s%.4f %s%.4f %s%.4f %s%.4f%s%s%s" % (code, first, nu + off, second, nv, centre[0], cu, centre[1], cv, height, speed, " P2" if r.random() < .05 else ""))
+            nu += off
+        u, v = float("%.4f" % nu), float("%.4f" % nv)
+        heading += turn * sweep
+    if r.random() < .2:
+        lines.insert(2, "G93" if r.random() < .5 else "G95")
+        if lines[2] == "G93":
+            lines = [l + " F7" if l[:2] in ("G1", "G2", "G3") and l[2:3] == " " and "F" not in l else l for l in lines]
+        else:
+            lines.insert(3, "F0.2")
+    if r.random() < .6:
+        lines += ["G40", "G%d %s%s %s%s" % (r.choice([0, 1]), first, num(r, -9, 9), second, num(r, -9, 9)) + (" F5" if "G93" in lines else "")]
+        lines += [r.choice(["G0 %s1" % first, "G3 %s%s I1" % (first, num(r, -9, 9)), "G1 X1 F10"])]
+    return lines
+
+
 def variables():
     return "".join(f"{number}\t{OFFSETS.get(number, 0):.6f}\n" for number in range(5161, 5401))
 
@@ -149,6 +226,7 @@ def main():
     parser.add_argument("--steadyrest", default="build/release/bin/steadyrest")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--kind", type=int, help="only these: 0 single lines, 1 O-words, 2 compensated contours")
     arguments = parser.parse_args()
     if shutil.which("rs274") is None:
         print("rs274 is not installed (Debian: linuxcnc-uspace)")
@@ -157,10 +235,11 @@ def main():
     offsets, program = oracle.path("offsets.var"), oracle.path("random.ngc")
     with open(offsets, "w") as out:
         out.write(variables())
-    bad = 0
+    bad = accepted = 0
     for index in range(arguments.count):
         r = random.Random(arguments.seed * 1000003 + index)
-        body = structured(r) if index % 2 else ["F100 S100 M3", "G0 X1 Y2 Z3"] + [line(r) for _ in range(r.randint(3, 9))]
+        kinds = [lambda: ["F100 S100 M3", "G0 X1 Y2 Z3"] + [line(r) for _ in range(r.randint(3, 9))], lambda: structured(r), lambda: contour(r)]
+        body = kinds[index % 3 if arguments.kind is None else arguments.kind]()
         body.append("M2")
         text = "\n".join(body) + "\n"
         if re.search(r"M6\b", text) and re.search(r"G43", text):
@@ -173,17 +252,18 @@ def main():
             out.write(text)
         result = rs274_table.judge(os.path.abspath(arguments.steadyrest), oracle, program,
                                    extra=("--variables", offsets))
+        accepted += result["accepted"]
         verdict = result["verdict"]
         reason = (result["refusal"] or {}).get("reason")
         if reason in REFUSED_BY_US_ALONE:
             continue
         if not verdict and not result["accepted"] and result["rs274_ok"]:
-            verdict = f"only ours refuses: {reason}"
+            verdict = f"only ours refuses: {reason} line {result['refusal']['line']}"
         if verdict:
             bad += 1
             print(f"--- seed {arguments.seed}, program {index}: {verdict} | rs274: {result['rs274']}\n{text}")
     oracle.close()
-    print(f"{arguments.count} random programs, {bad} disagree")
+    print(f"{arguments.count} random programs, {accepted} accepted, {bad} disagree")
     return 1 if bad else 0
 
 

@@ -69,7 +69,8 @@ bool Interpreter::choose_motion(const Step& step) {
 }
 
 bool Interpreter::check(const Step& step) {
-  return choose_motion(step) && check_values(step) && check_non_modal(step) && check_unused(step);
+  return choose_motion(step) && check_values(step) && check_non_modal(step) && check_unused(step) &&
+         check_cutter(step);
 }
 
 bool Interpreter::check_values(const Step& step) {
@@ -134,7 +135,8 @@ bool Interpreter::check_unused(const Step& step) {
   };
   const int io = step.code(MGroup::io);
   const bool orients = step.code(MGroup::spindle) == 19;
-  if (unused('D', step.code(GGroup::spindle_mode) == 960) ||
+  const bool compensates = step.code(GGroup::cutter) > 400;
+  if (unused('D', compensates || step.code(GGroup::spindle_mode) == 960) ||
       unused('E', io >= 66 || motion == 760) ||
       unused('H', tool_length == 430 || tool_length == 432 || motion == 760)) {
     return false;
@@ -148,8 +150,8 @@ bool Interpreter::check_unused(const Step& step) {
       unused('K', arc || threads || motion == 870 || motion == 330 || motion == 331)) {
     return false;
   }
-  if (unused('L', drilling || threads || motion == 52 || non_modal == 100 || io == 66 ||
-                      step.code(MGroup::program) == 98)) {
+  if (unused('L', compensates || drilling || threads || motion == 52 || non_modal == 100 ||
+                      io == 66 || step.code(MGroup::program) == 98)) {
     return false;
   }
   const bool p_override = override_switch >= 50;

@@ -57,7 +57,8 @@ bool Interpreter::take_g(const Word& word, Step& step) {
 
 bool Interpreter::put_g(const Word& word, int code, Step& step) {
   const GroupOfG found = group_of_g(code);
-  if (!found.known) {
+  const bool compensates = found.group == GGroup::cutter && code != 400;
+  if (!found.known || (compensates && config_.dialect != read::Dialect::linuxcnc)) {
     const std::string_view note = known_but_refused_g(code);
     return note.empty()
                ? refuse_word(step.line, word, "unknown_g_code", "a G word that is not known")

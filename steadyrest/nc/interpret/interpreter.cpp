@@ -76,13 +76,16 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   }
   if (block.end_mark()) {
     finished_ = true;
-    sink.on_event({.kind = EventKind::end, .line = block.line(), .value = 0.0, .tool_name = {}});
+    cutter_->bind(sink);
+    cutter_->on_event(
+        {.kind = EventKind::end, .line = block.line(), .value = 0.0, .tool_name = {}});
     return true;
   }
   if (block.words().empty()) {
     return true;
   }
-  sink_ = &sink;
+  cutter_->bind(sink);
+  sink_ = state_.cutter_side != 0 ? static_cast<Sink*>(cutter_.get()) : &sink;
   state_.line = block.line();
   step_.reset(block);
   if (!decode(block, step_)) {
@@ -294,9 +297,16 @@ bool Interpreter::set_override(const Step& step) {
 bool Interpreter::stop(const Step& step) {
   const int code = step.code(MGroup::stopping);
   if (code == 2 || code == 30) {
+    if (!end_cutter(step)) {
+      return false;
+    }
     finished_ = true;
     emit_event(EventKind::end, 0.0);
   } else if (code != kNoCode) {
+    const CutterCompensation::Fault fault = cutter_->stop(state_.unit_mm != 1.0);
+    if (fault != CutterCompensation::Fault::none) {
+      return cutter_fault(step, fault);
+    }
     emit_event(EventKind::stop, code == 1 ? 1.0 : 0.0);
   }
   return true;

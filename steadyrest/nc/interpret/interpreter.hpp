@@ -13,6 +13,7 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/arc.hpp>
 #include <steadyrest/nc/interpret/config.hpp>
+#include <steadyrest/nc/interpret/cutter_compensation.hpp>
 #include <steadyrest/nc/interpret/move.hpp>
 #include <steadyrest/nc/interpret/parameters.hpp>
 #include <steadyrest/nc/interpret/state.hpp>
@@ -104,6 +105,7 @@ class Interpreter {
   bool check_non_modal(const Step& step);
   bool check_unused(const Step& step);
   bool check_values(const Step& step);
+  bool check_cutter(const Step& step);
 
   // execution
   bool act(const Step& step);
@@ -115,6 +117,12 @@ class Interpreter {
   void set_coolant(const Step& step);
   bool set_override(const Step& step);
   bool set_modes(const Step& step);
+  bool set_cutter(const Step& step);
+  bool end_cutter(const Step& step);
+  void time_by_contour();
+  bool cutter_tool(const Step& step, int code, CutterCompensation::Tool& tool);
+  bool compensate(const Step& step, MoveKind kind, const Axes& end);
+  bool cutter_fault(const Step& step, CutterCompensation::Fault fault);
   void set_units(const Step& step);
   bool set_tool_length(const Step& step);
   bool set_work_offset(const Step& step);
@@ -168,6 +176,7 @@ class Interpreter {
   void machine_end(const Step& step, Axes& end) const;
   double component(const Step& step, std::size_t axis) const noexcept;
 
+  void fill(MoveKind kind, const Axes& end);
   void emit(MoveKind kind, const Axes& end);
   void emit_normal(MoveKind kind, std::size_t axis, double value);
   void emit_dwell(double seconds);
@@ -207,6 +216,10 @@ class Interpreter {
     bool restores_itself = false;  ///< M73
   };
   std::vector<KeptModes> kept_{1};
+  std::unique_ptr<CutterCompensation> cutter_ = std::make_unique<CutterCompensation>();
+  /// Behind G40 the tool stands beside the point in force, until the next move.
+  std::optional<Axes> beside_;
+  bool arc_allowed_ = true;    ///< false from G40 to the next straight move
   double rounding_mm_ = 0.0;   ///< sinumerik ADIS in force
   std::string selected_name_;  ///< sinumerik T="NAME", until M6
   read::Refused refused_;

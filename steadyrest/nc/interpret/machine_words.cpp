@@ -91,7 +91,8 @@ void Interpreter::leave_call(Sink& sink) {
   const KeptModes kept = kept_.back();
   kept_.pop_back();
   if (kept.state && kept.restores_itself) {
-    sink_ = &sink;
+    cutter_->bind(sink);
+    sink_ = state_.cutter_side != 0 ? static_cast<Sink*>(cutter_.get()) : &sink;
     restore_modes(*kept.state);
   }
 }

@@ -158,7 +158,12 @@ bool Interpreter::straight(const Step& step) {
   if (step.exact_stop) {
     state_.path_mode = PathMode::exact_stop;
   }
-  emit(cutting ? MoveKind::linear : MoveKind::rapid, end);
+  arc_allowed_ = true;
+  const MoveKind kind = cutting ? MoveKind::linear : MoveKind::rapid;
+  if (cutter_->active()) {
+    return compensate(step, kind, end);
+  }
+  emit(kind, end);
   state_.path_mode = mode;
   return true;
 }
@@ -180,7 +185,10 @@ bool Interpreter::probe(const Step& step) {
       return refuse(step, kAxisLetters[i], "probe_axis", "probing moves X, Y and Z alone");
     }
   }
-  const Axes start = state_.position;
+  Axes start = state_.position;
+  for (std::size_t i = 0; beside_ && i < start.size(); ++i) {
+    start[i] += (*beside_)[i];
+  }
   const double distance = std::hypot(end[0] - start[0], end[1] - start[1], end[2] - start[2]);
   const bool may_fail = motion_now_ == 383 || motion_now_ == 385;
   if (!(distance > 0.0) && !may_fail) {
@@ -254,6 +262,10 @@ bool Interpreter::arc(const Step& step) {
   if (!has_feed(step)) {
     return false;
   }
+  if (!arc_allowed_) {
+    return refuse(step, 'G', "arc_after_cutter_comp",
+                  "the move behind G40 must be a straight line, not an arc");
+  }
   const PlaneAxes axes = axes_of(state_.plane);
   const bool by_centre = (step.mask & kCentreMask) != 0;
   if (!by_centre && !step.has('R')) {
@@ -286,12 +298,16 @@ bool Interpreter::arc(const Step& step) {
   if (step.exact_stop) {
     state_.path_mode = PathMode::exact_stop;
   }
-  emit(MoveKind::arc, end);
+  const bool compensates = cutter_->active();
+  const bool done = !compensates || compensate(step, MoveKind::arc, end);
+  if (!compensates) {
+    emit(MoveKind::arc, end);
+  }
   state_.path_mode = mode;
   move_.centre_mm = {};
   move_.normal = {};
   move_.turns = 0;
-  return true;
+  return done;
 }
 
 // By way of the given point to the reference point; only the named axes go there, all when none is.
@@ -312,7 +328,7 @@ bool Interpreter::home(const Step& step, std::size_t which) {
   return true;
 }
 
-void Interpreter::emit(MoveKind kind, const Axes& end) {
+void Interpreter::fill(MoveKind kind, const Axes& end) {
   move_.kind = kind;
   move_.start = state_.position;
   move_.end = end;
@@ -331,6 +347,17 @@ void Interpreter::emit(MoveKind kind, const Axes& end) {
   move_.spindle_limit_rev_s = state_.spindle_limit_rev_s;
   move_.override_locked = state_.override_off || kind == MoveKind::thread;
   move_.dwell_s = 0.0;
+}
+
+void Interpreter::emit(MoveKind kind, const Axes& end) {
+  fill(kind, end);
+  if (beside_) {
+    time_by_contour();
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      move_.start[i] += (*beside_)[i];
+    }
+    beside_.reset();
+  }
   state_.position = end;
   sink_->on_move(move_);
 }
@@ -352,6 +379,10 @@ void Interpreter::emit_dwell(double seconds) {
   dwell.spindle_limit_rev_s = state_.spindle_limit_rev_s;
   dwell.override_locked = state_.override_off;
   dwell.dwell_s = seconds;
+  for (std::size_t i = 0; beside_ && i < dwell.end.size(); ++i) {
+    dwell.start[i] += (*beside_)[i];
+    dwell.end[i] = dwell.start[i];
+  }
   sink_->on_move(dwell);
 }
 

@@ -20,7 +20,8 @@ bool Interpreter::set_modes(const Step& step) {
   if (diameter != kNoCode) {
     state_.diameter = diameter == 70;
   }
-  if (!set_tool_length(step) || !set_work_offset(step) || !set_path_mode(step)) {
+  if (!set_cutter(step) || !set_tool_length(step) || !set_work_offset(step) ||
+      !set_path_mode(step)) {
     return false;
   }
   const int distance = step.code(GGroup::distance);

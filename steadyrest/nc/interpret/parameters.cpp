@@ -73,7 +73,11 @@ bool Parameters::of_state(int index, double& value) const {
     return true;
   };
   if (within(index, kPosition)) {
-    return in_force(state_->position, kPosition, state_->unit_mm);
+    Axes shown = state_->position;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      shown[i] += state_->cutter_shift[i];
+    }
+    return in_force(shown, kPosition, state_->unit_mm);
   }
   if (within(index, kToolOffset)) {
     return in_force(state_->tool_offset, kToolOffset, config_->data_unit_mm);
@@ -197,6 +201,9 @@ bool Parameters::of_state(std::string_view name, double& value) const {
 Lookup Parameters::number(int index, double& value) const {
   if (index < 1 || index >= kNumbers) {
     return Lookup::no_such_number;
+  }
+  if (within(index, kPosition) && state_->cutter_side != 0) {
+    return Lookup::not_while_compensating;
   }
   if (index >= kHome && of_state(index, value)) {
     return Lookup::found;

@@ -89,7 +89,8 @@ struct State {
 
   std::array<double, kWorkOffsets> rotation_deg{};  ///< of the work offsets (G10 L2 R)
   int cutter_side = 0;                              ///< G41 −1, G42 +1
-  bool diameter = false;                            ///< G7
+  Axes cutter_shift{};    ///< tool's centre − programmed point while it is on
+  bool diameter = false;  ///< G7
   std::uint32_t line = 0;
 };
 

@@ -294,6 +294,9 @@ bool Expression::looked_up(Lookup lookup) {
                   "a named parameter that was never set; set it before, or ask EXISTS");
     case Lookup::read_only:
       return fail("read_only_parameter", "a parameter that cannot be set");
+    case Lookup::not_while_compensating:
+      return fail("position_in_cutter_comp",
+                  "the present position while cutter radius compensation is on");
     case Lookup::assigned_in_block:
     case Lookup::not_known_here:
       break;

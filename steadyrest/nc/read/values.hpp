@@ -12,8 +12,9 @@ enum class Lookup : std::uint8_t {
   no_such_number,  ///< outside of what the control has
   no_such_name,    ///< a named parameter that was never set
   read_only,
-  assigned_in_block,  ///< set in the block that is being read
-  not_known_here      ///< exists on the control, but its value is known only there
+  assigned_in_block,       ///< set in the block that is being read
+  not_while_compensating,  ///< positions, while cutter radius compensation is on
+  not_known_here           ///< exists on the control, but its value is known only there
 };
 
 /// What expressions ask for and assignments write to.
