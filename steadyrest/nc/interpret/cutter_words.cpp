@@ -207,6 +207,14 @@ bool Interpreter::compensate(const Step& step, MoveKind kind, const Axes& end) {
   return true;
 }
 
+// At a tool change the control takes the machine's position: behind G40 not that of the contour.
+void Interpreter::read_position_anew() noexcept {
+  for (std::size_t i = 0; beside_ && i < state_.position.size(); ++i) {
+    state_.position[i] += (*beside_)[i];
+  }
+  beside_.reset();
+}
+
 // In G93 the length of the contour gives the feed, whatever way the tool's centre has.
 void Interpreter::time_by_contour() {
   if (move_.feed_mode == FeedMode::inverse_time && move_.kind != MoveKind::rapid) {

@@ -244,11 +244,13 @@ bool Interpreter::change_tool(const Step& step) {
       return refuse_code(step, 'M', 61, "tool_missing",
                          "M61 without the number of the tool in the spindle (Q)");
     }
+    read_position_anew();
     return tool_number(step, 'Q', state_.tool_in_spindle);
   }
   state_.spindle_direction = 0;
   emit_spindle();
   state_.tool_in_spindle = state_.selected_tool;
+  read_position_anew();
   sink_->on_event({.kind = EventKind::tool_change,
                    .line = step.line,
                    .value = static_cast<double>(state_.tool_in_spindle),

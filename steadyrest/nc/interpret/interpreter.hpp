@@ -120,6 +120,7 @@ class Interpreter {
   bool set_cutter(const Step& step);
   bool end_cutter(const Step& step);
   void time_by_contour();
+  void read_position_anew() noexcept;
   bool cutter_tool(const Step& step, int code, CutterCompensation::Tool& tool);
   bool compensate(const Step& step, MoveKind kind, const Axes& end);
   bool cutter_fault(const Step& step, CutterCompensation::Fault fault);

@@ -44,6 +44,7 @@ LookupText macro_lookup_text(Lookup lookup) noexcept {
       return {.reason = "system_variable",
               .text = "a system variable whose value only the running control knows"};
     case Lookup::found:
+    case Lookup::not_while_compensating:
     case Lookup::assigned_in_block:
     case Lookup::no_such_number:
       break;

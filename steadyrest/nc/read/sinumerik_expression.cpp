@@ -64,6 +64,7 @@ SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept {
               .text =
                   "a parameter or variable that was never set in this program; what the control "
                   "has kept in it is not known"};
+    case Lookup::not_while_compensating:
     case Lookup::assigned_in_block:
       return {.reason = "order_of_assignments",
               .text = "a value that is set and used in one block; write two blocks"};
