@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <filesystem>
+#include <iterator>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
+#include <sys/resource.h>
 
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
@@ -91,6 +96,26 @@ TEST(Strip, RefusesATargetThatIsAFolder) {
   EXPECT_FALSE(strip(shop.original(), shop.folder() + "/none/changed.nc"));
   EXPECT_FALSE(strip(shop.folder() + "/none.nc", shop.changed()));
   EXPECT_FALSE(std::filesystem::exists(shop.changed()));
+}
+
+// A limit on the size of files stands in for a full disk.
+TEST(Strip, ADiskThatTakesNoMoreLeavesTheOldFile) {
+  const Workshop shop;
+  test::write_file(shop.original(), std::string(50'000, '\n') + "M2\n");
+  test::write_file(shop.changed(), "old");
+  ::rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const ::rlimit small = {.rlim_cur = 4096, .rlim_max = before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto refused = strip(shop.original(), shop.changed());
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, kernel::outcome::Kind::unavailable);
+  EXPECT_EQ(read_file(shop.changed()), "old");
+  const auto files = std::filesystem::directory_iterator(shop.folder());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 2);
 }
 
 }  // namespace
