@@ -112,6 +112,9 @@ void put_report(Answer& answer, const nc::interpret::Report& report, const std::
                     {"word", refused.word},
                     {"reason", refused.reason},
                     {"text", refused.text}});
+    if (!refused.file.empty()) {  // of a subprogram
+      list.back()["file"] = refused.file;
+    }
   }
   answer.json["refused"] = std::move(list);
   if (!report.refused.empty()) {

@@ -356,7 +356,7 @@ kernel::outcome::Refusal first_refusal(const Report& report, const std::string& 
   }
   const Refused& first = report.refused.front();
   return {.kind = kernel::outcome::Kind::bad_input,
-          .file = path,
+          .file = first.file.empty() ? path : first.file,
           .line = first.line,
           .what = first.word.empty() ? first.text : "`" + first.word + "`: " + first.text,
           .to_do = "change this line, or choose the dialect that the program was written for"};

@@ -100,6 +100,7 @@ TEST(Flow, ASubprogramOfItsOwnFileIsFoundInItsFolder) {
   ASSERT_EQ(report->refused.size(), 1U);
   EXPECT_EQ(report->refused.front().file, (folder / "bad.ngc").string());
   EXPECT_EQ(report->refused.front().line, 2U);
+  EXPECT_EQ(first_refusal(*report, "main.ngc").file, (folder / "bad.ngc").string());
   std::filesystem::remove_all(folder);
 }
 
