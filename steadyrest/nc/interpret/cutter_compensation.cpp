@@ -163,8 +163,12 @@ CutterCompensation::Fault CutterCompensation::line_corner(PlanePoint corner, Pla
     OffsetCircle circle = offset_of(centre, 0.0, arc->turns);
     circle.radius = length(between(centre, point(arc->end)));
     const PlanePoint normal = to_tool(direction);
-    const auto found = crossing(circle, normal, direction, dot(between(corner, centre), normal),
-                                tool_.radius_mm, true);
+    // An entry arc's centre may lie beyond its end: the contour's radius is counted from the
+    // offset.
+    const double contour =
+        circle.radius + (circle.tool_inside ? tool_.radius_mm : -tool_.radius_mm);
+    const double height = contour * dot(unit(between(corner, centre)), normal);
+    const auto found = crossing(circle, normal, direction, height, tool_.radius_mm, true);
     meet = found.value_or(PlanePoint{});
     return found ? Fault::none : Fault::does_not_fit;
   }
