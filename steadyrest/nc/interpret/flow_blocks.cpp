@@ -45,7 +45,7 @@ bool FlowControl::condition(const Block& block) {
 // Met while executing: the branch that was taken ends here.
 bool FlowControl::otherwise(const Block& block) {
   const Open* const found = find(block, false);
-  if (found == nullptr || found->kind != FlowKind::if_) {
+  if (found == nullptr || found->kind != FlowKind::when) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                   "elseif or else without its if");
   }
@@ -66,7 +66,7 @@ bool FlowControl::close(const Block& block, FlowKind head) {
 bool FlowControl::head_of_while(const Block& block) {
   const bool goes_on = block.flow().values[0] != 0.0;
   const Open* const found = find(block, true);
-  if (found != nullptr && found->kind == FlowKind::do_) {
+  if (found != nullptr && found->kind == FlowKind::loop_do) {
     if (goes_on) {
       const Place head = found->head;
       frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
@@ -87,7 +87,7 @@ bool FlowControl::head_of_while(const Block& block) {
 
 bool FlowControl::end_of_while(const Block& block) {
   const Open* const found = find(block, false);
-  if (found == nullptr || found->kind != FlowKind::while_) {
+  if (found == nullptr || found->kind != FlowKind::loop_while) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                   "endwhile without its while");
   }
@@ -128,7 +128,7 @@ bool FlowControl::leave_loop(const Block& block) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                   "break outside of its loop");
   }
-  pass(found->kind == FlowKind::do_      ? Passing::to_while
+  pass(found->kind == FlowKind::loop_do  ? Passing::to_while
        : found->kind == FlowKind::repeat ? Passing::to_endrepeat
                                          : Passing::to_endwhile,
        block.flow().label.view());
@@ -142,7 +142,7 @@ bool FlowControl::next_turn(const Block& block) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                   "continue outside of its while or do loop (a repeat has none)");
   }
-  if (found->kind == FlowKind::do_) {
+  if (found->kind == FlowKind::loop_do) {
     frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
     pass(Passing::to_condition, block.flow().label.view());
     return true;

@@ -56,30 +56,30 @@ bool FlowControl::act(const Block& block) {
     case FlowKind::sub:
       return sub(block);
     case FlowKind::endsub:
-    case FlowKind::return_:
+    case FlowKind::back:
       return end_of_sub(block);
     case FlowKind::call:
       return call(block);
-    case FlowKind::if_:
+    case FlowKind::when:
       return condition(block);
     case FlowKind::elseif:
-    case FlowKind::else_:
+    case FlowKind::otherwise:
       return otherwise(block);
     case FlowKind::endif:
-      return close(block, FlowKind::if_);
-    case FlowKind::while_:
+      return close(block, FlowKind::when);
+    case FlowKind::loop_while:
       return head_of_while(block);
     case FlowKind::endwhile:
       return end_of_while(block);
-    case FlowKind::do_:
+    case FlowKind::loop_do:
       return open(block, files_.line_end(), 0.0);
     case FlowKind::repeat:
       return head_of_repeat(block);
     case FlowKind::endrepeat:
       return end_of_repeat(block);
-    case FlowKind::break_:
+    case FlowKind::leave_loop:
       return leave_loop(block);
-    case FlowKind::continue_:
+    case FlowKind::next_turn:
       return next_turn(block);
   }
   return true;
@@ -136,20 +136,20 @@ bool FlowControl::arrived(Block& block) {
       }
       if (kind == FlowKind::endif) {
         passing_ = Passing::nothing;
-        return close(block, FlowKind::if_);
+        return close(block, FlowKind::when);
       }
-      return ends(FlowKind::else_);
+      return ends(FlowKind::otherwise);
     case Passing::to_endif:
       ends(FlowKind::endif);
-      return passing_over() || close(block, FlowKind::if_);
+      return passing_over() || close(block, FlowKind::when);
     case Passing::to_endwhile:
       return ends(FlowKind::endwhile);
     case Passing::to_endrepeat:
       return ends(FlowKind::endrepeat);
     case Passing::to_while:
-      return ends(FlowKind::while_);
+      return ends(FlowKind::loop_while);
     case Passing::to_condition:
-      ends(FlowKind::while_);
+      ends(FlowKind::loop_while);
       return passing_over() || (evaluate(block) && head_of_while(block));
     default:
       return true;
@@ -182,7 +182,7 @@ bool FlowControl::refuse_end() {
 FlowControl::Open* FlowControl::find(const Block& block, bool loops_only) {
   auto& open = frames_.back().open;
   const auto found = std::find_if(open.rbegin(), open.rend(), [&](const Open& one) {
-    return one.label == block.flow().label.view() && !(loops_only && one.kind == FlowKind::if_);
+    return one.label == block.flow().label.view() && !(loops_only && one.kind == FlowKind::when);
   });
   return found == open.rend() ? nullptr : &*found;
 }

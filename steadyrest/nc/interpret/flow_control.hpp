@@ -69,7 +69,7 @@ class FlowControl {
     to_condition  ///< to that `while` itself
   };
   struct Open {
-    read::FlowKind kind;
+    read::FlowKind kind = read::FlowKind::none;
     std::string label;
     Place head;
     double left = 0.0;

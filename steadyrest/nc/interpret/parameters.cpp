@@ -34,6 +34,70 @@ constexpr bool reads_only(int index) noexcept {
          index == kActiveOffset;
 }
 
+using Answers = std::unordered_map<std::string_view, double (*)(const State&)>;
+
+/// What the interpreter answers for by name.
+const Answers& answers() {
+  static constexpr auto kTruth = [](bool yes) { return yes ? 1.0 : 0.0; };
+  static const Answers kAnswers = {
+      {"_vmajor", [](const State&) { return 2.9; }},
+      {"_vminor", [](const State&) { return 0.0; }},
+      {"_motion_mode", [](const State& s) { return static_cast<double>(s.motion); }},
+      {"_plane",
+       [](const State& s) {
+         return s.plane == Plane::xy ? 170.0 : s.plane == Plane::zx ? 180.0 : 190.0;
+       }},
+      {"_ccomp",
+       [](const State& s) {
+         return s.cutter_side == 0 ? 400.0 : s.cutter_side < 0 ? 410.0 : 420.0;
+       }},
+      {"_metric", [](const State& s) { return kTruth(s.unit_mm == 1.0); }},
+      {"_imperial", [](const State& s) { return kTruth(s.unit_mm != 1.0); }},
+      {"_absolute", [](const State& s) { return kTruth(!s.incremental); }},
+      {"_incremental", [](const State& s) { return kTruth(s.incremental); }},
+      {"_inverse_time",
+       [](const State& s) { return kTruth(s.feed_mode == FeedMode::inverse_time); }},
+      {"_units_per_minute",
+       [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_minute); }},
+      {"_units_per_rev",
+       [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_revolution); }},
+      {"_coord_system",
+       [](const State& s) {
+         const auto set = static_cast<double>(s.active_offset);
+         return set < 6.0 ? 540.0 + 10.0 * set : 585.0 + set;
+       }},
+      {"_tool_offset", [](const State& s) { return kTruth(s.tool_offset != Axes{}); }},
+      {"_retract_r_plane", [](const State& s) { return kTruth(!s.retract_to_initial); }},
+      {"_retract_old_z", [](const State& s) { return kTruth(s.retract_to_initial); }},
+      {"_spindle_rpm_mode", [](const State& s) { return kTruth(!s.surface_speed); }},
+      {"_spindle_css_mode", [](const State& s) { return kTruth(s.surface_speed); }},
+      {"_ijk_absolute_mode", [](const State& s) { return kTruth(s.centre_absolute); }},
+      {"_lathe_diameter_mode", [](const State& s) { return kTruth(s.diameter); }},
+      {"_lathe_radius_mode", [](const State& s) { return kTruth(!s.diameter); }},
+      {"_spindle_on", [](const State& s) { return kTruth(s.spindle_direction != 0); }},
+      {"_spindle_cw", [](const State& s) { return kTruth(s.spindle_direction > 0); }},
+      {"_mist",
+       [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 1U) != 0); }},
+      {"_flood",
+       [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 2U) != 0); }},
+      {"_speed_override", [](const State&) { return 1.0; }},
+      {"_feed_override", [](const State& s) { return kTruth(!s.override_off); }},
+      {"_adaptive_feed", [](const State&) { return 0.0; }},
+      {"_feed_hold", [](const State&) { return 1.0; }},
+      {"_feed",
+       [](const State& s) {
+         return s.feed_mm_s * (s.feed_mode == FeedMode::per_revolution ? 1.0 : 60.0) /
+                (s.feed_mode == FeedMode::inverse_time ? 1.0 : s.unit_mm);
+       }},
+      {"_rpm", [](const State& s) { return s.spindle_speed_rev_s * 60.0; }},
+      {"_current_tool", [](const State& s) { return static_cast<double>(s.tool_in_spindle); }},
+      {"_selected_tool", [](const State& s) { return static_cast<double>(s.selected_tool); }},
+      {"_task", [](const State&) { return 0.0; }},
+      {"_remap_level", [](const State&) { return 0.0; }},
+  };
+  return kAnswers;
+}
+
 }  // namespace
 
 Parameters::Parameters() : numbers_(static_cast<std::size_t>(kNumbers), 0.0) {}
@@ -115,63 +179,6 @@ bool Parameters::of_state(int index, double& value) const {
 }
 
 bool Parameters::of_state(std::string_view name, double& value) const {
-  static constexpr auto kTruth = [](bool yes) { return yes ? 1.0 : 0.0; };
-  static const std::unordered_map<std::string_view, double (*)(const State&)> kAnswers = {
-      {"_vmajor", [](const State&) { return 2.9; }},
-      {"_vminor", [](const State&) { return 0.0; }},
-      {"_motion_mode", [](const State& s) { return static_cast<double>(s.motion); }},
-      {"_plane",
-       [](const State& s) {
-         return s.plane == Plane::xy ? 170.0 : s.plane == Plane::zx ? 180.0 : 190.0;
-       }},
-      {"_ccomp",
-       [](const State& s) {
-         return s.cutter_side == 0 ? 400.0 : s.cutter_side < 0 ? 410.0 : 420.0;
-       }},
-      {"_metric", [](const State& s) { return kTruth(s.unit_mm == 1.0); }},
-      {"_imperial", [](const State& s) { return kTruth(s.unit_mm != 1.0); }},
-      {"_absolute", [](const State& s) { return kTruth(!s.incremental); }},
-      {"_incremental", [](const State& s) { return kTruth(s.incremental); }},
-      {"_inverse_time",
-       [](const State& s) { return kTruth(s.feed_mode == FeedMode::inverse_time); }},
-      {"_units_per_minute",
-       [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_minute); }},
-      {"_units_per_rev",
-       [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_revolution); }},
-      {"_coord_system",
-       [](const State& s) {
-         const auto set = static_cast<double>(s.active_offset);
-         return set < 6.0 ? 540.0 + 10.0 * set : 585.0 + set;
-       }},
-      {"_tool_offset", [](const State& s) { return kTruth(s.tool_offset != Axes{}); }},
-      {"_retract_r_plane", [](const State& s) { return kTruth(!s.retract_to_initial); }},
-      {"_retract_old_z", [](const State& s) { return kTruth(s.retract_to_initial); }},
-      {"_spindle_rpm_mode", [](const State& s) { return kTruth(!s.surface_speed); }},
-      {"_spindle_css_mode", [](const State& s) { return kTruth(s.surface_speed); }},
-      {"_ijk_absolute_mode", [](const State& s) { return kTruth(s.centre_absolute); }},
-      {"_lathe_diameter_mode", [](const State& s) { return kTruth(s.diameter); }},
-      {"_lathe_radius_mode", [](const State& s) { return kTruth(!s.diameter); }},
-      {"_spindle_on", [](const State& s) { return kTruth(s.spindle_direction != 0); }},
-      {"_spindle_cw", [](const State& s) { return kTruth(s.spindle_direction > 0); }},
-      {"_mist",
-       [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 1U) != 0); }},
-      {"_flood",
-       [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 2U) != 0); }},
-      {"_speed_override", [](const State&) { return 1.0; }},
-      {"_feed_override", [](const State& s) { return kTruth(!s.override_off); }},
-      {"_adaptive_feed", [](const State&) { return 0.0; }},
-      {"_feed_hold", [](const State&) { return 1.0; }},
-      {"_feed",
-       [](const State& s) {
-         return s.feed_mm_s * (s.feed_mode == FeedMode::per_revolution ? 1.0 : 60.0) /
-                (s.feed_mode == FeedMode::inverse_time ? 1.0 : s.unit_mm);
-       }},
-      {"_rpm", [](const State& s) { return s.spindle_speed_rev_s * 60.0; }},
-      {"_current_tool", [](const State& s) { return static_cast<double>(s.tool_in_spindle); }},
-      {"_selected_tool", [](const State& s) { return static_cast<double>(s.selected_tool); }},
-      {"_task", [](const State&) { return 0.0; }},
-      {"_remap_level", [](const State&) { return 0.0; }},
-  };
   if (name.size() == 2 && name[0] == '_') {
     constexpr std::string_view kLetters = "xyzabcuvw";
     if (const auto axis = kLetters.find(name[1]); axis != std::string_view::npos) {
@@ -190,8 +197,8 @@ bool Parameters::of_state(std::string_view name, double& value) const {
     value = static_cast<double>(calls_.size());
     return true;
   }
-  const auto found = kAnswers.find(name);
-  if (found == kAnswers.end()) {
+  const auto found = answers().find(name);
+  if (found == answers().end()) {
     return false;
   }
   value = found->second(*state_);
@@ -292,7 +299,7 @@ void Parameters::drop() noexcept {
 
 void Parameters::record_probe(const Axes& end) {
   for (int axis = 0; axis < kAxes; ++axis) {
-    numbers_[static_cast<std::size_t>(kProbe + axis)] =
+    numbers_[static_cast<std::size_t>(kProbe) + static_cast<std::size_t>(axis)] =
         end[static_cast<std::size_t>(axis)] / (is_rotary(axis) ? 1.0 : state_->unit_mm);
   }
   numbers_[kProbe + kAxes] = 0.0;

@@ -42,22 +42,24 @@ enum class FlowKind : std::uint8_t {
   sub,
   endsub,
   call,
-  return_,
-  if_,
+  back,  ///< return
+  when,  ///< if
   elseif,
-  else_,
+  otherwise,  ///< else
   endif,
-  while_,
+  loop_while,  ///< while
   endwhile,
-  do_,
+  loop_do,  ///< do
   repeat,
   endrepeat,
-  break_,
-  continue_,
+  leave_loop,  ///< break
+  next_turn,   ///< continue
   cycle,       ///< sinumerik CYCLE…( )
   modal_cycle  ///< sinumerik MCALL; without a label its end
 };
 
+// The values are not zeroed for each line: `count` says how many there are.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 struct Flow {
   static constexpr std::size_t kMostArguments = 30;
   FlowKind kind = FlowKind::none;

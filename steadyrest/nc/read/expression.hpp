@@ -29,7 +29,7 @@ class Expression {
         values_(values) {}
 
   /// Reads one real value. False when it is refused: see reason() and text().
-  bool read(double& value);
+  bool read(double& out);
   /// Reads what stands between # and = : the number of a parameter, or its name when `<` follows.
   bool parameter_number(int& index);
 

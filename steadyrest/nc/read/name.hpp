@@ -8,6 +8,7 @@
 namespace steadyrest::nc::read {
 
 /// A name of a parameter or an O-word, in lower case without blanks. No allocation.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): not zeroed for each line
 class Name {
  public:
   static constexpr std::size_t kLongest = 64;

@@ -26,19 +26,19 @@ struct Keyword {
 constexpr std::array kKeywords = {
     Keyword{"sub", FlowKind::sub, Takes::any},
     Keyword{"endsub", FlowKind::endsub, Takes::perhaps_one},
-    Keyword{"return", FlowKind::return_, Takes::perhaps_one},
+    Keyword{"return", FlowKind::back, Takes::perhaps_one},
     Keyword{"call", FlowKind::call, Takes::any},
-    Keyword{"if", FlowKind::if_, Takes::one},
+    Keyword{"if", FlowKind::when, Takes::one},
     Keyword{"elseif", FlowKind::elseif, Takes::one},
-    Keyword{"else", FlowKind::else_, Takes::nothing},
+    Keyword{"else", FlowKind::otherwise, Takes::nothing},
     Keyword{"endif", FlowKind::endif, Takes::nothing},
-    Keyword{"while", FlowKind::while_, Takes::one},
+    Keyword{"while", FlowKind::loop_while, Takes::one},
     Keyword{"endwhile", FlowKind::endwhile, Takes::nothing},
-    Keyword{"do", FlowKind::do_, Takes::nothing},
+    Keyword{"do", FlowKind::loop_do, Takes::nothing},
     Keyword{"repeat", FlowKind::repeat, Takes::one},
     Keyword{"endrepeat", FlowKind::endrepeat, Takes::nothing},
-    Keyword{"break", FlowKind::break_, Takes::nothing},
-    Keyword{"continue", FlowKind::continue_, Takes::nothing},
+    Keyword{"break", FlowKind::leave_loop, Takes::nothing},
+    Keyword{"continue", FlowKind::next_turn, Takes::nothing},
 };
 
 constexpr Takes takes(FlowKind kind) noexcept {
