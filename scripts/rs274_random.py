@@ -73,7 +73,7 @@ def value(r, depth=0):
     k = r.random()
     if depth > 2 or k < .3: return num(r, -9, 9).lstrip("-") if depth else num(r, -9, 9)
     if k < .45: return "#%d" % r.randint(1, 5)
-    if k < .5: return r.choice(["#<a>", "#<_b>", "#<_x>", "#5421", "#<_feed>", "#[1+#1*0]", "#<_value>", "#<_call_level>", "#<_motion_mode>", "#5220", "#5221"])
+    if k < .5: return r.choice(["#<a>", "#<_gg>", "#<_x>", "#5421", "#<_feed>", "#[1+#1*0]", "#<_value>", "#<_call_level>", "#<_motion_mode>", "#5220", "#5221"])
     if k < .6: return r.choice(["ABS", "COS", "SIN", "FIX", "FUP", "ROUND", "EXISTS"]) .replace("EXISTS", "ABS") + "[" + value(r, depth + 1) + "]"
     if k < .63: return "ATAN[" + value(r, depth + 1) + "]/[" + value(r, depth + 1) + "]"
     if k < .66: return r.choice(["EXISTS[#<a>]", "EXISTS[#<zz>]", "SQRT[ABS[%s]]" % value(r, depth + 1), "-[%s]" % value(r, depth + 1)])
@@ -90,7 +90,7 @@ def blocks(r, labels, depth, loops, in_sub):
             lines.append(r.choice(["G0 X%s", "G0 Y%s", "G1 X%s F90", "G91 G0 X%s", "G90 G0 Z%s", "G0 X%s #1=[#1+1]", "G0 Y%s #<a>=[#<a>*0.5]"]) % value(r))
             continue
         if k < .55:
-            lines.append(r.choice(["#%d = %s" % (r.randint(1, 5), value(r)), "#<a>=%s" % value(r), "#<_b> = %s" % value(r), "#5221=%s" % num(r, -3, 3)]))
+            lines.append(r.choice(["#%d = %s" % (r.randint(1, 5), value(r)), "#<a>=%s" % value(r), "#<_gg> = %s" % value(r), "#5221=%s" % num(r, -3, 3)]))
             continue
         labels[0] += 1
         o = "o%d" % labels[0] if r.random() < .8 else "O<n%d>" % labels[0]
@@ -111,23 +111,27 @@ def blocks(r, labels, depth, loops, in_sub):
         elif k < .93:
             counter = "#%d" % (100 + labels[0])
             lines.append(f"{counter}=0")
-            kind = r.choice(["while", "do"])
+            kind = r.choice(["while", "do"]) if DO[0] else "while"
             lines.append(f"{o} while [{counter} LT {r.randint(0, 4)}]" if kind == "while" else f"{o} do")
             lines.append(f"{counter}=[{counter}+1]")
             lines += blocks(r, labels, depth + 1, loops + [(o, kind)], in_sub)
             lines.append(f"{o} endwhile" if kind == "while" else f"{o} while [{counter} LT {r.randint(0, 4)}]")
-        elif loops and r.random() < .7:
+        elif loops and r.random() < .7 and not DO[0]:
             target, kind = r.choice(loops[-2:])
             labels[0] += 1
-            lines += [f"o{labels[0]} if [{value(r)}]", f"{target} {r.choice(['break', 'continue'] if kind != 'repeat' else ['break'])}", f"o{labels[0]} endif"]
+            lines += [f"o{labels[0]} if [{value(r)}]", f"{target} {r.choice(['break', 'continue'])}", f"o{labels[0]} endif"]
         elif in_sub:
             lines += [f"o{labels[0]} if [{value(r)}]", f"{in_sub} return [{value(r)}]", f"o{labels[0]} endif"]
     return lines
 
 
+DO = [False]  # do loops, or break and continue: behind a break rs274 2.9 leaves a later do loop after its first turn
+
+
 def structured(r):
+    DO[0] = r.random() < .4
     labels = [10]
-    lines = ["F100 S100 M3", "#<a>=2", "#<_b>=3"]
+    lines = ["F100 S100 M3", "#<a>=2", "#<_gg>=3"]
     subs = ["o1", "o<Two>"][:r.randint(0, 2)]
     for index, sub in enumerate(subs):
         body = [f"{sub} sub", "#<a>=1"] + blocks(r, labels, 1, [], sub)

@@ -124,13 +124,11 @@ bool FlowControl::end_of_repeat(const Block& block) {
 
 bool FlowControl::leave_loop(const Block& block) {
   const Open* const found = find(block, true);
-  if (found == nullptr) {
+  if (found == nullptr || found->kind == FlowKind::repeat) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
-                  "break outside of its loop");
+                  "break outside of its while or do loop (a repeat has none)");
   }
-  pass(found->kind == FlowKind::loop_do  ? Passing::to_while
-       : found->kind == FlowKind::repeat ? Passing::to_endrepeat
-                                         : Passing::to_endwhile,
+  pass(found->kind == FlowKind::loop_do ? Passing::to_while : Passing::to_endwhile,
        block.flow().label.view());
   drop_to(*found);
   return true;

@@ -96,8 +96,17 @@ bool FlowControl::pass_over(Block& block) {
   if (kind == FlowKind::none || block.flow().label.view() != passing_label_) {
     return true;
   }
+  // LinuxCNC reads the whole line where the label is that of the block that is passed over, and
+  // takes the value of an endsub or return over.
+  if (!evaluate(block)) {
+    return false;
+  }
   switch (passing_) {
     case Passing::to_endsub:
+      if (kind == FlowKind::endsub || kind == FlowKind::back) {
+        const read::Flow& flow = block.flow();
+        parameters_.record_value(flow.count == 1 ? flow.values.data() : nullptr);
+      }
       if (kind == FlowKind::endsub) {
         passing_ = Passing::nothing;
       }
@@ -126,9 +135,6 @@ bool FlowControl::arrived(Block& block) {
   switch (passing_) {
     case Passing::to_else:
       if (kind == FlowKind::elseif) {
-        if (!evaluate(block)) {
-          return false;
-        }
         if (block.flow().values[0] != 0.0) {
           passing_ = Passing::nothing;
         }
@@ -145,12 +151,17 @@ bool FlowControl::arrived(Block& block) {
     case Passing::to_endwhile:
       return ends(FlowKind::endwhile);
     case Passing::to_endrepeat:
+      // LinuxCNC sees them here too: the label is that of the repeat.
+      if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
+        return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                      "break or continue of a repeat, which has none");
+      }
       return ends(FlowKind::endrepeat);
     case Passing::to_while:
       return ends(FlowKind::loop_while);
     case Passing::to_condition:
       ends(FlowKind::loop_while);
-      return passing_over() || (evaluate(block) && head_of_while(block));
+      return passing_over() || head_of_while(block);
     default:
       return true;
   }

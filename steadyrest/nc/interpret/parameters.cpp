@@ -42,7 +42,8 @@ const Answers& answers() {
   static const Answers kAnswers = {
       {"_vmajor", [](const State&) { return 2.9; }},
       {"_vminor", [](const State&) { return 0.0; }},
-      {"_motion_mode", [](const State& s) { return static_cast<double>(s.motion); }},
+      {"_motion_mode",
+       [](const State& s) { return s.motion < 0 ? 800.0 : static_cast<double>(s.motion); }},
       {"_plane",
        [](const State& s) {
          return s.plane == Plane::xy ? 170.0 : s.plane == Plane::zx ? 180.0 : 190.0;
@@ -322,6 +323,10 @@ void Parameters::leave(const double* returned) {
     std::ranges::copy(calls_.back().saved, numbers_.begin() + 1);
   }
   calls_.pop_back();
+  record_value(returned);
+}
+
+void Parameters::record_value(const double* returned) noexcept {
   value_ = returned != nullptr ? *returned : 0.0;
   value_returned_ = returned != nullptr ? 1.0 : 0.0;
 }

@@ -53,6 +53,8 @@ class Parameters final : public read::Values {
   void enter_shared();
   /// The end of a call; `returned` what #<_value> is then.
   void leave(const double* returned);
+  /// What #<_value> and #<_value_returned> are from now on; nullptr: nothing was returned.
+  void record_value(const double* returned) noexcept;
   [[nodiscard]] std::size_t calls() const noexcept { return calls_.size(); }
 
  private:

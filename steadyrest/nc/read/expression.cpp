@@ -92,7 +92,8 @@ bool Expression::value(double& out) {
   if (read && negative) {
     out = -out;
   }
-  return read;
+  // The control looks at whole values only: 4 MOD 0 inside of a comparison is let through.
+  return read && finite(out);
 }
 
 bool Expression::spaced_number(double& out) {
@@ -260,7 +261,7 @@ bool Expression::apply(Operator op, double& left, double right) {
       left = truth((a != 0.0) != (right != 0.0));
       break;
   }
-  return finite(left);
+  return true;
 }
 
 bool Expression::parameter_number(int& index) {
