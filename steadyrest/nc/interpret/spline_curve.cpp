@@ -26,7 +26,7 @@ SplinePoint spline_at(std::span<const SplinePoint> points, int order, double u) 
   };
   std::array<Homogeneous, kMostOrder> d{};
   for (int i = 0; i < order; ++i) {
-    const SplinePoint& p = points[static_cast<std::size_t>(span + i)];
+    const SplinePoint& p = points[static_cast<std::size_t>(span) + static_cast<std::size_t>(i)];
     d[static_cast<std::size_t>(i)] = {p.x_mm * p.weight, p.y_mm * p.weight, p.weight};
   }
   for (int level = 1; level < order; ++level) {
