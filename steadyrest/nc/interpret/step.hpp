@@ -92,8 +92,10 @@ struct Step {
     tool_name = {};
     block = &source;
   }
+  /// 0 for what is no letter: words whose address is a name, and @ ^.
   static constexpr std::uint32_t bit(char letter) noexcept {
-    return std::uint32_t{1} << static_cast<unsigned>(letter - 'A');
+    const bool is = letter >= 'A' && letter <= 'Z';
+    return is ? std::uint32_t{1} << static_cast<unsigned>(letter - 'A') : 0U;
   }
   [[nodiscard]] bool has(char letter) const noexcept { return (mask & bit(letter)) != 0; }
   [[nodiscard]] double operator[](char letter) const noexcept {
