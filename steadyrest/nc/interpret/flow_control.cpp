@@ -93,6 +93,14 @@ bool FlowControl::pass_over(Block& block) {
     return false;
   }
   const FlowKind kind = block.flow().kind;
+  // LinuxCNC looks at these whether they are executed or not.
+  if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
+    const Open* const loop = find(block, true);
+    if (loop != nullptr && loop->kind == FlowKind::repeat) {
+      return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                    "break or continue of a repeat, which has none");
+    }
+  }
   if (kind == FlowKind::none || block.flow().label.view() != passing_label_) {
     return true;
   }

@@ -119,7 +119,11 @@ inline constexpr std::uint32_t kAxisMask = Step::bit('X') | Step::bit('Y') | Ste
 inline constexpr std::uint32_t kCentreMask = Step::bit('I') | Step::bit('J') | Step::bit('K');
 
 /// Axis letters in the order of `Axes`.
-inline constexpr std::string_view kAxisLetters = "XYZABCUVW";
+/// (A literal of its own would have another address in each object file, and clang takes a loop's
+/// begin from one and its end from another.)
+inline constexpr std::array<char, 9> kAxisLetterArray = {'X', 'Y', 'Z', 'A', 'B',
+                                                         'C', 'U', 'V', 'W'};
+inline constexpr std::string_view kAxisLetters{kAxisLetterArray.data(), kAxisLetterArray.size()};
 
 /// A canned cycle, G81–G89 and the drilling and tapping ones that stand apart.
 [[nodiscard]] constexpr bool is_cycle(int code) noexcept {
