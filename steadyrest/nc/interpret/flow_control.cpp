@@ -104,9 +104,14 @@ bool FlowControl::pass_over(Block& block) {
   if (kind == FlowKind::none || block.flow().label.view() != passing_label_) {
     return true;
   }
-  // LinuxCNC reads the whole line where the label is that of the block that is passed over, and
-  // takes the value of an endsub or return over.
-  if (!evaluate(block)) {
+  // LinuxCNC evaluates the endsub and return of a definition that it passes over and takes the
+  // value over; what a call would have set is not missed there.
+  const bool ends_sub = kind == FlowKind::endsub || kind == FlowKind::back;
+  const bool asks = passing_ == Passing::to_endsub      ? ends_sub
+                    : passing_ == Passing::to_else      ? kind == FlowKind::elseif
+                    : passing_ == Passing::to_condition ? kind == FlowKind::loop_while
+                                                        : false;
+  if (asks && !evaluate(block) && !(ends_sub && refused_.reason == "unset_parameter")) {
     return false;
   }
   switch (passing_) {
