@@ -142,6 +142,28 @@ void contradictions(const Chatter& chatter, const Given& given, Faults& faults) 
   }
 }
 
+void contradictions(const Compensation& compensation, const Given& given, Faults& faults) {
+  using Method = CompensationMethod;
+  const Method method = compensation.method;
+  const auto needs = [&](bool is_needed, std::string_view key, bool is_given) {
+    if (is_needed != is_given) {
+      faults.add(given.at({is_needed ? "method" : key}),
+                 fmt::format("{} has method = \"{}\" {} {}", given.section, word(method),
+                             is_needed ? "without" : "and", key),
+                 is_needed ? fmt::format("add {} = …", key) : fmt::format("remove {}", key));
+    }
+  };
+  needs(method == Method::r_parameter, "r_parameter", given.has("r_parameter"));
+  needs(method == Method::setting_data, "sign", given.has("sign"));
+  if (given.has("sign") && compensation.sign == 0) {
+    faults.add(given.at({"sign"}), fmt::format("{} has sign = 0", given.section),
+               "write 1 or -1, as the axis moves when the setting data becomes positive");
+  }
+  if (compensation.external_offset_free && method != Method::fanuc) {
+    needs(false, "external_offset_free", true);
+  }
+}
+
 void contradictions(const Envelope& envelope, const Given& given, Faults& faults) {
   ordered(given, faults, "min_feed_percent", envelope.min_feed_ratio, "max_feed_percent",
           envelope.max_feed_ratio);

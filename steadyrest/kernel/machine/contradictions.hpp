@@ -15,6 +15,7 @@ void contradictions(const Friction& friction, const Given& given, Faults& faults
 void contradictions(const Spindle& spindle, const Given& given, Faults& faults);
 void contradictions(const Contour& contour, const Given& given, Faults& faults);
 void contradictions(const Chatter& chatter, const Given& given, Faults& faults);
+void contradictions(const Compensation& compensation, const Given& given, Faults& faults);
 void contradictions(const Envelope& envelope, const Given& given, Faults& faults);
 
 }  // namespace steadyrest::kernel::machine

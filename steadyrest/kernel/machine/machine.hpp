@@ -151,6 +151,26 @@ struct Chatter {
   std::uint64_t seed = 1;
 };
 
+/// How corrections are written into the text of this machine's programs (nc/rewrite).
+enum class CompensationMethod : std::uint8_t {
+  by_dialect,    ///< the one that linuxcnc and fanuc have; sinumerik has none
+  linuxcnc,      ///< G10 L20 in the active work offset
+  fanuc,         ///< G10 L2 P0, the external work offset
+  haas,          ///< G10 L2 P1 … P6, the active work offset
+  r_parameter,   ///< sinumerik: an R-parameter that the PLC takes over
+  setting_data,  ///< sinumerik: $SA_TEMP_COMP_ABS_VALUE
+  frame_fine     ///< sinumerik: $P_IFRAME[axis,FI], the active frame's fine offset
+};
+
+struct Compensation {
+  CompensationMethod method = CompensationMethod::by_dialect;
+  std::uint32_t r_parameter = 0;  ///< its number
+  std::int64_t sign = 0;  ///< +1: a positive value moves the axis to larger positions; −1: to
+                          ///< smaller ones; 0: not known
+  bool external_offset_free =
+      false;  ///< fanuc: 0 whenever a program starts; custom macro B is there
+};
+
 /// The last step before any write; the layer cannot switch it off.
 struct Envelope {
   double min_feed_ratio = 0.0;
@@ -186,6 +206,7 @@ struct Machine {
   Spindle spindle;
   Contour contour;
   Chatter chatter;
+  Compensation compensation;
   Envelope envelope;
   Simulation simulation;
 };

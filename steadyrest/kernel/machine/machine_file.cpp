@@ -34,15 +34,16 @@ class FileReader {
 
   Machine read(const toml::table& root) {
     SectionReader<Machine> top(faults_, top_keys(), "the top level");
-    top.read(
-        root, machine_,
-        {"control", "axis", "override", "spindle", "contour", "chatter", "envelope", "simulation"});
+    top.read(root, machine_,
+             {"control", "axis", "override", "spindle", "contour", "chatter", "compensation",
+              "envelope", "simulation"});
     section<Control>(root, "control", control_keys(), machine_.control, contradictions, true);
     axes(root);
     overrides(root);
     section<Spindle>(root, "spindle", spindle_keys(), machine_.spindle, contradictions);
     section<Contour>(root, "contour", contour_keys(), machine_.contour, contradictions);
     section<Chatter>(root, "chatter", chatter_keys(), machine_.chatter, contradictions);
+    compensation(root);
     section<Envelope>(root, "envelope", envelope_keys(), machine_.envelope, contradictions);
     section<Simulation>(root, "simulation", simulation_keys(), machine_.simulation, nullptr);
     return machine_;
@@ -199,6 +200,22 @@ class FileReader {
         machine_.axes.push_back(axis);
       }
     }
+  }
+
+  void compensation(const toml::table& root) {
+    const std::size_t before = faults_.list.size();
+    section<Compensation>(root, "compensation", compensation_keys(), machine_.compensation,
+                          contradictions);
+    const Dialect needed = dialect_of(machine_.compensation.method, machine_.control.dialect);
+    if (faults_.list.size() != before || needed == machine_.control.dialect) {
+      return;
+    }
+    const toml::node_view<const toml::node> method = root["compensation"]["method"];
+    faults_.add(method ? line_of(method.node()->source()) : 0,
+                fmt::format("[compensation] has method = \"{}\", but the control's dialect is {}",
+                            word(machine_.compensation.method), word(machine_.control.dialect)),
+                fmt::format("choose a method of that dialect; \"{}\" is for {}",
+                            word(machine_.compensation.method), word(needed)));
   }
 
   void overrides(const toml::table& root) {

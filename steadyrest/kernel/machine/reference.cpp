@@ -136,6 +136,11 @@ std::string reference_page() {
                  "program may\nhold the two M words; without it they are refused like any other "
                  "unknown M word.\n",
                  chatter_keys());
+  out += section("`[compensation]`",
+                 "\nHow `program compensate` writes corrections into the programs of this machine: "
+                 "[nc/rewrite](../steadyrest/nc/rewrite/README.md)\nhas the texts and the "
+                 "reasons. The command line may say otherwise.\n",
+                 compensation_keys());
   out += section("`[envelope]`", "\nThe last step before any write. It cannot be switched off.\n",
                  envelope_keys());
   out += section("`[simulation]`", "\nFor the simulated machine alone.\n", simulation_keys());

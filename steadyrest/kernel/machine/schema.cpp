@@ -16,7 +16,6 @@ constexpr std::array<string_view, 3> kStrategies = {"contour_priority", "feed_pr
                                                     "combined"};
 constexpr std::array<string_view, 7> kLaws = {"constant", "square", "pulse", "triangle",
                                               "sine",     "random", "stop"};
-
 template <class S, auto Member>
 Choice<S> choice(std::span<const string_view> words) {
   using Enum = std::remove_cvref_t<decltype(std::declval<S&>().*Member)>;

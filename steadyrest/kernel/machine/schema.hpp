@@ -71,8 +71,12 @@ inline constexpr std::size_t kMaxLineTable = 1U << 20U;
 [[nodiscard]] std::span<const Key<Spindle>> spindle_keys() noexcept;
 [[nodiscard]] std::span<const Key<Contour>> contour_keys() noexcept;
 [[nodiscard]] std::span<const Key<Chatter>> chatter_keys() noexcept;
+[[nodiscard]] std::span<const Key<Compensation>> compensation_keys() noexcept;
 [[nodiscard]] std::span<const Key<Envelope>> envelope_keys() noexcept;
 [[nodiscard]] std::span<const Key<Simulation>> simulation_keys() noexcept;
+
+/// The dialect that a method is for; `own` where the method is by_dialect.
+[[nodiscard]] Dialect dialect_of(CompensationMethod method, Dialect own) noexcept;
 
 /// The words of the enumerations, in the order of their values.
 [[nodiscard]] std::string_view word(PortKind port) noexcept;
@@ -81,5 +85,6 @@ inline constexpr std::size_t kMaxLineTable = 1U << 20U;
 [[nodiscard]] std::string_view word(Coding coding) noexcept;
 [[nodiscard]] std::string_view word(ContourStrategy strategy) noexcept;
 [[nodiscard]] std::string_view word(SpeedLaw law) noexcept;
+[[nodiscard]] std::string_view word(CompensationMethod method) noexcept;
 
 }  // namespace steadyrest::kernel::machine

@@ -310,6 +310,33 @@ TEST(EveryKey, Chatter) {
   EXPECT_DOUBLE_EQ(percent->chatter.amplitude_ratio, 0.18);
 }
 
+// The keys belong to methods that exclude one another.
+TEST(EveryKey, Compensation) {
+  const auto with = [](std::string_view dialect, std::string_view section) {
+    std::string text(kFull);
+    text.replace(text.find("dialect = \"linuxcnc\""), 20, dialect);
+    const auto machine = parse(text + "\n[compensation]\n" + std::string(section), "full.toml");
+    EXPECT_TRUE(machine) << section << outcome::text(machine.error());
+    return machine.value_or(Machine{}).compensation;
+  };
+  using Method = CompensationMethod;
+  EXPECT_EQ(full().compensation.method, Method::by_dialect);
+  EXPECT_EQ(with("dialect = \"linuxcnc\"", "method = \"linuxcnc\"").method, Method::linuxcnc);
+  const auto fanuc = with("dialect = \"fanuc\"", "method = \"fanuc\"\nexternal_offset_free = true");
+  EXPECT_EQ(fanuc.method, Method::fanuc);
+  EXPECT_TRUE(fanuc.external_offset_free);
+  EXPECT_EQ(with("dialect = \"fanuc\"", "method = \"haas\"").method, Method::haas);
+  constexpr std::string_view kSinumerik = "dialect = \"sinumerik\"";
+  const auto parameter = with(kSinumerik, "method = \"r_parameter\"\nr_parameter = 0");
+  EXPECT_EQ(parameter.method, Method::r_parameter);
+  EXPECT_EQ(with(kSinumerik, "method = \"r_parameter\"\nr_parameter = 74").r_parameter, 74U);
+  const auto data = with(kSinumerik, "method = \"setting_data\"\nsign = -1");
+  EXPECT_EQ(data.method, Method::setting_data);
+  EXPECT_EQ(data.sign, -1);
+  EXPECT_EQ(with(kSinumerik, "method = \"frame_fine\"").method, Method::frame_fine);
+  EXPECT_EQ(compensation_keys().size(), 4U) << "a key is not tried here";
+}
+
 template <class S>
 void expect_all_tried(std::span<const Key<S>> keys) {
   for (const Key<S>& key : keys) {

@@ -62,6 +62,7 @@ TEST(Schema, EveryDimensionalKeyEndsInItsUnit) {
   expect_units(spindle_keys());
   expect_units(contour_keys());
   expect_units(chatter_keys());
+  expect_units(compensation_keys());
   expect_units(envelope_keys());
   expect_units(simulation_keys());
 }
