@@ -9,7 +9,7 @@ namespace steadyrest::nc::rewrite {
 using kernel::outcome::Result;
 
 Result<std::unique_ptr<Clock>> Clock::make(const kernel::machine::Machine& machine, Told told) {
-  auto timer = plan::ProgramTimer::make(machine);
+  auto timer = plan::SegmentTimer::make(machine);
   if (!timer) {
     return std::unexpected(timer.error());
   }
@@ -52,8 +52,8 @@ Result<double> Clock::finish() {
   if (!time) {
     return std::unexpected(time.error());
   }
-  arrived(std::numeric_limits<std::uint32_t>::max(), time->total_s);
-  return time->total_s;
+  arrived(std::numeric_limits<std::uint32_t>::max(), *time);
+  return *time;
 }
 
 }  // namespace steadyrest::nc::rewrite

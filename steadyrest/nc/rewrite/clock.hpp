@@ -8,12 +8,12 @@
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/nc/plan/program_timer.hpp>
+#include <steadyrest/nc/plan/segment_timer.hpp>
 #include <steadyrest/nc/rewrite/walk.hpp>
 
 namespace steadyrest::nc::rewrite {
 
-/// When the machine gets to the lines of a walk: the times of program_timer, asked for at chosen
+/// When the machine gets to the lines of a walk: the times of segment_timer, asked for at chosen
 /// lines only, so that memory does not grow with the program.
 class Clock {
  public:
@@ -37,10 +37,10 @@ class Clock {
     std::uint32_t sequence;
     std::uint64_t ticket;
   };
-  Clock(plan::ProgramTimer timer, Told told) : timer_(std::move(timer)), told_(std::move(told)) {}
+  Clock(plan::SegmentTimer timer, Told told) : timer_(std::move(timer)), told_(std::move(told)) {}
   void arrived(std::uint32_t sequence, double time_s);
 
-  plan::ProgramTimer timer_;
+  plan::SegmentTimer timer_;
   Told told_;
   std::deque<Asked> asked_;
   std::uint32_t sequence_ = 0;  ///< stands in for the line, which need not grow
