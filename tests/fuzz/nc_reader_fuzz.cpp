@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "nc_mutator.hpp"
+
 #include <steadyrest/nc/interpret/program.hpp>
 
 namespace {
@@ -45,4 +47,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::abort();
   }
   return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
+  static constexpr std::uint8_t kDialects[] = {0, 1, 2};
+  return steadyrest::fuzz::mutate_program(
+      data, size, most, seed, {.head = 1, .dialects = 3, .dialect_of = kDialects, .edits = false});
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -12,6 +13,7 @@
 namespace steadyrest::nc::read {
 namespace {
 
+constexpr std::size_t kLeast = std::size_t{1} << 12U;
 constexpr std::size_t kChunk = std::size_t{1} << 18U;
 
 kernel::outcome::Refusal cannot_open(const std::string& path, const std::string& why) {
@@ -36,8 +38,13 @@ kernel::outcome::Result<LineSource> LineSource::open(const std::string& path) {
   }
   LineSource source;
   source.descriptor_ = descriptor;
-  source.buffer_.resize(kLongestLine + kChunk);
-  source.begin_ = source.at_ = source.end_ = source.buffer_.data();
+  // A short program is read whole at once; nothing is gained by more room, nor by zeroing it.
+  const bool known = S_ISREG(status.st_mode) && status.st_size >= 0;
+  source.room_ =
+      kLongestLine +
+      std::clamp(known ? static_cast<std::size_t>(status.st_size) + 1 : kChunk, kLeast, kChunk);
+  source.buffer_ = std::make_unique_for_overwrite<char[]>(source.room_);
+  source.begin_ = source.at_ = source.end_ = source.buffer_.get();
   return source;
 }
 
@@ -59,7 +66,8 @@ LineSource& LineSource::operator=(LineSource&& other) noexcept {
       ::close(descriptor_);
     }
     descriptor_ = std::exchange(other.descriptor_, -1);
-    buffer_ = std::move(other.buffer_);  // a moved vector keeps its storage: the views stay valid
+    buffer_ = std::move(other.buffer_);  // it keeps its storage: the views stay valid
+    room_ = std::exchange(other.room_, 0);
     begin_ = other.begin_;
     at_ = other.at_;
     base_ = other.base_;
@@ -87,12 +95,12 @@ bool LineSource::refill() noexcept {
   if (rest > kLongestLine) {
     return false;
   }
-  std::memmove(buffer_.data(), at_, rest);
+  std::memmove(buffer_.get(), at_, rest);
   base_ += static_cast<std::uint64_t>(at_ - begin_);
-  at_ = buffer_.data();
+  at_ = buffer_.get();
   ssize_t got = 0;
   do {
-    got = ::read(descriptor_, buffer_.data() + rest, buffer_.size() - rest);
+    got = ::read(descriptor_, buffer_.get() + rest, room_ - rest);
   } while (got < 0 && errno == EINTR);
   failed_ = got < 0;
   exhausted_ = got <= 0;

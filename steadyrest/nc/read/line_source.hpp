@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -55,7 +55,9 @@ class LineSource {
   Status take(const char* stop, std::size_t ending) noexcept;
 
   int descriptor_ = -1;
-  std::vector<char> buffer_;
+  // Not a vector, which would be zeroed for each file.
+  std::unique_ptr<char[]> buffer_;  // NOLINT(*-avoid-c-arrays)
+  std::size_t room_ = 0;
   const char* begin_ = nullptr;  ///< what is held: the text, or the chunk
   const char* at_ = nullptr;
   const char* end_ = nullptr;

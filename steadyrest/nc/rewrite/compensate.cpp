@@ -106,11 +106,8 @@ class Rewriter {
         return refuse(lines->number(), fmt::format("may use R{} itself", settings_.r_parameter),
                       "give the correction another R-parameter");
       }
-      const auto blank = lines->line().find_first_not_of(" \t") == std::string_view::npos;
-      if (head_line_ == 0 && !blank) {
-        head_line_ = lines->line().find_first_not_of(" \t%") == std::string_view::npos
-                         ? lines->number() + 1
-                         : lines->number();
+      if (head_line_ == 0 && !stays_in_front(lines->line())) {
+        head_line_ = lines->number();
       }
     }
     return lines->whole();

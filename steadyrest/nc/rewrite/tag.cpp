@@ -24,6 +24,12 @@ bool is_head(std::string_view inserted_line) noexcept {
          inserted_line.find("(ABORT,STEADYREST ") != std::string_view::npos;
 }
 
+bool stays_in_front(std::string_view line) noexcept {
+  const std::size_t first = line.find_first_not_of(" \t");
+  return first == std::string_view::npos || line[first] == '%' ||
+         line.substr(first).starts_with(";$PATH=");
+}
+
 bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
   line = line.substr(0, line.find(';'));
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };

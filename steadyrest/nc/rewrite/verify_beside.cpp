@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/clock.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
@@ -62,6 +63,9 @@ class Prover {
       return std::unexpected(fits.error());
     }
     at_end();
+    if (!refusal_) {
+      run_changed(config);
+    }
     if (refusal_) {
       return std::unexpected(*refusal_);
     }
@@ -168,6 +172,21 @@ class Prover {
     }
     if (stands_mm_ != 0.0) {
       refuse(0, fmt::format("a correction of {} is left at the end", axis_.letter));
+    }
+  }
+
+  /// Lines that are right in themselves may stand where the control does not read them: before the
+  /// name of the program, behind its end.
+  void run_changed(const interpret::Config& config) {
+    class Nothing final : public interpret::Sink {
+      void on_move(const interpret::Move& /*move*/) override {}
+      void on_event(const interpret::Event& /*event*/) override {}
+    } nothing;
+    const auto report = interpret::run_file(changed_, config, nothing);
+    if (!report || !report->refused.empty()) {
+      refusal_ = report ? interpret::first_refusal(*report, changed_) : report.error();
+    } else if (report->moves != proof_.moves) {
+      refuse(0, "makes more or fewer moves than the original");
     }
   }
 

@@ -121,6 +121,16 @@ TEST_F(Sinumerik, WritesTheParameterWhenTheMachineGetsThere) {
   EXPECT_EQ(read_file(shop_.changed()), kProgram);
 }
 
+TEST_F(Sinumerik, TheHeadStandsBehindTheNameOfTheProgram) {
+  const std::string names = "%_N_PASSES_MPF\n;$PATH=/_N_WKS_DIR/_N_A_WPD\n";
+  const auto done = shop_.compensate(names + kProgram, kGrowth);
+  ASSERT_TRUE(done) << done.error().what;
+  const std::string head = "R50=0.0000 ;STEADYREST head Z\n";
+  const std::string text = read_file(shop_.changed());
+  EXPECT_EQ(text.substr(0, names.size() + head.size()), names + head);
+  EXPECT_THAT(shop_.fault(kGrowth, head + replaced(text, head, "")), HasSubstr("%"));
+}
+
 TEST_F(Sinumerik, VerifyCatchesEachFault) {
   const std::string first = "STOPRE ;STEADYREST Z-0.0100 mm\nR50=-0.0100 ;STEADYREST Z-0.0100 mm\n";
   const auto moved = [&](const std::string& line) {
