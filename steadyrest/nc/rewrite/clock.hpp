@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -12,6 +13,12 @@
 #include <steadyrest/nc/rewrite/walk.hpp>
 
 namespace steadyrest::nc::rewrite {
+
+/// What a clock has told of a program: for those who need not time it again.
+struct KnownTimes {
+  std::map<std::uint32_t, double> line_s;  ///< by the line, which is executed once
+  double program_s = 0.0;
+};
 
 /// When the machine gets to the lines of a walk: the times of segment_timer, asked for at chosen
 /// lines only, so that memory does not grow with the program.
@@ -22,6 +29,14 @@ class Clock {
 
   static kernel::outcome::Result<std::unique_ptr<Clock>> make(
       const kernel::machine::Machine& machine, Told told);
+  /// Knows the times already: nothing is planned. finish() refuses a line that was asked for and is
+  /// not known. `known` outlives the clock.
+  static std::unique_ptr<Clock> of(const KnownTimes& known, Told told);
+  /// One of the two.
+  static kernel::outcome::Result<std::unique_ptr<Clock>> make(
+      const KnownTimes* known, const kernel::machine::Machine& machine, Told told) {
+    return known != nullptr ? of(*known, std::move(told)) : make(machine, std::move(told));
+  }
 
   /// Asks for the time of the line that is fed next.
   void ask(std::uint64_t ticket) {
@@ -37,10 +52,13 @@ class Clock {
     std::uint32_t sequence;
     std::uint64_t ticket;
   };
-  Clock(plan::SegmentTimer timer, Told told) : timer_(std::move(timer)), told_(std::move(told)) {}
+  explicit Clock(Told told) : told_(std::move(told)) {}
+  void tell(const Walk& walk);
   void arrived(std::uint32_t sequence, double time_s);
 
-  plan::SegmentTimer timer_;
+  std::optional<plan::SegmentTimer> timer_;
+  const KnownTimes* known_ = nullptr;
+  std::uint32_t unknown_line_ = 0;
   Told told_;
   std::deque<Asked> asked_;
   std::uint32_t sequence_ = 0;  ///< stands in for the line, which need not grow

@@ -10,9 +10,10 @@
 #include <steadyrest/nc/rewrite/clock.hpp>
 #include <steadyrest/nc/rewrite/compensate.hpp>
 #include <steadyrest/nc/rewrite/file_writer.hpp>
+#include <steadyrest/nc/rewrite/frame_line.hpp>
+#include <steadyrest/nc/rewrite/plain_survey.hpp>
 #include <steadyrest/nc/rewrite/schedule.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
-#include <steadyrest/nc/rewrite/survey.hpp>
 #include <steadyrest/nc/rewrite/tag.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -21,21 +22,6 @@ namespace {
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
-
-/// A line that does something to the frame in which a correction stands, or the program's end.
-struct FrameLine {
-  std::uint32_t line = 0;
-  std::uint32_t top_line = 0;
-  Frame frame = Frame::kept;
-  bool may_write = false;
-  bool moves_axis = false;
-  bool incremental_before = false;
-  bool incremental_behind = false;
-  std::size_t before = 0;  ///< active offset
-  std::size_t behind = 0;
-  double unit_before_mm = 1.0;
-  double unit_behind_mm = 1.0;
-};
 
 struct Text {
   std::string before_line;
@@ -51,6 +37,7 @@ class Rewriter {
         config_(config),
         machine_(machine),
         settings_(settings),
+        plain_(config.dialect),
         frames_(plan.axes.size()) {
     for (const AxisPlan& axis : plan.axes) {
       schedules_.emplace_back(axis, settings.window_s);
@@ -97,6 +84,7 @@ class Rewriter {
       return std::unexpected(lines.error());
     }
     while (lines->next()) {
+      plain_.look(lines->line());
       if (is_inserted(lines->line())) {
         return refuse(lines->number(), "carries the mark of a correction already",
                       "take the corrections out first: program strip");
@@ -114,7 +102,7 @@ class Rewriter {
   }
 
   Result<void> walk() {
-    auto surveyed = survey(program_, config_);
+    auto surveyed = survey(program_, config_, plain_);
     if (!surveyed) {
       return std::unexpected(surveyed.error());
     }
@@ -130,6 +118,9 @@ class Rewriter {
     }
     while ((*walk)->step()) {
       look(**walk, **clock);
+    }
+    if (const auto report = (*walk)->take(); !report.refused.empty()) {
+      return std::unexpected(interpret::first_refusal(report, program_));
     }
     const auto total = (*clock)->finish();
     if (!total) {
@@ -329,7 +320,11 @@ class Rewriter {
       return flushed;
     }
     progress(0.5, "proving");
-    auto proof = verify(program_, writer->path(), plan_, config_, machine_, settings_);
+    KnownTimes known{.line_s = {}, .program_s = result_.program_s};
+    for (const Insertion& one : result_.insertions) {
+      known.line_s.emplace(one.original_line, one.time_s);
+    }
+    auto proof = verify(program_, writer->path(), plan_, config_, machine_, settings_, &known);
     if (!proof) {
       Refusal refusal = proof.error();
       refusal.what = "the changed program would not do what is planned: " + refusal.what;
@@ -372,6 +367,7 @@ class Rewriter {
   const interpret::Config& config_;
   const kernel::machine::Machine& machine_;
   const Settings& settings_;
+  PlainSurvey plain_;
   Survey survey_;
   std::vector<Schedule> schedules_;
   std::vector<std::vector<FrameLine>> frames_;  ///< by axis, in the order of execution

@@ -10,7 +10,7 @@ using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
 Result<Inserted> compare_text(const std::string& original, const std::string& changed,
-                              bool with_groups) {
+                              PlainSurvey& plain, bool with_groups) {
   auto before = SourceLines::open(original);
   auto after = SourceLines::open(changed);
   if (!before || !after) {
@@ -32,6 +32,7 @@ Result<Inserted> compare_text(const std::string& original, const std::string& ch
     }
   };
   while (before->next()) {
+    plain.look(before->line());
     if (is_inserted(before->line())) {
       return refuse(original, before->number(), "the original carries the mark of a correction");
     }

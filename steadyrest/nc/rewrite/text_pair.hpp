@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/rewrite/plain_survey.hpp>
 
 namespace steadyrest::nc::rewrite {
 
@@ -21,9 +22,10 @@ struct Inserted {
 };
 
 /// Compares two programs byte by byte, inserted lines of `changed` left out. Refused at the first
-/// line that differs otherwise.
+/// line that differs otherwise. `plain` looks at the original's lines on the way.
 [[nodiscard]] kernel::outcome::Result<Inserted> compare_text(const std::string& original,
                                                              const std::string& changed,
+                                                             PlainSurvey& plain,
                                                              bool with_groups = false);
 
 }  // namespace steadyrest::nc::rewrite

@@ -33,18 +33,20 @@ class Prover {
  public:
   Prover(const std::string& original, const std::string& changed, const Plan& plan,
          const interpret::Config& config, const kernel::machine::Machine& machine,
-         const Settings& settings)
+         const Settings& settings, const KnownTimes* known)
       : original_(original),
         changed_(changed),
         plan_(plan),
         config_(with_unknown_offsets(config)),
         machine_(machine),
         settings_(settings),
+        known_(known),
         shifts_(plan),
         done_(plan.axes.size(), 0) {}
 
   Result<Proof> run() {
-    auto text = compare_text(original_, changed_);
+    PlainSurvey plain(config_.dialect);
+    auto text = compare_text(original_, changed_, plain);
     if (!text) {
       return std::unexpected(text.error());
     }
@@ -54,7 +56,7 @@ class Prover {
     if (!head_is_right(text->head)) {
       return std::unexpected(refusal_);
     }
-    auto surveyed = survey(original_, config_);
+    auto surveyed = survey(original_, config_, plain);
     if (!surveyed) {
       return std::unexpected(surveyed.error());
     }
@@ -109,7 +111,7 @@ class Prover {
       return refuse(walk.error(), original_);
     }
     walk_ = std::move(*walk);
-    auto clock = Clock::make(machine_, [this](std::uint64_t ticket, double time_s) {
+    auto clock = Clock::make(known_, machine_, [this](std::uint64_t ticket, double time_s) {
       told(asked_.front(), ticket, time_s);
       asked_.pop_front();
     });
@@ -130,6 +132,9 @@ class Prover {
       if (settings_.progress && walk_->line() % kEvery == 0) {
         settings_.progress(0.5 + 0.5 * walk_->line() / std::max(survey_.end_line, 1U), "proving");
       }
+    }
+    if (const auto report = walk_->take(); !report.refused.empty()) {
+      return refuse(interpret::first_refusal(report, original_), original_);
     }
     if (changed_run_->step()) {
       return refuse("goes on where the original has ended");
@@ -344,6 +349,7 @@ class Prover {
   interpret::Config config_;
   const kernel::machine::Machine& machine_;
   const Settings& settings_;
+  const KnownTimes* known_;
   Survey survey_;
   std::vector<std::uint32_t> inserted_;  ///< lines of the changed program
   std::size_t head_lines_ = 0;
@@ -369,14 +375,14 @@ class Prover {
 
 Result<Proof> verify(const std::string& original, const std::string& changed, const Plan& plan,
                      const interpret::Config& config, const kernel::machine::Machine& machine,
-                     const Settings& settings) {
+                     const Settings& settings, const KnownTimes* known) {
   if (auto checked = check_plan(plan, settings, config); !checked) {
     return std::unexpected(checked.error());
   }
   if (beside_program(settings.method)) {
-    return verify_beside(original, changed, plan, config, machine, settings);
+    return verify_beside(original, changed, plan, config, machine, settings, known);
   }
-  return Prover(original, changed, plan, config, machine, settings).run();
+  return Prover(original, changed, plan, config, machine, settings, known).run();
 }
 
 }  // namespace steadyrest::nc::rewrite

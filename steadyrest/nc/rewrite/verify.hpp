@@ -7,6 +7,7 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/config.hpp>
+#include <steadyrest/nc/rewrite/clock.hpp>
 #include <steadyrest/nc/rewrite/plan_file.hpp>
 #include <steadyrest/nc/rewrite/settings.hpp>
 
@@ -31,10 +32,13 @@ struct Proof {
 /// stands changes only at places that the original allows (Walk::site), within the window of the
 /// planned instant, and acts at once. At the end nothing is left standing. Without its inserted
 /// lines the changed text is the original, byte for byte. Refused with line and reason otherwise.
+/// `known`: the times of the original's lines where they were found just now; without them it is
+/// timed.
 [[nodiscard]] kernel::outcome::Result<Proof> verify(const std::string& original,
                                                     const std::string& changed, const Plan& plan,
                                                     const interpret::Config& config,
                                                     const kernel::machine::Machine& machine,
-                                                    const Settings& settings);
+                                                    const Settings& settings,
+                                                    const KnownTimes* known = nullptr);
 
 }  // namespace steadyrest::nc::rewrite

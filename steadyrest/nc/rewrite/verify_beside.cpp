@@ -29,9 +29,10 @@ class Prover {
       : original_(original), changed_(changed), axis_(plan.axes.front()), settings_(settings) {}
 
   Result<Proof> run(const Plan& plan, const interpret::Config& config,
-                    const kernel::machine::Machine& machine) {
-    auto text = compare_text(original_, changed_, true);
-    auto surveyed = survey(original_, config);
+                    const kernel::machine::Machine& machine, const KnownTimes* known) {
+    PlainSurvey plain(config.dialect);
+    auto text = compare_text(original_, changed_, plain, true);
+    auto surveyed = survey(original_, config, plain);
     if (!text || !surveyed) {
       return std::unexpected(text ? surveyed.error() : text.error());
     }
@@ -40,7 +41,7 @@ class Prover {
       return std::unexpected(std::move(own));
     }
     auto walk = Walk::make(original_, config, *surveyed);
-    auto clock = Clock::make(machine, [this](std::uint64_t step, double time_s) {
+    auto clock = Clock::make(known, machine, [this](std::uint64_t step, double time_s) {
       told(static_cast<std::size_t>(step), time_s);
     });
     if (!walk || !clock) {
@@ -52,6 +53,9 @@ class Prover {
     }
     if (refusal_) {
       return std::unexpected(*refusal_);
+    }
+    if (const auto report = (*walk)->take(); !report.refused.empty()) {
+      return std::unexpected(interpret::first_refusal(report, original_));
     }
     const auto total = (*clock)->finish();
     if (!total) {
@@ -206,8 +210,9 @@ class Prover {
 
 Result<Proof> verify_beside(const std::string& original, const std::string& changed,
                             const Plan& plan, const interpret::Config& config,
-                            const kernel::machine::Machine& machine, const Settings& settings) {
-  return Prover(original, changed, plan, settings).run(plan, config, machine);
+                            const kernel::machine::Machine& machine, const Settings& settings,
+                            const KnownTimes* known) {
+  return Prover(original, changed, plan, settings).run(plan, config, machine, known);
 }
 
 }  // namespace steadyrest::nc::rewrite

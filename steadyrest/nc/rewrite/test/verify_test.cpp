@@ -120,5 +120,31 @@ TEST_F(Verify, CatchesAnotherPlan) {
   EXPECT_FALSE(shop_.verify(replaced(kGrowth, R"({"tr)", R"({"axis": "X", "tr)")));
 }
 
+TEST(VerifyWithKnownTimes, TakesThemForTheLinesThatHaveOneAlone) {
+  const Workshop shop;
+  const auto made = shop.compensate(kPasses, kGrowth);
+  ASSERT_TRUE(made.has_value());
+  KnownTimes known{.line_s = {}, .program_s = made->program_s};
+  for (const Insertion& one : made->insertions) {
+    known.line_s.emplace(one.original_line, one.time_s);
+  }
+  const auto fault = [&shop](const KnownTimes& times) {
+    const auto proof =
+        rewrite::verify(shop.original(), shop.changed(), parse_plan(kGrowth, "plan.json").value(),
+                        shop.config, shop.machine, shop.settings, &times);
+    return proof ? "" : proof.error().what;
+  };
+  EXPECT_EQ(fault(known), "");
+  KnownTimes one_less = known;
+  one_less.line_s.erase(one_less.line_s.begin());
+  EXPECT_NE(fault(one_less).find("was not found before"), std::string::npos);
+  KnownTimes late = known;
+  late.line_s.rbegin()->second += 200.0;
+  EXPECT_NE(fault(late).find("is planned at"), std::string::npos);
+  KnownTimes longer = known;
+  longer.program_s += 100.0;
+  EXPECT_NE(fault(longer).find("the plan is for"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::rewrite

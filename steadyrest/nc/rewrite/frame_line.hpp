@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <steadyrest/nc/rewrite/walk.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// A line that does something to the frame in which a correction stands, or the program's end.
+struct FrameLine {
+  std::uint32_t line = 0;
+  std::uint32_t top_line = 0;
+  Frame frame = Frame::kept;
+  bool may_write = false;
+  bool moves_axis = false;
+  bool incremental_before = false;
+  bool incremental_behind = false;
+  std::size_t before = 0;  ///< active offset
+  std::size_t behind = 0;
+  double unit_before_mm = 1.0;
+  double unit_behind_mm = 1.0;
+};
+
+}  // namespace steadyrest::nc::rewrite
