@@ -40,6 +40,24 @@ enum class Expression::Operator : unsigned char {
   one
 };
 
+constexpr std::array<Sign<Expression::Operator>, 15> Expression::kSigns = {{
+    {"**", Operator::power, 5},
+    {"*", Operator::times, 4},
+    {"/", Operator::over, 4},
+    {"MOD", Operator::modulo, 4},
+    {"+", Operator::plus, 3},
+    {"-", Operator::minus, 3},
+    {"EQ", Operator::eq, 2},
+    {"NE", Operator::ne, 2},
+    {"GT", Operator::gt, 2},
+    {"GE", Operator::ge, 2},
+    {"LT", Operator::lt, 2},
+    {"LE", Operator::le, 2},
+    {"AND", Operator::both, 1},
+    {"OR", Operator::either, 1},
+    {"XOR", Operator::one, 1},
+}};
+
 const char* read_name(const char* at, const char* end, Name& name) noexcept {
   name.clear();
   for (++at; at != end && *at != '>'; ++at) {
@@ -50,32 +68,11 @@ const char* read_name(const char* at, const char* end, Name& name) noexcept {
   return at == end || name.view().empty() ? nullptr : at + 1;
 }
 
-bool Expression::fail(std::string_view reason, std::string_view text) noexcept {
-  reason_ = reason;
-  text_ = text;
-  return false;
-}
-
-void Expression::skip_blanks() noexcept {
-  while (at_ != end_ && is_blank(*at_)) {
-    ++at_;
-  }
-}
-
-char Expression::peek() noexcept {
-  skip_blanks();
-  return at_ == end_ ? '\0' : lower(*at_);
-}
-
-bool Expression::finite(double value) {
-  return std::isfinite(value) || fail("not_finite", "a calculation without a finite result");
-}
-
 bool Expression::read(double& out) {
-  return value(out);
+  return operand(out);
 }
 
-bool Expression::value(double& out) {
+bool Expression::operand(double& out) {
   bool negative = false;
   for (char c = peek(); c == '+' || c == '-'; c = peek()) {
     negative ^= c == '-';
@@ -128,7 +125,7 @@ bool Expression::bracket(double& out) {
     return fail("expression_too_deep", "brackets nested more than 64 deep");
   }
   ++at_;
-  if (!sum_of(out, kWeakest)) {
+  if (!climb(out, kWeakest)) {
     return false;
   }
   if (peek() != ']') {
@@ -139,68 +136,6 @@ bool Expression::bracket(double& out) {
   ++at_;
   --depth_;
   return true;
-}
-
-// Precedence climbing: operands of operators at least as strong as `weakest`.
-bool Expression::sum_of(double& out, int weakest) {
-  if (!value(out)) {
-    return false;
-  }
-  for (;;) {
-    const char* const before = at_;
-    Operator op{};
-    int rank = 0;
-    if (!operator_at(op, rank)) {
-      return reason_.empty();
-    }
-    if (rank < weakest) {
-      at_ = before;
-      return true;
-    }
-    double right = 0.0;
-    if (!sum_of(right, rank + 1) || !apply(op, out, right)) {
-      return false;
-    }
-  }
-}
-
-// False without a reason: none stands here.
-bool Expression::operator_at(Operator& found, int& rank) {
-  struct Sign {
-    std::string_view name;
-    Operator op;
-    int rank;
-  };
-  static constexpr std::array kSigns = {
-      Sign{"**", Operator::power, 5}, Sign{"*", Operator::times, 4},
-      Sign{"/", Operator::over, 4},   Sign{"mod", Operator::modulo, 4},
-      Sign{"+", Operator::plus, 3},   Sign{"-", Operator::minus, 3},
-      Sign{"eq", Operator::eq, 2},    Sign{"ne", Operator::ne, 2},
-      Sign{"gt", Operator::gt, 2},    Sign{"ge", Operator::ge, 2},
-      Sign{"lt", Operator::lt, 2},    Sign{"le", Operator::le, 2},
-      Sign{"and", Operator::both, 1}, Sign{"or", Operator::either, 1},
-      Sign{"xor", Operator::one, 1},
-  };
-  for (const Sign& sign : kSigns) {
-    const char* at = at_;
-    std::size_t matched = 0;
-    for (; matched < sign.name.size(); ++matched) {
-      while (at != end_ && is_blank(*at)) {
-        ++at;
-      }
-      if (at == end_ || lower(*at) != sign.name[matched]) {
-        break;
-      }
-      ++at;
-    }
-    if (matched == sign.name.size()) {
-      at_ = at;
-      found = sign.op;
-      rank = sign.rank;
-      return true;
-    }
-  }
-  return false;
 }
 
 bool Expression::apply(Operator op, double& left, double right) {
@@ -269,7 +204,7 @@ bool Expression::parameter_number(int& index) {
   if (++depth_ > kDeepest) {
     return fail("expression_too_deep", "parameters nested more than 64 deep");
   }
-  if (!value(number)) {
+  if (!operand(number)) {
     return false;
   }
   --depth_;

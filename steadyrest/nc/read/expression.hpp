@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string_view>
 
+#include <steadyrest/nc/read/climber.hpp>
 #include <steadyrest/nc/read/values.hpp>
 
 namespace steadyrest::nc::read {
@@ -17,35 +19,27 @@ namespace steadyrest::nc::read {
 /// equal that differ by less than 0.0001. Angles are degrees. MOD has the sign of a positive
 /// number. A result that is not finite is refused. Blanks have no meaning, between the digits of a
 /// number neither. Nesting is bounded by `kDeepest`. Never allocates.
-class Expression {
+class Expression : public Climber<Expression> {
  public:
   static constexpr int kDeepest = 64;
 
   /// `values` answers for parameters; both outlive the object.
   Expression(std::string_view line, std::size_t at, const Values& values) noexcept
-      : begin_(line.data() + at),
-        at_(line.data() + at),
-        end_(line.data() + line.size()),
-        values_(values) {}
+      : Climber(line, at, values) {}
 
   /// Reads one real value. False when it is refused: see reason() and text().
   bool read(double& out);
   /// Reads what stands between # and = : the number of a parameter, or its name when `<` follows.
   bool parameter_number(int& index);
 
-  /// Where it stopped, characters behind `at`.
-  [[nodiscard]] std::size_t length() const noexcept {
-    return static_cast<std::size_t>(at_ - begin_);
-  }
-  [[nodiscard]] std::string_view reason() const noexcept { return reason_; }
-  [[nodiscard]] std::string_view text() const noexcept { return text_; }
-
  private:
+  friend class Climber<Expression>;
   enum class Operator : unsigned char;
-  bool value(double& out);
+  static const std::array<Sign<Operator>, 15> kSigns;
+  static constexpr bool kBlanksWithin = true;
+  static constexpr char kClosing = ']';
+  bool operand(double& out);
   bool bracket(double& out);
-  bool sum_of(double& out, int weakest);
-  bool operator_at(Operator& found, int& rank);
   bool apply(Operator op, double& left, double right);
   bool function(double& out);
   bool named_function(std::string_view name, double& out);
@@ -54,18 +48,6 @@ class Expression {
   bool parameter(double& out);
   bool spaced_number(double& out);
   bool looked_up(Lookup lookup);
-  bool finite(double value);
-  void skip_blanks() noexcept;
-  [[nodiscard]] char peek() noexcept;
-  bool fail(std::string_view reason, std::string_view text) noexcept;
-
-  const char* begin_;
-  const char* at_;
-  const char* end_;
-  const Values& values_;
-  int depth_ = 0;
-  std::string_view reason_;
-  std::string_view text_;
 };
 
 }  // namespace steadyrest::nc::read

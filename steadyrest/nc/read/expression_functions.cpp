@@ -29,8 +29,8 @@ bool Expression::function(double& out) {
     at_ = first;
     return fail("missing_value", "a value is missing: a number, a parameter or [ ] belongs here");
   }
-  return text == "exists" ? exists(out)
-         : text == "atan" ? arc_tangent(out)
+  return text == "EXISTS" ? exists(out)
+         : text == "ATAN" ? arc_tangent(out)
                           : named_function(text, out);
 }
 
@@ -42,36 +42,36 @@ bool Expression::named_function(std::string_view name, double& out) {
   const auto domain = [&](bool inside, std::string_view text) {
     return inside || fail("out_of_domain", text);
   };
-  if (name == "abs") {
+  if (name == "ABS") {
     out = std::abs(x);
-  } else if (name == "acos" || name == "asin") {
+  } else if (name == "ACOS" || name == "ASIN") {
     if (!domain(x >= -1.0 && x <= 1.0, "ASIN or ACOS of a number beyond -1 to 1")) {
       return false;
     }
-    out = (name == "acos" ? std::acos(x) : std::asin(x)) / kDegree;
-  } else if (name == "cos") {
+    out = (name == "ACOS" ? std::acos(x) : std::asin(x)) / kDegree;
+  } else if (name == "COS") {
     out = std::cos(x * kDegree);
-  } else if (name == "exp") {
+  } else if (name == "EXP") {
     out = std::exp(x);
-  } else if (name == "fix") {
+  } else if (name == "FIX") {
     out = std::floor(x);
-  } else if (name == "fup") {
+  } else if (name == "FUP") {
     out = std::ceil(x);
-  } else if (name == "ln") {
+  } else if (name == "LN") {
     if (!domain(x > 0.0, "LN of a number that is not above zero")) {
       return false;
     }
     out = std::log(x);
-  } else if (name == "round") {
+  } else if (name == "ROUND") {
     out = std::round(x);
-  } else if (name == "sin") {
+  } else if (name == "SIN") {
     out = std::sin(x * kDegree);
-  } else if (name == "sqrt") {
+  } else if (name == "SQRT") {
     if (!domain(x >= 0.0, "SQRT of a negative number")) {
       return false;
     }
     out = std::sqrt(x);
-  } else if (name == "tan") {
+  } else if (name == "TAN") {
     out = std::tan(x * kDegree);
   } else {
     return fail("unknown_function",

@@ -53,39 +53,33 @@ LookupText macro_lookup_text(Lookup lookup) noexcept {
           .text = "a variable that the control has not; #1-#33, #100-#199 and #500-#999 are read"};
 }
 
-bool MacroExpression::fail(std::string_view reason, std::string_view text) noexcept {
-  reason_ = reason;
-  text_ = text;
-  return false;
+enum class MacroExpression::Operator : unsigned char {
+  times,
+  over,
+  modulo,
+  both,
+  plus,
+  minus,
+  either,
+  one
+};
+
+constexpr std::array<Sign<MacroExpression::Operator>, 8> MacroExpression::kSigns = {{
+    {"*", Operator::times, 2},
+    {"/", Operator::over, 2},
+    {"MOD", Operator::modulo, 2},
+    {"AND", Operator::both, 2},
+    {"+", Operator::plus, 1},
+    {"-", Operator::minus, 1},
+    {"OR", Operator::either, 1},
+    {"XOR", Operator::one, 1},
+}};
+
+bool MacroExpression::read_sum(double& out) {
+  return climb(out, 1);
 }
 
-char MacroExpression::peek() noexcept {
-  while (at_ != end_ && is_blank(*at_)) {
-    ++at_;
-  }
-  return at_ == end_ ? '\0' : upper(*at_);
-}
-
-bool MacroExpression::finite(double value) {
-  return std::isfinite(value) || fail("not_finite", "a calculation without a finite result");
-}
-
-bool MacroExpression::taken(std::string_view word) noexcept {
-  const char* look = at_;
-  for (const char c : word) {
-    while (look != end_ && is_blank(*look)) {
-      ++look;
-    }
-    if (look == end_ || upper(*look) != c) {
-      return false;
-    }
-    ++look;
-  }
-  at_ = look;
-  return true;
-}
-
-bool MacroExpression::value(double& out) {
+bool MacroExpression::operand(double& out) {
   bool negative = false;
   for (char c = peek(); c == '+' || c == '-'; c = peek()) {
     negative ^= c == '-';
@@ -119,7 +113,7 @@ bool MacroExpression::bracket(double& out) {
     return fail("expression_too_deep", "brackets nested more than five deep");
   }
   ++at_;
-  if (!sum(out)) {
+  if (!read_sum(out)) {
     return false;
   }
   const char c = peek();
@@ -135,67 +129,33 @@ bool MacroExpression::bracket(double& out) {
   return true;
 }
 
-bool MacroExpression::sum(double& out) {
-  if (!product(out)) {
-    return false;
-  }
-  for (;;) {
-    const char c = peek();
-    const bool logic = taken("XOR") || taken("OR");
-    if (!logic && c != '+' && c != '-') {
-      return true;
-    }
-    at_ += logic ? 0 : 1;
-    double right = 0.0;
-    if (!product(right)) {
-      return false;
-    }
-    if (logic) {
-      if (!bits(c == 'X' ? '^' : '|', out, right)) {
-        return false;
+bool MacroExpression::apply(Operator op, double& left, double right) {
+  switch (op) {
+    case Operator::both:
+    case Operator::either:
+    case Operator::one:
+      return bits(op, left, right);
+    case Operator::over:
+    case Operator::modulo:
+      if (right == 0.0) {
+        return fail("division_by_zero", "a division by zero");
       }
-      continue;
-    }
-    out += c == '-' ? -right : right;
-    if (!finite(out)) {
-      return false;
-    }
+      left = op == Operator::over ? left / right : std::fmod(left, right);
+      break;
+    case Operator::times:
+      left *= right;
+      break;
+    case Operator::plus:
+      left += right;
+      break;
+    case Operator::minus:
+      left -= right;
+      break;
   }
+  return finite(left);
 }
 
-bool MacroExpression::product(double& out) {
-  if (!value(out)) {
-    return false;
-  }
-  for (;;) {
-    const char c = peek();
-    const bool both = taken("AND");
-    const bool modulo = !both && taken("MOD");
-    if (!both && !modulo && c != '*' && c != '/') {
-      return true;
-    }
-    at_ += both || modulo ? 0 : 1;
-    double right = 0.0;
-    if (!value(right)) {
-      return false;
-    }
-    if (both) {
-      if (!bits('&', out, right)) {
-        return false;
-      }
-      continue;
-    }
-    if (c != '*' && right == 0.0) {
-      return fail("division_by_zero", "a division by zero");
-    }
-    out = modulo ? std::fmod(out, right) : c == '*' ? out * right : out / right;
-    if (!finite(out)) {
-      return false;
-    }
-  }
-}
-
-bool MacroExpression::bits(char op, double& left, double right) {
+bool MacroExpression::bits(Operator op, double& left, double right) {
   constexpr double kMost = 2147483647.0;
   const auto whole = [](double x) {
     return x >= 0.0 && x <= kMost && std::abs(x - std::round(x)) <= kWhole;
@@ -205,7 +165,7 @@ bool MacroExpression::bits(char op, double& left, double right) {
   }
   const auto a = static_cast<std::uint32_t>(std::round(left));
   const auto b = static_cast<std::uint32_t>(std::round(right));
-  left = op == '&' ? a & b : op == '|' ? a | b : a ^ b;
+  left = op == Operator::both ? a & b : op == Operator::either ? a | b : a ^ b;
   return true;
 }
 
@@ -236,7 +196,7 @@ bool MacroExpression::function(double& out) {
     if (++depth_ > kDeepest) {
       return fail("expression_too_deep", "brackets nested more than five deep");
     }
-    return sum(x) && arc_tangent(x, out);
+    return read_sum(x) && arc_tangent(x, out);
   }
   return bracket(x) && evaluate(name, x, out);
 }
@@ -291,7 +251,7 @@ bool MacroExpression::arc_tangent(double y, double& out) {
   bool pair = peek() == ',';
   if (pair) {
     ++at_;
-    if (!sum(x)) {
+    if (!read_sum(x)) {
       return false;
     }
   }

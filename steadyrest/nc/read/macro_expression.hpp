@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string_view>
 
+#include <steadyrest/nc/read/climber.hpp>
 #include <steadyrest/nc/read/values.hpp>
 
 namespace steadyrest::nc::read {
@@ -17,55 +19,38 @@ namespace steadyrest::nc::read {
 /// inside of an address to the address's least increment. ASIN gives 270° … 90°, ATAN[y]/[x]
 /// 0° … 360°, ATAN[a] −90° … 90°: parameter 6004#0 = 0. A variable that is vacant is refused, for
 /// what it does depends on the word; so are BIN, BCD, ADP and PRM. Never allocates.
-class MacroExpression {
+class MacroExpression : public Climber<MacroExpression> {
  public:
   static constexpr int kDeepest = 5;
 
   /// `increment`: what ROUND rounds to; 1 in a macro statement, 0 where it is not known.
   MacroExpression(std::string_view line, std::size_t at, const Values& values,
                   double increment) noexcept
-      : begin_(line.data() + at),
-        at_(line.data() + at),
-        end_(line.data() + line.size()),
-        values_(values),
-        increment_(increment) {}
+      : Climber(line, at, values), increment_(increment) {}
 
   /// One value without operators: what may follow an address.
-  bool read(double& out) { return value(out); }
+  bool read(double& out) { return operand(out); }
   /// A whole expression: what may follow `=`.
-  bool read_sum(double& out) { return sum(out); }
+  bool read_sum(double& out);
   /// What stands between # and = : digits or [ ].
   bool variable_number(int& index);
 
-  [[nodiscard]] std::size_t length() const noexcept {
-    return static_cast<std::size_t>(at_ - begin_);
-  }
-  [[nodiscard]] std::string_view reason() const noexcept { return reason_; }
-  [[nodiscard]] std::string_view text() const noexcept { return text_; }
-
  private:
-  bool value(double& out);
+  friend class Climber<MacroExpression>;
+  enum class Operator : unsigned char;
+  static const std::array<Sign<Operator>, 8> kSigns;
+  static constexpr bool kBlanksWithin = true;
+  static constexpr char kClosing = ']';
+  bool operand(double& out);
+  bool apply(Operator op, double& left, double right);
   bool bracket(double& out);
-  bool sum(double& out);
-  bool product(double& out);
-  bool bits(char op, double& left, double right);
+  bool bits(Operator op, double& left, double right);
   bool function(double& out);
   bool evaluate(std::string_view name, double x, double& out);
   bool arc_tangent(double y, double& out);
   bool variable(double& out);
-  bool finite(double value);
-  bool taken(std::string_view word) noexcept;
-  [[nodiscard]] char peek() noexcept;
-  bool fail(std::string_view reason, std::string_view text) noexcept;
 
-  const char* begin_;
-  const char* at_;
-  const char* end_;
-  const Values& values_;
   double increment_;
-  int depth_ = 0;
-  std::string_view reason_;
-  std::string_view text_;
 };
 
 /// Why a variable of a macro could not be read or set.

@@ -50,6 +50,27 @@ enum class SinumerikExpression::Operator : unsigned char {
   gt
 };
 
+constexpr std::array<Sign<SinumerikExpression::Operator>, 18> SinumerikExpression::kSigns = {{
+    {"*", Operator::times, 8},
+    {"/", Operator::over, 8},
+    {"DIV", Operator::div, 8},
+    {"MOD", Operator::mod, 8},
+    {"+", Operator::plus, 7},
+    {"-", Operator::minus, 7},
+    {"B_AND", Operator::bit_and, 6},
+    {"B_XOR", Operator::bit_xor, 5},
+    {"B_OR", Operator::bit_or, 4},
+    {"AND", Operator::both, 3},
+    {"XOR", Operator::one, 2},
+    {"OR", Operator::either, 1},
+    {"==", Operator::eq, 0},
+    {"<>", Operator::ne, 0},
+    {"<=", Operator::le, 0},
+    {">=", Operator::ge, 0},
+    {"<", Operator::lt, 0},
+    {">", Operator::gt, 0},
+}};
+
 bool lower_name(std::string_view written, Name& name) noexcept {
   name.clear();
   return std::ranges::all_of(written, [&](char c) {
@@ -77,23 +98,6 @@ SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept {
   return {.reason = "no_such_parameter", .text = "an R-parameter beyond R0 to R999"};
 }
 
-bool SinumerikExpression::fail(std::string_view reason, std::string_view text) noexcept {
-  reason_ = reason;
-  text_ = text;
-  return false;
-}
-
-char SinumerikExpression::peek() noexcept {
-  while (at_ != end_ && is_blank(*at_)) {
-    ++at_;
-  }
-  return at_ == end_ ? '\0' : upper(*at_);
-}
-
-bool SinumerikExpression::finite(double value) {
-  return std::isfinite(value) || fail("not_finite", "a calculation without a finite result");
-}
-
 bool SinumerikExpression::looked_up(Lookup lookup) {
   const SinumerikLookup why = sinumerik_lookup_text(lookup);
   return lookup == Lookup::found || fail(why.reason, why.text);
@@ -111,59 +115,7 @@ bool SinumerikExpression::closing(char bracket) {
 }
 
 bool SinumerikExpression::read(double& out) {
-  return sum_of(out, kComparison);
-}
-
-bool SinumerikExpression::sum_of(double& out, int weakest) {
-  if (!operand(out)) {
-    return false;
-  }
-  for (;;) {
-    const char* const before = at_;
-    Operator op{};
-    int rank = 0;
-    if (!operator_at(op, rank) || rank < weakest) {
-      at_ = before;
-      return true;
-    }
-    double right = 0.0;
-    if (!sum_of(right, rank + 1) || !apply(op, out, right)) {
-      return false;
-    }
-  }
-}
-
-bool SinumerikExpression::operator_at(Operator& found, int& rank) noexcept {
-  struct Sign {
-    std::string_view name;
-    Operator op;
-    int rank;
-  };
-  static constexpr std::array kSigns = {
-      Sign{"*", Operator::times, 8},       Sign{"/", Operator::over, 8},
-      Sign{"DIV", Operator::div, 8},       Sign{"MOD", Operator::mod, 8},
-      Sign{"+", Operator::plus, 7},        Sign{"-", Operator::minus, 7},
-      Sign{"B_AND", Operator::bit_and, 6}, Sign{"B_XOR", Operator::bit_xor, 5},
-      Sign{"B_OR", Operator::bit_or, 4},   Sign{"AND", Operator::both, 3},
-      Sign{"XOR", Operator::one, 2},       Sign{"OR", Operator::either, 1},
-      Sign{"==", Operator::eq, 0},         Sign{"<>", Operator::ne, 0},
-      Sign{"<=", Operator::le, 0},         Sign{">=", Operator::ge, 0},
-      Sign{"<", Operator::lt, 0},          Sign{">", Operator::gt, 0},
-  };
-  static_cast<void>(peek());
-  const std::string_view rest{at_, static_cast<std::size_t>(end_ - at_)};
-  for (const Sign& sign : kSigns) {
-    const std::size_t length = sign.name.size();
-    if (!equal(rest.substr(0, length), sign.name) ||
-        (is_letter(sign.name.front()) && rest.size() > length && in_name(rest[length]))) {
-      continue;
-    }
-    at_ += length;
-    found = sign.op;
-    rank = sign.rank;
-    return true;
-  }
-  return false;
+  return climb(out, kComparison);
 }
 
 bool SinumerikExpression::apply(Operator op, double& left, double right) {
@@ -240,7 +192,7 @@ bool SinumerikExpression::operand(double& out) {
   }
   if (c == '-' || c == '+') {
     ++at_;
-    if (!sum_of(out, kStrongest)) {
+    if (!climb(out, kStrongest)) {
       return false;
     }
     out = c == '-' ? -out : out;
@@ -249,7 +201,7 @@ bool SinumerikExpression::operand(double& out) {
   }
   if (c == '(') {
     ++at_;
-    return sum_of(out, kComparison) && closing(')');
+    return climb(out, kComparison) && closing(')');
   }
   --depth_;
   if (is_digit(c) || c == '.') {
@@ -314,7 +266,7 @@ bool SinumerikExpression::word(double& out) {
     if (name.size() > 3) {
       return fail("function_not_interpreted", "B_NOT is not interpreted");
     }
-    if (++depth_ > kDeepest || !sum_of(out, kStrongest)) {
+    if (++depth_ > kDeepest || !climb(out, kStrongest)) {
       return reason_.empty() ? fail("expression_too_deep", "more than 64 deep") : false;
     }
     --depth_;
@@ -341,7 +293,7 @@ bool SinumerikExpression::parameter(double& out, std::string_view name) {
   if (name.size() == 1) {
     ++at_;
     ++depth_;
-    if (!sum_of(index, kComparison) || !closing(']')) {
+    if (!climb(index, kComparison) || !closing(']')) {
       return false;
     }
   } else {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include <steadyrest/nc/read/climber.hpp>
 #include <steadyrest/nc/read/name.hpp>
 #include <steadyrest/nc/read/values.hpp>
 
@@ -19,29 +20,22 @@ namespace steadyrest::nc::read {
 /// Functions: SIN COS TAN ASIN ACOS ATAN2 SQRT ABS POT TRUNC ROUND LN EXP MINVAL MAXVAL BOUND;
 /// angles are degrees, ATAN2(y, x) −180° … 180°. DIV and MOD of negative numbers are refused.
 /// Nesting is bounded by `kDeepest`. Never allocates.
-class SinumerikExpression {
+class SinumerikExpression : public Climber<SinumerikExpression> {
  public:
   static constexpr int kDeepest = 64;
 
   SinumerikExpression(std::string_view line, std::size_t at, const Values& values) noexcept
-      : begin_(line.data() + at),
-        at_(line.data() + at),
-        end_(line.data() + line.size()),
-        values_(values) {}
+      : Climber(line, at, values) {}
 
   bool read(double& out);
 
-  [[nodiscard]] std::size_t length() const noexcept {
-    return static_cast<std::size_t>(at_ - begin_);
-  }
-  [[nodiscard]] std::string_view reason() const noexcept { return reason_; }
-  [[nodiscard]] std::string_view text() const noexcept { return text_; }
-
  private:
+  friend class Climber<SinumerikExpression>;
   enum class Operator : unsigned char;
+  static const std::array<Sign<Operator>, 18> kSigns;
+  static constexpr bool kBlanksWithin = false;
+  static constexpr char kClosing = ')';
   bool operand(double& out);
-  bool sum_of(double& out, int weakest);
-  bool operator_at(Operator& found, int& rank) noexcept;
   bool apply(Operator op, double& left, double right);
   bool arithmetic(Operator op, double& left, double right);
   bool bits(Operator op, double& left, double right);
@@ -52,17 +46,6 @@ class SinumerikExpression {
   bool arguments(std::array<double, 3>& values, std::size_t wanted);
   bool looked_up(Lookup lookup);
   bool closing(char bracket);
-  bool finite(double value);
-  [[nodiscard]] char peek() noexcept;
-  bool fail(std::string_view reason, std::string_view text) noexcept;
-
-  const char* begin_;
-  const char* at_;
-  const char* end_;
-  const Values& values_;
-  int depth_ = 0;
-  std::string_view reason_;
-  std::string_view text_;
 };
 
 /// The name of a variable in lower case; false when it is too long.
