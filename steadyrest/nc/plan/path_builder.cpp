@@ -6,7 +6,6 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/spline_curve.hpp>
-#include <steadyrest/nc/plan/axes_at.hpp>
 #include <steadyrest/nc/plan/corner.hpp>
 #include <steadyrest/nc/plan/path_builder.hpp>
 #include <steadyrest/nc/plan/spline_lines.hpp>
@@ -100,8 +99,6 @@ bool PathStream::merge(const Piece& next) {
   line.segment.length_mm = length;
   line.nominal_mm = length;
   pieces_.limit(line);
-  line.start_direction = axes_at(line.segment, 0.0).direction;
-  line.end_direction = line.start_direction;
   return true;
 }
 

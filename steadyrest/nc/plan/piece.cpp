@@ -158,8 +158,12 @@ void PieceMaker::set_speed(Piece& out, const Move& move) const {
 void PieceMaker::limit(Piece& out) const {
   PathSegment& s = out.segment;
   SegmentPlan& p = out.plan;
-  const SpeedLimits limits =
-      s.geometry == Geometry::arc ? limits_.arc(s) : limits_.line(axes_at(s, 0.0).direction);
+  const bool line = s.geometry == Geometry::line;
+  if (line) {
+    out.start_direction = axes_at(s, 0.0).direction;
+    out.end_direction = out.start_direction;
+  }
+  const SpeedLimits limits = line ? limits_.line(out.start_direction) : limits_.arc(s);
   const auto& control = machine_.control;
   double speed = std::min(limits.speed_mm_s, p.rapid ? control.rapid_mm_s : control.max_feed_mm_s);
   if (control.min_block_cycles > 0.0) {
@@ -222,8 +226,10 @@ Result<std::optional<Piece>> PieceMaker::make(const Move& move) const {
     return refuse("a move of axes that have no acceleration limit",
                   "give max_acceleration of the axes");
   }
-  out.start_direction = axes_at(s, 0.0).direction;
-  out.end_direction = axes_at(s, s.length_mm).direction;
+  if (s.geometry == Geometry::arc) {
+    out.start_direction = axes_at(s, 0.0).direction;
+    out.end_direction = axes_at(s, s.length_mm).direction;
+  }
   return out;
 }
 

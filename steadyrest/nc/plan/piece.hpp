@@ -46,7 +46,7 @@ class PieceMaker {
   /// feed, a feed per revolution without a spindle, axes without limits.
   [[nodiscard]] kernel::outcome::Result<std::optional<Piece>> make(
       const interpret::Move& move) const;
-  /// Sets the limits anew after the segment was changed.
+  /// Sets the limits anew after the segment was changed, and a line's direction.
   void limit(Piece& out) const;
   [[nodiscard]] const PathLimits& limits() const noexcept { return limits_; }
 

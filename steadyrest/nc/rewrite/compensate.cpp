@@ -354,8 +354,8 @@ class Rewriter {
         }
         ++text;
       }
-      writer.write(lines.line());
-      writer.write(lines.ending());
+      // The end stands behind the line: one piece.
+      writer.write({lines.line().data(), lines.line().size() + lines.ending().size()});
       if (!lines.ending().empty()) {
         ending = lines.ending();
       }
