@@ -23,8 +23,9 @@ bool Interpreter::remember_cycle(const Step& step) {
   // LinuxCNC keeps words within one cycle, FANUC from cycle to cycle until G80.
   const bool fanuc = config_.dialect == read::Dialect::fanuc;
   const bool fresh = fanuc ? !is_cycle(state_.motion) : state_.motion != motion_now_;
-  if (!is_cycle(state_.motion)) {
+  if (!is_cycle(state_.motion) || memory.begins_anew) {
     memory.initial = state_.position[axes_of(state_.plane).normal] / state_.unit_mm;
+    memory.begins_anew = false;
   }
   const char normal = kNormalLetters[axes_of(state_.plane).normal];
   struct Sticky {

@@ -51,13 +51,24 @@ bool Interpreter::set_work_data(const Step& step, double form) {
   } else {
     place_here(step, state_.rotation_deg[set], offset);
   }
-  if (set == state_.active_offset) {
-    state_.work_in_force = offset;
+  if (set != state_.active_offset) {
+    return true;
   }
-  if (!rotation_may_change(step)) {
-    return false;
-  }
+  const Axes before = state_.work_in_force;
+  state_.work_in_force = offset;
+  const double before_deg = state_.rotation_in_force_deg;
+  Axes place = turned(state_.position, before_deg);
   update_offset();
+  // LinuxCNC 2.9 leaves G92 out of account where the rotation changes: from here on it has X and Y
+  // at another place than the machine, and an axis that is not programmed goes there.
+  if (state_.rotation_in_force_deg != before_deg) {
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      place[i] += before[i] - offset[i];
+    }
+    place = turned(place, -state_.rotation_in_force_deg);
+    state_.position[0] = place[0];
+    state_.position[1] = place[1];
+  }
   return true;
 }
 
@@ -162,6 +173,9 @@ bool Interpreter::set_tool_data(const Step& step, double form) {
       return refuse(step, 'Q', "out_of_range", "a lathe tool's orientation (Q) is 0 to 9");
     }
     tool->orientation = static_cast<std::int32_t>(step['Q']);
+  }
+  if (tool->number == state_.tool_in_spindle) {
+    load_tool();
   }
   return true;
 }

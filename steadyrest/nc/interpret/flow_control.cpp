@@ -48,8 +48,11 @@ bool FlowControl::go(std::uint32_t line, const Place& place) {
 
 bool FlowControl::act(const Block& block) {
   switch (block.flow().kind) {
-    case FlowKind::none:
     case FlowKind::label:
+      return !in_call() || frames_.back().by_number ||
+             refuse(block.line(), block.flow().label.view(), "o_word_misplaced",
+                    "a subprogram for M98 that begins inside of one for call");
+    case FlowKind::none:
     case FlowKind::cycle:
     case FlowKind::modal_cycle:
       return true;
@@ -88,11 +91,18 @@ bool FlowControl::act(const Block& block) {
 // What ends the passing over of lines.
 bool FlowControl::pass_over(Block& block) {
   const auto& source = files_.now();
+  if (reader_.ends_program(source.line())) {
+    return !refuse_end();
+  }
   if (!reader_.read_flow(source.line(), source.number(), block)) {
     refused_ = reader_.refused();
     return false;
   }
   const FlowKind kind = block.flow().kind;
+  if (passing_ == Passing::to_endsub && (kind == FlowKind::sub || kind == FlowKind::label)) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_misplaced",
+                  "a subprogram that begins inside of another");
+  }
   // LinuxCNC looks at these whether they are executed or not.
   if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
     const Open* const loop = find(block, true);

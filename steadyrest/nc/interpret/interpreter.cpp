@@ -86,7 +86,6 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   }
   cutter_->bind(sink);
   sink_ = state_.cutter_side != 0 ? static_cast<Sink*>(cutter_.get()) : &sink;
-  state_.line = block.line();
   step_.reset(block);
   if (!decode(block, step_)) {
     return false;
@@ -245,11 +244,16 @@ bool Interpreter::change_tool(const Step& step) {
                          "M61 without the number of the tool in the spindle (Q)");
     }
     read_position_anew();
-    return tool_number(step, 'Q', state_.tool_in_spindle);
+    if (!tool_number(step, 'Q', state_.tool_in_spindle)) {
+      return false;
+    }
+    load_tool();
+    return true;
   }
   state_.spindle_direction = 0;
   emit_spindle();
   state_.tool_in_spindle = state_.selected_tool;
+  load_tool();
   read_position_anew();
   sink_->on_event({.kind = EventKind::tool_change,
                    .line = step.line,
@@ -258,12 +262,16 @@ bool Interpreter::change_tool(const Step& step) {
   return true;
 }
 
+// #5401 … show the tool of the last change; rs274 leaves them as they are at T0 M6.
+void Interpreter::load_tool() {
+  if (const Tool* const tool = place_of_tool(state_.tool_in_spindle); tool != nullptr) {
+    state_.tool = *tool;
+  }
+}
+
 bool Interpreter::set_spindle(const Step& step) {
   const int code = step.code(MGroup::spindle);
   if (code != kNoCode) {
-    if (code == 19 && !step.has('R')) {
-      return refuse_code(step, 'M', 19, "angle_missing", "M19 without the spindle's angle (R)");
-    }
     state_.spindle_direction = code == 3 ? 1 : code == 4 ? -1 : 0;
     emit_spindle();
   }

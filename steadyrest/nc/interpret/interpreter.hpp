@@ -42,6 +42,8 @@ class Interpreter {
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] const read::Refused& refused() const noexcept { return refused_; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// The line that is read next (#<_line>).
+  void at_line(std::uint32_t line) noexcept { state_.line = line; }
   /// What expressions of the program ask for. Stays valid while the interpreter is not moved.
   [[nodiscard]] Parameters& parameters() noexcept {
     parameters_->bind(state_, config_);
@@ -127,7 +129,6 @@ class Interpreter {
   void set_units(const Step& step);
   bool set_tool_length(const Step& step);
   bool set_work_offset(const Step& step);
-  bool rotation_may_change(const Step& step);
   bool set_path_mode(const Step& step);
   bool non_modal(const Step& step);
   bool set_data(const Step& step);
@@ -135,6 +136,7 @@ class Interpreter {
   bool set_fanuc_data(const Step& step, double form);
   void place_here(const Step& step, double rotation_deg, Axes& offset) const;
   bool set_tool_data(const Step& step, double form);
+  void load_tool();
   Tool* place_of_tool(std::int32_t number);
   bool set_io(const Step& step);
   bool keep_modes(const Step& step);
@@ -175,6 +177,7 @@ class Interpreter {
   bool has_feed(const Step& step);
   bool end_point(const Step& step, Axes& end);
   void machine_end(const Step& step, Axes& end) const;
+  [[nodiscard]] bool tool_stays(std::size_t axis) const noexcept;
   double component(const Step& step, std::size_t axis) const noexcept;
 
   void fill(MoveKind kind, const Axes& end);
@@ -208,7 +211,6 @@ class Interpreter {
   bool cubic_goes_on_ = false;
   std::vector<SplinePoint> spline_points_;  ///< of G5.2
   int spline_order_ = 0;
-  int motion_before_spline_ = -1;
   Axes spline_end_{};
   ProgramCall program_call_;
   std::optional<read::Flow> modal_cycle_;  ///< sinumerik MCALL

@@ -66,6 +66,11 @@ bool Interpreter::move(const Step& step) {
   return motion == 20 || motion == 30 ? arc(step) : straight(step);
 }
 
+// LinuxCNC 2.9 takes the tool's offset off on its way to machine coordinates, but for A, B and C.
+bool Interpreter::tool_stays(std::size_t axis) const noexcept {
+  return config_.dialect == read::Dialect::linuxcnc && is_rotary(axis);
+}
+
 // G53: the named axes go to machine coordinates, the machine's others stay. The tool's length stays
 // in force on SINUMERIK, on the others it is suppressed as well.
 void Interpreter::machine_end(const Step& step, Axes& end) const {
@@ -73,7 +78,7 @@ void Interpreter::machine_end(const Step& step, Axes& end) const {
   Axes machine = to_machine(end);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (step.has(kAxisLetters[i])) {
-      machine[i] = component(step, i) + (keeps_tool ? state_.tool_offset[i] : 0.0);
+      machine[i] = component(step, i) + (keeps_tool || tool_stays(i) ? state_.tool_offset[i] : 0.0);
     }
   }
   const Axes work = to_work(machine);
@@ -321,7 +326,7 @@ bool Interpreter::home(const Step& step, std::size_t which) {
   const Axes reference = to_work(state_.home[which]);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (!some || step.has(kAxisLetters[i])) {
-      end[i] = reference[i];
+      end[i] = reference[i] + (tool_stays(i) ? state_.tool_offset[i] : 0.0);
     }
   }
   emit(MoveKind::rapid, end);

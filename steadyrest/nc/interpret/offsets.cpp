@@ -147,22 +147,8 @@ bool Interpreter::set_work_offset(const Step& step) {
   } else {
     return true;
   }
-  if (!rotation_may_change(step)) {
-    return false;
-  }
   update_offset();
   return true;
-}
-
-// LinuxCNC 2.9 loses the place of axes that are not programmed next when the rotation changes under
-// a G92 or G52 shift of X or Y.
-bool Interpreter::rotation_may_change(const Step& step) {
-  const double next_deg = state_.work_offset_on ? state_.rotation_deg[state_.active_offset] : 0.0;
-  const bool shifted = state_.g92[0] != 0.0 || state_.g92[1] != 0.0;
-  return next_deg == state_.rotation_in_force_deg || !shifted ||
-         refuse_word(step.line, step.block->words().front(), "rotation_with_shift",
-                     "a rotation that changes while G92 or G52 shifts X or Y; take the shift back "
-                     "before");
 }
 
 bool Interpreter::set_path_mode(const Step& step) {

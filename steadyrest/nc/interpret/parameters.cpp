@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <steadyrest/nc/interpret/frame.hpp>
 #include <steadyrest/nc/interpret/parameters.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -22,6 +23,8 @@ constexpr int kToolOffset = 5401;    // … 5409
 constexpr int kToolDiameter = 5410;  // then front angle, back angle, orientation
 constexpr int kPosition = 5420;      // … 5428
 constexpr int kAxes = 9;
+constexpr int kDebugging = 5599;     // whether (DEBUG,…) shows: 1 at the start
+constexpr int kChangerFault = 5600;  // and 5601: the tool changer's, nothing can be set there
 
 constexpr bool within(int index, int first) noexcept {
   return index >= first && index < first + kAxes;
@@ -30,8 +33,14 @@ constexpr bool is_rotary(int axis) noexcept {
   return axis >= 3 && axis < 6;
 }
 constexpr bool reads_only(int index) noexcept {
-  return (index >= kTool && index <= kPosition + kAxes) || index == kG92InForce ||
-         index == kActiveOffset;
+  return (index >= kTool && index < kToolDiameter + 4) || within(index, kPosition) ||
+         index == kG92InForce || index == kActiveOffset;
+}
+
+// What only the running machine knows.
+bool of_machine(std::string_view name) noexcept {
+  return name.starts_with("_hal[") || name.starts_with("_ini[") || name == "_current_pocket" ||
+         name == "_selected_pocket" || name == "_metric_machine";
 }
 
 using Answers = std::unordered_map<std::string_view, double (*)(const State&)>;
@@ -101,7 +110,9 @@ const Answers& answers() {
 
 }  // namespace
 
-Parameters::Parameters() : numbers_(static_cast<std::size_t>(kNumbers), 0.0) {}
+Parameters::Parameters() : numbers_(static_cast<std::size_t>(kNumbers), 0.0) {
+  numbers_[kDebugging] = 1.0;
+}
 
 double* Parameters::stored(int index, bool& rotary) const noexcept {
   const auto axis_of = [&](int first, Axes& axes) {
@@ -145,7 +156,7 @@ bool Parameters::of_state(int index, double& value) const {
     return in_force(shown, kPosition, state_->unit_mm);
   }
   if (within(index, kToolOffset)) {
-    return in_force(state_->tool_offset, kToolOffset, config_->data_unit_mm);
+    return in_force(state_->tool.offset, kToolOffset, config_->data_unit_mm);
   }
   bool rotary = false;
   if (const double* const place = stored(index, rotary); place != nullptr) {
@@ -184,6 +195,15 @@ bool Parameters::of_state(std::string_view name, double& value) const {
     constexpr std::string_view kLetters = "xyzabcuvw";
     if (const auto axis = kLetters.find(name[1]); axis != std::string_view::npos) {
       return of_state(kPosition + static_cast<int>(axis), value);
+    }
+  }
+  if (name.starts_with("_abs_") && name.size() == 6) {
+    constexpr std::string_view kLetters = "xyzabc";
+    if (const auto axis = kLetters.find(name[5]); axis != std::string_view::npos) {
+      const Axes machine = turned(state_->position, state_->rotation_in_force_deg);
+      value = (machine[axis] + state_->offset[axis]) /
+              (is_rotary(static_cast<int>(axis)) ? 1.0 : state_->unit_mm);
+      return true;
     }
   }
   if (name == "_line") {
@@ -248,8 +268,7 @@ Lookup Parameters::name(std::string_view name, double& value) const {
     value = found->second;
     return Lookup::found;
   }
-  return name.starts_with("_hal[") || name.starts_with("_ini[") ? Lookup::not_known_here
-                                                                : Lookup::no_such_name;
+  return of_machine(name) ? Lookup::not_known_here : Lookup::no_such_name;
 }
 
 Lookup Parameters::set_number(int index, double value) {
@@ -266,7 +285,7 @@ Lookup Parameters::set_number(int index, double value) {
 Lookup Parameters::set_name(std::string_view name, double value) {
   double ignored = 0.0;
   if (name.front() == '_' &&
-      (of_state(name, ignored) || name.find('[') != std::string_view::npos)) {
+      (of_state(name, ignored) || of_machine(name) || name.find('[') != std::string_view::npos)) {
     return Lookup::read_only;
   }
   pending_names_.emplace_back(name, value);
@@ -279,7 +298,9 @@ void Parameters::assign(int index, double value) {
     *place = rotary ? value : value * config_->data_unit_mm;
     return;
   }
-  numbers_[static_cast<std::size_t>(index)] = value;
+  if (index < kChangerFault) {
+    numbers_[static_cast<std::size_t>(index)] = value;
+  }
 }
 
 void Parameters::commit() {

@@ -77,6 +77,7 @@ class ProgramRun::Run {
     at_top_ = files_.in_main() && !flow_.repeating();
     in_main_ = files_.in_main();
     line_ = files_.now().number();
+    interpreter_.at_line(line_);
     if (flow_.passing_over()) {
       return follow(flow_.pass_over(block_));
     }

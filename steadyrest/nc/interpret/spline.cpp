@@ -5,7 +5,7 @@
 #include <steadyrest/nc/interpret/interpreter.hpp>
 
 // G5 (cubic), G5.1 (quadratic), G5.2 … G5.3 (control points with weights): splines in the XY plane.
-// Behind a spline the motion that was in force before it goes on.
+// Behind G5 and G5.1 the motion that was in force before goes on, behind G5.3 none is in force.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -19,7 +19,7 @@ constexpr std::size_t kMostPoints = 10'000;
 
 bool Interpreter::spline(const Step& step) {
   const int code = motion_now_;
-  if (state_.plane != Plane::xy) {
+  if (state_.plane != Plane::xy && (code == kCubic || code == kQuadratic)) {
     return refuse_code(step, 'G', 5, "spline_off_xy", "a spline outside of the XY plane (G17)");
   }
   for (const char letter : std::string_view{"ZABCUVW"}) {
@@ -111,7 +111,6 @@ bool Interpreter::control_point(const Step& step) {
     }
     spline_points_.push_back({state_.position[0], state_.position[1], step['P']});
     spline_end_ = state_.position;
-    motion_before_spline_ = state_.motion;
     state_.motion = kPoints;
     cubic_goes_on_ = false;
   } else if (step.has('L')) {
@@ -137,7 +136,7 @@ bool Interpreter::end_spline(const Step& step) {
   }
   emit_spline(spline_points_, spline_order_, spline_end_);
   spline_points_.clear();
-  state_.motion = motion_before_spline_;
+  state_.motion = -1;
   return true;
 }
 
@@ -146,6 +145,7 @@ void Interpreter::emit_spline(std::span<const SplinePoint> points, int order, co
   move_.spline_order = order;
   const PathMode mode = state_.path_mode;
   emit(MoveKind::spline, end);
+  state_.cycle.begins_anew = true;
   state_.path_mode = mode;
   move_.spline = {};
   move_.spline_order = 0;

@@ -35,6 +35,7 @@ struct CycleMemory {
   double dwell_s = 0.0;         ///< P word
   std::array<double, 3> ijk{};  ///< I, J, K words of G87: shifts in the plane, upper depth
   double initial = 0.0;         ///< where the normal axis stood when the row of cycles began
+  bool begins_anew = false;     ///< a spline stood between: the row begins where it ended
 };
 
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.

@@ -103,6 +103,10 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   return accepted;
 }
 
+bool Reader::ends_program(std::string_view line) const noexcept {
+  return percent_opened_ && dialect_ == Dialect::linuxcnc && trimmed(line) == "%";
+}
+
 bool Reader::read_flow(std::string_view line, std::uint32_t number, Block& block) {
   block.reset(number);
   const std::size_t at = o_word_at(line);

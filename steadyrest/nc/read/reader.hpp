@@ -36,6 +36,10 @@ class Reader {
   /// label. False when that is refused.
   bool read_flow(std::string_view line, std::uint32_t number, Block& block);
 
+  /// A line that is passed over is the `%` that closes the program: what is looked for cannot stand
+  /// behind it.
+  [[nodiscard]] bool ends_program(std::string_view line) const noexcept;
+
   /// What expressions ask and assignments set; nullptr: expressions are refused. Must outlive the
   /// reading.
   void set_values(Values* values) noexcept { values_ = values; }

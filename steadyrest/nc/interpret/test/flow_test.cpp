@@ -57,6 +57,13 @@ TEST(Flow, WhatIsPassedOverIsNotRead) {
       ElementsAre(2));
 }
 
+TEST(Flow, WhatIsLookedForDoesNotStandBehindTheClosingPercent) {
+  const std::string_view sub = "o1 sub\nG0 X1\no1 endsub\n";
+  EXPECT_THAT(reason_of(std::string{"%\no1 call\nM2\n%\n"}.append(sub)), "o_word_without_end");
+  EXPECT_THAT(reason_of("%\no1 if [0]\nG0 X1\n%\no1 endif\nM2\n"), "o_word_without_end");
+  EXPECT_THAT(x_of(std::string{"o1 call\nM2\n%\n"}.append(sub)), ElementsAre(1));
+}
+
 TEST(Flow, ACallHasItsOwnThirtyParametersAndLocalNames) {
   EXPECT_THAT(x_of("#30=7 #<a>=1\no1 sub\n#<a>=5\nG0 X#30\nX#1\n#29=1\no1 endsub\n#31=2\n"
                    "o1 call [5] [6]\nX#29\nX#30\nX#31\nX#<a>\nM2\n"),
