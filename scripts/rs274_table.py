@@ -24,6 +24,7 @@ MM_PER_INCH = 25.4
 HALF_DIGIT = 0.00005  # rs274 prints four decimals
 TOOLS = "".join(f"T{n} P{n} Z{n * 0.5:g} D{n * 0.05:g}\n" for n in range(1, 100))  # inches: rs274's own unit
 CALL = re.compile(r"^\s*\d+ N\S*\s+([A-Z_0-9]+)\((.*)\)\s*$")
+SHIFTS = ("USE_LENGTH_UNITS", "SET_G5X_OFFSET", "SET_G92_OFFSET", "SET_XY_ROTATION", "USE_TOOL_LENGTH_OFFSET")
 KINDS = {"STRAIGHT_TRAVERSE": "rapid", "STRAIGHT_FEED": "linear", "ARC_FEED": "arc", "DWELL": "dwell", "STRAIGHT_PROBE": "probe"}
 
 
@@ -61,13 +62,15 @@ class Oracle:
                               env={**os.environ, "HOME": self.folder})
         lines = done.stdout.decode("latin-1").splitlines()
         moves, unit, plane, feed, noise = [], 1.0, "XY", 0.0, []
-        sync = None
+        sync, stands = None, []  # stands: the end printed last, while its numbers mean the same place
         for line in lines:
             call = CALL.match(line)
             if not call:
                 noise.append(line.strip())
                 continue
             name, values = call.group(1), call.group(2)
+            if name in SHIFTS:
+                stands = []
             if name == "USE_LENGTH_UNITS":
                 unit = MM_PER_INCH if "INCHES" in values else 1.0
             elif name == "SELECT_PLANE":
@@ -80,13 +83,16 @@ class Oracle:
                 sync = None
             elif name == "NURBS_FEED":
                 moves.append(("spline", [], unit, plane, feed))
+                stands = []
             elif name == "RIGID_TAP":  # in and out again
-                back = moves[-1][1][:3] if moves and moves[-1][0] in ("rapid", "linear", "thread") else None
+                back = stands
                 moves.append(("thread", numbers(values)[:3], unit, plane, feed))
-                moves.append(("thread", back or [], unit, plane, feed))
+                moves.append(("thread", back, unit, plane, feed))
             elif name in KINDS:
                 kind = "thread" if sync is not None and name == "STRAIGHT_FEED" else KINDS[name]
                 moves.append((kind, numbers(values), unit, plane, feed))
+                if kind != "dwell":
+                    stands = numbers(values)[:3] if kind in ("rapid", "linear", "thread") else []
         errors = (done.stderr.decode("latin-1").strip().splitlines() + [n for n in noise if n])
         errors = [e for e in errors if e and e != "executing"]
         return done.returncode == 0, (errors[0] if errors else ""), moves
