@@ -178,6 +178,10 @@ bool Interpreter::straight(const Step& step) {
 // before, as in LinuxCNC's own interpreter without a machine.
 bool Interpreter::probe(const Step& step) {
   constexpr double kBefore_mm = 0.254;
+  if (state_.feed_mode == FeedMode::per_revolution) {
+    return refuse_code(step, 'G', 38, "probe_per_revolution",
+                       "probing while feed per revolution (G95) is in force");
+  }
   if (!has_feed(step)) {
     return false;
   }
