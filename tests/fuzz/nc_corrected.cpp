@@ -66,10 +66,12 @@ Job::Job(std::string_view program, rewrite::Method method, std::uint8_t choice) 
 }
 
 bool Job::plan_it(std::uint8_t choice) {
+  constexpr std::size_t kMostMoves = 500;
   constexpr double kMost_s = 60.0;  // a plan may differ from the program by 30 s
   Length length;
   const auto report = interpret::run_text(text, config, length);
-  if (!report || !report->refused.empty() || length.moves == 0 || !(length.seconds < kMost_s)) {
+  if (!report || !report->refused.empty() || length.moves == 0 || length.moves > kMostMoves ||
+      !(length.seconds < kMost_s)) {
     return false;
   }
   plan.total_s = length.seconds;

@@ -26,8 +26,10 @@ bool FlowControl::refuse(std::uint32_t line, std::string_view label, std::string
   return false;
 }
 
-bool FlowControl::count_line() {
-  if (!repeating() || ++repeated_lines_ <= most_repeated_lines_) {
+bool FlowControl::count_line(std::uint64_t moves_before) {
+  constexpr std::uint64_t kMovesOfALine = 100;  // a cycle that pecks may make a million
+  repeated_lines_ += repeating() ? 1 + moves_before / kMovesOfALine : 0;
+  if (!repeating() || repeated_lines_ <= most_repeated_lines_) {
     return true;
   }
   return refuse(files_.now().number(), {}, "endless_program",

@@ -44,8 +44,9 @@ class FlowControl {
   bool call_numbered(std::uint32_t line, std::int32_t number, double repeats);
   /// A call by name of sinumerik: NAME.SPF or NAME.MPF in the folders.
   bool call_named(const read::Block& block);
-  /// To be called for each line; false when the bound is reached.
-  bool count_line();
+  /// To be called for each line, with the moves of the line before; false when the bound is
+  /// reached.
+  bool count_line(std::uint64_t moves_before);
   /// Why the file must not end here; false when it may.
   bool refuse_end();
   [[nodiscard]] bool in_call() const noexcept { return frames_.size() > 1; }

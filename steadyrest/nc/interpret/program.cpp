@@ -70,7 +70,7 @@ class ProgramRun::Run {
  private:
   /// False when it is refused.
   bool line() {
-    if (!flow_.count_line()) {
+    if (!flow_.count_line(report_.moves - std::exchange(moves_before_, report_.moves))) {
       return refuse(flow_.refused());
     }
     executed_ = false;
@@ -278,6 +278,7 @@ class ProgramRun::Run {
   bool block_delete_;
   std::size_t calls_ = 0;
   Report report_;
+  std::uint64_t moves_before_ = 0;  ///< the line in hand
   Counter counter_;
   Block block_;
   bool source_failed_ = false;

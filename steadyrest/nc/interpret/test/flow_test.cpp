@@ -29,6 +29,18 @@ TEST(Flow, WhileRunsUntilItsConditionIsFalse) {
               ElementsAre(1, 2, 3));
 }
 
+TEST(Flow, PecksCountWhereALoopDoesNotEnd) {
+  Config config;
+  config.most_repeated_lines = 1000;
+  Kept kept;
+  const auto report = run_text(
+      "F100 G0 Z10\no1 while [#1 LT 3]\nG83 X1 Z0 R9 Q0.01\no1 endwhile\nM2\n", config, kept);
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->refused.size(), 1U);
+  EXPECT_EQ(report->refused.front().reason, "endless_program");
+  EXPECT_LT(report->moves, 110'000U);  // one cycle makes 2,700; 333 turns would be 900,000
+}
+
 TEST(Flow, DoRunsOnceAtLeast) {
   EXPECT_THAT(x_of("o1 do\n#1=[#1+1]\nG0 X#1\no1 while [#1 LT 0]\nM2\n"), ElementsAre(1));
 }
