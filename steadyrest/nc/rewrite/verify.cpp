@@ -151,6 +151,9 @@ class Prover {
   /// Runs the changed program up to and with the line that pairs with the original's.
   bool inserted_lines() {
     const Modes modes = modes_of(changed_run_->state());
+    for (const AxisPlan& axis : plan_.axes) {
+      shift_before_[axis.index] = shifts_.now(axis.index);
+    }
     for (bool as_it_was = true;;) {
       changed_moves_.clear();
       if (!changed_run_->step()) {
@@ -203,6 +206,13 @@ class Prover {
       const AxisPlan& axis = plan_.axes[i];
       if (!what_stands(axis, done_[i], offset_before_[axis.index] - before.offset[axis.index])) {
         return false;
+      }
+    }
+    for (const AxisPlan& axis : plan_.axes) {
+      const double shift_mm = shifts_.now(axis.index);
+      if (restated_ && !same(shift_mm, shift_before_[axis.index]) &&
+          !same(shift_mm, shifts_.wanted[axis.index])) {
+        return refuse("an inserted line moves an axis to where the plan does not want it");
       }
     }
     restated_ = false;
@@ -364,6 +374,7 @@ class Prover {
   Shifts shifts_;
   std::vector<std::size_t> done_;  ///< by axis of the plan: steps that stand or have stood
   Axes offset_before_{};
+  Axes shift_before_{};  ///< before the inserted lines in hand
   bool restated_ = false;
   std::uint32_t acts_at_once_ = 0;  ///< axes whose correction must act in this line, a mask
   std::optional<Refusal> too_far_;
