@@ -137,6 +137,25 @@ Tool* Interpreter::place_of_tool(std::int32_t number) {
   return found == config_.tools->end() ? nullptr : &*found;
 }
 
+// L10 in rotated coordinates: X or Y that is not named stays where the tool's old data have it.
+void Interpreter::place_tool(const Step& step, const Axes& machine, const Axes& frame,
+                             double turn_deg, Tool& tool) const {
+  Axes tip{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    tip[i] = machine[i] - frame[i] - tool.offset[i];
+  }
+  tip = turned(tip, -turn_deg);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (step.has(kAxisLetters[i])) {
+      tip[i] = component(step, i) + state_.g92[i];
+    }
+  }
+  tip = turned(tip, turn_deg);
+  for (std::size_t i = 0; i < 2; ++i) {
+    tool.offset[i] = machine[i] - frame[i] - tip[i];
+  }
+}
+
 // L1 sets a tool's data; L10 and L11 so that the tip would stand at the given place of the present
 // work offset or of G59.3. What is in force changes with the next G43.
 bool Interpreter::set_tool_data(const Step& step, double form) {
@@ -151,8 +170,12 @@ bool Interpreter::set_tool_data(const Step& step, double form) {
   constexpr std::size_t kFixtures = 8;  // G59.3
   const Axes& frame = form == 11.0 ? state_.work_offset[kFixtures] : state_.work_in_force;
   const Axes machine = to_machine(state_.position);
+  const double turn_deg = form == 10.0 ? state_.rotation_in_force_deg : 0.0;
+  if (turn_deg != 0.0) {
+    place_tool(step, machine, frame, turn_deg, *tool);
+  }
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
-    if (!step.has(kAxisLetters[i])) {
+    if (!step.has(kAxisLetters[i]) || (turn_deg != 0.0 && i < 2)) {
       continue;
     }
     const double value = component(step, i);

@@ -135,6 +135,8 @@ class Interpreter {
   bool set_work_data(const Step& step, double form);
   bool set_fanuc_data(const Step& step, double form);
   void place_here(const Step& step, double rotation_deg, Axes& offset) const;
+  void place_tool(const Step& step, const Axes& machine, const Axes& frame, double turn_deg,
+                  Tool& tool) const;
   bool set_tool_data(const Step& step, double form);
   void load_tool();
   Tool* place_of_tool(std::int32_t number);
