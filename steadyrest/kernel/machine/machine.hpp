@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <steadyrest/kernel/machine/thermal.hpp>
+
 /// The machine's passport as values: what the machine file (TOML) says, converted once to the inner
 /// units.
 ///
@@ -207,6 +209,7 @@ struct Machine {
   Contour contour;
   Chatter chatter;
   Compensation compensation;
+  Thermal thermal;
   Envelope envelope;
   Simulation simulation;
 };

@@ -12,6 +12,7 @@
 #include <steadyrest/kernel/machine/section_reader.hpp>
 #include <steadyrest/kernel/machine/text_check.hpp>
 #include <steadyrest/kernel/machine/text_file.hpp>
+#include <steadyrest/kernel/machine/thermal_section.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 
 namespace steadyrest::kernel::machine {
@@ -36,7 +37,7 @@ class FileReader {
     SectionReader<Machine> top(faults_, top_keys(), "the top level");
     top.read(root, machine_,
              {"control", "axis", "override", "spindle", "contour", "chatter", "compensation",
-              "envelope", "simulation"});
+              "thermal", "envelope", "simulation"});
     section<Control>(root, "control", control_keys(), machine_.control, contradictions, true);
     axes(root);
     overrides(root);
@@ -44,6 +45,7 @@ class FileReader {
     section<Contour>(root, "contour", contour_keys(), machine_.contour, contradictions);
     section<Chatter>(root, "chatter", chatter_keys(), machine_.chatter, contradictions);
     compensation(root);
+    read_thermal(root, machine_.thermal, faults_);
     section<Envelope>(root, "envelope", envelope_keys(), machine_.envelope, contradictions);
     section<Simulation>(root, "simulation", simulation_keys(), machine_.simulation, nullptr);
     return machine_;

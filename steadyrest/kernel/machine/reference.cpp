@@ -141,6 +141,19 @@ std::string reference_page() {
                  "[nc/rewrite](../steadyrest/nc/rewrite/README.md)\nhas the texts and the "
                  "reasons. The command line may say otherwise.\n",
                  compensation_keys());
+  out +=
+      section("`[thermal]`",
+              "\nWhat heat does to the machine: [thermal](../steadyrest/thermal/README.md) has the "
+              "law.\n`thermal fit` writes the sections below from a log.\n",
+              thermal_keys());
+  out += section("`[[thermal.axis]]`", "\nOnce for each displaced axis.\n", thermal_axis_keys());
+  out += section("`[[thermal.axis.mode]]`",
+                 "\nBelow its axis: x' = (G(n) − x)/τ, the displacement is the sum. One to four.\n",
+                 thermal_mode_keys());
+  out += section("`[[thermal.axis.ambient]]`",
+                 "\nBelow its axis: what the surroundings add, gain·(lagged temperature − "
+                 "reference). At most four.\n",
+                 thermal_ambient_keys());
   out += section("`[envelope]`", "\nThe last step before any write. It cannot be switched off.\n",
                  envelope_keys());
   out += section("`[simulation]`", "\nFor the simulated machine alone.\n", simulation_keys());

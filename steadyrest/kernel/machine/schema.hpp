@@ -72,6 +72,10 @@ inline constexpr std::size_t kMaxLineTable = 1U << 20U;
 [[nodiscard]] std::span<const Key<Contour>> contour_keys() noexcept;
 [[nodiscard]] std::span<const Key<Chatter>> chatter_keys() noexcept;
 [[nodiscard]] std::span<const Key<Compensation>> compensation_keys() noexcept;
+[[nodiscard]] std::span<const Key<Thermal>> thermal_keys() noexcept;
+[[nodiscard]] std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept;
+[[nodiscard]] std::span<const Key<ThermalMode>> thermal_mode_keys() noexcept;
+[[nodiscard]] std::span<const Key<ThermalAmbient>> thermal_ambient_keys() noexcept;
 [[nodiscard]] std::span<const Key<Envelope>> envelope_keys() noexcept;
 [[nodiscard]] std::span<const Key<Simulation>> simulation_keys() noexcept;
 

@@ -28,6 +28,26 @@ constexpr double m_min_mm_from_1_s(double gain_1_s) noexcept {
   return gain_1_s * (60.0 / 1000.0);
 }
 
+constexpr double s_from_min(double time_min) noexcept {
+  return time_min * 60.0;
+}
+constexpr double min_from_s(double time_s) noexcept {
+  return time_s / 60.0;
+}
+constexpr double mm_s_from_um_min(double speed_um_min) noexcept {
+  return speed_um_min * (1e-3 / 60.0);
+}
+constexpr double um_min_from_mm_s(double speed_mm_s) noexcept {
+  return speed_mm_s * 60e3;
+}
+/// Displacement for a feed: 1 µm/(m/min) = 6e-5 mm/(mm/s).
+constexpr double s_from_um_m_min(double gain_um_m_min) noexcept {
+  return gain_um_m_min * 6e-5;
+}
+constexpr double um_m_min_from_s(double gain_s) noexcept {
+  return gain_s / 6e-5;
+}
+
 constexpr double n_mm_from_n_um(double stiffness_n_um) noexcept {
   return stiffness_n_um * 1e3;
 }
@@ -46,6 +66,11 @@ constexpr std::array kUnits = {
     Unit{"mm_s3", "mm/s³", same, same},
     Unit{"mm", "mm", same, same},
     Unit{"um", "µm", mm_from_um, um_from_mm},
+    Unit{"um_min", "µm/min", mm_s_from_um_min, um_min_from_mm_s},
+    Unit{"um_k", "µm/K", mm_from_um, um_from_mm},
+    Unit{"um_m_min", "µm/(m/min)", s_from_um_m_min, um_m_min_from_s},
+    Unit{"min", "min", s_from_min, min_from_s},
+    Unit{"c", "°C", same, same},
     Unit{"um_s", "µm/s", mm_from_um, um_from_mm},
     Unit{"deg", "°", rad_from_deg, deg_from_rad},
     Unit{"deg_s", "°/s", rad_from_deg, deg_from_rad},
@@ -69,9 +94,9 @@ constexpr std::array kUnits = {
 };
 
 // Units that no key has; known only to say "wrong unit" instead of "wrong word".
-constexpr std::array<std::string_view, 21> kForeign = {
-    "us",  "min", "khz",   "m",     "m_s",    "m_s2",  "m_min", "g",  "in",   "inch",     "in_min",
-    "ipm", "rad", "rad_s", "rev_s", "rev_s2", "ratio", "w",     "nm", "m_s3", "mm_min_mm"};
+constexpr std::array<std::string_view, 20> kForeign = {
+    "us",  "khz", "m",     "m_s",   "m_s2",   "m_min", "g", "in", "inch", "in_min",
+    "ipm", "rad", "rad_s", "rev_s", "rev_s2", "ratio", "w", "nm", "m_s3", "mm_min_mm"};
 
 /// Length of the part before `_suffix`; npos when the key does not end so.
 std::size_t stem_length(std::string_view key, std::string_view suffix) noexcept {

@@ -63,6 +63,10 @@ TEST(Schema, EveryDimensionalKeyEndsInItsUnit) {
   expect_units(contour_keys());
   expect_units(chatter_keys());
   expect_units(compensation_keys());
+  expect_units(thermal_keys());
+  expect_units(thermal_axis_keys());
+  expect_units(thermal_mode_keys());
+  expect_units(thermal_ambient_keys());
   expect_units(envelope_keys());
   expect_units(simulation_keys());
 }
@@ -91,6 +95,10 @@ TEST(Schema, EveryDefaultIsInItsRange) {
   expect_defaults_in_range(contour_keys());
   expect_defaults_in_range(chatter_keys());
   expect_defaults_in_range(envelope_keys());
+  expect_defaults_in_range(thermal_keys());
+  expect_defaults_in_range(thermal_axis_keys());
+  expect_defaults_in_range(thermal_mode_keys());
+  expect_defaults_in_range(thermal_ambient_keys());
   expect_defaults_in_range(simulation_keys());
 }
 

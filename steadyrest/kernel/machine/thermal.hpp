@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// The thermal passport of a machine as values; the law that uses them stands in
+/// thermal/README.md.
+namespace steadyrest::kernel::machine {
+
+/// One thermal mode of one displacement: x' = (G(n) − x)/τ.
+///
+/// The level G is a table over the spindle's speed (straight between its points), or a polynomial
+/// Σ polynomial_mm[p]·(n/1000 rpm)^(p+1); not both.
+struct ThermalMode {
+  double tau_s = 3600.0;    ///< time constant while the spindle turns
+  double rest_tau_s = 0.0;  ///< while it stands; 0 = `tau_s`
+  std::vector<double> speed_rev_s;
+  std::vector<double> level_mm;       ///< as many as speeds
+  std::vector<double> polynomial_mm;  ///< coefficients of n, n², …, n in 1000 rev/min
+  double cutting_ratio = 1.0;         ///< of the level, while feed moves are made
+  double coolant_ratio = 1.0;         ///< of the level, with coolant
+  double feed_s = 0.0;                ///< added to the level for each mm/s of feed: mm/(mm/s)
+  double tau_sd_ratio = 0.0;          ///< standard deviation of ln τ
+  double state_mm = 0.0;              ///< x at the passport's `state_s`
+};
+
+/// The surroundings: displacement gain·(T_lagged − reference), T_lagged' = (T − T_lagged)/τ.
+struct ThermalAmbient {
+  std::string sensor = "ambient";  ///< its column in a log
+  double tau_s = 0.0;              ///< 0 = no lag
+  double gain_mm_k = 0.0;
+  double reference_c = 20.0;
+  double state_c = 20.0;  ///< T_lagged at the passport's `state_s`
+};
+
+/// The displacement of one axis, as a sum of modes and of what the surroundings do.
+struct ThermalAxis {
+  std::string name = "Z";  ///< an axis of the machine, or a displacement that no axis corrects
+  double noise_mm = 0.0;   ///< RMS of one reading
+  /// What the model does not know: a first-order process of this RMS and time constant.
+  double drift_mm = 0.0;
+  double drift_tau_s = 3600.0;
+  double max_speed_rev_s = 0.0;  ///< fastest that was fitted; 0 = not known
+  std::vector<ThermalMode> mode;
+  std::vector<ThermalAmbient> ambient;
+  /// Lower triangle, row by row, of the covariance of the linear parameters: for each mode its
+  /// levels or coefficients in µm, then the ambient gains in µm/K. Empty: taken as known.
+  std::vector<double> covariance;
+
+  [[nodiscard]] std::size_t parameters() const noexcept {
+    std::size_t count = ambient.size();
+    for (const ThermalMode& m : mode) {
+      count += m.level_mm.size() + m.polynomial_mm.size();
+    }
+    return count;
+  }
+};
+
+/// Bounds of the passport, so that what runs in the cycle has fixed sizes.
+inline constexpr std::size_t kMaxThermalModes = 4;
+inline constexpr std::size_t kMaxThermalAmbients = 4;
+inline constexpr std::size_t kMaxThermalLevels = 64;
+
+struct Thermal {
+  bool enabled = false;  ///< the layer corrects on line
+  /// Shares k of the tolerance that the machine's heat may take, by level: k0, k1, …
+  std::vector<double> share = {1.0, 0.7, 0.5, 0.35};
+  std::uint32_t level = 0;           ///< the level in force
+  double max_offset_mm = 0.1;        ///< no correction beyond it
+  double slope_mm_s = 0.001 / 60.0;  ///< of the on-line correction
+  double state_s = 0.0;              ///< time in the log at which the states were
+  std::vector<ThermalAxis> axis;
+};
+
+}  // namespace steadyrest::kernel::machine

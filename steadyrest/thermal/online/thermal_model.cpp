@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <steadyrest/thermal/online/thermal_model.hpp>
+
+namespace steadyrest::thermal::online {
+
+using kernel::machine::ThermalMode;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+namespace {
+
+constexpr double kReference_rev_s = 1000.0 / 60.0;  ///< of a polynomial's n
+
+bool usable(const ThermalMode& mode) {
+  return mode.tau_s > 0.0 && mode.rest_tau_s >= 0.0 &&
+         mode.speed_rev_s.size() == mode.level_mm.size() &&
+         mode.level_mm.empty() != mode.polynomial_mm.empty() &&
+         std::ranges::is_sorted(mode.speed_rev_s);
+}
+
+double by_table(const ThermalMode& mode, double speed_rev_s) noexcept {
+  const auto& n = mode.speed_rev_s;
+  const auto& g = mode.level_mm;
+  const auto above = std::ranges::upper_bound(n, speed_rev_s);
+  if (above == n.begin()) {
+    return g.front();
+  }
+  if (above == n.end()) {
+    return g.back();
+  }
+  const auto i = static_cast<std::size_t>(above - n.begin());
+  return g[i - 1] + (g[i] - g[i - 1]) * (speed_rev_s - n[i - 1]) / (n[i] - n[i - 1]);
+}
+
+double by_polynomial(const ThermalMode& mode, double speed_rev_s) noexcept {
+  const double n = speed_rev_s / kReference_rev_s;
+  double level = 0.0;
+  for (auto p = mode.polynomial_mm.rbegin(); p != mode.polynomial_mm.rend(); ++p) {
+    level = (level + *p) * n;
+  }
+  return level;
+}
+
+}  // namespace
+
+Result<ThermalModel> ThermalModel::make(const Config& config) {
+  const bool fits =
+      config.mode.size() <= kMaxThermalModes && config.ambient.size() <= kMaxThermalAmbients &&
+      std::ranges::all_of(config.mode, usable) &&
+      std::ranges::all_of(config.ambient, [](const auto& a) { return a.tau_s >= 0.0; });
+  if (!fits) {
+    return std::unexpected(Refusal{Kind::bad_input,
+                                   {},
+                                   0,
+                                   "the thermal passport of " + config.name + " cannot be used",
+                                   "give each mode a positive time constant and either a rising "
+                                   "table of levels or a polynomial"});
+  }
+  return ThermalModel(config);
+}
+
+ThermalModel::ThermalModel(const Config& config) : config_(config) {
+  reset();
+}
+
+void ThermalModel::reset() noexcept {
+  state_.mode_mm.fill(0.0);
+  state_.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
+}
+
+double ThermalModel::level_mm(std::size_t mode, const Drive& drive) const noexcept {
+  const ThermalMode& m = config_.mode[mode];
+  const double n = std::abs(drive.speed_rev_s);
+  double level = m.level_mm.empty() ? by_polynomial(m, n) : by_table(m, n);
+  level *= drive.cutting ? m.cutting_ratio : 1.0;
+  level *= drive.coolant ? m.coolant_ratio : 1.0;
+  return level + m.feed_s * drive.feed_mm_s;
+}
+
+double ThermalModel::tau_s(std::size_t mode, const Drive& drive) const noexcept {
+  const ThermalMode& m = config_.mode[mode];
+  return drive.speed_rev_s == 0.0 && m.rest_tau_s > 0.0 ? m.rest_tau_s : m.tau_s;
+}
+
+double ThermalModel::decay(std::size_t slot, double tau_s, double elapsed_s) noexcept {
+  Decay& kept = decay_[slot];
+  if (kept.tau_s != tau_s || kept.elapsed_s != elapsed_s) {
+    kept = {.tau_s = tau_s, .elapsed_s = elapsed_s, .factor = std::exp(-elapsed_s / tau_s)};
+  }
+  return kept.factor;
+}
+
+double ThermalModel::update(double elapsed_s, const Drive& drive) noexcept {
+  const bool fit = elapsed_s >= 0.0 && std::isfinite(elapsed_s) &&
+                   std::isfinite(drive.speed_rev_s) && std::isfinite(drive.feed_mm_s);
+  if (!fit) {
+    return displacement_mm();
+  }
+  for (std::size_t i = 0; i < config_.mode.size(); ++i) {
+    const double level = level_mm(i, drive);
+    double& x = state_.mode_mm[i];
+    x = level + (x - level) * decay(i, tau_s(i, drive), elapsed_s);
+  }
+  for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
+    const double temperature = drive.ambient_c[j];
+    double& lagged = state_.ambient_c[j];
+    if (!std::isfinite(temperature)) {
+      continue;
+    }
+    const double tau = config_.ambient[j].tau_s;
+    if (tau == 0.0 || !std::isfinite(lagged)) {
+      lagged = temperature;
+    } else {
+      lagged = temperature + (lagged - temperature) * decay(kMaxThermalModes + j, tau, elapsed_s);
+    }
+  }
+  return displacement_mm();
+}
+
+double ThermalModel::displacement_mm() const noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < config_.mode.size(); ++i) {
+    sum += state_.mode_mm[i];
+  }
+  for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
+    const double lagged = state_.ambient_c[j];
+    sum += std::isfinite(lagged)
+               ? config_.ambient[j].gain_mm_k * (lagged - config_.ambient[j].reference_c)
+               : 0.0;
+  }
+  return sum;
+}
+
+}  // namespace steadyrest::thermal::online

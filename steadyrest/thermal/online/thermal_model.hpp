@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <steadyrest/kernel/machine/thermal.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::thermal::online {
+
+using kernel::machine::kMaxThermalAmbients;
+using kernel::machine::kMaxThermalModes;
+
+/// What heats the machine; constant over one step.
+struct Drive {
+  double speed_rev_s = 0.0;  ///< of the spindle, signed
+  double feed_mm_s = 0.0;    ///< mean path feed
+  bool cutting = false;      ///< feed moves are made
+  bool coolant = false;
+  /// In the order of the passport's ambient inputs; NaN: not known, the last value is held.
+  std::array<double, kMaxThermalAmbients> ambient_c{};
+};
+
+/// Displacement of one axis by its thermal modes and surroundings:
+///   x_i' = (G_i − x_i)/τ_i,  θ_j' = (T_j − θ_j)/τ_j,  δ = Σ x_i + Σ b_j·(θ_j − θ_j0)
+/// in exact exponential steps, so the size of a step does not matter while the inputs are constant.
+/// Levels are straight between the points of a table and hold its first and last beyond them.
+class ThermalModel {
+ public:
+  using Config = kernel::machine::ThermalAxis;
+
+  struct State {
+    std::array<double, kMaxThermalModes> mode_mm{};
+    std::array<double, kMaxThermalAmbients> ambient_c{};  ///< lagged; NaN: not seen yet
+  };
+
+  /// Refuses time constants that are not positive and tables that do not fit together.
+  [[nodiscard]] static kernel::outcome::Result<ThermalModel> make(const Config& config);
+
+  /// The displacement in mm after `elapsed_s` ≥ 0 of `drive`. The first temperature of a sensor
+  /// that has not been seen is taken as its lagged one. An input that is not finite, or a negative
+  /// time, changes nothing.
+  double update(double elapsed_s, const Drive& drive) noexcept;
+
+  [[nodiscard]] double displacement_mm() const noexcept;
+  /// What the mode settles at.
+  [[nodiscard]] double level_mm(std::size_t mode, const Drive& drive) const noexcept;
+  /// The time constant in force of a mode.
+  [[nodiscard]] double tau_s(std::size_t mode, const Drive& drive) const noexcept;
+  [[nodiscard]] const Config& config() const noexcept { return config_; }
+
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  void restore(const State& state) noexcept { state_ = state; }
+  /// Cold: no displacement, no temperature seen.
+  void reset() noexcept;
+
+ private:
+  explicit ThermalModel(const Config& config);
+  [[nodiscard]] double decay(std::size_t slot, double tau_s, double elapsed_s) noexcept;
+
+  Config config_;
+  State state_;
+  /// Steps come at one period: the exponential of each time constant is kept.
+  struct Decay {
+    double tau_s = -1.0;
+    double elapsed_s = -1.0;
+    double factor = 1.0;
+  };
+  std::array<Decay, kMaxThermalModes + kMaxThermalAmbients> decay_{};
+};
+
+}  // namespace steadyrest::thermal::online
