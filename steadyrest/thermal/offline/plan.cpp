@@ -61,8 +61,12 @@ class Planner {
     Result<void> done = correct(i, 0.0, row.delta_mm.back());
     double from_s = 0.0;
     while (done) {
-      const auto [at_s, sign] = next(piece, band, from_s);
+      const auto [crossing_s, sign] = next(piece, band, from_s);
       if (sign == 0) {
+        break;
+      }
+      const double at_s = rounded(piece, crossing_s);
+      if (at_s >= piece.seconds) {
         break;
       }
       if (at_s - from_s < request_.min_interval_s) {
@@ -88,6 +92,14 @@ class Planner {
       return 0.0;
     }
     return std::copysign(std::ceil((beyond - kReached_mm) / band) * band, residual);
+  }
+
+  [[nodiscard]] double rounded(const Curve::Piece& piece, double at_s) const {
+    if (!(request_.resolution_s > 0.0)) {
+      return at_s;
+    }
+    const double whole = std::round((piece.start_s + at_s) / request_.resolution_s);
+    return std::max(0.0, whole * request_.resolution_s - piece.start_s);
   }
 
   struct Event {

@@ -15,6 +15,9 @@ struct PlanRequest {
   double share = 1.0;           ///< k; Δ_k = k·Δ
   double max_offset_mm = 0.1;   ///< no sum of corrections goes beyond it
   double min_interval_s = 1.0;  ///< shorter intervals between corrections are refused
+  /// Instants are rounded to whole multiples of it since the beginning; 0 = not. The residual may
+  /// then pass the band by half of it times the slope.
+  double resolution_s = 0.0;
   /// Corrections of 2·Δ_k, so that what is left swings from +Δ_k to −Δ_k: half as many places.
   bool whole_band = false;
 };
