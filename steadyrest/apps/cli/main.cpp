@@ -20,6 +20,8 @@
 #include <steadyrest/apps/cli/verb_program_strip.hpp>
 #include <steadyrest/apps/cli/verb_program_time.hpp>
 #include <steadyrest/apps/cli/verb_program_verify.hpp>
+#include <steadyrest/apps/cli/verb_thermal_forecast.hpp>
+#include <steadyrest/apps/cli/verb_thermal_plan.hpp>
 
 /// The command line: every verb that works is registered here, in the order in which --help has
 /// them.
@@ -40,6 +42,8 @@ int main(int argc, char** argv) {
   add_verb_chatter_plan(session);
   add_verb_chatter_fit(session);
   add_verb_chatter_detect(session);
+  add_verb_thermal_forecast(session);
+  add_verb_thermal_plan(session);
   add_verb_program_check(session);
   add_verb_program_moves(session);
   add_verb_program_time(session);

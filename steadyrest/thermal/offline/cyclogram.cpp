@@ -49,9 +49,13 @@ std::span<const Key<Transition>> keys() noexcept {
 
 void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
   for (const auto& [name, node] : root) {
-    if (name.str() != "transition") {
+    if (name.str() == "resolution_min") {
+      double minutes = 0.0;
+      const kernel::machine::ValueReader read(faults, "resolution_min", 0.0, 60.0, 1);
+      out.resolution_s = read.number(node, minutes) ? 60.0 * minutes : 0.0;
+    } else if (name.str() != "transition") {
       faults.add(line_of(name.source()), fmt::format("a cyclogram has no key {}", name.str()),
-                 "remove it; a cyclogram is a list of [[transition]]");
+                 "remove it; a cyclogram has resolution_min and [[transition]]");
     }
   }
   const toml::node* node = root.get("transition");

@@ -33,6 +33,7 @@ struct Transition {
 struct Cyclogram {
   std::string file;
   std::vector<Transition> transition;
+  double resolution_s = 0.0;  ///< instants of corrections are whole multiples of it; 0 = any
   [[nodiscard]] double total_s() const noexcept;
 };
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/text_file.hpp>
+#include <steadyrest/apps/cli/thermal_options.hpp>
+#include <steadyrest/apps/cli/verb_thermal_forecast.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/thermal/offline/curve.hpp>
+#include <steadyrest/thermal/offline/forecast.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::units::rpm_from_rev_s;
+using kernel::units::um_from_mm;
+using thermal::offline::ForecastPoint;
+
+struct Options {
+  ThermalOptions thermal;
+  std::string output;
+  double step_s = 60.0;
+};
+
+struct AxisForecast {
+  std::string name;
+  std::vector<ForecastPoint> point;
+  thermal::offline::Curve::Extreme most;
+};
+
+/// All axes have the same times: `t_s,transition,speed_rpm`, then for each its displacement and
+/// standard deviation.
+std::string csv_of(const std::vector<AxisForecast>& axes,
+                   const thermal::offline::Cyclogram& cyclogram) {
+  std::string text = "t_s,transition,speed_rpm";
+  for (const AxisForecast& axis : axes) {
+    text += fmt::format(",{0}_um,{0}_sd_um", axis.name);
+  }
+  text += '\n';
+  for (std::size_t i = 0; i < axes.front().point.size(); ++i) {
+    const ForecastPoint& at = axes.front().point[i];
+    text += fmt::format("{:.3f},{},{:.1f}", at.time_s, at.transition + 1,
+                        rpm_from_rev_s(cyclogram.transition[at.transition].speed_rev_s));
+    for (const AxisForecast& axis : axes) {
+      text += fmt::format(",{:.4f},{:.4f}", um_from_mm(axis.point[i].displacement_mm),
+                          um_from_mm(axis.point[i].sd_mm));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+void put(Answer& answer, Table& table, const AxisForecast& axis) {
+  const ForecastPoint& end = axis.point.back();
+  const double most_um = um_from_mm(axis.most.displacement_mm);
+  answer.json["axes"].push_back({{"axis", axis.name},
+                                 {"max_um", std::abs(most_um)},
+                                 {"at_min", axis.most.time_s / 60.0},
+                                 {"end_um", um_from_mm(end.displacement_mm)},
+                                 {"end_sd_um", um_from_mm(end.sd_mm)}});
+  table.row({axis.name, fmt::format("{:.2f}", most_um),
+             fmt::format("{:.1f}", axis.most.time_s / 60.0),
+             fmt::format("{:.2f}", um_from_mm(end.displacement_mm)),
+             fmt::format("±{:.2f}", thermal::offline::kBand * um_from_mm(end.sd_mm))});
+}
+
+Outcome run(const Options& options) {
+  const auto job = thermal_job(options.thermal);
+  if (!job) {
+    return refused(job.error());
+  }
+  std::vector<AxisForecast> axes;
+  double most_um = 0.0;
+  for (const ThermalJob::Axis& axis : job->axis) {
+    axes.push_back(
+        {axis.model.config().name,
+         thermal::offline::forecast(axis.model, job->cyclogram, options.step_s, axis.ambient_c),
+         thermal::offline::curve_of(axis.model, job->cyclogram, axis.ambient_c).largest()});
+    most_um = std::max(most_um, std::abs(um_from_mm(axes.back().most.displacement_mm)));
+  }
+  if (!options.output.empty()) {
+    if (const auto written = write_text(options.output, csv_of(axes, job->cyclogram)); !written) {
+      return refused(written.error());
+    }
+  }
+  Answer answer;
+  answer.json["max_um"] = most_um;
+  answer.json["minutes"] = job->cyclogram.total_s() / 60.0;
+  answer.json["axes"] = Json::array();
+  Table table({"axis", "largest um", "at min", "end um", "95 %"});
+  for (const AxisForecast& axis : axes) {
+    put(answer, table, axis);
+  }
+  answer.text = table.text();
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_thermal_forecast(Session& session) {
+  CLI::App& group = session.group("thermal", "Drift by heat");
+  CLI::App& verb = session.verb(group, "forecast", "How far heat will displace the axes",
+                                "thermal forecast --machine examples/paper-thermal/machine.toml "
+                                "--cyclogram examples/paper-thermal/cyclogram.toml");
+  auto options = std::make_shared<Options>();
+  add_thermal_options(verb, options->thermal);
+  verb.add_option("-o,--output", options->output, "Write the curve to this CSV");
+  verb.add_option("--step-s", options->step_s, "Seconds from row to row")
+      ->check(CLI::Range(0.1, 86400.0));
+  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+const std::string kPaper =
+    " --machine examples/paper-thermal/machine.toml --cyclogram "
+    "examples/paper-thermal/cyclogram.toml";
+
+// Marusich 2012, eq. (1).
+TEST(ThermalPlan, IsThePapersExample) {
+  const auto answer = answer_of("thermal plan" + kPaper + " --tolerance-um 10 --level 0");
+  const auto rows = nlohmann::json::parse(R"([
+    {"name": "stage 1", "n": 3, "t_min": [18.0, 27.0, 15.0], "delta_um": [0.0, 10.0, 10.0]},
+    {"name": "stage 2", "n": 3, "t_min": [15.0, 40.0, 5.0], "delta_um": [0.0, 10.0, 10.0]},
+    {"name": "stage 3", "n": 1, "t_min": [60.0], "delta_um": [0.0]},
+    {"name": "stage 4", "n": 1, "t_min": [60.0], "delta_um": [0.0]},
+    {"name": "stage 5", "n": 1, "t_min": [60.0], "delta_um": [0.0]}])");
+  EXPECT_EQ(answer["transitions"], rows);
+  EXPECT_NEAR(answer["axes"][0]["ratio"].get<double>(), 4.9, 0.05) << "almost five times";
+  EXPECT_EQ(answer["k"], 1.0);
+}
+
+TEST(ThermalPlan, AHigherLevelIsStricter) {
+  const auto at = [](int level) {
+    return answer_of("thermal plan" + kPaper + " --tolerance-um 10 --resolution-min 0 --level " +
+                     std::to_string(level))["axes"][0];
+  };
+  double before = 1e9;
+  for (int level = 0; level < 4; ++level) {
+    const double residual = at(level)["residual_um"].get<double>();
+    EXPECT_LT(residual, before);
+    before = residual;
+  }
+  EXPECT_NEAR(before, 3.5, 1e-6);
+  expect_refused("thermal plan" + kPaper + " --tolerance-um 10 --level 4", "0 … 3");
+}
+
+TEST(ThermalPlan, GoesIntoAProgramAndIsProved) {
+  const Scratch scratch;
+  const std::string machine = scratch.file(
+      "mill.toml", text_of_file(project_file("examples/machines/linuxcnc-mill.toml")) +
+                       "\n[[thermal.axis]]\nname = \"Z\"\n[[thermal.axis.mode]]\ntau_min = "
+                       "1\nspeeds_rpm = [0, 6000]\nlevels_um = [0, 20]\n");
+  const std::string program = "examples/programs/rib-pocket.ngc";
+  const auto plan =
+      answer_of("thermal plan --machine " + machine + " --program " + project_file(program) +
+                " --tolerance-um 4 -o " + scratch.at("plan.json"));
+  const auto done = answer_of("program compensate " + program + " --plan " +
+                              scratch.at("plan.json") + " -o " + scratch.at("out.ngc"));
+  EXPECT_EQ(done["insertions"].size(), plan["axes"][0]["corrections"].get<std::size_t>());
+  EXPECT_GE(done["insertions"].size(), 2U);
+}
+
+TEST(ThermalForecast, WritesTheCurve) {
+  const Scratch scratch;
+  const auto answer = answer_of("thermal forecast" + kPaper + " -o " + scratch.at("curve.csv"));
+  const double end_um =
+      49.0785 + (35.2245 * (1.0 - std::exp(-60.0 / 53.475)) - 49.0785) * std::exp(-240.0 / 53.475);
+  EXPECT_NEAR(answer["max_um"].get<double>(), end_um, 1e-6);
+  const std::string csv = text_of_file(scratch.at("curve.csv"));
+  EXPECT_TRUE(csv.starts_with("t_s,transition,speed_rpm,Z_um,Z_sd_um\n0.000,1,1000.0,0.0000,"));
+  EXPECT_NE(csv.find("\n18000.000,5,2000.0,48.79"), std::string::npos);
+}
+
+TEST(ThermalForecast, StartsFromWhatTheMachineHasDone) {
+  const Scratch scratch;
+  const std::string before =
+      scratch.file("before.toml", "[[transition]]\nminutes = 1000\nspeed_rpm = 2000\n");
+  const std::string rest =
+      scratch.file("rest.toml", "[[transition]]\nminutes = 53.475\nspeed_rpm = 0\n");
+  const auto answer =
+      answer_of("thermal forecast --machine examples/paper-thermal/machine.toml --cyclogram " +
+                rest + " --after " + before);
+  EXPECT_NEAR(answer["axes"][0]["end_um"].get<double>(), 49.0785 / std::exp(1.0), 1e-4);
+}
+
+TEST(Thermal, RefusesWhatItCannotForecast) {
+  const Scratch scratch;
+  const std::string machine = " --machine examples/paper-thermal/machine.toml";
+  const std::string fast =
+      scratch.file("fast.toml", "[[transition]]\nminutes = 10\nspeed_rpm = 2500\n");
+  expect_refused("thermal forecast" + machine + " --cyclogram " + fast, "known up to 2000 rpm");
+  expect_refused("thermal forecast" + machine, "--cyclogram");
+  expect_refused("thermal forecast" + kPaper + " --axis X", "no [[thermal.axis]] X");
+  expect_refused("thermal forecast" + kPaper + " --ambient t1=20", "knows a sensor t1");
+  expect_refused("thermal forecast" + kPaper + " --ambient t1", "SENSOR=");
+  expect_refused(
+      "thermal plan --machine examples/machines/vmc-840d.toml --cyclogram "
+      "examples/paper-thermal/cyclogram.toml --tolerance-um 5",
+      "[[thermal.axis]]");
+  expect_refused("thermal plan" + kPaper, "no tolerance");
+}
+
+}  // namespace
+}  // namespace steadyrest::test
