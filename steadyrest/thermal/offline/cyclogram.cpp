@@ -13,13 +13,10 @@ namespace steadyrest::thermal::offline {
 
 using kernel::machine::Choice;
 using kernel::machine::Faults;
-using kernel::machine::For;
 using kernel::machine::Key;
 using kernel::machine::line_of;
 using kernel::machine::Need;
 using kernel::machine::SectionReader;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
 namespace {

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <string>
+#include <utility>
 
 #include <steadyrest/thermal/online/thermal_model.hpp>
 
@@ -41,8 +43,8 @@ double by_table(const ThermalMode& mode, double speed_rev_s) noexcept {
 double by_polynomial(const ThermalMode& mode, double speed_rev_s) noexcept {
   const double n = speed_rev_s / kReference_rev_s;
   double level = 0.0;
-  for (auto p = mode.polynomial_mm.rbegin(); p != mode.polynomial_mm.rend(); ++p) {
-    level = (level + *p) * n;
+  for (const double coefficient : std::views::reverse(mode.polynomial_mm)) {
+    level = (level + coefficient) * n;
   }
   return level;
 }
@@ -65,7 +67,7 @@ Result<ThermalModel> ThermalModel::make(const Config& config) {
   return ThermalModel(config);
 }
 
-ThermalModel::ThermalModel(const Config& config) : config_(config) {
+ThermalModel::ThermalModel(Config config) : config_(std::move(config)) {
   reset();
 }
 

@@ -56,7 +56,7 @@ class ThermalModel {
   void reset() noexcept;
 
  private:
-  explicit ThermalModel(const Config& config);
+  explicit ThermalModel(Config config);
   [[nodiscard]] double decay(std::size_t slot, double tau_s, double elapsed_s) noexcept;
 
   Config config_;
