@@ -7,6 +7,7 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(Boost REQUIRED)  # headers only
 find_package(GTest REQUIRED)
 find_package(TBB REQUIRED CONFIG)
+find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 find_path(RAPIDCHECK_INCLUDE_DIR rapidcheck.h REQUIRED)

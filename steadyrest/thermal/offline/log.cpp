@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/thermal/offline/log.hpp>
+#include <steadyrest/thermal/offline/log_table.hpp>
+
+namespace steadyrest::thermal::offline {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+constexpr double kMostSpeed_rpm = 200'000.0;
+constexpr double kMostDisplacement_mm = 2.0;
+constexpr double kColdest_c = -50.0;
+constexpr double kHottest_c = 150.0;
+constexpr double kAbsentShare = 0.5;  ///< a sensor that is silent for more than this is absent
+constexpr double kWild_share = 0.01;  ///< single readings that cannot be are left out up to this
+constexpr double kLively = 0.1;       ///< of the rows in which a living sensor changes
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class LogMaker {
+ public:
+  LogMaker(LogTable table, std::string file) : table_(std::move(table)) {
+    log_.file = std::move(file);
+  }
+
+  Result<Log> make() {
+    if (!table_.passed_over.empty()) {
+      note(table_.head_line,
+           fmt::format("columns whose names end in no unit that is known: {}",
+                       fmt::join(table_.passed_over, ", ")),
+           "they are passed over");
+    }
+    for (const auto step : {&LogMaker::take_clock, &LogMaker::take_speed, &LogMaker::take_channels,
+                            &LogMaker::check_what_is_left}) {
+      if (auto done = (this->*step)(); !done) {
+        return std::unexpected(std::move(done.error()));
+      }
+    }
+    return std::move(log_);
+  }
+
+ private:
+  using Done = Result<void>;
+
+  void note(std::size_t line, const std::string& what, const std::string& done) {
+    log_.notes.push_back(line == 0 ? fmt::format("{}: {}; {}", log_.file, what, done)
+                                   : fmt::format("{}:{}: {}; {}", log_.file, line, what, done));
+  }
+  [[nodiscard]] std::unexpected<Refusal> refuse(std::size_t line, std::string what,
+                                                std::string to_do) const {
+    return std::unexpected(
+        Refusal{Kind::bad_input, log_.file, line, std::move(what), std::move(to_do)});
+  }
+  [[nodiscard]] const LogColumn& only(Quantity quantity) const {
+    return *std::ranges::find(table_.column, quantity, &LogColumn::quantity);
+  }
+  /// The same numbers in all columns but the clock.
+  [[nodiscard]] bool same(std::size_t a, std::size_t b) const {
+    return std::ranges::all_of(table_.column, [&](const LogColumn& c) {
+      return c.value[a] == c.value[b] || (std::isnan(c.value[a]) && std::isnan(c.value[b]));
+    });
+  }
+  [[nodiscard]] std::size_t line_of_row(std::size_t kept) const { return table_.line[row_[kept]]; }
+
+  Done take_clock() {
+    const LogColumn& clock = only(Quantity::time);
+    std::size_t twice = 0;
+    std::size_t first_twice = 0;
+    for (std::size_t i = 0; i < clock.value.size(); ++i) {
+      const double t = clock.value[i];
+      const std::size_t line = table_.line[i];
+      if (std::isnan(t)) {
+        return refuse(line, fmt::format("{} is empty", clock.name), "give each row its time");
+      }
+      if (row_.empty() || t > log_.time_s.back()) {
+        row_.push_back(i);
+        log_.time_s.push_back(t);
+      } else if (t == log_.time_s.back() && same(i, row_.back())) {
+        ++twice;
+        first_twice = first_twice == 0 ? line : first_twice;
+      } else if (t == log_.time_s.back()) {
+        return refuse(line,
+                      fmt::format("{} = {:.10g} stands twice, with different values", clock.name,
+                                  t / clock.factor),
+                      "give each row its own time, with enough digits");
+      } else {
+        return refuse(line,
+                      fmt::format("the clock runs back: {} = {:.10g} after {:.10g}", clock.name,
+                                  t / clock.factor, log_.time_s.back() / clock.factor),
+                      "sort the rows, or cut the log where the clock was set");
+      }
+    }
+    if (twice > 0) {
+      note(first_twice, fmt::format("{} rows stand twice", twice), "each was taken once");
+    }
+    if (log_.rows() < kLeastRows) {
+      return refuse(0, fmt::format("holds {} rows; {} are needed", log_.rows(), kLeastRows),
+                    "log the whole test");
+    }
+    find_gaps();
+    return {};
+  }
+
+  void find_gaps() {
+    std::vector<double> step;
+    for (std::size_t i = 1; i < log_.rows(); ++i) {
+      step.push_back(log_.time_s[i] - log_.time_s[i - 1]);
+    }
+    std::vector<double> sorted = step;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, middle);
+    const double most = std::max(kGap_s, 10.0 * *middle);
+    for (std::size_t i = 0; i < step.size(); ++i) {
+      if (step[i] > most) {
+        log_.gap.push_back(i + 1);
+        note(line_of_row(i + 1),
+             fmt::format("{:.1f} min are missing before this row", step[i] / 60.0),
+             "the state of the machine is taken anew from there");
+      }
+    }
+  }
+
+  Done take_speed() {
+    const LogColumn& speed = only(Quantity::speed);
+    for (std::size_t k = 0; k < row_.size(); ++k) {
+      const double n = std::abs(speed.value[row_[k]]);
+      const double rpm = kernel::units::rpm_from_rev_s(n);
+      if (!(rpm <= kMostSpeed_rpm)) {
+        return refuse(line_of_row(k),
+                      std::isnan(n)
+                          ? fmt::format("{} is empty", speed.name)
+                          : fmt::format("{} = {:.6g} cannot be; at most {:.0f} is allowed",
+                                        speed.name, rpm, kMostSpeed_rpm),
+                      "give the spindle's speed in every row, in rpm, 0 while it stands");
+      }
+      log_.speed_rev_s.push_back(n);
+    }
+    return {};
+  }
+
+  Done take_channels() {
+    for (const LogColumn& column : table_.column) {
+      if (column.quantity != Quantity::displacement && column.quantity != Quantity::temperature) {
+        continue;
+      }
+      LogChannel channel{column.name, {}};
+      for (const std::size_t row : row_) {
+        channel.value.push_back(column.value[row]);
+      }
+      auto fit = drop_wild(channel, column);
+      if (!fit) {
+        return fit;
+      }
+      drop_stuck(channel);
+      keep(std::move(channel), column.quantity);
+    }
+    return {};
+  }
+
+  /// Values that cannot be: single ones are left out, more mean a wrong unit.
+  Done drop_wild(LogChannel& channel, const LogColumn& column) {
+    const bool length = column.quantity == Quantity::displacement;
+    const double least = length ? -kMostDisplacement_mm : kColdest_c;
+    const double most = length ? kMostDisplacement_mm : kHottest_c;
+    std::size_t wild = 0;
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < channel.value.size(); ++k) {
+      if (channel.value[k] < least || channel.value[k] > most) {
+        first = wild == 0 ? k : first;
+        ++wild;
+      }
+    }
+    if (wild == 0) {
+      return {};
+    }
+    const auto shown_as = [&](double inner) { return (inner - column.offset) / column.factor; };
+    const std::string what =
+        fmt::format("{} = {:.6g} cannot be; {:.6g} … {:.6g} is allowed", channel.name,
+                    shown_as(channel.value[first]), shown_as(least), shown_as(most));
+    if (static_cast<double>(wild) > kWild_share * static_cast<double>(channel.value.size())) {
+      return refuse(line_of_row(first), what,
+                    "give the column the unit that its name says: _um or _mm, _c, _k or _f");
+    }
+    note(line_of_row(first), fmt::format("{}, {} times", what, wild), "these are left out");
+    for (double& value : channel.value) {
+      value = value < least || value > most ? kNan : value;
+    }
+    return {};
+  }
+
+  void drop_stuck(LogChannel& channel) {
+    std::vector<std::pair<std::size_t, std::size_t>> stuck;
+    std::size_t changes = 0;
+    std::size_t lived = 0;
+    for (std::size_t from = 0; from < channel.value.size();) {
+      std::size_t to = from + 1;
+      while (to < channel.value.size() && channel.value[to] == channel.value[from]) {
+        ++to;
+      }
+      if (log_.time_s[to - 1] - log_.time_s[from] >= kStuck_s) {
+        stuck.emplace_back(from, to);
+      } else {
+        ++changes;
+        lived += to - from;
+      }
+      from = to;
+    }
+    const bool living = static_cast<double>(changes) > kLively * static_cast<double>(lived);
+    const bool dead = lived == 0;
+    if (stuck.empty() || (!living && !dead)) {
+      return;
+    }
+    double hours = 0.0;
+    for (const auto& [from, to] : stuck) {
+      hours += (log_.time_s[to - 1] - log_.time_s[from]) / 3600.0;
+      std::fill(channel.value.begin() + static_cast<std::ptrdiff_t>(from) + (from == 0 ? 0 : 1),
+                channel.value.begin() + static_cast<std::ptrdiff_t>(to), kNan);
+    }
+    note(line_of_row(stuck.front().first),
+         fmt::format("{} is stuck: the same to the last digit for {:.1f} h", channel.name, hours),
+         dead ? "it is left out" : "these hours of it are left out");
+  }
+
+  void bridge(LogChannel& channel) {
+    std::size_t known = channel.value.size();  // none yet
+    for (std::size_t k = 0; k < channel.value.size(); ++k) {
+      if (std::isnan(channel.value[k])) {
+        continue;
+      }
+      const bool hole = known < k && known + 1 < k;
+      if (hole && log_.time_s[k] - log_.time_s[known] <= kBridge_s) {
+        for (std::size_t j = known + 1; j < k; ++j) {
+          const double share =
+              (log_.time_s[j] - log_.time_s[known]) / (log_.time_s[k] - log_.time_s[known]);
+          channel.value[j] =
+              channel.value[known] + share * (channel.value[k] - channel.value[known]);
+        }
+      }
+      known = k;
+    }
+  }
+
+  void keep(LogChannel channel, Quantity quantity) {
+    const auto silent =
+        std::ranges::count_if(channel.value, [](double v) { return std::isnan(v); });
+    const double share = static_cast<double>(silent) / static_cast<double>(channel.value.size());
+    if (share > kAbsentShare) {
+      note(table_.head_line,
+           fmt::format("{} has no value in {:.0f} % of the rows", channel.name, 100.0 * share),
+           "the sensor is left out");
+      return;
+    }
+    if (quantity == Quantity::temperature) {
+      bridge(channel);
+    }
+    const bool holes = std::ranges::any_of(channel.value, [](double v) { return std::isnan(v); });
+    if (quantity == Quantity::temperature && holes) {
+      note(table_.head_line,
+           fmt::format("{} has holes of more than {:.0f} min", channel.name, kBridge_s / 60.0),
+           "its last value is held there");
+    }
+    (quantity == Quantity::displacement ? log_.displacement : log_.temperature)
+        .push_back(std::move(channel));
+  }
+
+  Done check_what_is_left() {
+    if (log_.displacement.empty()) {
+      return refuse(table_.head_line, "no displacement is left that could be worked with",
+                    "see that the probes are connected and their columns hold readings");
+    }
+    return {};
+  }
+
+  LogTable table_;
+  std::vector<std::size_t> row_;  ///< of the table, for each row of the log
+  Log log_;
+};
+
+}  // namespace
+
+Result<Log> parse_log(std::string_view text, const std::string& file) {
+  auto table = parse_log_table(text, file);
+  if (!table) {
+    return std::unexpected(std::move(table.error()));
+  }
+  return LogMaker(std::move(*table), file).make();
+}
+
+Result<Log> read_log(const std::string& path) {
+  const auto text = read_packed(path);
+  if (!text) {
+    return std::unexpected(text.error());
+  }
+  return parse_log(*text, path);
+}
+
+}  // namespace steadyrest::thermal::offline

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// The log of a thermal test or of a working day: CSV, or the same packed by gzip.
+///
+/// A head with names that end in their unit: a time (`time_s`, `t_s`, or `_ms`, `_min`, `_h`),
+/// the spindle's speed (`spindle_rpm` or `speed_rpm`), displacements (`…_um`, `…_mm`) and
+/// temperatures (`…_c`, `…_k`, `…_f`); then rows. Separated by commas, semicolons or tabs; lines
+/// that begin with # and empty ones are passed over, so are columns of other names.
+namespace steadyrest::thermal::offline {
+
+struct LogChannel {
+  std::string name;           ///< as in the head
+  std::vector<double> value;  ///< mm or °C, one for each row; NaN: not known
+};
+
+struct Log {
+  std::string file;
+  std::vector<double> time_s;       ///< rising
+  std::vector<double> speed_rev_s;  ///< ≥ 0
+  std::vector<LogChannel> displacement;
+  std::vector<LogChannel> temperature;
+  /// Rows before which time has passed that is not recorded, rising: what the machine did there is
+  /// not known.
+  std::vector<std::size_t> gap;
+  /// What was left out of the log and why, each as `FILE:LINE: what; what was done`.
+  std::vector<std::string> notes;
+
+  [[nodiscard]] std::size_t rows() const noexcept { return time_s.size(); }
+  [[nodiscard]] double hours() const noexcept {
+    return time_s.empty() ? 0.0 : (time_s.back() - time_s.front()) / 3600.0;
+  }
+};
+
+/// Refused, by line: columns that are missing or stand twice, words where numbers should be, a
+/// clock that runs back or gives two rows one time, values that cannot be (their unit is wrong).
+/// Noted, and left out: rows that stand twice, sensors that are absent, stuck or wild for a while.
+[[nodiscard]] kernel::outcome::Result<Log> read_log(const std::string& path);
+[[nodiscard]] kernel::outcome::Result<Log> parse_log(std::string_view text,
+                                                     const std::string& file);
+
+/// A sensor that repeats itself to the last digit for so long is stuck, if it lives elsewhere.
+inline constexpr double kStuck_s = 2.0 * 3600.0;
+/// Holes of a temperature up to this are bridged by a straight line.
+inline constexpr double kBridge_s = 600.0;
+/// More time than this between two rows, and ten times the usual, is a gap.
+inline constexpr double kGap_s = 300.0;
+inline constexpr std::size_t kLeastRows = 20;
+
+}  // namespace steadyrest::thermal::offline

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// The text of a log as columns of numbers; log.hpp says what they mean.
+namespace steadyrest::thermal::offline {
+
+enum class Quantity : std::uint8_t { time, speed, displacement, temperature, other };
+
+struct LogColumn {
+  std::string name;
+  Quantity quantity = Quantity::other;
+  double factor = 1.0;  ///< into s, rev/s, mm, °C: factor·value + offset
+  double offset = 0.0;
+  std::vector<double> value;  ///< converted; NaN where the field is empty or says NaN
+};
+
+struct LogTable {
+  std::vector<LogColumn> column;  ///< without those of other names
+  std::vector<std::size_t> line;  ///< of each row
+  std::vector<std::string> passed_over;
+  std::size_t head_line = 0;
+};
+
+/// The bytes of a file, unpacked where gzip has packed them.
+[[nodiscard]] kernel::outcome::Result<std::string> read_packed(const std::string& path);
+
+[[nodiscard]] kernel::outcome::Result<LogTable> parse_log_table(std::string_view text,
+                                                                const std::string& file);
+
+/// At most 40 characters, with nothing that a terminal would act on.
+[[nodiscard]] std::string shown(std::string_view text);
+
+}  // namespace steadyrest::thermal::offline
