@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -72,6 +73,20 @@ struct Thermal {
   double slope_mm_s = 0.001 / 60.0;  ///< of the on-line correction
   double state_s = 0.0;              ///< time in the log at which the states were
   std::vector<ThermalAxis> axis;
+
+  /// The temperature sensors of all axes, each once, in the order in which they are named first:
+  /// the order of signal::Frame::temperature_c.
+  [[nodiscard]] std::vector<std::string> sensors() const {
+    std::vector<std::string> names;
+    for (const ThermalAxis& a : axis) {
+      for (const ThermalAmbient& ambient : a.ambient) {
+        if (std::ranges::find(names, ambient.sensor) == names.end()) {
+          names.push_back(ambient.sensor);
+        }
+      }
+    }
+    return names;
+  }
 };
 
 }  // namespace steadyrest::kernel::machine

@@ -66,6 +66,25 @@ constexpr std::array kEntries = {
           "To the spindle speed at which whole waves of the chatter lie between two teeth."},
     Entry{Reason::chatter_no_better_speed, "chatter_no_better_speed",
           "The cut chatters and no permitted spindle speed is better."},
+    Entry{Reason::thermal_correcting, "thermal_correcting",
+          "The axes stand against the forecast displacement."},
+    Entry{Reason::thermal_following, "thermal_following",
+          "On the way to the forecast displacement; the slope limit holds the offset."},
+    Entry{Reason::thermal_clamped, "thermal_clamped",
+          "The forecast displacement passes the largest thermal offset."},
+    Entry{Reason::thermal_held, "thermal_held",
+          "Threading, tapping or probing: the offset must not move."},
+    Entry{Reason::thermal_sensor_lost, "thermal_sensor_lost",
+          "A temperature that the forecast needs is not known: the offset is held and fades "
+          "once no tool is in the cut."},
+    Entry{Reason::thermal_beyond_speed, "thermal_beyond_speed",
+          "The spindle is faster than the thermal model knows: the offset is held."},
+    Entry{Reason::thermal_reading_taken, "thermal_reading_taken",
+          "A reading has corrected the thermal model's state."},
+    Entry{Reason::thermal_reading_outlier, "thermal_reading_outlier",
+          "A reading too far from the forecast was not taken."},
+    Entry{Reason::thermal_model_unfit, "thermal_model_unfit",
+          "The readings no longer fit the thermal model: identify it anew."},
 };
 
 const Entry* find(Reason reason) noexcept {

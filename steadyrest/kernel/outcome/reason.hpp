@@ -46,6 +46,15 @@ enum class Reason : std::uint16_t {
   chatter_better_speed = 421,     ///< the planner's table has a speed that reaches deeper
   chatter_rule_speed = 422,       ///< the classical rule's speed: whole waves between two teeth
   chatter_no_better_speed = 423,  ///< no permitted speed is better: less depth, or modulation
+  thermal_correcting = 500,       ///< the offset stands against the forecast displacement
+  thermal_following = 501,        ///< on the way; the slope limit holds the offset
+  thermal_clamped = 502,          ///< the forecast passes the largest offset
+  thermal_held = 503,             ///< threading, tapping or probing: the offset must not move
+  thermal_sensor_lost = 504,      ///< a temperature that the forecast needs is not known
+  thermal_beyond_speed = 505,     ///< the spindle is faster than anything that was fitted
+  thermal_reading_taken = 520,    ///< a reading has corrected the model's state
+  thermal_reading_outlier = 521,  ///< a reading beyond the gate: not taken
+  thermal_model_unfit = 522,      ///< the readings no longer fit the model
 };
 
 /// One line of the table.

@@ -41,6 +41,16 @@ struct OverrideState {
   bool panel_code_known = true;  ///< the code stands in the machine's table
 };
 
+inline constexpr std::size_t kMaxTemperatures = 16;
+
+/// °C, in the order of machine::Thermal::sensors(); NaN: not known.
+using Temperatures = std::array<double, kMaxTemperatures>;
+[[nodiscard]] constexpr Temperatures unknown_temperatures() noexcept {
+  Temperatures none{};
+  none.fill(std::numeric_limits<double>::quiet_NaN());
+  return none;
+}
+
 /// All inputs of one cycle. A plain value; time comes in with it, there is no clock below.
 struct Frame {
   double time_s = 0.0;  ///< time of the sample, monotone
@@ -60,6 +70,8 @@ struct Frame {
   double spindle_programmed_rev_s = 0.0;  ///< S of the program at 100 %, signed; 0 = stands still
   double spindle_command_rev_s = 0.0;     ///< what the drive is told, override included
   double spindle_actual_rev_s = 0.0;
+  bool coolant = false;  ///< it flows
+  Temperatures temperature_c = unknown_temperatures();
   /// What a vibration sensor at the spindle has shown since the last frame, oldest first, evenly
   /// sampled up to `time_s`; any unit. Valid as long as the path. Empty: no sensor.
   std::span<const double> vibration;

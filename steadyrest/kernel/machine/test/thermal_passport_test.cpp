@@ -95,6 +95,15 @@ TEST(ThermalPassport, IsWrittenAsItIsRead) {
   EXPECT_NEAR(again->axis[0].mode[0].feed_s, thermal->axis[0].mode[0].feed_s, 1e-13);
 }
 
+TEST(ThermalPassport, NamesEachSensorOnceInTheOrderOfTheFile) {
+  Thermal thermal;
+  EXPECT_TRUE(thermal.sensors().empty());
+  thermal.axis.resize(2);
+  thermal.axis[0].ambient = {{.sensor = "spindle"}, {.sensor = "room"}};
+  thermal.axis[1].ambient = {{.sensor = "room"}, {.sensor = "bed"}};
+  EXPECT_EQ(thermal.sensors(), (std::vector<std::string>{"spindle", "room", "bed"}));
+}
+
 TEST(ThermalPassport, OfAFileWithoutOneIsRefused) {
   const auto none = parse_thermal_passport("[thermal]\n", "empty.toml");
   ASSERT_FALSE(none);
