@@ -90,7 +90,7 @@ double ThermalModel::tau_s(std::size_t mode, const Drive& drive) const noexcept 
   return drive.speed_rev_s == 0.0 && m.rest_tau_s > 0.0 ? m.rest_tau_s : m.tau_s;
 }
 
-double ThermalModel::decay(std::size_t slot, double tau_s, double elapsed_s) noexcept {
+double ThermalModel::kept_decay(std::size_t slot, double tau_s, double elapsed_s) noexcept {
   Decay& kept = decay_[slot];
   if (kept.tau_s != tau_s || kept.elapsed_s != elapsed_s) {
     kept = {.tau_s = tau_s, .elapsed_s = elapsed_s, .factor = std::exp(-elapsed_s / tau_s)};
@@ -107,7 +107,7 @@ double ThermalModel::update(double elapsed_s, const Drive& drive) noexcept {
   for (std::size_t i = 0; i < config_.mode.size(); ++i) {
     const double level = level_mm(i, drive);
     double& x = state_.mode_mm[i];
-    x = level + (x - level) * decay(i, tau_s(i, drive), elapsed_s);
+    x = level + (x - level) * decay(i, elapsed_s, drive);
   }
   for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
     const double temperature = drive.ambient_c[j];
@@ -119,7 +119,8 @@ double ThermalModel::update(double elapsed_s, const Drive& drive) noexcept {
     if (tau == 0.0 || !std::isfinite(lagged)) {
       lagged = temperature;
     } else {
-      lagged = temperature + (lagged - temperature) * decay(kMaxThermalModes + j, tau, elapsed_s);
+      lagged =
+          temperature + (lagged - temperature) * kept_decay(kMaxThermalModes + j, tau, elapsed_s);
     }
   }
   return displacement_mm();

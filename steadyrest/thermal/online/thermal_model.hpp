@@ -48,6 +48,10 @@ class ThermalModel {
   [[nodiscard]] double level_mm(std::size_t mode, const Drive& drive) const noexcept;
   /// The time constant in force of a mode.
   [[nodiscard]] double tau_s(std::size_t mode, const Drive& drive) const noexcept;
+  /// e^(−elapsed/τ) of a mode: what is left of its distance from the level.
+  [[nodiscard]] double decay(std::size_t mode, double elapsed_s, const Drive& drive) noexcept {
+    return kept_decay(mode, tau_s(mode, drive), elapsed_s);
+  }
   [[nodiscard]] const Config& config() const noexcept { return config_; }
 
   [[nodiscard]] const State& state() const noexcept { return state_; }
@@ -57,7 +61,7 @@ class ThermalModel {
 
  private:
   explicit ThermalModel(Config config);
-  [[nodiscard]] double decay(std::size_t slot, double tau_s, double elapsed_s) noexcept;
+  [[nodiscard]] double kept_decay(std::size_t slot, double tau_s, double elapsed_s) noexcept;
 
   Config config_;
   State state_;

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/thermal/online/state_filter.hpp>
+
+namespace steadyrest::thermal::online {
+namespace {
+
+using kernel::machine::ThermalAxis;
+using kernel::machine::ThermalMode;
+using kernel::outcome::Reason;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+ThermalMode mode(double tau_s, double level_mm) {
+  ThermalMode mode;
+  mode.tau_s = tau_s;
+  mode.speed_rev_s = {0.0, 100.0};
+  mode.level_mm = {0.0, level_mm};
+  return mode;
+}
+
+ThermalAxis two_modes() {
+  ThermalAxis axis;
+  axis.mode = {mode(900.0, 0.015), mode(5400.0, 0.035)};
+  axis.mode[0].rest_tau_s = 1300.0;
+  axis.noise_mm = 0.0005;
+  axis.drift_mm = 0.003;
+  axis.drift_tau_s = 7200.0;
+  return axis;
+}
+
+StateFilter made(const StateFilter::Config& config) {
+  auto filter = StateFilter::make(config);
+  EXPECT_TRUE(filter);
+  return std::move(*filter);
+}
+
+Drive turning(double speed_rev_s) {
+  Drive drive;
+  drive.speed_rev_s = speed_rev_s;
+  return drive;
+}
+
+/// The textbook's filter on the continuous system: transition by matrix exponential, noise by Van
+/// Loan's block matrix, Joseph's update.
+class Dense {
+ public:
+  Dense(const StateFilter::Config& config, double drift_mm, double walk_mm_sqrt_s)
+      : config_(config), drift_mm_(drift_mm), walk_(walk_mm_sqrt_s) {
+    x(3) = 1.0;
+    p(2, 2) = config.start_sd_mm * config.start_sd_mm;
+    p(3, 3) = config.gain_sd_ratio * config.gain_sd_ratio;
+  }
+
+  void step(double h, const std::array<double, 2>& level, const std::array<double, 2>& tau) {
+    Eigen::Matrix4d f = Eigen::Matrix4d::Zero();
+    for (int i = 0; i < 2; ++i) {
+      f(i, i) = -1.0 / tau[i];
+      f(i, 3) = level[i] / tau[i];
+    }
+    Eigen::Matrix4d q = Eigen::Matrix4d::Zero();
+    if (drift_mm_ > 0.0) {
+      f(2, 2) = -1.0 / config_.axis.drift_tau_s;
+      q(2, 2) = 2.0 * drift_mm_ * drift_mm_ / config_.axis.drift_tau_s;
+    } else {
+      q(2, 2) = walk_ * walk_;
+    }
+    Eigen::Matrix<double, 8, 8> block;
+    block << -f, q, Eigen::Matrix4d::Zero(), f.transpose();
+    const Eigen::Matrix<double, 8, 8> e = (block * h).exp();
+    const Eigen::Matrix4d phi = e.bottomRightCorner<4, 4>().transpose();
+    x = phi * x;
+    p = phi * p * phi.transpose() + phi * e.topRightCorner<4, 4>();
+  }
+
+  void measure(double z, double sd) {
+    const Eigen::RowVector4d h(1.0, 1.0, 1.0, 0.0);
+    const double s = h * p * h.transpose() + sd * sd;
+    const Eigen::Vector4d k = p * h.transpose() / s;
+    x += k * (z - h * x);
+    const Eigen::Matrix4d left = Eigen::Matrix4d::Identity() - k * h;
+    p = left * p * left.transpose() + k * sd * sd * k.transpose();
+  }
+
+  [[nodiscard]] double sd() const { return std::sqrt(p.topLeftCorner<3, 3>().sum()); }
+  Eigen::Vector4d x = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d p = Eigen::Matrix4d::Zero();
+
+ private:
+  StateFilter::Config config_;
+  double drift_mm_;
+  double walk_;
+};
+
+void expect_textbook(double drift_mm, unsigned seed) {
+  StateFilter::Config config{.axis = two_modes(), .start_sd_mm = 0.002, .gate_sd = 100.0};
+  config.axis.drift_mm = drift_mm;
+  StateFilter filter = made(config);
+  Dense dense(config, drift_mm, config.walk_mm_sqrt_s);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 300; ++k) {
+    const double speed = unit(random) < 0.3 ? 0.0 : 100.0 * unit(random);
+    const double h = std::exp(8.0 * unit(random));
+    filter.update(h, turning(speed));
+    const auto& m = config.axis.mode;
+    dense.step(h, {m[0].level_mm[1] * speed / 100.0, m[1].level_mm[1] * speed / 100.0},
+               {speed == 0.0 ? m[0].rest_tau_s : m[0].tau_s, m[1].tau_s});
+    if (unit(random) < 0.4) {
+      const double z = dense.x.head<3>().sum() + 0.001 * normal(random);
+      filter.measure({.displacement_mm = z, .sd_mm = 0.0007});
+      dense.measure(z, 0.0007);
+    }
+    ASSERT_NEAR(filter.displacement_mm(), dense.x.head<3>().sum(), 1e-11) << k;
+    ASSERT_NEAR(filter.sd_mm(), dense.sd(), 1e-9) << k;
+    ASSERT_NEAR(filter.gain(), dense.x(3), 1e-9) << k;
+    ASSERT_NEAR(filter.bias_mm(), dense.x(2), 1e-11) << k;
+  }
+}
+
+TEST(StateFilter, IsTheTextbooksFilterOnTheContinuousSystem) {
+  expect_textbook(0.003, 1);
+  expect_textbook(0.0, 2);
+}
+
+TEST(StateFilter, WithoutReadingsIsTheModel) {
+  StateFilter filter = made({.axis = two_modes()});
+  auto model = ThermalModel::make(two_modes());
+  ASSERT_TRUE(model);
+  for (int k = 0; k < 100; ++k) {
+    const Drive drive = turning(k % 7 == 0 ? 0.0 : 3.0 * k);
+    EXPECT_NEAR(filter.update(37.0 * k, drive), model->update(37.0 * k, drive), 1e-15);
+  }
+}
+
+/// A machine that is as the filter believes: gain, drift and noise drawn from its own laws.
+class Machine {
+ public:
+  Machine(const ThermalAxis& axis, double gain, std::mt19937& random)
+      : axis_(axis), gain_(gain), random_(random) {}
+
+  double after(double h, double speed) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& m = axis_.mode[i];
+      const double tau = speed == 0.0 && m.rest_tau_s > 0.0 ? m.rest_tau_s : m.tau_s;
+      const double level = gain_ * m.level_mm[1] * speed / 100.0;
+      x_[i] = level + (x_[i] - level) * std::exp(-h / tau);
+    }
+    const double left = std::exp(-h / axis_.drift_tau_s);
+    d_ = left * d_ + axis_.drift_mm * std::sqrt(1.0 - left * left) * normal_(random_);
+    return x_[0] + x_[1] + d_;
+  }
+  double reading(double truth) { return truth + axis_.noise_mm * normal_(random_); }
+
+ private:
+  ThermalAxis axis_;
+  double gain_;
+  std::mt19937& random_;
+  std::normal_distribution<double> normal_;
+  std::array<double, 2> x_{};
+  double d_ = 0.0;
+};
+
+TEST(StateFilter, ItsInnovationsAreAsWideAsItSaysAndItsBandCovers) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> speed(0.0, 100.0);
+  const StateFilter::Config config{.axis = two_modes(), .gate_sd = 10.0};
+  constexpr int kMachines = 1000;
+  constexpr int kReadings = 16;
+  double energy = 0.0;
+  double in_a_row = 0.0;
+  int covered = 0;
+  int alarmed = 0;
+  for (int m = 0; m < kMachines; ++m) {
+    Machine machine(config.axis, 1.0 + config.gain_sd_ratio * normal(random), random);
+    StateFilter filter = made(config);
+    double before = 0.0;
+    bool alarm = false;
+    for (int k = 0; k < kReadings; ++k) {
+      const double n = speed(random);
+      const double truth = machine.after(1800.0, n);
+      filter.update(1800.0, turning(n));
+      covered += std::abs(truth - filter.displacement_mm()) <= 1.96 * filter.sd_mm() ? 1 : 0;
+      const auto verdict = filter.measure({.displacement_mm = machine.reading(truth)});
+      const double e = verdict.innovation_mm / verdict.innovation_sd_mm;
+      energy += e * e;
+      in_a_row += e * before;
+      before = e;
+      alarm = alarm || filter.fault() != Reason::none;
+    }
+    alarmed += alarm ? 1 : 0;
+  }
+  constexpr double kAll = kMachines * kReadings;
+  // Five standard deviations of χ² and of the binomial law.
+  EXPECT_NEAR(energy / kAll, 1.0, 5.0 * std::sqrt(2.0 / kAll));
+  EXPECT_NEAR(in_a_row / kAll, 0.0, 5.0 / std::sqrt(kAll)) << "white";
+  EXPECT_NEAR(covered / kAll, 0.95, 5.0 * std::sqrt(0.95 * 0.05 / kAll));
+  EXPECT_LT(alarmed, kMachines * 3 / 100) << "in a day of sixteen readings";
+}
+
+TEST(StateFilter, LearnsTheScaleOfItsLevels) {
+  std::mt19937 random(3);
+  StateFilter::Config config{.axis = two_modes(), .gain_sd_ratio = 0.2};
+  config.axis.drift_mm = 0.0005;
+  Machine machine(config.axis, 1.2, random);
+  StateFilter filter = made(config);
+  StateFilter unaware = made({.axis = config.axis, .gain_sd_ratio = 0.0});
+  for (int k = 0; k < 6; ++k) {
+    const double truth = machine.after(1800.0, 80.0);
+    filter.update(1800.0, turning(80.0));
+    unaware.update(1800.0, turning(80.0));
+    EXPECT_EQ(filter.measure({.displacement_mm = machine.reading(truth)}).reason,
+              Reason::thermal_reading_taken);
+  }
+  EXPECT_NEAR(filter.gain(), 1.2, 0.03);
+  EXPECT_EQ(unaware.gain(), 1.0);
+  const double truth = machine.after(7200.0, 80.0);
+  EXPECT_NEAR(filter.update(7200.0, turning(80.0)), truth, 0.0015);
+  EXPECT_GT(std::abs(unaware.update(7200.0, turning(80.0)) - truth), 0.005);
+}
+
+TEST(StateFilter, AnOutlierChangesNothingAndAloneSaysNothing) {
+  StateFilter filter = made({.axis = two_modes()});
+  filter.update(3600.0, turning(60.0));
+  const double before = filter.displacement_mm();
+  const double sd = filter.sd_mm();
+  const auto verdict = filter.measure({.displacement_mm = before + 5.0});
+  EXPECT_EQ(verdict.reason, Reason::thermal_reading_outlier);
+  EXPECT_EQ(filter.displacement_mm(), before);
+  EXPECT_EQ(filter.sd_mm(), sd);
+  for (int k = 0; k < 11; ++k) {
+    filter.update(600.0, turning(60.0));
+    filter.measure({.displacement_mm = filter.displacement_mm()});
+    EXPECT_EQ(filter.fault(), Reason::none) << k;
+  }
+}
+
+TEST(StateFilter, SaysWhenTheModelNoLongerFitsAndWhenItDoesAgain) {
+  StateFilter filter = made({.axis = two_modes()});
+  int readings = 0;
+  while (filter.fault() == Reason::none && readings < 12) {
+    filter.update(1800.0, turning(80.0));
+    filter.measure({.displacement_mm = 3.0 * filter.model().displacement_mm() + 0.05});
+    ++readings;
+  }
+  EXPECT_LE(readings, 5) << "a machine that grows thrice as much";
+  EXPECT_EQ(filter.fault(), Reason::thermal_model_unfit);
+  filter.rezero({.displacement_mm = 0.08, .sd_mm = 0.001});
+  EXPECT_EQ(filter.fault(), Reason::none);
+  EXPECT_NEAR(filter.displacement_mm(), 0.08, 1e-12);
+  EXPECT_NEAR(filter.sd_mm(), 0.001, 1e-9) << "as sure as the reading";
+}
+
+TEST(StateFilter, ASmallErrorThatStaysIsToldFromNoise) {
+  StateFilter::Config config{.axis = two_modes(), .gain_sd_ratio = 0.0};
+  config.axis.drift_mm = 0.0;
+  config.walk_mm_sqrt_s = 0.0;
+  StateFilter filter = made(config);
+  int readings = 0;
+  while (filter.fault() == Reason::none && readings < 40) {
+    filter.update(600.0, turning(50.0));
+    filter.measure({.displacement_mm = filter.displacement_mm() + 0.0007});
+    ++readings;
+  }
+  EXPECT_LE(readings, 12) << "1.4 standard deviations, every time to one side";
+  EXPECT_GE(readings, 4);
+}
+
+TEST(StateFilter, HoldsBiasAndScaleWithinTheirLimits) {
+  StateFilter filter =
+      made({.axis = two_modes(), .start_sd_mm = 1.0, .gain_sd_ratio = 0.0, .max_bias_mm = 0.01});
+  const auto verdict = filter.measure({.displacement_mm = 0.5});
+  EXPECT_EQ(verdict.reason, Reason::thermal_reading_taken);
+  EXPECT_TRUE(verdict.clamped);
+  EXPECT_EQ(filter.bias_mm(), 0.01);
+  EXPECT_EQ(filter.fault(), Reason::thermal_model_unfit);
+}
+
+TEST(StateFilter, UnfitInputChangesNothing) {
+  StateFilter filter = made({.axis = two_modes()});
+  const double before = filter.update(600.0, turning(50.0));
+  const double sd = filter.sd_mm();
+  EXPECT_EQ(filter.update(-1.0, turning(50.0)), before);
+  EXPECT_EQ(filter.update(kNaN, turning(50.0)), before);
+  EXPECT_EQ(filter.update(1.0, turning(kNaN)), before);
+  EXPECT_EQ(filter.measure({.displacement_mm = kNaN}).reason, Reason::input_not_finite);
+  EXPECT_EQ(filter.measure({.displacement_mm = 0.0, .sd_mm = -1.0}).reason,
+            Reason::input_not_finite);
+  filter.rezero({.displacement_mm = kNaN});
+  EXPECT_EQ(filter.displacement_mm(), before);
+  EXPECT_EQ(filter.sd_mm(), sd);
+}
+
+TEST(StateFilter, GoesOnFromARestoredStateAndStartsAnewFromABadOne) {
+  StateFilter filter = made({.axis = two_modes()});
+  filter.update(3000.0, turning(70.0));
+  filter.measure({.displacement_mm = 0.021});
+  StateFilter other = made({.axis = two_modes()});
+  other.restore(filter.state());
+  EXPECT_EQ(other.update(500.0, turning(20.0)), filter.update(500.0, turning(20.0)));
+  EXPECT_EQ(other.measure({.displacement_mm = 0.02}).innovation_sd_mm,
+            filter.measure({.displacement_mm = 0.02}).innovation_sd_mm);
+  StateFilter::State bad = filter.state();
+  bad.covariance[1][2] = kNaN;
+  other.restore(bad);
+  EXPECT_EQ(other.displacement_mm(), 0.0);
+  ThermalModel::State warm;
+  warm.mode_mm = {0.004, 0.006, 0.0, 0.0};
+  other.start(warm);
+  EXPECT_NEAR(other.displacement_mm(), 0.010, 1e-15);
+}
+
+TEST(StateFilter, RefusesASetUpThatIsNone) {
+  EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .gain_sd_ratio = -0.1}));
+  EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .gate_sd = 0.0}));
+  EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .min_gain = 1.5}));
+  EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .start_sd_mm = kNaN}));
+}
+
+TEST(StateFilter, DoesNotAllocateInTheCycle) {
+  StateFilter filter = made({.axis = two_modes()});
+  const kernel::rt::testing::AllocationGuard guard;
+  for (int k = 0; k < 100; ++k) {
+    filter.update(0.01 * k, turning(k));
+    filter.measure({.displacement_mm = 0.001});
+    filter.rezero({.displacement_mm = 0.001});
+    filter.restore(filter.state());
+  }
+  EXPECT_EQ(guard.allocations(), 0U);
+}
+
+}  // namespace
+}  // namespace steadyrest::thermal::online
