@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <steadyrest/supervisor/settings.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
 namespace steadyrest::supervisor {
@@ -18,46 +19,23 @@ using machine::Mode;
 
 constexpr double kNeverReadS = 1e9;
 
-Channel::Config feed_config(const machine::Machine& machine,
-                            const kernel::port::Capability& capability) {
-  return {.table = machine.feed_override,
-          .min_ratio = machine.envelope.min_feed_ratio,
-          .max_ratio = machine.envelope.max_feed_ratio,
-          .fall_1_s = machine.envelope.feed_fall_1_s,
-          .rise_1_s = machine.envelope.feed_rise_1_s,
-          .max_step_s = machine.envelope.stale_after_s,
-          .latched = capability.latched_word,
-          .available = capability.feed_override};
-}
-
-Channel::Config spindle_config(const machine::Machine& machine,
-                               const kernel::port::Capability& capability) {
-  return {.table = machine.spindle_override,
-          .min_ratio = machine.envelope.min_spindle_ratio,
-          .max_ratio = machine.envelope.max_spindle_ratio,
-          .fall_1_s = machine.envelope.spindle_slew_1_s,
-          .rise_1_s = machine.envelope.spindle_slew_1_s,
-          .max_step_s = machine.envelope.stale_after_s,
-          .latched = capability.latched_word,
-          .available = capability.spindle_override};
-}
-
-/// Rotary axes take none: the machine file limits offsets in mm alone.
-OffsetEnvelope::Config offset_config(const machine::Machine& machine, bool available) {
-  OffsetEnvelope::Config config{.max_mm = {},
-                                .slew_mm_s = machine.envelope.offset_slew_mm_s,
-                                .max_step_s = machine.envelope.stale_after_s};
-  for (std::size_t i = 0; i < std::min(machine.axes.size(), config.max_mm.size()); ++i) {
-    config.max_mm[i] = available && !machine.axes[i].rotary ? machine.envelope.max_offset_mm : 0.0;
-  }
-  return config;
-}
-
 Result<std::optional<Channel>> channel(const Channel::Config& config) {
   if (config.table.ratio.empty()) {
     return std::nullopt;
   }
   auto made = Channel::make(config);
+  if (!made) {
+    return std::unexpected(std::move(made.error()));
+  }
+  return std::move(*made);
+}
+
+template <class Room>
+Result<std::optional<Room>> room(bool on, const machine::Machine& machine) {
+  if (!on) {
+    return std::nullopt;
+  }
+  auto made = Room::make(machine);
   if (!made) {
     return std::unexpected(std::move(made.error()));
   }
@@ -146,20 +124,21 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
     return std::unexpected(std::move(motion.error()));
   }
   Supervisor supervisor(machine, capability, std::move(*motion), *offset);
-  if (machine.contour.enabled && *feed) {
-    auto governor = contour::online::FeedGovernor::make(machine);
-    if (!governor) {
-      return std::unexpected(std::move(governor.error()));
-    }
-    supervisor.contour_ = std::move(*governor);
+  auto contour = room<contour::online::FeedGovernor>(machine.contour.enabled && *feed, machine);
+  if (!contour) {
+    return std::unexpected(std::move(contour.error()));
   }
-  if (machine.chatter.enabled && *spindle) {
-    auto modulator = chatter::online::Modulator::make(machine);
-    if (!modulator) {
-      return std::unexpected(std::move(modulator.error()));
-    }
-    supervisor.chatter_ = std::move(*modulator);
+  auto chatter = room<chatter::online::Modulator>(machine.chatter.enabled && *spindle, machine);
+  if (!chatter) {
+    return std::unexpected(std::move(chatter.error()));
   }
+  auto thermal = room<thermal::online::OffsetGovernor>(machine.thermal.enabled, machine);
+  if (!thermal) {
+    return std::unexpected(std::move(thermal.error()));
+  }
+  supervisor.contour_ = std::move(*contour);
+  supervisor.chatter_ = std::move(*chatter);
+  supervisor.thermal_ = std::move(*thermal);
   supervisor.feed_ = std::move(*feed);
   supervisor.spindle_ = std::move(*spindle);
   return supervisor;
@@ -189,6 +168,9 @@ void Supervisor::settle_mode() noexcept {
     }
   }
   offset_.reset();
+  if (thermal_) {
+    thermal_->yield_to({});
+  }
   handed_back_ = true;
   state_.mode_in_force = state_.mode_wanted;
 }
@@ -217,7 +199,7 @@ void Supervisor::hear(const signal::Frame& frame, bool fit) noexcept {
       {.law = chatter::online::Law::constant, .mean_ratio = wish ? request.ratio : 1.0});
 }
 
-void Supervisor::estimate(signal::Frame& frame, bool fit) noexcept {
+void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept {
   motion_.update(frame, fit);
   if (std::isfinite(frame.time_s)) {
     last_frame_ = frame;
@@ -230,6 +212,9 @@ void Supervisor::estimate(signal::Frame& frame, bool fit) noexcept {
   if (chatter_) {
     hear(frame, fit);
     estimates_.chatter = chatter_->update(frame);
+  }
+  if (thermal_) {
+    estimates_.thermal = thermal_->update(frame, unfit, state_.tool_in_cut);
   }
 }
 
@@ -250,6 +235,9 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
   }
   kernel::override::OffsetArbiter offset;
   offset.add(requests.offset);
+  if (estimates_.thermal) {
+    offset.add(estimates_.thermal->request);
+  }
   return {.feed = feed.decision(),
           .spindle = spindle.decision(),
           .offset = offset.decision(),
@@ -290,6 +278,11 @@ void Supervisor::clamp(const signal::Frame& frame, const Decisions& decisions,
   const bool stuck = !offset_available_ && kernel::override::is_wish(decisions.offset.reason);
   command.offset_reason = stuck ? Reason::port_cannot_write : offset.reason;
   handed_back_ = handed_back_ && offset.at_zero;
+  const bool in_force =
+      decisions.unfit == Reason::none && kernel::override::is_wish(decisions.offset.reason);
+  if (thermal_ && !in_force) {
+    thermal_->yield_to(offset.offset_mm);
+  }
 }
 
 signal::Command Supervisor::update(const signal::Frame& frame, const Requests& requests,
@@ -297,7 +290,7 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   settle_mode();
   const Reason unfit = inspect(frame);
   signal::Frame known = frame;
-  estimate(known, read_now && unfit == Reason::none);
+  estimate(known, read_now && unfit == Reason::none, unfit);
   const Decisions decisions = arbitrate(frame, requests, unfit);
   signal::Command command = panel_command(frame);
   if (state_.mode_in_force != Mode::observe) {
@@ -343,6 +336,9 @@ Supervisor::State Supervisor::state() const noexcept {
     state.spindle = spindle_->state();
   }
   state.offset = offset_.state();
+  if (thermal_) {
+    state.thermal = thermal_->state();
+  }
   return state;
 }
 
@@ -367,6 +363,10 @@ void Supervisor::restore(const State& state) noexcept {
   if (listener_) {
     listener_->reset();
     estimates_.heard.reset();
+  }
+  if (thermal_) {
+    thermal_->restore(state.thermal);
+    estimates_.thermal.reset();
   }
   handed_back_ = false;
 }

@@ -19,6 +19,7 @@
 #include <steadyrest/supervisor/frame_check.hpp>
 #include <steadyrest/supervisor/listening_stage.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
+#include <steadyrest/thermal/online/offset_governor.hpp>
 
 namespace steadyrest::supervisor {
 
@@ -46,9 +47,11 @@ class Supervisor {
     std::optional<contour::online::FeedGovernor::Output> contour;
     std::optional<chatter::online::Modulator::Output> chatter;
     std::optional<chatter::online::BetterSpeed::Output> heard;
+    std::optional<thermal::online::OffsetGovernor::Output> thermal;
   };
 
-  /// Without the rooms' estimates: those start anew after restore().
+  /// Without the rooms' estimates: those start anew after restore(). The heat in the machine does
+  /// not, so the thermal room's stand in it.
   struct State {
     kernel::machine::Mode mode_in_force = kernel::machine::Mode::observe;
     kernel::machine::Mode mode_wanted = kernel::machine::Mode::observe;
@@ -59,12 +62,13 @@ class Supervisor {
     kernel::override::Channel::State feed;
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
+    thermal::online::OffsetGovernor::State thermal;
   };
 
   /// Refuses tables, envelopes and rooms' settings that are none. A room is switched on by the
   /// machine file: contour by `contour.enabled`, where there is a feed override to work through;
-  /// chatter by `chatter.enabled`, where there is a spindle override. A machine without a table has
-  /// no such override.
+  /// chatter by `chatter.enabled`, where there is a spindle override; thermal by `thermal.enabled`.
+  /// A machine without a table has no such override.
   [[nodiscard]] static kernel::outcome::Result<Supervisor> make(
       const kernel::machine::Machine& machine, const kernel::port::Capability& capability);
 
@@ -102,6 +106,10 @@ class Supervisor {
     }
     return chatter_.has_value();
   }
+  /// The thermal room, for probe readings and the workpiece's zero; none where it is off.
+  [[nodiscard]] thermal::online::OffsetGovernor* thermal() noexcept {
+    return thermal_ ? &*thermal_ : nullptr;
+  }
   [[nodiscard]] kernel::machine::Mode mode_in_force() const noexcept {
     return state_.mode_in_force;
   }
@@ -124,7 +132,7 @@ class Supervisor {
   kernel::outcome::Reason inspect(const kernel::signal::Frame& frame) noexcept;
   void settle_mode() noexcept;
   void hear(const kernel::signal::Frame& frame, bool fit) noexcept;
-  void estimate(kernel::signal::Frame& frame, bool fit) noexcept;
+  void estimate(kernel::signal::Frame& frame, bool fit, kernel::outcome::Reason unfit) noexcept;
   [[nodiscard]] Decisions arbitrate(const kernel::signal::Frame& frame, const Requests& requests,
                                     kernel::outcome::Reason unfit) noexcept;
   void clamp(const kernel::signal::Frame& frame, const Decisions& decisions,
@@ -136,6 +144,7 @@ class Supervisor {
   std::optional<contour::online::FeedGovernor> contour_;
   std::optional<chatter::online::Modulator> chatter_;
   std::optional<ListeningStage> listener_;
+  std::optional<thermal::online::OffsetGovernor> thermal_;
   Estimates estimates_;
   std::optional<kernel::override::Channel> feed_;
   std::optional<kernel::override::Channel> spindle_;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/override/channel.hpp>
+#include <steadyrest/kernel/override/envelope.hpp>
+#include <steadyrest/kernel/port/port.hpp>
+
+/// What the machine file says about the last step before any write, as the envelopes take it.
+namespace steadyrest::supervisor {
+
+[[nodiscard]] kernel::override::Channel::Config feed_config(
+    const kernel::machine::Machine& machine, const kernel::port::Capability& capability);
+[[nodiscard]] kernel::override::Channel::Config spindle_config(
+    const kernel::machine::Machine& machine, const kernel::port::Capability& capability);
+/// Rotary axes take none: the machine file limits offsets in mm alone.
+[[nodiscard]] kernel::override::OffsetEnvelope::Config offset_config(
+    const kernel::machine::Machine& machine, bool available);
+
+}  // namespace steadyrest::supervisor

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <steadyrest/thermal/online/offset_governor.hpp>
+
+namespace steadyrest::thermal::online {
+
+namespace machine = kernel::machine;
+using kernel::outcome::Kind;
+using kernel::outcome::Reason;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::signal::AxisValues;
+using kernel::signal::Frame;
+using kernel::signal::Motion;
+
+namespace {
+
+constexpr double kHold_s = 1.0;         ///< the filters are told at least that often
+constexpr double kStands_rev_s = 0.01;  ///< slower is the noise of a standing encoder
+constexpr double kGap_s = 60.0;         ///< what happened in longer gaps is not known
+constexpr double kBeyondSpeed = 1.2;    ///< of the fastest that was fitted
+constexpr double kThere_mm = 1e-4;      ///< nearer to the wish is there
+
+Drive drive_of(const Frame& frame) noexcept {
+  Drive drive;
+  const double speed = std::abs(frame.spindle_actual_rev_s);
+  drive.speed_rev_s = speed < kStands_rev_s ? 0.0 : speed;
+  drive.feed_mm_s = frame.path_speed_mm_s;
+  drive.cutting =
+      frame.motion == Motion::feed || frame.motion == Motion::thread || frame.motion == Motion::tap;
+  drive.coolant = frame.coolant;
+  return drive;
+}
+
+bool same_class(const Drive& a, const Drive& b) noexcept {
+  return a.cutting == b.cutting && a.coolant == b.coolant &&
+         (a.speed_rev_s == 0.0) == (b.speed_rev_s == 0.0);
+}
+
+bool must_hold(Motion motion) noexcept {
+  return motion == Motion::thread || motion == Motion::tap || motion == Motion::probe;
+}
+
+/// The worse a reason, the more it must be shown.
+int weight(Reason reason) noexcept {
+  switch (reason) {
+    case Reason::thermal_model_unfit:
+      return 6;
+    case Reason::thermal_sensor_lost:
+      return 5;
+    case Reason::thermal_beyond_speed:
+      return 4;
+    case Reason::thermal_clamped:
+      return 3;
+    case Reason::thermal_held:
+      return 2;
+    case Reason::thermal_following:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+std::unexpected<Refusal> too_many_sensors(std::size_t count) {
+  return std::unexpected(
+      Refusal{Kind::bad_input,
+              {},
+              0,
+              "the thermal passport names " + std::to_string(count) + " temperature sensors",
+              "use at most " + std::to_string(kernel::signal::kMaxTemperatures) + " on line"});
+}
+
+}  // namespace
+
+Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
+  const machine::Thermal& thermal = machine.thermal;
+  const auto sensors = thermal.sensors();
+  if (sensors.size() > kernel::signal::kMaxTemperatures) {
+    return too_many_sensors(sensors.size());
+  }
+  OffsetGovernor made;
+  made.max_offset_mm_ = std::min(thermal.max_offset_mm, machine.envelope.max_offset_mm);
+  made.slope_mm_s_ = std::min(thermal.slope_mm_s, machine.envelope.offset_slew_mm_s);
+  made.max_step_s_ = machine.envelope.stale_after_s;
+  const std::size_t axes = std::min(machine.axes.size(), kernel::signal::kMaxAxes);
+  for (std::size_t i = 0; i < axes; ++i) {
+    const auto of =
+        std::ranges::find(thermal.axis, machine.axes[i].name, &machine::ThermalAxis::name);
+    if (of == thermal.axis.end() || machine.axes[i].rotary) {
+      continue;
+    }
+    StateFilter::Config config;
+    config.axis = *of;
+    config.max_bias_mm = std::max(made.max_offset_mm_, 0.001);
+    auto filter = StateFilter::make(config);
+    if (!filter) {
+      return std::unexpected(std::move(filter.error()));
+    }
+    Axis axis{.index = i,
+              .max_speed_rev_s = of->max_speed_rev_s,
+              .ambients = of->ambient.size(),
+              .sensor = {},
+              .filter = std::move(*filter)};
+    for (std::size_t j = 0; j < axis.ambients; ++j) {
+      axis.sensor[j] = static_cast<std::size_t>(std::ranges::find(sensors, of->ambient[j].sensor) -
+                                                sensors.begin());
+    }
+    made.axes_.push_back(std::move(axis));
+  }
+  return made;
+}
+
+void OffsetGovernor::step(double elapsed_s, const Drive& drive) noexcept {
+  for (Axis& axis : axes_) {
+    Drive own = drive;
+    for (std::size_t j = 0; j < axis.ambients; ++j) {
+      own.ambient_c[j] = temperature_c_[axis.sensor[j]];
+    }
+    axis.filter.update(elapsed_s, own);
+  }
+}
+
+/// Tells the filters of the time that is pending.
+void OffsetGovernor::step() noexcept {
+  if (state_.pending_s > 0.0) {
+    Drive mean = state_.drive;
+    mean.speed_rev_s = state_.turned_rev / state_.pending_s;
+    mean.feed_mm_s = state_.path_mm / state_.pending_s;
+    step(state_.pending_s, mean);
+  }
+  state_.pending_s = 0.0;
+  state_.turned_rev = 0.0;
+  state_.path_mm = 0.0;
+}
+
+/// A frame's drive is in force from its time to that of the next.
+void OffsetGovernor::drive_on(const Frame& frame) noexcept {
+  const double elapsed_s = state_.started ? std::max(0.0, frame.time_s - state_.time_s) : 0.0;
+  state_.time_s = frame.time_s;
+  const Drive drive = drive_of(frame);
+  const bool first = !state_.started;
+  state_.started = true;
+  if (elapsed_s > kGap_s) {
+    step();
+    step(elapsed_s, {});
+  } else {
+    state_.pending_s += elapsed_s;
+    state_.turned_rev += elapsed_s * state_.drive.speed_rev_s;
+    state_.path_mm += elapsed_s * state_.drive.feed_mm_s;
+  }
+  if (first || elapsed_s > kGap_s || state_.pending_s >= kHold_s ||
+      !same_class(state_.drive, drive)) {
+    step();
+    temperature_c_ = frame.temperature_c;
+  }
+  if (first) {
+    step(0.0, drive);  // the first temperatures count as settled
+  }
+  state_.drive = drive;
+}
+
+Reason OffsetGovernor::fault(const Axis& axis, const Frame& frame) const noexcept {
+  if (const Reason unfit = axis.filter.fault(); unfit != Reason::none) {
+    return unfit;
+  }
+  for (std::size_t j = 0; j < axis.ambients; ++j) {
+    if (!std::isfinite(frame.temperature_c[axis.sensor[j]])) {
+      return Reason::thermal_sensor_lost;
+    }
+  }
+  const bool beyond = axis.max_speed_rev_s > 0.0 &&
+                      std::abs(frame.spindle_actual_rev_s) > kBeyondSpeed * axis.max_speed_rev_s;
+  return beyond ? Reason::thermal_beyond_speed : Reason::none;
+}
+
+Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
+                            double step_mm) const noexcept {
+  const Reason faulty = fault(axis, frame);
+  const bool held = must_hold(frame.motion) || (faulty != Reason::none && tool_in_cut);
+  if (held) {
+    return faulty != Reason::none ? faulty : Reason::thermal_held;
+  }
+  const double whole = axis.reference_mm - axis.filter.displacement_mm();
+  const double within = std::clamp(whole, -max_offset_mm_, max_offset_mm_);
+  const double wish = faulty == Reason::none ? within : 0.0;
+  axis.offset_mm += std::clamp(wish - axis.offset_mm, -step_mm, step_mm);
+  axis.offset_mm = std::clamp(axis.offset_mm, -max_offset_mm_, max_offset_mm_);
+  if (faulty != Reason::none) {
+    return faulty;
+  }
+  if (within != whole) {
+    return Reason::thermal_clamped;
+  }
+  return std::abs(wish - axis.offset_mm) > kThere_mm ? Reason::thermal_following
+                                                     : Reason::thermal_correcting;
+}
+
+const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason unfit,
+                                                     bool tool_in_cut) noexcept {
+  output_.request.tool_in_cut = tool_in_cut;
+  if (unfit != Reason::none || !std::isfinite(frame.time_s)) {
+    output_.request.reason = unfit != Reason::none ? unfit : Reason::input_not_finite;
+    return output_;
+  }
+  const double elapsed_s = state_.in_force ? frame.time_s - state_.time_s : 0.0;
+  const double step_mm = slope_mm_s_ * std::clamp(elapsed_s, 0.0, max_step_s_);
+  state_.in_force = true;
+  drive_on(frame);
+  output_.request.reason = axes_.empty() ? Reason::none : Reason::thermal_correcting;
+  for (Axis& axis : axes_) {
+    const Reason reason = move(axis, frame, tool_in_cut, step_mm);
+    if (weight(reason) > weight(output_.request.reason)) {
+      output_.request.reason = reason;
+    }
+    output_.request.offset_mm[axis.index] = axis.offset_mm;
+    output_.displacement_mm[axis.index] = axis.filter.displacement_mm();
+    output_.sd_mm[axis.index] = axis.filter.sd_mm();
+  }
+  return output_;
+}
+
+void OffsetGovernor::yield_to(const AxisValues& standing_mm) noexcept {
+  for (Axis& axis : axes_) {
+    const double stands = standing_mm[axis.index];
+    if (std::isfinite(stands)) {
+      axis.offset_mm = std::clamp(axis.offset_mm, std::min(0.0, stands), std::max(0.0, stands));
+    }
+    output_.request.offset_mm[axis.index] = axis.offset_mm;
+  }
+  state_.in_force = false;
+}
+
+void OffsetGovernor::zero_here() noexcept {
+  step();
+  for (Axis& axis : axes_) {
+    axis.reference_mm = axis.filter.displacement_mm() + axis.offset_mm;
+  }
+}
+
+OffsetGovernor::Axis* OffsetGovernor::find(std::size_t axis) noexcept {
+  const auto found = std::ranges::find(axes_, axis, &Axis::index);
+  return found == axes_.end() ? nullptr : &*found;
+}
+
+StateFilter::Verdict OffsetGovernor::measure(std::size_t axis,
+                                             const StateFilter::Reading& reading) noexcept {
+  Axis* of = find(axis);
+  if (of == nullptr) {
+    return {};
+  }
+  step();
+  return of->filter.measure(
+      {.displacement_mm = reading.displacement_mm + of->reference_mm - of->offset_mm,
+       .sd_mm = reading.sd_mm});
+}
+
+void OffsetGovernor::rezero(std::size_t axis, const StateFilter::Reading& reading) noexcept {
+  if (Axis* of = find(axis); of != nullptr) {
+    step();
+    of->filter.rezero(
+        {.displacement_mm = reading.displacement_mm + of->reference_mm - of->offset_mm,
+         .sd_mm = reading.sd_mm});
+  }
+}
+
+OffsetGovernor::State OffsetGovernor::state() const noexcept {
+  State state = state_;
+  for (const Axis& axis : axes_) {
+    state.axis[axis.index] = {.filter = axis.filter.state(),
+                              .reference_mm = axis.reference_mm,
+                              .offset_mm = axis.offset_mm};
+  }
+  return state;
+}
+
+void OffsetGovernor::restore(const State& state) noexcept {
+  reset();
+  const bool fit = std::isfinite(state.pending_s) && state.pending_s >= 0.0 &&
+                   std::isfinite(state.turned_rev) && std::isfinite(state.path_mm) &&
+                   std::isfinite(state.time_s) && std::isfinite(state.drive.speed_rev_s) &&
+                   std::isfinite(state.drive.feed_mm_s);
+  if (fit) {
+    state_ = state;
+  }
+  for (Axis& axis : axes_) {
+    const AxisState& of = state.axis[axis.index];
+    if (std::isfinite(of.reference_mm)) {
+      axis.filter.restore(of.filter);
+      axis.reference_mm = of.reference_mm;
+    }
+    if (std::isfinite(of.offset_mm)) {
+      axis.offset_mm = std::clamp(of.offset_mm, -max_offset_mm_, max_offset_mm_);
+    }
+    output_.request.offset_mm[axis.index] = axis.offset_mm;
+  }
+}
+
+void OffsetGovernor::reset() noexcept {
+  state_ = {};
+  temperature_c_ = kernel::signal::unknown_temperatures();
+  output_ = {};
+  for (Axis& axis : axes_) {
+    axis.filter.reset();
+    axis.reference_mm = 0.0;
+    axis.offset_mm = 0.0;
+  }
+}
+
+}  // namespace steadyrest::thermal::online

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/request.hpp>
+#include <steadyrest/thermal/online/state_filter.hpp>
+
+namespace steadyrest::thermal::online {
+
+/// Moves the axes against the displacement that the machine has now, cycle by cycle.
+///
+/// The forecast is driven by what the machine does, not by the cyclogram: by the frames' own time,
+/// spindle speed, path speed and temperatures. So a pause of the job is a pause of its heat. What
+/// drives it is handed on once a second, speed and feed by their mean, and where cutting, coolant
+/// or the standing of the spindle changes.
+///
+/// For each axis o, with the displacement δ, the displacement r at which the workpiece's zero was
+/// set, and m the smaller of the two largest offsets of the machine file:
+///   wish = clamp(r − δ, ±m),   o moves to it by at most slope·Δt,   Δt ≤ `stale_after_s`
+/// In a thread, tap or probing move o is held. While a temperature is not known that the axis
+/// needs, while the spindle turns faster than 1.2 times what was fitted, and while its readings do
+/// not fit the model, o is held as long as a tool is in the cut; once none is, it fades to 0 by the
+/// slope. With unfit input it is held, and the envelope alone acts.
+/// slope is the smaller one of the thermal slope and of the envelope's slew, in the cut and out of
+/// it, whatever the forecast does: no step that would mark the surface can come from here.
+///
+/// After a gap of more than a minute between frames the machine counts as having stood meanwhile.
+/// Online code: bounded, noexcept, no allocation after make().
+class OffsetGovernor {
+ public:
+  struct Output {
+    kernel::signal::OffsetRequest request;
+    kernel::signal::AxisValues displacement_mm{};  ///< forecast; 0 for axes without passport
+    kernel::signal::AxisValues sd_mm{};
+  };
+
+  struct AxisState {
+    StateFilter::State filter;
+    double reference_mm = 0.0;  ///< r
+    double offset_mm = 0.0;     ///< o
+  };
+
+  struct State {
+    std::array<AxisState, kernel::signal::kMaxAxes> axis{};  ///< by the machine's axes
+    Drive drive;                                             ///< of the time that is pending
+    double pending_s = 0.0;   ///< the filters have not been told of yet
+    double turned_rev = 0.0;  ///< ∫ speed over it
+    double path_mm = 0.0;     ///< ∫ path speed over it
+    double time_s = 0.0;
+    bool started = false;
+    bool in_force = false;  ///< the last request was, so that o may move on from it
+  };
+
+  /// For the axes of the machine that have a thermal passport; rotary ones take no offset. Refuses
+  /// passports that cannot be used and more sensors than a frame holds.
+  [[nodiscard]] static kernel::outcome::Result<OffsetGovernor> make(
+      const kernel::machine::Machine& machine);
+
+  /// One cycle. `unfit`: why the frame must not be acted on, or none. `tool_in_cut`: by what is
+  /// known of the machine.
+  const Output& update(const kernel::signal::Frame& frame, kernel::outcome::Reason unfit,
+                       bool tool_in_cut) noexcept;
+
+  /// The request was not in force, and no more than that stands on the machine: o is cut to it, and
+  /// goes on from there one cycle later.
+  void yield_to(const kernel::signal::AxisValues& standing_mm) noexcept;
+  /// The workpiece's zero has just been set: from here on only what changes is corrected.
+  void zero_here() noexcept;
+  /// A probe finds the axis off by `reading` from where it should be, with the offset that stands.
+  /// Nothing, with reason none, for an axis that is not corrected.
+  StateFilter::Verdict measure(std::size_t axis, const StateFilter::Reading& reading) noexcept;
+  /// The same, taken whatever the gate says.
+  void rezero(std::size_t axis, const StateFilter::Reading& reading) noexcept;
+
+  [[nodiscard]] const Output& output() const noexcept { return output_; }
+  [[nodiscard]] State state() const noexcept;
+  /// What is not finite in it starts anew; offsets beyond the clamp are cut to it.
+  void restore(const State& state) noexcept;
+  /// Cold, and nothing stands on the machine.
+  void reset() noexcept;
+
+ private:
+  struct Axis {
+    std::size_t index = 0;
+    double max_speed_rev_s = 0.0;  ///< 0 = not known
+    std::size_t ambients = 0;
+    std::array<std::size_t, kMaxThermalAmbients> sensor{};  ///< in the frame
+    StateFilter filter;
+    double reference_mm = 0.0;
+    double offset_mm = 0.0;
+  };
+
+  OffsetGovernor() = default;
+  void drive_on(const kernel::signal::Frame& frame) noexcept;
+  void step() noexcept;
+  void step(double elapsed_s, const Drive& drive) noexcept;
+  [[nodiscard]] Axis* find(std::size_t axis) noexcept;
+  [[nodiscard]] kernel::outcome::Reason fault(const Axis& axis,
+                                              const kernel::signal::Frame& frame) const noexcept;
+  kernel::outcome::Reason move(Axis& axis, const kernel::signal::Frame& frame, bool tool_in_cut,
+                               double step_mm) const noexcept;
+
+  std::vector<Axis> axes_;
+  double max_offset_mm_ = 0.0;
+  double slope_mm_s_ = 0.0;
+  double max_step_s_ = 0.1;
+  State state_;  ///< `axis` is filled in by state() alone
+  kernel::signal::Temperatures temperature_c_ = kernel::signal::unknown_temperatures();
+  Output output_;
+};
+
+}  // namespace steadyrest::thermal::online

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/thermal/online/offset_governor.hpp>
+
+/// What the tests of the offset governor stand on: a mill whose Z grows by one thermal mode, and
+/// whose X follows a room sensor.
+namespace steadyrest::thermal::online::test {
+
+inline constexpr double kTau_s = 600.0;
+inline constexpr double kLevel_mm = 0.040;  ///< at 100 rev/s
+inline constexpr std::size_t kX = 0;
+inline constexpr std::size_t kZ = 2;
+
+inline kernel::machine::Machine mill() {
+  kernel::machine::Machine machine;
+  machine.axes.resize(3);
+  machine.axes[1].name = "Y";
+  machine.axes[2].name = "Z";
+  machine.thermal.enabled = true;
+  machine.thermal.max_offset_mm = 0.030;
+  machine.thermal.slope_mm_s = 0.010 / 60.0;
+  kernel::machine::ThermalAxis z;
+  z.name = "Z";
+  z.noise_mm = 0.0005;
+  z.max_speed_rev_s = 100.0;
+  z.mode.emplace_back();
+  z.mode[0].tau_s = kTau_s;
+  z.mode[0].speed_rev_s = {0.0, 100.0};
+  z.mode[0].level_mm = {0.0, kLevel_mm};
+  kernel::machine::ThermalAxis x;
+  x.name = "X";
+  x.ambient.push_back(
+      {.sensor = "room", .tau_s = 0.0, .gain_mm_k = 0.002, .reference_c = 20.0, .state_c = 20.0});
+  kernel::machine::ThermalAxis probe;
+  probe.name = "ch3";
+  probe.mode = z.mode;
+  machine.thermal.axis = {z, x, probe};
+  return machine;
+}
+
+/// The governor with its frame; time goes on by 0.1 s a cycle.
+class Governed {
+ public:
+  static constexpr double kCycle_s = 0.1;
+
+  explicit Governed(const kernel::machine::Machine& machine = mill())
+      : governor(OffsetGovernor::make(machine).value()) {
+    frame.motion = kernel::signal::Motion::feed;
+    frame.spindle_actual_rev_s = 50.0;
+    frame.temperature_c[0] = 20.0;
+  }
+
+  const OffsetGovernor::Output& cycle() {
+    frame.time_s += kCycle_s;
+    return governor.update(frame, unfit, tool_in_cut);
+  }
+  const OffsetGovernor::Output& seconds(double s) {
+    const auto cycles = static_cast<int>(std::lround(s / kCycle_s));
+    for (int i = 1; i < cycles; ++i) {
+      cycle();
+    }
+    return cycle();
+  }
+
+  OffsetGovernor governor;
+  kernel::signal::Frame frame;
+  kernel::outcome::Reason unfit = kernel::outcome::Reason::none;
+  bool tool_in_cut = true;
+};
+
+}  // namespace steadyrest::thermal::online::test
