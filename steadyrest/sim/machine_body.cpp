@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -54,6 +55,28 @@ Result<std::optional<OverrideInput>> input_of(const OverrideTable& table, const 
   return std::optional<OverrideInput>(*std::move(made));
 }
 
+constexpr double kGrowth_s = 0.1;  ///< the fastest time constants are minutes
+
+std::uint32_t periods_of_growth(const Machine& machine) noexcept {
+  return static_cast<std::uint32_t>(
+      std::max(1.0, std::round(kGrowth_s / machine.control.interpolator_period_s)));
+}
+
+/// A machine without a thermal passport does not grow.
+Result<std::optional<ThermalGrowth>> growth_of(const Machine& machine) {
+  if (machine.thermal.axis.empty()) {
+    return std::nullopt;
+  }
+  auto made = ThermalGrowth::make(
+      {.passport = machine.thermal,
+       .simulation = machine.simulation,
+       .period_s = periods_of_growth(machine) * machine.control.interpolator_period_s});
+  if (!made) {
+    return std::unexpected(made.error());
+  }
+  return std::optional<ThermalGrowth>(*std::move(made));
+}
+
 std::uint32_t home(const std::optional<OverrideInput>& input) noexcept {
   return input ? input->home_code() : 0;
 }
@@ -85,12 +108,17 @@ Result<MachineBody> MachineBody::make(const Config& config) {
       return std::unexpected(input->error());
     }
   }
-  return MachineBody(config, std::move(servos), *spindle, *std::move(feed), *std::move(rapid),
-                     *std::move(spindle_override));
+  auto growth = growth_of(machine);
+  if (!growth) {
+    return std::unexpected(growth.error());
+  }
+  return MachineBody(config, std::move(servos), *spindle, *std::move(growth), *std::move(feed),
+                     *std::move(rapid), *std::move(spindle_override));
 }
 
 MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, SpindleDrive spindle,
-                         std::optional<OverrideInput> feed, std::optional<OverrideInput> rapid,
+                         std::optional<ThermalGrowth> growth, std::optional<OverrideInput> feed,
+                         std::optional<OverrideInput> rapid,
                          std::optional<OverrideInput> spindle_override)
     : period_s_(config.machine.control.interpolator_period_s),
       servo_periods_(static_cast<std::uint32_t>(std::round(
@@ -108,7 +136,20 @@ MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, Sp
              config.operator_actions),
       offset_(config.machine.envelope.max_offset_mm,
               config.machine.envelope.offset_slew_mm_s * period_s_),
+      growth_(std::move(growth)),
+      periods_of_growth_(periods_of_growth(config.machine)),
       normal_(config.machine.simulation.seed) {
+  for (const kernel::machine::ThermalAxis& displacement : config.machine.thermal.axis) {
+    const auto found =
+        std::ranges::find(config.machine.axes, displacement.name, &kernel::machine::Axis::name);
+    grown_axis_.push_back(found != config.machine.axes.end() && found->present
+                              ? static_cast<std::size_t>(found - config.machine.axes.begin())
+                              : kernel::signal::kMaxAxes);
+  }
+  if (growth_) {
+    sensors_ = std::min(config.machine.thermal.sensors().size(), kernel::signal::kMaxTemperatures);
+    read_sensors();
+  }
   const double rms_mm = config.machine.simulation.position_noise_mm;
   for (const kernel::machine::Axis& axis : config.machine.axes) {
     counters_.push_back(
@@ -206,16 +247,47 @@ void MachineBody::follow(std::size_t axis, const nc::plan::Setpoint& setpoint,
   latch(axis, 0);
 }
 
+/// Heat of one period; the displacement that it makes stands in truth_.heat_mm.
+void MachineBody::grow(const nc::plan::Setpoint& setpoint) noexcept {
+  heating_.speed_rev_s += std::abs(spindle_now_.actual_rev_s);
+  heating_.feed_mm_s += setpoint.path_speed_mm_s;
+  heating_.cutting += setpoint.motion == Motion::feed ? 1.0 : 0.0;
+  if (++heating_periods_ < periods_of_growth_) {
+    return;
+  }
+  const double share = 1.0 / heating_periods_;
+  growth_->update({.speed_rev_s = heating_.speed_rev_s * share,
+                   .feed_mm_s = heating_.feed_mm_s * share,
+                   .cutting = heating_.cutting * share});
+  heating_ = {};
+  heating_periods_ = 0;
+  read_sensors();
+  for (std::size_t i = 0; i < grown_axis_.size(); ++i) {
+    if (grown_axis_[i] < kernel::signal::kMaxAxes) {
+      truth_.heat_mm[grown_axis_[i]] = growth_->displacement_mm(i);
+    }
+  }
+}
+
+void MachineBody::read_sensors() noexcept {
+  for (std::size_t i = 0; i < sensors_; ++i) {
+    temperature_c_[i] = growth_->read_room_c();
+  }
+}
+
 void MachineBody::end(const nc::plan::Setpoint& setpoint) noexcept {
   const bool in_cut = setpoint.motion == Motion::feed || setpoint.motion == Motion::thread ||
                       setpoint.motion == Motion::tap;
   const kernel::signal::AxisValues offset_mm = offset_.update(layer_offset_mm_, alive_, in_cut);
   truth_.time_s = time_s_;
   truth_.saturated_axes = 0;
+  if (growth_) {
+    grow(setpoint);
+  }
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     follow(i, setpoint, offset_mm[i]);
     const AxisServo::State& s = servos_[i].state();
-    truth_.tool_mm[i] = s.table_mm;
+    truth_.tool_mm[i] = s.table_mm + truth_.heat_mm[i];
     if (disturbed_[i]) {
       truth_.tool_mm[i] += noise_[i].update(normal_.next());
     }
@@ -260,6 +332,7 @@ kernel::signal::Frame MachineBody::frame() const noexcept {
   frame.spindle_programmed_rev_s = setpoint_.spindle_rev_s;
   frame.spindle_command_rev_s = spindle_now_.target_rev_s;
   frame.spindle_actual_rev_s = spindle_now_.actual_rev_s;
+  frame.temperature_c = temperature_c_;
   frame.path_index = setpoint_.path_index;
   frame.path_position_mm = setpoint_.path_position_mm;
   return frame;

@@ -17,13 +17,16 @@
 #include <steadyrest/sim/operator_panel.hpp>
 #include <steadyrest/sim/override_input.hpp>
 #include <steadyrest/sim/spindle_drive.hpp>
+#include <steadyrest/sim/thermal_growth.hpp>
 
 namespace steadyrest::sim {
 
 /// What really happens at the machine, which no control can see.
 struct Truth {
   double time_s = 0.0;
-  kernel::signal::AxisValues tool_mm{};        ///< table side with disturbance: where it cuts
+  /// Table side with heat and disturbance: where it cuts.
+  kernel::signal::AxisValues tool_mm{};
+  kernel::signal::AxisValues heat_mm{};        ///< of it by thermal growth
   kernel::signal::AxisValues velocity_mm_s{};  ///< of the table side, without the disturbance
   kernel::signal::AxisValues motor_mm{};       ///< motor side, where the encoder sits
   kernel::signal::AxisValues motor_mm_s{};
@@ -84,9 +87,11 @@ class MachineBody {
   };
 
   MachineBody(const Config& config, std::vector<AxisServo> servos, SpindleDrive spindle,
-              std::optional<OverrideInput> feed, std::optional<OverrideInput> rapid,
-              std::optional<OverrideInput> spindle_override);
+              std::optional<ThermalGrowth> growth, std::optional<OverrideInput> feed,
+              std::optional<OverrideInput> rapid, std::optional<OverrideInput> spindle_override);
   void watch(std::uint64_t heartbeat) noexcept;
+  void grow(const nc::plan::Setpoint& setpoint) noexcept;
+  void read_sensors() noexcept;
   void latch(std::size_t axis, std::uint32_t periods_left) noexcept;
   void follow(std::size_t axis, const nc::plan::Setpoint& setpoint, double offset_mm) noexcept;
 
@@ -103,6 +108,13 @@ class MachineBody {
   std::optional<OverrideInput> spindle_override_;
   OperatorPanel panel_;
   AxisOffset offset_;
+  std::optional<ThermalGrowth> growth_;
+  std::vector<std::size_t> grown_axis_;  ///< of each displacement; kMaxAxes: no axis of that name
+  ThermalGrowth::Input heating_;         ///< sums since the last step
+  std::uint32_t heating_periods_ = 0;
+  std::uint32_t periods_of_growth_ = 1;  ///< between two steps
+  std::size_t sensors_ = 0;              ///< of temperature, all of them in the room
+  kernel::signal::Temperatures temperature_c_ = kernel::signal::unknown_temperatures();
   NormalNoise normal_;
   std::vector<ColouredNoise> noise_;
 

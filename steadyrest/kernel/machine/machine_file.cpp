@@ -47,7 +47,7 @@ class FileReader {
     compensation(root);
     read_thermal(root, machine_.thermal, faults_);
     section<Envelope>(root, "envelope", envelope_keys(), machine_.envelope, contradictions);
-    section<Simulation>(root, "simulation", simulation_keys(), machine_.simulation, nullptr);
+    simulation(root);
     return machine_;
   }
 
@@ -218,6 +218,28 @@ class FileReader {
                             word(machine_.compensation.method), word(machine_.control.dialect)),
                 fmt::format("choose a method of that dialect; \"{}\" is for {}",
                             word(machine_.compensation.method), word(needed)));
+  }
+
+  /// Behind the thermal passport, whose terms the errors are of.
+  void simulation(const toml::table& root) {
+    const std::size_t before = faults_.list.size();
+    section<Simulation>(root, "simulation", simulation_keys(), machine_.simulation, nullptr);
+    const std::size_t terms = machine_.thermal.terms();
+    const auto check = [&](std::string_view key, const std::vector<double>& errors) {
+      if (errors.size() > terms) {
+        faults_.add(line_of(root["simulation"][key].node()->source()),
+                    fmt::format("{} has {} entries; the thermal passport has {} modes and ambient "
+                                "inputs",
+                                key, errors.size(), terms),
+                    terms == 0
+                        ? "remove it, or add [[thermal.axis]]"
+                        : "give one for each of them, or fewer: the last holds for the rest");
+      }
+    };
+    if (faults_.list.size() == before) {
+      check("thermal_tau_error_percent", machine_.simulation.thermal_tau_error_ratio);
+      check("thermal_gain_error_percent", machine_.simulation.thermal_gain_error_ratio);
+    }
   }
 
   void overrides(const toml::table& root) {

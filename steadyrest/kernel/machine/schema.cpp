@@ -338,6 +338,26 @@ std::span<const Key<Simulation>> simulation_keys() noexcept {
                       "Seed of all noise: same seed, same bytes out."},
       Key<Simulation>{"position_noise_um", &Simulation::position_noise_mm, 0, 1000,
                       "RMS of what disturbs the true position (vibration, load)."},
+      Key<Simulation>{
+          "thermal_tau_error_percent", &Simulation::thermal_tau_error_ratio, -90, 1000,
+          "By how much the true time constants are longer than the thermal passport's: a value for "
+          "each mode, then each ambient input, axis by axis; the last one holds for the rest.",
+          kMay, For::any, 72},
+      Key<Simulation>{
+          "thermal_gain_error_percent", &Simulation::thermal_gain_error_ratio, -100, 1000,
+          "By how much the true levels and ambient gains are larger than the passport's, likewise.",
+          kMay, For::any, 72},
+      Key<Simulation>{"room_c", &Simulation::room_c, -20, 60, "Mean temperature of the room."},
+      Key<Simulation>{"room_swing_k", &Simulation::room_swing_k, 0, 30,
+                      "Amplitude of the room over a day, warmest at 15 o'clock."},
+      Key<Simulation>{"room_noise_k", &Simulation::room_noise_k, 0, 10,
+                      "RMS of what doors and draughts add, with a correlation time of 10 min."},
+      Key<Simulation>{"room_start_h", &Simulation::room_start_s, 0, 24,
+                      "Time of day at which the simulation begins."},
+      Key<Simulation>{"sensor_noise_k", &Simulation::sensor_noise_k, 0, 10,
+                      "RMS of one reading of a temperature sensor."},
+      Key<Simulation>{"probe_noise_um", &Simulation::probe_noise_mm, 0, 1000,
+                      "RMS of one reading of the probe that re-zeroes the thermal model."},
   };
   return kKeys;
 }

@@ -87,6 +87,15 @@ struct Thermal {
     }
     return names;
   }
+
+  /// Modes and ambient inputs of all axes: axis by axis, its modes first.
+  [[nodiscard]] std::size_t terms() const noexcept {
+    std::size_t count = 0;
+    for (const ThermalAxis& a : axis) {
+      count += a.mode.size() + a.ambient.size();
+    }
+    return count;
+  }
 };
 
 }  // namespace steadyrest::kernel::machine

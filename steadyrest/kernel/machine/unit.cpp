@@ -34,6 +34,12 @@ constexpr double s_from_min(double time_min) noexcept {
 constexpr double min_from_s(double time_s) noexcept {
   return time_s / 60.0;
 }
+constexpr double s_from_h(double time_h) noexcept {
+  return time_h * 3600.0;
+}
+constexpr double h_from_s(double time_s) noexcept {
+  return time_s / 3600.0;
+}
 constexpr double mm_s_from_um_min(double speed_um_min) noexcept {
   return speed_um_min * (1e-3 / 60.0);
 }
@@ -70,7 +76,9 @@ constexpr std::array kUnits = {
     Unit{"um_k", "µm/K", mm_from_um, um_from_mm},
     Unit{"um_m_min", "µm/(m/min)", s_from_um_m_min, um_m_min_from_s},
     Unit{"min", "min", s_from_min, min_from_s},
+    Unit{"h", "h", s_from_h, h_from_s},
     Unit{"c", "°C", same, same},
+    Unit{"k", "K", same, same},
     Unit{"um_s", "µm/s", mm_from_um, um_from_mm},
     Unit{"deg", "°", rad_from_deg, deg_from_rad},
     Unit{"deg_s", "°/s", rad_from_deg, deg_from_rad},

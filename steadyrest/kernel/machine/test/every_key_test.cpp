@@ -146,6 +146,23 @@ stale_after_ms = 70
 [simulation]
 seed = 71
 position_noise_um = 72
+thermal_tau_error_percent = [73, -74]
+thermal_gain_error_percent = [75]
+room_c = 26
+room_swing_k = 7.7
+room_noise_k = 0.78
+room_start_h = 7.9
+sensor_noise_k = 0.80
+probe_noise_um = 81
+[thermal]
+[[thermal.axis]]
+name = "Z"
+[[thermal.axis.mode]]
+tau_min = 15
+polynomial_um = [1]
+[[thermal.axis.ambient]]
+sensor = "room"
+gain_um_k = 2
 )";
 
 Machine full() {
@@ -289,6 +306,18 @@ TEST(EveryKey, SpindleContourEnvelopeSimulation) {
   EXPECT_DOUBLE_EQ(m.envelope.stale_after_s, 0.070);
   EXPECT_EQ(m.simulation.seed, 71U);
   EXPECT_DOUBLE_EQ(m.simulation.position_noise_mm, 0.072);
+}
+
+TEST(EveryKey, HeatOfTheSimulatedMachine) {
+  const Simulation s = full().simulation;
+  EXPECT_EQ(s.thermal_tau_error_ratio, (std::vector{0.73, -0.74}));
+  EXPECT_EQ(s.thermal_gain_error_ratio, (std::vector{0.75}));
+  EXPECT_DOUBLE_EQ(s.room_c, 26);
+  EXPECT_DOUBLE_EQ(s.room_swing_k, 7.7);
+  EXPECT_DOUBLE_EQ(s.room_noise_k, 0.78);
+  EXPECT_DOUBLE_EQ(s.room_start_s, 7.9 * 3600);
+  EXPECT_DOUBLE_EQ(s.sensor_noise_k, 0.8);
+  EXPECT_DOUBLE_EQ(s.probe_noise_mm, 0.081);
 }
 
 TEST(EveryKey, Chatter) {
