@@ -288,7 +288,8 @@ TEST(MachineBody, HeatMovesTheToolAndNoEncoderSeesIt) {
 TEST(MachineBody, ItsSensorsHangInTheRoom) {
   kernel::machine::Machine machine = growing_machine();
   EXPECT_TRUE(std::isnan(MachineBody::make({.machine = machine})->frame().temperature_c[0]));
-  machine.thermal.axis[0].ambient = {{.sensor = "room"}, {.sensor = "column"}};
+  machine.thermal.axis[0].ambient.resize(2);
+  machine.thermal.axis[0].ambient[1].sensor = "column";
   machine.simulation.room_c = 23.5;
   machine.simulation.sensor_noise_k = 0.1;
   const auto frame = MachineBody::make({.machine = machine})->frame();
