@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -76,8 +77,9 @@ bool Interpreter::check(const Step& step) {
 bool Interpreter::check_values(const Step& step) {
   // Far beyond every machine; values above lose their meaning in the arithmetic that follows.
   constexpr double kLargest = 1e7;
-  for (char letter = 'A'; letter <= 'Z'; ++letter) {
-    if (step.has(letter) && !(std::abs(step[letter]) <= kLargest)) {
+  for (std::uint32_t left = step.mask; left != 0; left &= left - 1) {
+    const auto letter = static_cast<char>('A' + std::countr_zero(left));
+    if (!(std::abs(step[letter]) <= kLargest)) {
       return refuse(step, letter, "out_of_range",
                     "a value beyond every machine; at most 10000000 in magnitude is allowed");
     }
@@ -88,7 +90,11 @@ bool Interpreter::check_values(const Step& step) {
   if (step.has('S') && step['S'] < 0.0) {
     return refuse(step, 'S', "out_of_range", "a negative spindle speed");
   }
+  constexpr std::uint32_t kWhole = Step::bit('T') | Step::bit('H') | Step::bit('L');
   for (const char letter : {'T', 'H', 'L'}) {
+    if ((step.mask & kWhole) == 0) {
+      break;
+    }
     if (step.has(letter) && (step[letter] != std::floor(step[letter]) || step[letter] < 0.0)) {
       return refuse(step, letter, "not_an_integer",
                     std::string{"a "} + letter + " word that is not a whole number from 0");
@@ -123,6 +129,12 @@ bool Interpreter::check_non_modal(const Step& step) {
 }
 
 bool Interpreter::check_unused(const Step& step) {
+  constexpr std::uint32_t kNeedUse = Step::bit('D') | Step::bit('E') | Step::bit('H') |
+                                     Step::bit('L') | Step::bit('P') | Step::bit('Q') |
+                                     Step::bit('R') | kCentreMask;
+  if ((step.mask & kNeedUse) == 0) {
+    return true;
+  }
   const int motion = motion_now_;
   const int non_modal = step.code(GGroup::non_modal);
   const int override_switch = step.code(MGroup::override_switch);

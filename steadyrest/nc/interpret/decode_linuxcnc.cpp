@@ -11,7 +11,14 @@ using read::Block;
 using read::Word;
 
 bool Interpreter::decode_linuxcnc(const Block& block, Step& step) {
+  const std::uint32_t plain = axes_allowed_ | Step::bit('F');
   for (const Word& word : block.words()) {
+    // What nearly all words are, without a call.
+    const std::uint32_t bit = Step::bit(word.letter);
+    if ((bit & plain & ~step.mask) != 0) {
+      step.set(word.letter, word.value);
+      continue;
+    }
     const bool accepted = word.letter == '@' || word.letter == '^' ? take_polar(word, step)
                           : word.letter == 'G'                     ? take_g(word, step)
                           : word.letter == 'M'                     ? take_m(word, step)
@@ -43,6 +50,7 @@ bool Interpreter::take_polar(const Word& word, Step& step) {
   }
   place = word.value;
   step.polar = true;
+  step.others = true;
   return true;
 }
 
@@ -64,6 +72,7 @@ bool Interpreter::put_g(const Word& word, int code, Step& step) {
                ? refuse_word(step.line, word, "unknown_g_code", "a G word that is not known")
                : refuse_word(step.line, word, "g_code_not_interpreted", note);
   }
+  step.others = step.others || found.group != GGroup::motion;
   std::int16_t& place = step.g[static_cast<std::size_t>(found.group)];
   constexpr int kEndOfCycle = 800;  // stands beside another motion and yields to it
   if (place != kNoCode && found.group == GGroup::motion &&
@@ -90,6 +99,7 @@ bool Interpreter::take_modulation(const Word& word, Step& step) {
                        "a second M word of the same modal group in one block");
   }
   step.modulation = word.value == config_.modulation_on ? 1 : 0;
+  step.others = true;
   return true;
 }
 
@@ -114,6 +124,7 @@ bool Interpreter::put_m(const Word& word, int code, Step& step) {
                ? refuse_word(step.line, word, "unknown_m_code", "an M word that is not known")
                : refuse_word(step.line, word, "m_code_not_interpreted", note);
   }
+  step.others = true;
   std::int16_t& place = step.m[static_cast<std::size_t>(found.group)];
   if (place != kNoCode) {
     return refuse_word(step.line, word, "same_modal_group",
@@ -139,6 +150,7 @@ bool Interpreter::put_letter(const Word& word, char letter, double value, Step& 
         std::string{"the machine has no axis "} + letter + "; it has " + config_.axes);
   }
   step.set(letter, value);
+  step.others = step.others || (bit & (kAxisMask | Step::bit('F'))) == 0;
   return true;
 }
 

@@ -90,6 +90,9 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   if (!decode(block, step_)) {
     return false;
   }
+  if (is_plain(step_)) {
+    return execute_plain(step_);
+  }
   if (step_.frame != 0) {
     return set_frame(step_);
   }

@@ -101,6 +101,10 @@ class Interpreter {
   void bore_call(const read::Flow& call, const DrillCall& hole);
   bool refuse_call(const read::Flow& call, std::string_view reason, std::string_view text);
 
+  // a block of G0 or G1, F and axis words alone
+  [[nodiscard]] bool is_plain(const Step& step) const noexcept;
+  bool execute_plain(const Step& step);
+
   // checks
   bool choose_motion(const Step& step);
   bool check(const Step& step);

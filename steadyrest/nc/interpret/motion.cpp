@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -96,12 +97,9 @@ bool Interpreter::end_point(const Step& step, Axes& end) {
     machine_end(step, end);
     return true;
   }
-  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
-    const char letter = kAxisLetters[i];
-    if (!step.has(letter)) {
-      continue;
-    }
-    const std::uint32_t bit = Step::bit(letter);
+  for (std::uint32_t left = step.mask & kAxisMask; left != 0; left &= left - 1) {
+    const std::uint32_t bit = left & (~left + 1);
+    const std::size_t i = kAxisOfLetter[static_cast<std::size_t>(std::countr_zero(left))];
     const bool incremental =
         (step.incremental & bit) != 0 || (state_.incremental && (step.absolute & bit) == 0);
     const double value = component(step, i);

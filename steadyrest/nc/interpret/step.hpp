@@ -58,6 +58,7 @@ struct Step {
   std::array<std::int16_t, kMGroups> m;
   std::uint32_t absolute = 0;     ///< words that are absolute whatever G90/G91 say
   std::uint32_t incremental = 0;  ///< words that are incremental whatever G90/G91 say
+  bool others = false;            ///< a word that is none of motion, F and axis words
   bool polar = false;             ///< X and Y are given by @ and ^
   double polar_radius = std::numeric_limits<double>::quiet_NaN();  ///< as written; NaN: not given
   double polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
@@ -79,6 +80,7 @@ struct Step {
     m.fill(kNoCode);
     absolute = 0;
     incremental = 0;
+    others = false;
     polar = false;
     polar_radius = polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
     machine_frame = false;
@@ -124,6 +126,15 @@ inline constexpr std::uint32_t kCentreMask = Step::bit('I') | Step::bit('J') | S
 inline constexpr std::array<char, 9> kAxisLetterArray = {'X', 'Y', 'Z', 'A', 'B',
                                                          'C', 'U', 'V', 'W'};
 inline constexpr std::string_view kAxisLetters{kAxisLetterArray.data(), kAxisLetterArray.size()};
+
+/// By letter − 'A': the place of an axis letter in `Axes`.
+inline constexpr auto kAxisOfLetter = [] {
+  std::array<std::uint8_t, 26> table{};
+  for (std::size_t i = 0; i < kAxisLetterArray.size(); ++i) {
+    table[static_cast<std::size_t>(kAxisLetterArray[i] - 'A')] = static_cast<std::uint8_t>(i);
+  }
+  return table;
+}();
 
 /// A canned cycle, G81–G89 and the drilling and tapping ones that stand apart.
 [[nodiscard]] constexpr bool is_cycle(int code) noexcept {

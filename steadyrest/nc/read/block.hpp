@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -81,6 +82,12 @@ class Block {
     deleted_ = false;
     end_mark_ = false;
     flow_.kind = FlowKind::none;
+  }
+  /// The words of another line with the same text.
+  void take_words(const Block& other) noexcept {
+    count_ = other.count_;
+    deleted_ = other.deleted_;
+    std::copy_n(other.words_.begin(), count_, words_.begin());
   }
   /// False when the block is full.
   bool push(const Word& word) noexcept {

@@ -40,12 +40,6 @@ bool LetterLine::read() {
   }
 }
 
-void LetterLine::skip_blanks() noexcept {
-  while (at_ != end_ && is_blank(*at_)) {
-    ++at_;
-  }
-}
-
 bool LetterLine::one_item() {
   const char c = *at_;
   if (is_letter(c)) {
@@ -61,6 +55,7 @@ bool LetterLine::one_item() {
     return rest_of_line();
   }
   if (c == '#' && reader_.values_ != nullptr) {
+    reader_.numbers_alone_ = false;
     return reader_.dialect_ == Dialect::fanuc ? macro_statement() : assignment();
   }
   if ((c == '@' || c == '^') && reader_.dialect_ == Dialect::linuxcnc) {
@@ -165,6 +160,7 @@ bool LetterLine::value(const char* word_begin, Word& word) {
   skip_blanks();
   const Number number = read_number({at_, static_cast<std::size_t>(end_ - at_)});
   if (number.length == 0) {
+    reader_.numbers_alone_ = false;
     return reader_.values_ != nullptr ? expression(word_begin, word) : refuse_value(word_begin);
   }
   at_ += number.length;
@@ -274,6 +270,7 @@ bool LetterLine::assignment() {
 }
 
 bool LetterLine::o_word(const char* word_begin) {
+  reader_.numbers_alone_ = false;
   if (reader_.values_ == nullptr || reader_.dialect_ != Dialect::linuxcnc) {
     return program_number(word_begin);
   }

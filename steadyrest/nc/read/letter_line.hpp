@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <steadyrest/nc/read/block.hpp>
+#include <steadyrest/nc/read/character.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 #include <steadyrest/nc/read/values.hpp>
 
@@ -46,7 +47,11 @@ class LetterLine {
   bool refuse_assignment(const char* from, Lookup lookup);
   bool refuse_value(const char* word_begin);
   bool refuse_character();
-  void skip_blanks() noexcept;
+  void skip_blanks() noexcept {
+    while (at_ != end_ && is_blank(*at_)) {
+      ++at_;
+    }
+  }
   [[nodiscard]] std::string_view line() const noexcept {
     return {begin_, static_cast<std::size_t>(end_ - begin_)};
   }

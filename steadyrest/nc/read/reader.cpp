@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
+#include <steadyrest/nc/read/character.hpp>
 #include <steadyrest/nc/read/letter_line.hpp>
 #include <steadyrest/nc/read/o_word.hpp>
 #include <steadyrest/nc/read/reader.hpp>
@@ -75,14 +76,18 @@ bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) 
 bool Reader::read(std::string_view line, std::uint32_t number, std::size_t ending_length,
                   Block& block) {
   block.reset(number);
+  numbers_alone_ = false;
   if (line.size() + ending_length > longest_line(dialect_)) {
     return refuse(number, line.substr(0, 16), "line_too_long",
                   "a line of " + std::to_string(line.size()) + " characters; " +
                       std::to_string(longest_line(dialect_)) +
                       " are allowed in this dialect, line end included");
   }
-  const auto first = line.find_first_not_of(" \t");
-  if (first == std::string_view::npos) {
+  std::size_t first = 0;
+  while (first != line.size() && is_blank(line[first])) {
+    ++first;
+  }
+  if (first == line.size()) {
     return true;
   }
   if (dialect_ == Dialect::sinumerik && number == 1 && line.substr(first).starts_with("%_N_")) {
@@ -94,10 +99,12 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
     return accepted;
   }
   seen_line_ = true;
+  numbers_alone_ = dialect_ == Dialect::linuxcnc;
   const bool accepted = dialect_ == Dialect::sinumerik
                             ? SinumerikLine(*this, line, number, block).read()
                             : LetterLine(*this, line, number, block).read();
-  if (values_ != nullptr) {
+  numbers_alone_ = numbers_alone_ && accepted;
+  if (values_ != nullptr && !numbers_alone_) {
     accepted && !(block_delete_ && block.deleted()) ? values_->commit() : values_->drop();
   }
   return accepted;

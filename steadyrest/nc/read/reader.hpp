@@ -32,6 +32,18 @@ class Reader {
   /// The block refers to the line's characters: keep them while it is in use.
   bool read(std::string_view line, std::uint32_t number, std::size_t ending_length, Block& block);
 
+  /// Takes the words of the same line, which `other` has just read of a text of its own. False when
+  /// it must be read: only numbers are the same whatever the program has done before.
+  bool take(const Reader& other, const Block& read, std::uint32_t number, Block& block) noexcept {
+    if (!other.numbers_alone_ || dialect_ != other.dialect_) {
+      return false;
+    }
+    block.reset(number);
+    block.take_words(read);
+    seen_line_ = true;
+    return true;
+  }
+
   /// Of a line that is passed over: its O-word, label and keyword alone, nothing evaluated but the
   /// label. False when that is refused.
   bool read_flow(std::string_view line, std::uint32_t number, Block& block);
@@ -66,6 +78,7 @@ class Reader {
   bool block_delete_ = false;
   bool seen_line_ = false;
   bool percent_opened_ = false;
+  bool numbers_alone_ = false;  ///< the last line was read, and no value was asked for or set
   Refused refused_;
 };
 
