@@ -108,6 +108,15 @@ TEST_F(Verify, CatchesAnInsertedLineThatDoesMore) {
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "G1 Z5 (STEADYREST Z)\n")), "");
 }
 
+// The next word of the axis would bring it back, so its own move alone shows it.
+TEST_F(Verify, CatchesAnInsertedRapidOfThePlannedAxisToWhereThePlanDoesNotWantIt) {
+  for (const std::string by : {"+0.005", "-0.005"}) {
+    const std::string line = "G0 Z[#<_z>" + by + "] (STEADYREST Z)\n";
+    EXPECT_THAT(fault(replaced(text_, "G0 X0 Y10\n", line + "G0 X0 Y10\n")),
+                HasSubstr("moves an axis to where the plan does not want it"));
+  }
+}
+
 TEST_F(Verify, CatchesAHeadThatWouldUndoTheWrongWay) {
   EXPECT_THAT(fault(replaced(text_, "#<_z>+#<_steadyrest_z>", "#<_z>-#<_steadyrest_z>")),
               HasSubstr("head"));
