@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include <fmt/core.h>
 
@@ -27,13 +30,36 @@ std::string text_of(const nc::interpret::Report& report) {
   return fmt::format("refused after {} blocks; not accepted:\n", report.blocks) + table.text();
 }
 
-Outcome run(const ProgramOptions& options) {
+/// Executes the program to its end, and says how far it has come in the file.
+kernel::outcome::Result<nc::interpret::Report> read_program(const std::string& path,
+                                                            const nc::interpret::Config& config,
+                                                            Progress& progress) {
+  constexpr std::uint32_t kEvery = 1U << 14U;
+  auto source = nc::read::LineSource::open(path);
+  if (!source) {
+    return std::unexpected(source.error());
+  }
+  NoMoves sink;
+  auto run = nc::interpret::ProgramRun::make(*source, config, sink);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  std::error_code unknown;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(path, unknown));
+  while (run->step()) {
+    if (!unknown && run->line() % kEvery == 0) {
+      progress.update(static_cast<double>(source->offset()) / bytes, "reading");
+    }
+  }
+  return run->take();
+}
+
+Outcome run(const ProgramOptions& options, Progress& progress) {
   const auto config = program_config(options);
   if (!config) {
     return refused(config.error());
   }
-  NoMoves sink;
-  const auto report = nc::interpret::run_file(options.file, *config, sink);
+  const auto report = read_program(options.file, *config, progress);
   if (!report) {
     return refused(report.error());
   }
@@ -53,7 +79,7 @@ void add_verb_program_check(Session& session) {
       "program check examples/programs/rib-pocket.ngc --dialect linuxcnc");
   auto options = std::make_shared<ProgramOptions>();
   add_program_options(verb, *options);
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli
