@@ -82,7 +82,8 @@ class ProgramRun::Run {
       return follow(flow_.pass_over(block_));
     }
     const LineSource& source = files_.now();
-    if (!reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
+    if (!same_as_ahead(source) &&
+        !reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
       return refuse(reader_.refused());
     }
     if (dialect_ != read::Dialect::linuxcnc && !ends_in_order()) {
@@ -127,6 +128,12 @@ class ProgramRun::Run {
         return end_of_subprogram();
     }
     return true;
+  }
+
+  bool same_as_ahead(const LineSource& source) noexcept {
+    return ahead_ != nullptr && ahead_->executed_ && ahead_->files_.now().line() == source.line() &&
+           ahead_->files_.now().ending_length() == source.ending_length() &&
+           reader_.take(ahead_->reader_, ahead_->block_, source.number(), block_);
   }
 
   /// sinumerik: a cycle or subprogram by its name.
@@ -286,6 +293,7 @@ class ProgramRun::Run {
   bool executed_ = false;
   bool at_top_ = false;
   bool in_main_ = true;
+  const Run* ahead_ = nullptr;  ///< runs the same lines
 
   friend class ProgramRun;
 };
@@ -305,6 +313,9 @@ kernel::outcome::Result<ProgramRun> ProgramRun::make(LineSource& source, const C
 
 bool ProgramRun::step() {
   return run_->step();
+}
+void ProgramRun::read_with(const ProgramRun& other) {
+  run_->ahead_ = other.run_.get();
 }
 Report ProgramRun::take() {
   return run_->take();

@@ -42,6 +42,10 @@ class ProgramRun {
 
   /// Goes on by one line. False when the program is at its end or refused.
   bool step();
+  /// Before the first step: `other`, which stays, runs the same lines a step ahead, with the same
+  /// configuration. A line that is the same, byte for byte, and has no values but numbers is split
+  /// into words once; each run executes them by itself.
+  void read_with(const ProgramRun& other);
   /// The report; call once, after the last step.
   [[nodiscard]] Report take();
 

@@ -111,6 +111,7 @@ class Prover {
       return refuse(walk.error(), original_);
     }
     walk_ = std::move(*walk);
+    changed_run_->read_with(walk_->run());
     auto clock = Clock::make(known_, machine_, [this](std::uint64_t ticket, double time_s) {
       told(asked_.front(), ticket, time_s);
       asked_.pop_front();

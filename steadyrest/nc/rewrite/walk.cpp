@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include <steadyrest/nc/interpret/step.hpp>
@@ -80,21 +81,33 @@ void Walk::remember() {
     before_.last_move = moves().back().kind;
     any_move_ = true;
   }
-  for (std::size_t i = 0; i < interpret::kAxisLetters.size(); ++i) {
-    const std::uint32_t bit = std::uint32_t{1} << i;
-    if (gives(i)) {
-      before_.given |= bit;
-    } else if (moves_axis(i) || state.offset[i] != offset[i]) {
-      before_.given &= ~bit;
+  std::uint32_t lost = 0;
+  const auto add = [&lost](const Axes& a, const Axes& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      lost |= static_cast<std::uint32_t>(a[i] != b[i]) << i;
+    }
+  };
+  add(state.offset, offset);
+  for (const interpret::Move& move : moves()) {
+    if (move.kind != MoveKind::dwell) {
+      add(move.start, move.end);
     }
   }
+  before_.given = (before_.given & ~lost) | given();
 }
 
-/// The last line has sent the axis to a place in work coordinates.
-bool Walk::gives(std::size_t index) const noexcept {
-  return moves().size() == 1 && !facts_.machine_frame && !run_->state().incremental &&
-         (facts_.axes & Step::bit(interpret::kAxisLetters[index])) != 0 &&
-         straight(moves().front().kind) && run_->state().motion <= 10;
+/// Axes that the last line has sent to a place in work coordinates, a mask.
+std::uint32_t Walk::given() const noexcept {
+  if (moves().size() != 1 || facts_.machine_frame || run_->state().incremental ||
+      !straight(moves().front().kind) || run_->state().motion > 10) {
+    return 0;
+  }
+  std::uint32_t out = 0;
+  for (std::uint32_t left = facts_.axes; left != 0; left &= left - 1) {
+    out |= std::uint32_t{1}
+           << interpret::kAxisOfLetter[static_cast<std::size_t>(std::countr_zero(left))];
+  }
+  return out;
 }
 
 bool Walk::step() {

@@ -97,7 +97,7 @@ class Walk {
   Walk(read::LineSource source, const Survey& survey)
       : source_(std::move(source)), survey_(survey) {}
   void remember();
-  [[nodiscard]] bool gives(std::size_t index) const noexcept;
+  [[nodiscard]] std::uint32_t given() const noexcept;
   void look(const read::Block& block);
   void look_at_g(double code);
   [[nodiscard]] bool calm() const noexcept;
