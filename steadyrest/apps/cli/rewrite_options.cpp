@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/rewrite_options.hpp>
+#include <steadyrest/kernel/machine/schema.hpp>
 
 namespace steadyrest::apps::cli {
 
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using nc::rewrite::Method;
+using nc::rewrite::Way;
 
 namespace {
 
@@ -23,29 +26,88 @@ std::string machine_path(const RewriteOptions& options, const nc::rewrite::Plan&
   return (std::filesystem::path(options.plan).parent_path() / plan.machine).string();
 }
 
-std::expected<Method, Refusals> method_of(const RewriteOptions& options,
-                                          nc::read::Dialect dialect) {
-  const auto refuse = [](std::string what, std::string to_do) {
-    return std::unexpected(
-        Refusals{Refusal{Kind::bad_input, {}, 0, std::move(what), std::move(to_do)}});
-  };
-  if (dialect == nc::read::Dialect::sinumerik) {
-    if (options.r_parameter == kNoParameter) {
-      return refuse("corrections in dialect sinumerik need the R-parameter that the PLC takes over",
-                    "give --r-parameter N, and let the PLC move the axis by its value in mm");
-    }
-    return Method::r_parameter;
-  }
+using kernel::machine::CompensationMethod;
+
+std::expected<Way, Refusals> refuse(std::string what, std::string to_do) {
+  return std::unexpected(
+      Refusals{Refusal{Kind::bad_input, {}, 0, std::move(what), std::move(to_do)}});
+}
+
+// The command line says more than the machine file.
+CompensationMethod method_of(const RewriteOptions& options,
+                             const kernel::machine::Compensation& compensation) {
   if (options.r_parameter != kNoParameter) {
-    return refuse("--r-parameter with a control that is no SINUMERIK", "leave it out");
+    return CompensationMethod::r_parameter;
   }
-  if (dialect == nc::read::Dialect::linuxcnc) {
-    if (options.control == "haas") {
-      return refuse("--control haas with dialect linuxcnc", "choose --dialect fanuc");
-    }
-    return Method::linuxcnc;
+  return options.control == "haas"    ? CompensationMethod::haas
+         : options.control == "fanuc" ? CompensationMethod::fanuc
+                                      : compensation.method;
+}
+
+Method written(CompensationMethod method, kernel::machine::Dialect dialect) {
+  switch (method) {
+    case CompensationMethod::linuxcnc:
+      return Method::linuxcnc;
+    case CompensationMethod::fanuc:
+      return Method::fanuc;
+    case CompensationMethod::haas:
+      return Method::haas;
+    case CompensationMethod::r_parameter:
+      return Method::r_parameter;
+    case CompensationMethod::setting_data:
+      return Method::setting_data;
+    case CompensationMethod::frame_fine:
+      return Method::frame_fine;
+    case CompensationMethod::by_dialect:
+      break;
   }
-  return options.control == "haas" ? Method::haas : Method::fanuc;
+  return dialect == kernel::machine::Dialect::fanuc ? Method::fanuc : Method::linuxcnc;
+}
+
+std::string_view dialect_name(nc::read::Dialect dialect) {
+  return dialect == nc::read::Dialect::sinumerik ? "sinumerik"
+         : dialect == nc::read::Dialect::fanuc   ? "fanuc"
+                                                 : "linuxcnc";
+}
+
+std::expected<Way, Refusals> way_of(const RewriteOptions& options,
+                                    const kernel::machine::Machine& machine,
+                                    nc::read::Dialect program) {
+  using Dialect = kernel::machine::Dialect;
+  const kernel::machine::Compensation& compensation = machine.compensation;
+  if (options.r_parameter != kNoParameter && program != nc::read::Dialect::sinumerik) {
+    return refuse(fmt::format("--r-parameter with a program of dialect {}", dialect_name(program)),
+                  "leave it out; R-parameters are of SINUMERIK controls");
+  }
+  if (!options.control.empty() && program != nc::read::Dialect::fanuc) {
+    return refuse(fmt::format("--control {} with a program of dialect {}", options.control,
+                              dialect_name(program)),
+                  "leave it out, or choose --dialect fanuc");
+  }
+  const Dialect own = program == nc::read::Dialect::sinumerik ? Dialect::sinumerik
+                      : program == nc::read::Dialect::fanuc   ? Dialect::fanuc
+                                                              : Dialect::linuxcnc;
+  const CompensationMethod method = method_of(options, compensation);
+  const Dialect needed = kernel::machine::dialect_of(method, own);
+  if (needed != own) {
+    return refuse(
+        fmt::format("{} says that corrections are written by \"{}\", which is for {}; the "
+                    "program is read as {}",
+                    machine.file, word(method), word(needed), dialect_name(program)),
+        "give the machine file of the control that the program is for");
+  }
+  if (own == Dialect::sinumerik && method == CompensationMethod::by_dialect) {
+    return refuse("corrections in dialect sinumerik: how the control takes them is not said",
+                  "write [compensation] into the machine file (method = \"r_parameter\", "
+                  "\"setting_data\" or \"frame_fine\"), or give --r-parameter N");
+  }
+  return Way{.method = written(method, own),
+             .r_parameter = options.r_parameter == kNoParameter
+                                ? compensation.r_parameter
+                                : static_cast<std::uint32_t>(options.r_parameter),
+             .sign = compensation.sign < 0 ? -1 : 1,
+             .external_offset_free =
+                 compensation.external_offset_free && written(method, own) == Method::fanuc};
 }
 
 }  // namespace
@@ -59,10 +121,12 @@ void add_rewrite_options(CLI::App& verb, RewriteOptions& options) {
                   "Machine file (TOML): times, clamp; without it the one that the plan names")
       ->option_text("FILE");
   verb.add_option("--control", options.control,
-                  "fanuc: the make of the control; G10 L2 P0 is another offset on a Haas")
+                  "fanuc: the make of the control; G10 L2 P0 is another offset on a Haas. Without "
+                  "it what [compensation] of the machine file says")
       ->check(CLI::IsMember({"fanuc", "haas"}));
   verb.add_option("--r-parameter", options.r_parameter,
-                  "sinumerik: number of the R-parameter that holds the correction in mm")
+                  "sinumerik: number of the R-parameter that holds the correction in mm. Without "
+                  "it what [compensation] of the machine file says")
       ->check(CLI::Range(0, 32535));
   verb.add_option("--window-s", options.window_s,
                   "How far from its planned instant a correction may be placed, in s")
@@ -72,6 +136,13 @@ void add_rewrite_options(CLI::App& verb, RewriteOptions& options) {
 std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                        Progress& progress) {
   RewriteTask task;
+  const std::string extension = std::filesystem::path(options.program.file).extension().string();
+  if (extension == ".h" || extension == ".H") {
+    return std::unexpected(
+        Refusals{Refusal{Kind::bad_input, options.program.file, 0,
+                         "the name of a HEIDENHAIN Klartext program, which is not read",
+                         "post-process the part for linuxcnc, fanuc or sinumerik"}});
+  }
   auto plan = nc::rewrite::read_plan(options.plan);
   if (!plan) {
     return std::unexpected(Refusals{plan.error()});
@@ -93,13 +164,13 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
     return std::unexpected(Refusals{config.error()});
   }
   task.config = std::move(*config);
-  const auto method = method_of(options, task.config.dialect);
-  if (!method) {
-    return std::unexpected(method.error());
+  const auto way = way_of(options, task.machine, task.config.dialect);
+  if (!way) {
+    return std::unexpected(way.error());
   }
-  task.settings.method = *method;
-  task.settings.r_parameter = static_cast<std::uint32_t>(std::max(options.r_parameter, 0));
-  task.config.external_offset = *method != Method::haas;
+  static_cast<Way&>(task.settings) = *way;
+  task.settings.offsets_known = !options.program.variables.empty();
+  task.config.external_offset = way->method != Method::haas;
   task.settings.window_s = options.window_s;
   task.settings.clamp_mm = task.machine.envelope.max_offset_mm;
   task.settings.progress = [&progress](double share, std::string_view what) {

@@ -36,8 +36,8 @@ std::span<const Key<Compensation>> compensation_keys() noexcept {
                         "indicator. Must be given with `setting_data`; 0 is refused."},
       Key<Compensation>{"external_offset_free", &Compensation::external_offset_free, 0, 0,
                         "`fanuc`: nobody else uses the external offset, so it is 0 whenever a "
-                        "program starts, and the control has custom macro B. A program then stops "
-                        "at its head with an alarm when an aborted run has left a correction."},
+                        "program starts. The head of a program then sets it to 0, and so takes off "
+                        "what an aborted run has left."},
   };
   return kKeys;
 }

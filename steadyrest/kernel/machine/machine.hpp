@@ -169,8 +169,7 @@ struct Compensation {
   std::uint32_t r_parameter = 0;  ///< its number
   std::int64_t sign = 0;  ///< +1: a positive value moves the axis to larger positions; −1: to
                           ///< smaller ones; 0: not known
-  bool external_offset_free =
-      false;  ///< fanuc: 0 whenever a program starts; custom macro B is there
+  bool external_offset_free = false;  ///< fanuc: 0 whenever a program starts
 };
 
 /// The last step before any write; the layer cannot switch it off.

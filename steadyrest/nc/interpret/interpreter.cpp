@@ -87,6 +87,9 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   cutter_->bind(sink);
   sink_ = state_.cutter_side != 0 ? static_cast<Sink*>(cutter_.get()) : &sink;
   step_.reset(block);
+  if (block.words().front().qualifier == read::Qualifier::fine) {
+    return set_fine(block.words().front());
+  }
   if (!decode(block, step_)) {
     return false;
   }
@@ -105,6 +108,9 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
 
 bool Interpreter::survey(const Block& block) {
   step_.reset(block);
+  if (!block.words().empty() && block.words().front().qualifier == read::Qualifier::fine) {
+    return true;
+  }
   return decode(block, step_);
 }
 

@@ -92,6 +92,7 @@ class Interpreter {
   bool sinumerik_name(const read::Word& word, Step& step);
   bool sinumerik_finish(Step& step);
   bool set_frame(const Step& step);
+  bool set_fine(const read::Word& word);
   bool frame_settles(const Step& step);
   struct DrillCall;
   bool drill_call(const read::Flow& call);

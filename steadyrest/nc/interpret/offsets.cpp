@@ -79,7 +79,8 @@ void Interpreter::update_offset() noexcept {
   const Axes g92 = turned(state_.g92, rotation_deg);
   for (std::size_t i = 0; i < state_.offset.size(); ++i) {
     const double work = state_.work_offset_on ? state_.work_in_force[i] : 0.0;
-    const double offset = work + state_.external[i] + frame[i] + g92[i] + state_.tool_offset[i];
+    const double offset = work + state_.external[i] + state_.frame_fine[i] + frame[i] + g92[i] +
+                          state_.tool_offset[i];
     state_.position[i] += state_.offset[i] - offset;
     state_.offset[i] = offset;
   }
@@ -147,6 +148,7 @@ bool Interpreter::set_work_offset(const Step& step) {
   } else {
     return true;
   }
+  state_.frame_fine = {};
   update_offset();
   return true;
 }

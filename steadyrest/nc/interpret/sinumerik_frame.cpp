@@ -7,7 +7,7 @@
 
 // The programmed frame of the dialect `sinumerik`: TRANS, ATRANS, ROT and AROT about Z.
 //
-//   machine = settable offset + Rs·(shift + Rp·position) + tool
+//   machine = settable offset + fine offset + Rs·(shift + Rp·position) + tool
 //
 // TRANS and ROT delete the programmed frame before; ATRANS and AROT build on it, so that ATRANS
 // goes along the turned axes.
@@ -65,6 +65,28 @@ bool Interpreter::set_frame(const Step& step) {
     }
   }
   state_.frame_turned = state_.frame_turned || angle != old_angle;
+  update_offset();
+  return true;
+}
+
+// $P_IFRAME[X,FI]: "The written settable frame is immediately included in the calculation"; the
+// programmed frame stays, and the next G54 … takes what is stored ($P_UIFR). It moves nothing.
+bool Interpreter::set_fine(const read::Word& word) {
+  const std::size_t axis = kAxisLetters.find(word.letter);
+  if ((axes_allowed_ & Step::bit(word.letter)) == 0) {
+    return refuse_word(state_.line, word, "no_such_axis", "an axis that the machine does not have");
+  }
+  if (state_.unit_mm != 1.0) {
+    return refuse_word(state_.line, word, "frame",
+                       "a fine offset in an inch program: its unit is a setting of the control");
+  }
+  if (!(std::abs(word.value) <= 1e7)) {
+    return refuse_word(state_.line, word, "out_of_range", "a value beyond every machine");
+  }
+  if (state_.frame_fine[axis] != word.value) {
+    state_.frame_pending |= Step::bit(word.letter);
+  }
+  state_.frame_fine[axis] = word.value;
   update_offset();
   return true;
 }

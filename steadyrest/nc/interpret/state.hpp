@@ -40,10 +40,11 @@ struct CycleMemory {
 
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
 struct State {
-  Axes position{};  ///< active work coordinates
-  Axes offset{};    ///< sum of the three below (G92's turned); machine = turned position + offset
-  Axes frame_shift{};               ///< sinumerik TRANS, in the settable frame
+  Axes position{};     ///< active work coordinates
+  Axes offset{};       ///< sum of those below (G92's turned); machine = turned position + offset
+  Axes frame_shift{};  ///< sinumerik TRANS, in the settable frame
   double frame_rotation_deg = 0.0;  ///< sinumerik ROT, about Z
+  Axes frame_fine{};  ///< sinumerik $P_IFRAME[X,FI], beyond what is stored; gone at the next G54 …
   std::uint32_t frame_pending =
       0;                      ///< axes that have not been programmed since their shift changed
   bool frame_turned = false;  ///< X and Y have not been programmed since the rotation changed

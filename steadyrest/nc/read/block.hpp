@@ -17,7 +17,8 @@ enum class Qualifier : std::uint8_t {
   none,
   absolute,     ///< sinumerik AC(…)
   incremental,  ///< sinumerik IC(…)
-  text          ///< a string: T="DRILL", MSG("…")
+  text,         ///< a string: T="DRILL", MSG("…")
+  fine          ///< sinumerik $P_IFRAME[X,FI]: further than what is stored ($P_UIFR)
 };
 
 /// One word of a block: an address and its value.

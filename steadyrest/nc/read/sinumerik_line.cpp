@@ -119,6 +119,9 @@ bool SinumerikLine::push(const char* word_begin, Word& word) {
 }
 
 bool SinumerikLine::item() {
+  if (*at_ == '$' && reader_.typed_values_ != nullptr) {
+    return system_variable(at_);
+  }
   if (!is_letter(*at_) && *at_ != '_') {
     return refuse_character();
   }

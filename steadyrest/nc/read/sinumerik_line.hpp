@@ -57,6 +57,12 @@ class SinumerikLine {
   [[nodiscard]] char next() noexcept;
   [[nodiscard]] std::string_view letters() noexcept;
 
+  // sinumerik_system.cpp
+  bool system_variable(const char* word_begin);
+  bool fine_offset(const char* word_begin);
+  bool axis_letter(char& letter);
+  bool take(std::string_view upper_text);
+
   bool plain_number(const char* word_begin, Word& word);
   bool refuse_value(const char* word_begin);
   bool refuse_character();

@@ -11,6 +11,7 @@
 #include <steadyrest/nc/rewrite/compensate.hpp>
 #include <steadyrest/nc/rewrite/file_writer.hpp>
 #include <steadyrest/nc/rewrite/frame_line.hpp>
+#include <steadyrest/nc/rewrite/place_of_head.hpp>
 #include <steadyrest/nc/rewrite/plain_survey.hpp>
 #include <steadyrest/nc/rewrite/schedule.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
@@ -38,7 +39,8 @@ class Rewriter {
         machine_(machine),
         settings_(settings),
         plain_(config.dialect),
-        frames_(plan.axes.size()) {
+        frames_(plan.axes.size()),
+        head_(settings) {
     for (const AxisPlan& axis : plan.axes) {
       schedules_.emplace_back(axis, settings.window_s);
     }
@@ -89,14 +91,10 @@ class Rewriter {
         return refuse(lines->number(), "carries the mark of a correction already",
                       "take the corrections out first: program strip");
       }
-      if (beside_program(settings_.method) &&
-          uses_parameter(lines->line(), settings_.r_parameter)) {
-        return refuse(lines->number(), fmt::format("may use R{} itself", settings_.r_parameter),
-                      "give the correction another R-parameter");
+      if (std::string use = own_use(settings_, lines->line()); !use.empty()) {
+        return refuse(lines->number(), std::move(use), std::string(against_own_use(settings_)));
       }
-      if (head_line_ == 0 && !stays_in_front(lines->line())) {
-        head_line_ = lines->number();
-      }
+      head_.look(lines->line(), lines->number());
     }
     return lines->whole();
   }
@@ -143,9 +141,10 @@ class Rewriter {
       const bool writable =
           beside_program(settings_.method)
               ? site != Site::feed
-              : site != Site::clearance || !restate_text(letter, walk.before().position[index],
-                                                         walk.before().unit_mm, "\n")
-                                                .empty();
+              : site != Site::clearance ||
+                    !restate_text(settings_.method, letter, walk.before().position[index],
+                                  walk.before().unit_mm, "\n")
+                         .empty();
       if (site != Site::none && writable) {
         clock.ask(0);
         waiting_.emplace_back(axis, Place{.line = walk.line(),
@@ -208,6 +207,12 @@ class Rewriter {
     while (next < chosen.size() && chosen[next].place.line == place.line) {
       ++next;
     }
+    if (settings_.method == Method::frame_fine && place.unit_mm != 1.0) {
+      return refuse(place.line,
+                    "a fine offset in an inch program: its unit is a setting of the "
+                    "control",
+                    "write the program in mm, or the corrections by another method");
+    }
     if (!unit_free(settings_.method) && place.unit_mm != chosen.front().place.unit_mm) {
       return refuse(place.line, "the program changes its units between two corrections",
                     "write the program in one unit");
@@ -229,17 +234,16 @@ class Rewriter {
     }
     stands_mm = from_mm;
     std::string& text = texts_[place.line].before_line;
-    text += change_text(settings_.method,
+    text += change_text(settings_,
                         {.letter = plan.letter,
                          .from_mm = before_mm,
                          .to_mm = stands_mm,
                          .unit_mm = place.unit_mm,
                          .active_offset = place.active_offset,
-                         .parameter = settings_.r_parameter,
                          .incremental = false},
                         "\n");
     if (place.site == Site::clearance && !beside_program(settings_.method)) {
-      text += restate_text(plan.letter, place.position_mm, place.unit_mm, "\n");
+      text += restate_text(settings_.method, plan.letter, place.position_mm, place.unit_mm, "\n");
     }
     return {};
   }
@@ -273,13 +277,12 @@ class Rewriter {
     }
     const auto change = [&](double from_mm, double to_mm, bool behind) {
       return change_text(
-          settings_.method,
+          settings_,
           {.letter = plan.letter,
            .from_mm = from_mm,
            .to_mm = to_mm,
            .unit_mm = behind ? frame.unit_behind_mm : frame.unit_before_mm,
            .active_offset = behind ? frame.behind : frame.before,
-           .parameter = settings_.r_parameter,
            .incremental = behind ? frame.incremental_behind : frame.incremental_before},
           "\n");
     };
@@ -293,16 +296,11 @@ class Rewriter {
   }
 
   Result<void> write(const std::string& output) {
-    std::string head;
-    for (const AxisPlan& axis : plan_.axes) {
-      head += axis.steps.empty()
-                  ? ""
-                  : head_text(settings_.method, axis.letter, settings_.r_parameter, "\n");
-    }
+    const std::string head = whole_head(plan_, settings_);
     if (!head.empty()) {
-      std::string& first = texts_[head_line_].before_line;
+      std::string& first = texts_[head_.line()].before_line;
       first.insert(0, head);
-      for (const std::size_t index : texts_[head_line_].insertions) {
+      for (const std::size_t index : texts_[head_.line()].insertions) {
         result_.insertions[index].line +=
             static_cast<std::uint32_t>(std::ranges::count(head, '\n'));
       }
@@ -327,7 +325,9 @@ class Rewriter {
     auto proof = verify(program_, writer->path(), plan_, config_, machine_, settings_, &known);
     if (!proof) {
       Refusal refusal = proof.error();
-      refusal.what = "the changed program would not do what is planned: " + refusal.what;
+      if (refusal.file != program_) {
+        refusal.what = "the changed program would not do what is planned: " + refusal.what;
+      }
       refusal.file = refusal.file == writer->path() ? output : refusal.file;
       return std::unexpected(std::move(refusal));
     }
@@ -373,7 +373,7 @@ class Rewriter {
   std::vector<std::vector<FrameLine>> frames_;  ///< by axis, in the order of execution
   std::deque<std::pair<std::size_t, Place>> waiting_;
   std::map<std::uint32_t, Text> texts_;  ///< what is written before a line
-  std::uint32_t head_line_ = 0;
+  PlaceOfHead head_;
   Compensated result_;
 };
 

@@ -29,8 +29,9 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
       return refuse(fmt::format("{} is an increment in this dialect", axis.letter),
                     "plan for X, Y or Z");
     }
-    if (settings.method == Method::r_parameter && plan.axes.size() > 1) {
-      return refuse("corrections of several axes, but one R-parameter", "plan for one axis");
+    if (beside_program(settings.method) && plan.axes.size() > 1) {
+      return refuse("corrections of several axes, but one variable to write them to",
+                    "plan for one axis");
     }
     if (axis.steps.size() > kMostSteps) {
       return refuse(fmt::format("{} corrections of {}; at most {} are allowed", axis.steps.size(),
@@ -62,10 +63,19 @@ Result<void> check_total(const Plan& plan, double program_s) {
               "make the plan from this program and this machine file"});
 }
 
-interpret::Config with_unknown_offsets(interpret::Config config) {
+std::string whole_head(const Plan& plan, const Way& way) {
+  std::string head;
+  for (const AxisPlan& axis : plan.axes) {
+    head += axis.steps.empty() ? "" : head_text(way, axis.letter, "\n");
+  }
+  return head;
+}
+
+interpret::Config with_unknown_offsets(interpret::Config config, const Way& way) {
   constexpr double kOwn_mm = 0.375;
   const auto none = [](const interpret::Axes& axes) { return axes == interpret::Axes{}; };
-  if (none(config.external) && config.dialect == read::Dialect::fanuc && config.external_offset) {
+  if (none(config.external) && config.dialect == read::Dialect::fanuc && config.external_offset &&
+      !way.external_offset_free) {
     std::fill_n(config.external.begin(), 3, kOwn_mm);
   }
   if (std::ranges::all_of(config.work_offset, none)) {

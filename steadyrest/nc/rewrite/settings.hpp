@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <string_view>
 
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -14,11 +15,10 @@
 namespace steadyrest::nc::rewrite {
 
 /// What compensate() and verify() must know beside the files.
-struct Settings {
-  Method method = Method::linuxcnc;
-  std::uint32_t r_parameter = 0;  ///< its number, for that method
-  double window_s = 60.0;         ///< how far from its planned instant a correction may be placed
-  double clamp_mm = 0.2;          ///< the machine's limit of a correction (envelope.max_offset_mm)
+struct Settings : Way {
+  double window_s = 60.0;      ///< how far from its planned instant a correction may be placed
+  double clamp_mm = 0.2;       ///< the machine's limit of a correction (envelope.max_offset_mm)
+  bool offsets_known = false;  ///< the work offsets are the machine's: its travel is watched
   /// Told how much of the work is done, 0 … 1; may be empty.
   std::function<void(double share, std::string_view what)> progress;
 };
@@ -33,9 +33,12 @@ inline constexpr double kFit_s = 30.0;
 /// Refused with both figures: a plan for another time than the program takes.
 [[nodiscard]] kernel::outcome::Result<void> check_total(const Plan& plan, double program_s);
 
+/// The heads of all axes that the plan corrects, one under the other.
+[[nodiscard]] std::string whole_head(const Plan& plan, const Way& way);
+
 /// Where the caller has named no offsets, some that no program knows: a correction that is written
 /// as an absolute value would show.
-[[nodiscard]] interpret::Config with_unknown_offsets(interpret::Config config);
+[[nodiscard]] interpret::Config with_unknown_offsets(interpret::Config config, const Way& way);
 
 /// The correction that stands from a step on: against the displacement, as it can be written.
 [[nodiscard]] inline double correction_mm(const Settings& settings, double unit_mm,

@@ -24,12 +24,6 @@ bool is_head(std::string_view inserted_line) noexcept {
          inserted_line.find("(ABORT,STEADYREST ") != std::string_view::npos;
 }
 
-bool stays_in_front(std::string_view line) noexcept {
-  const std::size_t first = line.find_first_not_of(" \t");
-  return first == std::string_view::npos || line[first] == '%' ||
-         line.substr(first).starts_with(";$PATH=");
-}
-
 bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
   line = line.substr(0, line.find(';'));
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -59,6 +53,13 @@ bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
     }
   }
   return false;
+}
+
+bool names_variable(std::string_view line, std::string_view upper_begin) noexcept {
+  const std::string_view code = line.substr(0, line.find(';'));
+  return !std::ranges::search(code, upper_begin, {}, [](char c) {
+            return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+          }).empty();
 }
 
 kernel::outcome::Result<std::size_t> strip(const std::string& program, const std::string& output) {

@@ -20,13 +20,13 @@ inline constexpr std::string_view kTag = "STEADYREST ";
 /// The inserted line belongs to the program's head (head_text): it runs only after an abort.
 [[nodiscard]] bool is_head(std::string_view inserted_line) noexcept;
 
-/// A line that stays in front of the head: blank, %, the name and the folder in a SINUMERIK archive
-/// (`%_N_NAME_MPF`, `;$PATH=…`).
-[[nodiscard]] bool stays_in_front(std::string_view line) noexcept;
-
 /// A SINUMERIK line names the R-parameter itself, or one by a value that is not looked at: R[…],
 /// $R[…]. Comments do not count.
 [[nodiscard]] bool uses_parameter(std::string_view line, std::uint32_t number) noexcept;
+
+/// A SINUMERIK line names the frames' variables, or the setting data of the temperature
+/// compensation. Comments do not count.
+[[nodiscard]] bool names_variable(std::string_view line, std::string_view upper_begin) noexcept;
 
 /// Writes `program` without its inserted lines to `output`, all other bytes as they are. Gives the
 /// number of lines taken out.

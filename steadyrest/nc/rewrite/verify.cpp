@@ -13,8 +13,8 @@
 #include <steadyrest/nc/rewrite/compare.hpp>
 #include <steadyrest/nc/rewrite/shifts.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
-#include <steadyrest/nc/rewrite/tag.hpp>
 #include <steadyrest/nc/rewrite/text_pair.hpp>
+#include <steadyrest/nc/rewrite/travel.hpp>
 #include <steadyrest/nc/rewrite/verify.hpp>
 #include <steadyrest/nc/rewrite/verify_beside.hpp>
 #include <steadyrest/nc/rewrite/walk.hpp>
@@ -37,7 +37,7 @@ class Prover {
       : original_(original),
         changed_(changed),
         plan_(plan),
-        config_(with_unknown_offsets(config)),
+        config_(with_unknown_offsets(config, settings)),
         machine_(machine),
         settings_(settings),
         known_(known),
@@ -52,8 +52,11 @@ class Prover {
     }
     inserted_ = std::move(text->lines);
     head_lines_ = text->head_lines;
+    head_before_ = text->head_before;
     proof_.inserted_lines = inserted_.size();
-    if (!head_is_right(text->head)) {
+    // The head changes nothing in this run: its text is compared.
+    if (text->head != whole_head(plan_, settings_)) {
+      refuse("the head is not the one that belongs to this plan");
       return std::unexpected(refusal_);
     }
     auto surveyed = survey(original_, config_, plain);
@@ -81,17 +84,6 @@ class Prover {
     refusal_ = std::move(refusal);
     refusal_.file = refusal_.file.empty() ? file : refusal_.file;
     return false;
-  }
-
-  // The head does nothing in this run: its text is compared.
-  bool head_is_right(const std::string& head) {
-    std::string wanted;
-    for (const AxisPlan& axis : plan_.axes) {
-      wanted += axis.steps.empty()
-                    ? ""
-                    : head_text(settings_.method, axis.letter, settings_.r_parameter, "\n");
-    }
-    return head == wanted || refuse("the head is not the one that belongs to this plan");
   }
 
   bool open() {
@@ -171,7 +163,8 @@ class Prover {
         }
         return changed_run_->line() - before == walk_->line() || refuse("another line is executed");
       }
-      executed_inserted_ += changed_run_->executed() ? 1U : 0U;
+      // The head acts after an abort alone, or does here what is done already.
+      executed_inserted_ += changed_run_->executed() && inserted_before_ >= head_lines_ ? 1U : 0U;
       if (!added_moves()) {
         return false;
       }
@@ -198,6 +191,9 @@ class Prover {
 
   /// The same line in both: what stands, and every move.
   bool pair() {
+    if (head_before_ == walk_->line() && proof_.moves > 0) {
+      return refuse("the head stands behind the first move");
+    }
     if (changed_run_->executed() != walk_->run().executed()) {
       return refuse("executes another line than the original");
     }
@@ -324,6 +320,10 @@ class Prover {
         return refuse(std::move(fault));
       }
       proof_.corrected += shifts_.any() ? 1U : 0U;
+      if (auto fault = over_travel(settings_, machine_, plan_, before[i], after[i]);
+          !fault.empty()) {
+        return refuse_at(original_, walk_->line(), std::move(fault), std::string(kAgainstTravel));
+      }
     }
     return true;
   }
@@ -364,6 +364,7 @@ class Prover {
   Survey survey_;
   std::vector<std::uint32_t> inserted_;  ///< lines of the changed program
   std::size_t head_lines_ = 0;
+  std::uint32_t head_before_ = 0;  ///< line of the original
   std::size_t executed_inserted_ = 0;
   std::uint32_t inserted_before_ = 0;  ///< of these, before the line in hand
   std::optional<read::LineSource> changed_source_;

@@ -8,10 +8,12 @@
 
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/clock.hpp>
+#include <steadyrest/nc/rewrite/place_of_head.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
 #include <steadyrest/nc/rewrite/tag.hpp>
 #include <steadyrest/nc/rewrite/text_pair.hpp>
+#include <steadyrest/nc/rewrite/travel.hpp>
 #include <steadyrest/nc/rewrite/verify_beside.hpp>
 #include <steadyrest/nc/rewrite/walk.hpp>
 
@@ -25,11 +27,14 @@ using kernel::outcome::Result;
 class Prover {
  public:
   Prover(const std::string& original, const std::string& changed, const Plan& plan,
-         const Settings& settings)
-      : original_(original), changed_(changed), axis_(plan.axes.front()), settings_(settings) {}
+         const kernel::machine::Machine& machine, const Settings& settings)
+      : original_(original),
+        changed_(changed),
+        axis_(plan.axes.front()),
+        machine_(machine),
+        settings_(settings) {}
 
-  Result<Proof> run(const Plan& plan, const interpret::Config& config,
-                    const kernel::machine::Machine& machine, const KnownTimes* known) {
+  Result<Proof> run(const Plan& plan, const interpret::Config& config, const KnownTimes* known) {
     PlainSurvey plain(config.dialect);
     auto text = compare_text(original_, changed_, plain, true);
     auto surveyed = survey(original_, config, plain);
@@ -41,7 +46,7 @@ class Prover {
       return std::unexpected(std::move(own));
     }
     auto walk = Walk::make(original_, config, *surveyed);
-    auto clock = Clock::make(known, machine, [this](std::uint64_t step, double time_s) {
+    auto clock = Clock::make(known, machine_, [this](std::uint64_t step, double time_s) {
       told(static_cast<std::size_t>(step), time_s);
     });
     if (!walk || !clock) {
@@ -89,24 +94,27 @@ class Prover {
     auto lines = SourceLines::open(original_);
     bool uses = !lines || found.leaves_file;
     while (!uses && lines->next()) {
-      uses = uses_parameter(lines->line(), settings_.r_parameter);
+      uses = !own_use(settings_, lines->line()).empty();
     }
     if (!uses) {
       return {};
     }
-    return {Kind::bad_input, original_, lines && !found.leaves_file ? lines->number() : 0U,
-            fmt::format("the program or a subprogram may use R{} itself", settings_.r_parameter),
-            "give the correction another R-parameter, or one file without subprograms of others"};
+    return {
+        Kind::bad_input, original_, lines && !found.leaves_file ? lines->number() : 0U,
+        fmt::format("the program or a subprogram may use {} itself",
+                    settings_.method == Method::r_parameter
+                        ? fmt::format("R{}", settings_.r_parameter)
+                        : "the temperature compensation"),
+        fmt::format("{}, or one file without subprograms of others", against_own_use(settings_))};
   }
 
   [[nodiscard]] std::string text_to(double to_mm) const {
-    return change_text(settings_.method,
+    return change_text(settings_,
                        {.letter = axis_.letter,
                         .from_mm = stands_mm_,
                         .to_mm = to_mm,
                         .unit_mm = 1.0,
                         .active_offset = 0,
-                        .parameter = settings_.r_parameter,
                         .incremental = false},
                        "\n");
   }
@@ -121,6 +129,22 @@ class Prover {
     }
     proof_.moves += walk.moves().size();
     proof_.corrected += stands_mm_ == 0.0 ? 0U : walk.moves().size();
+    if (settings_.offsets_known && stands_mm_ != 0.0) {
+      travel(walk);
+    }
+  }
+
+  void travel(const Walk& walk) {
+    for (const interpret::Move& move : walk.moves()) {
+      const Reach own = reach_of(move, axis_.index);
+      auto fault =
+          over_travel(machine_, axis_.letter, own,
+                      {.low_mm = own.low_mm + stands_mm_, .high_mm = own.high_mm + stands_mm_});
+      if (!fault.empty() && !refusal_) {
+        refusal_ = Refusal{Kind::bad_input, original_, walk.line(), std::move(fault),
+                           std::string(kAgainstTravel)};
+      }
+    }
   }
 
   void change(const Walk& walk, Clock& clock, const std::string& group) {
@@ -165,9 +189,7 @@ class Prover {
     if (!text_.groups.empty()) {
       refuse(text_.groups.begin()->first, "inserted lines that are never executed");
     }
-    if (text_.head != (axis_.steps.empty() ? ""
-                                           : head_text(settings_.method, axis_.letter,
-                                                       settings_.r_parameter, "\n"))) {
+    if (text_.head != (axis_.steps.empty() ? "" : head_text(settings_, axis_.letter, "\n"))) {
       refuse(0, "the head is not the one that belongs to this plan");
     }
     if (done_ != axis_.steps.size()) {
@@ -197,6 +219,7 @@ class Prover {
   const std::string& original_;
   const std::string& changed_;
   const AxisPlan& axis_;
+  const kernel::machine::Machine& machine_;
   const Settings& settings_;
   Inserted text_;
   std::map<std::size_t, std::size_t> first_of_;  ///< step → first of the steps placed with it
@@ -212,7 +235,7 @@ Result<Proof> verify_beside(const std::string& original, const std::string& chan
                             const Plan& plan, const interpret::Config& config,
                             const kernel::machine::Machine& machine, const Settings& settings,
                             const KnownTimes* known) {
-  return Prover(original, changed, plan, settings).run(plan, config, machine, known);
+  return Prover(original, changed, plan, machine, settings).run(plan, config, known);
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -58,6 +58,7 @@ Result<std::unique_ptr<Walk>> Walk::make(const std::string& path, const interpre
     return std::unexpected(run.error());
   }
   made->run_.emplace(std::move(*run));
+  made->sinumerik_ = config.dialect == read::Dialect::sinumerik;
   return made;
 }
 
@@ -136,6 +137,9 @@ void Walk::look_at_g(double code) {
   facts_.plain = facts_.plain && std::ranges::find(kPlainG, code) != kPlainG.end();
   facts_.machine_frame = facts_.machine_frame || code == 53.0 || code == 28.0 || code == 30.0;
   facts_.data = facts_.data || code == 10.0;
+  facts_.settable =
+      facts_.settable ||
+      (sinumerik_ && ((code >= 54.0 && code <= 57.0) || (code >= 500.0 && code < 600.0)));
 }
 
 void Walk::look(const read::Block& block) {
@@ -207,7 +211,8 @@ bool Walk::moves_axis(std::size_t index) const noexcept {
 
 Frame Walk::frame(char letter, std::size_t index) const {
   const interpret::State& now = run_->state();
-  if (now.active_offset != before_.active_offset || now.work_offset_on != before_.work_offset_on) {
+  if (now.active_offset != before_.active_offset || now.work_offset_on != before_.work_offset_on ||
+      facts_.settable) {
     return Frame::changed;
   }
   if (!facts_.data || (facts_.axes & Step::bit(letter)) == 0) {

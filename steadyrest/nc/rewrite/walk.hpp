@@ -89,7 +89,8 @@ class Walk {
     std::uint32_t axes = 0;         ///< axis letters programmed absolutely
     std::uint32_t incremental = 0;  ///< axis letters programmed by IC( )
     bool machine_frame = false;
-    bool data = false;  ///< G10
+    bool settable = false;  ///< sinumerik G54 …, G500: takes the stored frame anew
+    bool data = false;      ///< G10
     double data_form = -1.0;
     double data_set = -1.0;
   };
@@ -110,6 +111,7 @@ class Walk {
   Facts facts_;
   bool any_move_ = false;
   bool ends_ = false;
+  bool sinumerik_ = false;
   std::uint64_t steps_ = 0;
   std::size_t interval_ = 0;
   std::uint32_t top_line_ = 0;

@@ -24,9 +24,9 @@ double rounded(double value, int places) noexcept {
 }
 
 int places_of(Method method, double unit_mm) noexcept {
-  return method == Method::linuxcnc                        ? kLinuxcncPlaces
-         : unit_mm == 1.0 || method == Method::r_parameter ? kMmPlaces
-                                                           : kInchPlaces;
+  return method == Method::linuxcnc            ? kLinuxcncPlaces
+         : unit_mm == 1.0 || unit_free(method) ? kMmPlaces
+                                               : kInchPlaces;
 }
 
 /// At least four digits behind the point (five in inches), more where they say something.
@@ -72,10 +72,23 @@ std::string fanuc_change(Method method, const Change& change, std::string_view e
 
 // The control reads blocks ahead of the motion: STOPRE makes it write the value when the machine
 // gets here.
-std::string parameter_change(const Change& change, std::string_view ending) {
-  const std::string value = number(change.to_mm, kMmPlaces, kMmPlaces);
-  return fmt::format("STOPRE ;STEADYREST {0}{1} mm{3}R{2}={1} ;STEADYREST {0}{1} mm{3}",
-                     change.letter, value, change.parameter, ending);
+std::string beside_change(const Way& way, const Change& change, std::string_view ending) {
+  const auto text = [](double value) { return number(value + 0.0, kMmPlaces, kMmPlaces); };
+  const std::string variable = way.method == Method::r_parameter
+                                   ? fmt::format("R{}", way.r_parameter)
+                                   : fmt::format("$SA_TEMP_COMP_ABS_VALUE[{}]", change.letter);
+  const double value_mm =
+      way.method == Method::r_parameter ? change.to_mm : way.sign * change.to_mm;
+  return fmt::format("STOPRE ;STEADYREST {0}{1} mm{4}{2}={3} ;STEADYREST {0}{1} mm{4}",
+                     change.letter, text(change.to_mm), variable, text(value_mm), ending);
+}
+
+// From what is stored, so that nothing adds up and the operator's own fine offset stays.
+std::string fine_offset(char letter, double to_mm) {
+  const std::string stored = fmt::format("$P_IFRAME[{0},FI]=$P_UIFR[$P_UIFRNUM,{0},FI]", letter);
+  return to_mm == 0.0 ? stored
+                      : fmt::format("{}{}{}", stored, to_mm < 0.0 ? "" : "+",
+                                    number(to_mm, kMmPlaces, kMmPlaces));
 }
 
 }  // namespace
@@ -86,34 +99,55 @@ double writable_mm(Method method, double unit_mm, double correction_mm) noexcept
                            : rounded(correction_mm / unit_mm, places) * unit_mm;
 }
 
-std::string change_text(Method method, const Change& change, std::string_view ending) {
-  if (method == Method::r_parameter) {
-    return parameter_change(change, ending);
+std::string change_text(const Way& way, const Change& change, std::string_view ending) {
+  switch (way.method) {
+    case Method::linuxcnc:
+      return linuxcnc_change(change, ending);
+    case Method::fanuc:
+    case Method::haas:
+      return fanuc_change(way.method, change, ending);
+    case Method::r_parameter:
+    case Method::setting_data:
+      return beside_change(way, change, ending);
+    case Method::frame_fine:
+      break;
   }
-  return method == Method::linuxcnc ? linuxcnc_change(change, ending)
-                                    : fanuc_change(method, change, ending);
+  return fmt::format("{} ;STEADYREST {}{} mm{}", fine_offset(change.letter, change.to_mm),
+                     change.letter, number(change.to_mm, kMmPlaces, kMmPlaces), ending);
 }
 
-std::string restate_text(char letter, double position_mm, double unit_mm, std::string_view ending) {
+std::string restate_text(Method method, char letter, double position_mm, double unit_mm,
+                         std::string_view ending) {
   constexpr double kExact = 1e-10;
   const int places = unit_mm == 1.0 ? kMmPlaces : kInchPlaces;
   const double value = rounded(position_mm / unit_mm, places);
   if (std::abs(value * unit_mm - position_mm) > kExact) {
     return {};
   }
-  return fmt::format("G0 {}{} (STEADYREST restated){}", letter, number(value, places, places),
+  return fmt::format("G0 {}{} {}{}", letter, number(value, places, places),
+                     of_sinumerik(method) ? ";STEADYREST restated" : "(STEADYREST restated)",
                      ending);
 }
 
 // The global parameters live as long as LinuxCNC runs: after an abort they say what stands in the
 // work offset. Stands it in another one than is active now, nobody but the operator can undo it.
-std::string head_text(Method method, char letter, std::uint32_t parameter,
-                      std::string_view ending) {
-  if (method == Method::r_parameter) {  // keeps its value over an abort and over power off
-    return fmt::format("R{}=0.0000 ;STEADYREST head {}{}", parameter, letter, ending);
-  }
-  if (method != Method::linuxcnc) {
-    return {};
+std::string head_text(const Way& way, char letter, std::string_view ending) {
+  switch (way.method) {
+    case Method::r_parameter:  // these two keep their values over an abort and over power off
+      return fmt::format("R{}=0.0000 ;STEADYREST head {}{}", way.r_parameter, letter, ending);
+    case Method::setting_data:
+      return fmt::format("$SA_TEMP_COMP_ABS_VALUE[{0}]=0.0000 ;STEADYREST head {0}{1}", letter,
+                         ending);
+    case Method::frame_fine:
+      return fmt::format("{} ;STEADYREST head {}{}", fine_offset(letter, 0.0), letter, ending);
+    case Method::fanuc:
+      return way.external_offset_free
+                 ? fmt::format("G90 G10 L2 P0 {0}0.0000 (STEADYREST head {0}){1}", letter, ending)
+                 : std::string{};
+    case Method::haas:
+      return {};
+    case Method::linuxcnc:
+      break;
   }
   const char axis = lower(letter);
   std::string text;

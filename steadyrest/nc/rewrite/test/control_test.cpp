@@ -97,6 +97,25 @@ TEST_F(Haas, MovesTheActiveWorkOffsetAndTurnsItOver) {
   EXPECT_THAT(text, Not(HasSubstr("P0")));
 }
 
+TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffset) {
+  shop_.settings.external_offset_free = true;
+  const auto done = shop_.compensate(kFanuc, kGrowth);
+  ASSERT_TRUE(done) << done.error().what;
+  const std::string text = read_file(shop_.changed());
+  const std::string head = "G90 G10 L2 P0 Z0.0000 (STEADYREST head Z)\n";
+  EXPECT_THAT(text, HasSubstr("%\r\nO1234 (PASSES)\n" + head + "G21 G90"));
+  EXPECT_EQ(done->insertions.at(0).line, 9U);
+  ASSERT_TRUE(shop_.verify(kGrowth));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text, head, "")), HasSubstr("head"));
+  EXPECT_THAT(
+      shop_.fault(kGrowth, replaced(text, "Z0.0000 (STEADYREST head", "Z0.001 (STEADYREST head")),
+      HasSubstr("head"));
+  const std::string late = replaced(replaced(text, head, ""), "G0 X0 Y10\n", head + "G0 X0 Y10\n");
+  EXPECT_THAT(shop_.fault(kGrowth, late), HasSubstr("head"));
+  ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
+  EXPECT_EQ(read_file(shop_.changed()), kFanuc);
+}
+
 class Sinumerik : public Fanuc {
  protected:
   Sinumerik() : Fanuc(Method::r_parameter) {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/nc/interpret/move.hpp>
+#include <steadyrest/nc/rewrite/plan_file.hpp>
+#include <steadyrest/nc/rewrite/settings.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// How far an axis goes in one move, machine coordinates, bulges of arcs counted.
+struct Reach {
+  double low_mm = 0.0;
+  double high_mm = 0.0;
+};
+[[nodiscard]] Reach reach_of(const interpret::Move& move, std::size_t axis) noexcept;
+
+inline constexpr std::string_view kAgainstTravel =
+    "leave room for the correction: move the work offset or the program, or plan without this axis";
+
+/// The fault when a correction takes a linear axis over an end of its travel that the original move
+/// keeps; empty when there is none. What is over the end without the correction is the program's
+/// own affair, or shows that the work offset is not the machine's.
+[[nodiscard]] std::string over_travel(const kernel::machine::Machine& machine, char letter,
+                                      const Reach& original, const Reach& corrected);
+/// The same for a pair of moves and all axes of a plan; empty where the offsets are not known.
+[[nodiscard]] std::string over_travel(const Settings& settings,
+                                      const kernel::machine::Machine& machine, const Plan& plan,
+                                      const interpret::Move& original,
+                                      const interpret::Move& corrected);
+
+}  // namespace steadyrest::nc::rewrite
