@@ -180,9 +180,14 @@ bool Interpreter::drill(const Step& step, const Hole& hole) {
 }
 
 // G83 clears the chips by going up to the R plane, G73 only breaks them.
-bool Interpreter::peck(const Step& /*step*/, const Hole& hole) {
+bool Interpreter::peck(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
   const double peck_mm = state_.cycle.peck * state_.unit_mm;
+  const double furthest_mm = std::max(std::abs(hole.retract_mm), std::abs(hole.bottom_mm));
+  if (furthest_mm - peck_mm == furthest_mm) {  // there would be no end
+    return refuse_code(step, 'G', motion_now_ / 10, "out_of_range",
+                       "so far out a peck is lost in rounding");
+  }
   for (double depth = hole.retract_mm - peck_mm; depth > hole.bottom_mm; depth -= peck_mm) {
     emit_normal(MoveKind::linear, normal, depth);
     if (motion_now_ == 830) {
