@@ -54,9 +54,7 @@ Result<void> check(const ThermalGrowth::Config& config) {
         return ok;
       }
     }
-    if (auto ok = in_range("thermal axis", {{"drift_mm", axis.drift_mm, 0.0, 10.0},
-                                            {"drift_tau_s", axis.drift_tau_s, 1e-3, 1e9}});
-        !ok) {
+    if (auto ok = in_range("thermal axis", {{"drift_tau_s", axis.drift_tau_s, 1e-3, 1e9}}); !ok) {
       return ok;
     }
   }
@@ -72,6 +70,7 @@ Result<void> check(const ThermalGrowth::Config& config) {
     }
   }
   return in_range("simulation", {{"period_s", config.period_s, 1e-4, 60.0},
+                                 {"drift_mm", config.drift_mm, 0.0, 10.0},
                                  {"room_c", s.room_c, -100.0, 200.0},
                                  {"room_swing_k", s.room_swing_k, 0.0, 100.0},
                                  {"room_noise_k", s.room_noise_k, 0.0, 100.0},
@@ -155,7 +154,7 @@ ThermalGrowth::ThermalGrowth(const Config& config)
                                   .lagged_c = room_c_});
     }
     axis.drift_decay = decay(period_s_, from.drift_tau_s);
-    axis.drift_fresh_mm = from.drift_mm * std::sqrt(1.0 - axis.drift_decay * axis.drift_decay);
+    axis.drift_fresh_mm = config.drift_mm * std::sqrt(1.0 - axis.drift_decay * axis.drift_decay);
     axis_.push_back(std::move(axis));
   }
 }

@@ -20,7 +20,7 @@ namespace steadyrest::sim {
 /// solved exactly over a period of constant inputs (warmth that was there decays, warmth that comes
 /// in adds up). τ, G and b are the passport's times 1 + error (`simulation.thermal_*_error`): what
 /// the layer believes and what is true differ by that on purpose. Added to it is what no model
-/// knows, a first-order process of the passport's `drift` RMS that begins at 0.
+/// knows, a first-order process of RMS `drift_mm` that begins at 0.
 ///
 /// Room: T = room_c + swing·cos(2π·(hour − 15)/24) + coloured noise (correlation 10 min).
 /// It begins cold: no body is warm, the surroundings have settled at the room's temperature; that
@@ -34,6 +34,7 @@ class ThermalGrowth {
     // NOLINTNEXTLINE(readability-redundant-member-init)
     kernel::machine::Simulation simulation = {};
     double period_s = 1.0;  ///< of update(), 1e-4 … 60
+    double drift_mm = 0.0;  ///< RMS, on each axis, with the passport's `drift_tau`; 0 … 10
   };
   /// Means over one period.
   struct Input {

@@ -172,14 +172,14 @@ TEST(ThermalGrowth, FollowsTheDayWithTheAnswerOfAFirstOrderLag) {
 
 TEST(ThermalGrowth, NoiseHasTheSizeOfTheMachineFile) {
   Thermal thermal = paper();
-  thermal.axis[0].drift_mm = 0.002;
+  thermal.axis[0].drift_mm = 0.009;  // what the layer believes of it
   thermal.axis[0].drift_tau_s = 600.0;
   kernel::machine::Simulation simulation;
   simulation.room_noise_k = 0.3;
   simulation.sensor_noise_k = 0.1;
   simulation.probe_noise_mm = 0.0005;
-  ThermalGrowth growth =
-      growth_of({.passport = thermal, .simulation = simulation, .period_s = 60.0});
+  ThermalGrowth growth = growth_of(
+      {.passport = thermal, .simulation = simulation, .period_s = 60.0, .drift_mm = 0.002});
   EXPECT_EQ(growth.displacement_mm(0), 0.0);
   double room = 0.0;
   double sensor = 0.0;
@@ -231,7 +231,7 @@ TEST(ThermalGrowth, RefusesWhatCannotBeAMachine) {
   EXPECT_TRUE(refused([](auto& c) { c.passport.axis[0].mode[0].speed_rev_s[1] = 0.0; }));
   EXPECT_TRUE(refused([](auto& c) { c.passport.axis[0].mode[0].polynomial_mm = {1.0}; }));
   EXPECT_TRUE(refused([](auto& c) { c.passport.axis[0].ambient[0].tau_s = -1.0; }));
-  EXPECT_TRUE(refused([](auto& c) { c.passport.axis[0].drift_mm = -1.0; }));
+  EXPECT_TRUE(refused([](auto& c) { c.passport.axis[0].drift_tau_s = 0.0; }));
   EXPECT_TRUE(refused([](auto& c) { c.simulation.thermal_tau_error_ratio = {-1.0}; }));
   EXPECT_TRUE(refused([](auto& c) {
     c.simulation.thermal_gain_error_ratio = {std::numeric_limits<double>::quiet_NaN()};
