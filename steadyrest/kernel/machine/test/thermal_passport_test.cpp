@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/machine/text_file.hpp>
+#include <steadyrest/kernel/machine/thermal_edit.hpp>
 #include <steadyrest/kernel/machine/thermal_passport.hpp>
 #include <steadyrest/kernel/machine/thermal_text.hpp>
 
@@ -102,6 +104,34 @@ TEST(ThermalPassport, NamesEachSensorOnceInTheOrderOfTheFile) {
   thermal.axis[0].ambient = {{.sensor = "spindle"}, {.sensor = "room"}};
   thermal.axis[1].ambient = {{.sensor = "room"}, {.sensor = "bed"}};
   EXPECT_EQ(thermal.sensors(), (std::vector<std::string>{"spindle", "room", "bed"}));
+}
+
+TEST(ThermalEdit, ReplacesTheThermalSectionsAndNothingElse) {
+  const auto thermal = parse_thermal_passport(kFull, "passport.toml");
+  ASSERT_TRUE(thermal);
+  const auto mill = read_text(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml");
+  ASSERT_TRUE(mill);
+  const std::string before = *mill + "\n# heat\n";
+  const std::string after = "\n# noise\n[simulation] # alone\nseed = 2\n";
+  const std::string old =
+      "[thermal] # old\nlevel = 1\n[[thermal.axis]]\nname = \"Z\"\n# a mode\n"
+      "[[thermal.axis.mode]]\ntau_min = 1\nspeeds_rpm = [0,\n 10]\nlevels_um = [0, 1]\n";
+  const auto out = with_thermal(before + old + after, "mill.toml", *thermal);
+  ASSERT_TRUE(out) << outcome::text(out.error());
+  EXPECT_EQ(*out, before + thermal_text(*thermal) + after);
+  const auto twice = with_thermal(*out, "mill.toml", *thermal);
+  ASSERT_TRUE(twice);
+  EXPECT_EQ(*twice, *out);
+  const auto added = with_thermal(before, "mill.toml", *thermal);
+  ASSERT_TRUE(added);
+  EXPECT_EQ(*added, before + "\n" + thermal_text(*thermal));
+}
+
+TEST(ThermalEdit, RefusesWhatItCannotReplace) {
+  const auto thermal = parse_thermal_passport(kFull, "passport.toml");
+  ASSERT_TRUE(thermal);
+  EXPECT_FALSE(with_thermal("name = ", "broken.toml", *thermal));
+  EXPECT_FALSE(with_thermal("thermal = {level = 1}\n", "inline.toml", *thermal));
 }
 
 TEST(ThermalPassport, OfAFileWithoutOneIsRefused) {
