@@ -20,6 +20,7 @@
 #include <steadyrest/apps/cli/verb_program_strip.hpp>
 #include <steadyrest/apps/cli/verb_program_time.hpp>
 #include <steadyrest/apps/cli/verb_program_verify.hpp>
+#include <steadyrest/apps/cli/verb_thermal_adapt.hpp>
 #include <steadyrest/apps/cli/verb_thermal_forecast.hpp>
 #include <steadyrest/apps/cli/verb_thermal_plan.hpp>
 
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
   add_verb_chatter_detect(session);
   add_verb_thermal_forecast(session);
   add_verb_thermal_plan(session);
+  add_verb_thermal_adapt(session);
   add_verb_program_check(session);
   add_verb_program_moves(session);
   add_verb_program_time(session);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// What was measured of the parts (the paper's eighth block): CSV with a head.
+namespace steadyrest::thermal::offline {
+
+struct Measured {
+  std::size_t line = 0;
+  std::string part;
+  std::string axis;        ///< empty: the plan's only one
+  std::string transition;  ///< its number from 1, or its name; empty: `time_s` counts
+  double time_s = std::numeric_limits<double>::quiet_NaN();  ///< since the plan's start
+  double deviation_mm = 0.0;  ///< where the tool was, less where it should have been
+  double tolerance_mm = 0.0;  ///< 0 = the plan's own
+};
+
+inline constexpr std::size_t kMostMeasured = 100'000;
+/// More than that is no thermal deviation: the unit must be wrong.
+inline constexpr double kLargestDeviation_mm = 1.0;
+
+/// Columns: `part`; `transition` or `time_min` (`time_s`, `time_h`); `deviation_um` (`_mm`);
+/// if wanted `tolerance_um` (`_mm`) and `axis`. Others are refused, so that none is misread; so are
+/// an empty file, words where numbers should be, and values that no heat can give.
+[[nodiscard]] kernel::outcome::Result<std::vector<Measured>> read_measured(const std::string& path);
+[[nodiscard]] kernel::outcome::Result<std::vector<Measured>> parse_measured(
+    std::string_view text, const std::string& file);
+
+}  // namespace steadyrest::thermal::offline

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/thermal/offline/measured.hpp>
+
+namespace steadyrest::thermal::offline {
+namespace {
+
+std::string fault(const std::string& text) {
+  const auto rows = parse_measured(text, "parts.csv");
+  return rows ? "" : kernel::outcome::text(rows.error());
+}
+
+TEST(Measured, IsReadWithItsUnits) {
+  const auto rows = parse_measured(
+      "# "
+      "bore\n\"part\";time_h;deviation_mm;tolerance_um;axis\r\nA1;0.5;-0.0042;10;Z\r\n\nA2;1;0.001;"
+      "12;X\n",
+      "parts.csv");
+  ASSERT_TRUE(rows) << kernel::outcome::text(rows.error());
+  ASSERT_EQ(rows->size(), 2U);
+  EXPECT_EQ((*rows)[0].part, "A1");
+  EXPECT_EQ((*rows)[0].axis, "Z");
+  EXPECT_EQ((*rows)[0].line, 3U);
+  EXPECT_DOUBLE_EQ((*rows)[0].time_s, 1800.0);
+  EXPECT_DOUBLE_EQ((*rows)[0].deviation_mm, -0.0042);
+  EXPECT_DOUBLE_EQ((*rows)[1].tolerance_mm, 0.012);
+  const auto by_name = parse_measured("transition,deviation_um\nfinish,3\n", "parts.csv");
+  ASSERT_TRUE(by_name);
+  EXPECT_EQ((*by_name)[0].transition, "finish");
+  EXPECT_DOUBLE_EQ((*by_name)[0].deviation_mm, 0.003);
+}
+
+TEST(Measured, RefusesWhatCannotBeRead) {
+  EXPECT_NE(fault("").find("no measured part"), std::string::npos);
+  EXPECT_NE(fault("part,time_min,deviation_um\n").find("no measured part"), std::string::npos);
+  EXPECT_NE(fault("part,time_min,deviation\n1,2,3\n").find("parts.csv:1: the column deviation"),
+            std::string::npos);
+  EXPECT_NE(fault("part,deviation_um\n1,3\n").find("transition or time_min"), std::string::npos);
+  EXPECT_NE(fault("transition,time_min,deviation_um\n1,2,3\n").find("one of them"),
+            std::string::npos);
+  EXPECT_NE(fault("time_min,time_s,deviation_um\n1,2,3\n").find("two columns"), std::string::npos);
+  EXPECT_NE(fault("part,time_min\n1,2\n").find("deviation_um"), std::string::npos);
+  EXPECT_NE(fault("time_min,deviation_um\n1\n").find("1 fields"), std::string::npos);
+  EXPECT_NE(fault("time_min,deviation_um\n1,3,5\n").find("parts.csv:2"), std::string::npos);
+  EXPECT_NE(fault("time_min,deviation_um\n1,abc\n").find("not a finite"), std::string::npos);
+  EXPECT_NE(fault("time_min,deviation_um\n1,nan\n").find("not a finite"), std::string::npos);
+  EXPECT_NE(fault("time_min,deviation_um\n-1,2\n").find("cannot be"), std::string::npos);
+  EXPECT_NE(fault("transition,deviation_um\n,2\n").find("is empty"), std::string::npos);
+}
+
+TEST(Measured, RefusesAUnitThatMustBeWrong) {
+  EXPECT_NE(fault("time_min,deviation_mm\n1,4.2\n").find("look at the unit"), std::string::npos);
+  EXPECT_NE(fault("time_min,deviation_um,tolerance_mm\n1,4.2,0\n").find("look at the unit"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace steadyrest::thermal::offline

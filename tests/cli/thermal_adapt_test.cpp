@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+const std::string kPlan = "examples/paper-thermal/plan.json";
+const std::string kExample =
+    "thermal adapt " + kPlan + " --measured examples/paper-thermal/measured.csv";
+
+std::string adapt(const Scratch& scratch, const std::string& csv, const std::string& more = "") {
+  return "thermal adapt " + kPlan + " --measured " + scratch.file("measured.csv", csv) + more;
+}
+
+TEST(ThermalAdapt, ItsExampleIsThePlanOfThePapersExample) {
+  const Scratch scratch;
+  answer_of(
+      "thermal plan --machine examples/paper-thermal/machine.toml --cyclogram "
+      "examples/paper-thermal/cyclogram.toml --tolerance-um 10 --level 0 -o " +
+      scratch.at("plan.json"));
+  const auto written = nlohmann::json::parse(text_of_file(scratch.at("plan.json")));
+  const auto stored = nlohmann::json::parse(text_of_file(project_file(kPlan)));
+  EXPECT_EQ(written["transitions"], stored["transitions"]);
+  EXPECT_EQ(written["k"], stored["k"]);
+}
+
+TEST(ThermalAdapt, FindsTheGainOfTheExamplesMachineAndTheNextLevel) {
+  const auto answer = answer_of(kExample);
+  EXPECT_EQ(answer["level_before"], 0);
+  EXPECT_EQ(answer["level"], 1) << "the last parts are 13 µm off, their share is 10";
+  EXPECT_EQ(answer["k"], 0.7);
+  EXPECT_TRUE(answer["fits"].get<bool>());
+  EXPECT_EQ(answer["reason"], "none");
+  EXPECT_TRUE(answer["outliers"].empty());
+  const auto& z = answer["axes"][0];
+  EXPECT_NEAR(z["gain"][0].get<double>(), 1.1, 0.02);
+  EXPECT_LT(z["rms_after_um"].get<double>(), 0.6);
+  EXPECT_GT(z["rms_before_um"].get<double>(), 3.0);
+}
+
+TEST(ThermalAdapt, WritesTheMachineFileByWhichTheNextPlanIsRight) {
+  const Scratch scratch;
+  const std::string machine = scratch.at("new.toml");
+  const auto answer = answer_of(kExample + " -o " + machine);
+  const std::string text = text_of_file(machine);
+  EXPECT_NE(text.find("level = 1\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("[spindle]\nmax_rpm = 4000"), std::string::npos) << "the rest stays";
+  const auto plan = answer_of("thermal plan --machine " + machine +
+                              " --cyclogram examples/paper-thermal/cyclogram.toml "
+                              "--tolerance-um 10");
+  EXPECT_EQ(plan["k"], 0.7) << "the level in force";
+  const double gain = answer["axes"][0]["gain"][0].get<double>();
+  EXPECT_NEAR(plan["axes"][0]["max_um"].get<double>(), 48.79 * gain, 0.05);
+  const auto again = answer_of("thermal forecast --machine " + machine +
+                               " --cyclogram examples/paper-thermal/cyclogram.toml");
+  EXPECT_NEAR(again["max_um"].get<double>(), 48.79 * gain, 0.05);
+}
+
+TEST(ThermalAdapt, PartsWellInsideGoBackOneLevel) {
+  const Scratch scratch;
+  answer_of(
+      "thermal plan --machine examples/paper-thermal/machine.toml --cyclogram "
+      "examples/paper-thermal/cyclogram.toml --tolerance-um 10 --level 2 -o " +
+      scratch.at("plan.json"));
+  std::string csv = "part,transition,deviation_um,tolerance_um\n";
+  for (int part = 1; part <= 6; ++part) {
+    csv += std::to_string(part) + ",stage 5,2.0,10\n";
+  }
+  const auto answer = answer_of("thermal adapt " + scratch.at("plan.json") + " --measured " +
+                                scratch.file("measured.csv", csv));
+  EXPECT_EQ(answer["level_before"], 2);
+  EXPECT_EQ(answer["level"], 1);
+  EXPECT_EQ(answer["k"], 0.7);
+}
+
+TEST(ThermalAdapt, SaysWhenTheModelNoLongerFitsAndKeepsItsGains) {
+  const Scratch scratch;
+  std::string csv = "part,time_min,deviation_um\n";
+  for (int part = 1; part <= 10; ++part) {
+    csv += std::to_string(part) + "," + std::to_string(30 * part) +
+           (part % 2 == 0 ? ",60\n" : ",-60\n");
+  }
+  const auto answer = answer_of(adapt(scratch, csv, " -o " + scratch.at("new.toml")));
+  EXPECT_FALSE(answer["fits"].get<bool>());
+  EXPECT_EQ(answer["reason"], "thermal_model_unfit");
+  EXPECT_EQ(answer["level"], 1);
+  EXPECT_NE(text_of_file(scratch.at("new.toml")).find("levels_um = [0, 35.2245, 49.0785]"),
+            std::string::npos);
+  const Finished shown = run_line(adapt(scratch, csv));
+  EXPECT_NE(shown.out.find("identify it anew"), std::string::npos) << shown.out;
+}
+
+TEST(ThermalAdapt, NamesAnOutlierAndLeavesItOut) {
+  const Scratch scratch;
+  std::string csv = text_of_file(project_file("examples/paper-thermal/measured.csv"));
+  csv += "chip under it,200,-45\n";
+  const auto answer = answer_of(adapt(scratch, csv));
+  ASSERT_EQ(answer["outliers"].size(), 1U);
+  EXPECT_EQ(answer["outliers"][0]["part"], "chip under it");
+  EXPECT_EQ(answer["outliers"][0]["line"], 15);
+  EXPECT_TRUE(answer["fits"].get<bool>());
+  EXPECT_NEAR(answer["axes"][0]["gain"][0].get<double>(), 1.1, 0.02);
+}
+
+TEST(ThermalAdapt, APlanThatNamesNoWorkStillGivesTheLevel) {
+  const Scratch scratch;
+  const std::string plan = scratch.file(
+      "plan.json",
+      R"({"axis": "Z", "transitions": [{"n": 1, "t_min": [60], "delta_um": [0]}], "level": 0})");
+  const std::string csv =
+      scratch.file("measured.csv", "part,transition,deviation_um,tolerance_um\n1,1,15,10\n");
+  const auto answer = answer_of("thermal adapt " + plan + " --measured " + csv +
+                                " --machine examples/paper-thermal/machine.toml");
+  EXPECT_EQ(answer["level"], 1);
+  EXPECT_TRUE(answer["axes"].empty());
+  expect_refused("thermal adapt " + plan + " --measured " + csv, "names no machine file");
+  expect_refused("thermal adapt " + plan + " --measured " + csv +
+                     " --machine examples/paper-thermal/machine.toml --cyclogram "
+                     "examples/paper-thermal/cyclogram.toml",
+                 "the plan lasts");
+}
+
+TEST(ThermalAdapt, RefusesWhatDoesNotFitThePlan) {
+  const Scratch scratch;
+  expect_refused(adapt(scratch, ""), "no measured part");
+  expect_refused(adapt(scratch, "part,time_min,deviation_um\n1,301,3\n"), "behind the plan's end");
+  expect_refused(adapt(scratch, "part,transition,deviation_um\n1,6,3\n"), "no transition 6");
+  expect_refused(adapt(scratch, "part,transition,deviation_um\n1,stage 9,3\n"),
+                 "no transition stage 9");
+  expect_refused(adapt(scratch, "part,axis,transition,deviation_um\n1,X,1,3\n"), "no axis X");
+  expect_refused(adapt(scratch, "part,time_min,deviation\n1,30,3\n"), "deviation is not known");
+  expect_refused(adapt(scratch, "part,time_min,deviation_mm\n1,30,3\n"), "look at the unit");
+  expect_refused("thermal adapt " + kPlan, "--measured");
+  expect_refused("thermal adapt examples/paper-thermal/machine.toml --measured x.csv", "not JSON");
+}
+
+}  // namespace
+}  // namespace steadyrest::test
