@@ -11,7 +11,7 @@
 #include <steadyrest/apps/cli/thermal_options.hpp>
 #include <steadyrest/kernel/machine/thermal_passport.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
-#include <steadyrest/nc/plan/program_timer.hpp>
+#include <steadyrest/nc/plan/segment_timer.hpp>
 
 namespace steadyrest::apps::cli {
 
@@ -42,7 +42,7 @@ Result<Cyclogram> of_program(const ThermalOptions& options) {
   if (!config) {
     return std::unexpected(config.error());
   }
-  auto timer = nc::plan::ProgramTimer::make(*machine);
+  auto timer = nc::plan::SegmentTimer::make(*machine);
   if (!timer) {
     return std::unexpected(timer.error());
   }
@@ -53,7 +53,7 @@ Result<Cyclogram> of_program(const ThermalOptions& options) {
   if (!report->refused.empty()) {
     return std::unexpected(nc::interpret::first_refusal(*report, options.program.file));
   }
-  const auto time = timer->take();
+  const auto time = timer->take_cyclogram();
   if (!time) {
     Refusal refusal = time.error();
     refusal.file = options.program.file;

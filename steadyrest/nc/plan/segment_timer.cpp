@@ -27,7 +27,7 @@ namespace {
 constexpr double kMostSum = 1e9;
 constexpr double kWholePeriod = 1e-6;
 
-struct Timed {
+struct Stretch {
   double length_mm = 0.0;
   double acceleration_mm_s2 = 0.0;
   double target_mm_s = 0.0;  ///< feed per revolution: at the commanded speed
@@ -37,6 +37,7 @@ struct Timed {
   double exit_limit_mm_s = 0.0;
   double sum = 0.0;  ///< S at its end
   std::uint32_t line = 0;
+  kernel::signal::Motion motion = kernel::signal::Motion::rapid;
 };
 
 }  // namespace
@@ -74,7 +75,8 @@ class SegmentTimer::Runner final : public PathReceiver {
                 .spindle_rev_s = plan.spindle_rev_s,
                 .exit_limit_mm_s = plan.exit_speed_limit_mm_s,
                 .sum = sum_,
-                .line = segment.line};
+                .line = segment.line,
+                .motion = segment.motion};
     ++end_;
     if (end_ - begin_ >= blocks_) {
       pass();
@@ -88,10 +90,11 @@ class SegmentTimer::Runner final : public PathReceiver {
         wait(event, event.value);
         break;
       case PathEventKind::tool_change:
+        tool_ = static_cast<std::int64_t>(event.value);
         wait(event, tool_change_s_);
         break;
       case PathEventKind::spindle:
-        spindle_.command(event.value);
+        command(event.value);
         planned_spindle_rev_s_ = event.value;
         break;
       case PathEventKind::spindle_wait:
@@ -110,18 +113,21 @@ class SegmentTimer::Runner final : public PathReceiver {
   }
 
   [[nodiscard]] double time_s() const noexcept { return time_s_; }
+  [[nodiscard]] const std::vector<Transition>& cyclogram() const noexcept {
+    return cyclogram_.transitions();
+  }
 
   PathStream stream;
   Arrival arrival;
   std::optional<ProgramTimer> stepper;  ///< instead of all this, where the jerk is limited
 
  private:
-  Timed& at(std::size_t i) noexcept { return window_[i & (window_.size() - 1)]; }
+  Stretch& at(std::size_t i) noexcept { return window_[i & (window_.size() - 1)]; }
   std::size_t& lowest(std::size_t i) noexcept { return lowest_[i & (lowest_.size() - 1)]; }
 
   /// The last segment's junction limit is known now: into the sliding minimum with it.
   void close(double next_target_mm_s) noexcept {
-    Timed& last = at(end_ - 1);
+    Stretch& last = at(end_ - 1);
     const double c =
         std::min({last.exit_limit_mm_s, last.target_mm_s, std::max(next_target_mm_s, 0.0)});
     last.exit_limit_mm_s = c;
@@ -133,7 +139,7 @@ class SegmentTimer::Runner final : public PathReceiver {
   }
 
   [[nodiscard]] double value_of(std::size_t i) noexcept {
-    const Timed& s = at(i);
+    const Stretch& s = at(i);
     return s.exit_limit_mm_s * s.exit_limit_mm_s + s.sum;
   }
 
@@ -142,7 +148,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     while (lowest_begin_ != lowest_end_ && lowest(lowest_begin_) < begin_) {
       ++lowest_begin_;
     }
-    const Timed& s = at(begin_);
+    const Stretch& s = at(begin_);
     double w = at(end_ - 1).sum;  // the window ends in a stop
     if (lowest_begin_ != lowest_end_) {
       w = std::min(w, value_of(lowest(lowest_begin_)));
@@ -162,14 +168,15 @@ class SegmentTimer::Runner final : public PathReceiver {
     sum_ -= taken;
   }
 
-  void go(const Timed& s, double exit_square) {
+  void go(const Stretch& s, double exit_square) {
     if (arrival && s.line != line_) {
       line_ = s.line;
       arrival(s.line, time_s_);
     }
     if (s.spindle_rev_s != 0.0) {
-      spindle_.command(s.spindle_rev_s);
+      command(s.spindle_rev_s);
     }
+    const double from_s = time_s_;
     double length = s.length_mm;
     double target = s.target_mm_s;
     if (s.feed_mm > 0.0) {
@@ -196,11 +203,31 @@ class SegmentTimer::Runner final : public PathReceiver {
     if (s.exit_limit_mm_s <= 0.0) {
       stand();
     }
+    account(s.motion, s.line, from_s, s.length_mm);
+  }
+
+  void command(double speed_rev_s) noexcept {
+    spindle_.command(speed_rev_s);
+    commanded_rev_s_ = speed_rev_s;
+  }
+
+  /// What has been done since `from_s`, over `length_mm` of path.
+  void account(kernel::signal::Motion motion, std::uint32_t line, double from_s,
+               double length_mm) {
+    const double seconds = time_s_ - from_s;
+    if (seconds > 0.0) {
+      Setpoint done;
+      done.motion = motion;
+      done.line = line;
+      done.spindle_rev_s = commanded_rev_s_;
+      done.path_speed_mm_s = length_mm / seconds;
+      cyclogram_.add(done, tool_, from_s, seconds);
+    }
   }
 
   /// While the spindle changes its speed a feed per revolution goes along with it; the target
   /// behind.
-  double follow_spindle(const Timed& s, double& length_mm) {
+  double follow_spindle(const Stretch& s, double& length_mm) {
     while (spindle_.ramps() && length_mm > 0.0 && time_s_ < ProgramTimer::kMost_s) {
       const double v = std::min(s.feed_mm * std::abs(spindle_.speed_rev_s()), s.speed_limit_mm_s);
       const double step = std::min(length_mm, v * period_s_);
@@ -234,8 +261,10 @@ class SegmentTimer::Runner final : public PathReceiver {
       line_ = event.line;
       arrival(event.line, time_s_);
     }
+    const double from_s = time_s_;
     advance(std::min(periods * period_s_, 2.0 * ProgramTimer::kMost_s));
     stood_s_ = time_s_;
+    account(kernel::signal::Motion::dwell, event.line, from_s, 0.0);
   }
 
   /// What is known of the path ends in a stop.
@@ -256,7 +285,7 @@ class SegmentTimer::Runner final : public PathReceiver {
   SpindleClock spindle_;
   double planned_spindle_rev_s_ = 0.0;
 
-  std::vector<Timed> window_;
+  std::vector<Stretch> window_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   double sum_ = 0.0;
@@ -264,6 +293,9 @@ class SegmentTimer::Runner final : public PathReceiver {
   std::size_t lowest_begin_ = 0;
   std::size_t lowest_end_ = 0;
 
+  Cyclogram cyclogram_;
+  std::int64_t tool_ = 0;
+  double commanded_rev_s_ = 0.0;
   double time_s_ = 0.0;
   double stood_s_ = 0.0;
   double speed_mm_s_ = 0.0;
@@ -313,10 +345,11 @@ void SegmentTimer::set_arrival(Arrival arrival) {
   }
 }
 
-Result<double> SegmentTimer::take() {
+Result<SegmentTimer::Timed> SegmentTimer::take_cyclogram() {
   if (runner_->stepper) {
-    const auto time = runner_->stepper->take();
-    return time ? Result<double>(time->total_s) : std::unexpected(time.error());
+    auto time = runner_->stepper->take();
+    return time ? Result<Timed>(Timed{time->total_s, std::move(time->cyclogram)})
+                : std::unexpected(time.error());
   }
   runner_->finish();
   if (runner_->stream.refusal()) {
@@ -329,7 +362,12 @@ Result<double> SegmentTimer::take() {
                                    "the program takes longer than 30 days",
                                    "look for a feed or a dwell of the wrong unit"});
   }
-  return runner_->time_s();
+  return Timed{runner_->time_s(), runner_->cyclogram()};
+}
+
+Result<double> SegmentTimer::take() {
+  const auto timed = take_cyclogram();
+  return timed ? Result<double>(timed->total_s) : std::unexpected(timed.error());
 }
 
 }  // namespace steadyrest::nc::plan

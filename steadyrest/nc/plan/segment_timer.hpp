@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/move.hpp>
+#include <steadyrest/nc/plan/cyclogram.hpp>
 
 namespace steadyrest::nc::plan {
 
@@ -41,6 +43,12 @@ class SegmentTimer final : public interpret::Sink {
 
   /// Seconds of the whole program; call once after the last move. Refuses as ProgramTimer does.
   [[nodiscard]] kernel::outcome::Result<double> take();
+  /// The same, and what the machine does transition by transition.
+  struct Timed {
+    double total_s = 0.0;
+    std::vector<Transition> cyclogram;
+  };
+  [[nodiscard]] kernel::outcome::Result<Timed> take_cyclogram();
 
  private:
   class Runner;
