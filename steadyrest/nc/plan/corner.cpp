@@ -213,7 +213,8 @@ std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegme
   result.centre_mm = place(arc->centre);
   result.axis = axis;
   result.radius_mm = radius;
-  result.sweep_rad = std::atan2(outer(from, to), inner(from, to));
+  // Between two lines the rounding turns as the corner does.
+  result.sweep_rad = a->circle || b->circle ? std::atan2(outer(from, to), inner(from, to)) : turn;
   if (result.sweep_rad <= 0.0) {
     result.sweep_rad += 2.0 * std::numbers::pi;
   }

@@ -69,11 +69,15 @@ SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
   const double tight = std::max(1e-9, std::min(s.radius_mm, s.radius_end_mm));
   const double wide = std::max(s.radius_mm, s.radius_end_mm);
   // Shares of one mm of path: in the plane and along the other axes, each at its largest.
-  const double slope = std::max(1e-12, std::hypot(dr, s.rise_mm, wide * s.sweep_rad));
-  const double plane_share = std::min(1.0, std::hypot(dr, wide * s.sweep_rad) / slope);
+  const bool circle = dr == 0.0 && s.rise_mm == 0.0;  // as corners are: nothing to be rooted
+  const double around_mm = wide * s.sweep_rad;
+  const double slope = std::max(1e-12, circle ? around_mm : std::hypot(dr, s.rise_mm, around_mm));
+  const double plane_share =
+      std::min(1.0, (circle ? around_mm : std::hypot(dr, around_mm)) / slope);
   SpeedLimits straight = {kUnlimited, kUnlimited};
   SpeedLimits out = {kUnlimited, plane_acceleration_mm_s2(s.axis)};
-  const double least_slope = std::max(1e-12, std::hypot(dr, s.rise_mm, tight * s.sweep_rad));
+  const double least_slope = std::max(
+      1e-12, circle ? tight * s.sweep_rad : std::hypot(dr, s.rise_mm, tight * s.sweep_rad));
   double jerk = kUnlimited;
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     double around = 0.0;

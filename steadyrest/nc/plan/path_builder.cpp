@@ -294,12 +294,12 @@ void PathStream::on_move(const Move& move) {
     event(PathEventKind::dwell, move.line, move.dwell_s);
     return;
   }
-  const auto made = pieces_.make(move);
+  auto made = pieces_.make(move);
   if (!made) {
     refusal_ = made.error();
     return;
   }
-  std::optional<Piece> next = *made;
+  std::optional<Piece>& next = *made;
   if (!next) {
     return;
   }

@@ -66,6 +66,19 @@ double line_length(const PathSegment& s, const std::array<bool, kMaxAxes>& rotar
   return linear > kShortest_mm ? linear : kernel::units::deg_from_rad(std::sqrt(angle));
 }
 
+/// What axes_at() gives for a line.
+AxisValues line_direction(const PathSegment& s) {
+  AxisValues out{};
+  const double per_mm = s.length_mm > 0.0 ? 1.0 / s.length_mm : 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i] = (s.end_mm[i] - s.start_mm[i]) * per_mm;
+  }
+  for (std::size_t i = 0; i < s.other_start.size(); ++i) {
+    out[i + 3] = (s.other_end[i] - s.other_start[i]) * per_mm;
+  }
+  return out;
+}
+
 }  // namespace
 
 void set_arc(PathSegment& s, const Move& move) {
@@ -160,7 +173,7 @@ void PieceMaker::limit(Piece& out) const {
   SegmentPlan& p = out.plan;
   const bool line = s.geometry == Geometry::line;
   if (line) {
-    out.start_direction = axes_at(s, 0.0).direction;
+    out.start_direction = line_direction(s);
     out.end_direction = out.start_direction;
   }
   const SpeedLimits limits = line ? limits_.line(out.start_direction) : limits_.arc(s);

@@ -34,7 +34,7 @@ bool LetterLine::read() {
     if (at_ == end_) {
       return true;
     }
-    if (!one_item()) {
+    if (!plain_word() && !one_item()) {
       return false;
     }
   }

@@ -89,7 +89,9 @@ inline constexpr int kSafeDigits = 18;  // 10^18 < 2^63
   }
   const char* const digits_begin = at;
   std::uint64_t mantissa = 0;
-  at = detail::take_digits(at, end, mantissa);
+  for (; at != end && static_cast<unsigned char>(*at - '0') < 10; ++at) {  // few, mostly
+    mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
+  }
   auto digits = at - digits_begin;
   Number number;
   std::ptrdiff_t decimals = 0;

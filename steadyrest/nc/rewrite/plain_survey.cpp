@@ -60,12 +60,14 @@ void PlainSurvey::look(std::string_view line) {
     return;
   }
   survey_.end_line = line_;
-  for (std::size_t at = 0; at < line.size();) {
-    const Role now = role(line[at]);
-    if (now >= Role::blank) {
+  for (std::size_t at = 0;;) {
+    while (at < line.size() && role(line[at]) >= Role::blank) {
       ++at;
-      continue;
     }
+    if (at >= line.size()) {
+      return;
+    }
+    const Role now = role(line[at]);
     if (now == Role::rest) {
       return;
     }
