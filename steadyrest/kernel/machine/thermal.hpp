@@ -43,6 +43,7 @@ struct ThermalAxis {
   /// What the model does not know: a first-order process of this RMS and time constant.
   double drift_mm = 0.0;
   double drift_tau_s = 3600.0;
+  double drift_state_mm = 0.0;   ///< its value at the passport's `state_s`
   double max_speed_rev_s = 0.0;  ///< fastest that was fitted; 0 = not known
   std::vector<ThermalMode> mode;
   std::vector<ThermalAmbient> ambient;

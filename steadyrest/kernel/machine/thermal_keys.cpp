@@ -35,6 +35,8 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
                        "RMS of what the model does not know, a first-order process."},
       Key<ThermalAxis>{"drift_tau_min", &ThermalAxis::drift_tau_s, 0.1, 1e5,
                        "Time constant of that process."},
+      Key<ThermalAxis>{"drift_state_um", &ThermalAxis::drift_state_mm, -1e5, 1e5,
+                       "What it had come to at `state_s`."},
       Key<ThermalAxis>{"max_speed_rpm", &ThermalAxis::max_speed_rev_s, 0, 1e6,
                        "Fastest spindle speed that was fitted; 0 = not known. No forecast beyond "
                        "1.2 times that."},
