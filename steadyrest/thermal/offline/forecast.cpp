@@ -82,16 +82,24 @@ void Uncertainty::step(double elapsed_s, const online::Drive& drive,
   elapsed_s_ += elapsed_s;
 }
 
-double Uncertainty::sd_mm() const {
-  const ThermalAxis& config = model_.config();
-  double variance = phi_.dot(covariance_um2_ * phi_) / kUm2PerMm2;
+double Uncertainty::parameter_variance_mm2(const Answer& since) const {
+  const Eigen::VectorXd phi = phi_ - since.linear;
+  double variance = phi.dot(covariance_um2_ * phi) / kUm2PerMm2;
   for (std::size_t i = 0; i < by_tau_mm_.size(); ++i) {
-    const double by_tau = by_tau_mm_[i] * config.mode[i].tau_sd_ratio;
+    const double by_tau =
+        (by_tau_mm_[i] - since.by_tau_mm[i]) * model_.config().mode[i].tau_sd_ratio;
     variance += by_tau * by_tau;
   }
-  variance +=
+  return std::max(variance, 0.0);
+}
+
+double Uncertainty::sd_mm() const {
+  const ThermalAxis& config = model_.config();
+  const Answer none{Eigen::VectorXd::Zero(phi_.size()),
+                    std::vector<double>(by_tau_mm_.size(), 0.0)};
+  const double drift =
       config.drift_mm * config.drift_mm * (1.0 - std::exp(-2.0 * elapsed_s_ / config.drift_tau_s));
-  return std::sqrt(std::max(variance, 0.0));
+  return std::sqrt(parameter_variance_mm2(none) + drift);
 }
 
 std::vector<ForecastPoint> forecast(online::ThermalModel model, const Cyclogram& cyclogram,

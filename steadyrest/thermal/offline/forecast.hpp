@@ -24,6 +24,14 @@ class Uncertainty {
             const online::ThermalModel::State& before);
   /// Standard deviation of the displacement now, mm.
   [[nodiscard]] double sd_mm() const;
+  /// What the displacement answers to the parameters now.
+  struct Answer {
+    Eigen::VectorXd linear;         ///< mm per mm, and K
+    std::vector<double> by_tau_mm;  ///< ∂δ/∂ln τ
+  };
+  [[nodiscard]] Answer answer() const { return {phi_, by_tau_mm_}; }
+  /// Variance by the parameters of what has changed since, mm².
+  [[nodiscard]] double parameter_variance_mm2(const Answer& since) const;
   /// ∂δ/∂(linear parameter), in the passport's order; mm per mm, and K.
   [[nodiscard]] const Eigen::VectorXd& sensitivity() const noexcept { return phi_; }
 

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/thermal/offline/fitted_axis.hpp>
+#include <steadyrest/thermal/offline/forecast.hpp>
+
+namespace steadyrest::thermal::offline {
+
+using kernel::machine::ThermalAmbient;
+using kernel::machine::ThermalAxis;
+using kernel::machine::ThermalMode;
+using kernel::units::mm_from_um;
+using kernel::units::um_from_mm;
+
+ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const LinearFit& fit,
+                        const std::vector<double>& ln_tau_sd) {
+  const Log& log = *data.log;
+  const std::array last = {data.row.back()};
+  const Eigen::VectorXd end = columns_of(structure, log, last).row(0);
+  const Eigen::VectorXd& a = fit.amplitude;
+  const auto levels = static_cast<Eigen::Index>(structure.levels());
+  const auto gains = static_cast<Eigen::Index>(structure.ambient.size());
+  const auto powers = static_cast<Eigen::Index>(structure.power.size());
+  const auto starts = static_cast<Eigen::Index>(log.gap.size()) + 1;
+  const Eigen::Index first_state = levels + gains + (gains > 0 ? 1 : 0);
+  ThermalAxis out;
+  out.noise_mm = mm_from_um(data.noise_um);
+  out.max_speed_rev_s = std::ranges::max(log.speed_rev_s);
+  for (std::size_t m = 0; m < structure.mode.size(); ++m) {
+    const auto i = static_cast<Eigen::Index>(m);
+    ThermalMode mode;
+    mode.tau_s = structure.mode[m].tau_s;
+    mode.rest_tau_s = structure.mode[m].rest_tau_s;
+    mode.tau_sd_ratio = m < ln_tau_sd.size() ? ln_tau_sd[m] : 0.0;
+    mode.polynomial_mm.assign(static_cast<std::size_t>(std::ranges::max(structure.power)), 0.0);
+    for (Eigen::Index p = 0; p < powers; ++p) {
+      const int power = structure.power[static_cast<std::size_t>(p)];
+      mode.polynomial_mm[static_cast<std::size_t>(power) - 1] = mm_from_um(a(i * powers + p));
+    }
+    const auto from_levels = a.segment(i * powers, powers).dot(end.segment(i * powers, powers));
+    const Eigen::Index state = first_state + i * starts;
+    mode.state_mm =
+        mm_from_um(from_levels + a.segment(state, starts).dot(end.segment(state, starts)));
+    out.mode.push_back(std::move(mode));
+  }
+  const Eigen::MatrixXd all = columns_of(structure, log, data.row);
+  const double square = a.segment(levels, gains).squaredNorm();
+  double constant = gains > 0 ? a(levels + gains) : 0.0;
+  for (Eigen::Index j = 0; j < gains; ++j) {
+    constant += a(levels + j) * all.col(levels + j).mean();
+  }
+  for (Eigen::Index j = 0; j < gains; ++j) {
+    const Structure::Ambient& from = structure.ambient[static_cast<std::size_t>(j)];
+    ThermalAmbient ambient;
+    ambient.sensor = log.temperature[from.sensor].name;
+    ambient.tau_s = from.tau_s;
+    ambient.gain_mm_k = mm_from_um(a(levels + j));
+    ambient.reference_c =
+        all.col(levels + j).mean() - (square > 0.0 ? constant * a(levels + j) / square : 0.0);
+    ambient.state_c = end(levels + j);
+    out.ambient.push_back(std::move(ambient));
+  }
+  // A polynomial without its first term still has its place in the passport: known to be nought.
+  std::vector<Eigen::Index> place;
+  for (std::size_t m = 0; m < structure.mode.size(); ++m) {
+    for (std::size_t q = 1; q <= out.mode[m].polynomial_mm.size(); ++q) {
+      const auto found = std::ranges::find(structure.power, static_cast<int>(q));
+      place.push_back(found == structure.power.end() ? -1
+                                                     : static_cast<Eigen::Index>(m) * powers +
+                                                           (found - structure.power.begin()));
+    }
+  }
+  for (Eigen::Index j = 0; j < gains; ++j) {
+    place.push_back(levels + j);
+  }
+  for (std::size_t r = 0; r < place.size(); ++r) {
+    for (std::size_t c = 0; c <= r; ++c) {
+      out.covariance.push_back(place[r] < 0 || place[c] < 0 ? 0.0
+                                                            : fit.covariance(place[r], place[c]));
+    }
+  }
+  return out;
+}
+
+Structure structure_of(const ThermalAxis& axis, const Log& log) {
+  Structure out;
+  std::size_t powers = 1;
+  for (const ThermalMode& mode : axis.mode) {
+    out.mode.push_back({mode.tau_s, mode.rest_tau_s});
+    powers = std::max(powers, mode.polynomial_mm.size());
+  }
+  out.power.clear();
+  for (std::size_t p = 1; p <= powers; ++p) {
+    out.power.push_back(static_cast<int>(p));
+  }
+  for (const ThermalAmbient& ambient : axis.ambient) {
+    const auto found = std::ranges::find(log.temperature, ambient.sensor, &LogChannel::name);
+    if (found != log.temperature.end()) {
+      out.ambient.push_back(
+          {static_cast<std::size_t>(found - log.temperature.begin()), ambient.tau_s});
+    }
+  }
+  return out;
+}
+
+void known_prior(const ThermalAxis& axis, double unsure, const Structure& structure,
+                 LinearPrior& prior) {
+  Eigen::Index at = 0;
+  const auto know = [&](double mean, double least_sd) {
+    prior.mean(at) = mean;
+    prior.root(at, at) = 1.0 / std::max(unsure * std::abs(mean), least_sd);
+    ++at;
+  };
+  for (const ThermalMode& mode : axis.mode) {
+    for (std::size_t p = 0; p < structure.power.size(); ++p) {
+      know(p < mode.polynomial_mm.size() ? um_from_mm(mode.polynomial_mm[p]) : 0.0, 0.05);
+    }
+  }
+  for (const Structure::Ambient& ambient : structure.ambient) {
+    (void)ambient;
+    const auto j = static_cast<std::size_t>(at) - structure.levels();
+    know(j < axis.ambient.size() ? um_from_mm(axis.ambient[j].gain_mm_k) : 0.0, 0.05);
+  }
+}
+
+double horizon_sd_um(const ThermalAxis& axis, double horizon_s) {
+  const auto model = online::ThermalModel::make(axis);
+  if (!model) {
+    return 0.0;
+  }
+  Uncertainty uncertainty(*model);
+  const Uncertainty::Answer cold = uncertainty.answer();
+  online::Drive drive;
+  drive.speed_rev_s = axis.max_speed_rev_s;
+  for (std::size_t j = 0; j < axis.ambient.size(); ++j) {
+    drive.ambient_c[j] = axis.ambient[j].reference_c;
+  }
+  online::ThermalModel::State state = model->state();
+  state.mode_mm.fill(0.0);
+  uncertainty.step(horizon_s, drive, state);
+  return um_from_mm(std::sqrt(uncertainty.parameter_variance_mm2(cold)));
+}
+
+}  // namespace steadyrest::thermal::offline
