@@ -21,6 +21,7 @@
 #include <steadyrest/apps/cli/verb_program_time.hpp>
 #include <steadyrest/apps/cli/verb_program_verify.hpp>
 #include <steadyrest/apps/cli/verb_thermal_adapt.hpp>
+#include <steadyrest/apps/cli/verb_thermal_fit.hpp>
 #include <steadyrest/apps/cli/verb_thermal_forecast.hpp>
 #include <steadyrest/apps/cli/verb_thermal_plan.hpp>
 
@@ -43,6 +44,7 @@ int main(int argc, char** argv) {
   add_verb_chatter_plan(session);
   add_verb_chatter_fit(session);
   add_verb_chatter_detect(session);
+  add_verb_thermal_fit(session);
   add_verb_thermal_forecast(session);
   add_verb_thermal_plan(session);
   add_verb_thermal_adapt(session);

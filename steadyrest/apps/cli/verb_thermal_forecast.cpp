@@ -9,6 +9,7 @@
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
+#include <steadyrest/apps/cli/thermal_replay.hpp>
 #include <steadyrest/apps/cli/verb_thermal_forecast.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/curve.hpp>
@@ -23,6 +24,7 @@ using thermal::offline::ForecastPoint;
 
 struct Options {
   ThermalOptions thermal;
+  ThermalReplayOptions replay;
   std::string output;
   double step_s = 60.0;
 };
@@ -69,7 +71,27 @@ void put(Answer& answer, Table& table, const AxisForecast& axis) {
              fmt::format("±{:.2f}", thermal::offline::kBand * um_from_mm(end.sd_mm))});
 }
 
+Outcome run_log(const Options& options) {
+  if (!options.thermal.cyclogram.empty() || !options.thermal.program.file.empty() ||
+      !options.thermal.after.empty() || !options.thermal.ambient.empty()) {
+    return refused({kernel::outcome::Kind::bad_input,
+                    {},
+                    0,
+                    "--log has the inputs recorded",
+                    "leave out --cyclogram, --program, --after and --ambient"});
+  }
+  ThermalReplayOptions replay = options.replay;
+  replay.machine = options.thermal.machine;
+  replay.axes = options.thermal.axes;
+  replay.output = options.output;
+  replay.step_s = options.step_s;
+  return replay_thermal_log(replay);
+}
+
 Outcome run(const Options& options) {
+  if (!options.replay.log.empty()) {
+    return run_log(options);
+  }
   const auto job = thermal_job(options.thermal);
   if (!job) {
     return refused(job.error());
@@ -112,6 +134,16 @@ void add_verb_thermal_forecast(Session& session) {
   verb.add_option("-o,--output", options->output, "Write the curve to this CSV");
   verb.add_option("--step-s", options->step_s, "Seconds from row to row")
       ->check(CLI::Range(0.1, 86400.0));
+  verb.add_option("--log", options->replay.log,
+                  "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
+  verb.add_option("--from-min", options->replay.from_min,
+                  "Of the log's clock: readings before it set the state, after it is forecast; "
+                  "without it from the passport's end on");
+  verb.add_option("--rezero-min", options->replay.rezero_min,
+                  "A reading of the log each so many minutes sets the forecast right; 0 = none")
+      ->check(CLI::Range(0.0, 1e5));
+  verb.add_option("--channel", options->replay.channels,
+                  "Column of the log that measures an axis, as z_um=Z; may be given again");
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/text_file.hpp>
+#include <steadyrest/apps/cli/verb_thermal_fit.hpp>
+#include <steadyrest/kernel/machine/thermal_passport.hpp>
+#include <steadyrest/kernel/machine/thermal_text.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/thermal/offline/identify.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace offline = thermal::offline;
+using kernel::machine::Thermal;
+using kernel::machine::ThermalAxis;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::units::um_from_mm;
+
+struct Options {
+  std::string log;
+  std::string output;
+  std::vector<std::string> channels;  ///< NAME or NAME=AXIS
+  std::vector<std::string> sensors;
+  bool no_ambient = false;
+  std::size_t modes = 0;
+  double horizon_min = 240.0;
+  double from_min = -1e12;
+  double to_min = 1e12;
+  std::string tau_from;
+};
+
+Refusal refusal(std::string file, std::string what, std::string to_do) {
+  return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
+}
+
+/// Places of the displacements in the log, and the axes that they are called.
+using Channels = std::vector<std::pair<std::size_t, std::string>>;
+
+Result<Channels> channels_of(const Options& options, const offline::Log& log) {
+  Channels out;
+  for (const std::string& given : options.channels) {
+    const std::size_t at = given.find('=');
+    const std::string name = given.substr(0, at);
+    const auto found = std::ranges::find(log.displacement, name, &offline::LogChannel::name);
+    if (found == log.displacement.end()) {
+      return std::unexpected(refusal(log.file, fmt::format("there is no displacement {}", name),
+                                     "name a column of the log, as --channel z_um=Z"));
+    }
+    out.emplace_back(found - log.displacement.begin(),
+                     at == std::string::npos ? name : given.substr(at + 1));
+  }
+  for (std::size_t i = 0; i < log.displacement.size() && options.channels.empty(); ++i) {
+    out.emplace_back(i, log.displacement[i].name);
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (out[i].second == out[j].second || out[i].second.empty()) {
+        return std::unexpected(refusal({}, fmt::format("two channels are called {}", out[i].second),
+                                       "give each its own name"));
+      }
+    }
+  }
+  return out;
+}
+
+Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json modes_of(const std::vector<offline::AxisFit>& fits) {
+  Json out = Json::array();
+  for (const offline::AxisFit& fit : fits) {
+    for (std::size_t m = 0; m < fit.axis.mode.size(); ++m) {
+      const auto& mode = fit.axis.mode[m];
+      Json polynomial = Json::array();
+      for (const double c : mode.polynomial_mm) {
+        polynomial.push_back(um_from_mm(c));
+      }
+      out.push_back(
+          {{"axis", fit.axis.name},
+           {"tau_min", mode.tau_s / 60.0},
+           {"rest_tau_min", (mode.rest_tau_s > 0.0 ? mode.rest_tau_s : mode.tau_s) / 60.0},
+           {"tau_sd_percent", 100.0 * fit.ln_tau_sd[m]},
+           {"polynomial_um", polynomial},
+           {"state_um", um_from_mm(mode.state_mm)}});
+    }
+  }
+  return out;
+}
+
+Json axis_of(const offline::AxisFit& fit) {
+  Json ambient = Json::array();
+  for (const auto& a : fit.axis.ambient) {
+    ambient.push_back({{"sensor", a.sensor},
+                       {"tau_min", a.tau_s / 60.0},
+                       {"gain_um_k", um_from_mm(a.gain_mm_k)}});
+  }
+  return {{"axis", fit.axis.name},
+          {"channel", fit.channel},
+          {"modes", fit.axis.mode.size()},
+          {"ambient", ambient},
+          {"rms_um", fit.rms_um},
+          {"left_out_rms_um", number_or_null(fit.left_out_um)},
+          {"left_out_probed_rms_um", number_or_null(fit.left_out_probed_um)},
+          {"coverage", number_or_null(fit.coverage)},
+          {"coverage_probed", number_or_null(fit.coverage_probed)},
+          {"blocks", fit.blocks},
+          {"noise_um", um_from_mm(fit.axis.noise_mm)},
+          {"drift_um", um_from_mm(fit.axis.drift_mm)},
+          {"drift_tau_min", fit.axis.drift_tau_s / 60.0},
+          {"horizon_sd_um", fit.horizon_sd_um},
+          {"condition", fit.condition}};
+}
+
+std::string shown(double value) {
+  return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
+}
+
+Answer answer_of(const std::vector<offline::AxisFit>& fits, const offline::Log& log) {
+  Answer answer;
+  double square = 0.0;
+  Table table({"axis", "tau min", "inputs", "rms um", "left out", "hourly probe", "95 % holds"});
+  Json axes = Json::array();
+  for (const offline::AxisFit& fit : fits) {
+    axes.push_back(axis_of(fit));
+    square += fit.rms_um * fit.rms_um / static_cast<double>(fits.size());
+    std::string taus;
+    for (const auto& mode : fit.axis.mode) {
+      taus += fmt::format("{}{:.0f}", taus.empty() ? "" : " ", mode.tau_s / 60.0);
+    }
+    std::string inputs;
+    for (const auto& a : fit.axis.ambient) {
+      inputs += fmt::format("{}{}", inputs.empty() ? "" : " ", a.sensor);
+    }
+    table.row({fit.axis.name, taus, inputs.empty() ? "-" : inputs, shown(fit.rms_um),
+               shown(fit.left_out_um), shown(fit.left_out_probed_um),
+               std::isfinite(fit.coverage) ? fmt::format("{:.1f} %", 100.0 * fit.coverage) : "-"});
+  }
+  answer.json["modes"] = modes_of(fits);
+  answer.json["rms_um"] = std::sqrt(square);
+  answer.json["axes"] = axes;
+  answer.json["hours"] = log.hours();
+  answer.json["notes"] = log.notes;
+  answer.text = table.text();
+  for (const std::string& note : log.notes) {
+    answer.text += note + "\n";
+  }
+  return answer;
+}
+
+/// Everything about the files and names, before the work.
+struct Job {
+  offline::Log log;
+  Channels channels;
+  Thermal known;
+  offline::FitRequest request;
+};
+
+Result<Job> job_of(const Options& options) {
+  Job job;
+  auto log = offline::read_log(options.log);
+  if (!log) {
+    return std::unexpected(log.error());
+  }
+  job.log = std::move(*log);
+  auto channels = channels_of(options, job.log);
+  if (!channels) {
+    return std::unexpected(channels.error());
+  }
+  job.channels = std::move(*channels);
+  for (const std::string& sensor : options.sensors) {
+    if (std::ranges::find(job.log.temperature, sensor, &offline::LogChannel::name) ==
+        job.log.temperature.end()) {
+      return std::unexpected(refusal(options.log, fmt::format("there is no temperature {}", sensor),
+                                     "name a column of the log, as --ambient t1_c"));
+    }
+  }
+  if (!options.tau_from.empty()) {
+    auto known = kernel::machine::read_thermal_passport(options.tau_from);
+    if (!known) {
+      return std::unexpected(known.error());
+    }
+    job.known = std::move(*known);
+  }
+  job.request.sensors = options.sensors;
+  job.request.ambient = !options.no_ambient;
+  job.request.horizon_s = 60.0 * options.horizon_min;
+  job.request.from_s = 60.0 * options.from_min;
+  job.request.to_s = 60.0 * options.to_min;
+  if (options.modes > 0) {
+    job.request.modes = options.modes;
+  }
+  return job;
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  auto job = job_of(options);
+  if (!job) {
+    return refused(job.error());
+  }
+  std::vector<offline::AxisFit> fits;
+  Thermal passport = job->known;
+  passport.axis.clear();
+  for (const auto& [channel, name] : job->channels) {
+    if (!options.tau_from.empty()) {
+      const auto known = std::ranges::find(job->known.axis, name, &ThermalAxis::name);
+      if (known == job->known.axis.end()) {
+        return refused(refusal(options.tau_from,
+                               fmt::format("there is no [[thermal.axis]] {}", name),
+                               "name the channels as the passport does, with --channel z_um=Z"));
+      }
+      job->request.known = &*known;
+    }
+    const double done = static_cast<double>(fits.size());
+    auto fit = offline::identify(job->log, channel, name, job->request, [&](double share) {
+      progress.update((done + share) / static_cast<double>(job->channels.size()),
+                      "fitting " + name);
+    });
+    if (!fit) {
+      return refused(fit.error());
+    }
+    passport.state_s = std::max(fits.empty() ? fit->end_s : passport.state_s, fit->end_s);
+    passport.axis.push_back(fit->axis);
+    fits.push_back(std::move(*fit));
+  }
+  if (!options.output.empty()) {
+    if (const auto written = write_text(options.output, kernel::machine::thermal_text(passport));
+        !written) {
+      return refused(written.error());
+    }
+  }
+  return answer_of(fits, job->log);
+}
+
+}  // namespace
+
+void add_verb_thermal_fit(Session& session) {
+  CLI::App& group = session.group("thermal", "Drift by heat");
+  CLI::App& verb = session.verb(group, "fit", "The thermal passport of a machine from a test's log",
+                                "thermal fit examples/thermal/spindle-test.csv -o passport.toml");
+  auto options = std::make_shared<Options>();
+  verb.add_option(
+          "log", options->log,
+          "Log of the test: CSV, or packed by gzip, with time_s, spindle_rpm, displacements "
+          "(…_um) and temperatures (…_c); docs/thermal-test.md says how to make it")
+      ->required();
+  verb.add_option("-o,--output", options->output, "Write the passport, TOML: [thermal] sections");
+  verb.add_option("--channel", options->channels,
+                  "Only this displacement, and the axis that it moves: z_um=Z; may be given again");
+  verb.add_option("--ambient", options->sensors,
+                  "Temperature that may be an input; without it all of the log");
+  verb.add_flag("--no-ambient", options->no_ambient, "The spindle's speed is the only input");
+  verb.add_option("--modes", options->modes, "Number of modes; without it by the left-out hours")
+      ->check(CLI::Range(1, 3));
+  verb.add_option("--horizon-min", options->horizon_min,
+                  "Minutes ahead that the passport shall forecast")
+      ->check(CLI::Range(1.0, 1e5));
+  verb.add_option("--tau-from", options->tau_from,
+                  "Passport of a longer test: its time constants stand, its levels are a prior");
+  verb.add_option("--from-min", options->from_min, "Leave out what is earlier in the log");
+  verb.add_option("--to-min", options->to_min, "Leave out what is later in the log");
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

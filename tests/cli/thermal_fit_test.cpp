@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+const std::string kLog = "examples/thermal/spindle-test.csv";
+
+/// The first rows of the example's log.
+std::string beginning(int rows) {
+  std::istringstream all(text_of_file(project_file(kLog)));
+  std::string out;
+  std::string line;
+  for (int i = 0; i <= rows && std::getline(all, line); ++i) {
+    out += line + "\n";
+  }
+  return out;
+}
+
+// examples/thermal/make_spindle_test.py: 20 min with 2 µm and 110 min with 4.5 µm for each 1000
+// rpm.
+TEST(ThermalFit, FindsTheMachineOfTheExample) {
+  const Scratch scratch;
+  const auto fit =
+      answer_of("thermal fit " + kLog + " --channel z_um=Z -o " + scratch.at("passport.toml"));
+  ASSERT_EQ(fit["modes"].size(), 2U);
+  for (const auto& mode : fit["modes"]) {
+    const double tau_min = mode["tau_min"];
+    const double off = std::abs(std::log(tau_min / (tau_min < 50.0 ? 20.0 : 110.0)));
+    EXPECT_LT(100.0 * off, 3.0 * mode["tau_sd_percent"].get<double>());
+    EXPECT_LT(off, 0.5);
+  }
+  EXPECT_EQ(fit["modes"][0]["axis"], "Z");
+  EXPECT_NEAR(fit["rms_um"].get<double>(), 0.3, 0.1);
+  EXPECT_GT(fit["axes"][0]["left_out_rms_um"].get<double>(), 0.2);
+  const std::string passport = text_of_file(scratch.at("passport.toml"));
+  EXPECT_NE(passport.find("[[thermal.axis]]\nname = \"Z\""), std::string::npos) << passport;
+
+  const auto ahead =
+      answer_of("thermal forecast --machine " + scratch.at("passport.toml") + " --log " + kLog +
+                " --from-min 250 --rezero-min 60 -o " + scratch.at("curve.csv"));
+  EXPECT_LT(ahead["axes"][0]["rms_um"].get<double>(), 1.0);
+  EXPECT_GT(ahead["axes"][0]["coverage"].get<double>(), 0.9);
+  EXPECT_TRUE(text_of_file(scratch.at("curve.csv"))
+                  .starts_with("t_s,speed_rpm,Z_um,Z_sd_um,Z_measured_um\n"));
+}
+
+TEST(ThermalFit, TheProgramOfTheTestIsAccepted) {
+  const auto checked =
+      answer_of("program check examples/thermal/spindle-test.ngc --dialect linuxcnc");
+  EXPECT_TRUE(checked["refused"].empty());
+  EXPECT_GE(checked["blocks"].get<int>(), 10);
+}
+
+TEST(ThermalFit, SaysHowLongTheTestMustRun) {
+  const Scratch scratch;
+  const std::string short_log = scratch.file("short.csv", beginning(90));
+  expect_refused("thermal fit " + short_log + " --modes 2", "run 120 min at least");
+  expect_refused("thermal fit " + kLog + " --channel x_um=X", "no displacement x_um");
+  expect_refused("thermal fit " + kLog + " --ambient t9_c", "no temperature t9_c");
+  expect_refused("thermal fit " + project_file("tests/refused/thermal-log/clock-runs-back.csv"),
+                 "runs back");
+}
+
+TEST(ThermalFit, AnHourIsEnoughWithTheTimeConstantsOfALongerTest) {
+  const Scratch scratch;
+  answer_of("thermal fit " + kLog + " --channel z_um=Z -o " + scratch.at("long.toml"));
+  const std::string morning = scratch.file("morning.csv", beginning(150));
+  expect_refused("thermal fit " + morning + " --channel z_um=Z", "at one speed");
+  const auto fit = answer_of("thermal fit " + morning + " --channel z_um=Z --tau-from " +
+                             scratch.at("long.toml") + " -o " + scratch.at("today.toml"));
+  EXPECT_EQ(fit["modes"].size(), 2U);
+  const auto rest = answer_of("thermal forecast --machine " + scratch.at("today.toml") + " --log " +
+                              kLog + " --channel z_um=Z");
+  EXPECT_LT(rest["axes"][0]["rms_um"].get<double>(), 1.5);
+  EXPECT_GT(rest["axes"][0]["points"].get<std::size_t>(), 700U) << "from the window's end on";
+}
+
+TEST(ThermalForecast, RefusesALogBesideACyclogram) {
+  expect_refused("thermal forecast --machine examples/paper-thermal/machine.toml --log " + kLog +
+                     " --cyclogram examples/paper-thermal/cyclogram.toml",
+                 "inputs recorded");
+}
+
+}  // namespace
+}  // namespace steadyrest::test
