@@ -19,7 +19,12 @@ Result<void> ready_report(const std::string& directory) {
 }
 
 Result<void> put_report(Answer& answer, const std::string& directory, std::string_view page_json) {
-  const auto written = report::write_files(chatter_page::to_html(page_json), page_json, directory);
+  return put_report(answer, directory, page_json, chatter_page::to_html(page_json));
+}
+
+Result<void> put_report(Answer& answer, const std::string& directory, std::string_view page_json,
+                        std::string_view html) {
+  const auto written = report::write_files(html, page_json, directory);
   if (!written) {
     return std::unexpected(written.error());
   }

@@ -70,6 +70,8 @@ std::string_view dialect_name(nc::read::Dialect dialect) {
                                                  : "linuxcnc";
 }
 
+}  // namespace
+
 std::expected<Way, Refusals> way_of(const RewriteOptions& options,
                                     const kernel::machine::Machine& machine,
                                     nc::read::Dialect program) {
@@ -109,8 +111,6 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
              .external_offset_free =
                  compensation.external_offset_free && written(method, own) == Method::fanuc};
 }
-
-}  // namespace
 
 void add_rewrite_options(CLI::App& verb, RewriteOptions& options) {
   verb.add_option("--plan", options.plan,

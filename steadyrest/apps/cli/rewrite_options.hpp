@@ -35,6 +35,12 @@ struct RewriteTask {
   nc::rewrite::Settings settings;
 };
 
+/// How corrections are written into programs of this dialect: as the command line says, else as the
+/// machine file does.
+[[nodiscard]] std::expected<nc::rewrite::Way, Refusals> way_of(
+    const RewriteOptions& options, const kernel::machine::Machine& machine,
+    nc::read::Dialect program);
+
 /// Adds all but the programs' own names.
 void add_rewrite_options(CLI::App& verb, RewriteOptions& options);
 [[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,

@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/cut_batch.hpp>
 #include <steadyrest/apps/cli/cut_chatter.hpp>
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/program_options.hpp>
@@ -39,6 +40,7 @@ struct Options {
   std::optional<double> limit_um;
   std::optional<std::string> strategy;
   CutChatterOptions chatter;
+  CutBatchOptions batch;
 };
 
 const std::map<std::string, ContourStrategy> kStrategies = {
@@ -212,6 +214,11 @@ Outcome run(const Options& options, Progress& progress) {
   answer.text = text_of(without->figures(), with->figures(), machine->contour.limit_mm) +
                 text_of(with->motion(), *machine);
   put_vibration(answer, *chatter, *without, *with);
+  if (auto done =
+          put_batch(answer, options.batch, options.program, *machine, options.report, progress);
+      !done) {
+    return refused(done.error());
+  }
   if (!options.report.empty()) {
     const auto data = cut::compare(options.program.file, *machine, *without, *with);
     const auto written = report::write_report(data, options.report);
@@ -242,6 +249,7 @@ void add_verb_cut(Session& session) {
   verb.add_option("--strategy", options->strategy, "Strategy instead of the machine file's")
       ->check(CLI::IsMember(kStrategies));
   add_cut_chatter_options(verb, options->chatter);
+  add_cut_batch_options(verb, options->batch);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

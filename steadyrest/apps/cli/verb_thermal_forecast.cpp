@@ -6,11 +6,13 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
 #include <steadyrest/apps/cli/thermal_replay.hpp>
 #include <steadyrest/apps/cli/verb_thermal_forecast.hpp>
+#include <steadyrest/apps/thermal_page/thermal_page.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/curve.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
@@ -26,6 +28,7 @@ struct Options {
   ThermalOptions thermal;
   ThermalReplayOptions replay;
   std::string output;
+  std::string report;
   double step_s = 60.0;
 };
 
@@ -92,6 +95,9 @@ Outcome run(const Options& options) {
   if (!options.replay.log.empty()) {
     return run_log(options);
   }
+  if (auto ready = ready_report(options.report); !ready) {
+    return refused(ready.error());
+  }
   const auto job = thermal_job(options.thermal);
   if (!job) {
     return refused(job.error());
@@ -119,6 +125,16 @@ Outcome run(const Options& options) {
     put(answer, table, axis);
   }
   answer.text = table.text();
+  if (!options.report.empty()) {
+    std::vector<thermal_page::Course> courses;
+    for (AxisForecast& axis : axes) {
+      courses.push_back({.name = axis.name, .point = std::move(axis.point), .corrections = {}});
+    }
+    const std::string page = thermal_page::forecast_page(answer.json, job->cyclogram, courses);
+    if (auto done = put_report(answer, options.report, page, thermal_page::to_html(page)); !done) {
+      return refused(done.error());
+    }
+  }
   return answer;
 }
 
@@ -132,6 +148,7 @@ void add_verb_thermal_forecast(Session& session) {
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
   verb.add_option("-o,--output", options->output, "Write the curve to this CSV");
+  add_report_option(verb, options->report);
   verb.add_option("--step-s", options->step_s, "Seconds from row to row")
       ->check(CLI::Range(0.1, 86400.0));
   verb.add_option("--log", options->replay.log,

@@ -8,10 +8,12 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
 #include <steadyrest/apps/cli/verb_thermal_plan.hpp>
+#include <steadyrest/apps/thermal_page/thermal_page.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
 #include <steadyrest/thermal/offline/plan.hpp>
@@ -30,6 +32,7 @@ using thermal::offline::PlannedTransition;
 struct Options {
   ThermalOptions thermal;
   std::string output;
+  std::string report;
   double tolerance_um = 0.0;
   int level = -1;
   bool whole_band = false;
@@ -92,19 +95,22 @@ thermal::offline::Curve from_start(thermal::offline::Curve curve) {
   return curve;
 }
 
-double largest_sd_mm(const ThermalJob::Axis& axis, const thermal::offline::Cyclogram& cyclogram) {
-  double most = 0.0;
-  const double step_s = std::max(cyclogram.total_s() / 200.0, 1.0);
-  for (const auto& point :
-       thermal::offline::forecast(axis.model, cyclogram, step_s, axis.ambient_c)) {
-    most = std::max(most, point.sd_mm);
-  }
-  return most;
+constexpr double kPoints = 600.0;
+
+std::vector<thermal::offline::ForecastPoint> course_of(
+    const ThermalJob::Axis& axis, const thermal::offline::Cyclogram& cyclogram) {
+  const double step_s = std::max(cyclogram.total_s() / kPoints, 1.0);
+  return thermal::offline::forecast(axis.model, cyclogram, step_s, axis.ambient_c);
+}
+
+double largest_sd_mm(const std::vector<thermal::offline::ForecastPoint>& course) {
+  return std::ranges::max(course, {}, &thermal::offline::ForecastPoint::sd_mm).sd_mm;
 }
 
 struct Planned {
   std::vector<AxisCorrections> axis;
   std::vector<double> sd_mm;
+  std::vector<std::vector<thermal::offline::ForecastPoint>> course;
 };
 
 Result<Planned> plan(const ThermalJob& job, const thermal::offline::PlanRequest& request) {
@@ -118,7 +124,8 @@ Result<Planned> plan(const ThermalJob& job, const thermal::offline::PlanRequest&
       return std::unexpected(made.error());
     }
     out.axis.push_back(std::move(*made));
-    out.sd_mm.push_back(largest_sd_mm(axis, job.cyclogram));
+    out.course.push_back(course_of(axis, job.cyclogram));
+    out.sd_mm.push_back(largest_sd_mm(out.course.back()));
   }
   return out;
 }
@@ -193,6 +200,9 @@ void show(Answer& answer, const Planned& planned, double share) {
 }
 
 Outcome run(const Options& options) {
+  if (auto ready = ready_report(options.report); !ready) {
+    return refused(ready.error());
+  }
   const auto job = thermal_job(options.thermal);
   if (!job) {
     return refused(job.error());
@@ -228,6 +238,17 @@ Outcome run(const Options& options) {
   answer.json["k"] = request.share;
   answer.json["tolerance_um"] = options.tolerance_um;
   show(answer, *planned, request.share);
+  if (!options.report.empty()) {
+    std::vector<thermal_page::Course> courses;
+    for (std::size_t i = 0; i < planned->axis.size(); ++i) {
+      courses.push_back({planned->axis[i].name, planned->course[i], planned->axis[i]});
+    }
+    const std::string page =
+        thermal_page::plan_page(answer.json, job->cyclogram, courses, request.share);
+    if (auto done = put_report(answer, options.report, page, thermal_page::to_html(page)); !done) {
+      return refused(done.error());
+    }
+  }
   return answer;
 }
 
@@ -252,6 +273,7 @@ void add_verb_thermal_plan(Session& session) {
   verb.add_option("--resolution-min", options->resolution_min,
                   "Round the instants to whole multiples, min; 0 = not")
       ->check(CLI::Range(0.0, 60.0));
+  add_report_option(verb, options->report);
   verb.add_option("-o,--output", options->output,
                   "Write PLAN.json, which `program compensate` reads");
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });

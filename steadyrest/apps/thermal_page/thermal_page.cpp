@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+
+#include <steadyrest/apps/report/fill_page.hpp>
+#include <steadyrest/apps/report/json_numbers.hpp>
+#include <steadyrest/apps/thermal_page/thermal_page.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+
+// template.S puts the page between these two.
+extern "C" {
+// NOLINTBEGIN(readability-identifier-naming): the symbols of template.S
+extern const char steadyrest_thermal_template_begin[];
+extern const char steadyrest_thermal_template_end[];
+// NOLINTEND(readability-identifier-naming)
+}
+
+namespace steadyrest::apps::thermal_page {
+namespace {
+
+using kernel::units::rpm_from_rev_s;
+using kernel::units::um_from_mm;
+using thermal::offline::Cyclogram;
+using thermal::offline::ForecastPoint;
+using thermal::offline::Load;
+
+/// A column of the points, to six digits.
+template <class Points, class Value>
+Json column(const Points& points, Value value) {
+  std::vector<double> out;
+  for (const auto& point : points) {
+    out.push_back(value(point));
+  }
+  return report::short_numbers(out);
+}
+
+Json transitions_json(const Cyclogram& cyclogram) {
+  Json out = Json::array();
+  double start_s = 0.0;
+  for (const auto& t : cyclogram.transition) {
+    out.push_back({{"name", t.name},
+                   {"start_min", start_s / 60.0},
+                   {"minutes", t.seconds / 60.0},
+                   {"speed_rpm", rpm_from_rev_s(t.speed_rev_s)},
+                   {"cutting", t.load == Load::cutting}});
+    start_s += t.seconds;
+  }
+  return out;
+}
+
+Json course_json(const Course& course) {
+  const double zero_mm = course.point.empty() ? 0.0 : course.point.front().displacement_mm;
+  return {
+      {"axis", course.name},
+      {"t_min", column(course.point, [](const ForecastPoint& p) { return p.time_s / 60.0; })},
+      {"displacement_um",
+       column(course.point,
+              [&](const ForecastPoint& p) { return um_from_mm(p.displacement_mm - zero_mm); })},
+      {"sd_um", column(course.point, [](const ForecastPoint& p) { return um_from_mm(p.sd_mm); })}};
+}
+
+void put_corrections(Json& out, const Course& course, double share) {
+  out["corrections"] = Json::array();
+  out["bands"] = Json::array();
+  double time_s = 0.0;
+  double total_mm = 0.0;
+  for (const auto& row : course.corrections.transition) {
+    const double start_s = time_s;
+    for (std::size_t j = 0; j < row.interval_s.size(); ++j) {
+      if (row.delta_mm[j] != 0.0) {
+        total_mm += row.delta_mm[j];
+        out["corrections"].push_back({{"t_min", time_s / 60.0},
+                                      {"delta_um", um_from_mm(row.delta_mm[j])},
+                                      {"total_um", um_from_mm(total_mm)}});
+      }
+      time_s += row.interval_s[j];
+    }
+    out["bands"].push_back({{"from_min", start_s / 60.0},
+                            {"to_min", time_s / 60.0},
+                            {"tolerance_um", um_from_mm(row.tolerance_mm)},
+                            {"band_um", um_from_mm(share * row.tolerance_mm)}});
+  }
+}
+
+}  // namespace
+
+Json page_head(std::string_view kind, std::string_view title, const Json& answer) {
+  return {{"schema", "steadyrest-thermal/1"},
+          {"version", STEADYREST_VERSION},
+          {"kind", kind},
+          {"title", title},
+          {"answer", answer}};
+}
+
+std::string text_of(const Json& page) {
+  return page.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string forecast_page(const Json& answer, const Cyclogram& cyclogram,
+                          const std::vector<Course>& courses) {
+  Json page = page_head("forecast", cyclogram.file, answer);
+  page["transitions"] = transitions_json(cyclogram);
+  page["courses"] = Json::array();
+  for (const Course& course : courses) {
+    page["courses"].push_back(course_json(course));
+  }
+  return text_of(page);
+}
+
+std::string plan_page(const Json& answer, const Cyclogram& cyclogram,
+                      const std::vector<Course>& courses, double share) {
+  Json page = page_head("plan", cyclogram.file, answer);
+  page["transitions"] = transitions_json(cyclogram);
+  page["courses"] = Json::array();
+  for (const Course& course : courses) {
+    Json one = course_json(course);
+    put_corrections(one, course, share);
+    page["courses"].push_back(std::move(one));
+  }
+  return text_of(page);
+}
+
+std::string batch_page(const Json& answer, std::string_view program, const batch::Batch& made) {
+  using batch::Point;
+  Json page = page_head("batch", program, answer);
+  page["axis"] = made.axis.front();
+  page["course"] = {
+      {"t_min", column(made.point, [](const Point& p) { return p.time_s / 60.0; })},
+      {"part", column(made.point, [](const Point& p) { return static_cast<double>(p.part); })},
+      {"without_um", column(made.point, [](const Point& p) { return um_from_mm(p.left_mm[0]); })},
+      {"text_um", column(made.point, [](const Point& p) { return um_from_mm(p.left_mm[1]); })},
+      {"online_um", column(made.point, [](const Point& p) { return um_from_mm(p.left_mm[2]); })},
+      {"model_um", column(made.point, [](const Point& p) { return um_from_mm(p.model_mm); })},
+      {"model_sd_um", column(made.point, [](const Point& p) { return um_from_mm(p.model_sd_mm); })},
+      {"room_c", column(made.point, [](const Point& p) { return p.room_c; })}};
+  return text_of(page);
+}
+
+std::string to_html(std::string_view json) {
+  const char* const begin = static_cast<const char*>(steadyrest_thermal_template_begin);
+  const char* const end = static_cast<const char*>(steadyrest_thermal_template_end);
+  return report::fill_page({begin, static_cast<std::size_t>(end - begin)}, json);
+}
+
+}  // namespace steadyrest::apps::thermal_page

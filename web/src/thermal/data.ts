@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pages of the thermal verbs hold; steadyrest/apps/thermal_page is their source. `answer`
+// is what the verb prints with --json.
+import type { Maybe } from '../chatter/data';
+
+export interface Transition {
+  name: string;
+  start_min: number;
+  minutes: number;
+  speed_rpm: number;
+  cutting: boolean;
+}
+
+export interface Course {
+  axis: string;
+  t_min: number[];
+  displacement_um: Maybe[];
+  sd_um: Maybe[];
+}
+
+export interface Correction {
+  t_min: number;
+  delta_um: number;
+  /** Of all corrections up to here. */
+  total_um: number;
+}
+
+export interface PlannedCourse extends Course {
+  corrections: Correction[];
+  bands: { from_min: number; to_min: number; tolerance_um: number; band_um: number }[];
+}
+
+interface Head {
+  schema: string;
+  version: string;
+  title: string;
+}
+
+export interface ForecastPage extends Head {
+  kind: 'forecast';
+  answer: { max_um: number };
+  transitions: Transition[];
+  courses: Course[];
+}
+
+export interface PlanPage extends Head {
+  kind: 'plan';
+  answer: {
+    k: number;
+    level: number;
+    tolerance_um: number;
+    axes: { axis: string; max_um: number; residual_um: number; ratio: number; corrections: number; sd_um: number }[];
+  };
+  transitions: Transition[];
+  courses: PlannedCourse[];
+}
+
+export interface Error {
+  largest_um: number;
+  rms_um: number;
+}
+
+export interface BatchPage extends Head {
+  kind: 'batch';
+  axis: string;
+  answer: {
+    band_um: number;
+    program_s: number;
+    total_s: number;
+    without: Error;
+    text: Error & { improvement: number; worse_parts: number };
+    online: Error & { improvement: number; worse_parts: number };
+    parts: { start_s: number; corrections: number; without: Error; text: Error; online: Error }[];
+  };
+  course: Record<'t_min' | 'part' | 'without_um' | 'text_um' | 'online_um' | 'model_um' | 'model_sd_um' | 'room_c', number[]>;
+}
+
+export interface HysteresisPage extends Head {
+  kind: 'hysteresis';
+  answer: Record<string, unknown>;
+  hours: number;
+  channels: {
+    channel: string;
+    sensor: string;
+    correlation: number;
+    spread_um: number;
+    stretches: { speed_rpm: number; start_min: number; minutes: number; temperature_c: Maybe[]; displacement_um: Maybe[] }[];
+  }[];
+}
+
+export type Page = ForecastPage | PlanPage | BatchPage | HysteresisPage;
+
+const SCHEMA = 'steadyrest-thermal/1';
+
+/** The data in the page, or a sentence that says why there are none. */
+export function parsePage(text: string): Page | string {
+  let value: unknown;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    return 'The data in this page is not valid JSON; write the page again.';
+  }
+  if (typeof value !== 'object' || value === null) {
+    return 'This page holds no data yet; `steadyrest thermal VERB … --report DIR` fills it.';
+  }
+  const page = value as Page;
+  return page.schema === SCHEMA ? page : `This page reads ${SCHEMA}; its data is ${String(page.schema)}.`;
+}
+
+/** What is left of a displacement when corrections are taken off; both values where one is made. */
+export function residual(course: PlannedCourse): { t_min: number[]; um: number[] } {
+  const t: number[] = [];
+  const um: number[] = [];
+  let next = 0;
+  let off = 0;
+  const put = (at: number, value: number) => {
+    t.push(at);
+    um.push(value);
+  };
+  course.t_min.forEach((at, i) => {
+    const value = course.displacement_um[i] ?? 0;
+    for (let c = course.corrections[next]; c !== undefined && c.t_min <= at; c = course.corrections[next]) {
+      const before = i > 0 ? (course.t_min[i - 1] as number) : at;
+      const from = i > 0 ? (course.displacement_um[i - 1] ?? 0) : value;
+      const share = at > before ? (c.t_min - before) / (at - before) : 1;
+      const there = from + share * (value - from);
+      put(c.t_min, there - off);
+      off = c.total_um;
+      put(c.t_min, there - off);
+      next += 1;
+    }
+    put(at, value - off);
+  });
+  return { t_min: t, um };
+}
