@@ -86,6 +86,7 @@ std::vector<Learnt> learn(const Options& options, const ThermalPlanFile& plan,
     const auto said =
         thermal::offline::predict(axis->model, job.cyclogram, axis->ambient_c, time_s);
     std::vector<thermal::offline::Observation> observations;
+    observations.reserve(said.size());
     for (std::size_t i = 0; i < said.size(); ++i) {
       observations.push_back(
           {.deviation_mm = parts[learnt.part[i]].row->deviation_mm,
