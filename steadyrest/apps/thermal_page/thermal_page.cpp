@@ -27,6 +27,7 @@ using thermal::offline::Load;
 template <class Points, class Value>
 Json column(const Points& points, Value value) {
   std::vector<double> out;
+  out.reserve(points.size());
   for (const auto& point : points) {
     out.push_back(value(point));
   }
@@ -40,7 +41,7 @@ Json transitions_json(const Cyclogram& cyclogram) {
     out.push_back({{"name", t.name},
                    {"start_min", start_s / 60.0},
                    {"minutes", t.seconds / 60.0},
-                   {"speed_rpm", rpm_from_rev_s(t.speed_rev_s)},
+                   {"speed_rpm", report::short_number(rpm_from_rev_s(t.speed_rev_s))},
                    {"cutting", t.load == Load::cutting}});
     start_s += t.seconds;
   }
@@ -68,16 +69,18 @@ void put_corrections(Json& out, const Course& course, double share) {
     for (std::size_t j = 0; j < row.interval_s.size(); ++j) {
       if (row.delta_mm[j] != 0.0) {
         total_mm += row.delta_mm[j];
-        out["corrections"].push_back({{"t_min", time_s / 60.0},
-                                      {"delta_um", um_from_mm(row.delta_mm[j])},
-                                      {"total_um", um_from_mm(total_mm)}});
+        out["corrections"].push_back(
+            {{"t_min", report::short_number(time_s / 60.0)},
+             {"delta_um", report::short_number(um_from_mm(row.delta_mm[j]))},
+             {"total_um", report::short_number(um_from_mm(total_mm))}});
       }
       time_s += row.interval_s[j];
     }
-    out["bands"].push_back({{"from_min", start_s / 60.0},
-                            {"to_min", time_s / 60.0},
-                            {"tolerance_um", um_from_mm(row.tolerance_mm)},
-                            {"band_um", um_from_mm(share * row.tolerance_mm)}});
+    out["bands"].push_back(
+        {{"from_min", start_s / 60.0},
+         {"to_min", time_s / 60.0},
+         {"tolerance_um", report::short_number(um_from_mm(row.tolerance_mm))},
+         {"band_um", report::short_number(um_from_mm(share * row.tolerance_mm))}});
   }
 }
 

@@ -229,7 +229,8 @@ function dayPlot(page: BatchPage, theme: Theme): Plot {
       rule([0], 'y', theme.faint),
       rule([-page.answer.band_um, page.answer.band_um], 'y', theme.limit, true),
       { kind: 'line', x: c.t_min, y: c.without_um, colour: theme.run.without, width: 2 },
-      { kind: 'line', x: c.t_min, y: c.text_um, colour: theme.faint, width: 1.4 },
+      // In a pause no text runs: nothing is corrected then.
+      { kind: 'line', x: c.t_min, y: c.text_um.map((v, i) => (c.part[i] ? v : null)), colour: theme.faint, width: 1.6 },
       { kind: 'line', x: c.t_min, y: c.online_um, colour: theme.run.with, width: 2 },
     ],
     readout: (t) => {
