@@ -49,12 +49,13 @@ Result<std::optional<std::size_t>> channel_of(const std::string& axis, const off
       }
     }
   }
-  std::string small = axis + "_um";
+  std::string small = axis;
   std::ranges::transform(small, small.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
   });
   for (std::size_t i = 0; i < log.displacement.size(); ++i) {
-    if (log.displacement[i].name == name || log.displacement[i].name == small) {
+    const std::string& column = log.displacement[i].name;
+    if (column == name || column == small + "_um" || column == small + "_mm") {
       return i;
     }
   }

@@ -44,6 +44,16 @@ Refusal refusal(std::string file, std::string what, std::string to_do) {
   return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
 }
 
+/// What the column of an axis is called without its unit: Z for z_um, ch1 for ch1_um.
+std::string axis_of(const std::string& column) {
+  const bool unit = column.size() > 3 && (column.ends_with("_um") || column.ends_with("_mm"));
+  std::string name = unit ? column.substr(0, column.size() - 3) : column;
+  if (name.size() == 1 && name.front() >= 'a' && name.front() <= 'z') {
+    name.front() = static_cast<char>(name.front() - 'a' + 'A');
+  }
+  return name;
+}
+
 /// Places of the displacements in the log, and the axes that they are called.
 using Channels = std::vector<std::pair<std::size_t, std::string>>;
 
@@ -58,10 +68,10 @@ Result<Channels> channels_of(const Options& options, const offline::Log& log) {
                                      "name a column of the log, as --channel z_um=Z"));
     }
     out.emplace_back(found - log.displacement.begin(),
-                     at == std::string::npos ? name : given.substr(at + 1));
+                     at == std::string::npos ? axis_of(name) : given.substr(at + 1));
   }
   for (std::size_t i = 0; i < log.displacement.size() && options.channels.empty(); ++i) {
-    out.emplace_back(i, log.displacement[i].name);
+    out.emplace_back(i, axis_of(log.displacement[i].name));
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {

@@ -212,8 +212,7 @@ class SegmentTimer::Runner final : public PathReceiver {
   }
 
   /// What has been done since `from_s`, over `length_mm` of path.
-  void account(kernel::signal::Motion motion, std::uint32_t line, double from_s,
-               double length_mm) {
+  void account(kernel::signal::Motion motion, std::uint32_t line, double from_s, double length_mm) {
     const double seconds = time_s_ - from_s;
     if (seconds > 0.0) {
       Setpoint done;

@@ -14,8 +14,8 @@ namespace steadyrest::nc::read {
 template <class Operator>
 struct Sign {
   std::string_view name;
-  Operator op;
-  int rank;
+  Operator op{};
+  int rank = 0;
 };
 
 /// What the expressions of all dialects have in common: a place in a line, the reason of a refusal,
@@ -35,13 +35,6 @@ class Climber {
   [[nodiscard]] std::string_view text() const noexcept { return text_; }
 
  protected:
-  /// `values` answers for parameters; both outlive the object.
-  Climber(std::string_view line, std::size_t at, const Values& values) noexcept
-      : begin_(line.data() + at),
-        at_(line.data() + at),
-        end_(line.data() + line.size()),
-        values_(values) {}
-
   /// Operands of operators at least as strong as `weakest`.
   bool climb(double& out, int weakest) {
     auto& dialect = static_cast<Dialect&>(*this);
@@ -88,6 +81,14 @@ class Climber {
   std::string_view text_;
 
  private:
+  friend Dialect;
+  /// `values` answers for parameters; both outlive the object.
+  Climber(std::string_view line, std::size_t at, const Values& values) noexcept
+      : begin_(line.data() + at),
+        at_(line.data() + at),
+        end_(line.data() + line.size()),
+        values_(values) {}
+
   /// Goes behind the operator that stands here; its place in the table, the table's size for none.
   std::size_t sign_at() noexcept {
     const char c = peek();
