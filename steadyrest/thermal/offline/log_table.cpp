@@ -191,8 +191,9 @@ class TableReader {
       }
       double value = std::numeric_limits<double>::quiet_NaN();
       if (!absent(fields_[i])) {
-        const char* end = fields_[i].data() + fields_[i].size();
-        const auto parsed = std::from_chars(fields_[i].data(), end, value);
+        const char* const begin = std::to_address(fields_[i].begin());
+        const char* const end = std::to_address(fields_[i].end());
+        const auto parsed = std::from_chars(begin, end, value);
         if (parsed.ec != std::errc{} || parsed.ptr != end || !std::isfinite(value)) {
           return refuse(
               fmt::format("{} = \"{}\" is not a finite number", column.name, shown(fields_[i])),

@@ -30,6 +30,7 @@ Subset subset(const Eigen::MatrixXd& columns, const FitData& data,
   Subset out;
   out.matrix.resize(static_cast<Eigen::Index>(data.rows() - (hole.end - hole.begin)),
                     columns.cols() + 1);
+  out.time_s.reserve(data.rows() - (hole.end - hole.begin));
   auto fresh = data.fresh.begin();
   bool begins = false;
   for (std::size_t i = 0; i < data.rows(); ++i) {

@@ -68,8 +68,8 @@ class Products {
       for (Eigen::Index c = 0; c < part.cols(); ++c) {
         zeroed.col(c) = probed(data, block, part.col(c));
       }
-      free_.push_back(part.transpose() * part / static_cast<double>(rows));
-      probed_.push_back(zeroed.transpose() * zeroed / static_cast<double>(rows));
+      free_.emplace_back(part.transpose() * part / static_cast<double>(rows));
+      probed_.emplace_back(zeroed.transpose() * zeroed / static_cast<double>(rows));
       std::vector<std::size_t> fresh;
       for (const std::size_t f : data.fresh) {
         if (f > block.begin && f < block.end) {
@@ -78,7 +78,7 @@ class Products {
       }
       whiten(error, std::span(data.time_s).subspan(block.begin, block.end - block.begin), fresh,
              part);
-      white_.push_back(part.transpose() * part);
+      white_.emplace_back(part.transpose() * part);
     }
     sum_ = white_.front();
     for (std::size_t b = 1; b < white_.size(); ++b) {

@@ -62,9 +62,10 @@ class Dense {
 
   void step(double h, const std::array<double, 2>& level, const std::array<double, 2>& tau) {
     Eigen::Matrix4d f = Eigen::Matrix4d::Zero();
-    for (int i = 0; i < 2; ++i) {
-      f(i, i) = -1.0 / tau[i];
-      f(i, 3) = level[i] / tau[i];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      f(row, row) = -1.0 / tau[i];
+      f(row, 3) = level[i] / tau[i];
     }
     Eigen::Matrix4d q = Eigen::Matrix4d::Zero();
     if (drift_mm_ > 0.0) {
