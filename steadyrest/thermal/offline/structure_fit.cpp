@@ -57,6 +57,7 @@ Subset subset(const Eigen::MatrixXd& columns, const FitData& data,
 /// The time constants that are free, as one list of their logarithms.
 std::vector<double*> free_taus(Structure& s) {
   std::vector<double*> out;
+  out.reserve(2 * s.mode.size());
   for (Structure::Mode& m : s.mode) {
     out.push_back(&m.tau_s);
   }
