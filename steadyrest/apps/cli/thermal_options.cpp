@@ -15,7 +15,6 @@
 
 namespace steadyrest::apps::cli {
 
-using kernel::machine::Thermal;
 using kernel::machine::ThermalAxis;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
