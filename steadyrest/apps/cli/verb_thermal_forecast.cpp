@@ -127,6 +127,7 @@ Outcome run(const Options& options) {
   answer.text = table.text();
   if (!options.report.empty()) {
     std::vector<thermal_page::Course> courses;
+    courses.reserve(axes.size());
     for (AxisForecast& axis : axes) {
       courses.push_back({.name = axis.name, .point = std::move(axis.point), .corrections = {}});
     }
