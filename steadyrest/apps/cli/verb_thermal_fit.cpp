@@ -232,7 +232,7 @@ Outcome run(const Options& options, Progress& progress) {
       }
       job->request.known = &*known;
     }
-    const double done = static_cast<double>(fits.size());
+    const auto done = static_cast<double>(fits.size());
     auto fit = offline::identify(job->log, channel, name, job->request, [&](double share) {
       progress.update((done + share) / static_cast<double>(job->channels.size()),
                       "fitting " + name);

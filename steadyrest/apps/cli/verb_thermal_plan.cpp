@@ -240,6 +240,7 @@ Outcome run(const Options& options) {
   show(answer, *planned, request.share);
   if (!options.report.empty()) {
     std::vector<thermal_page::Course> courses;
+    courses.reserve(planned->axis.size());
     for (std::size_t i = 0; i < planned->axis.size(); ++i) {
       courses.push_back({planned->axis[i].name, planned->course[i], planned->axis[i]});
     }
