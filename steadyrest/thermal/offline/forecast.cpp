@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <steadyrest/thermal/offline/forecast.hpp>
 
@@ -30,23 +31,31 @@ std::size_t linear(const ThermalMode& mode) {
   return mode.level_mm.size() + mode.polynomial_mm.size();
 }
 
-/// The same passport with the level of one parameter alone at 1: what a unit of it settles at.
-double unit_level(const ThermalMode& mode, std::size_t parameter, const online::Drive& drive) {
-  ThermalAxis alone;
-  alone.mode.push_back(mode);
-  ThermalMode& m = alone.mode.front();
-  m.feed_s = 0.0;
-  std::ranges::fill(m.level_mm, 0.0);
-  std::ranges::fill(m.polynomial_mm, 0.0);
-  (m.level_mm.empty() ? m.polynomial_mm : m.level_mm)[parameter] = 1.0;
-  const auto made = online::ThermalModel::make(alone);
-  return made ? made->level_mm(0, drive) : 0.0;
+/// For each linear parameter a mode in which it alone is 1: what a unit of it settles at.
+std::vector<online::ThermalModel> unit_models(const ThermalAxis& axis) {
+  std::vector<online::ThermalModel> out;
+  for (const ThermalMode& mode : axis.mode) {
+    for (std::size_t k = 0; k < linear(mode); ++k) {
+      ThermalAxis alone;
+      alone.mode.push_back(mode);
+      ThermalMode& m = alone.mode.front();
+      m.feed_s = 0.0;
+      std::ranges::fill(m.level_mm, 0.0);
+      std::ranges::fill(m.polynomial_mm, 0.0);
+      (m.level_mm.empty() ? m.polynomial_mm : m.level_mm)[k] = 1.0;
+      if (auto made = online::ThermalModel::make(alone)) {  // as the whole could be made
+        out.push_back(std::move(*made));
+      }
+    }
+  }
+  return out;
 }
 
 }  // namespace
 
 Uncertainty::Uncertainty(const online::ThermalModel& model)
     : model_(model),
+      unit_(unit_models(model.config())),
       covariance_um2_(square(model.config().covariance, model.config().parameters())),
       phi_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.config().parameters()))),
       by_tau_mm_(model.config().mode.size(), 0.0),
@@ -67,7 +76,7 @@ void Uncertainty::step(double elapsed_s, const online::Drive& drive,
     const double away_mm = model_.level_mm(i, drive) - before.mode_mm[i];
     by_tau_mm_[i] = keep * (by_tau_mm_[i] - away_mm * elapsed_s / tau_s);
     for (std::size_t k = 0; k < linear(config.mode[i]); ++k, ++p) {
-      const double level = unit_level(config.mode[i], k, drive);
+      const double level = unit_[static_cast<std::size_t>(p)].level_mm(0, drive);
       phi_(p) = level + (phi_(p) - level) * keep;
     }
   }

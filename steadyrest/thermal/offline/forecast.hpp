@@ -36,7 +36,8 @@ class Uncertainty {
   [[nodiscard]] const Eigen::VectorXd& sensitivity() const noexcept { return phi_; }
 
  private:
-  online::ThermalModel model_;  ///< its levels and time constants are asked for
+  online::ThermalModel model_;              ///< its levels and time constants are asked for
+  std::vector<online::ThermalModel> unit_;  ///< one for each linear parameter of the modes
   Eigen::MatrixXd covariance_um2_;
   Eigen::VectorXd phi_;
   std::vector<double> by_tau_mm_;

@@ -13,6 +13,7 @@
 #include <zlib.h>
 
 #include <steadyrest/thermal/offline/log_table.hpp>
+#include <steadyrest/thermal/offline/row_splitter.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
@@ -54,12 +55,6 @@ constexpr std::array kNamed = {
     Named{"spindle_rpm", Quantity::speed, 1 / 60.0},
     Named{"speed_rpm", Quantity::speed, 1 / 60.0},
 };
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t\r\"");
-  const std::size_t to = text.find_last_not_of(" \t\r\"");
-  return from == std::string_view::npos ? std::string_view{} : text.substr(from, to - from + 1);
-}
 
 std::string lower(std::string_view text) {
   std::string out(text);
@@ -131,18 +126,9 @@ class TableReader {
 
   void split(std::string_view row) {
     if (fields_of_head_ == 0) {
-      const std::size_t mark = row.find_first_of(",;\t");
-      separator_ = mark == std::string_view::npos ? ',' : row[mark];
+      splitter_.head(row);
     }
-    fields_.clear();
-    while (true) {
-      const std::size_t end = row.find(separator_);
-      fields_.push_back(trimmed(row.substr(0, end)));
-      if (end == std::string_view::npos) {
-        return;
-      }
-      row.remove_prefix(end + 1);
-    }
+    splitter_.split(row, fields_);
   }
 
   void take_head() {
@@ -217,7 +203,7 @@ class TableReader {
 
   std::string file_;
   std::size_t line_ = 0;
-  char separator_ = ',';
+  RowSplitter splitter_;
   std::size_t fields_of_head_ = 0;
   std::vector<std::string_view> fields_;
   std::vector<LogColumn> all_;

@@ -11,6 +11,7 @@
 
 #include <steadyrest/thermal/offline/log_table.hpp>
 #include <steadyrest/thermal/offline/measured.hpp>
+#include <steadyrest/thermal/offline/row_splitter.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
@@ -38,12 +39,6 @@ constexpr std::array kKnown = {
     Known{"tolerance_um", Field::tolerance, 1e-3},
     Known{"tolerance_mm", Field::tolerance, 1.0},
 };
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t\r\"");
-  const std::size_t to = text.find_last_not_of(" \t\r\"");
-  return from == std::string_view::npos ? std::string_view{} : text.substr(from, to - from + 1);
-}
 
 class Reader {
  public:
@@ -81,18 +76,9 @@ class Reader {
 
   void split(std::string_view row) {
     if (column_.empty()) {
-      const std::size_t mark = row.find_first_of(",;\t");
-      separator_ = mark == std::string_view::npos ? ',' : row[mark];
+      splitter_.head(row);
     }
-    fields_.clear();
-    while (true) {
-      const std::size_t end = row.find(separator_);
-      fields_.push_back(trimmed(row.substr(0, end)));
-      if (end == std::string_view::npos) {
-        return;
-      }
-      row.remove_prefix(end + 1);
-    }
+    splitter_.split(row, fields_);
   }
 
   [[nodiscard]] bool has(Field field) const {
@@ -180,7 +166,7 @@ class Reader {
 
   std::string file_;
   std::size_t line_ = 0;
-  char separator_ = ',';
+  RowSplitter splitter_;
   std::vector<std::string_view> fields_;
   std::vector<Known> column_;
   std::vector<Measured> out_;

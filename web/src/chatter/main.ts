@@ -2,15 +2,14 @@
 import '../style.css';
 import '../bench/bench.css';
 import './chatter.css';
-import { element } from '../dom';
-import { onSchemeChange, theme } from '../theme';
 import { type Page, parsePage } from './data';
 import { detectView } from './detect';
-import { type View, show } from './frame';
+import type { View } from './frame';
 import { growthView } from './growth';
 import { lobesView } from './lobes';
 import { planView } from './plan';
 import { simulateView } from './simulate';
+import { start } from './start';
 
 function viewOf(page: Page): View {
   switch (page.kind) {
@@ -27,23 +26,4 @@ function viewOf(page: Page): View {
   }
 }
 
-const page = parsePage(element('report-data').textContent ?? '');
-if (typeof page === 'string') {
-  element('report').innerHTML = `<p class="none" id="no-data">${page}</p>`;
-} else {
-  const view = viewOf(page);
-  let printing = false;
-  const draw = () => view.draw(theme(printing));
-  const print = (now: boolean) => {
-    printing = now;
-    document.documentElement.classList.toggle('printing', now);
-    draw();
-  };
-  show(element('report'), view, page.version);
-  view.bind?.(draw);
-  onSchemeChange(draw);
-  window.addEventListener('resize', draw);
-  window.addEventListener('beforeprint', () => print(true));
-  window.addEventListener('afterprint', () => print(false));
-  draw();
-}
+start(parsePage, viewOf);
