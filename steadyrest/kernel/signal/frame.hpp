@@ -51,6 +51,15 @@ using Temperatures = std::array<double, kMaxTemperatures>;
   return none;
 }
 
+/// What a probe has found on something whose place is known: how far the axis is from where it
+/// should be, the offset that stands included. It stands in the frames until the next one comes.
+struct ProbeReading {
+  std::uint64_t number = 0;  ///< counts the readings: each is taken once; 0 = none yet
+  std::uint8_t axis = 0;     ///< of the machine
+  double displacement_mm = std::numeric_limits<double>::quiet_NaN();
+  double sd_mm = 0.0;  ///< standard deviation; 0 = what the thermal passport says of a reading
+};
+
 /// All inputs of one cycle. A plain value; time comes in with it, there is no clock below.
 struct Frame {
   double time_s = 0.0;  ///< time of the sample, monotone
@@ -72,6 +81,7 @@ struct Frame {
   double spindle_actual_rev_s = 0.0;
   bool coolant = false;  ///< it flows
   Temperatures temperature_c = unknown_temperatures();
+  ProbeReading probe;
   /// What a vibration sensor at the spindle has shown since the last frame, oldest first, evenly
   /// sampled up to `time_s`; any unit. Valid as long as the path. Empty: no sensor.
   std::span<const double> vibration;
