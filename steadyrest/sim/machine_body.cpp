@@ -77,6 +77,10 @@ Result<std::optional<ThermalGrowth>> growth_of(const Machine& machine) {
   return std::optional<ThermalGrowth>(*std::move(made));
 }
 
+bool in_cut(Motion motion) noexcept {
+  return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
+}
+
 std::uint32_t home(const std::optional<OverrideInput>& input) noexcept {
   return input ? input->home_code() : 0;
 }
@@ -251,14 +255,16 @@ void MachineBody::follow(std::size_t axis, const nc::plan::Setpoint& setpoint,
 void MachineBody::grow(const nc::plan::Setpoint& setpoint) noexcept {
   heating_.speed_rev_s += std::abs(spindle_now_.actual_rev_s);
   heating_.feed_mm_s += setpoint.path_speed_mm_s;
-  heating_.cutting += setpoint.motion == Motion::feed ? 1.0 : 0.0;
+  heating_.cutting += in_cut(setpoint.motion) ? 1.0 : 0.0;
+  heating_.coolant = setpoint.coolant;
   if (++heating_periods_ < periods_of_growth_) {
     return;
   }
   const double share = 1.0 / heating_periods_;
   growth_->update({.speed_rev_s = heating_.speed_rev_s * share,
                    .feed_mm_s = heating_.feed_mm_s * share,
-                   .cutting = heating_.cutting * share});
+                   .cutting = heating_.cutting * share,
+                   .coolant = heating_.coolant});
   heating_ = {};
   heating_periods_ = 0;
   read_sensors();
@@ -276,9 +282,8 @@ void MachineBody::read_sensors() noexcept {
 }
 
 void MachineBody::end(const nc::plan::Setpoint& setpoint) noexcept {
-  const bool in_cut = setpoint.motion == Motion::feed || setpoint.motion == Motion::thread ||
-                      setpoint.motion == Motion::tap;
-  const kernel::signal::AxisValues offset_mm = offset_.update(layer_offset_mm_, alive_, in_cut);
+  const kernel::signal::AxisValues offset_mm =
+      offset_.update(layer_offset_mm_, alive_, in_cut(setpoint.motion));
   truth_.time_s = time_s_;
   truth_.saturated_axes = 0;
   if (growth_) {
@@ -332,6 +337,7 @@ kernel::signal::Frame MachineBody::frame() const noexcept {
   frame.spindle_programmed_rev_s = setpoint_.spindle_rev_s;
   frame.spindle_command_rev_s = spindle_now_.target_rev_s;
   frame.spindle_actual_rev_s = spindle_now_.actual_rev_s;
+  frame.coolant = setpoint_.coolant;
   frame.temperature_c = temperature_c_;
   frame.path_index = setpoint_.path_index;
   frame.path_position_mm = setpoint_.path_position_mm;

@@ -60,6 +60,52 @@ TEST(ThermalPlan, GoesIntoAProgramAndIsProved) {
   EXPECT_GE(done["insertions"].size(), 2U);
 }
 
+// The truth: one mode of a minute over two stretches of 60 s each, in closed form.
+TEST(ThermalForecast, TakesCoolantAndCuttingFromTheProgram) {
+  const Scratch scratch;
+  const std::string machine =
+      text_of_file(project_file("examples/machines/linuxcnc-mill.toml")) +
+      "\n[[thermal.axis]]\nname = \"Z\"\n[[thermal.axis.mode]]\ntau_min = 1\nspeeds_rpm = "
+      "[0, 3000]\nlevels_um = [0, 20]\n";
+  const std::string program =
+      scratch.file("cool.ngc", "G21 G90 G61\nS3000 M3\nG4 P60\nM8\nG4 P60\nM9\nM2\n");
+  const auto end_um = [&](const std::string& keys) {
+    const std::string file = scratch.file("mill.toml", machine + keys);
+    const auto answer = answer_of("thermal forecast --machine " + file + " --program " + program +
+                                  " -o " + scratch.at("curve.csv"));
+    return answer["axes"][0]["end_um"].get<double>();
+  };
+  const double left = std::exp(-1.0);
+  const double dry = 20.0 * (1.0 - left);
+  EXPECT_NEAR(end_um(""), 20.0 + (dry - 20.0) * left, 0.02);
+  EXPECT_NEAR(end_um("coolant_percent = 40\n"), 8.0 + (dry - 8.0) * left, 0.02);
+  EXPECT_NEAR(end_um("cutting_percent = 300\n"), 20.0 + (dry - 20.0) * left, 0.02)
+      << "nothing is cut";
+}
+
+// Out and back at 30 mm/s, rapids of the same length: half of the path is cut.
+TEST(ThermalForecast, OnlyFeedMovesHeatLikeCutting) {
+  const Scratch scratch;
+  const std::string machine =
+      text_of_file(project_file("examples/machines/linuxcnc-mill.toml")) +
+      "\n[[thermal.axis]]\nname = \"Z\"\n[[thermal.axis.mode]]\ntau_min = 1\nspeeds_rpm = "
+      "[0, 3000]\nlevels_um = [0, 20]\ncutting_percent = 200\n";
+  std::string text = "G21 G90 G61\nS3000 M3\n";
+  for (int i = 0; i < 100; ++i) {
+    text += "G1 X100 F1800\nG4 P3.3\nG0 X0\n";
+  }
+  const std::string file = scratch.file("mill.toml", machine);
+  const std::string program = scratch.file("half.ngc", text + "M2\n");
+  const auto time = answer_of("program time " + program + " --machine " + file);
+  const auto& row = time["cyclogram"].back();
+  const double share = row["cut_s"].get<double>() / row["seconds"].get<double>();
+  EXPECT_GT(share, 0.4);
+  EXPECT_LT(share, 0.6);
+  const auto answer = answer_of("thermal forecast --machine " + file + " --program " + program +
+                                " -o " + scratch.at("curve.csv"));
+  EXPECT_NEAR(answer["max_um"].get<double>(), 20.0 * (1.0 + share), 0.05);
+}
+
 TEST(ThermalForecast, WritesTheCurve) {
   const Scratch scratch;
   const auto answer = answer_of("thermal forecast" + kPaper + " -o " + scratch.at("curve.csv"));

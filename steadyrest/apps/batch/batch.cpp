@@ -181,16 +181,23 @@ class Day {
   /// One second of the machine and of what is believed of it.
   void step(const nc::plan::Transition* transition, bool cuts) {
     const double speed_rev_s = transition != nullptr ? transition->speed_rev_s : 0.0;
-    const double feed_mm_s = transition != nullptr ? transition->feed_mm_s() : 0.0;
+    const double feed_mm_s = transition != nullptr ? transition->path_speed_mm_s() : 0.0;
+    const double share = cuts ? transition->cut_share() : 0.0;
+    const bool coolant = transition != nullptr && transition->coolant;
     const double room_c = growth_.read_room_c();
-    growth_.update(
-        {.speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = cuts ? 1.0 : 0.0});
+    const sim::ThermalGrowth::Input heat{
+        .speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = share, .coolant = coolant};
+    growth_.update(heat);
     for (BelievedAxis& axis : axes_) {
-      axis.update(kStep_s, {.speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = cuts},
+      axis.update(kStep_s,
+                  {.speed_rev_s = speed_rev_s,
+                   .feed_mm_s = feed_mm_s,
+                   .cutting = cuts,
+                   .cutting_share = share,
+                   .coolant = coolant},
                   room_c);
     }
-    govern({.speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = cuts ? 1.0 : 0.0}, cuts,
-           room_c);
+    govern(heat, cuts, room_c);
     ++step_;
   }
 
@@ -202,7 +209,11 @@ class Day {
     frame.axis_count = static_cast<std::uint8_t>(job_.machine.axes.size());
     frame.spindle_actual_rev_s = machine.speed_rev_s;
     frame.path_speed_mm_s = machine.feed_mm_s;
-    frame.motion = cuts ? kernel::signal::Motion::feed : kernel::signal::Motion::idle;
+    feeds_due_ += machine.cutting;
+    const bool feeds = feeds_due_ >= 0.5;
+    feeds_due_ -= feeds ? 1.0 : 0.0;
+    frame.motion = feeds ? kernel::signal::Motion::feed : kernel::signal::Motion::idle;
+    frame.coolant = machine.coolant;
     std::fill_n(frame.temperature_c.begin(), sensors_, room_c);
     governor_.update(frame, kernel::outcome::Reason::none, cuts);
   }
@@ -253,6 +264,7 @@ class Day {
   std::array<Sum, kWays> whole_;
   std::uint32_t number_ = 0;
   std::uint64_t step_ = 0;
+  double feeds_due_ = 0.0;  ///< feed moves that the frames have not shown yet, in seconds
 };
 
 Result<std::vector<BelievedAxis>> believed(const Job& job) {

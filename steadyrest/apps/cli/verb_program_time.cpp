@@ -59,6 +59,7 @@ void put_time(Answer& answer, const ProgramTime& time, bool lines) {
                                         {"feed_mm_min", mm_min_from_mm_s(t.feed_mm_s())},
                                         {"cut_s", t.cut_s},
                                         {"load", name(t.load())},
+                                        {"coolant", t.coolant},
                                         {"line", t.line}});
   }
   if (lines) {
@@ -78,9 +79,9 @@ Result<void> write_cyclogram(const ProgramTime& time, const Options& options) {
   for (const auto& t : time.cyclogram) {
     text += fmt::format(
         "\n[[transition]]\nminutes = {:.6f}\nspeed_rpm = {:.3f}\nfeed_mm_min = {:.3f}\n"
-        "load = \"{}\"\ntool = {}\nline = {}\n",
-        t.seconds / 60.0, rpm_from_rev_s(t.speed_rev_s), mm_min_from_mm_s(t.feed_mm_s()),
-        name(t.load()), t.tool, t.line);
+        "load = \"{}\"\ncutting_percent = {:.3f}\ncoolant = {}\ntool = {}\nline = {}\n",
+        t.seconds / 60.0, rpm_from_rev_s(t.speed_rev_s), mm_min_from_mm_s(t.path_speed_mm_s()),
+        name(t.load()), 100.0 * t.cut_share(), t.coolant, t.tool, t.line);
   }
   std::ofstream out(options.cyclogram, std::ios::binary);
   out << text;
@@ -111,13 +112,13 @@ std::string text_of(const ProgramTime& time) {
     text += tools.text();
   }
   constexpr std::size_t kShown = 20;
-  Table cyclogram({"from s", "s", "tool", "rpm", "mm/min", "load"});
+  Table cyclogram({"from s", "s", "tool", "rpm", "mm/min", "load", "coolant"});
   for (std::size_t i = 0; i < std::min(time.cyclogram.size(), kShown); ++i) {
     const auto& t = time.cyclogram[i];
     cyclogram.row({seconds(t.start_s), seconds(t.seconds), fmt::format("T{}", t.tool),
                    fmt::format("{:.0f}", rpm_from_rev_s(t.speed_rev_s)),
                    fmt::format("{:.0f}", mm_min_from_mm_s(t.feed_mm_s())),
-                   std::string{name(t.load())}});
+                   std::string{name(t.load())}, t.coolant ? "on" : ""});
   }
   text += cyclogram.text();
   if (time.cyclogram.size() > kShown) {

@@ -19,7 +19,8 @@ bool Cyclogram::goes_on(const Setpoint& setpoint, std::int64_t tool) const noexc
   const Transition& last = transitions_.back();
   const double from = last.speed_rev_s;
   const bool same = std::abs(setpoint.spindle_rev_s - from) <= kSame * std::abs(from);
-  return (same && tool == last.tool) || transitions_.size() >= kMost;
+  return (same && tool == last.tool && setpoint.coolant == last.coolant) ||
+         transitions_.size() >= kMost;
 }
 
 void Cyclogram::add(const Setpoint& setpoint, std::int64_t tool, double time_s, double period_s) {
@@ -27,10 +28,12 @@ void Cyclogram::add(const Setpoint& setpoint, std::int64_t tool, double time_s, 
     transitions_.push_back({.tool = tool,
                             .speed_rev_s = setpoint.spindle_rev_s,
                             .start_s = time_s,
+                            .coolant = setpoint.coolant,
                             .line = setpoint.line});
   }
   Transition& now = transitions_.back();
   now.seconds += period_s;
+  now.path_mm += setpoint.path_speed_mm_s * period_s;
   const bool cuts = setpoint.motion == Motion::feed || setpoint.motion == Motion::thread ||
                     setpoint.motion == Motion::tap;
   if (cuts) {

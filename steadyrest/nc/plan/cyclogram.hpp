@@ -18,7 +18,8 @@ enum class Load : std::uint8_t {
 };
 [[nodiscard]] std::string_view name(Load load) noexcept;
 
-/// A technological transition: from a change of tool or of the commanded spindle speed to the next.
+/// A technological transition: from a change of tool, of the commanded spindle speed or of the
+/// coolant to the next.
 struct Transition {
   std::int64_t tool = 0;
   double speed_rev_s = 0.0;  ///< commanded at its beginning, signed
@@ -26,6 +27,8 @@ struct Transition {
   double seconds = 0.0;
   double cut_s = 0.0;      ///< of it in feed moves
   double cut_mm = 0.0;     ///< their length
+  double path_mm = 0.0;    ///< length of all moves, rapids included
+  bool coolant = false;    ///< it flows
   std::uint32_t line = 0;  ///< where it begins
 
   [[nodiscard]] Load load() const noexcept {
@@ -33,6 +36,12 @@ struct Transition {
   }
   /// Mean feed of the feed moves, mm/s.
   [[nodiscard]] double feed_mm_s() const noexcept { return cut_s > 0.0 ? cut_mm / cut_s : 0.0; }
+  /// Mean speed along the path over all of it, rapids and standstill included.
+  [[nodiscard]] double path_speed_mm_s() const noexcept {
+    return seconds > 0.0 ? path_mm / seconds : 0.0;
+  }
+  /// Share of its time in feed moves.
+  [[nodiscard]] double cut_share() const noexcept { return seconds > 0.0 ? cut_s / seconds : 0.0; }
 };
 
 /// The cyclogram of a program (Marusich's first block): transitions in order, without gaps.

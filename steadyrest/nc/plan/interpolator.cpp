@@ -257,8 +257,12 @@ bool Interpolator::event_passed(const PathEvent& event) noexcept {
                                           kSpindleTolerance_ratio * std::abs(wanted);
     }
     case PathEventKind::coolant:
-    case PathEventKind::stop:
+      coolant_ = event.value != 0.0;
+      return true;
     case PathEventKind::end:
+      coolant_ = false;
+      return true;
+    case PathEventKind::stop:
       break;
   }
   return true;
@@ -329,6 +333,7 @@ Setpoint Interpolator::update(const Overrides& overrides) noexcept {
 Setpoint Interpolator::setpoint() noexcept {
   Setpoint out;
   out.spindle_rev_s = spindle_rev_s_;
+  out.coolant = coolant_;
   out.finished = phase_ == Phase::finished;
   out.path_position_mm = path_position_mm_;
   out.path_index = index_;

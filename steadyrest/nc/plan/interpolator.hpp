@@ -117,6 +117,7 @@ class Interpolator {
   double distance_mm_ = 0.0;
   double speed_mm_s_ = 0.0;
   double spindle_rev_s_ = 0.0;
+  bool coolant_ = false;
   kernel::signal::AxisValues position_{};
   double path_position_mm_ = 0.0;
   std::uint32_t line_ = 0;

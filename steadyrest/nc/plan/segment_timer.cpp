@@ -101,6 +101,8 @@ class SegmentTimer::Runner final : public PathReceiver {
         wait(event, spindle_.seconds_to_speed() + 0.5 * period_s_);
         break;
       case PathEventKind::coolant:
+        coolant_ = event.value != 0.0;
+        break;
       case PathEventKind::stop:
       case PathEventKind::end:
         break;
@@ -219,6 +221,7 @@ class SegmentTimer::Runner final : public PathReceiver {
       done.motion = motion;
       done.line = line;
       done.spindle_rev_s = commanded_rev_s_;
+      done.coolant = coolant_;
       done.path_speed_mm_s = length_mm / seconds;
       cyclogram_.add(done, tool_, from_s, seconds);
     }
@@ -295,6 +298,7 @@ class SegmentTimer::Runner final : public PathReceiver {
   Cyclogram cyclogram_;
   std::int64_t tool_ = 0;
   double commanded_rev_s_ = 0.0;
+  bool coolant_ = false;
   double time_s_ = 0.0;
   double stood_s_ = 0.0;
   double speed_mm_s_ = 0.0;

@@ -20,6 +20,7 @@ struct Setpoint {
   double programmed_feed_mm_s = 0.0;
   bool feed_per_revolution = false;
   bool speed_modulation = false;  ///< the program wants the spindle's speed modulated
+  bool coolant = false;           ///< mist, flood or both flow
   double spindle_rev_s = 0.0;     ///< commanded, signed, before the spindle override
   bool finished = false;
 };

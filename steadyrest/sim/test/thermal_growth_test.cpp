@@ -285,6 +285,26 @@ TEST(MachineBody, HeatMovesTheToolAndNoEncoderSeesIt) {
   EXPECT_EQ(body.frame().axis[2].following_error_mm, 0.0);
 }
 
+TEST(MachineBody, CoolantThatTheProgramOpensFlowsAndCools) {
+  kernel::machine::Machine machine = growing_machine();
+  machine.thermal.axis[0].mode[0].coolant_ratio = 0.25;
+  const auto grown_mm = [&](bool coolant) {
+    auto body = MachineBody::make({.machine = machine});
+    EXPECT_TRUE(body);
+    body->reset({});
+    nc::plan::Setpoint turns;
+    turns.spindle_rev_s = 1000.0 / 60.0;
+    turns.coolant = coolant;
+    for (int i = 0; i < 10000; ++i) {
+      body->begin({});
+      body->end(turns);
+    }
+    EXPECT_EQ(body->frame().coolant, coolant);
+    return body->truth().heat_mm[2];
+  };
+  EXPECT_NEAR(grown_mm(true), 0.25 * grown_mm(false), 1e-9);
+}
+
 TEST(MachineBody, ItsSensorsHangInTheRoom) {
   kernel::machine::Machine machine = growing_machine();
   EXPECT_TRUE(std::isnan(MachineBody::make({.machine = machine})->frame().temperature_c[0]));

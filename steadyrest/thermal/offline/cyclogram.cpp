@@ -33,8 +33,11 @@ std::span<const Key<Transition>> keys() noexcept {
                       Need::mandatory},
       Key<Transition>{"speed_rpm", &Transition::speed_rev_s, -1e6, 1e6,
                       "Speed of the spindle, 0 when it stands.", Need::mandatory},
-      Key<Transition>{"feed_mm_min", &Transition::feed_mm_s, 0, 1e6, "Mean feed."},
+      Key<Transition>{"feed_mm_min", &Transition::feed_mm_s, 0, 1e6,
+                      "Mean speed along the path, rapids and standstill included."},
       Key<Transition>{"load", kLoad, 0, 0, "What is done."},
+      Key<Transition>{"cutting_percent", &Transition::cutting_share, 0, 100,
+                      "Of its time in feed moves, where the load is cutting."},
       Key<Transition>{"coolant", &Transition::coolant, 0, 0, "Coolant runs."},
       Key<Transition>{"tolerance_um", &Transition::tolerance_mm, 0.001, 1e6,
                       "Tolerance of what is made in it; else the plan's own."},
@@ -130,8 +133,10 @@ Cyclogram cyclogram_of(std::span<const nc::plan::Transition> transitions, const 
     made.minutes = t.seconds / 60.0;
     made.seconds = t.seconds;
     made.speed_rev_s = t.speed_rev_s;
-    made.feed_mm_s = t.feed_mm_s();
+    made.feed_mm_s = t.path_speed_mm_s();
     made.load = static_cast<Load>(t.load());
+    made.cutting_share = t.cut_share();
+    made.coolant = t.coolant;
     made.tool = static_cast<std::uint32_t>(t.tool);
     made.line = t.line;
     out.transition.push_back(std::move(made));
@@ -144,6 +149,7 @@ online::Drive drive_of(const Transition& transition) noexcept {
   drive.speed_rev_s = transition.speed_rev_s;
   drive.feed_mm_s = transition.feed_mm_s;
   drive.cutting = transition.load == Load::cutting;
+  drive.cutting_share = transition.cutting_share;
   drive.coolant = transition.coolant;
   drive.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
   return drive;

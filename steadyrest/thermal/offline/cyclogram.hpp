@@ -21,8 +21,9 @@ struct Transition {
   double minutes = 0.0;      ///< as the file has it
   double seconds = 0.0;      ///< the same
   double speed_rev_s = 0.0;  ///< of the spindle, signed
-  double feed_mm_s = 0.0;
+  double feed_mm_s = 0.0;    ///< mean speed along the path, over all of it
   Load load = Load::cutting;
+  double cutting_share = 1.0;  ///< of its time in feed moves, where it is cutting
   bool coolant = false;
   double tolerance_mm = 0.0;  ///< 0 = the plan's own
   std::uint32_t tool = 0;

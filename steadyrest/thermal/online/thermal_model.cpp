@@ -80,7 +80,7 @@ double ThermalModel::level_mm(std::size_t mode, const Drive& drive) const noexce
   const ThermalMode& m = config_.mode[mode];
   const double n = std::abs(drive.speed_rev_s);
   double level = m.level_mm.empty() ? by_polynomial(m, n) : by_table(m, n);
-  level *= drive.cutting ? m.cutting_ratio : 1.0;
+  level *= drive.cutting ? 1.0 + drive.cutting_share * (m.cutting_ratio - 1.0) : 1.0;
   level *= drive.coolant ? m.coolant_ratio : 1.0;
   return level + m.feed_s * drive.feed_mm_s;
 }

@@ -15,8 +15,10 @@ using kernel::machine::kMaxThermalModes;
 /// What heats the machine; constant over one step.
 struct Drive {
   double speed_rev_s = 0.0;  ///< of the spindle, signed
-  double feed_mm_s = 0.0;    ///< mean path feed
+  double feed_mm_s = 0.0;    ///< mean speed along the path
   bool cutting = false;      ///< feed moves are made
+  /// Of the time, where what is told of is longer than a move.
+  double cutting_share = 1.0;
   bool coolant = false;
   /// In the order of the passport's ambient inputs; NaN: not known, the last value is held.
   std::array<double, kMaxThermalAmbients> ambient_c{};
