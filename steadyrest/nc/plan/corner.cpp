@@ -77,14 +77,8 @@ std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const P
   return out;
 }
 
-/// Where the offsets by r meet, nearest to the corner.
+/// Where the offsets by r meet, nearest to the corner; one piece at least is a circle.
 std::optional<Flat> meet(const Curve& a, const Curve& b, double r) {
-  if (!a.circle && !b.circle) {
-    const Flat p = r * left_of(a.tangent);
-    const Flat q = r * left_of(b.tangent);
-    const double k = outer(q - p, b.tangent) / outer(a.tangent, b.tangent);
-    return p + k * a.tangent;
-  }
   const double rb = b.radius - b.turn * r;
   if (a.circle && b.circle) {
     const double ra = a.radius - a.turn * r;
@@ -155,20 +149,30 @@ std::optional<FlatArc> fit(const Curve& a, const Curve& b, double r, const Corne
   return fits ? std::optional(out) : std::nullopt;
 }
 
-/// Two lines: in closed form.
-double line_radius(double turn, const CornerRequest& request) {
-  const double room = std::min(request.room_before_mm, request.room_after_mm);
-  return std::min({request.tolerance_mm / (1.0 / std::cos(0.5 * turn) - 1.0),
-                   room / std::tan(0.5 * turn), request.most_radius_mm});
+/// The tangent of half the turn, and 1/cos of it less one, without a difference of near numbers.
+struct Half {
+  double tangent = 0.0;
+  double secant_less_1 = 0.0;
+};
+Half half_of(const Bend& bend) {
+  const double wide = 1.0 + bend.cosine;
+  const double cosine = std::sqrt(0.5 * wide);
+  const double sine_squared = bend.sine * bend.sine / (2.0 * wide);
+  return {bend.sine / wide, sine_squared / ((1.0 + cosine) * cosine)};
 }
 
-double largest_radius(const Curve& a, const Curve& b, double turn, const CornerRequest& request) {
-  if (!a.circle && !b.circle) {
-    return line_radius(turn, request);
-  }
+/// Two lines: in closed form.
+double line_radius(const Half& half, const CornerRequest& request) {
+  const double room = std::min(request.room_before_mm, request.room_after_mm);
+  return std::min(
+      {request.tolerance_mm / half.secant_less_1, room / half.tangent, request.most_radius_mm});
+}
+
+double largest_radius(const Curve& a, const Curve& b, const Half& half,
+                      const CornerRequest& request) {
   // What the tangents would permit is near the answer; from there the largest that fits.
   double low = 0.0;
-  double high = std::min(4.0 * line_radius(turn, request), request.most_radius_mm);
+  double high = std::min(4.0 * line_radius(half, request), request.most_radius_mm);
   if (fit(a, b, high, request)) {
     return high;
   }
@@ -181,46 +185,66 @@ double largest_radius(const Curve& a, const Curve& b, double turn, const CornerR
 
 }  // namespace
 
-std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegment& after,
-                                      const Point& in, const Point& out,
-                                      const CornerRequest& request) {
-  Point axis = cross(in, out);
-  const double sine = norm(axis);
-  const double turn = std::atan2(sine, dot(in, out));
-  if (turn < kSmoothTurn_rad || turn > std::numbers::pi - 1e-3) {
+std::optional<Bend> bend_of(const Point& in, const Point& out) noexcept {
+  Bend bend;
+  bend.axis = cross(in, out);
+  bend.sine = norm(bend.axis);
+  bend.cosine = dot(in, out);
+  if (bend.cosine > 0.0 && bend.sine < 0.5 * kSmoothTurn_rad) {
     return std::nullopt;
   }
-  axis = math::geometry::scale(axis, 1.0 / sine);
-  const Point side = cross(axis, in);
-  const auto a = curve_of(before, {1.0, 0.0}, axis, in);
-  const auto b = curve_of(after, {std::cos(turn), std::sin(turn)}, axis, out);
+  bend.turn_rad = std::atan2(bend.sine, bend.cosine);
+  if (bend.turn_rad < kSmoothTurn_rad || bend.turn_rad > std::numbers::pi - 1e-3) {
+    return std::nullopt;
+  }
+  bend.axis = math::geometry::scale(bend.axis, 1.0 / bend.sine);
+  return bend;
+}
+
+std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegment& after,
+                                      const Point& in, const Point& out, const Bend& bend,
+                                      const CornerRequest& request) {
+  const Half half = half_of(bend);
+  CornerArc result;
+  result.axis = bend.axis;
+  if (before.geometry == Geometry::line && after.geometry == Geometry::line) {
+    result.radius_mm = line_radius(half, request);
+    if (!(result.radius_mm > 0.0)) {
+      return std::nullopt;
+    }
+    const double taken_mm = result.radius_mm * half.tangent;
+    result.start_mm = add_scaled(before.end_mm, in, -taken_mm);
+    result.end_mm = add_scaled(before.end_mm, out, taken_mm);
+    result.centre_mm = add_scaled(result.start_mm, cross(bend.axis, in), result.radius_mm);
+    result.sweep_rad = bend.turn_rad;  // the rounding turns as the corner does
+    result.taken_before_mm = result.taken_after_mm = taken_mm;
+    return result;
+  }
+  const auto a = curve_of(before, {1.0, 0.0}, bend.axis, in);
+  const auto b = curve_of(after, {bend.cosine, bend.sine}, bend.axis, out);
   if (!a || !b) {
     return std::nullopt;
   }
-  const double radius = largest_radius(*a, *b, turn, request);
-  const auto arc = radius > 0.0 ? fit(*a, *b, radius, request) : std::nullopt;
+  result.radius_mm = largest_radius(*a, *b, half, request);
+  const auto arc = result.radius_mm > 0.0 ? fit(*a, *b, result.radius_mm, request) : std::nullopt;
   if (!arc) {
     return std::nullopt;
   }
+  const Point side = cross(bend.axis, in);
   const auto place = [&](Flat p) {
     return add_scaled(add_scaled(before.end_mm, in, p.x), side, p.y);
   };
   const Flat from = arc->before.point - arc->centre;
   const Flat to = arc->after.point - arc->centre;
-  CornerArc result;
   result.start_mm = place(arc->before.point);
   result.end_mm = place(arc->after.point);
   result.centre_mm = place(arc->centre);
-  result.axis = axis;
-  result.radius_mm = radius;
-  // Between two lines the rounding turns as the corner does.
-  result.sweep_rad = a->circle || b->circle ? std::atan2(outer(from, to), inner(from, to)) : turn;
+  result.sweep_rad = std::atan2(outer(from, to), inner(from, to));
   if (result.sweep_rad <= 0.0) {
     result.sweep_rad += 2.0 * std::numbers::pi;
   }
   result.taken_before_mm = -arc->before.distance;
   result.taken_after_mm = arc->after.distance;
-  result.deviation_mm = length(arc->centre) - radius;
   return result;
 }
 

@@ -13,10 +13,22 @@
 /// o·r with the same centre, o = +1 where the path runs counter-clockwise and −1 where it runs
 /// clockwise. Of two meeting points the one nearer to the corner counts. The distance between
 /// corner and rounding is |C| − r; both it and the lengths that the rounding takes from the pieces
-/// grow with r, so the largest permitted r is found by bisection.
+/// grow with r, so the largest permitted r is found by bisection. Between two lines, with the turn
+/// φ, they are r·(1/cos(φ/2) − 1) and r·tan(φ/2): the largest r is the smallest quotient.
 ///
 /// Pieces: lines and plane arcs of constant radius that lie in one plane; others are left sharp.
 namespace steadyrest::nc::plan {
+
+/// How the path turns from one unit vector into another.
+struct Bend {
+  kernel::signal::Point axis{};  ///< unit normal of the corner's plane
+  double sine = 0.0;             ///< of the turning angle
+  double cosine = 1.0;
+  double turn_rad = 0.0;
+};
+/// Nothing when the corner is smooth or a reversal.
+[[nodiscard]] std::optional<Bend> bend_of(const kernel::signal::Point& in,
+                                          const kernel::signal::Point& out) noexcept;
 
 struct CornerRequest {
   double tolerance_mm = 0.0;    ///< largest distance between corner and rounding
@@ -34,15 +46,14 @@ struct CornerArc {
   double sweep_rad = 0.0;
   double taken_before_mm = 0.0;  ///< path length
   double taken_after_mm = 0.0;
-  double deviation_mm = 0.0;
 };
 
 /// The largest rounding of the corner between `before` and `after`, whose directions there are unit
-/// vectors `in` and `out`; nothing when the corner is smooth, a reversal, or not in one plane.
+/// vectors `in` and `out`, which bend so; nothing when the pieces do not lie in one plane.
 [[nodiscard]] std::optional<CornerArc> round_corner(const kernel::signal::PathSegment& before,
                                                     const kernel::signal::PathSegment& after,
                                                     const kernel::signal::Point& in,
                                                     const kernel::signal::Point& out,
-                                                    const CornerRequest& request);
+                                                    const Bend& bend, const CornerRequest& request);
 
 }  // namespace steadyrest::nc::plan

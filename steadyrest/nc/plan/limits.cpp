@@ -21,6 +21,7 @@ PathLimits::PathLimits(const kernel::machine::Machine& machine)
   speed_.fill(kUnlimited);
   acceleration_.fill(kUnlimited);
   jerk_.fill(kUnlimited);
+  axes_ = std::clamp<std::size_t>(machine.axes.size(), 3, kMaxAxes);
   double largest_linear = 0.0;
   for (std::size_t i = 0; i < std::min(machine.axes.size(), kMaxAxes); ++i) {
     const auto& axis = machine.axes[i];
@@ -43,7 +44,7 @@ PathLimits::PathLimits(const kernel::machine::Machine& machine)
 
 SpeedLimits PathLimits::line(const AxisValues& direction) const noexcept {
   SpeedLimits out{kUnlimited, path_acceleration_mm_s2_};
-  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+  for (std::size_t i = 0; i < axes_; ++i) {
     const double share = std::abs(direction[i]);
     if (share > 1e-12) {
       out.speed_mm_s = std::min(out.speed_mm_s, speed_[i] / share);
@@ -53,33 +54,48 @@ SpeedLimits PathLimits::line(const AxisValues& direction) const noexcept {
   return out;
 }
 
-double PathLimits::plane_acceleration_mm_s2(const Point& normal) const noexcept {
-  double a = path_acceleration_mm_s2_;
+PlaneLimits PathLimits::plane(const Point& normal) const noexcept {
+  PlaneLimits out{path_acceleration_mm_s2_, kUnlimited, kUnlimited};
   for (std::size_t i = 0; i < 3; ++i) {
     const double share = std::sqrt(std::max(0.0, 1.0 - normal[i] * normal[i]));
     if (share > 1e-9) {
-      a = std::min(a, acceleration_[i] / share);
+      out.acceleration_mm_s2 = std::min(out.acceleration_mm_s2, acceleration_[i] / share);
+      out.jerk_mm_s3 = std::min(out.jerk_mm_s3, jerk_[i] / share);
+    }
+    if (share > 1e-12) {
+      out.speed_mm_s = std::min(out.speed_mm_s, speed_[i] / share);
     }
   }
-  return a;
+  return out;
+}
+
+SpeedLimits PathLimits::circle(double radius_mm, const PlaneLimits& plane) const noexcept {
+  const double radius = std::max(1e-9, radius_mm);
+  const double total = plane.acceleration_mm_s2;
+  double v = std::min(std::sqrt(centripetal_share_ * total * radius), plane.speed_mm_s);
+  if (std::isfinite(plane.jerk_mm_s3)) {  // a circle's own jerk is v³/R²
+    v = std::min(v, std::cbrt(plane.jerk_mm_s3 * radius * radius));
+  }
+  const double normal = v * v / radius;
+  return {v, std::sqrt(std::max(0.0, total * total - normal * normal))};
 }
 
 SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
   const double dr = s.radius_end_mm - s.radius_mm;
   const double tight = std::max(1e-9, std::min(s.radius_mm, s.radius_end_mm));
   const double wide = std::max(s.radius_mm, s.radius_end_mm);
+  if (dr == 0.0 && s.rise_mm == 0.0 && s.other_start == s.other_end) {
+    return circle(tight, plane(s.axis));
+  }
   // Shares of one mm of path: in the plane and along the other axes, each at its largest.
-  const bool circle = dr == 0.0 && s.rise_mm == 0.0;  // as corners are: nothing to be rooted
   const double around_mm = wide * s.sweep_rad;
-  const double slope = std::max(1e-12, circle ? around_mm : std::hypot(dr, s.rise_mm, around_mm));
-  const double plane_share =
-      std::min(1.0, (circle ? around_mm : std::hypot(dr, around_mm)) / slope);
+  const double slope = std::max(1e-12, std::hypot(dr, s.rise_mm, around_mm));
+  const double plane_share = std::min(1.0, std::hypot(dr, around_mm) / slope);
   SpeedLimits straight = {kUnlimited, kUnlimited};
-  SpeedLimits out = {kUnlimited, plane_acceleration_mm_s2(s.axis)};
-  const double least_slope = std::max(
-      1e-12, circle ? tight * s.sweep_rad : std::hypot(dr, s.rise_mm, tight * s.sweep_rad));
+  SpeedLimits out = {kUnlimited, plane(s.axis).acceleration_mm_s2};
+  const double least_slope = std::max(1e-12, std::hypot(dr, s.rise_mm, tight * s.sweep_rad));
   double jerk = kUnlimited;
-  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+  for (std::size_t i = 0; i < axes_; ++i) {
     double around = 0.0;
     double along = 0.0;
     if (i < 3) {
@@ -119,7 +135,7 @@ double PathLimits::junction_use(const AxisValues& before, const AxisValues& afte
     return 0.0;
   }
   double use = 0.0;
-  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+  for (std::size_t i = 0; i < axes_; ++i) {
     use =
         std::max(use, std::abs(after[i] - before[i]) * speed_mm_s / (acceleration_[i] * period_s_));
   }
@@ -134,7 +150,7 @@ double PathLimits::junction_mm_s(const AxisValues& before, const AxisValues& aft
   double dot = 0.0;
   double norm_before = 0.0;
   double norm_after = 0.0;
-  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+  for (std::size_t i = 0; i < axes_; ++i) {
     const double delta = std::abs(after[i] - before[i]);
     if (delta > 1e-9) {
       jump = std::min(jump, junction_share_ * acceleration_[i] * period_s_ / delta);

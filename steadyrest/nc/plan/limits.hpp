@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
@@ -30,6 +31,13 @@ struct SpeedLimits {
   double acceleration_mm_s2 = 0.0;
 };
 
+/// What the axes permit together in a plane: A_i, V_i, J_i by g_i.
+struct PlaneLimits {
+  double acceleration_mm_s2 = 0.0;  ///< a_plane
+  double speed_mm_s = 0.0;
+  double jerk_mm_s3 = 0.0;
+};
+
 /// The limits of a machine in the order of its axes; an axis that it does not have is unlimited.
 class PathLimits {
  public:
@@ -38,8 +46,10 @@ class PathLimits {
   [[nodiscard]] SpeedLimits line(const kernel::signal::AxisValues& direction) const noexcept;
   /// `segment` must be an arc with its length set.
   [[nodiscard]] SpeedLimits arc(const kernel::signal::PathSegment& segment) const noexcept;
-  /// Largest combined acceleration in the plane with unit normal `normal`.
-  [[nodiscard]] double plane_acceleration_mm_s2(const kernel::signal::Point& normal) const noexcept;
+  /// In the plane with unit normal `normal`.
+  [[nodiscard]] PlaneLimits plane(const kernel::signal::Point& normal) const noexcept;
+  /// A plane circle, as corners are: what arc() gives for it.
+  [[nodiscard]] SpeedLimits circle(double radius_mm, const PlaneLimits& plane) const noexcept;
   /// Speed at which the directions `before` → `after` may follow one another on the exact path.
   [[nodiscard]] double junction_mm_s(const kernel::signal::AxisValues& before,
                                      const kernel::signal::AxisValues& after,
@@ -55,6 +65,7 @@ class PathLimits {
   [[nodiscard]] double centripetal_share() const noexcept { return centripetal_share_; }
 
  private:
+  std::size_t axes_ = 3;  ///< at least X, Y, Z; the others do not move
   kernel::signal::AxisValues speed_{};
   kernel::signal::AxisValues acceleration_{};
   kernel::signal::AxisValues jerk_{};

@@ -44,7 +44,18 @@ bool others_move(const PathSegment& s) {
 }  // namespace
 
 PathStream::PathStream(const Machine& machine, PathReceiver& receiver)
-    : machine_(machine), receiver_(receiver), pieces_(machine) {}
+    : machine_(machine),
+      receiver_(receiver),
+      pieces_(machine),
+      plane_(pieces_.limits().plane(plane_normal_)) {}
+
+const PlaneLimits& PathStream::plane_of(const Point& normal) noexcept {
+  if (normal != plane_normal_) {
+    plane_normal_ = normal;
+    plane_ = pieces_.limits().plane(normal);
+  }
+  return plane_;
+}
 
 void PathStream::emit(Piece& out) {
   out.segment.position_mm = position_mm_;
@@ -55,26 +66,29 @@ void PathStream::emit(Piece& out) {
 }
 
 void PathStream::release(double exit_speed_limit_mm_s) {
-  if (!held_) {
+  if (held_ == kNone) {
     return;
   }
-  held_->segment.exit_speed_limit_mm_s = exit_speed_limit_mm_s;
-  emit(*held_);
-  held_.reset();
+  places_[held_].segment.exit_speed_limit_mm_s = exit_speed_limit_mm_s;
+  emit(places_[held_]);
+  held_ = kNone;
 }
 
 /// Takes `next` into the line that waits when every point between stays within the merge tolerance.
 bool PathStream::merge(const Piece& next) {
-  Piece& line = *waiting_;
+  Piece& line = places_[waiting_];
   const double tolerance = line.merge_tolerance_mm;
+  if (!(tolerance > 0.0)) {
+    return false;
+  }
   const bool alike = line.segment.motion == Motion::feed && next.segment.motion == Motion::feed &&
                      line.segment.geometry == Geometry::line &&
                      next.segment.geometry == Geometry::line && next.mode == line.mode &&
                      next.plan.feed_mm_s == line.plan.feed_mm_s &&
                      next.plan.per_revolution == line.plan.per_revolution &&
                      next.segment.speed_modulation == line.segment.speed_modulation;
-  if (!(tolerance > 0.0) || !alike || line.mode != PathMode::continuous ||
-      others_move(line.segment) || others_move(next.segment) || merged_.size() >= kMostMerged) {
+  if (!alike || line.mode != PathMode::continuous || others_move(line.segment) ||
+      others_move(next.segment) || merged_.size() >= kMostMerged) {
     return false;
   }
   const Point from = line.segment.start_mm;
@@ -104,18 +118,17 @@ bool PathStream::merge(const Piece& next) {
 
 /// What waited for merging goes on to its corner.
 void PathStream::accept() {
-  if (!waiting_) {
+  if (waiting_ == kNone) {
     return;
   }
-  join(*waiting_);
-  held_ = waiting_;
-  waiting_.reset();
+  join(places_[waiting_]);
+  held_ = std::exchange(waiting_, kNone);
   merged_.clear();
 }
 
 /// Puts a tangential arc into the corner between the held piece and `next`.
 bool PathStream::round_corner(Piece& next) {
-  Piece& held = *held_;
+  Piece& held = places_[held_];
   if (!(held.tolerance_mm > 0.0) || others_move(held.segment) || others_move(next.segment) ||
       held.plan.per_revolution != next.plan.per_revolution || held.plan.locked ||
       next.plan.locked) {
@@ -123,49 +136,54 @@ bool PathStream::round_corner(Piece& next) {
   }
   const Point in = xyz_of(held.end_direction);
   const Point out = xyz_of(next.start_direction);
+  const auto bend = bend_of(in, out);
+  if (!bend) {
+    return false;
+  }
   const double share = machine_.control.blend_share;
   const double slower = std::min(held.plan.feed_mm_s, next.plan.feed_mm_s);
   const double goal = std::min({held.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s,
                                 machine_.feed_override.max_ratio * slower});
-  const double a_plane = pieces_.limits().plane_acceleration_mm_s2(
-      math::geometry::unit(math::geometry::cross(in, out)));
+  const PlaneLimits& plane = plane_of(bend->axis);
   const double kappa = pieces_.limits().centripetal_share();
-  const double a_normal = kappa * a_plane;
-  const double a_tangential = std::sqrt(1.0 - kappa * kappa) * a_plane;
-  const double turn = std::acos(std::clamp(math::geometry::dot(in, out), -1.0, 1.0));
+  const double a_normal = kappa * plane.acceleration_mm_s2;
+  const double a_tangential = std::sqrt(1.0 - kappa * kappa) * plane.acceleration_mm_s2;
   // A sliver of every piece stays, so that two corner arcs never meet without knowing one another.
   CornerRequest request;
   request.tolerance_mm = held.tolerance_mm;
   request.room_before_mm = kUsable * std::min(share * held.nominal_mm, held.segment.length_mm);
   request.room_after_mm = kUsable * share * next.nominal_mm;
-  request.most_radius_mm =
-      held.plan.per_revolution ? kUnlimited : goal * goal / std::min(a_normal, turn * a_tangential);
-  const auto corner = plan::round_corner(held.segment, next.segment, in, out, request);
+  request.most_radius_mm = held.plan.per_revolution
+                               ? kUnlimited
+                               : goal * goal / std::min(a_normal, bend->turn_rad * a_tangential);
+  const auto corner = plan::round_corner(held.segment, next.segment, in, out, *bend, request);
   const double exact = pieces_.limits().junction_mm_s(
       held.end_direction, next.start_direction, held.segment.length_mm, next.segment.length_mm);
   if (!corner || std::sqrt(a_normal * corner->radius_mm) <= exact ||
       corner->taken_before_mm <= 10.0 * kShortest_mm) {
     return false;
   }
-  Piece arc = slower == held.plan.feed_mm_s ? held : next;
-  arc.segment.motion = held.plan.rapid && next.plan.rapid ? Motion::rapid : Motion::feed;
+  Piece& arc = corner_;
+  arc.plan = slower == held.plan.feed_mm_s ? held.plan : next.plan;
   arc.plan.rapid = held.plan.rapid && next.plan.rapid;
-  arc.ramp_share = 1.0;
-  arc.segment.line = held.segment.line;
-  arc.segment.geometry = Geometry::arc;
-  arc.segment.start_mm = corner->start_mm;
-  arc.segment.end_mm = corner->end_mm;
-  arc.segment.axis = corner->axis;
-  arc.segment.centre_mm = corner->centre_mm;
-  arc.segment.radius_mm = corner->radius_mm;
-  arc.segment.radius_end_mm = corner->radius_mm;
-  arc.segment.rise_mm = 0.0;
-  arc.segment.sweep_rad = corner->sweep_rad;
-  arc.segment.other_start = held.segment.other_end;
-  arc.segment.other_end = held.segment.other_end;
-  arc.segment.length_mm = corner->radius_mm * corner->sweep_rad;
+  const PathSegment& like = slower == held.plan.feed_mm_s ? held.segment : next.segment;
+  arc.segment = {.geometry = Geometry::arc,
+                 .motion = arc.plan.rapid ? Motion::rapid : Motion::feed,
+                 .speed_modulation = like.speed_modulation,
+                 .line = held.segment.line,
+                 .start_mm = corner->start_mm,
+                 .end_mm = corner->end_mm,
+                 .centre_mm = corner->centre_mm,
+                 .axis = corner->axis,
+                 .radius_mm = corner->radius_mm,
+                 .radius_end_mm = corner->radius_mm,
+                 .sweep_rad = corner->sweep_rad,
+                 .other_start = held.segment.other_end,
+                 .other_end = held.segment.other_end,
+                 .length_mm = corner->radius_mm * corner->sweep_rad,
+                 .feed_mm_s = like.feed_mm_s};
   arc.nominal_mm = arc.segment.length_mm;
-  pieces_.limit(arc);
+  pieces_.limit(arc, pieces_.limits().circle(corner->radius_mm, plane));
   shorten(held, corner->taken_before_mm);
   held.segment.end_mm = corner->start_mm;
   const auto& control = machine_.control;
@@ -196,10 +214,10 @@ void PathStream::shorten(Piece& piece, double taken_mm) {
 
 /// Decides how the path goes from the held piece into `next`, and hands the held one over.
 void PathStream::join(Piece& next) {
-  if (!held_) {
+  if (held_ == kNone) {
     return;
   }
-  Piece& held = *held_;
+  Piece& held = places_[held_];
   const bool probing = held.segment.motion == Motion::probe || next.segment.motion == Motion::probe;
   const bool changes =
       machine_.control.stop_between_rapid_and_feed && held.plan.rapid != next.plan.rapid;
@@ -235,8 +253,8 @@ void PathStream::slow_ramps(Piece& out, double share) const {
 /// The path ends or waits here.
 void PathStream::rest() {
   accept();
-  if (held_ && held_->mode == PathMode::continuous) {
-    slow_ramps(*held_, machine_.control.corner_acceleration_share);
+  if (held_ != kNone && places_[held_].mode == PathMode::continuous) {
+    slow_ramps(places_[held_], machine_.control.corner_acceleration_share);
   }
   release(0.0);
 }
@@ -294,24 +312,25 @@ void PathStream::on_move(const Move& move) {
     event(PathEventKind::dwell, move.line, move.dwell_s);
     return;
   }
-  auto made = pieces_.make(move);
+  Piece& next = places_[next_];
+  const auto made = pieces_.make(move, next);
   if (!made) {
     refusal_ = made.error();
     return;
   }
-  std::optional<Piece>& next = *made;
-  if (!next) {
+  if (!*made) {
     return;
   }
-  if (spindle_pending_ && !next->plan.rapid) {
+  if (spindle_pending_ && !next.plan.rapid) {
     spindle_pending_ = false;
     event(PathEventKind::spindle_wait, spindle_line_, spindle_rev_s_);
   }
-  if (waiting_ && merge(*next)) {
+  if (waiting_ != kNone && merge(next)) {
     return;
   }
   accept();
-  waiting_ = next;
+  waiting_ = next_;
+  next_ = held_ == kNone ? (waiting_ + 1) % kNone : kNone - held_ - waiting_;
 }
 
 void PathStream::event(PathEventKind kind, std::uint32_t line, double value) {

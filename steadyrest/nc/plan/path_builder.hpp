@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -61,14 +63,22 @@ class PathStream final : public interpret::Sink {
   void rest();
   void release(double exit_speed_limit_mm_s);
   void emit(Piece& out);
+  const PlaneLimits& plane_of(const kernel::signal::Point& normal) noexcept;
   void event(PathEventKind kind, std::uint32_t line, double value);
 
   const kernel::machine::Machine& machine_;
   PathReceiver& receiver_;
   PieceMaker pieces_;
-  std::optional<Piece> waiting_;               ///< may still grow by merging
+  // Pieces stay where they are made: each has a place until it is emitted.
+  static constexpr std::size_t kNone = 3;
+  std::array<Piece, kNone> places_;
+  std::size_t next_ = 0;                       ///< for the move in hand
+  std::size_t waiting_ = kNone;                ///< may still grow by merging
+  std::size_t held_ = kNone;                   ///< its end waits for what follows
+  Piece corner_;                               ///< the arc between two of them
   std::vector<kernel::signal::Point> merged_;  ///< points inside the waiting line
-  std::optional<Piece> held_;                  ///< its end waits for what follows
+  kernel::signal::Point plane_normal_{0.0, 0.0, 1.0};
+  PlaneLimits plane_;  ///< of the plane with that normal: most corners lie in the one before's
   std::size_t emitted_ = 0;
   double position_mm_ = 0.0;
   bool spindle_pending_ = false;

@@ -121,13 +121,21 @@ PieceMaker::PieceMaker(const Machine& machine) : machine_(machine), limits_(mach
       if (!machine.axes[i].name.empty() && machine.axes[i].name[0] == kLetters[letter]) {
         axis_of_[letter] = i;
         rotary_[i] = letter < 6;
+        others_ = true;
       }
     }
   }
 }
 
-AxisValues PieceMaker::machine_position(const Axes& machine) const {
+AxisValues PieceMaker::machine_position(const Move& move, const Axes& work) const {
   AxisValues out{};
+  if (move.rotation_deg == 0.0 && !others_) {  // nearly always
+    for (std::size_t i = 0; i < 3; ++i) {
+      out[i] = work[i] + move.offset[i];
+    }
+    return out;
+  }
+  const Axes machine = interpret::machine_of(move, work);
   for (std::size_t letter = 0; letter < machine.size(); ++letter) {
     const std::size_t axis = axis_of_[letter];
     if (axis != kNoAxis) {
@@ -169,14 +177,18 @@ void PieceMaker::set_speed(Piece& out, const Move& move) const {
 }
 
 void PieceMaker::limit(Piece& out) const {
+  if (out.segment.geometry == Geometry::arc) {
+    limit(out, limits_.arc(out.segment));
+    return;
+  }
+  out.start_direction = line_direction(out.segment);
+  out.end_direction = out.start_direction;
+  limit(out, limits_.line(out.start_direction));
+}
+
+void PieceMaker::limit(Piece& out, const SpeedLimits& limits) const {
   PathSegment& s = out.segment;
   SegmentPlan& p = out.plan;
-  const bool line = s.geometry == Geometry::line;
-  if (line) {
-    out.start_direction = line_direction(s);
-    out.end_direction = out.start_direction;
-  }
-  const SpeedLimits limits = line ? limits_.line(out.start_direction) : limits_.arc(s);
   const auto& control = machine_.control;
   double speed = std::min(limits.speed_mm_s, p.rapid ? control.rapid_mm_s : control.max_feed_mm_s);
   if (control.min_block_cycles > 0.0) {
@@ -193,14 +205,14 @@ void PieceMaker::limit(Piece& out) const {
   }
 }
 
-Result<std::optional<Piece>> PieceMaker::make(const Move& move) const {
+Result<bool> PieceMaker::make(const Move& move, Piece& out) const {
   const auto refuse = [&move](const char* what, const char* to_do) {
     return std::unexpected(Refusal{Kind::bad_input, {}, move.line, what, to_do});
   };
-  Piece out;
+  out = {};
   PathSegment& s = out.segment;
-  const AxisValues start = machine_position(interpret::machine_of(move, move.start));
-  const AxisValues end = machine_position(interpret::machine_of(move, move.end));
+  const AxisValues start = machine_position(move, move.start);
+  const AxisValues end = machine_position(move, move.end);
   s.start_mm = xyz_of(start);
   s.end_mm = xyz_of(end);
   std::copy(start.begin() + 3, start.end(), s.other_start.begin());
@@ -217,7 +229,7 @@ Result<std::optional<Piece>> PieceMaker::make(const Move& move) const {
     return refuse("the move has a coordinate that is not a finite number", "correct the block");
   }
   if (s.length_mm <= kShortest_mm) {
-    return std::nullopt;
+    return false;
   }
   out.nominal_mm = s.length_mm;
   out.mode = move.path_mode;
@@ -243,7 +255,7 @@ Result<std::optional<Piece>> PieceMaker::make(const Move& move) const {
     out.start_direction = axes_at(s, 0.0).direction;
     out.end_direction = axes_at(s, s.length_mm).direction;
   }
-  return out;
+  return true;
 }
 
 }  // namespace steadyrest::nc::plan

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -42,22 +41,26 @@ class PieceMaker {
   /// `machine` must outlive it.
   explicit PieceMaker(const kernel::machine::Machine& machine);
 
-  /// None for a move of no length. Refused: a coordinate that is not finite, a feed move without a
-  /// feed, a feed per revolution without a spindle, axes without limits.
-  [[nodiscard]] kernel::outcome::Result<std::optional<Piece>> make(
-      const interpret::Move& move) const;
+  /// Makes `out` of the move; false for a move of no length. Refused: a coordinate that is not
+  /// finite, a feed move without a feed, a feed per revolution without a spindle, axes without
+  /// limits.
+  [[nodiscard]] kernel::outcome::Result<bool> make(const interpret::Move& move, Piece& out) const;
   /// Sets the limits anew after the segment was changed, and a line's direction.
   void limit(Piece& out) const;
+  /// The same with limits that are known.
+  void limit(Piece& out, const SpeedLimits& limits) const;
   [[nodiscard]] const PathLimits& limits() const noexcept { return limits_; }
 
  private:
-  [[nodiscard]] kernel::signal::AxisValues machine_position(const interpret::Axes& machine) const;
+  [[nodiscard]] kernel::signal::AxisValues machine_position(const interpret::Move& move,
+                                                            const interpret::Axes& work) const;
   [[nodiscard]] double spindle_of(const kernel::signal::PathSegment& s,
                                   const interpret::Move& move) const;
   void set_speed(Piece& out, const interpret::Move& move) const;
 
   const kernel::machine::Machine& machine_;
   PathLimits limits_;
+  bool others_ = false;                   ///< the machine has axes beyond X Y Z
   std::array<std::size_t, 9> axis_of_{};  ///< index of the machine's axis for X Y Z A B C U V W
   std::array<bool, kernel::signal::kMaxAxes> rotary_{};
 };
