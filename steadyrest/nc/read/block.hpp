@@ -90,6 +90,17 @@ class Block {
     deleted_ = other.deleted_;
     std::copy_n(other.words_.begin(), count_, words_.begin());
   }
+  /// A new word to be filled: nothing is known of it but that it has no qualifier and was not
+  /// calculated. nullptr when the block is full.
+  [[nodiscard]] Word* add() noexcept {
+    if (count_ == kMostWords) {
+      return nullptr;
+    }
+    Word& word = words_[count_++];
+    word.qualifier = Qualifier::none;
+    word.calculated = false;
+    return &word;
+  }
   /// False when the block is full.
   bool push(const Word& word) noexcept {
     if (count_ == kMostWords) {

@@ -31,10 +31,11 @@ bool LetterLine::read() {
   }
   for (;;) {
     skip_blanks();
+    plain_words();
     if (at_ == end_) {
       return true;
     }
-    if (!plain_word() && !one_item()) {
+    if (!one_item()) {
       return false;
     }
   }

@@ -31,7 +31,7 @@ class LetterLine {
 
  private:
   bool one_item();
-  bool plain_word() noexcept;
+  void plain_words() noexcept;
   bool round_comment();
   bool rest_of_line();
   bool delete_mark();

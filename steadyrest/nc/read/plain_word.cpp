@@ -1,42 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+
 #include <steadyrest/nc/read/letter_line.hpp>
-#include <steadyrest/nc/read/number.hpp>
+#include <steadyrest/nc/read/short_number.hpp>
 
 namespace steadyrest::nc::read {
+namespace {
 
-/// A letter and its number, which nearly all text is: word() without its questions. False, and
-/// nothing taken, where it is anything else: word() finds out what.
-bool LetterLine::plain_word() noexcept {
-  const char* const begin = at_;
-  const char letter = upper(*begin);
-  if (!is_letter(letter) || letter == 'O' || letter == 'N' ||
-      reader_.dialect_ != Dialect::linuxcnc || block_.flow().kind != FlowKind::none) {
-    return false;
+constexpr std::size_t kCharacters = 256;
+
+/// The upper case of the letters that begin a plain word: all but N and O. Else 0.
+constexpr std::array<char, kCharacters> plain_letters() {
+  std::array<char, kCharacters> out{};
+  for (char c = 'A'; c <= 'Z'; ++c) {
+    if (c != 'N' && c != 'O') {
+      out[static_cast<unsigned char>(c)] = c;
+      out[static_cast<unsigned char>(c) | 0x20U] = c;
+    }
   }
-  const Number number = read_number({begin + 1, static_cast<std::size_t>(end_ - begin) - 1});
-  if (number.length == 0) {
-    return false;
+  return out;
+}
+
+constexpr std::array<char, kCharacters> kPlainLetter = plain_letters();
+
+}  // namespace
+
+/// Letters and their numbers, which nearly all text is: word() without its questions. Ends before
+/// anything else, which one_item() and word() look at.
+void LetterLine::plain_words() noexcept {
+  if (reader_.dialect_ != Dialect::linuxcnc || block_.flow().kind != FlowKind::none) {
+    return;
   }
-  const char* const stop = begin + 1 + number.length;
-  const char* next = stop;
-  while (next != end_ && is_blank(*next)) {
-    ++next;
+  const char* at = at_;
+  while (at != end_) {
+    const char letter = kPlainLetter[static_cast<unsigned char>(*at)];
+    if (letter == 0) {
+      break;
+    }
+    Number number;
+    if (!read_short_number(begin_, at + 1, end_, number)) {
+      number = read_number({at + 1, static_cast<std::size_t>(end_ - at) - 1});
+      if (number.length == 0) {
+        break;
+      }
+    }
+    const char* const stop = at + 1 + number.length;
+    const char* next = stop;
+    while (next != end_ && is_blank(*next)) {
+      ++next;
+    }
+    if (next != end_ && (is_digit(*next) || *next == '.')) {  // a number goes on behind blanks
+      break;
+    }
+    Word* const word = block_.add();
+    if (word == nullptr) {
+      break;
+    }
+    word->letter = letter;
+    word->decimal_point = number.decimal_point;
+    word->has_value = true;
+    word->value = number.value;
+    word->name = {at, 1};
+    word->text = {at, static_cast<std::size_t>(stop - at)};
+    at = next;
   }
-  if (next != end_ && (is_digit(*next) || *next == '.')) {  // a number goes on behind blanks
-    return false;
-  }
-  Word word;
-  word.letter = letter;
-  word.decimal_point = number.decimal_point;
-  word.has_value = true;
-  word.value = number.value;
-  word.name = {begin, 1};
-  word.text = {begin, static_cast<std::size_t>(stop - begin)};
-  if (!block_.push(word)) {
-    return false;
-  }
-  at_ = next;
-  return true;
+  at_ = at;
 }
 
 }  // namespace steadyrest::nc::read

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <steadyrest/nc/read/number.hpp>
+#include <steadyrest/nc/read/short_number.hpp>
 
 namespace steadyrest::nc::read {
 namespace {
@@ -23,6 +27,46 @@ TEST(Number, IsTheDoubleThatTheCLibraryGives) {
     RC_ASSERT(number.length == text.size());
     RC_ASSERT(number.value == std::strtod(text.c_str(), nullptr));
   }));
+}
+
+TEST(Number, IsTheSameTheShortWay) {
+  EXPECT_TRUE(rc::check([] {
+    const std::string signs = *rc::gen::element<std::string>("", "-", "+", "--", "X");
+    const auto of_length = [](std::size_t most) {
+      return *rc::gen::resize(
+          static_cast<int>(most),
+          rc::gen::container<std::string>(rc::gen::elementOf(std::string("0000123456789"))));
+    };
+    const std::string text = "XY" + signs + of_length(10) +
+                             *rc::gen::element<std::string>("", ".", "..") + of_length(10) +
+                             *rc::gen::element<std::string>("", " ", "Y1.25", "      Z-1", "\xb5");
+    const char* const end = text.data() + text.size();
+    for (std::size_t at = 0; at <= text.size(); ++at) {
+      Number number;
+      if (read_short_number(text.data(), text.data() + at, end, number)) {
+        const Number other = read_number(std::string_view(text).substr(at));
+        RC_ASSERT(number.length == other.length);
+        RC_ASSERT(std::bit_cast<std::uint64_t>(number.value) ==
+                  std::bit_cast<std::uint64_t>(other.value));
+        RC_ASSERT(number.decimal_point == other.decimal_point);
+      } else {
+        RC_ASSERT(number.length == 0U);
+      }
+    }
+  }));
+}
+
+TEST(Number, IsShortWithSevenDigitsOnEitherSideAtMost) {
+  const auto is_short = [](std::string_view text) {
+    Number number;
+    return read_short_number(text.data(), text.data(), text.data() + text.size(), number);
+  };
+  EXPECT_TRUE(is_short("-1234567.1234567"));
+  EXPECT_TRUE(is_short(".1234567"));
+  EXPECT_TRUE(is_short("+1234567."));
+  EXPECT_FALSE(is_short("12345678.0"));
+  EXPECT_FALSE(is_short("0.12345678"));
+  EXPECT_FALSE(is_short("123456"));  // the text itself must have eight bytes
 }
 
 TEST(Number, StopsWhereTheNumberStops) {
