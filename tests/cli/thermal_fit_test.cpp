@@ -53,6 +53,33 @@ TEST(ThermalFit, FindsTheMachineOfTheExample) {
                   .starts_with("t_s,speed_rpm,Z_um,Z_sd_um,Z_measured_um\n"));
 }
 
+TEST(ThermalFit, WritesAPageOfWhatTemperaturesTellAndWhatTheModelLeaves) {
+  const Scratch scratch;
+  const auto fit = answer_of("thermal fit " + kLog + " --channel z_um=Z --to-min 350 --report " +
+                             scratch.at("page"));
+  const std::string html = text_of_file(scratch.at("page/report.html"));
+  EXPECT_EQ(fit["report"], scratch.at("page/report.html"));
+  EXPECT_NE(html.find("steadyrest-thermal/1"), std::string::npos);
+  const auto page = nlohmann::json::parse(text_of_file(scratch.at("page/report.json")));
+  EXPECT_EQ(page["kind"], "fit");
+  EXPECT_EQ(page["answer"]["rms_um"], fit["rms_um"]);
+  EXPECT_EQ(page["sensors"], nlohmann::json({"room_c"}));
+  EXPECT_EQ(page["regimes"].size(), 7U) << "of the test's program";
+  const auto& axis = page["axes"][0];
+  EXPECT_NEAR(60.0 * axis["fitted_to_h"].get<double>(), 350.0, 0.6);
+  EXPECT_GT(axis["t_h"].back().get<double>(), 7.5) << "what follows is a forecast";
+  double square = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < axis["t_h"].size() && 60.0 * axis["t_h"][i].get<double>() <= 350.0;
+       ++i) {
+    const double off = axis["measured_um"][i].get<double>() - axis["modelled_um"][i].get<double>();
+    square += off * off;
+    count += 1.0;
+  }
+  EXPECT_NEAR(std::sqrt(square / count), fit["rms_um"].get<double>(), 0.05);
+  expect_refused("thermal fit " + kLog + " --report /dev/null/here", "/dev/null");
+}
+
 TEST(ThermalFit, TheProgramOfTheTestIsAccepted) {
   const auto checked =
       answer_of("program check examples/thermal/spindle-test.ngc --dialect linuxcnc");

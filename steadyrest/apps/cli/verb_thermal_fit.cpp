@@ -8,9 +8,11 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/verb_thermal_fit.hpp>
+#include <steadyrest/apps/thermal_page/fit_page.hpp>
 #include <steadyrest/kernel/machine/thermal_passport.hpp>
 #include <steadyrest/kernel/machine/thermal_text.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -30,6 +32,7 @@ using kernel::units::um_from_mm;
 struct Options {
   std::string log;
   std::string output;
+  std::string report;
   std::vector<std::string> channels;  ///< NAME or NAME=AXIS
   std::vector<std::string> sensors;
   bool no_ambient = false;
@@ -214,7 +217,26 @@ Result<Job> job_of(const Options& options) {
   return job;
 }
 
+Result<void> write_page(Answer& answer, const std::string& directory, const Job& job,
+                        const std::vector<offline::AxisFit>& fits) {
+  std::vector<thermal_page::FittedAxis> axes;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const std::size_t channel = job.channels[i].first;
+    auto course = offline::fitted_course(fits[i].axis, job.log, channel, job.request.from_s,
+                                         job.request.to_s);
+    if (!course) {
+      return std::unexpected(course.error());
+    }
+    axes.push_back({fits[i].axis.name, channel, std::move(*course)});
+  }
+  const std::string page = thermal_page::fit_page(answer.json, job.log, axes);
+  return put_report(answer, directory, page, thermal_page::to_html(page));
+}
+
 Outcome run(const Options& options, Progress& progress) {
+  if (auto ready = ready_report(options.report); !ready) {
+    return refused(ready.error());
+  }
   auto job = job_of(options);
   if (!job) {
     return refused(job.error());
@@ -250,7 +272,13 @@ Outcome run(const Options& options, Progress& progress) {
       return refused(written.error());
     }
   }
-  return answer_of(fits, job->log);
+  Answer answer = answer_of(fits, job->log);
+  if (!options.report.empty()) {
+    if (auto done = write_page(answer, options.report, *job, fits); !done) {
+      return refused(done.error());
+    }
+  }
+  return answer;
 }
 
 }  // namespace
@@ -258,7 +286,8 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_thermal_fit(Session& session) {
   CLI::App& group = session.group("thermal", "Drift by heat");
   CLI::App& verb = session.verb(group, "fit", "The thermal passport of a machine from a test's log",
-                                "thermal fit examples/thermal/spindle-test.csv -o passport.toml");
+                                "thermal fit examples/thermal/spindle-test.csv -o passport.toml "
+                                "--report out/fit");
   auto options = std::make_shared<Options>();
   verb.add_option(
           "log", options->log,
@@ -266,6 +295,7 @@ void add_verb_thermal_fit(Session& session) {
           "(…_um) and temperatures (…_c); docs/thermal-test.md says how to make it")
       ->required();
   verb.add_option("-o,--output", options->output, "Write the passport, TOML: [thermal] sections");
+  add_report_option(verb, options->report);
   verb.add_option("--channel", options->channels,
                   "Only this displacement, and the axis that it moves: z_um=Z; may be given again");
   verb.add_option("--ambient", options->sensors,

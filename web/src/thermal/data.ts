@@ -75,20 +75,71 @@ export interface BatchPage extends Head {
   course: Record<'t_min' | 'part' | 'without_um' | 'text_um' | 'online_um' | 'model_um' | 'model_sd_um' | 'room_c', number[]>;
 }
 
-export interface HysteresisPage extends Head {
-  kind: 'hysteresis';
-  answer: Record<string, unknown>;
-  hours: number;
-  channels: {
-    channel: string;
-    sensor: string;
-    correlation: number;
-    spread_um: number;
-    stretches: { speed_rpm: number; start_min: number; minutes: number; temperature_c: Maybe[]; displacement_um: Maybe[] }[];
-  }[];
+/** One displacement over one temperature. */
+export interface Over {
+  correlation: number;
+  /** The straight line of least squares goes through the means. */
+  mean_c: number;
+  mean_um: number;
+  slope_um_k: number;
+  residual_rms_um: number;
+  /** Largest difference of displacement within half a kelvin, where and from what upwards. */
+  spread_um: number;
+  spread_at_c: number;
+  spread_from_um: number;
 }
 
-export type Page = ForecastPage | PlanPage | BatchPage | HysteresisPage;
+export interface Regime {
+  speed_rpm: number;
+  start_h: number;
+  hours: number;
+  t_h: number[];
+  /** Of each sensor. */
+  temperature_c: Maybe[][];
+}
+
+export interface FittedAxis {
+  axis: string;
+  channel: string;
+  /** Place of the sensor that the displacement follows best; null where the log has none. */
+  best_sensor: number | null;
+  over: Over[];
+  /** In each regime. */
+  displacement_um: Maybe[][];
+  fitted_from_h: number;
+  fitted_to_h: number;
+  t_h: number[];
+  measured_um: Maybe[];
+  modelled_um: Maybe[];
+  /** Of a reading about the model. */
+  sd_um: Maybe[];
+}
+
+export interface FitPage extends Head {
+  kind: 'fit';
+  answer: {
+    hours: number;
+    axes: {
+      axis: string;
+      ambient: { sensor: string; tau_min: number; gain_um_k: number }[];
+      rms_um: number;
+      left_out_rms_um: Maybe;
+      left_out_probed_rms_um: Maybe;
+      coverage: Maybe;
+      noise_um: number;
+      drift_um: number;
+    }[];
+    modes: { axis: string; tau_min: number; rest_tau_min: number }[];
+    notes: string[];
+  };
+  sensors: string[];
+  regimes: Regime[];
+  /** Each speed from its time to the next. */
+  speed: { t_h: number[]; speed_rpm: number[] };
+  axes: FittedAxis[];
+}
+
+export type Page = ForecastPage | PlanPage | BatchPage | FitPage;
 
 const SCHEMA = 'steadyrest-thermal/1';
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Displacement over temperature, one curve for each stretch of one spindle speed (the paper's figure 1).
-import { type View, figures, host, keyLine, plain, plot, section } from '../chatter/frame';
-import { type Layer, type Plot, roomy } from '../chatter/plot';
+// Displacement over temperature, one curve for each regime of one spindle speed (the paper's figure 1).
+import type { Maybe } from '../chatter/data';
+import { type Key, plain } from '../chatter/frame';
+import { type Layer, type Plot, roomy, span } from '../chatter/plot';
 import { fixed } from '../format';
 import type { Theme } from '../theme';
-import type { HysteresisPage } from './data';
+import type { FitPage, FittedAxis, Over, Regime } from './data';
 
 /** From slow to fast; the spindle that stands is grey. */
 const RAMP = ['#3b6fb5', '#2f9c95', '#6aa32d', '#d19a1c', '#c9541f', '#9c2c6d'];
 
-export function speeds(page: HysteresisPage): number[] {
-  const all = page.channels.flatMap((c) => c.stretches.map((s) => s.speed_rpm));
-  return [...new Set(all)].sort((a, b) => a - b);
+export function speeds(regimes: readonly Regime[]): number[] {
+  return [...new Set(regimes.map((r) => r.speed_rpm))].sort((a, b) => a - b);
 }
 
 function colourOf(speed: number, all: readonly number[], theme: Theme): string {
@@ -20,51 +20,95 @@ function colourOf(speed: number, all: readonly number[], theme: Theme): string {
   return at < 0 ? theme.faint : (RAMP[Math.round((at * (RAMP.length - 1)) / Math.max(turning.length - 1, 1))] as string);
 }
 
-type Channel = HysteresisPage['channels'][number];
-
-function channelPlot(page: HysteresisPage, channel: Channel, theme: Theme): Plot {
-  const all = speeds(page);
-  const [left, right] = roomy(channel.stretches.flatMap((s) => s.temperature_c));
-  const [min, max] = roomy(channel.stretches.flatMap((s) => s.displacement_um));
-  return {
-    title: `${channel.channel} over ${channel.sensor}`,
-    x: { name: `${channel.sensor}, temperature in °C`, min: left, max: right },
-    y: { name: `${channel.channel}: displacement in µm`, min, max },
-    layers: channel.stretches.map((s): Layer => ({
-      kind: 'line',
-      x: s.temperature_c,
-      y: s.displacement_um,
-      colour: colourOf(s.speed_rpm, all, theme),
-      width: s.speed_rpm > 0 ? 1.8 : 1.2,
-      dashed: s.speed_rpm === 0,
-    })),
-  };
+export function speedKeys(regimes: readonly Regime[], theme: Theme): Key[] {
+  const all = speeds(regimes);
+  return [
+    ...all.map((s): Key => ({ name: s > 0 ? `${fixed(s, 0)} rev/min` : 'standing', colour: colourOf(s, all, theme), kind: s > 0 ? 'line' : 'dashed' })),
+    { name: 'begins here', colour: theme.text, kind: 'hoop' },
+    { name: 'the best straight line', colour: theme.text, kind: 'dashed' },
+  ];
 }
 
-export function hysteresisView(page: HysteresisPage): View {
-  const rows = page.channels.map((c) => ({
-    label: `${c.channel} over ${c.sensor}`,
-    value: `r ${fixed(c.correlation, 2)}, ${fixed(c.spread_um, 1)} µm apart at one temperature`,
-  }));
-  const most = Math.max(...page.channels.map((c) => c.spread_um));
+/** What one temperature tells, in one line. */
+export function told(over: Over): string {
+  return (
+    `Correlation <b>${fixed(over.correlation, 2)}</b>; the best straight line leaves <b>${fixed(over.residual_rms_um, 1)} µm</b> RMS; ` +
+    `within half a kelvin about ${fixed(over.spread_at_c, 1)} °C the displacements lie <b>${fixed(over.spread_um, 1)} µm</b> apart.`
+  );
+}
+
+interface Near {
+  regime: Regime;
+  i: number;
+  far: number;
+}
+
+export function hysteresisPlot(page: FitPage, axis: FittedAxis, sensor: number, theme: Theme): Plot {
+  const over = axis.over[sensor] as Over;
+  const name = page.sensors[sensor] ?? '';
+  const all = speeds(page.regimes);
+  const x = page.regimes.map((r): readonly Maybe[] => r.temperature_c[sensor] ?? []);
+  const [left, right] = roomy(x.flat());
+  const [min, max] = roomy(axis.displacement_um.flat());
+  const ends = span(x.flat());
+  const line = (c: number) => over.mean_um + over.slope_um_k * (c - over.mean_c);
+  const curves = page.regimes.map(
+    (r, k): Layer => ({
+      kind: 'line',
+      x: x[k] ?? [],
+      y: axis.displacement_um[k] ?? [],
+      colour: colourOf(r.speed_rpm, all, theme),
+      width: r.speed_rpm > 0 ? 2 : 1.2,
+      dashed: r.speed_rpm === 0,
+    }),
+  );
+  const begins = page.regimes.flatMap((r, k): Layer[] => {
+    const [c, um] = [x[k]?.[0], axis.displacement_um[k]?.[0]];
+    const there = c !== undefined && c !== null && um !== undefined && um !== null && r.speed_rpm > 0;
+    return there ? [{ kind: 'dots', dots: [{ x: c, y: um }], colour: colourOf(r.speed_rpm, all, theme), size: 7, hollow: true }] : [];
+  });
+  const top = over.spread_from_um + over.spread_um;
+  const nearest = (c: number, um: number): Near | undefined => {
+    let best: Near | undefined;
+    page.regimes.forEach((regime, k) =>
+      x[k]?.forEach((at, i) => {
+        const y = axis.displacement_um[k]?.[i];
+        if (at !== null && y !== null && y !== undefined) {
+          const far = ((at - c) / (right - left)) ** 2 + ((y - um) / (max - min)) ** 2;
+          best = best === undefined || far < best.far ? { regime, i, far } : best;
+        }
+      }),
+    );
+    return best;
+  };
   return {
-    product: 'Steadyrest thermal fit',
-    title: page.title,
-    facts: `<b>${page.channels.length}</b> displacements · <b>${plain(page.hours, 3)} h</b>`,
-    verdict: `At one temperature a displacement differs by up to ${fixed(most, 1)} µm: a temperature alone does not tell it.`,
-    body:
-      section(
-        'Displacement over temperature',
-        `<div class="key-line" id="key-speeds"></div>${page.channels.map((_, i) => host(`channel-${i}`, 'high')).join('')}`,
-        'Each displacement over the sensor that follows it best; one curve for each stretch of one spindle speed.',
-      ) + section('Figures', figures(rows)),
-    draw: (theme) => {
-      page.channels.forEach((c, i) => plot(`channel-${i}`, channelPlot(page, c, theme), theme));
-      const key = document.getElementById('key-speeds');
-      if (key) {
-        const all = speeds(page);
-        key.innerHTML = keyLine(all.map((s) => ({ name: s > 0 ? `${fixed(s, 0)} rev/min` : 'standing', colour: colourOf(s, all, theme), kind: s > 0 ? ('line' as const) : ('dashed' as const) })));
+    title: `${axis.channel} over ${name}`,
+    x: { name: `temperature ${name} in °C`, min: left, max: right },
+    y: { name: `displacement ${axis.channel} in µm`, min, max },
+    layers: [
+      { kind: 'line', x: ends, y: ends.map(line), colour: theme.text, width: 1, dashed: true },
+      ...curves,
+      ...begins,
+      { kind: 'line', x: [over.spread_at_c, over.spread_at_c], y: [over.spread_from_um, top], colour: theme.text, width: 2, halo: true },
+      {
+        kind: 'dots',
+        dots: [
+          { x: over.spread_at_c, y: over.spread_from_um },
+          { x: over.spread_at_c, y: top, label: `${fixed(over.spread_um, 1)} µm`, side: over.spread_at_c > 0.5 * (left + right) ? 'left' : 'right' },
+        ],
+        colour: theme.text,
+        size: 6,
+        bold: true,
+      },
+    ],
+    readout: (c, um) => {
+      const at = nearest(c, um);
+      if (at === undefined || at.far > 0.01) {
+        return undefined;
       }
+      const k = page.regimes.indexOf(at.regime);
+      const speed = at.regime.speed_rpm > 0 ? `${fixed(at.regime.speed_rpm, 0)} rev/min` : 'standing';
+      return `<b>${speed}</b> after ${plain((at.regime.t_h[at.i] ?? 0) - at.regime.start_h, 2)} h<br>${fixed(x[k]?.[at.i], 1)} °C, ${fixed(axis.displacement_um[k]?.[at.i], 1)} µm`;
     },
   };
 }

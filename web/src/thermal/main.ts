@@ -5,7 +5,7 @@ import '../chatter/chatter.css';
 import type { View } from '../chatter/frame';
 import { start } from '../chatter/start';
 import { type Page, parsePage } from './data';
-import { hysteresisView } from './hysteresis';
+import { fitView } from './fit';
 import { batchView, forecastView, planView } from './views';
 
 function viewOf(page: Page): View {
@@ -14,8 +14,8 @@ function viewOf(page: Page): View {
       return forecastView(page);
     case 'plan':
       return planView(page);
-    case 'hysteresis':
-      return hysteresisView(page);
+    case 'fit':
+      return fitView(page);
     case 'batch':
       return batchView(page);
   }

@@ -4,7 +4,8 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { fixed } from '../../src/format';
-import { type BatchPage, type Page, type PlanPage, residual } from '../../src/thermal/data';
+import { type BatchPage, type FitPage, type Page, type PlanPage, residual } from '../../src/thermal/data';
+import { broken } from '../../src/thermal/fit';
 import { type OpenPage, openFromDisk } from '../page/browser';
 
 const template = process.env['STEADYREST_THERMAL_TEMPLATE'];
@@ -22,6 +23,14 @@ describe('what is left of a displacement', () => {
     });
     expect(left.t_min).toEqual([0, 5, 5, 10, 20]);
     expect(left.um).toEqual([0, 5, 1, 6, 16]);
+  });
+});
+
+describe('a curve over time', () => {
+  it('has a hole where time has passed that is not recorded', () => {
+    const curve = broken([0, 1, 2, 50, 51], [1, 2, null, 4, 5]);
+    expect(curve.t).toEqual([0, 1, 2, 50, 50, 51]);
+    expect(curve.v).toEqual([1, 2, null, null, 4, 5]);
   });
 });
 
@@ -53,8 +62,8 @@ function share(open: OpenPage, id: string, colour: string): Promise<number> {
 
 const WITHOUT = '#b4501e';
 const WITH = '#1b6aa5';
-const FOLDERS: Record<string, string> = { forecast: 'forecast', plan: 'plan', batch: 'cut/batch' };
-const PLOTS: Record<string, number> = { forecast: 2, plan: 3, batch: 2 };
+const FOLDERS: Record<string, string> = { forecast: 'forecast', plan: 'plan', batch: 'cut/batch', fit: 'fit' };
+const PLOTS: Record<string, number> = { forecast: 2, plan: 3, batch: 2, fit: 4 };
 
 describe.runIf(written !== undefined && existsSync(written))('the pages of the thermal verbs', () => {
   const opened = new Map<string, { open: OpenPage; page: Page }>();
@@ -105,6 +114,41 @@ describe.runIf(written !== undefined && existsSync(written))('the pages of the t
     expect(page.courses[0]?.corrections.map((c) => c.t_min)).toEqual([18, 45, 75, 115]);
     const left = residual(page.courses[0] as PlanPage['courses'][number]);
     expect(Math.max(...left.um)).toBeLessThan(10.2);
+  });
+
+  it('show each displacement over a temperature, and beside what the model makes of it', async () => {
+    const { open, page } = at<FitPage>('fit');
+    const axis = page.axes[0] as FitPage['axes'][number];
+    const over = axis.over[0] as (typeof axis.over)[number];
+    expect(await open.page.textContent('#told-0')).toContain(`${fixed(over.spread_um, 1)} µm`);
+    expect(await open.page.textContent('#verdict')).toContain(fixed(page.answer.axes[0]?.rms_um, 2));
+    expect(await open.page.locator('#figures tbody tr').count()).toBe(1);
+    expect(axis.t_h.length).toBe(axis.modelled_um.length);
+    for (const colour of [WITHOUT, WITH]) {
+      expect(await share(open, 'course-0', colour)).toBeGreaterThan(0.0005);
+    }
+    expect(await share(open, 'residual-0', WITHOUT)).toBeGreaterThan(0.0005);
+    // The fastest regime's and the slowest's.
+    for (const colour of ['#3b6fb5', '#9c2c6d']) {
+      expect(await share(open, 'over-0', colour)).toBeGreaterThan(0.0005);
+    }
+  });
+
+  it('show the displacement over another temperature when it is chosen', async () => {
+    const { page } = at<FitPage>('fit');
+    const two = structuredClone(page);
+    two.sensors.push('bed_c');
+    two.regimes.forEach((r) => r.temperature_c.push(r.t_h.map((t) => 30 + t)));
+    two.axes[0]?.over.push({ correlation: -0.25, mean_c: 33, mean_um: 10, slope_um_k: -1, residual_rms_um: 4.5, spread_um: 12.5, spread_at_c: 33, spread_from_um: 5 });
+    const html = readFileSync(join(written as string, 'fit', 'report.html'), 'utf8').replace(/(<script id="report-data"[^>]*>)[^<]*/, (_, head: string) => head + JSON.stringify(two));
+    const other = await openFromDisk(html);
+    expect(await other.page.textContent('#told-0')).not.toContain('12.5 µm');
+    const before = await other.page.locator('#over-0 canvas').screenshot();
+    await other.page.selectOption('#sensor-0', '1');
+    expect(await other.page.textContent('#told-0')).toContain('12.5 µm');
+    expect((await other.page.locator('#over-0 canvas').screenshot()).equals(before)).toBe(false);
+    expect(other.complaints).toEqual([]);
+    await other.close();
   });
 
   it('show the batch: how many times smaller, and no part worse', async () => {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <cstdlib>
+#include <cstddef>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/apps/thermal_page/hysteresis_page.hpp>
+#include <steadyrest/apps/thermal_page/fit_page.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
 
 namespace steadyrest::apps::thermal_page {
@@ -56,49 +55,59 @@ TEST(ThermalPage, AddsCorrectionsUpOverTheTransitions) {
       Json({{"from_min", 60.0}, {"to_min", 120.0}, {"tolerance_um", 20.0}, {"band_um", 10.0}}));
 }
 
-// The recorded spindle unit: at one temperature the displacements differ by more than half of their
-// range (reference: channel 5 moves by 39.1 um at one temperature).
-TEST(Hysteresis, OfTheRecordedSpindleUnitIsThatOfThePapersFigure) {
-  const char* data = std::getenv("STEADYREST_SHARED_DATA");
-  if (data == nullptr) {
-    GTEST_SKIP() << "STEADYREST_SHARED_DATA is not set";
-  }
-  const auto log = thermal::offline::read_log(std::string(data) + "/thermal/spindle_unit.csv.gz");
-  ASSERT_TRUE(log) << log.error().what;
-  const auto channels = hysteresis_of(*log);
-  ASSERT_EQ(channels.size(), 5U);
-  EXPECT_NEAR(channels[0].correlation, 0.48, 0.05);
-  EXPECT_NEAR(std::abs(channels[2].correlation), 0.90, 0.03);
-  EXPECT_NEAR(channels[4].spread_mm, 0.0391, 0.004);
-  EXPECT_NEAR(channels[2].spread_mm, 0.0440, 0.006);
-  ASSERT_EQ(channels[0].stretch.size(), 11U);  // a short rest, five speeds, a rest after each
-  EXPECT_NEAR(channels[0].stretch[1].speed_rev_s, 1250.0 / 60.0, 0.5);
-  EXPECT_NEAR(channels[0].stretch[1].seconds, 4.0 * 3600.0, 300.0);
-}
-
-TEST(Hysteresis, IsNothingWhereTheDisplacementFollowsTheTemperature) {
+TEST(ThermalPage, OfAFitHasEachDisplacementOverEachTemperatureAndItsCourse) {
   thermal::offline::Log log;
   log.file = "made.csv";
-  log.displacement = {{"z_um", {}}};
+  log.displacement = {{"x_um", {}}, {"z_um", {}}};
   log.temperature = {{"noise_c", {}}, {"head_c", {}}};
-  for (int i = 0; i < 100; ++i) {
+  FittedAxis axis{.axis = "Z", .channel = 1, .point = {}};
+  for (int i = 0; i < 6000; ++i) {
     log.time_s.push_back(60.0 * i);
-    log.speed_rev_s.push_back(i < 50 ? 20.0 : 0.0);
-    const double warmth_c = i < 50 ? 0.2 * i : 0.2 * (100 - i);
+    log.speed_rev_s.push_back(i < 3000 ? 20.0 : 0.0);
     log.temperature[0].value.push_back(20.0 + i % 3);
-    log.temperature[1].value.push_back(20.0 + warmth_c);
-    log.displacement[0].value.push_back(0.001 * warmth_c);
+    log.temperature[1].value.push_back(20.0 + 0.001 * i);
+    log.displacement[0].value.push_back(0.0);
+    log.displacement[1].value.push_back(0.001 * i);
+    axis.point.push_back({.time_s = 60.0 * i,
+                          .measured_mm = 0.001 * i,
+                          .modelled_mm = 0.001 * i + 0.002,
+                          .sd_mm = 0.003,
+                          .fitted = i <= 4800});
   }
-  const auto channels = hysteresis_of(log, 10);
-  ASSERT_EQ(channels.size(), 1U);
-  EXPECT_EQ(channels[0].sensor, "head_c");
-  EXPECT_NEAR(channels[0].correlation, 1.0, 1e-9);
-  EXPECT_LT(channels[0].spread_mm, 0.00051);  // what half a kelvin is
-  ASSERT_EQ(channels[0].stretch.size(), 2U);
-  EXPECT_EQ(channels[0].stretch[1].temperature_c.size(), 10U);
-  const Json page = Json::parse(hysteresis_page({}, log));
-  EXPECT_EQ(page["channels"][0]["stretches"][0]["speed_rpm"], 1200.0);
-  EXPECT_NEAR(page["channels"][0]["spread_um"].get<double>(), 0.5, 0.1);
+  const Json page = Json::parse(fit_page({{"rms_um", 2.0}}, log, {axis}));
+  EXPECT_EQ(page["kind"], "fit");
+  EXPECT_EQ(page["sensors"], Json({"noise_c", "head_c"}));
+  ASSERT_EQ(page["regimes"].size(), 2U);
+  EXPECT_EQ(page["regimes"][0]["speed_rpm"], 1200.0);
+  EXPECT_EQ(page["regimes"][1]["start_h"], 50.0);
+  const Json& one = page["axes"][0];
+  EXPECT_EQ(one["channel"], "z_um");
+  EXPECT_EQ(one["best_sensor"], 1);
+  EXPECT_EQ(one["over"][1]["correlation"], 1.0);
+  EXPECT_EQ(one["over"][1]["slope_um_k"], 1000.0);
+  for (std::size_t r = 0; r < 2; ++r) {
+    const std::size_t rows = page["regimes"][r]["t_h"].size();
+    EXPECT_LE(rows, 200U);
+    EXPECT_EQ(one["displacement_um"][r].size(), rows);
+    EXPECT_EQ(page["regimes"][r]["temperature_c"][1].size(), rows);
+  }
+  EXPECT_EQ(one["fitted_to_h"], 80.0);
+  ASSERT_LE(one["t_h"].size(), 2000U);
+  EXPECT_EQ(one["t_h"].size(), one["sd_um"].size());
+  EXPECT_NEAR(one["modelled_um"].back().get<double>() - one["measured_um"].back().get<double>(),
+              2.0, 1e-2);
+}
+
+TEST(ThermalPage, OfAFitWithoutTemperaturesHasTheCourseAlone) {
+  thermal::offline::Log log;
+  log.displacement = {{"z_um", {0.001}}};
+  log.time_s = {0.0};
+  log.speed_rev_s = {0.0};
+  const FittedAxis axis{.axis = "Z", .channel = 0, .point = {}};
+  const Json one = Json::parse(fit_page({}, log, {axis}))["axes"][0];
+  EXPECT_TRUE(one["best_sensor"].is_null());
+  EXPECT_TRUE(one["over"].empty());
+  EXPECT_FALSE(one.contains("t_h"));
 }
 
 TEST(ThermalPage, NothingInTheDataLeavesItsScriptElement) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <steadyrest/apps/thermal_page/thermal_page.hpp>
+#include <steadyrest/thermal/offline/fitted_course.hpp>
+#include <steadyrest/thermal/offline/log.hpp>
+
+namespace steadyrest::apps::thermal_page {
+
+/// A displacement of the log and the axis that was fitted to it.
+struct FittedAxis {
+  std::string axis;
+  std::size_t channel = 0;
+  std::vector<thermal::offline::FittedPoint> point;
+};
+
+/// The page of `thermal fit`: each displacement over each temperature of the log (the paper's
+/// figure 1), beside what the model makes of it, and what is left.
+[[nodiscard]] std::string fit_page(const Json& answer, const thermal::offline::Log& log,
+                                   const std::vector<FittedAxis>& axes);
+
+}  // namespace steadyrest::apps::thermal_page
