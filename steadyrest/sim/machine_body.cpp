@@ -142,6 +142,7 @@ MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, Sp
               config.machine.envelope.offset_slew_mm_s * period_s_),
       growth_(std::move(growth)),
       periods_of_growth_(periods_of_growth(config.machine)),
+      probe_noise_mm_(config.machine.simulation.probe_noise_mm),
       normal_(config.machine.simulation.seed) {
   for (const kernel::machine::ThermalAxis& displacement : config.machine.thermal.axis) {
     const auto found =
@@ -158,6 +159,7 @@ MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, Sp
   for (const kernel::machine::Axis& axis : config.machine.axes) {
     counters_.push_back(
         {.shown = axis.present && axis.encoder.count_mm > 0.0, .clock_s = axis.encoder.clock_s});
+    rotary_.push_back(axis.rotary);
     disturbed_.push_back(rms_mm > 0.0 && axis.present && !axis.rotary);
     noise_.emplace_back(rms_mm, period_s_, config.noise_correlation_s);
   }
@@ -171,7 +173,8 @@ void MachineBody::reset(const kernel::signal::AxisValues& position_mm) noexcept 
     servos_[i].reset(position_mm[i]);
     counters_[i].edge_s = std::numeric_limits<double>::quiet_NaN();
     counters_[i].direction = 0;
-    truth_.tool_mm[i] = truth_.motor_mm[i] = truth_.command_mm[i] = position_mm[i];
+    truth_.tool_mm[i] = truth_.motor_mm[i] = position_mm[i];
+    truth_.command_mm[i] = truth_.program_mm[i] = position_mm[i];
   }
 }
 
@@ -281,12 +284,42 @@ void MachineBody::read_sensors() noexcept {
   }
 }
 
+void MachineBody::probe(const nc::plan::Setpoint& setpoint) noexcept {
+  const bool probed = setpoint_.motion == Motion::probe;
+  const bool another =
+      setpoint.motion != Motion::probe || setpoint.path_index != setpoint_.path_index;
+  if (probed && another) {
+    std::size_t furthest = grown_axis_.size();
+    double travel_mm = 0.0;
+    for (std::size_t i = 0; i < servos_.size(); ++i) {
+      const double by_mm = rotary_[i] ? 0.0 : std::abs(setpoint_.position[i] - probe_from_mm_[i]);
+      if (by_mm > travel_mm) {
+        travel_mm = by_mm;
+        furthest =
+            static_cast<std::size_t>(std::ranges::find(grown_axis_, i) - grown_axis_.begin());
+      }
+    }
+    if (furthest < grown_axis_.size()) {
+      const std::size_t axis = grown_axis_[furthest];
+      reading_ = {
+          .number = reading_.number + 1,
+          .axis = static_cast<std::uint8_t>(axis),
+          .displacement_mm = growth_->read_probe_mm(truth_.heat_mm[axis] + offset_mm_[axis]),
+          .sd_mm = probe_noise_mm_};
+    }
+  }
+  if (!probed || another) {
+    probe_from_mm_ = setpoint_.position;
+  }
+}
+
 void MachineBody::end(const nc::plan::Setpoint& setpoint) noexcept {
   const kernel::signal::AxisValues offset_mm =
       offset_.update(layer_offset_mm_, alive_, in_cut(setpoint.motion));
   truth_.time_s = time_s_;
   truth_.saturated_axes = 0;
   if (growth_) {
+    probe(setpoint);
     grow(setpoint);
   }
   for (std::size_t i = 0; i < servos_.size(); ++i) {
@@ -301,6 +334,7 @@ void MachineBody::end(const nc::plan::Setpoint& setpoint) noexcept {
     truth_.motor_mm_s[i] = s.velocity_mm_s;
     truth_.motor_mm_s2[i] = s.acceleration_mm_s2;
     truth_.command_mm[i] = s.command_mm;
+    truth_.program_mm[i] = setpoint.position[i];
     truth_.saturated_axes =
         static_cast<std::uint8_t>(truth_.saturated_axes | (s.saturated ? 1U << i : 0U));
   }
@@ -339,6 +373,7 @@ kernel::signal::Frame MachineBody::frame() const noexcept {
   frame.spindle_actual_rev_s = spindle_now_.actual_rev_s;
   frame.coolant = setpoint_.coolant;
   frame.temperature_c = temperature_c_;
+  frame.probe = reading_;
   frame.path_index = setpoint_.path_index;
   frame.path_position_mm = setpoint_.path_position_mm;
   return frame;

@@ -32,6 +32,7 @@ struct Truth {
   kernel::signal::AxisValues motor_mm_s{};
   kernel::signal::AxisValues motor_mm_s2{};  ///< see AxisServo::State::acceleration_mm_s2
   kernel::signal::AxisValues command_mm{};   ///< commanded, offsets included
+  kernel::signal::AxisValues program_mm{};   ///< commanded by the program, without offsets
   double spindle_rev_s = 0.0;
   bool spindle_at_speed = true;
   std::uint8_t saturated_axes = 0;  ///< bit i: the drive of axis i stood at its limit
@@ -47,6 +48,9 @@ struct Truth {
 /// Frame: command and encoder reading at the end of the period, following error their difference;
 /// of encoders with counts the count and the time of the last edge with its direction, the instant
 /// on the true motion (edge_search.hpp) cut off to the counter's clock. A new edge has a new time.
+/// Where a probing move ends the probe has found its goal: along the linear axis that it moved
+/// furthest it reads what heat and offset have left, with the probe's noise
+/// (`simulation.probe_noise_um`), if that axis has a thermal passport.
 /// The disturbance (`simulation.position_noise_mm`, correlation time 2 ms) moves the tool of linear
 /// axes beyond the motors' encoders: only Truth has it.
 class MachineBody {
@@ -92,6 +96,7 @@ class MachineBody {
   void watch(std::uint64_t heartbeat) noexcept;
   void grow(const nc::plan::Setpoint& setpoint) noexcept;
   void read_sensors() noexcept;
+  void probe(const nc::plan::Setpoint& setpoint) noexcept;
   void latch(std::size_t axis, std::uint32_t periods_left) noexcept;
   void follow(std::size_t axis, const nc::plan::Setpoint& setpoint, double offset_mm) noexcept;
 
@@ -102,6 +107,7 @@ class MachineBody {
   std::vector<AxisServo> servos_;
   std::vector<Counter> counters_;
   std::vector<bool> disturbed_;
+  std::vector<bool> rotary_;
   SpindleDrive spindle_;
   std::optional<OverrideInput> feed_;
   std::optional<OverrideInput> rapid_;
@@ -113,7 +119,10 @@ class MachineBody {
   ThermalGrowth::Input heating_;         ///< sums since the last step
   std::uint32_t heating_periods_ = 0;
   std::uint32_t periods_of_growth_ = 1;  ///< between two steps
-  std::size_t sensors_ = 0;              ///< of temperature, all of them in the room
+  kernel::signal::ProbeReading reading_;
+  kernel::signal::AxisValues probe_from_mm_{};
+  double probe_noise_mm_ = 0.0;
+  std::size_t sensors_ = 0;  ///< of temperature, all of them in the room
   kernel::signal::Temperatures temperature_c_ = kernel::signal::unknown_temperatures();
   NormalNoise normal_;
   std::vector<ColouredNoise> noise_;

@@ -214,7 +214,11 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
     estimates_.chatter = chatter_->update(frame);
   }
   if (thermal_) {
-    estimates_.thermal = thermal_->update(frame, unfit, state_.tool_in_cut);
+    // What is not written stands nowhere.
+    static constexpr signal::AxisValues kNothing{};
+    const bool written = state_.mode_in_force == Mode::act;
+    estimates_.thermal = thermal_->update(frame, unfit, state_.tool_in_cut,
+                                          written ? &offset_.state().offset_mm : &kNothing);
   }
 }
 

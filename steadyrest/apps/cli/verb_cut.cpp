@@ -127,6 +127,20 @@ Json json_of(const std::vector<report::MotionFigures>& motion) {
   return axes;
 }
 
+Json json_of(const std::vector<report::ProbeFigures>& probes) {
+  Json out = Json::array();
+  for (const report::ProbeFigures& p : probes) {
+    out.push_back({{"time_s", p.time_s},
+                   {"line", p.line},
+                   {"axis", p.axis},
+                   {"displacement_um", p.displacement_um},
+                   {"innovation_um", p.innovation_um},
+                   {"band_um", p.band_um},
+                   {"reason", kernel::outcome::name(p.reason)}});
+  }
+  return out;
+}
+
 std::string text_of(const Figures& without, const Figures& with, double limit_mm) {
   using kernel::units::um_from_mm;
   const auto um = [](double mm) { return fmt::format("{:.1f} µm", um_from_mm(mm)); };
@@ -162,6 +176,21 @@ std::string text_of(const std::vector<report::MotionFigures>& motion, const Mach
     };
     table.row({m.axis, both(m.velocity_rms_mm_s, m.acceleration_rms_mm_s2),
                both(m.difference_velocity_rms_mm_s, m.difference_acceleration_rms_mm_s2)});
+  }
+  return "\n" + table.text();
+}
+
+/// What became of the probe's readings.
+std::string text_of(const std::vector<report::ProbeFigures>& probes) {
+  if (probes.empty()) {
+    return {};
+  }
+  Table table({"probe", "line", "finds", "not foreseen", "taken within", ""});
+  for (const report::ProbeFigures& p : probes) {
+    table.row({fmt::format("{} at {:.1f} s", p.axis, p.time_s), fmt::format("{}", p.line),
+               fmt::format("{:.2f} µm", p.displacement_um),
+               fmt::format("{:.2f} µm", p.innovation_um), fmt::format("±{:.2f} µm", p.band_um),
+               std::string{kernel::outcome::name(p.reason)}});
   }
   return "\n" + table.text();
 }
@@ -211,8 +240,9 @@ Outcome run(const Options& options, Progress& progress) {
   answer.json["without"] = json_of(without->figures());
   answer.json["with"] = json_of(with->figures());
   answer.json["motion"] = json_of(with->motion());
+  answer.json["probes"] = json_of(with->probes());
   answer.text = text_of(without->figures(), with->figures(), machine->contour.limit_mm) +
-                text_of(with->motion(), *machine);
+                text_of(with->motion(), *machine) + text_of(with->probes());
   put_vibration(answer, *chatter, *without, *with);
   if (auto done =
           put_batch(answer, options.batch, options.program, *machine, options.report, progress);

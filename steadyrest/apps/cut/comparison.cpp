@@ -122,6 +122,7 @@ report::ReportData compare(const std::filesystem::path& program,
   data.worst_lines = worst_lines(without, with);
   add_texts(program, data.worst_lines);
   data.motion = with.motion();
+  data.probes = with.probes();
   return data;
 }
 

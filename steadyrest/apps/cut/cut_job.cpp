@@ -7,6 +7,7 @@
 #include <steadyrest/apps/cut/motion_score.hpp>
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
@@ -44,7 +45,7 @@ class TrueError {
 
   ContourError::Output update(const Frame& frame, const sim::Truth& truth) noexcept {
     ContourError::Input input = contour::online::contour_input(frame);
-    input.command_mm = first_three(truth.command_mm);
+    input.command_mm = first_three(truth.program_mm);
     input.actual_mm = first_three(truth.tool_mm);
     return error_.update(input);
   }
@@ -119,8 +120,41 @@ Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
   return layer;
 }
 
+/// The readings of the probe that the thermal room gets.
+class Probed {
+ public:
+  explicit Probed(const kernel::machine::Machine& machine) : machine_(machine) {}
+
+  void look(const Sample& sample, const supervisor::Supervisor& layer, Recorder& record) {
+    const auto& thermal = layer.estimates().thermal;
+    if (!thermal || thermal->probed.reading.number == number_) {
+      return;
+    }
+    const auto& [reading, verdict] = thermal->probed;
+    number_ = reading.number;
+    record.add_probe({.time_s = sample.time_s,
+                      .line = line_,
+                      .axis = reading.axis < machine_.axes.size() ? machine_.axes[reading.axis].name
+                                                                  : std::string{},
+                      .displacement_um = kernel::units::um_from_mm(reading.displacement_mm),
+                      .innovation_um = kernel::units::um_from_mm(verdict.innovation_mm),
+                      .band_um = kernel::units::um_from_mm(kGate * verdict.innovation_sd_mm),
+                      .reason = verdict.reason});
+  }
+  /// The line in hand, of which the next cycle may bring the reading.
+  void pass(const Sample& sample) noexcept {
+    line_ = sample.motion == kernel::signal::Motion::probe ? sample.line : line_;
+  }
+
+ private:
+  static constexpr double kGate = thermal::online::StateFilter::Config{}.gate_sd;
+  const kernel::machine::Machine& machine_;
+  std::uint64_t number_ = 0;
+  std::uint32_t line_ = 0;
+};
+
 Layer layer_of(const std::shared_ptr<supervisor::Supervisor>& layer, const Job& job) {
-  return [layer, choices = job.choices, now = 0.0](Frame& frame) mutable {
+  return [layer, choices = job.choices, now = 0.0, begun = false](Frame& frame) mutable {
     if (!choices.empty() && frame.spindle_programmed_rev_s != now) {
       now = frame.spindle_programmed_rev_s;
       const ChatterChoice* choice = choice_for(choices, now);
@@ -131,6 +165,9 @@ Layer layer_of(const std::shared_ptr<supervisor::Supervisor>& layer, const Job& 
                             : chatter::online::Modulation{.law = chatter::online::Law::constant});
     }
     const kernel::signal::Command command = layer->update(frame);
+    if (auto* const heat = layer->thermal(); heat != nullptr && !std::exchange(begun, true)) {
+      heat->zero_here();  // the simulated machine begins where the part's zero was set
+    }
     frame.axis = layer->frame().axis;
     return command;
   };
@@ -212,10 +249,15 @@ Result<Recorder> run(const Job& job) {
     return std::unexpected(motion.error());
   }
   VibrationRecord vibration;
+  Probed probed(job.machine);
   const auto done = cut(
       job, **machine, layer,
       [&](const Sample& sample) {
         record.add(sample);
+        if (supervisor) {
+          probed.look(sample, *supervisor, record);
+          probed.pass(sample);
+        }
         if (supervisor && supervisor->estimates().heard) {
           const auto& heard = *supervisor->estimates().heard;
           record.add_heard({.time_s = sample.time_s,

@@ -40,6 +40,8 @@ struct HeardChatter {
   double spindle_ratio = 1.0;  ///< asked for from then on
 };
 
+using report::ProbeFigures;
+
 /// Largest contour error on one line of the program.
 struct LineError {
   std::uint32_t line = 0;
@@ -81,6 +83,9 @@ class Recorder {
     }
   }
   [[nodiscard]] const std::vector<HeardChatter>& heard() const { return heard_; }
+  /// Readings of the probe that the thermal room got, in order of time.
+  void add_probe(ProbeFigures probe) { probes_.push_back(std::move(probe)); }
+  [[nodiscard]] const std::vector<ProbeFigures>& probes() const { return probes_; }
   /// By line number of the program; only lines with cutting motion.
   [[nodiscard]] std::vector<LineError> line_errors() const;
 
@@ -99,6 +104,7 @@ class Recorder {
   std::vector<report::MotionFigures> motion_;
   std::optional<VibrationRecord> vibration_;
   std::vector<HeardChatter> heard_;
+  std::vector<ProbeFigures> probes_;
   std::size_t group_size_ = 1;
   std::size_t in_group_ = 0;
 };

@@ -127,6 +127,17 @@ Json to_object(const MotionFigures& m) {
           {"acceleration_coverage_ratio", m.acceleration_coverage_ratio}};
 }
 
+Json to_object(const ProbeFigures& p) {
+  return {{"time_s", p.time_s},
+          {"line", p.line},
+          {"axis", p.axis},
+          {"displacement_um", p.displacement_um},
+          {"innovation_um", p.innovation_um},
+          {"band_um", p.band_um},
+          {"reason", kernel::outcome::name(p.reason)},
+          {"sentence", kernel::outcome::sentence(p.reason)}};
+}
+
 }  // namespace
 
 std::string to_json(const VibrationFigures& vibration) {
@@ -149,6 +160,10 @@ std::string to_json(const ReportData& data) {
   for (const MotionFigures& figures : data.motion) {
     motion.push_back(to_object(figures));
   }
+  Json probes = Json::array();
+  for (const ProbeFigures& probe : data.probes) {
+    probes.push_back(to_object(probe));
+  }
   const Json report = {{"schema", "steadyrest-report/1"},
                        {"version", STEADYREST_VERSION},
                        {"program", data.program},
@@ -159,7 +174,8 @@ std::string to_json(const ReportData& data) {
                        {"without", to_object(data.without)},
                        {"with", to_object(data.with)},
                        {"worst_lines", std::move(worst)},
-                       {"motion", std::move(motion)}};
+                       {"motion", std::move(motion)},
+                       {"probes", std::move(probes)}};
   return report.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -79,6 +79,17 @@ struct MotionFigures {
   double acceleration_coverage_ratio = 1.0;
 };
 
+/// A reading of the probe, and what the thermal room made of it.
+struct ProbeFigures {
+  double time_s = 0.0;
+  std::uint32_t line = 0;
+  std::string axis;
+  double displacement_um = 0.0;  ///< of the axis from where it should be
+  double innovation_um = 0.0;    ///< of it, what the forecast did not know
+  double band_um = 0.0;          ///< within which it is taken
+  kernel::outcome::Reason reason = kernel::outcome::Reason::none;
+};
+
 struct Run {
   Figures figures;
   std::vector<TracePoint> trace;
@@ -115,6 +126,7 @@ struct ReportData {
   Run with;
   std::vector<WorstLine> worst_lines;  ///< worst first
   std::vector<MotionFigures> motion;   ///< of the run with the layer; axes with counts alone
+  std::vector<ProbeFigures> probes;    ///< of the run with the layer
 };
 
 }  // namespace steadyrest::apps::report

@@ -305,6 +305,42 @@ TEST(MachineBody, CoolantThatTheProgramOpensFlowsAndCools) {
   EXPECT_NEAR(grown_mm(true), 0.25 * grown_mm(false), 1e-9);
 }
 
+TEST(MachineBody, AtItsEndAProbingMoveReadsWhatHeatAndOffsetHaveLeft) {
+  using kernel::signal::Motion;
+  MachineBody body = warmed(0.0);
+  EXPECT_EQ(body.frame().probe.number, 0U);
+  nc::plan::Setpoint moves;
+  moves.position = {1.0, 2.0, 3.0};
+  kernel::signal::Command command;
+  command.heartbeat = 20'000;
+  command.offset_mm[2] = -0.001;
+  const auto go = [&](Motion motion, std::size_t index, double x_mm, double z_mm) {
+    moves.motion = motion;
+    moves.path_index = index;
+    for (int i = 0; i < 200; ++i) {
+      moves.position[0] += (x_mm - moves.position[0]) / (200 - i);
+      moves.position[2] += (z_mm - moves.position[2]) / (200 - i);
+      ++command.heartbeat;
+      body.begin(command);
+      body.end(moves);
+    }
+    return body.frame().probe;
+  };
+  go(Motion::rapid, 0, 1.0, 4.0);
+  EXPECT_EQ(go(Motion::probe, 1, 1.1, 3.0).number, 0U) << "not before its end";
+  const auto first = go(Motion::rapid, 2, 1.0, 4.0);
+  EXPECT_EQ(first.number, 1U);
+  EXPECT_EQ(first.axis, 2U) << "what it moved furthest";
+  EXPECT_NEAR(first.displacement_mm, body.truth().heat_mm[2] - 0.001, 1e-4)
+      << "but for the heat since";
+  EXPECT_EQ(first.sd_mm, 0.0);
+  go(Motion::probe, 3, 1.0, 3.0);
+  EXPECT_EQ(go(Motion::probe, 4, 1.0, 2.0).number, 2U) << "one behind the other";
+  EXPECT_EQ(go(Motion::rapid, 5, 1.0, 4.0).number, 3U);
+  go(Motion::probe, 6, 9.0, 3.0);
+  EXPECT_EQ(go(Motion::rapid, 7, 1.0, 4.0).number, 3U) << "X does not grow";
+}
+
 TEST(MachineBody, ItsSensorsHangInTheRoom) {
   kernel::machine::Machine machine = growing_machine();
   EXPECT_TRUE(std::isnan(MachineBody::make({.machine = machine})->frame().temperature_c[0]));

@@ -135,6 +135,34 @@ TEST(ThermalRoom, AnUnknownTemperatureDoesNotMakeTheFrameUnfit) {
   EXPECT_EQ(command.feed_reason, Reason::none);
 }
 
+// The machine is off by what has grown and by what stands on it; only in act does anything.
+TEST(ThermalRoom, AReadingOfThePortIsOfWhatStandsInEveryMode) {
+  for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
+    Warm bench(mode);
+    const auto command = bench.cycles(20'000);
+    const double stands = mode == Mode::act ? command.offset_mm[kZ] : 0.0;
+    const auto& thermal = bench.supervisor.estimates().thermal;
+    bench.frame.probe = {.number = 1,
+                         .axis = kZ,
+                         .displacement_mm = thermal->displacement_mm[kZ] + stands + 0.0003,
+                         .sd_mm = 0.0002};
+    bench.cycle();
+    EXPECT_EQ(thermal->probed.verdict.reason, Reason::thermal_reading_taken);
+    EXPECT_NEAR(thermal->probed.verdict.innovation_mm, 0.0003, 1e-4) << "but for a second's heat";
+    bench.cycles(100);
+    EXPECT_EQ(bench.supervisor.thermal()->state().axis[kZ].filter.readings, 1U);
+  }
+}
+
+TEST(ThermalRoom, AReadingThatIsNoneDoesNotMakeTheFrameUnfit) {
+  Warm bench;
+  bench.cycles(10);
+  bench.frame.probe = {.number = 1, .axis = kZ, .displacement_mm = test::kNan, .sd_mm = 0.0};
+  const auto command = bench.cycle();
+  EXPECT_EQ(command.feed_reason, Reason::none);
+  EXPECT_EQ(bench.supervisor.estimates().thermal->probed.verdict.reason, Reason::input_not_finite);
+}
+
 TEST(ThermalRoom, DoesNotAllocateInTheCycle) {
   Warm bench;
   bench.cycles(10);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -24,6 +25,7 @@ constexpr double kStands_rev_s = 0.01;  ///< slower is the noise of a standing e
 constexpr double kGap_s = 60.0;         ///< what happened in longer gaps is not known
 constexpr double kBeyondSpeed = 1.2;    ///< of the fastest that was fitted
 constexpr double kThere_mm = 1e-4;      ///< nearer to the wish is there
+constexpr double kUntold = std::numeric_limits<double>::quiet_NaN();
 
 Drive drive_of(const Frame& frame) noexcept {
   Drive drive;
@@ -199,9 +201,31 @@ Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
                                                      : Reason::thermal_correcting;
 }
 
+/// The reading of a frame whose number is new.
+void OffsetGovernor::probe(const Frame& frame) noexcept {
+  const bool fresh = probe_watched_ && frame.probe.number != probe_number_;
+  probe_watched_ = true;
+  probe_number_ = frame.probe.number;
+  if (!fresh || frame.probe.number == 0) {
+    return;
+  }
+  output_.probed = {.reading = frame.probe, .verdict = {}};
+  if (frame.probe.axis >= frame.axis_count) {
+    output_.probed.verdict.reason = Reason::input_out_of_range;
+    return;
+  }
+  output_.probed.verdict =
+      measure(frame.probe.axis,
+              {.displacement_mm = frame.probe.displacement_mm, .sd_mm = frame.probe.sd_mm});
+}
+
 const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason unfit,
-                                                     bool tool_in_cut) noexcept {
+                                                     bool tool_in_cut,
+                                                     const AxisValues* standing_mm) noexcept {
   output_.request.tool_in_cut = tool_in_cut;
+  for (Axis& axis : axes_) {
+    axis.told_mm = standing_mm != nullptr ? (*standing_mm)[axis.index] : kUntold;
+  }
   if (unfit != Reason::none || !std::isfinite(frame.time_s)) {
     output_.request.reason = unfit != Reason::none ? unfit : Reason::input_not_finite;
     return output_;
@@ -210,6 +234,7 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
   const double step_mm = slope_mm_s_ * std::clamp(elapsed_s, 0.0, max_step_s_);
   state_.in_force = true;
   drive_on(frame);
+  probe(frame);
   output_.request.reason = axes_.empty() ? Reason::none : Reason::thermal_correcting;
   for (Axis& axis : axes_) {
     const Reason reason = move(axis, frame, tool_in_cut, step_mm);
@@ -237,7 +262,7 @@ void OffsetGovernor::yield_to(const AxisValues& standing_mm) noexcept {
 void OffsetGovernor::zero_here() noexcept {
   step();
   for (Axis& axis : axes_) {
-    axis.reference_mm = axis.filter.displacement_mm() + axis.offset_mm;
+    axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm();
   }
 }
 
@@ -254,7 +279,7 @@ StateFilter::Verdict OffsetGovernor::measure(std::size_t axis,
   }
   step();
   return of->filter.measure(
-      {.displacement_mm = reading.displacement_mm + of->reference_mm - of->offset_mm,
+      {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm(),
        .sd_mm = reading.sd_mm});
 }
 
@@ -303,6 +328,8 @@ void OffsetGovernor::reset() noexcept {
   state_ = {};
   temperature_c_ = kernel::signal::unknown_temperatures();
   output_ = {};
+  probe_number_ = 0;
+  probe_watched_ = false;
   for (Axis& axis : axes_) {
     axis.filter.reset();
     axis.reference_mm = 0.0;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -30,14 +33,27 @@ namespace steadyrest::thermal::online {
 /// slope is the smaller one of the thermal slope and of the envelope's slew, in the cut and out of
 /// it, whatever the forecast does: no step that would mark the surface can come from here.
 ///
+/// A probe reading that a frame brings is taken once, by its number. What stood there in the first
+/// frame after make(), reset() or restore() is not: nobody knows with which offset it was made. A
+/// reading says how far the axis is off with the offset that stands on the machine: where the
+/// caller does not name that one, what was asked for stands.
+///
 /// After a gap of more than a minute between frames the machine counts as having stood meanwhile.
 /// Online code: bounded, noexcept, no allocation after make().
 class OffsetGovernor {
  public:
+  /// What became of the last reading that a frame brought.
+  struct Probed {
+    kernel::signal::ProbeReading reading;  ///< number 0: none yet
+    /// reason none: the axis is not corrected; input_out_of_range: the machine has no such axis
+    StateFilter::Verdict verdict;
+  };
+
   struct Output {
     kernel::signal::OffsetRequest request;
     kernel::signal::AxisValues displacement_mm{};  ///< forecast; 0 for axes without passport
     kernel::signal::AxisValues sd_mm{};
+    Probed probed;
   };
 
   struct AxisState {
@@ -63,9 +79,11 @@ class OffsetGovernor {
       const kernel::machine::Machine& machine);
 
   /// One cycle. `unfit`: why the frame must not be acted on, or none. `tool_in_cut`: by what is
-  /// known of the machine.
+  /// known of the machine. `standing_mm`: the offsets that stand on the machine; nullptr: those of
+  /// the last request do.
   const Output& update(const kernel::signal::Frame& frame, kernel::outcome::Reason unfit,
-                       bool tool_in_cut) noexcept;
+                       bool tool_in_cut,
+                       const kernel::signal::AxisValues* standing_mm = nullptr) noexcept;
 
   /// The request was not in force, and no more than that stands on the machine: o is cut to it, and
   /// goes on from there one cycle later.
@@ -94,9 +112,15 @@ class OffsetGovernor {
     StateFilter filter;
     double reference_mm = 0.0;
     double offset_mm = 0.0;
+    double told_mm = std::numeric_limits<double>::quiet_NaN();  ///< stands, by the caller
+
+    [[nodiscard]] double standing_mm() const noexcept {
+      return std::isfinite(told_mm) ? told_mm : offset_mm;
+    }
   };
 
   OffsetGovernor() = default;
+  void probe(const kernel::signal::Frame& frame) noexcept;
   void drive_on(const kernel::signal::Frame& frame) noexcept;
   void step() noexcept;
   void step(double elapsed_s, const Drive& drive) noexcept;
@@ -113,6 +137,8 @@ class OffsetGovernor {
   State state_;  ///< `axis` is filled in by state() alone
   kernel::signal::Temperatures temperature_c_ = kernel::signal::unknown_temperatures();
   Output output_;
+  std::uint64_t probe_number_ = 0;
+  bool probe_watched_ = false;  ///< a frame has been seen
 };
 
 }  // namespace steadyrest::thermal::online

@@ -37,6 +37,10 @@ Frame any_frame(double time_s) {
   frame.path_speed_mm_s = any_double();
   frame.coolant = *rc::gen::arbitrary<bool>();
   frame.temperature_c[0] = any_double();
+  frame.probe = {.number = *rc::gen::inRange<std::uint64_t>(0, 4),
+                 .axis = *rc::gen::arbitrary<std::uint8_t>(),
+                 .displacement_mm = any_double() * 1e-4,
+                 .sd_mm = any_double() * 1e-5};
   return frame;
 }
 

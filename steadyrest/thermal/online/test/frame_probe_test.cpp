@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/thermal/online/test/governed.hpp>
+
+// Readings of the probe that come in with the frames.
+namespace steadyrest::thermal::online {
+namespace {
+
+using kernel::outcome::Reason;
+using kernel::signal::ProbeReading;
+using test::Governed;
+using test::kX;
+using test::kZ;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+ProbeReading reading(std::uint64_t number, double displacement_mm) {
+  return {.number = number, .axis = kZ, .displacement_mm = displacement_mm, .sd_mm = 0.0005};
+}
+
+std::size_t taken(const Governed& on) {
+  return on.governor.state().axis[kZ].filter.readings;
+}
+
+TEST(FrameProbe, IsTakenOnceHoweverLongItStands) {
+  Governed on;
+  on.seconds(1200.0);
+  const double offset = on.governor.output().request.offset_mm[kZ];
+  EXPECT_EQ(on.governor.output().probed.reading.number, 0U);
+  on.frame.probe = reading(1, 0.002);
+  const auto& probed = on.cycle().probed;
+  EXPECT_EQ(probed.reading.number, 1U);
+  EXPECT_EQ(probed.verdict.reason, Reason::thermal_reading_taken);
+  EXPECT_NEAR(probed.verdict.innovation_mm, 0.002, 1e-4);
+  EXPECT_NEAR(on.seconds(30.0).request.offset_mm[kZ], offset - 0.002, 3e-4);
+  EXPECT_EQ(taken(on), 1U);
+  EXPECT_EQ(on.governor.output().probed.verdict.reason, Reason::thermal_reading_taken)
+      << "what became of it stands until the next";
+  on.frame.probe = reading(2, 0.040);
+  EXPECT_EQ(on.cycle().probed.verdict.reason, Reason::thermal_reading_outlier);
+  EXPECT_EQ(taken(on), 2U);
+}
+
+TEST(FrameProbe, IsNotTakenWhereItStoodBeforeTheFirstFrame) {
+  Governed on;
+  on.frame.probe = reading(7, 0.002);
+  on.seconds(10.0);
+  EXPECT_EQ(taken(on), 0U);
+  on.governor.restore(on.governor.state());
+  on.frame.probe = reading(8, 0.002);
+  on.seconds(10.0);
+  EXPECT_EQ(taken(on), 0U) << "made while the layer was away, perhaps";
+  on.frame.probe = reading(9, 0.002);
+  on.cycle();
+  EXPECT_EQ(taken(on), 1U);
+  on.frame.probe = reading(1, 0.002);
+  on.cycle();
+  EXPECT_EQ(taken(on), 2U) << "a port that began to count anew";
+}
+
+TEST(FrameProbe, WaitsForAFrameThatIsFit) {
+  Governed on;
+  on.seconds(10.0);
+  on.frame.probe = reading(1, 0.002);
+  on.unfit = Reason::input_stale;
+  on.seconds(1.0);
+  EXPECT_EQ(taken(on), 0U);
+  on.unfit = Reason::none;
+  on.cycle();
+  EXPECT_EQ(taken(on), 1U);
+}
+
+TEST(FrameProbe, SaysWhyItWasNotTaken) {
+  Governed on;
+  on.seconds(10.0);
+  const double before = on.governor.output().displacement_mm[kZ];
+  on.frame.probe = reading(1, kNaN);
+  EXPECT_EQ(on.governor.update(on.frame, Reason::none, true).probed.verdict.reason,
+            Reason::input_not_finite);
+  on.frame.probe = reading(2, 0.002);
+  on.frame.probe.sd_mm = -1.0;
+  EXPECT_EQ(on.governor.update(on.frame, Reason::none, true).probed.verdict.reason,
+            Reason::input_not_finite);
+  on.frame.probe = reading(3, 0.002);
+  on.frame.probe.axis = 1;
+  EXPECT_EQ(on.governor.update(on.frame, Reason::none, true).probed.verdict.reason, Reason::none)
+      << "Y is not corrected";
+  on.frame.probe = reading(4, 0.002);
+  on.frame.probe.axis = on.frame.axis_count;
+  EXPECT_EQ(on.governor.update(on.frame, Reason::none, true).probed.verdict.reason,
+            Reason::input_out_of_range);
+  EXPECT_EQ(taken(on), 0U);
+  EXPECT_NEAR(on.governor.output().displacement_mm[kZ], before, 1e-4) << "but for a second's heat";
+}
+
+// What is asked for and what stands differ where nothing is written: the probe finds all of it.
+TEST(FrameProbe, IsOfTheOffsetThatStandsOnTheMachine) {
+  Governed on;
+  on.seconds(1200.0);
+  const double grown = on.governor.output().displacement_mm[kZ];
+  const kernel::signal::AxisValues nothing{};
+  on.frame.probe = reading(1, grown);
+  const auto& out = on.governor.update(on.frame, Reason::none, true, &nothing);
+  EXPECT_EQ(out.probed.verdict.reason, Reason::thermal_reading_taken);
+  EXPECT_NEAR(out.probed.verdict.innovation_mm, 0.0, 1e-5);
+  on.governor.zero_here();
+  EXPECT_NEAR(on.seconds(300.0).request.offset_mm[kZ], 0.0, 0.2 * grown)
+      << "the zero was set where nothing stood: what had grown is in it";
+}
+
+TEST(FrameProbe, DoesNotAllocate) {
+  Governed on;
+  on.seconds(10.0);
+  const kernel::rt::testing::AllocationGuard guard;
+  for (std::uint64_t i = 1; i < 20; ++i) {
+    on.frame.probe = reading(i, 0.001);
+    on.frame.probe.axis = i % 2 == 0 ? kX : kZ;
+    on.seconds(1.0);
+  }
+  EXPECT_EQ(guard.allocations(), 0U);
+}
+
+}  // namespace
+}  // namespace steadyrest::thermal::online
