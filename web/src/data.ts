@@ -80,6 +80,18 @@ export interface MotionFigures {
   acceleration_coverage_ratio: number | null;
 }
 
+/** A reading of the probe, and what the thermal room made of it. */
+export interface ProbeFigures {
+  time_s: number;
+  line: number;
+  axis: string;
+  displacement_um: number | null;
+  innovation_um: number | null;
+  band_um: number | null;
+  reason: string;
+  sentence: string;
+}
+
 export interface OverrideStep {
   code: number;
   percent: number;
@@ -97,6 +109,7 @@ export interface Report {
   with: Run;
   worst_lines: WorstLine[];
   motion: MotionFigures[];
+  probes: ProbeFigures[];
 }
 
 export type RunName = 'without' | 'with';

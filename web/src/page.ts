@@ -94,6 +94,23 @@ function motionTable(report: Report): string {
     <tbody>${rows}</tbody></table></div>`;
 }
 
+/** Empty where no probe read. */
+function probeSection(report: Report): string {
+  if (report.probes.length === 0) {
+    return '';
+  }
+  const rows = report.probes
+    .map(
+      (p) => `<tr><th scope="row">${escapeHtml(p.axis)} at ${seconds(p.time_s)}</th><td class="n">${p.line}</td>
+      <td class="n">${fixed(p.displacement_um, 2)}</td><td class="n">${fixed(p.innovation_um, 2)}</td><td class="n">${fixed(p.band_um, 2)}</td>
+      <td>${escapeHtml(p.sentence)}<br><code>${escapeHtml(p.reason)}</code></td></tr>`,
+    )
+    .join('');
+  return `<section><h2>Readings of the probe</h2><div class="wide"><table id="probes"><thead><tr><th scope="col">Axis</th>
+    <th scope="col" class="n">line</th><th scope="col" class="n">finds, µm</th><th scope="col" class="n">not foreseen, µm</th>
+    <th scope="col" class="n">taken within ±µm</th><th scope="col">what became of it</th></tr></thead><tbody>${rows}</tbody></table></div></section>`;
+}
+
 function steps(report: Report): string {
   if (report.override_table.length === 0) {
     return '';
@@ -183,6 +200,7 @@ export function renderPage(host: HTMLElement, report: Report): void {
     <section><h2>Reasons</h2>${reasonsTable(layer.reasons)}${steps(report)}</section>
   </div>
   ${vibrationSection(report)}
+  ${probeSection(report)}
   <section><h2>Motion of the axes</h2>${motionTable(report)}</section>
   <section><h2>Worst lines of the program</h2>${worstTable(report)}</section>
   <section class="explanation"><h2>How to read this</h2>${EXPLANATION}</section>

@@ -239,6 +239,18 @@ export function makeReport(samples: number): Report {
     without,
     with: layer,
     worst_lines: worstLines(without, layer),
+    probes: [
+      {
+        time_s: 62.04,
+        line: 9,
+        axis: 'Z',
+        displacement_um: 2.98,
+        innovation_um: 2.94,
+        band_um: 5.21,
+        reason: 'thermal_reading_taken',
+        sentence: "A reading has corrected the thermal model's state.",
+      },
+    ],
     motion: ['X', 'Y'].map((axis) => ({
       axis,
       velocity_rms_mm_s: 0.00312,
@@ -257,5 +269,5 @@ export function emptyReport(): Report {
     over_limit_s: 0, samples: 0, samples_over_limit: 0, override_changes: 0,
   };
   const run = (): Run => ({ figures: { ...figures }, trace: emptyTrace(), reasons: [] });
-  return { ...makeReport(50), without: run(), with: run(), worst_lines: [], override_table: [], motion: [] };
+  return { ...makeReport(50), without: run(), with: run(), worst_lines: [], override_table: [], motion: [], probes: [] };
 }

@@ -57,6 +57,13 @@ describe('a report with data', () => {
 
   it('shows the figures of the JSON', () => expectFigures(open.page, report));
 
+  it('shows what became of the readings of the probe', async () => {
+    const rows = await open.page.locator('#probes tbody tr').allTextContents();
+    expect(rows).toHaveLength(1);
+    expect(rows[0]).toContain('2.94');
+    expect(rows[0]).toContain('thermal_reading_taken');
+  });
+
   it('shows what the estimates of the motion were worth', async () => {
     await expectMotion(open.page, report);
     expect(await open.page.locator('#motion tbody tr').count()).toBe(4);

@@ -61,6 +61,8 @@ TEST_F(Report, JsonSaysWhatTheDataSay) {
   EXPECT_EQ(json["motion"][0]["difference_acceleration_rms_mm_s2"], 707.0);
   EXPECT_EQ(json["motion"][0]["velocity_coverage_ratio"], 1.0);
   EXPECT_TRUE(json["motion"][0]["acceleration_coverage_ratio"].is_null()) << "no bound";
+  EXPECT_EQ(json["probes"][0]["innovation_um"], 2.94);
+  EXPECT_EQ(json["probes"][0]["reason"], "thermal_reading_taken");
 }
 
 TEST_F(Report, ColumnsOfATraceAreEquallyLong) {

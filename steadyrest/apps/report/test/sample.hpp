@@ -54,6 +54,13 @@ inline ReportData sample_report(std::size_t points) {
                   .difference_acceleration_rms_mm_s2 = 707.0,
                   .velocity_coverage_ratio = 1.0,
                   .acceleration_coverage_ratio = std::numeric_limits<double>::quiet_NaN()}};
+  data.probes = {{.time_s = 62.0,
+                  .line = 9,
+                  .axis = "Z",
+                  .displacement_um = 2.98,
+                  .innovation_um = 2.94,
+                  .band_um = 5.21,
+                  .reason = kernel::outcome::Reason::thermal_reading_taken}};
   return data;
 }
 
