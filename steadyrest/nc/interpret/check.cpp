@@ -75,11 +75,9 @@ bool Interpreter::check(const Step& step) {
 }
 
 bool Interpreter::check_values(const Step& step) {
-  // Far beyond every machine; values above lose their meaning in the arithmetic that follows.
-  constexpr double kLargest = 1e7;
   for (std::uint32_t left = step.mask; left != 0; left &= left - 1) {
     const auto letter = static_cast<char>('A' + std::countr_zero(left));
-    if (!(std::abs(step[letter]) <= kLargest)) {
+    if (!(std::abs(step[letter]) <= kLargestValue)) {
       return refuse(step, letter, "out_of_range",
                     "a value beyond every machine; at most 10000000 in magnitude is allowed");
     }

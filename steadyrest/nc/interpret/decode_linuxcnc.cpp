@@ -12,11 +12,16 @@ using read::Word;
 
 bool Interpreter::decode_linuxcnc(const Block& block, Step& step) {
   const std::uint32_t plain = axes_allowed_ | Step::bit('F');
+  std::int16_t& motion = step.g[static_cast<std::size_t>(GGroup::motion)];
   for (const Word& word : block.words()) {
     // What nearly all words are, without a call.
     const std::uint32_t bit = Step::bit(word.letter);
     if ((bit & plain & ~step.mask) != 0) {
       step.set(word.letter, word.value);
+      continue;
+    }
+    if (word.letter == 'G' && motion == kNoCode && (word.value == 0.0 || word.value == 1.0)) {
+      motion = word.value == 0.0 ? 0 : 10;
       continue;
     }
     const bool accepted = word.letter == '@' || word.letter == '^' ? take_polar(word, step)

@@ -71,6 +71,7 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
 
 bool Interpreter::execute(const Block& block, Sink& sink) {
   program_call_.kind = ProgramCall::Kind::none;
+  const bool filled = std::exchange(plain_before_, false);
   if (block.deleted() && config_.block_delete) {
     return true;
   }
@@ -94,7 +95,7 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
     return false;
   }
   if (is_plain(step_)) {
-    return execute_plain(step_);
+    return execute_plain(step_, filled);
   }
   if (step_.frame != 0) {
     return set_frame(step_);

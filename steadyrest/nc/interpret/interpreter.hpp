@@ -42,6 +42,9 @@ class Interpreter {
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] const read::Refused& refused() const noexcept { return refused_; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// The last block was nothing but a straight move: of the state its position, motion and feed
+  /// alone may be others than before.
+  [[nodiscard]] bool moved_alone() const noexcept { return plain_before_; }
   /// The line that is read next (#<_line>).
   void at_line(std::uint32_t line) noexcept { state_.line = line; }
   /// What expressions of the program ask for. Stays valid while the interpreter is not moved.
@@ -104,7 +107,8 @@ class Interpreter {
 
   // a block of G0 or G1, F and axis words alone
   [[nodiscard]] bool is_plain(const Step& step) const noexcept;
-  bool execute_plain(const Step& step);
+  [[nodiscard]] bool plain_end(const Step& step, Axes& end) const noexcept;
+  bool execute_plain(const Step& step, bool filled);
 
   // checks
   bool choose_motion(const Step& step);
@@ -205,6 +209,9 @@ class Interpreter {
   bool refuse_word(std::uint32_t line, const read::Word& word, std::string_view reason,
                    std::string_view text);
 
+  /// Far beyond every machine; values above lose their meaning in the arithmetic that follows.
+  static constexpr double kLargestValue = 1e7;
+
   Config config_;
   State state_;
   std::unique_ptr<Parameters> parameters_ = std::make_unique<Parameters>();
@@ -212,7 +219,8 @@ class Interpreter {
   std::uint32_t axes_allowed_ = 0;  ///< mask of the axis letters that the machine has
   Move move_;
   Sink* sink_ = nullptr;
-  int motion_now_ = -1;  ///< motion of the block in hand; −1 = none
+  bool plain_before_ = false;  ///< move_ has the modes of a plain block that was executed last
+  int motion_now_ = -1;        ///< motion of the block in hand; −1 = none
   bool finished_ = false;
   std::array<double, 2> cubic_tangent_mm_{};  ///< P and Q of the G5 before
   bool cubic_goes_on_ = false;

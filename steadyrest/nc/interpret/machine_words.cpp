@@ -50,6 +50,7 @@ bool Interpreter::keep_modes(const Step& step) {
 
 // All modes but that of motion; positions and offsets' values are not modes.
 void Interpreter::restore_modes(const State& kept) {
+  plain_before_ = false;
   state_.unit_mm = kept.unit_mm;
   state_.feed_unit_mm = kept.feed_unit_mm;
   state_.plane = kept.plane;

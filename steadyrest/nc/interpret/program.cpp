@@ -326,6 +326,9 @@ std::uint32_t ProgramRun::line() const noexcept {
 bool ProgramRun::executed() const noexcept {
   return run_->executed_;
 }
+bool ProgramRun::moved_alone() const noexcept {
+  return run_->executed_ && run_->interpreter_.moved_alone() && run_->reader_.numbers_alone();
+}
 bool ProgramRun::at_top() const noexcept {
   return run_->at_top_;
 }

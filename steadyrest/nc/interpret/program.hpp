@@ -53,6 +53,9 @@ class ProgramRun {
   [[nodiscard]] std::uint32_t line() const noexcept;
   /// Its words have been executed: it was not passed over and has no O-word.
   [[nodiscard]] bool executed() const noexcept;
+  /// Its words are a straight move and numbers: of the state its position, motion and feed alone
+  /// may be others than before the line.
+  [[nodiscard]] bool moved_alone() const noexcept;
   /// It stands in the program itself, outside of every subprogram, condition and loop.
   [[nodiscard]] bool at_top() const noexcept;
   [[nodiscard]] bool in_main() const noexcept;  ///< not in a subprogram's own file

@@ -41,6 +41,7 @@ class Reader {
     block.reset(number);
     block.take_words(read);
     seen_line_ = true;
+    numbers_alone_ = true;
     return true;
   }
 
@@ -62,6 +63,8 @@ class Reader {
   void set_block_delete(bool on) noexcept { block_delete_ = on; }
 
   [[nodiscard]] const Refused& refused() const noexcept { return refused_; }
+  /// The last line was read, and no value was asked for or set.
+  [[nodiscard]] bool numbers_alone() const noexcept { return numbers_alone_; }
   /// The program began with `%`: it must end with one (or with its end word).
   [[nodiscard]] bool percent_opened() const noexcept { return percent_opened_; }
 
@@ -78,7 +81,7 @@ class Reader {
   bool block_delete_ = false;
   bool seen_line_ = false;
   bool percent_opened_ = false;
-  bool numbers_alone_ = false;  ///< the last line was read, and no value was asked for or set
+  bool numbers_alone_ = false;
   Refused refused_;
 };
 

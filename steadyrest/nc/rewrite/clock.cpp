@@ -46,7 +46,7 @@ void Clock::tell(const Walk& walk) {
 }
 
 // A block's events come before its moves, but for a stop and the program's end.
-void Clock::feed(const Walk& walk) {
+void Clock::feed(Walk& walk) {
   if (known_ != nullptr) {
     tell(walk);
     return;
@@ -57,7 +57,7 @@ void Clock::feed(const Walk& walk) {
       timer_->on_event(event);
     }
   }
-  for (interpret::Move move : walk.moves()) {
+  for (interpret::Move& move : walk.moves()) {
     move.line = ++sequence_;
     timer_->on_move(move);
   }

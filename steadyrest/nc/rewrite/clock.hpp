@@ -42,8 +42,8 @@ class Clock {
   void ask(std::uint64_t ticket) {
     asked_.push_back({.sequence = sequence_ + 1, .ticket = ticket});
   }
-  /// The moves and events of the line that the walk has been at.
-  void feed(const Walk& walk);
+  /// The moves and events of the line that the walk has been at. Their line is another afterwards.
+  void feed(Walk& walk);
   /// The program's total time; every line that was asked for is told before it returns.
   [[nodiscard]] kernel::outcome::Result<double> finish();
 

@@ -74,6 +74,14 @@ Modes modes_of(const State& state) {
           .diameter = state.diameter};
 }
 
+void renew(Modes& modes, const State& state, bool moved_alone) {
+  if (!moved_alone) {
+    modes = modes_of(state);
+  }
+  modes.motion = state.motion;
+  modes.feed_mm_s = state.feed_mm_s;
+}
+
 std::string_view state_difference(const State& a, const State& b) {
   if (!std::ranges::equal(a.work_offset, b.work_offset, same_axes)) {
     return "work offset";

@@ -49,6 +49,8 @@ struct Modes {
   bool operator==(const Modes&) const = default;
 };
 [[nodiscard]] Modes modes_of(const interpret::State& state);
+/// The same into what they were before a line that `moved_alone` (interpret::ProgramRun), or not.
+void renew(Modes& modes, const interpret::State& state, bool moved_alone);
 
 /// What two programs leave behind differently; empty when nothing.
 [[nodiscard]] std::string_view state_difference(const interpret::State& a,

@@ -130,7 +130,7 @@ class Rewriter {
     return check_total(plan_, *total);
   }
 
-  void look(const Walk& walk, Clock& clock) {
+  void look(Walk& walk, Clock& clock) {
     constexpr std::uint32_t kEvery = 1U << 14U;
     if (walk.line() % kEvery == 0) {
       progress(0.5 * walk.line() / std::max(survey_.end_line, 1U), "timing");

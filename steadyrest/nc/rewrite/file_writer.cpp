@@ -3,7 +3,6 @@
 #include <cstring>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -57,6 +56,7 @@ Result<FileWriter> FileWriter::open(const std::string& target) {
 
 FileWriter::FileWriter(FileWriter&& other) noexcept
     : file_(std::exchange(other.file_, nullptr)),
+      held_(std::move(other.held_)),
       error_(other.error_),
       target_(std::move(other.target_)),
       path_(std::exchange(other.path_, {})) {}
@@ -71,12 +71,21 @@ FileWriter::~FileWriter() {
 }
 
 void FileWriter::write(std::string_view bytes) noexcept {
-  if (error_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
-    error_ = errno;
+  held_.insert(held_.end(), bytes.begin(), bytes.end());
+  if (held_.size() >= kHeld) {
+    put();
   }
 }
 
+void FileWriter::put() noexcept {
+  if (error_ == 0 && std::fwrite(held_.data(), 1, held_.size(), file_) != held_.size()) {
+    error_ = errno;
+  }
+  held_.clear();
+}
+
 Result<void> FileWriter::flush() {
+  put();
   if (error_ == 0 && std::fflush(file_) != 0) {
     error_ = errno;
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -31,7 +33,11 @@ class FileWriter {
   FileWriter() = default;
   [[nodiscard]] kernel::outcome::Refusal refusal(int error) const;
 
+  void put() noexcept;
+
+  static constexpr std::size_t kHeld = std::size_t{1} << 16U;
   std::FILE* file_ = nullptr;
+  std::vector<char> held_;  ///< not written yet; fwrite for each line costs more than the line
   int error_ = 0;
   std::string target_;
   std::string path_;  ///< beside the target; empty once it is committed

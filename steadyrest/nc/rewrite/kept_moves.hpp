@@ -25,7 +25,9 @@ class KeptMoves final : public interpret::Sink {
   void clear() {
     moves.clear();
     events.clear();
-    splines_.clear();
+    if (!splines_.empty()) {
+      splines_.clear();
+    }
   }
   std::vector<interpret::Move> moves;
   std::vector<interpret::Event> events;

@@ -35,6 +35,18 @@ Role role(char c) noexcept {
   return kRoles[static_cast<unsigned char>(c)];
 }
 
+/// What a line weighs: nothing where nothing is to be done, 1 for each G, more for all else.
+constexpr std::array<std::uint32_t, 256> weights() {
+  std::array<std::uint32_t, 256> out{};
+  for (std::size_t c = 0; c < out.size(); ++c) {
+    out[c] = kRoles[c] >= Role::blank ? 0U : 1U << 8U;
+  }
+  out['G'] = out['g'] = 1U;
+  return out;
+}
+
+constexpr std::array<std::uint32_t, 256> kWeights = weights();
+
 /// Digits from `at` on, blanks between them left out, and how many; `at` goes behind them.
 std::pair<int, int> digits(std::string_view line, std::size_t& at) noexcept {
   int value = 0;
@@ -52,6 +64,24 @@ std::pair<int, int> digits(std::string_view line, std::size_t& at) noexcept {
   return {value, count};
 }
 
+/// One G at most, a whole number that is not 43, and else nothing to be done: nearly all lines.
+bool is_simple(std::string_view line) noexcept {
+  std::uint32_t weight = 0;
+  for (const char c : line) {
+    weight += kWeights[static_cast<unsigned char>(c)];
+  }
+  if (weight != 1U) {
+    return weight == 0;
+  }
+  std::size_t at = 0;
+  while (kWeights[static_cast<unsigned char>(line[at])] == 0) {
+    ++at;
+  }
+  const auto [number, count] = digits(line, ++at);
+  return count > 0 && count <= kMostDigits && number != 43 &&
+         (at == line.size() || role(line[at]) != Role::point);
+}
+
 }  // namespace
 
 void PlainSurvey::look(std::string_view line) {
@@ -60,6 +90,9 @@ void PlainSurvey::look(std::string_view line) {
     return;
   }
   survey_.end_line = line_;
+  if (is_simple(line)) {
+    return;
+  }
   for (std::size_t at = 0;;) {
     while (at < line.size() && role(line[at]) >= Role::blank) {
       ++at;

@@ -76,9 +76,11 @@ std::string Shifts::pair(const Move& before, const Move& after, const Frames& fr
                                           : Axes{}};
   const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
   for (std::size_t i = 0; i < shift_.size(); ++i) {
-    // What is not off at all needs no excuse.
-    if (straight && found.end[i] == wanted[i] && same(found.start[i], shift_[i])) {
+    // What is as it is wanted needs no excuse.
+    const double error_mm = std::abs(found.end[i] - wanted[i]);
+    if (straight && error_mm <= kSame_mm && same(found.start[i], shift_[i])) {
       shift_[i] = found.end[i];
+      largest_error_mm_ = std::max(largest_error_mm_, error_mm);
       continue;
     }
     if (std::string fault = one_axis(i, before, found, frames); !fault.empty()) {

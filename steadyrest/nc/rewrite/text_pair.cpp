@@ -36,8 +36,9 @@ Result<Inserted> compare_text(const std::string& original, const std::string& ch
     if (is_inserted(before->line())) {
       return refuse(original, before->number(), "the original carries the mark of a correction");
     }
+    // The original's line is no inserted one: what is the same is none either.
     bool more = after->next();
-    while (more && is_inserted(after->line())) {
+    while (more && after->line() != before->line() && is_inserted(after->line())) {
       take();
       more = after->next();
     }

@@ -11,6 +11,7 @@
 #include <steadyrest/nc/interpret/step.hpp>
 #include <steadyrest/nc/rewrite/clock.hpp>
 #include <steadyrest/nc/rewrite/compare.hpp>
+#include <steadyrest/nc/rewrite/inserted_lines.hpp>
 #include <steadyrest/nc/rewrite/shifts.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
 #include <steadyrest/nc/rewrite/text_pair.hpp>
@@ -50,7 +51,7 @@ class Prover {
     if (!text) {
       return std::unexpected(text.error());
     }
-    inserted_ = std::move(text->lines);
+    inserted_ = InsertedLines(std::move(text->lines));
     head_lines_ = text->head_lines;
     head_before_ = text->head_before;
     proof_.inserted_lines = inserted_.size();
@@ -135,15 +136,9 @@ class Prover {
     return at_end();
   }
 
-  [[nodiscard]] bool is_inserted_line(std::uint32_t line) {
-    const auto at = std::ranges::lower_bound(inserted_, line);
-    inserted_before_ = static_cast<std::uint32_t>(at - inserted_.begin());
-    return at != inserted_.end() && *at == line;
-  }
-
   /// Runs the changed program up to and with the line that pairs with the original's.
   bool inserted_lines() {
-    const Modes modes = modes_of(changed_run_->state());
+    renew(modes_, changed_run_->state(), changed_run_->moved_alone());
     for (const AxisPlan& axis : plan_.axes) {
       shift_before_[axis.index] = shifts_.now(axis.index);
     }
@@ -156,20 +151,20 @@ class Prover {
                    : refuse(interpret::first_refusal(report, changed_), changed_);
       }
       const bool main = changed_run_->in_main();
-      if (!main || !is_inserted_line(changed_run_->line())) {
-        const std::uint32_t before = main ? inserted_before_ : 0U;
+      if (!main || !inserted_.has(changed_run_->line())) {
+        const std::uint32_t before = main ? inserted_.before() : 0U;
         if (!as_it_was) {
           return refuse("the inserted lines before this one change more than an offset");
         }
         return changed_run_->line() - before == walk_->line() || refuse("another line is executed");
       }
       // The head acts after an abort alone, or does here what is done already.
-      executed_inserted_ += changed_run_->executed() && inserted_before_ >= head_lines_ ? 1U : 0U;
+      executed_inserted_ += changed_run_->executed() && inserted_.before() >= head_lines_ ? 1U : 0U;
       if (!added_moves()) {
         return false;
       }
       offset_before_ = changed_run_->state().offset;
-      as_it_was = modes_of(changed_run_->state()) == modes;
+      as_it_was = modes_of(changed_run_->state()) == modes_;
     }
   }
 
@@ -362,11 +357,11 @@ class Prover {
   const Settings& settings_;
   const KnownTimes* known_;
   Survey survey_;
-  std::vector<std::uint32_t> inserted_;  ///< lines of the changed program
+  InsertedLines inserted_;
   std::size_t head_lines_ = 0;
   std::uint32_t head_before_ = 0;  ///< line of the original
   std::size_t executed_inserted_ = 0;
-  std::uint32_t inserted_before_ = 0;  ///< of these, before the line in hand
+  Modes modes_;
   std::optional<read::LineSource> changed_source_;
   KeptMoves changed_moves_;
   std::optional<interpret::ProgramRun> changed_run_;

@@ -65,23 +65,27 @@ Result<std::unique_ptr<Walk>> Walk::make(const std::string& path, const interpre
 // The state as it stands before the next line.
 void Walk::remember() {
   const interpret::State& state = run_->state();
-  const Axes offset = before_.offset;
   before_.position = state.position;
+  before_.motion = state.motion;
+  if (!moves().empty()) {
+    before_.last_move = moves().back().kind;
+    any_move_ = true;
+  }
+  if (run_->moved_alone() && !state.incremental) {  // nearly always; no other axis has moved
+    before_.given |= given();
+    return;
+  }
+  const Axes offset = before_.offset;
   before_.offset = state.offset;
   before_.work_offset = state.work_offset[state.active_offset];
   before_.active_offset = state.active_offset;
   before_.work_offset_on = state.work_offset_on;
   before_.unit_mm = state.unit_mm;
-  before_.motion = state.motion;
   before_.incremental = state.incremental;
   before_.inverse_time = state.feed_mode == interpret::FeedMode::inverse_time;
   before_.cutter = state.cutter_side != 0;
   before_.rotated = state.rotation_in_force_deg != 0.0;
   before_.diameter = state.diameter;
-  if (!moves().empty()) {
-    before_.last_move = moves().back().kind;
-    any_move_ = true;
-  }
   std::uint32_t lost = 0;
   const auto add = [&lost](const Axes& a, const Axes& b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -134,6 +138,9 @@ bool Walk::step() {
 }
 
 void Walk::look_at_g(double code) {
+  if (code == 0.0 || code == 1.0) {
+    return;
+  }
   facts_.plain = facts_.plain && std::ranges::find(kPlainG, code) != kPlainG.end();
   facts_.machine_frame = facts_.machine_frame || code == 53.0 || code == 28.0 || code == 30.0;
   facts_.data = facts_.data || code == 10.0;
@@ -147,7 +154,9 @@ void Walk::look(const read::Block& block) {
   for (const read::Word& word : block.words()) {
     const bool letter = word.letter >= 'A' && word.letter <= 'Z';
     const std::uint32_t bit = letter ? Step::bit(word.letter) : 0U;
-    if (word.letter == 'G') {
+    if ((bit & interpret::kAxisMask) != 0) {
+      (word.qualifier == read::Qualifier::incremental ? facts_.incremental : facts_.axes) |= bit;
+    } else if (word.letter == 'G') {
       look_at_g(word.value);
     } else if (word.letter == 'M') {
       facts_.plain = facts_.plain && std::ranges::find(kPlainM, word.value) != kPlainM.end();
@@ -157,8 +166,6 @@ void Walk::look(const read::Block& block) {
     } else if (word.letter == 'P') {
       facts_.data_set = word.value;
       facts_.plain = false;
-    } else if ((bit & interpret::kAxisMask) != 0) {
-      (word.qualifier == read::Qualifier::incremental ? facts_.incremental : facts_.axes) |= bit;
     } else if (word.letter != 'F' && word.letter != 'S' && word.letter != 'N') {
       facts_.plain = false;
       facts_.machine_frame = facts_.machine_frame || is_supa(word.name);

@@ -57,6 +57,7 @@ class Walk {
   [[nodiscard]] std::uint32_t top_line() const noexcept { return top_line_; }
   [[nodiscard]] const interpret::ProgramRun& run() const noexcept { return *run_; }
   [[nodiscard]] const std::vector<interpret::Move>& moves() const noexcept { return kept_.moves; }
+  [[nodiscard]] std::vector<interpret::Move>& moves() noexcept { return kept_.moves; }
   [[nodiscard]] const std::vector<interpret::Event>& events() const noexcept {
     return kept_.events;
   }
