@@ -72,6 +72,7 @@ struct Thermal {
   std::uint32_t level = 0;           ///< the level in force
   double max_offset_mm = 0.1;        ///< no correction beyond it
   double slope_mm_s = 0.001 / 60.0;  ///< of the on-line correction
+  double retract_slope_mm_s = 0.0;   ///< while no tool is in the cut; 0 = `slope_mm_s`
   double state_s = 0.0;              ///< time in the log at which the states were
   std::vector<ThermalAxis> axis;
 

@@ -18,6 +18,9 @@ std::span<const Key<Thermal>> thermal_keys() noexcept {
                    "No thermal correction goes beyond it."},
       Key<Thermal>{"slope_um_min", &Thermal::slope_mm_s, 0.001, 1000,
                    "How fast the on-line correction may change."},
+      Key<Thermal>{"retract_slope_um_min", &Thermal::retract_slope_mm_s, 0, 60'000,
+                   "The same while no tool is in the cut (rapids, tool changes and what follows "
+                   "them standing); 0 = `slope_um_min`. The envelope's `offset_slew_um_s` holds."},
       Key<Thermal>{"state_s", &Thermal::state_s, -1e12, 1e12,
                    "Time in the log at which the modes had their `state_um`."},
   };

@@ -55,6 +55,11 @@ void check(const Thermal& thermal, const Given& given, Faults& faults) {
     faults.add(given.at({"shares"}), "shares rise from one level to the next",
                "a higher level is the stricter one: write them falling");
   }
+  if (thermal.retract_slope_mm_s > 0.0 && thermal.retract_slope_mm_s < thermal.slope_mm_s) {
+    faults.add(given.at({"retract_slope_um_min", "slope_um_min"}),
+               "retract_slope_um_min is below slope_um_min",
+               "out of the cut the offset may move faster, not slower: raise it or leave it out");
+  }
   if (thermal.level >= thermal.share.size()) {
     faults.add(
         given.at({"level", "shares"}),

@@ -79,6 +79,12 @@ constexpr std::array kEntries = {
           "once no tool is in the cut."},
     Entry{Reason::thermal_beyond_speed, "thermal_beyond_speed",
           "The spindle is faster than the thermal model knows: the offset is held."},
+    Entry{Reason::thermal_sensor_wild, "thermal_sensor_wild",
+          "A temperature that the forecast needs cannot be: the offset is held and fades once no "
+          "tool is in the cut."},
+    Entry{Reason::thermal_sensor_stuck, "thermal_sensor_stuck",
+          "A temperature sensor that the forecast needs stands still while others move: the offset "
+          "is held and fades once no tool is in the cut."},
     Entry{Reason::thermal_reading_taken, "thermal_reading_taken",
           "A reading has corrected the thermal model's state."},
     Entry{Reason::thermal_reading_outlier, "thermal_reading_outlier",

@@ -52,6 +52,8 @@ enum class Reason : std::uint16_t {
   thermal_held = 503,             ///< threading, tapping or probing: the offset must not move
   thermal_sensor_lost = 504,      ///< a temperature that the forecast needs is not known
   thermal_beyond_speed = 505,     ///< the spindle is faster than anything that was fitted
+  thermal_sensor_wild = 506,      ///< a temperature that cannot be, or came by a step
+  thermal_sensor_stuck = 507,     ///< a sensor stands still while others move
   thermal_reading_taken = 520,    ///< a reading has corrected the model's state
   thermal_reading_outlier = 521,  ///< a reading beyond the gate: not taken
   thermal_model_unfit = 522,      ///< the readings no longer fit the model

@@ -27,13 +27,16 @@ constexpr double kBeyondSpeed = 1.2;    ///< of the fastest that was fitted
 constexpr double kThere_mm = 1e-4;      ///< nearer to the wish is there
 constexpr double kUntold = std::numeric_limits<double>::quiet_NaN();
 
+bool feeds(Motion motion) noexcept {
+  return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
+}
+
 Drive drive_of(const Frame& frame) noexcept {
   Drive drive;
   const double speed = std::abs(frame.spindle_actual_rev_s);
   drive.speed_rev_s = speed < kStands_rev_s ? 0.0 : speed;
   drive.feed_mm_s = frame.path_speed_mm_s;
-  drive.cutting =
-      frame.motion == Motion::feed || frame.motion == Motion::thread || frame.motion == Motion::tap;
+  drive.cutting = feeds(frame.motion);
   drive.coolant = frame.coolant;
   return drive;
 }
@@ -51,6 +54,10 @@ bool must_hold(Motion motion) noexcept {
 int weight(Reason reason) noexcept {
   switch (reason) {
     case Reason::thermal_model_unfit:
+      return 8;
+    case Reason::thermal_sensor_wild:
+      return 7;
+    case Reason::thermal_sensor_stuck:
       return 6;
     case Reason::thermal_sensor_lost:
       return 5;
@@ -87,6 +94,9 @@ Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
   OffsetGovernor made;
   made.max_offset_mm_ = std::min(thermal.max_offset_mm, machine.envelope.max_offset_mm);
   made.slope_mm_s_ = std::min(thermal.slope_mm_s, machine.envelope.offset_slew_mm_s);
+  made.retract_slope_mm_s_ = std::min(std::max(thermal.retract_slope_mm_s, thermal.slope_mm_s),
+                                      machine.envelope.offset_slew_mm_s);
+  made.sensors_ = sensors.size();
   made.max_step_s_ = machine.envelope.stale_after_s;
   const std::size_t axes = std::min(machine.axes.size(), kernel::signal::kMaxAxes);
   for (std::size_t i = 0; i < axes; ++i) {
@@ -146,6 +156,7 @@ void OffsetGovernor::drive_on(const Frame& frame) noexcept {
   const Drive drive = drive_of(frame);
   const bool first = !state_.started;
   state_.started = true;
+  state_.unwatched_s += elapsed_s;
   if (elapsed_s > kGap_s) {
     step();
     step(elapsed_s, {});
@@ -158,6 +169,8 @@ void OffsetGovernor::drive_on(const Frame& frame) noexcept {
       !same_class(state_.drive, drive)) {
     step();
     temperature_c_ = frame.temperature_c;
+    watch_.update(state_.unwatched_s, sensors_, temperature_c_);
+    state_.unwatched_s = 0.0;
   }
   if (first) {
     step(0.0, drive);  // the first temperatures count as settled
@@ -173,14 +186,18 @@ Reason OffsetGovernor::fault(const Axis& axis, const Frame& frame) const noexcep
     if (!std::isfinite(frame.temperature_c[axis.sensor[j]])) {
       return Reason::thermal_sensor_lost;
     }
+    if (const Reason doubted = watch_.fault(axis.sensor[j]); doubted != Reason::none) {
+      return doubted;
+    }
   }
   const bool beyond = axis.max_speed_rev_s > 0.0 &&
                       std::abs(frame.spindle_actual_rev_s) > kBeyondSpeed * axis.max_speed_rev_s;
   return beyond ? Reason::thermal_beyond_speed : Reason::none;
 }
 
+/// What fades keeps to the slower slope: a sensor that fails for a second must not take it all.
 Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
-                            double step_mm) const noexcept {
+                            double step_s) const noexcept {
   const Reason faulty = fault(axis, frame);
   const bool held = must_hold(frame.motion) || (faulty != Reason::none && tool_in_cut);
   if (held) {
@@ -189,6 +206,8 @@ Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
   const double whole = axis.reference_mm - axis.filter.displacement_mm();
   const double within = std::clamp(whole, -max_offset_mm_, max_offset_mm_);
   const double wish = faulty == Reason::none ? within : 0.0;
+  const bool slowly = tool_in_cut || feeds(frame.motion) || faulty != Reason::none;
+  const double step_mm = (slowly ? slope_mm_s_ : retract_slope_mm_s_) * step_s;
   axis.offset_mm += std::clamp(wish - axis.offset_mm, -step_mm, step_mm);
   axis.offset_mm = std::clamp(axis.offset_mm, -max_offset_mm_, max_offset_mm_);
   if (faulty != Reason::none) {
@@ -231,13 +250,13 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
     return output_;
   }
   const double elapsed_s = state_.in_force ? frame.time_s - state_.time_s : 0.0;
-  const double step_mm = slope_mm_s_ * std::clamp(elapsed_s, 0.0, max_step_s_);
+  const double step_s = std::clamp(elapsed_s, 0.0, max_step_s_);
   state_.in_force = true;
   drive_on(frame);
   probe(frame);
   output_.request.reason = axes_.empty() ? Reason::none : Reason::thermal_correcting;
   for (Axis& axis : axes_) {
-    const Reason reason = move(axis, frame, tool_in_cut, step_mm);
+    const Reason reason = move(axis, frame, tool_in_cut, step_s);
     if (weight(reason) > weight(output_.request.reason)) {
       output_.request.reason = reason;
     }
@@ -294,6 +313,7 @@ void OffsetGovernor::rezero(std::size_t axis, const StateFilter::Reading& readin
 
 OffsetGovernor::State OffsetGovernor::state() const noexcept {
   State state = state_;
+  state.sensors = watch_.state();
   for (const Axis& axis : axes_) {
     state.axis[axis.index] = {.filter = axis.filter.state(),
                               .reference_mm = axis.reference_mm,
@@ -306,10 +326,11 @@ void OffsetGovernor::restore(const State& state) noexcept {
   reset();
   const bool fit = std::isfinite(state.pending_s) && state.pending_s >= 0.0 &&
                    std::isfinite(state.turned_rev) && std::isfinite(state.path_mm) &&
-                   std::isfinite(state.time_s) && std::isfinite(state.drive.speed_rev_s) &&
-                   std::isfinite(state.drive.feed_mm_s);
+                   std::isfinite(state.time_s) && std::isfinite(state.unwatched_s) &&
+                   std::isfinite(state.drive.speed_rev_s) && std::isfinite(state.drive.feed_mm_s);
   if (fit) {
     state_ = state;
+    watch_.restore(state.sensors);
   }
   for (Axis& axis : axes_) {
     const AxisState& of = state.axis[axis.index];
@@ -326,6 +347,7 @@ void OffsetGovernor::restore(const State& state) noexcept {
 
 void OffsetGovernor::reset() noexcept {
   state_ = {};
+  watch_.reset();
   temperature_c_ = kernel::signal::unknown_temperatures();
   output_ = {};
   probe_number_ = 0;

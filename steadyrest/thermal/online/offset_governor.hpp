@@ -12,6 +12,7 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
+#include <steadyrest/thermal/online/sensor_watch.hpp>
 #include <steadyrest/thermal/online/state_filter.hpp>
 
 namespace steadyrest::thermal::online {
@@ -26,12 +27,14 @@ namespace steadyrest::thermal::online {
 /// For each axis o, with the displacement δ, the displacement r at which the workpiece's zero was
 /// set, and m the smaller of the two largest offsets of the machine file:
 ///   wish = clamp(r − δ, ±m),   o moves to it by at most slope·Δt,   Δt ≤ `stale_after_s`
-/// In a thread, tap or probing move o is held. While a temperature is not known that the axis
-/// needs, while the spindle turns faster than 1.2 times what was fitted, and while its readings do
-/// not fit the model, o is held as long as a tool is in the cut; once none is, it fades to 0 by the
-/// slope. With unfit input it is held, and the envelope alone acts.
-/// slope is the smaller one of the thermal slope and of the envelope's slew, in the cut and out of
-/// it, whatever the forecast does: no step that would mark the surface can come from here.
+/// In a thread, tap or probing move o is held. While a temperature is not known or not believed
+/// (sensor_watch.hpp) that the axis needs, while the spindle turns faster than 1.2 times what was
+/// fitted, and while its readings do not fit the model, o is held as long as a tool is in the cut;
+/// once none is, it fades to 0 by the slope. With unfit input it is held, and the envelope alone
+/// acts. slope is the smaller one of the thermal slope and of the envelope's slew, whatever the
+/// forecast does: no step that would mark the surface can come from here. Where the machine file
+/// gives a retract slope, that one holds instead while no tool is in the cut, nothing is fed
+/// and nothing fades.
 ///
 /// A probe reading that a frame brings is taken once, by its number. What stood there in the first
 /// frame after make(), reset() or restore() is not: nobody knows with which offset it was made. A
@@ -71,6 +74,8 @@ class OffsetGovernor {
     double time_s = 0.0;
     bool started = false;
     bool in_force = false;  ///< the last request was, so that o may move on from it
+    SensorWatch::State sensors;
+    double unwatched_s = 0.0;  ///< the watch has not been told of yet
   };
 
   /// For the axes of the machine that have a thermal passport; rotary ones take no offset. Refuses
@@ -133,8 +138,11 @@ class OffsetGovernor {
   std::vector<Axis> axes_;
   double max_offset_mm_ = 0.0;
   double slope_mm_s_ = 0.0;
+  double retract_slope_mm_s_ = 0.0;
   double max_step_s_ = 0.1;
-  State state_;  ///< `axis` is filled in by state() alone
+  State state_;  ///< `axis` and `sensors` are filled in by state() alone
+  std::size_t sensors_ = 0;
+  SensorWatch watch_;
   kernel::signal::Temperatures temperature_c_ = kernel::signal::unknown_temperatures();
   Output output_;
   std::uint64_t probe_number_ = 0;

@@ -100,6 +100,22 @@ TEST(ProbeInTheProgram, SetsTheModelRightWhileThePartIsMade) {
   EXPECT_LT(otherwise_um, error_um(nobody, at_s + 40.0, at_s + 100.0));
 }
 
+// A second above the part is enough; without a retract slope it takes half a minute of the next
+// cut.
+TEST(ProbeInTheProgram, WithARetractSlopeTheNextCutIsRightFromItsBeginning) {
+  const auto first_cut_um = [](double retract_um_min) {
+    Machine machine = wrong_mill(0.2);
+    machine.thermal.retract_slope_mm_s = retract_um_min * 1e-3 / 60.0;
+    const auto cut = run(job_of(machine, program_with("G38.2 Z0 F300\nG0 Z5\nG4 P1"))).value();
+    const double at_s = cut.probes().at(0).time_s;
+    return error_um(cut, at_s + 3.0, at_s + 8.0);
+  };
+  const double slow_um = first_cut_um(0.0);
+  const double fast_um = first_cut_um(900.0);
+  EXPECT_GT(slow_um, 8.0);
+  EXPECT_LT(fast_um, 0.25 * slow_um);
+}
+
 TEST(ProbeInTheProgram, AReadingBeyondBeliefIsShownAndChangesNothing) {
   const Machine machine = wrong_mill(0.5);
   const auto probed = run(job_of(machine, program_with("G38.2 Z0 F300"))).value();

@@ -16,6 +16,7 @@ shares = [0.9, 0.8]
 level = 1
 max_offset_um = 55
 slope_um_min = 6
+retract_slope_um_min = 60
 state_s = 700
 [[thermal.axis]]
 name = "Z"
@@ -55,6 +56,7 @@ TEST(ThermalPassport, EveryKeyReachesItsField) {
   EXPECT_EQ(thermal->level, 1U);
   EXPECT_DOUBLE_EQ(thermal->max_offset_mm, 0.055);
   EXPECT_DOUBLE_EQ(thermal->slope_mm_s, 1e-4);
+  EXPECT_DOUBLE_EQ(thermal->retract_slope_mm_s, 1e-3);
   EXPECT_DOUBLE_EQ(thermal->state_s, 700.0);
   ASSERT_EQ(thermal->axis.size(), 2U);
   const ThermalAxis& z = thermal->axis[0];

@@ -71,9 +71,12 @@ void spoil(OffsetGovernor& governor) {
 }
 
 RC_GTEST_PROP(OffsetGovernorSafety, NoInputLeavesTheClampOrTheSlope, ()) {
-  const auto machine = mill();
+  auto machine = mill();
+  machine.thermal.retract_slope_mm_s = *rc::gen::elementOf(std::vector<double>{0.0, 0.002, 1.0});
   OffsetGovernor governor = OffsetGovernor::make(machine).value();
-  const double slope = machine.thermal.slope_mm_s;
+  const double retract =
+      std::min(std::max(machine.thermal.slope_mm_s, machine.thermal.retract_slope_mm_s),
+               machine.envelope.offset_slew_mm_s);
   const double most = machine.envelope.stale_after_s;
   double time_s = 0.0;
   double last_fit_s = 0.0;
@@ -89,6 +92,8 @@ RC_GTEST_PROP(OffsetGovernorSafety, NoInputLeavesTheClampOrTheSlope, ()) {
         *rc::gen::weightedElement<Reason>({{5, Reason::none}, {1, Reason::input_stale}});
     const Frame frame = any_frame(time_s);
     const auto& request = governor.update(frame, unfit, in_cut).request;
+    const double slope =
+        in_cut || frame.motion == Motion::feed ? machine.thermal.slope_mm_s : retract;
     for (std::size_t i = 0; i < request.offset_mm.size(); ++i) {
       const double offset = request.offset_mm[i];
       RC_ASSERT(std::isfinite(offset));

@@ -146,6 +146,47 @@ TEST(OffsetGovernor, HoldsWhenTheReadingsNoLongerFit) {
   EXPECT_NEAR(on.seconds(60.0).request.offset_mm[kZ], before - 0.004, 1e-3);
 }
 
+TEST(OffsetGovernor, OutOfTheCutItMovesByTheRetractSlopeWhereThereIsOne) {
+  // A reading asks for 4 µm; the time that the offset takes to get there.
+  const auto walks_s = [](double retract_um_min, double slew_mm_s, bool in_cut, Motion motion) {
+    auto machine = mill();
+    machine.thermal.retract_slope_mm_s = retract_um_min * 1e-3 / 60.0;
+    machine.envelope.offset_slew_mm_s = slew_mm_s;
+    Governed on(machine);
+    on.seconds(600.0);
+    on.tool_in_cut = in_cut;
+    on.frame.motion = motion;
+    on.governor.rezero(kZ, {.displacement_mm = 0.004, .sd_mm = 0.0005});
+    const double start_s = on.frame.time_s;
+    while (on.cycle().request.reason == Reason::thermal_following &&
+           on.frame.time_s < start_s + 60.0) {
+    }
+    return on.frame.time_s - start_s;
+  };
+  constexpr double kSlew_mm_s = 0.05;
+  EXPECT_NEAR(walks_s(0.0, kSlew_mm_s, false, Motion::rapid), 24.0, 2.0) << "10 µm/min";
+  EXPECT_NEAR(walks_s(120.0, kSlew_mm_s, false, Motion::rapid), 2.0, 0.2);
+  EXPECT_NEAR(walks_s(120.0, kSlew_mm_s, false, Motion::dwell), 2.0, 0.2);
+  EXPECT_NEAR(walks_s(120.0, kSlew_mm_s, true, Motion::feed), 24.0, 2.0);
+  EXPECT_NEAR(walks_s(120.0, kSlew_mm_s, true, Motion::idle), 24.0, 2.0) << "still in the cut";
+  EXPECT_NEAR(walks_s(120.0, kSlew_mm_s, false, Motion::feed), 24.0, 2.0) << "it feeds";
+  EXPECT_NEAR(walks_s(60'000.0, 0.001, false, Motion::rapid), 4.0, 0.3) << "the envelope's slew";
+}
+
+TEST(OffsetGovernor, ASensorThatFailsForASecondOutOfTheCutDoesNotTakeTheOffsetAway) {
+  auto machine = mill();
+  machine.thermal.retract_slope_mm_s = 0.010;
+  Governed on(machine);
+  on.frame.temperature_c[0] = 23.0;
+  on.seconds(60.0);
+  on.tool_in_cut = false;
+  on.frame.motion = Motion::rapid;
+  on.frame.temperature_c[0] = kNaN;
+  EXPECT_NEAR(on.seconds(1.0).request.offset_mm[kX], -0.006, 2e-4);
+  on.frame.temperature_c[0] = 23.0;
+  EXPECT_NEAR(on.seconds(0.2).request.offset_mm[kX], -0.006, 1e-12);
+}
+
 TEST(OffsetGovernor, AfterTheZeroWasSetOnlyWhatChangesIsCorrected) {
   Governed on;
   on.seconds(1200.0);

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/thermal/online/sensor_watch.hpp>
+#include <steadyrest/thermal/online/test/governed.hpp>
+
+namespace steadyrest::thermal::online {
+namespace {
+
+using kernel::outcome::Reason;
+using kernel::signal::Motion;
+using kernel::signal::Temperatures;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kHour = 3600.0;
+
+/// A machine whose sensor 1 warms and cools by 8 K in 3 h with noise; sensor 0 is `first`, both by
+/// the hours since the start.
+class Watched {
+ public:
+  explicit Watched(std::function<double(double)> first) : first_(std::move(first)) {}
+
+  /// The first hour at which sensor 0 is not believed; NaN: it is throughout.
+  double doubted_at_h(double until_h, Reason reason) {
+    double at_h = kNaN;
+    for (; hours_ < until_h; hours_ += 10.0 / kHour) {
+      step();
+      const Reason fault = watch_.fault(0);
+      if (fault != Reason::none && std::isnan(at_h)) {
+        EXPECT_EQ(fault, reason);
+        at_h = hours_;
+      }
+      EXPECT_EQ(watch_.fault(1), Reason::none);
+    }
+    return at_h;
+  }
+  bool believed() { return watch_.fault(0) == Reason::none; }
+
+ private:
+  void step() {
+    Temperatures now = kernel::signal::unknown_temperatures();
+    now[0] = first_(hours_);
+    now[1] = 24.0 + 4.0 * std::sin(hours_ * 2.1) + 0.02 * normal_(random_);
+    watch_.update(10.0, 2, now);
+    EXPECT_EQ(std::isnan(now[0]), watch_.fault(0) != Reason::none || std::isnan(first_(hours_)));
+  }
+
+  std::function<double(double)> first_;
+  SensorWatch watch_;
+  double hours_ = 0.0;
+  std::mt19937_64 random_{1};
+  std::normal_distribution<double> normal_;
+};
+
+double in_steps(double value, double step) {
+  return step * std::round(value / step);
+}
+
+double fine(double hours) {
+  return 20.0 + 1.5 * std::sin(hours * 0.26) + 0.013 * std::sin(hours * 977.0);
+}
+
+TEST(SensorWatch, AFineSensorThatStopsToMoveIsStuckAfterTwoHours) {
+  Watched watched([](double hours) { return fine(std::min(hours, 5.0)); });
+  const double at_h = watched.doubted_at_h(12.0, Reason::thermal_sensor_stuck);
+  EXPECT_GT(at_h, 6.99);
+  EXPECT_LT(at_h, 10.0) << "two hours, and until the other has moved";
+}
+
+TEST(SensorWatch, AFineSensorThatNeverMovesIsStuckToo) {
+  Watched watched([](double) { return 21.373; });
+  EXPECT_LT(watched.doubted_at_h(8.0, Reason::thermal_sensor_stuck), 4.0);
+}
+
+TEST(SensorWatch, ARoomThatIsHeldIsNotCalledStuckByACoarseSensor) {
+  for (const double step : {0.05, 0.0625, 0.1, 0.25, 0.5, 1.0}) {
+    Watched never([&](double) { return in_steps(20.2, step); });
+    EXPECT_TRUE(std::isnan(never.doubted_at_h(72.0, Reason::none))) << step;
+    // It crosses a step now and then, seven hours apart at most.
+    Watched seldom([&](double hours) {
+      return in_steps(20.0, step) + (std::fmod(hours, 12.0) > 5.0 ? step : 0.0);
+    });
+    EXPECT_TRUE(std::isnan(seldom.doubted_at_h(72.0, Reason::none))) << step;
+  }
+  Watched fahrenheit([](double) { return (68.3 - 32.0) / 1.8; });
+  EXPECT_TRUE(std::isnan(fahrenheit.doubted_at_h(72.0, Reason::none)));
+  Watched single([](double) { return static_cast<double>(21.3F); });
+  EXPECT_TRUE(std::isnan(single.doubted_at_h(72.0, Reason::none)));
+}
+
+TEST(SensorWatch, ACoarseSensorThatMovedAndStopsIsStuckAfterEightHours) {
+  Watched watched([](double hours) { return in_steps(fine(std::min(hours, 10.0)), 0.1); });
+  const double at_h = watched.doubted_at_h(30.0, Reason::thermal_sensor_stuck);
+  EXPECT_GT(at_h, 17.0);
+  EXPECT_LT(at_h, 21.0);
+}
+
+TEST(SensorWatch, NobodyIsStuckInAMachineThatIsAllStill) {
+  SensorWatch watch;
+  for (int i = 0; i < 72 * 360; ++i) {
+    Temperatures now = kernel::signal::unknown_temperatures();
+    now[0] = 20.137;
+    now[1] = 20.211;
+    watch.update(10.0, 2, now);
+    ASSERT_EQ(watch.fault(0), Reason::none);
+    ASSERT_EQ(watch.fault(1), Reason::none);
+  }
+}
+
+TEST(SensorWatch, IsBelievedAgainWhenItMoves) {
+  Watched watched([](double hours) { return hours < 9.0 ? 21.373 : 21.391; });
+  EXPECT_FALSE(std::isnan(watched.doubted_at_h(9.0, Reason::thermal_sensor_stuck)));
+  EXPECT_FALSE(watched.believed());
+  watched.doubted_at_h(9.1, Reason::thermal_sensor_stuck);
+  EXPECT_TRUE(watched.believed());
+}
+
+TEST(SensorWatch, WhatNoMachineShowsIsWild) {
+  for (const double value : {-40.0, 85.0, 127.0, 1e300, -1e300}) {
+    Watched watched([&](double hours) { return hours < 1.0 ? fine(hours) : value; });
+    EXPECT_NEAR(watched.doubted_at_h(2.0, Reason::thermal_sensor_wild), 1.0, 0.01) << value;
+  }
+  Watched from_the_start([](double hours) { return hours < 1.0 ? 85.0 : fine(hours); });
+  EXPECT_EQ(from_the_start.doubted_at_h(0.9, Reason::thermal_sensor_wild), 0.0);
+  from_the_start.doubted_at_h(1.1, Reason::thermal_sensor_wild);
+  EXPECT_TRUE(from_the_start.believed());
+}
+
+TEST(SensorWatch, AStepIsWildUntilAMachineCouldHaveComeThatFar) {
+  Watched watched([](double hours) { return fine(hours) + (hours < 1.0 ? 0.0 : 8.0); });
+  EXPECT_NEAR(watched.doubted_at_h(1.4, Reason::thermal_sensor_wild), 1.0, 0.01);
+  EXPECT_FALSE(watched.believed()) << "3 K and 10 K in an hour";
+  watched.doubted_at_h(1.7, Reason::thermal_sensor_wild);
+  EXPECT_TRUE(watched.believed());
+}
+
+TEST(SensorWatch, ASpikeIsLeftOutAndLeavesNothingBehind) {
+  Watched watched(
+      [](double hours) { return fine(hours) + (hours > 1.0 && hours < 1.02 ? 30.0 : 0.0); });
+  EXPECT_NEAR(watched.doubted_at_h(1.01, Reason::thermal_sensor_wild), 1.0, 0.01);
+  watched.doubted_at_h(1.03, Reason::thermal_sensor_wild);
+  EXPECT_TRUE(watched.believed());
+}
+
+TEST(SensorWatch, WhatMachinesDoIsBelieved) {
+  // A door in winter, noise of half a kelvin, a spindle that warms by 5 K in a minute, and a sensor
+  // that was unknown for an hour of warming.
+  Watched door([](double hours) { return 20.0 - 12.0 * (1.0 - std::exp(-hours / 0.1)); });
+  EXPECT_TRUE(std::isnan(door.doubted_at_h(3.0, Reason::none)));
+  Watched noise([](double hours) { return 20.0 + 0.5 * std::sin(hours * 1e5); });
+  EXPECT_TRUE(std::isnan(noise.doubted_at_h(3.0, Reason::none)));
+  Watched spindle([](double hours) { return 20.0 + std::min(30.0, 300.0 * hours); });
+  EXPECT_TRUE(std::isnan(spindle.doubted_at_h(3.0, Reason::none)));
+  Watched gap([](double hours) { return hours > 1.0 && hours < 2.0 ? kNaN : 20.0 + 5.0 * hours; });
+  EXPECT_TRUE(std::isnan(gap.doubted_at_h(3.0, Reason::none)));
+}
+
+TEST(SensorWatch, ItsStateGoesOnAfterARestart) {
+  SensorWatch first;
+  SensorWatch second;
+  for (int i = 0; i < 5 * 360; ++i) {
+    for (SensorWatch* const watch : {&first, &second}) {
+      Temperatures now = kernel::signal::unknown_temperatures();
+      now[0] = 21.373;
+      now[1] = 24.0 + 4.0 * std::sin(i * 0.006);
+      watch->update(10.0, 2, now);
+    }
+    if (i % 100 == 0) {
+      const auto state = second.state();
+      second.reset();
+      second.restore(state);
+    }
+  }
+  EXPECT_EQ(first.fault(0), Reason::thermal_sensor_stuck);
+  EXPECT_EQ(second.fault(0), Reason::thermal_sensor_stuck);
+  auto state = second.state();
+  state.sensor[0].follower_c = kNaN;
+  second.restore(state);
+  EXPECT_EQ(second.fault(0), Reason::none) << "anew";
+}
+
+TEST(OffsetGovernor, AWildSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
+  test::Governed on;
+  on.frame.temperature_c[0] = 23.0;
+  on.seconds(60.0);
+  const double before = on.governor.output().displacement_mm[test::kX];
+  on.frame.temperature_c[0] = 60.0;
+  EXPECT_EQ(on.seconds(300.0).request.reason, Reason::thermal_sensor_wild);
+  EXPECT_EQ(on.governor.output().displacement_mm[test::kX], before) << "the model has not seen it";
+  EXPECT_NEAR(on.governor.output().request.offset_mm[test::kX], -0.006, 1e-12);
+  EXPECT_LT(on.governor.output().request.offset_mm[test::kZ], -0.006) << "the other axis goes on";
+  on.tool_in_cut = false;
+  on.frame.motion = Motion::rapid;
+  EXPECT_EQ(on.seconds(60.0).request.offset_mm[test::kX], 0.0);
+  on.frame.temperature_c[0] = 23.5;
+  EXPECT_NEAR(on.seconds(60.0).request.offset_mm[test::kX], -0.007, 1e-12);
+}
+
+TEST(OffsetGovernor, AStuckSensorIsAsOneThatIsLost) {
+  auto machine = test::mill();
+  machine.thermal.axis[0].ambient.push_back({.sensor = "column", .gain_mm_k = 0.001});
+  test::Governed on(machine);
+  on.frame.temperature_c[1] = 21.373;
+  const auto hours = [&](double h) {
+    for (int i = 0; i < static_cast<int>(h * 120.0); ++i) {
+      on.frame.time_s += 30.0;
+      // The governor's order: Z's sensor is named first.
+      on.frame.temperature_c[0] = 22.0 + 2.0 * std::sin(on.frame.time_s / 2000.0);
+      on.governor.update(on.frame, Reason::none, true);
+    }
+    return on.governor.output().request.reason;
+  };
+  EXPECT_NE(hours(1.5), Reason::thermal_sensor_stuck);
+  EXPECT_EQ(hours(4.0), Reason::thermal_sensor_stuck);
+  test::Governed restarted(machine);
+  restarted.governor.restore(on.governor.state());
+  restarted.frame = on.frame;
+  EXPECT_EQ(restarted.cycle().request.reason, Reason::thermal_sensor_stuck);
+}
+
+TEST(SensorWatch, DoesNotAllocate) {
+  SensorWatch watch;
+  Temperatures now = kernel::signal::unknown_temperatures();
+  now[3] = 20.0;
+  const kernel::rt::testing::AllocationGuard guard;
+  for (int i = 0; i < 1000; ++i) {
+    now[0] = 20.0 + i % 7;
+    watch.update(1.0, now.size(), now);
+  }
+  watch.restore(watch.state());
+  EXPECT_EQ(guard.allocations(), 0U);
+}
+
+}  // namespace
+}  // namespace steadyrest::thermal::online
