@@ -80,6 +80,30 @@ TEST(ThermalFit, WritesAPageOfWhatTemperaturesTellAndWhatTheModelLeaves) {
   expect_refused("thermal fit " + kLog + " --report /dev/null/here", "/dev/null");
 }
 
+// The example's levels are in proportion to the speed: 6.5 µm for each 1000 rpm.
+TEST(ThermalFit, GivesLevelsAsATableThatForecastTakes) {
+  const Scratch scratch;
+  const auto fit = answer_of("thermal fit " + kLog + " --channel z_um=Z --modes 2 --levels table " +
+                             "-o " + scratch.at("passport.toml"));
+  ASSERT_EQ(fit["modes"].size(), 2U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    double sum_um = 0.0;
+    for (const auto& mode : fit["modes"]) {
+      ASSERT_EQ(mode["speeds_rpm"].size(), 4U);
+      EXPECT_TRUE(mode["polynomial_um"].empty());
+      sum_um += mode["levels_um"][k].get<double>();
+    }
+    const double rpm = fit["modes"][0]["speeds_rpm"][k];
+    EXPECT_NEAR(rpm, k == 0 ? 0.0 : 1500.0 + 1500.0 * static_cast<double>(k), 1.0);
+    EXPECT_NEAR(sum_um, 6.5e-3 * rpm, 2.0);
+  }
+  const auto ahead = answer_of("thermal forecast --machine " + scratch.at("passport.toml") +
+                               " --log " + kLog + " --from-min 250 --rezero-min 60");
+  EXPECT_LT(ahead["axes"][0]["rms_um"].get<double>(), 1.0);
+  expect_refused("thermal fit " + scratch.file("short.csv", beginning(540)) + " --levels table",
+                 "the log has 2: 3000, 6000 rpm");
+}
+
 TEST(ThermalFit, TheProgramOfTheTestIsAccepted) {
   const auto checked =
       answer_of("program check examples/thermal/spindle-test.ngc --dialect linuxcnc");

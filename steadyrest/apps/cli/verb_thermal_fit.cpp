@@ -37,6 +37,7 @@ struct Options {
   std::vector<std::string> sensors;
   bool no_ambient = false;
   std::size_t modes = 0;
+  std::string levels = "polynomial";
   double horizon_min = 240.0;
   double from_min = -1e12;
   double to_min = 1e12;
@@ -91,21 +92,27 @@ Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+Json converted(const std::vector<double>& values, double (*convert)(double)) {
+  Json out = Json::array();
+  for (const double value : values) {
+    out.push_back(convert(value));
+  }
+  return out;
+}
+
 Json modes_of(const std::vector<offline::AxisFit>& fits) {
   Json out = Json::array();
   for (const offline::AxisFit& fit : fits) {
     for (std::size_t m = 0; m < fit.axis.mode.size(); ++m) {
       const auto& mode = fit.axis.mode[m];
-      Json polynomial = Json::array();
-      for (const double c : mode.polynomial_mm) {
-        polynomial.push_back(um_from_mm(c));
-      }
       out.push_back(
           {{"axis", fit.axis.name},
            {"tau_min", mode.tau_s / 60.0},
            {"rest_tau_min", (mode.rest_tau_s > 0.0 ? mode.rest_tau_s : mode.tau_s) / 60.0},
            {"tau_sd_percent", 100.0 * fit.ln_tau_sd[m]},
-           {"polynomial_um", polynomial},
+           {"polynomial_um", converted(mode.polynomial_mm, um_from_mm)},
+           {"speeds_rpm", converted(mode.speed_rev_s, kernel::units::rpm_from_rev_s)},
+           {"levels_um", converted(mode.level_mm, um_from_mm)},
            {"state_um", um_from_mm(mode.state_mm)}});
     }
   }
@@ -208,6 +215,7 @@ Result<Job> job_of(const Options& options) {
   }
   job.request.sensors = options.sensors;
   job.request.ambient = !options.no_ambient;
+  job.request.table = options.levels == "table";
   job.request.horizon_s = 60.0 * options.horizon_min;
   job.request.from_s = 60.0 * options.from_min;
   job.request.to_s = 60.0 * options.to_min;
@@ -303,11 +311,17 @@ void add_verb_thermal_fit(Session& session) {
   verb.add_flag("--no-ambient", options->no_ambient, "The spindle's speed is the only input");
   verb.add_option("--modes", options->modes, "Number of modes; without it by the left-out hours")
       ->check(CLI::Range(1, 3));
+  CLI::Option* known = verb.add_option(
+      "--tau-from", options->tau_from,
+      "Passport of a longer test: its time constants stand, its levels are a prior");
+  verb.add_option("--levels", options->levels,
+                  "What levels are of the spindle's speed: polynomial (n, n² or both), or table, "
+                  "over the speeds that the log holds for 20 min, straight between them")
+      ->check(CLI::IsMember({"polynomial", "table"}))
+      ->excludes(known);
   verb.add_option("--horizon-min", options->horizon_min,
                   "Minutes ahead that the passport shall forecast")
       ->check(CLI::Range(1.0, 1e5));
-  verb.add_option("--tau-from", options->tau_from,
-                  "Passport of a longer test: its time constants stand, its levels are a prior");
   verb.add_option("--from-min", options->from_min, "Leave out what is earlier in the log");
   verb.add_option("--to-min", options->to_min, "Leave out what is later in the log");
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });

@@ -15,6 +15,27 @@ using kernel::machine::ThermalMode;
 using kernel::units::mm_from_um;
 using kernel::units::um_from_mm;
 
+namespace {
+
+void put_levels(const Structure& structure, const Eigen::VectorXd& level_um, ThermalMode& mode) {
+  if (!structure.table_rev_s.empty()) {
+    mode.speed_rev_s = {0.0};
+    mode.level_mm = {0.0};
+    for (std::size_t k = 0; k < structure.table_rev_s.size(); ++k) {
+      mode.speed_rev_s.push_back(structure.table_rev_s[k]);
+      mode.level_mm.push_back(mm_from_um(level_um(static_cast<Eigen::Index>(k))));
+    }
+    return;
+  }
+  mode.polynomial_mm.assign(static_cast<std::size_t>(std::ranges::max(structure.power)), 0.0);
+  for (std::size_t p = 0; p < structure.power.size(); ++p) {
+    mode.polynomial_mm[static_cast<std::size_t>(structure.power[p]) - 1] =
+        mm_from_um(level_um(static_cast<Eigen::Index>(p)));
+  }
+}
+
+}  // namespace
+
 ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const LinearFit& fit,
                         const std::vector<double>& ln_tau_sd) {
   const Log& log = *data.log;
@@ -23,7 +44,7 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
   const Eigen::VectorXd& a = fit.amplitude;
   const auto levels = static_cast<Eigen::Index>(structure.levels());
   const auto gains = static_cast<Eigen::Index>(structure.ambient.size());
-  const auto powers = static_cast<Eigen::Index>(structure.power.size());
+  const auto terms = static_cast<Eigen::Index>(structure.level_terms());
   const auto starts = static_cast<Eigen::Index>(log.gap.size()) + 1;
   const Eigen::Index first_state = levels + gains + (gains > 0 ? 1 : 0);
   ThermalAxis out;
@@ -35,12 +56,8 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
     mode.tau_s = structure.mode[m].tau_s;
     mode.rest_tau_s = structure.mode[m].rest_tau_s;
     mode.tau_sd_ratio = m < ln_tau_sd.size() ? ln_tau_sd[m] : 0.0;
-    mode.polynomial_mm.assign(static_cast<std::size_t>(std::ranges::max(structure.power)), 0.0);
-    for (Eigen::Index p = 0; p < powers; ++p) {
-      const int power = structure.power[static_cast<std::size_t>(p)];
-      mode.polynomial_mm[static_cast<std::size_t>(power) - 1] = mm_from_um(a(i * powers + p));
-    }
-    const auto from_levels = a.segment(i * powers, powers).dot(end.segment(i * powers, powers));
+    put_levels(structure, a.segment(i * terms, terms), mode);
+    const auto from_levels = a.segment(i * terms, terms).dot(end.segment(i * terms, terms));
     const Eigen::Index state = first_state + i * starts;
     mode.state_mm =
         mm_from_um(from_levels + a.segment(state, starts).dot(end.segment(state, starts)));
@@ -63,14 +80,17 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
     ambient.state_c = end(levels + j);
     out.ambient.push_back(std::move(ambient));
   }
-  // A polynomial without its first term still has its place in the passport: known to be nought.
+  // A polynomial without its first term, and a table's level at 0 rpm, still have their places in
+  // the passport: known to be nought.
   std::vector<Eigen::Index> place;
-  for (std::size_t m = 0; m < structure.mode.size(); ++m) {
-    for (std::size_t q = 1; q <= out.mode[m].polynomial_mm.size(); ++q) {
+  for (Eigen::Index first = 0; first < levels; first += terms) {
+    for (std::size_t q = 1; q <= out.mode.front().polynomial_mm.size(); ++q) {
       const auto found = std::ranges::find(structure.power, static_cast<int>(q));
       place.push_back(found == structure.power.end() ? -1
-                                                     : static_cast<Eigen::Index>(m) * powers +
-                                                           (found - structure.power.begin()));
+                                                     : first + (found - structure.power.begin()));
+    }
+    for (std::size_t k = 0; k < out.mode.front().level_mm.size(); ++k) {
+      place.push_back(k == 0 ? -1 : first + static_cast<Eigen::Index>(k) - 1);
     }
   }
   for (Eigen::Index j = 0; j < gains; ++j) {
@@ -91,7 +111,15 @@ Structure structure_of(const ThermalAxis& axis, const Log& log) {
   for (const ThermalMode& mode : axis.mode) {
     out.mode.push_back({mode.tau_s, mode.rest_tau_s});
     powers = std::max(powers, mode.polynomial_mm.size());
+    for (const double speed : mode.speed_rev_s) {
+      if (speed > 0.0) {
+        out.table_rev_s.push_back(speed);
+      }
+    }
   }
+  std::ranges::sort(out.table_rev_s);
+  const auto twice = std::ranges::unique(out.table_rev_s);
+  out.table_rev_s.erase(twice.begin(), twice.end());
   out.power.clear();
   for (std::size_t p = 1; p <= powers; ++p) {
     out.power.push_back(static_cast<int>(p));
@@ -114,8 +142,16 @@ void known_prior(const ThermalAxis& axis, double unsure, const Structure& struct
     prior.root(at, at) = 1.0 / std::max(unsure * std::abs(mean), least_sd);
     ++at;
   };
-  for (const ThermalMode& mode : axis.mode) {
-    for (std::size_t p = 0; p < structure.power.size(); ++p) {
+  const auto model = online::ThermalModel::make(axis);
+  for (std::size_t m = 0; m < axis.mode.size(); ++m) {
+    const ThermalMode& mode = axis.mode[m];
+    for (const double speed : structure.table_rev_s) {
+      online::Drive drive;
+      drive.speed_rev_s = speed;
+      prior.root.row(at).setZero();  // what was known of its neighbours is known of itself now
+      know(model ? um_from_mm(model->level_mm(m, drive)) : 0.0, 0.05);
+    }
+    for (std::size_t p = 0; p < structure.power.size() && structure.table_rev_s.empty(); ++p) {
       know(p < mode.polynomial_mm.size() ? um_from_mm(mode.polynomial_mm[p]) : 0.0, 0.05);
     }
   }

@@ -15,7 +15,8 @@ namespace steadyrest::thermal::offline {
                                                        const FitData& data, const LinearFit& fit,
                                                        const std::vector<double>& ln_tau_sd);
 
-/// What a passport with polynomials is made of; sensors that the log has not are left out.
+/// What a passport is made of (with tables: at the speeds of all of them, 0 at 0 rpm); sensors that
+/// the log has not are left out.
 [[nodiscard]] Structure structure_of(const kernel::machine::ThermalAxis& axis, const Log& log);
 
 /// Levels and gains of the passport as what is known: its covariance, and `unsure` of each besides.

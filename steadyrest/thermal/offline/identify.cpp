@@ -13,6 +13,7 @@
 #include <steadyrest/thermal/offline/fitted_axis.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
 #include <steadyrest/thermal/offline/identify.hpp>
+#include <steadyrest/thermal/offline/level_table.hpp>
 #include <steadyrest/thermal/offline/structure_search.hpp>
 
 namespace steadyrest::thermal::offline {
@@ -46,6 +47,8 @@ class Identification {
         data_(fit_data(log, channel, request.from_s, request.to_s)),
         range_um_(data_.rows() > 0 ? data_.reading_um.maxCoeff() - data_.reading_um.minCoeff()
                                    : 0.0),
+        table_rev_s_(request.table ? held_speeds_rev_s(log, request.from_s, request.to_s)
+                                   : std::vector<double>{}),
         error_{std::max(kDriftGuess * range_um_, data_.noise_um), 4.0 * 3600.0, data_.noise_um} {}
 
   [[nodiscard]] std::optional<Refusal> unfit() const {
@@ -69,7 +72,7 @@ class Identification {
                       "take time constants from a longer test with --tau-from",
                       request_.horizon_s / kHorizonPerRun / 60.0));
     }
-    return std::nullopt;
+    return request_.table && request_.known == nullptr ? unfit_speeds() : std::nullopt;
   }
 
   Judged free_structure(const std::function<void(double)>& progress) {
@@ -77,10 +80,13 @@ class Identification {
     limits.most_modes = request_.modes.value_or(3);
     limits.most_ambients = request_.ambient && has_blocks() ? 2 : 0;
     limits.sensor = sensors();
-    const std::vector<Structure> found =
+    std::vector<Structure> found =
         has_blocks() ? search(data_, error_, limits,
                               [&](double share) { progress ? progress(0.6 * share) : void(); })
                      : by_modes(limits.most_modes);
+    for (Structure& s : found) {  // powers have found what to begin with
+      s.table_rev_s = table_rev_s_;
+    }
     std::vector<Judged> all;
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (!request_.modes || found[i].mode.size() == *request_.modes) {
@@ -184,6 +190,22 @@ class Identification {
 
   [[nodiscard]] Refusal refuse(std::string what, std::string to_do) const {
     return {Kind::bad_input, log_.file, 0, std::move(what), std::move(to_do)};
+  }
+  [[nodiscard]] std::optional<Refusal> unfit_speeds() const {
+    const std::size_t speeds = table_rev_s_.size();
+    if (speeds >= kLeastSpeeds && speeds <= kMostSpeeds) {
+      return std::nullopt;
+    }
+    std::string held;
+    for (std::size_t k = 0; k < speeds && k < kMostSpeeds; ++k) {
+      held += fmt::format("{}{:.0f}", k == 0 ? ": " : ", ",
+                          kernel::units::rpm_from_rev_s(table_rev_s_[k]));
+    }
+    return refuse(fmt::format("a table of levels needs {} … {} speeds that are held for {:.0f} min "
+                              "each; the log has {}{}{}",
+                              kLeastSpeeds, kMostSpeeds, kHeld_s / 60.0, speeds, held,
+                              held.empty() ? "" : " rpm"),
+                  "run the test at more speeds, or fit a polynomial: --levels polynomial");
   }
   [[nodiscard]] bool has_blocks() const { return data_.block.size() >= kLeastBlocks; }
   [[nodiscard]] Eigen::MatrixXd columns(const Structure& s) const {
@@ -296,6 +318,7 @@ class Identification {
   const FitRequest& request_;
   FitData data_;
   double range_um_;
+  std::vector<double> table_rev_s_;  ///< empty: powers of the speed
   ErrorModel error_;
 };
 

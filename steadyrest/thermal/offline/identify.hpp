@@ -16,8 +16,10 @@ struct FitRequest {
   std::optional<std::size_t> modes;  ///< without it by left-out hours
   std::vector<std::string> sensors;  ///< temperatures that may be inputs; empty: all of the log
   bool ambient = true;               ///< temperatures may be inputs at all
-  double horizon_s = 4.0 * 3600.0;   ///< so far ahead the model shall forecast
-  double from_s = -1e300;            ///< of the log
+  /// Levels as a table over the speeds that the log has, not as polynomials of the speed.
+  bool table = false;
+  double horizon_s = 4.0 * 3600.0;  ///< so far ahead the model shall forecast
+  double from_s = -1e300;           ///< of the log
   double to_s = 1e300;
   /// Time constants, sensors and, as what is known beforehand, levels and gains are taken from it.
   const kernel::machine::ThermalAxis* known = nullptr;

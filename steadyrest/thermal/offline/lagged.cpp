@@ -4,6 +4,7 @@
 
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/lagged.hpp>
+#include <steadyrest/thermal/offline/level_table.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
@@ -49,9 +50,9 @@ Eigen::VectorXd walk(const Log& log, std::span<const std::size_t> rows, Start st
   return out;
 }
 
-}  // namespace
-
-Eigen::VectorXd lagged_power(const Log& log, std::span<const std::size_t> rows, double power,
+/// x' = (level(n) − x)/τ, n in rev/s.
+template <class Level>
+Eigen::VectorXd lagged_level(const Log& log, std::span<const std::size_t> rows, Level level_of,
                              double tau_s, double rest_tau_s) {
   double x = 0.0;
   double speed = -1.0;
@@ -64,7 +65,7 @@ Eigen::VectorXd lagged_power(const Log& log, std::span<const std::size_t> rows, 
         const double n = log.speed_rev_s[row - 1];
         if (n != speed) {
           speed = n;
-          level = std::pow(n * kPer_rev_s, power);
+          level = level_of(n);
         }
         const double elapsed_s = log.time_s[row] - log.time_s[row - 1];
         const double keep = n == 0.0 && rest_tau_s > 0.0 ? standing(elapsed_s, rest_tau_s)
@@ -72,6 +73,21 @@ Eigen::VectorXd lagged_power(const Log& log, std::span<const std::size_t> rows, 
         x = level + (x - level) * keep;
       },
       [&] { return x; });
+}
+
+}  // namespace
+
+Eigen::VectorXd lagged_power(const Log& log, std::span<const std::size_t> rows, double power,
+                             double tau_s, double rest_tau_s) {
+  return lagged_level(
+      log, rows, [power](double n) { return std::pow(n * kPer_rev_s, power); }, tau_s, rest_tau_s);
+}
+
+Eigen::VectorXd lagged_share(const Log& log, std::span<const std::size_t> rows,
+                             std::span<const double> table_rev_s, std::size_t k, double tau_s,
+                             double rest_tau_s) {
+  return lagged_level(
+      log, rows, [=](double n) { return table_share(table_rev_s, k, n); }, tau_s, rest_tau_s);
 }
 
 Eigen::VectorXd lagged_temperature(const Log& log, std::span<const std::size_t> rows,

@@ -18,6 +18,11 @@ namespace steadyrest::thermal::offline {
 [[nodiscard]] Eigen::VectorXd lagged_power(const Log& log, std::span<const std::size_t> rows,
                                            double power, double tau_s, double rest_tau_s = 0.0);
 
+/// The same with x' = (s − x)/τ, s the share of place `k` in a table of levels (level_table.hpp).
+[[nodiscard]] Eigen::VectorXd lagged_share(const Log& log, std::span<const std::size_t> rows,
+                                           std::span<const double> table_rev_s, std::size_t k,
+                                           double tau_s, double rest_tau_s = 0.0);
+
 /// θ' = (T − θ)/τ from the first temperature on; a hole holds the last one.
 [[nodiscard]] Eigen::VectorXd lagged_temperature(const Log& log, std::span<const std::size_t> rows,
                                                  const LogChannel& channel, double tau_s);

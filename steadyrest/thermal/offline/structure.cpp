@@ -26,8 +26,11 @@ Eigen::MatrixXd columns_of(const Structure& structure, const Log& log,
   Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), n);
   Eigen::Index at = 0;
   for (const Structure::Mode& m : structure.mode) {
-    for (const int power : structure.power) {
-      out.col(at++) = lagged_power(log, rows, power, m.tau_s, m.rest_tau_s);
+    for (std::size_t k = 0; k < structure.table_rev_s.size(); ++k) {
+      out.col(at++) = lagged_share(log, rows, structure.table_rev_s, k, m.tau_s, m.rest_tau_s);
+    }
+    for (std::size_t p = 0; p < structure.power.size() && structure.table_rev_s.empty(); ++p) {
+      out.col(at++) = lagged_power(log, rows, structure.power[p], m.tau_s, m.rest_tau_s);
     }
   }
   for (const Structure::Ambient& a : structure.ambient) {

@@ -23,10 +23,16 @@ struct Structure {
   };
   std::vector<Mode> mode;
   std::vector<int> power = {1};  ///< of the speed, in each mode's level
+  /// Not empty: levels at these speeds (rising, none 0) instead of powers of the speed.
+  std::vector<double> table_rev_s;
   std::vector<Ambient> ambient;
 
   /// Linear parameters of the passport: levels, then gains.
-  [[nodiscard]] std::size_t levels() const noexcept { return mode.size() * power.size(); }
+  [[nodiscard]] std::size_t levels() const noexcept { return mode.size() * level_terms(); }
+  /// Of one mode.
+  [[nodiscard]] std::size_t level_terms() const noexcept {
+    return table_rev_s.empty() ? power.size() : table_rev_s.size();
+  }
   [[nodiscard]] std::size_t linear() const noexcept { return levels() + ambient.size(); }
   /// All that is fitted, but for where the log happened to begin.
   [[nodiscard]] std::size_t parameters() const noexcept;

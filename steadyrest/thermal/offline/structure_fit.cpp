@@ -138,8 +138,9 @@ LinearPrior wide_prior(const Structure& structure, const Log& log) {
   const double most = std::max(std::ranges::max(log.speed_rev_s) * kPer_rev_s, 0.1);
   std::vector<double> usual;
   for (std::size_t m = 0; m < structure.mode.size(); ++m) {
-    for (const int power : structure.power) {
-      usual.push_back(kUsualLevel_um / std::pow(most, power));
+    for (std::size_t p = 0; p < structure.level_terms(); ++p) {
+      usual.push_back(kUsualLevel_um /
+                      (structure.table_rev_s.empty() ? std::pow(most, structure.power[p]) : 1.0));
     }
   }
   usual.insert(usual.end(), structure.ambient.size(), kUsualGain_um_k);
@@ -149,6 +150,17 @@ LinearPrior wide_prior(const Structure& structure, const Log& log) {
   LinearPrior out{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     out.root(i, i) = 1.0 / usual[static_cast<std::size_t>(i)];
+  }
+  const std::vector<double>& table = structure.table_rev_s;
+  for (std::size_t m = 0; m < structure.mode.size(); ++m) {
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(m * table.size() + k);
+      const double step = table[k] - (k == 0 ? 0.0 : table[k - 1]);
+      out.root(i, i) *= std::sqrt(table.back() / step);
+      if (k > 0) {
+        out.root(i, i - 1) = -out.root(i, i);
+      }
+    }
   }
   return out;
 }

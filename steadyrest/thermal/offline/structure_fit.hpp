@@ -19,6 +19,8 @@ struct LinearPrior {
   Eigen::VectorXd mean;
   Eigen::MatrixXd root;
 };
+/// Levels of a table go from speed to speed as a random walk from 0 at 0 rpm, to the same at the
+/// fastest: one that was not tested lies between its neighbours.
 /// Levels of some 200 µm, gains of some 30 µm/K and states of some 30 µm may be; the constant is
 /// free.
 [[nodiscard]] LinearPrior wide_prior(const Structure& structure, const Log& log);

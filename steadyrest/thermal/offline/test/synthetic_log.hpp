@@ -14,6 +14,7 @@ namespace steadyrest::thermal::offline::test {
 struct KnownMode {
   double tau_min = 0.0;
   double um_per_krpm = 0.0;
+  double (*level_um)(double rpm) = nullptr;  ///< instead of it
 };
 
 struct KnownMachine {
@@ -47,7 +48,9 @@ inline Log log_of(const KnownMachine& machine, const std::vector<std::pair<int, 
       double um = machine.gain_um_k * (lagged - 20.0) + machine.noise_um * normal(random);
       for (std::size_t i = 0; i < x.size(); ++i) {
         um += x[i];
-        const double level = machine.mode[i].um_per_krpm * rpm / 1000.0;
+        const KnownMode& mode = machine.mode[i];
+        const double level =
+            mode.level_um != nullptr ? mode.level_um(rpm) : mode.um_per_krpm * rpm / 1000.0;
         x[i] = level + (x[i] - level) * std::exp(-1.0 / machine.mode[i].tau_min);
       }
       log.displacement[0].value.push_back(1e-3 * um);
