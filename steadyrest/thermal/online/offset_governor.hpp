@@ -133,7 +133,7 @@ class OffsetGovernor {
   [[nodiscard]] kernel::outcome::Reason fault(const Axis& axis,
                                               const kernel::signal::Frame& frame) const noexcept;
   kernel::outcome::Reason move(Axis& axis, const kernel::signal::Frame& frame, bool tool_in_cut,
-                               double step_mm) const noexcept;
+                               double step_s) const noexcept;
 
   std::vector<Axis> axes_;
   double max_offset_mm_ = 0.0;
