@@ -31,6 +31,14 @@ function(steadyrest_not_hot target)
   endif()
 endfunction()
 
+# What runs for each of a program's million lines. The code is position-independent, so g++ calls its own functions
+# through the linker's table and does not inline them unless it is told that nobody replaces them; clang takes that for
+# granted. The results are the same to the last bit.
+function(steadyrest_hot target)
+  target_compile_options(${target} PRIVATE
+    $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<CONFIG:Release>>:-O3;-fno-semantic-interposition;-fno-math-errno>)
+endfunction()
+
 # steadyrest_room(NAME kernel SOURCES a.cpp … DEPENDS steadyrest_math … TESTS test/a_test.cpp … TEST_DEPENDS …)
 # makes the library steadyrest_<NAME> and, where TESTS are named, the executable steadyrest_<NAME>_test.
 function(steadyrest_room)

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -37,6 +38,17 @@ class LineSource {
   ~LineSource();
 
   Status next() noexcept;
+  /// Goes over the next line if `whole`, which ends with LF, is what comes next and is in the
+  /// buffer; else nothing is done. line() is not set.
+  bool skip(std::string_view whole) noexcept {
+    if (static_cast<std::size_t>(end_ - at_) < whole.size() ||
+        std::memcmp(at_, whole.data(), whole.size()) != 0) {
+      return false;
+    }
+    at_ += whole.size();
+    ++number_;
+    return true;
+  }
   [[nodiscard]] std::string_view line() const noexcept { return line_; }   ///< without LF, CR LF
   [[nodiscard]] std::uint32_t number() const noexcept { return number_; }  ///< 1-based
   /// Where the next line begins, in bytes from the file's beginning.

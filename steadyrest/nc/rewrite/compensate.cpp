@@ -86,8 +86,8 @@ class Rewriter {
       return std::unexpected(lines.error());
     }
     while (lines->next()) {
-      plain_.look(lines->line());
-      if (is_inserted(lines->line())) {
+      const bool bare = plain_.look(lines->line());
+      if (!bare && is_inserted(lines->line())) {
         return refuse(lines->number(), "carries the mark of a correction already",
                       "take the corrections out first: program strip");
       }

@@ -84,25 +84,25 @@ bool is_simple(std::string_view line) noexcept {
 
 }  // namespace
 
-void PlainSurvey::look(std::string_view line) {
+bool PlainSurvey::look(std::string_view line) {
   ++line_;
   if (!plain_) {
-    return;
+    return false;
   }
   survey_.end_line = line_;
   if (is_simple(line)) {
-    return;
+    return true;
   }
   for (std::size_t at = 0;;) {
     while (at < line.size() && role(line[at]) >= Role::blank) {
       ++at;
     }
     if (at >= line.size()) {
-      return;
+      return false;
     }
     const Role now = role(line[at]);
     if (now == Role::rest) {
-      return;
+      return false;
     }
     if (now == Role::round) {
       at = line.find(')', at);
@@ -110,7 +110,7 @@ void PlainSurvey::look(std::string_view line) {
     plain_ =
         now == Role::code ? code(line, at) : now == Role::round && at != std::string_view::npos;
     if (!plain_) {
-      return;
+      return false;
     }
     at += now == Role::round ? 1U : 0U;
   }

@@ -23,8 +23,8 @@ class PlainSurvey {
   explicit PlainSurvey(read::Dialect dialect) noexcept
       : plain_(dialect == read::Dialect::linuxcnc) {}
 
-  /// The next line.
-  void look(std::string_view line);
+  /// The next line. True where it certainly holds no comment.
+  bool look(std::string_view line);
   /// None when the program is not plain.
   [[nodiscard]] std::optional<Survey> take() {
     return plain_ ? std::optional(std::move(survey_)) : std::nullopt;

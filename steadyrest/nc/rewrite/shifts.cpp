@@ -54,8 +54,31 @@ std::string Shifts::add(const Move& move, double most_mm) {
   return {};
 }
 
+/// Of straight moves that are not turned: begins where the move before ended and ends where it is
+/// wanted, on every axis. False, and nothing changed, where it needs an excuse.
+bool Shifts::as_wanted(const Move& before, const Move& after) noexcept {
+  Axes end{};
+  double worst_mm = 0.0;
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    const double start_mm =
+        (after.start[i] + after.offset[i]) - (before.start[i] + before.offset[i]);
+    end[i] = (after.end[i] + after.offset[i]) - (before.end[i] + before.offset[i]);
+    if (!same(start_mm, shift_[i]) || !same(end[i], wanted[i])) {
+      return false;
+    }
+    worst_mm = std::max(worst_mm, std::abs(end[i] - wanted[i]));
+  }
+  shift_ = end;
+  largest_error_mm_ = std::max(largest_error_mm_, worst_mm);
+  return true;
+}
+
 std::string Shifts::pair(const Move& before, const Move& after, const Frames& frames) {
   const bool turned = before.rotation_deg != 0.0 || after.rotation_deg != 0.0;
+  const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
+  if (straight && !turned && as_wanted(before, after)) {
+    return {};
+  }
   const auto difference = [&](const Axes& old_work, const Axes& new_work) {
     if (!turned) {
       Axes out;
@@ -74,15 +97,7 @@ std::string Shifts::pair(const Move& before, const Move& after, const Frames& fr
                             .centre = before.kind == MoveKind::arc
                                           ? difference(centre_of(before), centre_of(after))
                                           : Axes{}};
-  const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
   for (std::size_t i = 0; i < shift_.size(); ++i) {
-    // What is as it is wanted needs no excuse.
-    const double error_mm = std::abs(found.end[i] - wanted[i]);
-    if (straight && error_mm <= kSame_mm && same(found.start[i], shift_[i])) {
-      shift_[i] = found.end[i];
-      largest_error_mm_ = std::max(largest_error_mm_, error_mm);
-      continue;
-    }
     if (std::string fault = one_axis(i, before, found, frames); !fault.empty()) {
       return fault;
     }

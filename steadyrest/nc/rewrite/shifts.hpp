@@ -50,6 +50,7 @@ class Shifts {
     interpret::Axes end{};
     interpret::Axes centre{};
   };
+  bool as_wanted(const interpret::Move& before, const interpret::Move& after) noexcept;
   [[nodiscard]] std::string one_axis(std::size_t axis, const interpret::Move& before,
                                      const Difference& difference, const Frames& frames);
 

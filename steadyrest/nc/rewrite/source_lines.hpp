@@ -19,6 +19,11 @@ class SourceLines {
     status_ = source_.next();
     return status_ == read::LineSource::Status::line;
   }
+  /// Goes over the next line if it is this one with this end; else nothing is done.
+  bool skip(std::string_view line, std::string_view ending) noexcept {
+    return !ending.empty() && line.data() + line.size() == ending.data() &&
+           source_.skip({line.data(), line.size() + ending.size()});
+  }
   [[nodiscard]] std::string_view line() const noexcept { return source_.line(); }
   [[nodiscard]] std::uint32_t number() const noexcept { return source_.number(); }
   [[nodiscard]] std::string_view ending() const noexcept {

@@ -32,11 +32,14 @@ Result<Inserted> compare_text(const std::string& original, const std::string& ch
     }
   };
   while (before->next()) {
-    plain.look(before->line());
-    if (is_inserted(before->line())) {
+    const bool bare = plain.look(before->line());
+    if (!bare && is_inserted(before->line())) {
       return refuse(original, before->number(), "the original carries the mark of a correction");
     }
     // The original's line is no inserted one: what is the same is none either.
+    if (after->skip(before->line(), before->ending())) {
+      continue;
+    }
     bool more = after->next();
     while (more && after->line() != before->line() && is_inserted(after->line())) {
       take();
