@@ -217,13 +217,12 @@ class SegmentTimer::Runner final : public PathReceiver {
   void account(kernel::signal::Motion motion, std::uint32_t line, double from_s, double length_mm) {
     const double seconds = time_s_ - from_s;
     if (seconds > 0.0) {
-      Setpoint done;
-      done.motion = motion;
-      done.line = line;
-      done.spindle_rev_s = commanded_rev_s_;
-      done.coolant = coolant_;
-      done.path_speed_mm_s = length_mm / seconds;
-      cyclogram_.add(done, tool_, from_s, seconds);
+      done_.motion = motion;
+      done_.line = line;
+      done_.spindle_rev_s = commanded_rev_s_;
+      done_.coolant = coolant_;
+      done_.path_speed_mm_s = length_mm / seconds;
+      cyclogram_.add(done_, tool_, from_s, seconds);
     }
   }
 
@@ -296,6 +295,7 @@ class SegmentTimer::Runner final : public PathReceiver {
   std::size_t lowest_end_ = 0;
 
   Cyclogram cyclogram_;
+  Setpoint done_;  ///< for the cyclogram; what else it has stays as it is
   std::int64_t tool_ = 0;
   double commanded_rev_s_ = 0.0;
   bool coolant_ = false;

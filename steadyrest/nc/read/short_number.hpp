@@ -56,8 +56,8 @@ struct Digits {
     return false;
   }
   const char* const first = at;
-  const bool negative = *at == '-';
-  at += negative || *at == '+' ? 1 : 0;
+  const auto negative = static_cast<std::uint64_t>(*at == '-');
+  at += negative | static_cast<std::uint64_t>(*at == '+');  // no branch: signs cannot be guessed
   const detail::Digits whole = detail::few_digits(at, end);
   at += whole.count;
   detail::Digits decimals;
@@ -73,8 +73,8 @@ struct Digits {
       whole.value * detail::kWholePowerOfTen[decimals.count] + decimals.value);
   const double value = static_cast<double>(mantissa) / detail::kPowerOfTen[decimals.count];
   constexpr unsigned kSignBit = 63;
-  number.value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) |
-                                       (std::uint64_t{negative} << kSignBit));
+  number.value =
+      std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) | (negative << kSignBit));
   number.length = static_cast<std::size_t>(at - first);
   number.decimal_point = point;
   return true;
