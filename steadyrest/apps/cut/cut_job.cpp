@@ -138,7 +138,7 @@ class Probed {
                                                                   : std::string{},
                       .displacement_um = kernel::units::um_from_mm(reading.displacement_mm),
                       .innovation_um = kernel::units::um_from_mm(verdict.innovation_mm),
-                      .band_um = kernel::units::um_from_mm(kGate * verdict.innovation_sd_mm),
+                      .band_um = kernel::units::um_from_mm(gate_sd_ * verdict.innovation_sd_mm),
                       .reason = verdict.reason});
   }
   /// The line in hand, of which the next cycle may bring the reading.
@@ -147,8 +147,8 @@ class Probed {
   }
 
  private:
-  static constexpr double kGate = thermal::online::StateFilter::Config{}.gate_sd;
   const kernel::machine::Machine& machine_;
+  double gate_sd_ = thermal::online::StateFilter::Config{}.gate_sd;
   std::uint64_t number_ = 0;
   std::uint32_t line_ = 0;
 };
