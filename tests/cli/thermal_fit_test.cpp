@@ -53,6 +53,21 @@ TEST(ThermalFit, FindsTheMachineOfTheExample) {
                   .starts_with("t_s,speed_rpm,Z_um,Z_sd_um,Z_measured_um\n"));
 }
 
+TEST(ThermalForecast, OfALogWritesAPageToo) {
+  const Scratch scratch;
+  answer_of("thermal fit " + kLog + " --channel z_um=Z -o " + scratch.at("passport.toml"));
+  const auto ahead = answer_of("thermal forecast --machine " + scratch.at("passport.toml") +
+                               " --log " + kLog + " --from-min 250 --report " + scratch.at("page"));
+  EXPECT_EQ(ahead["report"], scratch.at("page/report.html"));
+  const auto page = nlohmann::json::parse(text_of_file(scratch.at("page/report.json")));
+  EXPECT_EQ(page["kind"], "replay");
+  const auto& axis = page["axes"][0];
+  EXPECT_NEAR(60.0 * axis["fitted_to_h"].get<double>(), 250.0, 0.6);
+  EXPECT_EQ(axis["t_h"].size(), axis["measured_um"].size());
+  EXPECT_GT(axis["sd_um"].back().get<double>(), axis["sd_um"][500].get<double>())
+      << "further ahead it is less certain";
+}
+
 TEST(ThermalFit, WritesAPageOfWhatTemperaturesTellAndWhatTheModelLeaves) {
   const Scratch scratch;
   const auto fit = answer_of("thermal fit " + kLog + " --channel z_um=Z --to-min 350 --report " +

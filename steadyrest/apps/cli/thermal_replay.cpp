@@ -6,9 +6,11 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_replay.hpp>
+#include <steadyrest/apps/thermal_page/fit_page.hpp>
 #include <steadyrest/kernel/machine/thermal_passport.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
@@ -26,6 +28,7 @@ using kernel::units::um_from_mm;
 
 struct AxisReplay {
   std::string name;
+  double noise_mm = 0.0;
   std::vector<offline::ReplayPoint> point;
   offline::ReplayScore score;
 };
@@ -111,9 +114,30 @@ void put(Answer& answer, Table& table, const AxisReplay& axis) {
   answer.json["max_um"] = std::max(answer.json["max_um"].get<double>(), most_um);
 }
 
+std::string page_of(const Answer& answer, const offline::Log& log,
+                    const std::vector<AxisReplay>& axes, double from_s) {
+  std::vector<thermal_page::FittedAxis> shown;
+  for (const AxisReplay& axis : axes) {
+    thermal_page::FittedAxis& one = shown.emplace_back();
+    one.axis = axis.name;
+    one.point.reserve(axis.point.size());
+    for (const offline::ReplayPoint& p : axis.point) {
+      one.point.push_back({.time_s = p.time_s,
+                           .measured_mm = p.measured_mm,
+                           .modelled_mm = p.displacement_mm,
+                           .sd_mm = std::hypot(p.sd_mm, axis.noise_mm),
+                           .fitted = p.time_s <= from_s});
+    }
+  }
+  return thermal_page::replay_page(answer.json, log, shown);
+}
+
 }  // namespace
 
 Outcome replay_thermal_log(const ThermalReplayOptions& options) {
+  if (auto ready = ready_report(options.report); !ready) {
+    return refused(ready.error());
+  }
   const auto passport = kernel::machine::read_thermal_passport(options.machine);
   if (!passport) {
     return refused(passport.error());
@@ -147,7 +171,7 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
       return refused(points.error());
     }
     const auto worth = offline::score(*points, axis.noise_mm);
-    axes.push_back({axis.name, std::move(*points), worth});
+    axes.push_back({axis.name, axis.noise_mm, std::move(*points), worth});
   }
   if (axes.empty()) {
     return refused(refusal(options.machine, "the passport has none of the axes that are named",
@@ -172,6 +196,14 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
   answer.text = table.text();
   for (const std::string& note : log->notes) {
     answer.text += note + "\n";
+  }
+  if (!options.report.empty()) {
+    const double from_s =
+        options.from_min ? 60.0 * *options.from_min : -std::numeric_limits<double>::infinity();
+    const std::string page = page_of(answer, *log, axes, from_s);
+    if (auto done = put_report(answer, options.report, page, thermal_page::to_html(page)); !done) {
+      return refused(done.error());
+    }
   }
   return answer;
 }

@@ -14,6 +14,7 @@ struct ThermalReplayOptions {
   std::string machine;
   std::string log;
   std::string output;
+  std::string report;                 ///< folder of the page; empty: none
   std::vector<std::string> axes;      ///< empty: all of the passport
   std::vector<std::string> channels;  ///< NAME=AXIS, where a column is not called as the axis
   std::optional<double> from_min;

@@ -87,6 +87,7 @@ Outcome run_log(const Options& options) {
   replay.machine = options.thermal.machine;
   replay.axes = options.thermal.axes;
   replay.output = options.output;
+  replay.report = options.report;
   replay.step_s = options.step_s;
   return replay_thermal_log(replay);
 }

@@ -99,8 +99,9 @@ void put_course(Json& out, const std::vector<FittedPoint>& points) {
   if (points.empty()) {
     return;
   }
-  const auto last =
-      std::ranges::find_if(points, [](const FittedPoint& p) { return !p.fitted; }) - 1;
+  const auto first_free =
+      std::ranges::find_if(points, [](const FittedPoint& p) { return !p.fitted; });
+  const auto last = first_free == points.begin() ? first_free : first_free - 1;
   out["fitted_from_h"] = short_number(hours(points.front().time_s));
   out["fitted_to_h"] = short_number(hours(last->time_s));
   out["t_h"] = column(points, [](const FittedPoint& p) { return hours(p.time_s); });
@@ -133,6 +134,18 @@ std::string fit_page(const Json& answer, const Log& log, const std::vector<Fitte
     for (const Regime& regime : regimes) {
       one["displacement_um"].push_back(picked(channel.value, regime.row, um_from_mm));
     }
+    put_course(one, axis.point);
+    page["axes"].push_back(std::move(one));
+  }
+  return text_of(page);
+}
+
+std::string replay_page(const Json& answer, const Log& log, const std::vector<FittedAxis>& axes) {
+  Json page = page_head("replay", log.file, answer);
+  page["speed"] = speed_json(log);
+  page["axes"] = Json::array();
+  for (const FittedAxis& axis : axes) {
+    Json one = {{"axis", axis.axis}, {"channel", axis.axis}};
     put_course(one, axis.point);
     page["axes"].push_back(std::move(one));
   }

@@ -23,4 +23,9 @@ struct FittedAxis {
 [[nodiscard]] std::string fit_page(const Json& answer, const thermal::offline::Log& log,
                                    const std::vector<FittedAxis>& axes);
 
+/// The page of `thermal forecast --log`: measured beside forecast, and what is left. A point is
+/// `fitted` here where readings up to it have set the state; the channel is not used.
+[[nodiscard]] std::string replay_page(const Json& answer, const thermal::offline::Log& log,
+                                      const std::vector<FittedAxis>& axes);
+
 }  // namespace steadyrest::apps::thermal_page

@@ -49,7 +49,7 @@ export interface PlanPage extends Head {
     k: number;
     level: number;
     tolerance_um: number;
-    axes: { axis: string; max_um: number; residual_um: number; ratio: number; corrections: number; sd_um: number }[];
+    axes: { axis: string; max_um: number; residual_um: number; ratio: number; corrections: number; sd_um: number; transitions: { name: string; t_min: number[]; delta_um: number[] }[] }[];
   };
   transitions: Transition[];
   courses: PlannedCourse[];
@@ -98,14 +98,11 @@ export interface Regime {
   temperature_c: Maybe[][];
 }
 
-export interface FittedAxis {
+/** What was measured beside what the model makes of the inputs. */
+export interface MeasuredCourse {
   axis: string;
   channel: string;
-  /** Place of the sensor that the displacement follows best; null where the log has none. */
-  best_sensor: number | null;
-  over: Over[];
-  /** In each regime. */
-  displacement_um: Maybe[][];
+  /** Up to there readings were used. */
   fitted_from_h: number;
   fitted_to_h: number;
   t_h: number[];
@@ -113,6 +110,26 @@ export interface FittedAxis {
   modelled_um: Maybe[];
   /** Of a reading about the model. */
   sd_um: Maybe[];
+}
+
+export interface SpeedSteps {
+  t_h: number[];
+  speed_rpm: number[];
+}
+
+export interface FittedAxis extends MeasuredCourse {
+  /** Place of the sensor that the displacement follows best; null where the log has none. */
+  best_sensor: number | null;
+  over: Over[];
+  /** In each regime. */
+  displacement_um: Maybe[][];
+}
+
+export interface ReplayPage extends Head {
+  kind: 'replay';
+  answer: { minutes: number; axes: { axis: string; end_um: number; end_sd_um: number; points: number; rms_um: Maybe; coverage: Maybe }[]; notes: string[] };
+  speed: SpeedSteps;
+  axes: MeasuredCourse[];
 }
 
 export interface FitPage extends Head {
@@ -135,11 +152,11 @@ export interface FitPage extends Head {
   sensors: string[];
   regimes: Regime[];
   /** Each speed from its time to the next. */
-  speed: { t_h: number[]; speed_rpm: number[] };
+  speed: SpeedSteps;
   axes: FittedAxis[];
 }
 
-export type Page = ForecastPage | PlanPage | BatchPage | FitPage;
+export type Page = ForecastPage | PlanPage | BatchPage | FitPage | ReplayPage;
 
 const SCHEMA = 'steadyrest-thermal/1';
 

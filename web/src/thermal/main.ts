@@ -6,6 +6,7 @@ import type { View } from '../chatter/frame';
 import { start } from '../chatter/start';
 import { type Page, parsePage } from './data';
 import { fitView } from './fit';
+import { replayView } from './replay';
 import { batchView, forecastView, planView } from './views';
 
 function viewOf(page: Page): View {
@@ -16,6 +17,8 @@ function viewOf(page: Page): View {
       return planView(page);
     case 'fit':
       return fitView(page);
+    case 'replay':
+      return replayView(page);
     case 'batch':
       return batchView(page);
   }

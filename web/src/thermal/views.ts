@@ -4,7 +4,9 @@ import type { Maybe } from '../chatter/data';
 import { type View, figures, host, keyLine, plain, plot, section } from '../chatter/frame';
 import { type Layer, type Plot, roomy } from '../chatter/plot';
 import { fixed } from '../format';
+import { escapeHtml } from '../page';
 import type { Theme } from '../theme';
+import { table } from './course';
 import { type BatchPage, type Course, type ForecastPage, type PlanPage, type PlannedCourse, type Transition, residual } from './data';
 
 /** 95 % of what is measured lies within that many standard deviations. */
@@ -27,6 +29,9 @@ function band(course: Course, colour: string): Layer {
   const at = (sign: number) => course.displacement_um.map((v, i) => (v === null ? null : v + sign * BAND * (course.sd_um[i] ?? 0)));
   return { kind: 'band', x: course.t_min, low: at(-1), high: at(1), colour, opacity: 0.18 };
 }
+
+/** A passport without covariance states no uncertainty. */
+const unsure = (course: Course) => course.sd_um.some((v) => (v ?? 0) > 0);
 
 function withBand(course: Course): Maybe[] {
   return course.displacement_um.flatMap((v, i) => [(v ?? 0) - BAND * (course.sd_um[i] ?? 0), (v ?? 0) + BAND * (course.sd_um[i] ?? 0)]);
@@ -68,19 +73,27 @@ function forecastPlot(page: ForecastPage, course: Course, theme: Theme): Plot {
   };
 }
 
+/** Where it is largest. */
+function largest(values: readonly Maybe[]): number {
+  return values.reduce<number>((most, v, i) => (Math.abs(v ?? 0) > Math.abs(values[most] ?? 0) ? i : most), 0);
+}
+
+const UNSTATED = ' The passport states no uncertainty.';
+
 export function forecastView(page: ForecastPage): View {
-  const rows = page.courses.map((c) => ({
-    label: `${c.axis}: largest displacement`,
-    value: um(c.displacement_um.reduce<number>((most, v) => (Math.abs(v ?? 0) > Math.abs(most) ? (v ?? 0) : most), 0)),
-  }));
+  const rows = page.courses.map((c) => {
+    const i = largest(c.displacement_um);
+    return [c.axis, um(c.displacement_um[i]), `${plain(c.t_min[i])} min`, um(c.displacement_um.at(-1)), unsure(c) ? `±${um(BAND * (c.sd_um.at(-1) ?? 0))}` : 'not stated'];
+  });
+  const known = page.courses.some(unsure);
   return {
     product: 'Steadyrest thermal forecast',
     title: page.title,
     facts: `<b>${page.transitions.length}</b> transitions · <b>${plain(end(page.transitions))} min</b>`,
-    verdict: rows.map((r) => `${r.label} ${r.value}`).join('; ') + '.',
+    verdict: rows.map((r) => `Heat displaces ${escapeHtml(r[0] ?? '')} by ${r[1]} at most, after ${r[2]}${r[3] === r[1] ? '' : `; at the end by ${r[3]}`}${r[4]?.startsWith('±') ? `; 95 % of the errors at the end are within ${r[4]}` : ''}.`).join('<br>') + (known ? '' : UNSTATED),
     body:
       section('Displacement by heat', `<div class="key-line" id="key-forecast"></div>${page.courses.map((_, i) => host(`course-${i}`, 'high')).join('')}${host('speed')}`) +
-      section('Figures', figures(rows), 'Displacements count from the start of the work.'),
+      section('Figures', table('figures', ['axis', 'largest displacement', 'after', 'at the end', '95 % of its error within'], rows), 'Displacements count from the start of the work.'),
     draw: (theme) => {
       page.courses.forEach((c, i) => plot(`course-${i}`, forecastPlot(page, c, theme), theme));
       plot('speed', speedPlot(page.transitions, theme), theme);
@@ -88,7 +101,7 @@ export function forecastView(page: ForecastPage): View {
         'key-forecast',
         keyLine([
           { name: 'forecast', colour: theme.run.without },
-          { name: '95 % of what is measured lies here', colour: theme.run.without, kind: 'area' },
+          ...(known ? [{ name: '95 % of what is measured lies here', colour: theme.run.without, kind: 'area' as const }] : []),
         ]),
       );
     },
@@ -114,6 +127,7 @@ function planPlot(page: PlanPage, course: PlannedCourse, theme: Theme): Plot {
     layers: [
       rule(borders(page.transitions), 'x', theme.rapid, true),
       band(course, theme.run.without),
+      rule([course.displacement_um[largest(course.displacement_um)] ?? 0], 'y', theme.run.without, true),
       edge(1),
       edge(-1),
       { kind: 'line', x: course.t_min, y: course.displacement_um, colour: theme.run.without, width: 2 },
@@ -163,12 +177,32 @@ function linePlot(page: PlanPage, course: PlannedCourse, theme: Theme): Plot {
   };
 }
 
+/** So many transitions are shown whole; of more only those with corrections, and no more than so many. */
+const SHORT_R = 40;
+const MOST_R = 200;
+
+/** R = {n; {t}; {δ}} of each transition, as in the paper. */
+function systemR(page: PlanPage, axis: PlanPage['answer']['axes'][number]): string {
+  const all = axis.transitions.map((t, i) => ({ t, i }));
+  const chosen = all.length <= SHORT_R ? all : all.filter(({ t }) => t.delta_um.some((d) => d !== 0)).slice(0, MOST_R);
+  const rows = chosen.map(({ t, i }) => [
+    t.name || `${i + 1}`,
+    `${plain(page.transitions[i]?.minutes)} min`,
+    `${fixed(page.transitions[i]?.speed_rpm ?? 0, 0)} rev/min`,
+    `${t.t_min.length}`,
+    t.t_min.map((v) => plain(v)).join(', '),
+    t.delta_um.map((v) => plain(v)).join(', '),
+  ]);
+  const hint = chosen.length < all.length ? `<p class="hint">${chosen.length} of ${all.length} transitions: those with corrections${chosen.length === MOST_R ? ', the first of them' : ''}.</p>` : '';
+  return hint + table(`system-${axis.axis}`, [`transition, ${axis.axis}`, 'lasts', 'spindle', 'intervals n', 'their t in min', 'δ at their beginnings in µm'], rows);
+}
+
 export function planView(page: PlanPage): View {
   const rows = page.answer.axes.flatMap((a) => [
     { label: `${a.axis}: largest without correction`, value: um(a.max_um) },
     { label: `${a.axis}: largest with correction`, value: um(a.residual_um) },
     { label: `${a.axis}: corrections`, value: `${a.corrections}` },
-    { label: `${a.axis}: 95 % of the forecast's error within`, value: `±${um(BAND * a.sd_um)}` },
+    { label: `${a.axis}: 95 % of the forecast's error within`, value: a.sd_um > 0 ? `±${um(BAND * a.sd_um)}` : 'not stated' },
   ]);
   const first = page.answer.axes[0];
   return {
@@ -184,6 +218,7 @@ export function planView(page: PlanPage): View {
       ) +
       section('Field of tolerance', `<div class="key-line" id="key-line"></div>${page.courses.map((_, i) => host(`line-${i}`, 'high')).join('')}`) +
       section('Cyclogram', host('speed')) +
+      section('The system R', page.answer.axes.map((a) => systemR(page, a)).join(''), 'Of each transition: its intervals, and the correction that is made at the beginning of each.') +
       section('Figures', figures(rows)),
     draw: (theme) => {
       page.courses.forEach((c, i) => {
@@ -195,7 +230,8 @@ export function planView(page: PlanPage): View {
         'key-plan',
         keyLine([
           { name: '1 without correction', colour: theme.run.without },
-          { name: 'its 95 % band', colour: theme.run.without, kind: 'area' },
+          ...(page.courses.some(unsure) ? [{ name: 'its 95 % band', colour: theme.run.without, kind: 'area' as const }] : []),
+          { name: 'ΔT, the largest without correction', colour: theme.run.without, kind: 'dashed' },
           { name: '2 with correction', colour: theme.run.with },
           { name: '±Δk', colour: theme.limit, kind: 'dashed' },
         ]),
@@ -240,6 +276,39 @@ function dayPlot(page: BatchPage, theme: Theme): Plot {
   };
 }
 
+/** The growth of the machine, and what the layer believed of it. */
+function beliefPlot(page: BatchPage, theme: Theme): Plot {
+  const c = page.course;
+  const edge = (sign: number) => c.model_um.map((v, i) => v + sign * BAND * (c.model_sd_um[i] ?? 0));
+  const [min, max] = roomy([...c.without_um, ...edge(-1), ...edge(1)], true);
+  return {
+    title: `Displacement of ${page.axis} and what the model believed`,
+    x: { name: 'time in min', min: 0, max: page.answer.total_s / 60 },
+    y: { name: `displacement of ${page.axis} in µm`, min, max },
+    layers: [
+      { kind: 'spans', spans: parts(page), colour: theme.faint, opacity: 0.08 },
+      rule([0], 'y', theme.faint),
+      { kind: 'band', x: c.t_min, low: edge(-1), high: edge(1), colour: theme.run.with, opacity: 0.18 },
+      { kind: 'line', x: c.t_min, y: c.without_um, colour: theme.run.without, width: 3 },
+      { kind: 'line', x: c.t_min, y: c.model_um, colour: theme.run.with, width: 1.6 },
+    ],
+    readout: (t) => {
+      const i = nearest(c.t_min, t);
+      return `<b>${plain(t)} min</b><br>it was ${um(c.without_um[i])}<br>believed ${um(c.model_um[i])} ± ${um(BAND * (c.model_sd_um[i] ?? 0))}`;
+    },
+  };
+}
+
+function roomPlot(page: BatchPage, theme: Theme): Plot {
+  const [min, max] = roomy(page.course.room_c);
+  return {
+    title: 'Temperature of the room',
+    x: { name: 'time in min', min: 0, max: page.answer.total_s / 60 },
+    y: { name: 'room in °C', min, max },
+    layers: [{ kind: 'spans', spans: parts(page), colour: theme.faint, opacity: 0.08 }, { kind: 'line', x: page.course.t_min, y: page.course.room_c, colour: theme.faint, width: 1.6 }],
+  };
+}
+
 function partPlot(page: BatchPage, theme: Theme): Plot {
   const all = page.answer.parts;
   const dots = (of: 'without' | 'text' | 'online') => all.map((p, i) => ({ x: i + 1, y: p[of].largest_um }));
@@ -271,10 +340,21 @@ export function batchView(page: BatchPage): View {
     body:
       section('The day', `<div class="key-line" id="key-day"></div>${host('day', 'high')}`, 'Shaded: a part is being cut. The model is wrong as the machine file says; the probe reads before each part.') +
       section('The parts', host('parts')) +
+      section('What the model believed', `<div class="key-line" id="key-belief"></div>${host('belief')}${host('room', 'low')}`, 'Steps: a reading of the probe.') +
       section('Figures', figures([...row('without correction', a.without), ...row('in the text', a.text), ...row('on line', a.online)])),
     draw: (theme) => {
       plot('day', dayPlot(page, theme), theme);
       plot('parts', partPlot(page, theme), theme);
+      plot('belief', beliefPlot(page, theme), theme);
+      plot('room', roomPlot(page, theme), theme);
+      put(
+        'key-belief',
+        keyLine([
+          { name: 'the machine', colour: theme.run.without },
+          { name: 'the model', colour: theme.run.with },
+          { name: 'its 95 % band', colour: theme.run.with, kind: 'area' },
+        ]),
+      );
       put(
         'key-day',
         keyLine([

@@ -4,8 +4,8 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { fixed } from '../../src/format';
-import { type BatchPage, type FitPage, type Page, type PlanPage, residual } from '../../src/thermal/data';
-import { broken } from '../../src/thermal/fit';
+import { type BatchPage, type FitPage, type Page, type PlanPage, type ReplayPage, residual } from '../../src/thermal/data';
+import { broken } from '../../src/thermal/course';
 import { type OpenPage, openFromDisk } from '../page/browser';
 
 const template = process.env['STEADYREST_THERMAL_TEMPLATE'];
@@ -62,8 +62,8 @@ function share(open: OpenPage, id: string, colour: string): Promise<number> {
 
 const WITHOUT = '#b4501e';
 const WITH = '#1b6aa5';
-const FOLDERS: Record<string, string> = { forecast: 'forecast', plan: 'plan', batch: 'cut/batch', fit: 'fit' };
-const PLOTS: Record<string, number> = { forecast: 2, plan: 3, batch: 2, fit: 4 };
+const FOLDERS: Record<string, string> = { forecast: 'forecast', plan: 'plan', batch: 'cut/batch', fit: 'fit', replay: 'replay' };
+const PLOTS: Record<string, number> = { forecast: 2, plan: 3, batch: 4, fit: 4, replay: 3 };
 
 describe.runIf(written !== undefined && existsSync(written))('the pages of the thermal verbs', () => {
   const opened = new Map<string, { open: OpenPage; page: Page }>();
@@ -114,6 +114,12 @@ describe.runIf(written !== undefined && existsSync(written))('the pages of the t
     expect(page.courses[0]?.corrections.map((c) => c.t_min)).toEqual([18, 45, 75, 115]);
     const left = residual(page.courses[0] as PlanPage['courses'][number]);
     expect(Math.max(...left.um)).toBeLessThan(10.2);
+    const rows = await open.page.locator('#system-Z tbody tr').allTextContents();
+    expect(rows).toHaveLength(5);
+    expect(rows[0]).toContain('18, 27, 15');
+    expect(rows[0]).toContain('0, 10, 10');
+    // The paper's passport has no covariance.
+    expect(await open.page.textContent('#figures')).toContain('not stated');
   });
 
   it('show each displacement over a temperature, and beside what the model makes of it', async () => {
@@ -149,6 +155,16 @@ describe.runIf(written !== undefined && existsSync(written))('the pages of the t
     expect((await other.page.locator('#over-0 canvas').screenshot()).equals(before)).toBe(false);
     expect(other.complaints).toEqual([]);
     await other.close();
+  });
+
+  it('show a recorded log beside what the passport forecasts', async () => {
+    const { open, page } = at<ReplayPage>('replay');
+    expect(await open.page.textContent('#verdict')).toContain(`${fixed(page.answer.axes[0]?.rms_um, 2)}`);
+    const axis = page.axes[0] as ReplayPage['axes'][number];
+    expect(axis.fitted_to_h).toBeCloseTo(250 / 60, 2);
+    for (const colour of [WITHOUT, WITH]) {
+      expect(await share(open, 'course-0', colour)).toBeGreaterThan(0.0005);
+    }
   });
 
   it('show the batch: how many times smaller, and no part worse', async () => {

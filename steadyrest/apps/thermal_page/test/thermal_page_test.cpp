@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -96,6 +97,26 @@ TEST(ThermalPage, OfAFitHasEachDisplacementOverEachTemperatureAndItsCourse) {
   EXPECT_EQ(one["t_h"].size(), one["sd_um"].size());
   EXPECT_NEAR(one["modelled_um"].back().get<double>() - one["measured_um"].back().get<double>(),
               2.0, 1e-2);
+}
+
+TEST(ThermalPage, OfALogThatIsAllForecastSaysSo) {
+  thermal::offline::Log log;
+  log.time_s = {0.0, 3600.0};
+  log.speed_rev_s = {0.0, 20.0};
+  const FittedAxis axis{.axis = "Z",
+                        .channel = 0,
+                        .point = {{.time_s = 3600.0,
+                                   .measured_mm = std::nan(""),
+                                   .modelled_mm = 0.002,
+                                   .sd_mm = 0.001,
+                                   .fitted = false}}};
+  const Json page = Json::parse(replay_page({}, log, {axis}));
+  EXPECT_EQ(page["kind"], "replay");
+  EXPECT_EQ(page["speed"]["speed_rpm"], Json({0.0, 1200.0}));
+  const Json& one = page["axes"][0];
+  EXPECT_EQ(one["fitted_from_h"], one["fitted_to_h"]);
+  EXPECT_TRUE(one["measured_um"][0].is_null());
+  EXPECT_EQ(one["modelled_um"], Json({2.0}));
 }
 
 TEST(ThermalPage, OfAFitWithoutTemperaturesHasTheCourseAlone) {
