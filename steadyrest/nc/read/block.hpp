@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -77,18 +76,24 @@ class Block {
  public:
   static constexpr std::size_t kMostWords = 128;
 
+  Block() = default;
+  Block(const Block&) = delete;
+  Block& operator=(const Block&) = delete;
+  ~Block() = default;
+
   void reset(std::uint32_t line) noexcept {
     line_ = line;
     count_ = 0;
     deleted_ = false;
     end_mark_ = false;
     flow_.kind = FlowKind::none;
+    shown_ = words_.data();
   }
-  /// The words of another line with the same text.
+  /// Has the words of another line with the same text, as long as that has them.
   void take_words(const Block& other) noexcept {
     count_ = other.count_;
     deleted_ = other.deleted_;
-    std::copy_n(other.words_.begin(), count_, words_.begin());
+    shown_ = other.shown_;
   }
   /// A new word to be filled: nothing is known of it but that it has no qualifier and was not
   /// calculated. nullptr when the block is full.
@@ -109,7 +114,7 @@ class Block {
     words_[count_++] = word;
     return true;
   }
-  [[nodiscard]] std::span<const Word> words() const noexcept { return {words_.data(), count_}; }
+  [[nodiscard]] std::span<const Word> words() const noexcept { return {shown_, count_}; }
   [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
 
   /// The line begins with the block-delete mark `/`.
@@ -129,6 +134,7 @@ class Block {
   bool end_mark_ = false;
   Flow flow_;
   std::array<Word, kMostWords> words_{};
+  const Word* shown_ = words_.data();  ///< its own words, or another block's
 };
 
 }  // namespace steadyrest::nc::read
