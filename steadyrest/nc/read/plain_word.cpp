@@ -38,7 +38,9 @@ void LetterLine::plain_words() noexcept {
       break;
     }
     Number number;
-    if (!read_short_number(begin_, at + 1, end_, number)) {
+    if (end_ - at > 3 && at[2] == ' ' && is_digit(at[1]) && is_letter(at[3])) {  // `G1 X…`
+      number = {.value = static_cast<double>(at[1] - '0'), .length = 1, .decimal_point = false};
+    } else if (!read_short_number(begin_, at + 1, end_, number)) {
       number = read_number({at + 1, static_cast<std::size_t>(end_ - at) - 1});
       if (number.length == 0) {
         break;
