@@ -24,9 +24,14 @@ kernel::machine::ThermalAxis axis(const char* name) {
   return axis;
 }
 
-/// Range 0: the step varies, so that every exponential is computed anew.
+/// Range 0: the step varies, so that every exponential is computed anew. Range 1: so many ambient
+/// inputs of three time constants more.
 void filter_step(benchmark::State& state) {
-  StateFilter filter = StateFilter::make({.axis = axis("Z")}).value();
+  kernel::machine::ThermalAxis z = axis("Z");
+  for (std::int64_t j = 0; j < state.range(1); ++j) {
+    z.ambient.push_back({.sensor = "t", .tau_s = 3000.0 * static_cast<double>(j % 3)});
+  }
+  StateFilter filter = StateFilter::make({.axis = z}).value();
   thermal::online::Drive drive;
   drive.ambient_c.fill(21.0);
   double h = 1.0;
@@ -36,7 +41,12 @@ void filter_step(benchmark::State& state) {
     benchmark::DoNotOptimize(filter.update(h, drive));
   }
 }
-BENCHMARK(filter_step)->ArgName("step_varies")->Arg(0)->Arg(1);
+BENCHMARK(filter_step)
+    ->ArgNames({"step_varies", "more_inputs"})
+    ->Args({0, 0})
+    ->Args({1, 0})
+    ->Args({0, 48})
+    ->Args({1, 48});
 
 /// Range 1: coolant starts and stops in every cycle, so that the filters step in each.
 void governor_cycle(benchmark::State& state) {

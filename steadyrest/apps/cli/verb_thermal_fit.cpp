@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -147,6 +148,24 @@ std::string shown(double value) {
   return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
 }
 
+/// The sensors by name, or, where there are many, how many with how many lags.
+std::string inputs_of(const ThermalAxis& axis) {
+  std::set<std::string> sensors;
+  std::set<double> lags;
+  std::string names;
+  for (const auto& a : axis.ambient) {
+    names += fmt::format("{}{}", names.empty() ? "" : " ", a.sensor);
+    sensors.insert(a.sensor);
+    lags.insert(a.tau_s);
+  }
+  constexpr std::size_t kNamed = 3;
+  if (axis.ambient.size() <= kNamed) {
+    return names.empty() ? "-" : names;
+  }
+  return sensors.size() == 1 ? fmt::format("{}, {} lags", *sensors.begin(), lags.size())
+                             : fmt::format("{} sensors, {} lags", sensors.size(), lags.size());
+}
+
 Answer answer_of(const std::vector<offline::AxisFit>& fits, const offline::Log& log) {
   Answer answer;
   double square = 0.0;
@@ -159,12 +178,8 @@ Answer answer_of(const std::vector<offline::AxisFit>& fits, const offline::Log& 
     for (const auto& mode : fit.axis.mode) {
       taus += fmt::format("{}{:.0f}", taus.empty() ? "" : " ", mode.tau_s / 60.0);
     }
-    std::string inputs;
-    for (const auto& a : fit.axis.ambient) {
-      inputs += fmt::format("{}{}", inputs.empty() ? "" : " ", a.sensor);
-    }
-    table.row({fit.axis.name, taus, inputs.empty() ? "-" : inputs, shown(fit.rms_um),
-               shown(fit.left_out_um), shown(fit.left_out_probed_um),
+    table.row({fit.axis.name, taus, inputs_of(fit.axis), shown(fit.rms_um), shown(fit.left_out_um),
+               shown(fit.left_out_probed_um),
                std::isfinite(fit.coverage) ? fmt::format("{:.1f} %", 100.0 * fit.coverage) : "-"});
   }
   answer.json["modes"] = modes_of(fits);

@@ -62,7 +62,7 @@ struct ThermalAxis {
 
 /// Bounds of the passport, so that what runs in the cycle has fixed sizes.
 inline constexpr std::size_t kMaxThermalModes = 4;
-inline constexpr std::size_t kMaxThermalAmbients = 4;
+inline constexpr std::size_t kMaxThermalAmbients = 64;
 inline constexpr std::size_t kMaxThermalLevels = 64;
 
 struct Thermal {

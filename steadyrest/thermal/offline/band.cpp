@@ -50,8 +50,13 @@ double least(double low, double high, const std::function<bool(double)>& enough)
   return high;
 }
 
+/// What is known by n blocks is for one more: 1/n of their variance comes on top.
+double another(std::size_t blocks) {
+  return std::sqrt(1.0 + 1.0 / static_cast<double>(std::max<std::size_t>(blocks, 1)));
+}
+
 std::pair<double, double> made_from(const std::vector<Sample>& free,
-                                    const std::vector<Sample>& probed,
+                                    const std::vector<Sample>& probed, std::size_t blocks,
                                     const std::function<bool(const Sample&)>& which) {
   const double free_drift = least(1e-3, 1e3, [&](double d) {
     return covered(free, which, [&](const Sample&) { return d * d; }) >= kWanted;
@@ -66,7 +71,9 @@ std::pair<double, double> made_from(const std::vector<Sample>& free,
     return covered(probed, which, [&](const Sample& s) { return drift_um2(s, drift, 60.0 / r); }) >=
            kWanted;
   });
-  return {drift, 60.0 / rate};
+  // What it does within an hour is seen many times in each block, what it comes to only once.
+  const double more = another(blocks);
+  return {more * drift, more * more * 60.0 / rate};
 }
 
 }  // namespace
@@ -77,7 +84,8 @@ Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::Matrix
   const double noise = data.noise_um * data.noise_um;
   std::vector<Sample> free;
   std::vector<Sample> probe;
-  for (std::size_t b = 0; b < data.block.size(); ++b) {
+  const std::vector<std::size_t> reach = data.within_reach();
+  for (const std::size_t b : reach) {
     const FitData::Block& block = data.block[b];
     const Eigen::VectorXd residual = left_out.residual_um.segment(
         static_cast<Eigen::Index>(block.begin), static_cast<Eigen::Index>(block.end - block.begin));
@@ -99,11 +107,12 @@ Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::Matrix
     }
   }
   Band out;
-  std::tie(out.drift_um, out.tau_s) = made_from(free, probe, [](const Sample&) { return true; });
+  std::tie(out.drift_um, out.tau_s) =
+      made_from(free, probe, reach.size(), [](const Sample&) { return true; });
   const auto rows = static_cast<double>(free.size());
-  for (std::size_t b = 0; b < data.block.size(); ++b) {
+  for (const std::size_t b : reach) {
     const auto [drift, tau_s] =
-        made_from(free, probe, [b](const Sample& s) { return s.block != b; });
+        made_from(free, probe, reach.size() - 1, [b](const Sample& s) { return s.block != b; });
     const auto here = [b](const Sample& s) { return s.block == b; };
     const double share = static_cast<double>(data.block[b].end - data.block[b].begin) / rows;
     out.free_coverage += share * covered(free, here, [&](const Sample&) { return drift * drift; });

@@ -7,9 +7,10 @@
 
 namespace steadyrest::thermal::offline {
 
-/// The drift of a passport, by the errors on blocks that were left out: 97 % of them (there are few
-/// blocks, and it is to be 95 % of others) lie within 1.96 standard deviations, the model running
-/// free (RMS) and set right every hour (time constant).
+/// The drift of a passport, by the errors on blocks that were left out and are within reach: 97 %
+/// of them (there are few blocks, and it is to be 95 % of others) lie within 1.96 standard
+/// deviations, the model running free (RMS) and set right every hour (time constant); the RMS times
+/// √(1 + 1/n) for one more block than these n.
 struct Band {
   double drift_um = 0.0;
   double tau_s = 0.0;

@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kLeastNoise_um = 0.01;  // a logger's last digit
 constexpr double kLeastBlock_s = 2.0 * 3600.0;
+constexpr double kLeastOwn_s = 30.0 * 60.0;  // less is no block of its own
 constexpr std::size_t kEqualBlocks = 5;
+constexpr double kBeyondFitted = 1.2;  // no forecast is made for faster ones
 
 /// Rows of the log at which the spindle starts after a rest.
 std::vector<std::size_t> starts(const Log& log) {
@@ -50,7 +52,9 @@ void cut_into_blocks(FitData& data) {
   std::vector<double> border_s;
   for (const std::size_t row : starts(*data.log)) {
     const double t = data.log->time_s[row];
-    if (t > data.time_s.front() && t < data.time_s.back()) {
+    const double before_s = border_s.empty() ? data.time_s.front() : border_s.back();
+    if (t > data.time_s.front() && t - before_s >= (border_s.empty() ? 0.0 : kLeastOwn_s) &&
+        data.time_s.back() - t >= kLeastOwn_s) {
       border_s.push_back(t);
     }
   }
@@ -72,6 +76,28 @@ void cut_into_blocks(FitData& data) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> FitData::within_reach() const {
+  std::vector<double> fastest;
+  for (const Block& b : block) {
+    const auto from = log->speed_rev_s.begin();
+    fastest.push_back(*std::max_element(from + static_cast<std::ptrdiff_t>(row[b.begin]),
+                                        from + static_cast<std::ptrdiff_t>(row[b.end - 1]) + 1));
+  }
+  std::vector<std::size_t> out;
+  std::vector<std::size_t> all;
+  for (std::size_t b = 0; b < block.size(); ++b) {
+    double others = 0.0;
+    for (std::size_t o = 0; o < block.size(); ++o) {
+      others = o == b ? others : std::max(others, fastest[o]);
+    }
+    if (fastest[b] <= kBeyondFitted * others) {
+      out.push_back(b);
+    }
+    all.push_back(b);
+  }
+  return out.size() < 2 ? all : out;
+}
 
 FitData fit_data(const Log& log, std::size_t channel, double from_s, double to_s) {
   FitData data;
@@ -122,6 +148,28 @@ FitData fit_data(const Log& log, std::size_t channel, double from_s, double to_s
     cut_into_blocks(data);
   }
   return data;
+}
+
+double longest_run_s(const Log& log, double from_s, double to_s) {
+  double longest = 0.0;
+  double start_s = 0.0;
+  bool running = false;
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    const bool inside = log.time_s[i - 1] >= from_s && log.time_s[i] <= to_s;
+    const double before = log.speed_rev_s[i - 1];
+    const bool same =
+        running && std::abs(before - log.speed_rev_s[i > 1 ? i - 2 : 0]) <= 0.01 * before;
+    if (!inside || before == 0.0) {
+      running = false;
+      continue;
+    }
+    if (!same) {
+      start_s = log.time_s[i - 1];
+      running = true;
+    }
+    longest = std::max(longest, log.time_s[i] - start_s);
+  }
+  return longest;
 }
 
 }  // namespace steadyrest::thermal::offline

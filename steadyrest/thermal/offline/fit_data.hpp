@@ -22,13 +22,17 @@ struct FitData {
   double noise_um = 0.0;
 
   /// Pieces that are left out in turn: from the spindle's start to its next, or, where it starts
-  /// less than three times, pieces of equal time. Fewer than kLeastBlocks: there are none.
+  /// less than three times, pieces of equal time; none of less than half an hour. Fewer than
+  /// kLeastBlocks: there are none.
   struct Block {
     std::size_t begin = 0;  ///< of the rows here
     std::size_t end = 0;
   };
   std::vector<Block> block;
 
+  /// The blocks that the others can forecast: their spindle turns no faster than 1.2 times theirs.
+  /// All of them where that leaves less than two.
+  [[nodiscard]] std::vector<std::size_t> within_reach() const;
   [[nodiscard]] std::size_t rows() const noexcept { return row.size(); }
   [[nodiscard]] double hours() const noexcept {
     return time_s.empty() ? 0.0 : (time_s.back() - time_s.front()) / 3600.0;
@@ -42,5 +46,8 @@ inline constexpr double kRest_s = 1200.0;
 inline constexpr std::size_t kFitRows = 1400;
 
 [[nodiscard]] FitData fit_data(const Log& log, std::size_t channel, double from_s, double to_s);
+
+/// The longest time at one speed other than 0.
+[[nodiscard]] double longest_run_s(const Log& log, double from_s, double to_s);
 
 }  // namespace steadyrest::thermal::offline

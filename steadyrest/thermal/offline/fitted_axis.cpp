@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/fitted_axis.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
@@ -136,30 +138,46 @@ Structure structure_of(const ThermalAxis& axis, const Log& log) {
 
 void known_prior(const ThermalAxis& axis, double unsure, const Structure& structure,
                  LinearPrior& prior) {
-  Eigen::Index at = 0;
-  const auto know = [&](double mean, double least_sd) {
-    prior.mean(at) = mean;
-    prior.root(at, at) = 1.0 / std::max(unsure * std::abs(mean), least_sd);
-    ++at;
-  };
+  constexpr double kLeast = 0.05;
+  std::vector<double> mean;
+  std::vector<Eigen::Index> place;  // in the passport's covariance; -1: it says nothing
+  Eigen::Index first = 0;
   const auto model = online::ThermalModel::make(axis);
   for (std::size_t m = 0; m < axis.mode.size(); ++m) {
     const ThermalMode& mode = axis.mode[m];
     for (const double speed : structure.table_rev_s) {
       online::Drive drive;
       drive.speed_rev_s = speed;
-      prior.root.row(at).setZero();  // what was known of its neighbours is known of itself now
-      know(model ? um_from_mm(model->level_mm(m, drive)) : 0.0, 0.05);
+      mean.push_back(model ? um_from_mm(model->level_mm(m, drive)) : 0.0);
+      const auto at = std::ranges::find(mode.speed_rev_s, speed);
+      place.push_back(at == mode.speed_rev_s.end() ? -1 : first + (at - mode.speed_rev_s.begin()));
     }
     for (std::size_t p = 0; p < structure.power.size() && structure.table_rev_s.empty(); ++p) {
-      know(p < mode.polynomial_mm.size() ? um_from_mm(mode.polynomial_mm[p]) : 0.0, 0.05);
+      const bool has = p < mode.polynomial_mm.size();
+      mean.push_back(has ? um_from_mm(mode.polynomial_mm[p]) : 0.0);
+      place.push_back(has ? first + static_cast<Eigen::Index>(p) : -1);
     }
+    first += static_cast<Eigen::Index>(mode.level_mm.size() + mode.polynomial_mm.size());
   }
-  for (const Structure::Ambient& ambient : structure.ambient) {
-    (void)ambient;
-    const auto j = static_cast<std::size_t>(at) - structure.levels();
-    know(j < axis.ambient.size() ? um_from_mm(axis.ambient[j].gain_mm_k) : 0.0, 0.05);
+  for (const ThermalAmbient& ambient : axis.ambient) {
+    mean.push_back(um_from_mm(ambient.gain_mm_k));
+    place.push_back(first++);
   }
+  const Eigen::MatrixXd covariance = covariance_um2(axis);
+  const auto n = static_cast<Eigen::Index>(mean.size());
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto in = static_cast<std::size_t>(i);
+    for (Eigen::Index j = 0; j < n && place[in] >= 0; ++j) {
+      const Eigen::Index to = place[static_cast<std::size_t>(j)];
+      spread(i, j) = to < 0 ? 0.0 : covariance(place[in], to);
+    }
+    const double changed = std::max(unsure * std::abs(mean[in]), kLeast);
+    spread(i, i) += changed * changed;
+    prior.mean(i) = mean[in];
+  }
+  const Eigen::LLT<Eigen::MatrixXd> root(spread);
+  prior.root.topLeftCorner(n, n) = root.matrixL().solve(Eigen::MatrixXd::Identity(n, n)).eval();
 }
 
 double horizon_sd_um(const ThermalAxis& axis, double horizon_s) {

@@ -15,8 +15,8 @@ namespace steadyrest::thermal::offline {
                                                        const FitData& data, const LinearFit& fit,
                                                        const std::vector<double>& ln_tau_sd);
 
-/// What a passport is made of (with tables: at the speeds of all of them, 0 at 0 rpm); sensors that
-/// the log has not are left out.
+/// What a passport is made of (with tables: at the speeds of all of them, 0 at 0 rpm); the log has
+/// all of its sensors.
 [[nodiscard]] Structure structure_of(const kernel::machine::ThermalAxis& axis, const Log& log);
 
 /// Levels and gains of the passport as what is known: its covariance, and `unsure` of each besides.

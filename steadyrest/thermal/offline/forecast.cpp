@@ -14,11 +14,14 @@ using kernel::machine::ThermalMode;
 
 constexpr double kUm2PerMm2 = 1e6;
 
-Eigen::MatrixXd square(const std::vector<double>& lower, std::size_t n) {
+}  // namespace
+
+Eigen::MatrixXd covariance_um2(const ThermalAxis& axis) {
+  const std::size_t n = axis.parameters();
   Eigen::MatrixXd out =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
-  auto next = lower.begin();
-  for (Eigen::Index row = 0; row < out.rows() && next != lower.end(); ++row) {
+  auto next = axis.covariance.begin();
+  for (Eigen::Index row = 0; row < out.rows() && next != axis.covariance.end(); ++row) {
     for (Eigen::Index column = 0; column <= row; ++column, ++next) {
       out(row, column) = *next;
       out(column, row) = *next;
@@ -26,6 +29,8 @@ Eigen::MatrixXd square(const std::vector<double>& lower, std::size_t n) {
   }
   return out;
 }
+
+namespace {
 
 std::size_t linear(const ThermalMode& mode) {
   return mode.level_mm.size() + mode.polynomial_mm.size();
@@ -56,7 +61,7 @@ std::vector<online::ThermalModel> unit_models(const ThermalAxis& axis) {
 Uncertainty::Uncertainty(const online::ThermalModel& model)
     : model_(model),
       unit_(unit_models(model.config())),
-      covariance_um2_(square(model.config().covariance, model.config().parameters())),
+      covariance_um2_(covariance_um2(model.config())),
       phi_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.config().parameters()))),
       by_tau_mm_(model.config().mode.size(), 0.0),
       ambient_start_c_(model.config().ambient.size(), std::numeric_limits<double>::quiet_NaN()) {

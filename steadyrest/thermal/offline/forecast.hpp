@@ -10,6 +10,9 @@
 
 namespace steadyrest::thermal::offline {
 
+/// Of the linear parameters, in the passport's order and units (µm, µm/K); 0 where it states none.
+[[nodiscard]] Eigen::MatrixXd covariance_um2(const kernel::machine::ThermalAxis& axis);
+
 /// How uncertain the displacement of a model is that was known at the beginning. Variance:
 ///   φᵀ·C·φ + Σ (∂δ/∂ln τ_i)²·σ_i² + d²·(1 − e^(−2t/τ_d))
 /// φ the model's answer to a unit of each linear parameter, C their covariance, σ_i the standard

@@ -10,6 +10,7 @@
 
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/band.hpp>
+#include <steadyrest/thermal/offline/dense_fit.hpp>
 #include <steadyrest/thermal/offline/fitted_axis.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
 #include <steadyrest/thermal/offline/identify.hpp>
@@ -58,6 +59,16 @@ class Identification {
                                 data_.rows(), kLeastRows),
                     "widen the window");
     }
+    for (std::size_t j = 0; request_.known != nullptr && j < request_.known->ambient.size(); ++j) {
+      const std::string& sensor = request_.known->ambient[j].sensor;
+      if (std::ranges::find(log_.temperature, sensor, &LogChannel::name) ==
+          log_.temperature.end()) {
+        return refuse(fmt::format("the passport of {} needs the temperature {}, which the log has "
+                                  "not",
+                                  request_.known->name, sensor),
+                      "log that sensor, or take time constants from a passport without it");
+      }
+    }
     const double run_s = longest_run_s(log_, request_.from_s, request_.to_s);
     if (run_s == 0.0 && request_.known == nullptr) {
       return refuse("the spindle never turns",
@@ -103,9 +114,9 @@ class Identification {
     // What is likeliest for small steps may forecast long ones worse.
     if (has_blocks() && likely.left_out.mean_loss > best.left_out.mean_loss) {
       error_ = guess;
-      return with_rest(std::move(best));
+      return with_rest(dense_or(std::move(best), limits, guess));
     }
-    return with_rest(std::move(likely));
+    return with_rest(dense_or(std::move(likely), limits, guess));
   }
 
   Judged known_structure() {
@@ -299,6 +310,36 @@ class Identification {
     return *std::ranges::min_element(all, {}, &Judged::criterion);
   }
 
+  /// `few` chose its inputs by the left-out hours, so they do not tell of it what they tell of one
+  /// that takes them all; the evidence does.
+  [[nodiscard]] Judged dense_or(Judged few, const SearchLimits& limits, const ErrorModel& guess) {
+    if (limits.most_ambients == 0) {
+      return few;
+    }
+    std::optional<Dense> found = dense_fit(data_, guess, limits, request_.modes.value_or(1));
+    if (!found) {
+      return few;
+    }
+    found->structure.table_rev_s = table_rev_s_;
+    const double evidence_few = evidence(few.structure);
+    const ErrorModel error_few = std::exchange(error_, found->error);
+    Judged dense = judged(found->structure);
+    error_ = likely_error(columns(dense.structure), data_, prior(dense.structure));
+    if (evidence(dense.structure) > evidence_few + kStrongEvidence) {
+      return dense;
+    }
+    error_ = error_few;
+    return few;
+  }
+  [[nodiscard]] double evidence(const Structure& s) const {
+    const LinearPrior known = prior(s);
+    const auto lags = std::ranges::count_if(
+        s.ambient, [&s](const Structure::Ambient& a) { return a.tau_s > 0.0 && !s.dense; });
+    const auto chosen = static_cast<double>(s.mode.size()) + static_cast<double>(lags);
+    return log_evidence(fit_linear(columns(s), data_, error_, known), known) -
+           0.5 * chosen * std::log(static_cast<double>(data_.rows()));
+  }
+
   /// A time constant of its own while the spindle stands, for each mode that gains by it.
   [[nodiscard]] Judged with_rest(Judged chosen) const {
     for (std::size_t m = 0; m < chosen.structure.mode.size() && has_blocks(); ++m) {
@@ -323,28 +364,6 @@ class Identification {
 };
 
 }  // namespace
-
-double longest_run_s(const Log& log, double from_s, double to_s) {
-  double longest = 0.0;
-  double start_s = 0.0;
-  bool running = false;
-  for (std::size_t i = 1; i < log.rows(); ++i) {
-    const bool inside = log.time_s[i - 1] >= from_s && log.time_s[i] <= to_s;
-    const double before = log.speed_rev_s[i - 1];
-    const bool same =
-        running && std::abs(before - log.speed_rev_s[i > 1 ? i - 2 : 0]) <= 0.01 * before;
-    if (!inside || before == 0.0) {
-      running = false;
-      continue;
-    }
-    if (!same) {
-      start_s = log.time_s[i - 1];
-      running = true;
-    }
-    longest = std::max(longest, log.time_s[i] - start_s);
-  }
-  return longest;
-}
 
 Result<AxisFit> identify(const Log& log, std::size_t channel, const std::string& name,
                          const FitRequest& request, const std::function<void(double)>& progress) {

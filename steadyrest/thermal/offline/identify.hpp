@@ -8,7 +8,7 @@
 
 #include <steadyrest/kernel/machine/thermal.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/thermal/offline/log.hpp>
+#include <steadyrest/thermal/offline/fit_data.hpp>
 
 namespace steadyrest::thermal::offline {
 
@@ -52,8 +52,5 @@ struct AxisFit {
 [[nodiscard]] kernel::outcome::Result<AxisFit> identify(
     const Log& log, std::size_t channel, const std::string& name, const FitRequest& request,
     const std::function<void(double share)>& progress = {});
-
-/// The longest time at one speed other than 0.
-[[nodiscard]] double longest_run_s(const Log& log, double from_s, double to_s);
 
 }  // namespace steadyrest::thermal::offline

@@ -1,14 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include <steadyrest/thermal/offline/lagged.hpp>
 #include <steadyrest/thermal/offline/leave_out.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
 
+constexpr double kWorth = 0.03;  ///< 3 % of the error are worth no parameter
+
 double mean_square(const Eigen::VectorXd& v) {
   return v.size() == 0 ? 0.0 : v.squaredNorm() / static_cast<double>(v.size());
+}
+
+/// Where a stretch of the log begins in a block that is left out, the state that it began with is
+/// not known: a forecast begins cold.
+Eigen::MatrixXd cold(Eigen::MatrixXd columns, const Structure& structure, const FitData& data,
+                     const FitData::Block& block) {
+  const std::vector<std::size_t> starts = stretches(*data.log);
+  const Eigen::Index first =
+      columns.cols() - static_cast<Eigen::Index>(structure.mode.size() * starts.size());
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const std::size_t begin = block.begin == 0 ? 0 : data.row[block.begin];
+    if (starts[s] >= begin && starts[s] <= data.row[block.end - 1]) {
+      for (std::size_t m = 0; m < structure.mode.size(); ++m) {
+        columns.col(first + static_cast<Eigen::Index>(m * starts.size() + s)).setZero();
+      }
+    }
+  }
+  return columns;
 }
 
 }  // namespace
@@ -37,18 +59,24 @@ Eigen::VectorXd probed(const FitData& data, const FitData::Block& block,
 LeftOut leave_out(const Structure& structure, const FitData& data, const ErrorModel& error,
                   const LinearPrior& prior) {
   LeftOut out;
-  const Eigen::MatrixXd columns = columns_of(structure, *data.log, data.row);
+  const Eigen::MatrixXd whole = columns_of(structure, *data.log, data.row);
   out.residual_um = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(data.rows()),
                                               std::numeric_limits<double>::quiet_NaN());
   double free_sum = 0.0;
   double probed_sum = 0.0;
   double rows = 0.0;
-  for (const FitData::Block& block : data.block) {
+  const std::vector<std::size_t> reach = data.within_reach();
+  for (std::size_t b = 0; b < data.block.size(); ++b) {
+    const FitData::Block& block = data.block[b];
+    const Eigen::MatrixXd columns = cold(whole, structure, data, block);
     const LinearFit fit = fit_linear(columns, data, error, prior, RowRange{block.begin, block.end});
     const auto begin = static_cast<Eigen::Index>(block.begin);
     const auto count = static_cast<Eigen::Index>(block.end - block.begin);
-    const Eigen::VectorXd residual =
+    Eigen::VectorXd residual =
         data.reading_um.segment(begin, count) - columns.middleRows(begin, count) * fit.amplitude;
+    if (b == 0) {  // where the log has its zero nobody can forecast
+      residual.array() -= residual(0);
+    }
     out.residual_um.segment(begin, count) = residual;
     const double free_ms = mean_square(residual);
     const double probed_ms = mean_square(probed(data, block, residual));
@@ -56,9 +84,11 @@ LeftOut leave_out(const Structure& structure, const FitData& data, const ErrorMo
     out.probed_um.push_back(std::sqrt(probed_ms));
     out.loss.push_back(block_loss(free_ms, probed_ms));
     out.mean_loss += out.loss.back() / static_cast<double>(data.block.size());
-    free_sum += free_ms * static_cast<double>(count);
-    probed_sum += probed_ms * static_cast<double>(count);
-    rows += static_cast<double>(count);
+    if (std::ranges::binary_search(reach, b)) {
+      free_sum += free_ms * static_cast<double>(count);
+      probed_sum += probed_ms * static_cast<double>(count);
+      rows += static_cast<double>(count);
+    }
   }
   out.free_rms_um = std::sqrt(free_sum / std::max(rows, 1.0));
   out.probed_rms_um = std::sqrt(probed_sum / std::max(rows, 1.0));
@@ -76,7 +106,7 @@ bool as_good(const LeftOut& a, const LeftOut& b) {
     const double d = a.loss[i] - b.loss[i] - mean;
     square += d * d;
   }
-  return mean <= std::sqrt(square / (n - 1.0) / n);
+  return mean <= std::max(std::sqrt(square / (n - 1.0) / n), kWorth);
 }
 
 }  // namespace steadyrest::thermal::offline

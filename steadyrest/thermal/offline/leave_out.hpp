@@ -17,12 +17,14 @@ struct LeftOut {
   /// RMS of each block, the model running free, and set right by a reading every hour.
   std::vector<double> free_um;
   std::vector<double> probed_um;
+  /// Of the blocks within reach: no forecast is made for the others.
   double free_rms_um = 0.0;
   double probed_rms_um = 0.0;
   /// Of each block ½ ln(free²·probed²): both uses count alike.
   std::vector<double> loss;
   double mean_loss = 0.0;
-  /// Reading less forecast, for each row of the data that a block holds; else NaN.
+  /// Reading less forecast, for each row of the data that a block holds; else NaN. The first block
+  /// begins cold and counts from its first reading: where the log has its zero no other hour tells.
   Eigen::VectorXd residual_um;
 };
 
@@ -38,7 +40,8 @@ inline constexpr double kGoodEnough_um = 0.2;
 
 [[nodiscard]] double block_loss(double free_ms_um2, double probed_ms_um2);
 
-/// The mean of a's loss is above b's by no more than one standard error of their difference.
+/// The mean of a's loss is above b's by no more than one standard error of their difference, or by
+/// 3 % of the error.
 [[nodiscard]] bool as_good(const LeftOut& a, const LeftOut& b);
 
 }  // namespace steadyrest::thermal::offline

@@ -21,11 +21,19 @@ struct Structure {
     std::size_t sensor = 0;  ///< of the log's temperatures
     double tau_s = 0.0;
   };
+  /// What is usual: standard deviations of the prior.
+  struct Usual {
+    double level_um = 200.0;  ///< of each power's part of a mode's level, at the fastest speed
+    double gain_um_k = 30.0;
+    double state_um = 30.0;
+  };
   std::vector<Mode> mode;
   std::vector<int> power = {1};  ///< of the speed, in each mode's level
   /// Not empty: levels at these speeds (rising, none 0) instead of powers of the speed.
   std::vector<double> table_rev_s;
   std::vector<Ambient> ambient;
+  bool dense = false;  ///< all temperatures, with lags that stand; small gains are usual
+  Usual usual;
 
   /// Linear parameters of the passport: levels, then gains.
   [[nodiscard]] std::size_t levels() const noexcept { return mode.size() * level_terms(); }

@@ -11,9 +11,6 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-constexpr double kUsualLevel_um = 200.0;
-constexpr double kUsualGain_um_k = 30.0;
-constexpr double kUsualState_um = 30.0;
 constexpr double kFree = 1e5;
 constexpr double kPer_rev_s = 60.0 / 1000.0;
 
@@ -67,7 +64,7 @@ std::vector<double*> free_taus(Structure& s) {
     }
   }
   for (Structure::Ambient& a : s.ambient) {
-    if (a.tau_s > 0.0) {
+    if (a.tau_s > 0.0 && !s.dense) {
       out.push_back(&a.tau_s);
     }
   }
@@ -139,13 +136,13 @@ LinearPrior wide_prior(const Structure& structure, const Log& log) {
   std::vector<double> usual;
   for (std::size_t m = 0; m < structure.mode.size(); ++m) {
     for (std::size_t p = 0; p < structure.level_terms(); ++p) {
-      usual.push_back(kUsualLevel_um /
+      usual.push_back(structure.usual.level_um /
                       (structure.table_rev_s.empty() ? std::pow(most, structure.power[p]) : 1.0));
     }
   }
-  usual.insert(usual.end(), structure.ambient.size(), kUsualGain_um_k);
+  usual.insert(usual.end(), structure.ambient.size(), structure.usual.gain_um_k);
   usual.insert(usual.end(), structure.ambient.empty() ? 0 : 1, kFree);
-  usual.insert(usual.end(), structure.mode.size() * (log.gap.size() + 1), kUsualState_um);
+  usual.insert(usual.end(), structure.mode.size() * (log.gap.size() + 1), structure.usual.state_um);
   const auto n = static_cast<Eigen::Index>(usual.size());
   LinearPrior out{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -190,8 +187,16 @@ LinearFit fit_linear(const Eigen::MatrixXd& columns, const FitData& data, const 
       r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(p, p));
   const Eigen::MatrixXd un = scale.cwiseInverse().asDiagonal() * inverse;
   out.covariance = un * un.transpose();
+  out.log_det = -2.0 * (r.diagonal().array().abs().log().sum() + scale.array().log().sum());
   out.condition = r.norm() * inverse.norm() / static_cast<double>(p);
   return out;
+}
+
+double log_evidence(const LinearFit& fit, const LinearPrior& prior) {
+  // The prior's root may be any square matrix: its determinant by QR.
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(prior.root);
+  const double log_root = qr.matrixQR().diagonal().array().abs().log().sum();
+  return 0.5 * (fit.log_det - fit.white.squaredNorm() - fit.log_sum) + log_root;
 }
 
 Refined refine(Structure structure, const FitData& data, const ErrorModel& error,

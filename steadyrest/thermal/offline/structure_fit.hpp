@@ -19,10 +19,9 @@ struct LinearPrior {
   Eigen::VectorXd mean;
   Eigen::MatrixXd root;
 };
-/// Levels of a table go from speed to speed as a random walk from 0 at 0 rpm, to the same at the
-/// fastest: one that was not tested lies between its neighbours.
-/// Levels of some 200 µm, gains of some 30 µm/K and states of some 30 µm may be; the constant is
-/// free.
+/// The structure's own `usual`; the constant is free. Levels of a table go from speed to speed as a
+/// random walk from 0 at 0 rpm, to the same at the fastest: one that was not tested lies between
+/// its neighbours.
 [[nodiscard]] LinearPrior wide_prior(const Structure& structure, const Log& log);
 
 /// The linear parameters and what goes with them.
@@ -31,6 +30,7 @@ struct LinearFit {
   Eigen::MatrixXd covariance;  ///< of them; µm², the error model taken as true
   Eigen::VectorXd white;       ///< residuals made white, those of the prior below
   double log_sum = 0.0;
+  double log_det = 0.0;    ///< of the covariance
   double condition = 0.0;  ///< of the columns, scaled to one length, by Frobenius' norm
 };
 
@@ -44,8 +44,11 @@ struct RowRange {
                                    const ErrorModel& error, const LinearPrior& prior,
                                    std::optional<RowRange> left_out = std::nullopt);
 
+/// ln of the likelihood of the readings over the prior, to a constant of the rows.
+[[nodiscard]] double log_evidence(const LinearFit& fit, const LinearPrior& prior);
+
 /// Time constants of least squares, from those of the structure on; within their bounds and apart.
-/// Those that are 0 stay so. `fixed`: none is moved.
+/// Those that are 0 stay so, and so do the lags of a dense structure.
 struct Refined {
   Structure structure;
   std::vector<double> ln_tau_sd;  ///< in the order of modes, rests, ambients

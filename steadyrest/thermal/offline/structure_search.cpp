@@ -6,18 +6,14 @@
 
 #include <Eigen/Cholesky>
 
-#include <steadyrest/thermal/offline/lagged.hpp>
+#include <steadyrest/thermal/offline/column_grid.hpp>
 #include <steadyrest/thermal/offline/structure_search.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
 
-constexpr std::array kTau_min = {3.0,  6.0,   12.0,  20.0,  30.0,  40.0, 55.0,
-                                 80.0, 120.0, 180.0, 280.0, 420.0, 600.0};
-constexpr std::array kLag_min = {0.0, 20.0, 60.0, 150.0, 400.0};
 const std::array<std::vector<int>, 3> kPowers = {std::vector{1}, std::vector{2}, std::vector{1, 2}};
-constexpr std::size_t kTaus = kTau_min.size();
-constexpr std::size_t kLags = kLag_min.size();
+constexpr std::size_t kLags = kGridLag_min.size();
 constexpr std::size_t kKeep = 2;                  ///< of each kind
 constexpr std::size_t kCarried = 60;              ///< sets of inputs that more modes are tried with
 using Lag = std::pair<std::size_t, std::size_t>;  ///< sensor among the limits', lag
@@ -33,33 +29,8 @@ struct Candidate {
 class Products {
  public:
   Products(const FitData& data, const ErrorModel& error, const SearchLimits& limits)
-      : starts_(stretches(*data.log).size()) {
-    const Log& log = *data.log;
-    const auto starts = stretches(log);
-    const std::size_t count = 1 + kTaus * (2 + starts_) + limits.sensor.size() * kLags;
-    Eigen::MatrixXd all(static_cast<Eigen::Index>(data.rows()),
-                        static_cast<Eigen::Index>(count) + 1);
-    all.col(0).setOnes();
-    double most = 0.0;
-    for (const double n : log.speed_rev_s) {
-      most = std::max(most, n * 0.06);
-    }
-    for (std::size_t t = 0; t < kTaus; ++t) {
-      const double tau_s = 60.0 * kTau_min[t];
-      all.col(power(t, 1)) = lagged_power(log, data.row, 1.0, tau_s);
-      all.col(power(t, 2)) = lagged_power(log, data.row, 2.0, tau_s) / std::max(most, 0.1);
-      for (std::size_t s = 0; s < starts_; ++s) {
-        all.col(start(t, s)) = fading(log, data.row, starts[s], tau_s);
-      }
-    }
-    for (std::size_t s = 0; s < limits.sensor.size(); ++s) {
-      for (std::size_t l = 0; l < kLags; ++l) {
-        Eigen::VectorXd v = lagged_temperature(log, data.row, log.temperature[limits.sensor[s]],
-                                               60.0 * kLag_min[l]);
-        all.col(lag({s, l})) = v.array() - v.mean();
-      }
-    }
-    all.rightCols(1) = data.reading_um;
+      : grid_(data, limits.sensor) {
+    const Eigen::MatrixXd& all = grid_.columns();
     for (const FitData::Block& block : data.block) {
       const auto begin = static_cast<Eigen::Index>(block.begin);
       const auto rows = static_cast<Eigen::Index>(block.end - block.begin);
@@ -93,14 +64,14 @@ class Products {
     }
     for (const std::size_t t : c.tau) {
       for (const int p : kPowers[c.power]) {
-        column.push_back(power(t, p));
+        column.push_back(grid_.power(t, p));
       }
-      for (std::size_t s = 0; s < starts_; ++s) {
-        column.push_back(start(t, s));
+      for (std::size_t s = 0; s < grid_.stretches(); ++s) {
+        column.push_back(grid_.start(t, s));
       }
     }
     for (const Lag& l : c.lag) {
-      column.push_back(lag(l));
+      column.push_back(grid_.lag(l.first, l.second));
     }
     const auto p = static_cast<Eigen::Index>(column.size());
     const Eigen::Index y = sum_.cols() - 1;
@@ -140,31 +111,12 @@ class Products {
     }
     return std::max(sum, 0.0);
   }
-  [[nodiscard]] Eigen::Index power(std::size_t t, int p) const {
-    return static_cast<Eigen::Index>(1 + t * (2 + starts_)) + p - 1;
-  }
-  [[nodiscard]] Eigen::Index start(std::size_t t, std::size_t s) const {
-    return static_cast<Eigen::Index>(1 + t * (2 + starts_) + 2 + s);
-  }
-  [[nodiscard]] Eigen::Index lag(const Lag& l) const {
-    return static_cast<Eigen::Index>(1 + kTaus * (2 + starts_) + l.first * kLags + l.second);
-  }
-
-  std::size_t starts_;
+  ColumnGrid grid_;
   std::vector<Eigen::MatrixXd> white_;
   std::vector<Eigen::MatrixXd> free_;
   std::vector<Eigen::MatrixXd> probed_;
   Eigen::MatrixXd sum_;
 };
-
-bool apart(const std::vector<std::size_t>& tau) {
-  for (std::size_t i = 1; i < tau.size(); ++i) {
-    if (kTau_min[tau[i]] < kSeparation * kTau_min[tau[i - 1]]) {
-      return false;
-    }
-  }
-  return true;
-}
 
 class Search {
  public:
@@ -227,18 +179,7 @@ class Search {
   [[nodiscard]] std::vector<Candidate> tried(const std::vector<std::vector<Lag>>& sets,
                                              std::size_t modes, std::size_t power) const {
     std::vector<Candidate> out;
-    std::vector<std::vector<std::size_t>> taus;
-    for (std::size_t t = 0; t < kTaus; ++t) {
-      for (std::size_t u = modes > 1 ? t + 1 : kTaus - 1; u < kTaus; ++u) {
-        for (std::size_t v = modes > 2 ? u + 1 : kTaus - 1; v < kTaus; ++v) {
-          std::vector<std::size_t> tau = {t, u, v};
-          tau.resize(modes);
-          if (apart(tau)) {
-            taus.push_back(std::move(tau));
-          }
-        }
-      }
-    }
+    const auto taus = grid_modes(modes, modes);
     for (const auto& set : sets) {
       Candidate least;
       for (const auto& tau : taus) {
@@ -272,10 +213,10 @@ class Search {
     Structure out;
     out.power = kPowers[c.power];
     for (const std::size_t t : c.tau) {
-      out.mode.push_back({60.0 * kTau_min[t], 0.0});
+      out.mode.push_back({60.0 * kGridTau_min[t], 0.0});
     }
     for (const auto& [sensor, l] : c.lag) {
-      out.ambient.push_back({limits_.sensor[sensor], 60.0 * kLag_min[l]});
+      out.ambient.push_back({limits_.sensor[sensor], 60.0 * kGridLag_min[l]});
     }
     return out;
   }

@@ -31,8 +31,8 @@ bool feeds(Motion motion) noexcept {
   return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
 }
 
-Drive drive_of(const Frame& frame) noexcept {
-  Drive drive;
+OffsetGovernor::Running running_of(const Frame& frame) noexcept {
+  OffsetGovernor::Running drive;
   const double speed = std::abs(frame.spindle_actual_rev_s);
   drive.speed_rev_s = speed < kStands_rev_s ? 0.0 : speed;
   drive.feed_mm_s = frame.path_speed_mm_s;
@@ -41,7 +41,7 @@ Drive drive_of(const Frame& frame) noexcept {
   return drive;
 }
 
-bool same_class(const Drive& a, const Drive& b) noexcept {
+bool same_class(const OffsetGovernor::Running& a, const OffsetGovernor::Running& b) noexcept {
   return a.cutting == b.cutting && a.coolant == b.coolant &&
          (a.speed_rev_s == 0.0) == (b.speed_rev_s == 0.0);
 }
@@ -126,20 +126,23 @@ Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
   return made;
 }
 
-void OffsetGovernor::step(double elapsed_s, const Drive& drive) noexcept {
+void OffsetGovernor::step(double elapsed_s, const Running& running) noexcept {
+  drive_.speed_rev_s = running.speed_rev_s;
+  drive_.feed_mm_s = running.feed_mm_s;
+  drive_.cutting = running.cutting;
+  drive_.coolant = running.coolant;
   for (Axis& axis : axes_) {
-    Drive own = drive;
     for (std::size_t j = 0; j < axis.ambients; ++j) {
-      own.ambient_c[j] = temperature_c_[axis.sensor[j]];
+      drive_.ambient_c[j] = temperature_c_[axis.sensor[j]];
     }
-    axis.filter.update(elapsed_s, own);
+    axis.filter.update(elapsed_s, drive_);
   }
 }
 
 /// Tells the filters of the time that is pending.
 void OffsetGovernor::step() noexcept {
   if (state_.pending_s > 0.0) {
-    Drive mean = state_.drive;
+    Running mean = state_.drive;
     mean.speed_rev_s = state_.turned_rev / state_.pending_s;
     mean.feed_mm_s = state_.path_mm / state_.pending_s;
     step(state_.pending_s, mean);
@@ -153,7 +156,7 @@ void OffsetGovernor::step() noexcept {
 void OffsetGovernor::drive_on(const Frame& frame) noexcept {
   const double elapsed_s = state_.started ? std::max(0.0, frame.time_s - state_.time_s) : 0.0;
   state_.time_s = frame.time_s;
-  const Drive drive = drive_of(frame);
+  const Running drive = running_of(frame);
   const bool first = !state_.started;
   state_.started = true;
   state_.unwatched_s += elapsed_s;

@@ -65,9 +65,17 @@ class OffsetGovernor {
     double offset_mm = 0.0;     ///< o
   };
 
+  /// What heats the machine but for the temperatures.
+  struct Running {
+    double speed_rev_s = 0.0;
+    double feed_mm_s = 0.0;
+    bool cutting = false;
+    bool coolant = false;
+  };
+
   struct State {
     std::array<AxisState, kernel::signal::kMaxAxes> axis{};  ///< by the machine's axes
-    Drive drive;                                             ///< of the time that is pending
+    Running drive;                                           ///< of the time that is pending
     double pending_s = 0.0;   ///< the filters have not been told of yet
     double turned_rev = 0.0;  ///< ∫ speed over it
     double path_mm = 0.0;     ///< ∫ path speed over it
@@ -128,7 +136,7 @@ class OffsetGovernor {
   void probe(const kernel::signal::Frame& frame) noexcept;
   void drive_on(const kernel::signal::Frame& frame) noexcept;
   void step() noexcept;
-  void step(double elapsed_s, const Drive& drive) noexcept;
+  void step(double elapsed_s, const Running& running) noexcept;
   [[nodiscard]] Axis* find(std::size_t axis) noexcept;
   [[nodiscard]] kernel::outcome::Reason fault(const Axis& axis,
                                               const kernel::signal::Frame& frame) const noexcept;
@@ -144,6 +152,7 @@ class OffsetGovernor {
   std::size_t sensors_ = 0;
   SensorWatch watch_;
   kernel::signal::Temperatures temperature_c_ = kernel::signal::unknown_temperatures();
+  Drive drive_;  ///< what a filter is handed
   Output output_;
   std::uint64_t probe_number_ = 0;
   bool probe_watched_ = false;  ///< a frame has been seen

@@ -84,19 +84,19 @@ double StateFilter::update(double elapsed_s, const Drive& drive) noexcept {
     return displacement_mm();
   }
   std::array<double, kMaxThermalModes> left{};
-  const ThermalModel::State before = model_.state();
+  const std::array<double, kMaxThermalModes> before_mm = model_.state().mode_mm;
   for (std::size_t i = 0; i < modes_; ++i) {
     left[i] = model_.decay(i, elapsed_s, drive);
   }
   model_.update(elapsed_s, drive);
   // The model has gone on with the scale 1: what its levels gave is known by its step.
-  ThermalModel::State after = model_.state();
+  std::array<double, kMaxThermalModes> after_mm = model_.state().mode_mm;
   std::array<double, kMaxThermalModes> gained_mm{};
   for (std::size_t i = 0; i < modes_; ++i) {
-    gained_mm[i] = after.mode_mm[i] - left[i] * before.mode_mm[i];
-    after.mode_mm[i] += (state_.gain - 1.0) * gained_mm[i];
+    gained_mm[i] = after_mm[i] - left[i] * before_mm[i];
+    after_mm[i] += (state_.gain - 1.0) * gained_mm[i];
   }
-  model_.restore(after);
+  model_.set_modes(after_mm);
   spread(elapsed_s, left, gained_mm);
   state_.bias_mm *= bias_step_.left;
   return displacement_mm();
@@ -183,11 +183,11 @@ StateFilter::Verdict StateFilter::measure(const Reading& reading) noexcept {
     verdict.reason = Reason::thermal_reading_outlier;
     return verdict;
   }
-  ThermalModel::State model = model_.state();
+  std::array<double, kMaxThermalModes> mode_mm = model_.state().mode_mm;
   for (std::size_t i = 0; i < modes_; ++i) {
-    model.mode_mm[i] += with_reading[i] / s * innovation;
+    mode_mm[i] += with_reading[i] / s * innovation;
   }
-  model_.restore(model);
+  model_.set_modes(mode_mm);
   state_.bias_mm += with_reading[kBias] / s * innovation;
   state_.gain += with_reading[kGain] / s * innovation;
   for (std::size_t i = 0; i < kStates; ++i) {

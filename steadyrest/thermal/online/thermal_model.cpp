@@ -68,12 +68,31 @@ Result<ThermalModel> ThermalModel::make(const Config& config) {
 }
 
 ThermalModel::ThermalModel(Config config) : config_(std::move(config)) {
+  for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
+    const auto& ambient = config_.ambient[j];
+    const auto end = lag_decay_.begin() + static_cast<std::ptrdiff_t>(lags_);
+    const auto found = std::find_if(lag_decay_.begin(), end, [&ambient](const Decay& decay) {
+      return decay.tau_s == ambient.tau_s;
+    });
+    lag_of_[j] = static_cast<std::size_t>(found - lag_decay_.begin());
+    if (found == end) {
+      lag_decay_[lags_++].tau_s = ambient.tau_s;
+    }
+    gain_mm_k_[j] = ambient.gain_mm_k;
+    reference_c_[j] = ambient.reference_c;
+  }
   reset();
 }
 
 void ThermalModel::reset() noexcept {
   state_.mode_mm.fill(0.0);
   state_.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
+  ambient_mm_ = 0.0;
+}
+
+void ThermalModel::restore(const State& state) noexcept {
+  state_ = state;
+  sum_up_ambient();
 }
 
 double ThermalModel::level_mm(std::size_t mode, const Drive& drive) const noexcept {
@@ -90,12 +109,42 @@ double ThermalModel::tau_s(std::size_t mode, const Drive& drive) const noexcept 
   return drive.speed_rev_s == 0.0 && m.rest_tau_s > 0.0 ? m.rest_tau_s : m.tau_s;
 }
 
-double ThermalModel::kept_decay(std::size_t slot, double tau_s, double elapsed_s) noexcept {
-  Decay& kept = decay_[slot];
-  if (kept.tau_s != tau_s || kept.elapsed_s != elapsed_s) {
-    kept = {.tau_s = tau_s, .elapsed_s = elapsed_s, .factor = std::exp(-elapsed_s / tau_s)};
+double ThermalModel::kept(Decay& decay, double tau_s, double elapsed_s) noexcept {
+  if (decay.tau_s != tau_s || decay.elapsed_s != elapsed_s) {
+    const double factor = tau_s > 0.0 ? std::exp(-elapsed_s / tau_s) : 0.0;
+    decay = {.tau_s = tau_s, .elapsed_s = elapsed_s, .factor = factor};
   }
-  return kept.factor;
+  return decay.factor;
+}
+
+void ThermalModel::sum_up_ambient() noexcept {
+  // Four sums, so that no addition waits for the one before.
+  std::array<double, 4> part{};
+  static_assert(kMaxThermalAmbients % part.size() == 0);
+  for (std::size_t j = 0; j < config_.ambient.size(); j += part.size()) {
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      const double away_mm = gain_mm_k_[j + k] * (state_.ambient_c[j + k] - reference_c_[j + k]);
+      part[k] += std::isfinite(away_mm) ? away_mm : 0.0;
+    }
+  }
+  ambient_mm_ = (part[0] + part[1]) + (part[2] + part[3]);
+}
+
+void ThermalModel::lag(double elapsed_s, const Drive& drive) noexcept {
+  if (elapsed_s != lag_elapsed_s_) {
+    lag_elapsed_s_ = elapsed_s;
+    for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
+      left_[j] = kept(lag_decay_[lag_of_[j]], config_.ambient[j].tau_s, elapsed_s);
+    }
+  }
+  for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
+    const double temperature = drive.ambient_c[j];
+    const double lagged = state_.ambient_c[j];
+    const double next = temperature + (lagged - temperature) * left_[j];
+    const double seen = std::isfinite(lagged) ? next : temperature;
+    state_.ambient_c[j] = std::isfinite(temperature) ? seen : lagged;
+  }
+  sum_up_ambient();
 }
 
 double ThermalModel::update(double elapsed_s, const Drive& drive) noexcept {
@@ -109,33 +158,16 @@ double ThermalModel::update(double elapsed_s, const Drive& drive) noexcept {
     double& x = state_.mode_mm[i];
     x = level + (x - level) * decay(i, elapsed_s, drive);
   }
-  for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
-    const double temperature = drive.ambient_c[j];
-    double& lagged = state_.ambient_c[j];
-    if (!std::isfinite(temperature)) {
-      continue;
-    }
-    const double tau = config_.ambient[j].tau_s;
-    if (tau == 0.0 || !std::isfinite(lagged)) {
-      lagged = temperature;
-    } else {
-      lagged =
-          temperature + (lagged - temperature) * kept_decay(kMaxThermalModes + j, tau, elapsed_s);
-    }
+  if (!config_.ambient.empty()) {
+    lag(elapsed_s, drive);
   }
   return displacement_mm();
 }
 
 double ThermalModel::displacement_mm() const noexcept {
-  double sum = 0.0;
+  double sum = ambient_mm_;
   for (std::size_t i = 0; i < config_.mode.size(); ++i) {
     sum += state_.mode_mm[i];
-  }
-  for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
-    const double lagged = state_.ambient_c[j];
-    sum += std::isfinite(lagged)
-               ? config_.ambient[j].gain_mm_k * (lagged - config_.ambient[j].reference_c)
-               : 0.0;
   }
   return sum;
 }

@@ -52,28 +52,43 @@ class ThermalModel {
   [[nodiscard]] double tau_s(std::size_t mode, const Drive& drive) const noexcept;
   /// e^(−elapsed/τ) of a mode: what is left of its distance from the level.
   [[nodiscard]] double decay(std::size_t mode, double elapsed_s, const Drive& drive) noexcept {
-    return kept_decay(mode, tau_s(mode, drive), elapsed_s);
+    return kept(mode_decay_[mode], tau_s(mode, drive), elapsed_s);
   }
   [[nodiscard]] const Config& config() const noexcept { return config_; }
 
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  void restore(const State& state) noexcept { state_ = state; }
+  void restore(const State& state) noexcept;
+  /// The modes alone.
+  void set_modes(const std::array<double, kMaxThermalModes>& mode_mm) noexcept {
+    state_.mode_mm = mode_mm;
+  }
   /// Cold: no displacement, no temperature seen.
   void reset() noexcept;
 
  private:
   explicit ThermalModel(Config config);
-  [[nodiscard]] double kept_decay(std::size_t slot, double tau_s, double elapsed_s) noexcept;
-
-  Config config_;
-  State state_;
   /// Steps come at one period: the exponential of each time constant is kept.
   struct Decay {
     double tau_s = -1.0;
     double elapsed_s = -1.0;
     double factor = 1.0;
   };
-  std::array<Decay, kMaxThermalModes + kMaxThermalAmbients> decay_{};
+  [[nodiscard]] static double kept(Decay& decay, double tau_s, double elapsed_s) noexcept;
+  void lag(double elapsed_s, const Drive& drive) noexcept;
+  void sum_up_ambient() noexcept;
+
+  Config config_;
+  State state_;
+  std::array<Decay, kMaxThermalModes> mode_decay_{};
+  /// One for each time constant of the ambient inputs, and which of them each input has.
+  std::array<Decay, kMaxThermalAmbients> lag_decay_{};
+  std::size_t lags_ = 0;
+  std::array<std::size_t, kMaxThermalAmbients> lag_of_{};
+  double lag_elapsed_s_ = -1.0;
+  std::array<double, kMaxThermalAmbients> left_{};  ///< their exponentials, for that time
+  std::array<double, kMaxThermalAmbients> gain_mm_k_{};
+  std::array<double, kMaxThermalAmbients> reference_c_{};
+  double ambient_mm_ = 0.0;  ///< the inputs' part of the displacement, as the state has it
 };
 
 }  // namespace steadyrest::thermal::online

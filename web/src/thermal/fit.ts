@@ -8,6 +8,16 @@ import { coursePlot, goesOn, residualPlot, speedPlot, table, um } from './course
 import type { FitPage, FittedAxis } from './data';
 import { hysteresisPlot, speedKeys, told } from './hysteresis';
 
+/** Sensors by name, or, where there are many, how many with how many lags. */
+function inputs(ambient: readonly { readonly sensor: string; readonly tau_min: number }[]): string {
+  const sensors = new Set(ambient.map((i) => i.sensor));
+  const lags = new Set(ambient.map((i) => i.tau_min));
+  if (ambient.length <= 3) {
+    return ambient.map((i) => i.sensor).join(', ') || '–';
+  }
+  return sensors.size === 1 ? `${[...sensors].join('')}, ${lags.size} lags` : `${sensors.size} sensors, ${lags.size} lags`;
+}
+
 function modelTable(page: FitPage): string {
   const rows = page.answer.axes.map((a) => [
     a.axis,
@@ -15,7 +25,7 @@ function modelTable(page: FitPage): string {
       .filter((m) => m.axis === a.axis)
       .map((m) => (m.rest_tau_min === m.tau_min ? fixed(m.tau_min, 0) : `${fixed(m.tau_min, 0)} (at rest ${fixed(m.rest_tau_min, 0)})`))
       .join(', '),
-    a.ambient.map((i) => i.sensor).join(', ') || '–',
+    inputs(a.ambient),
     um(a.rms_um),
     um(a.left_out_rms_um),
     um(a.left_out_probed_rms_um),

@@ -86,6 +86,39 @@ TEST(ThermalModel, LevelsComeFromTableOrPolynomialAndKnowLoadCoolantAndFeed) {
   EXPECT_NEAR(made(other).level_mm(0, turning(50.0)), 0.006 - 0.0045, 1e-12) << "3000 rev/min";
 }
 
+TEST(ThermalModel, ManyInputsAreEachWhatTheyAreAlone) {
+  ThermalAxis all;
+  std::vector<ThermalModel> alone;
+  for (std::size_t j = 0; j < steadyrest::kernel::machine::kMaxThermalAmbients; ++j) {
+    const auto at = static_cast<double>(j);
+    ThermalAxis one;
+    one.ambient.push_back({.sensor = "t",
+                           .tau_s = 300.0 * static_cast<double>(j % 5),
+                           .gain_mm_k = 0.001 * (at - 20.0),
+                           .reference_c = 20.0 + 0.1 * at});
+    all.ambient.push_back(one.ambient.front());
+    alone.push_back(made(one));
+  }
+  ThermalModel model = made(all);
+  for (int step = 0; step < 50; ++step) {
+    Drive drive;
+    double sum_mm = 0.0;
+    for (std::size_t j = 0; j < alone.size(); ++j) {
+      const auto at = static_cast<double>(j);
+      const bool known = (static_cast<std::size_t>(step) + j) % 7 != 0;
+      const double now = known ? 22.0 + std::sin(0.3 * at + 0.2 * step) : std::nan("");
+      drive.ambient_c[j] = now;
+      Drive own;
+      own.ambient_c[0] = now;
+      sum_mm += alone[j].update(90.0, own);
+    }
+    EXPECT_NEAR(model.update(90.0, drive), sum_mm, 1e-12);
+  }
+  ThermalModel again = made(all);
+  again.restore(model.state());
+  EXPECT_DOUBLE_EQ(again.displacement_mm(), model.displacement_mm());
+}
+
 TEST(ThermalModel, FollowsTheSurroundingsWithALag) {
   ThermalAxis axis;
   axis.ambient.push_back(
