@@ -95,6 +95,23 @@ TEST(ThermalFit, WritesAPageOfWhatTemperaturesTellAndWhatTheModelLeaves) {
   expect_refused("thermal fit " + kLog + " --report /dev/null/here", "/dev/null");
 }
 
+TEST(ThermalFit, TwoProbesOfOneBodyAreToldToShareItsTimeConstants) {
+  const Scratch scratch;
+  std::istringstream in(text_of_file(project_file(kLog)));
+  std::string line;
+  std::getline(in, line);
+  std::string twice = line + ",w_um\n";
+  for (int row = 0; std::getline(in, line); ++row) {  // half as far, with a last digit of its own
+    const std::size_t at = line.find(',', line.find(',') + 1) + 1;
+    twice += line + "," + std::to_string(0.5 * std::stod(line.substr(at)) + 0.1 * (row % 3)) + "\n";
+  }
+  const std::string log = scratch.file("twice.csv", twice);
+  const auto fit = answer_of("thermal fit " + log + " --no-ambient");
+  EXPECT_EQ(fit["shared_tau"].dump(), R"([["Z","W"]])");
+  EXPECT_EQ(fit["modes"][0]["tau_min"], fit["modes"][2]["tau_min"]);
+  EXPECT_TRUE(answer_of("thermal fit " + log + " --no-ambient --own-tau")["shared_tau"].empty());
+}
+
 // The example's levels are in proportion to the speed: 6.5 µm for each 1000 rpm.
 TEST(ThermalFit, GivesLevelsAsATableThatForecastTakes) {
   const Scratch scratch;

@@ -18,6 +18,7 @@
 #include <steadyrest/kernel/machine/thermal_text.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/identify.hpp>
+#include <steadyrest/thermal/offline/shared_tau.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -43,6 +44,7 @@ struct Options {
   double from_min = -1e12;
   double to_min = 1e12;
   std::string tau_from;
+  bool own_tau = false;
 };
 
 Refusal refusal(std::string file, std::string what, std::string to_do) {
@@ -166,7 +168,11 @@ std::string inputs_of(const ThermalAxis& axis) {
                              : fmt::format("{} sensors, {} lags", sensors.size(), lags.size());
 }
 
-Answer answer_of(const std::vector<offline::AxisFit>& fits, const offline::Log& log) {
+/// Places of axes that have the same time constants.
+using Groups = std::vector<std::vector<std::size_t>>;
+
+Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared,
+                 const offline::Log& log) {
   Answer answer;
   double square = 0.0;
   Table table({"axis", "tau min", "inputs", "rms um", "left out", "hourly probe", "95 % holds"});
@@ -188,6 +194,17 @@ Answer answer_of(const std::vector<offline::AxisFit>& fits, const offline::Log& 
   answer.json["hours"] = log.hours();
   answer.json["notes"] = log.notes;
   answer.text = table.text();
+  answer.json["shared_tau"] = Json::array();
+  for (const std::vector<std::size_t>& group : shared) {
+    Json names = Json::array();
+    std::string list;
+    for (const std::size_t i : group) {
+      names.push_back(fits[i].axis.name);
+      list += (list.empty() ? "" : ", ") + fits[i].axis.name;
+    }
+    answer.json["shared_tau"].push_back(names);
+    answer.text += fmt::format("{} have the same time constants\n", list);
+  }
   for (const std::string& note : log.notes) {
     answer.text += note + "\n";
   }
@@ -285,9 +302,19 @@ Outcome run(const Options& options, Progress& progress) {
     if (!fit) {
       return refused(fit.error());
     }
-    passport.state_s = std::max(fits.empty() ? fit->end_s : passport.state_s, fit->end_s);
-    passport.axis.push_back(fit->axis);
     fits.push_back(std::move(*fit));
+  }
+  Groups shared;
+  if (options.tau_from.empty() && !options.own_tau) {
+    std::vector<std::size_t> columns;
+    for (const auto& [channel, name] : job->channels) {
+      columns.push_back(channel);
+    }
+    shared = offline::share_tau(job->log, columns, job->request, fits);
+  }
+  for (const offline::AxisFit& fit : fits) {
+    passport.state_s = std::max(passport.axis.empty() ? fit.end_s : passport.state_s, fit.end_s);
+    passport.axis.push_back(fit.axis);
   }
   if (!options.output.empty()) {
     if (const auto written = write_text(options.output, kernel::machine::thermal_text(passport));
@@ -295,7 +322,7 @@ Outcome run(const Options& options, Progress& progress) {
       return refused(written.error());
     }
   }
-  Answer answer = answer_of(fits, job->log);
+  Answer answer = answer_of(fits, shared, job->log);
   if (!options.report.empty()) {
     if (auto done = write_page(answer, options.report, *job, fits); !done) {
       return refused(done.error());
@@ -324,6 +351,8 @@ void add_verb_thermal_fit(Session& session) {
   verb.add_option("--ambient", options->sensors,
                   "Temperature that may be an input; without it all of the log");
   verb.add_flag("--no-ambient", options->no_ambient, "The spindle's speed is the only input");
+  verb.add_flag("--own-tau", options->own_tau,
+                "Each axis keeps its own time constants, also where several could have the same");
   verb.add_option("--modes", options->modes, "Number of modes; without it by the left-out hours")
       ->check(CLI::Range(1, 3));
   CLI::Option* known = verb.add_option(

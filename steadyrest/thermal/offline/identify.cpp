@@ -6,11 +6,11 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <fmt/core.h>
 
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/band.hpp>
 #include <steadyrest/thermal/offline/dense_fit.hpp>
+#include <steadyrest/thermal/offline/fit_refusal.hpp>
 #include <steadyrest/thermal/offline/fitted_axis.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
 #include <steadyrest/thermal/offline/identify.hpp>
@@ -21,14 +21,9 @@ namespace steadyrest::thermal::offline {
 namespace {
 
 using kernel::machine::ThermalAxis;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-constexpr double kDriftGuess = 0.07;  ///< of the range, before anything is known
-constexpr double kHorizonPerRun = 2.0;
-constexpr double kMostHorizonSd = 0.25;  ///< of the range
-constexpr double kRunPerTau = 1.5;       ///< a run shows a time constant when it is so much longer
+constexpr double kDriftGuess = 0.07;     ///< of the range, before anything is known
 constexpr double kStrongEvidence = 6.0;  ///< in Bayes' criterion
 constexpr double kUnsure = 0.15;         ///< of known levels and gains, from one run to another
 
@@ -51,40 +46,6 @@ class Identification {
         table_rev_s_(request.table ? held_speeds_rev_s(log, request.from_s, request.to_s)
                                    : std::vector<double>{}),
         error_{std::max(kDriftGuess * range_um_, data_.noise_um), 4.0 * 3600.0, data_.noise_um} {}
-
-  [[nodiscard]] std::optional<Refusal> unfit() const {
-    const std::string& name = log_.displacement[data_.channel].name;
-    if (data_.rows() < kLeastRows) {
-      return refuse(fmt::format("{} has {} readings in the window; {} are needed", name,
-                                data_.rows(), kLeastRows),
-                    "widen the window");
-    }
-    for (std::size_t j = 0; request_.known != nullptr && j < request_.known->ambient.size(); ++j) {
-      const std::string& sensor = request_.known->ambient[j].sensor;
-      if (std::ranges::find(log_.temperature, sensor, &LogChannel::name) ==
-          log_.temperature.end()) {
-        return refuse(fmt::format("the passport of {} needs the temperature {}, which the log has "
-                                  "not",
-                                  request_.known->name, sensor),
-                      "log that sensor, or take time constants from a passport without it");
-      }
-    }
-    const double run_s = longest_run_s(log_, request_.from_s, request_.to_s);
-    if (run_s == 0.0 && request_.known == nullptr) {
-      return refuse("the spindle never turns",
-                    "log a test in which it turns: docs/thermal-test.md");
-    }
-    if (request_.known == nullptr && request_.horizon_s > kHorizonPerRun * run_s) {
-      return refuse(
-          fmt::format("the longest run at one speed takes {:.0f} min; a forecast over {:.0f} min "
-                      "cannot be fitted to it",
-                      run_s / 60.0, request_.horizon_s / 60.0),
-          fmt::format("run {:.0f} min at least at one speed, ask for a shorter --horizon-min, or "
-                      "take time constants from a longer test with --tau-from",
-                      request_.horizon_s / kHorizonPerRun / 60.0));
-    }
-    return request_.table && request_.known == nullptr ? unfit_speeds() : std::nullopt;
-  }
 
   Judged free_structure(const std::function<void(double)>& progress) {
     SearchLimits limits;
@@ -117,6 +78,19 @@ class Identification {
       return with_rest(dense_or(std::move(best), limits, guess));
     }
     return with_rest(dense_or(std::move(likely), limits, guess));
+  }
+
+  Judged held_structure() {
+    const AxisFit& like = *request_.like;
+    error_ = like.error;
+    Judged out{like.structure, like.ln_tau_sd, {}, {}, 0.0};
+    for (const auto& mode : like.axis.mode) {
+      out.ln_tau_alone_sd.push_back(mode.tau_sd_ratio);
+    }
+    if (has_blocks()) {
+      out.left_out = leave_out(out.structure, data_, error_, prior(out.structure));
+    }
+    return out;
   }
 
   Judged known_structure() {
@@ -156,6 +130,9 @@ class Identification {
     }
     out.coverage = band.free_coverage;
     out.coverage_probed = band.probed_coverage;
+    out.structure = chosen.structure;
+    out.error = error_;
+    out.log_evidence = log_evidence(fit, prior(chosen.structure));
     out.axis = fitted_axis(chosen.structure, data_, fit, chosen.ln_tau_alone_sd);
     out.ln_tau_sd = chosen.ln_tau_sd;
     out.ln_tau_sd.resize(out.axis.mode.size());
@@ -173,51 +150,12 @@ class Identification {
     return out;
   }
 
-  [[nodiscard]] std::optional<Refusal> too_uncertain(const AxisFit& fit) const {
-    double slowest_s = 0.0;
-    for (const auto& mode : fit.axis.mode) {
-      slowest_s = std::max(slowest_s, mode.tau_s);
-    }
-    const double run_s = longest_run_s(log_, request_.from_s, request_.to_s);
-    const double need_s = kRunPerTau * slowest_s;
-    const bool hidden = !has_blocks() && run_s < need_s;
-    if (request_.known != nullptr || (fit.horizon_sd_um <= kMostHorizonSd * range_um_ && !hidden)) {
-      return std::nullopt;
-    }
-    return refuse(
-        fmt::format("{}: {} {} cannot be told from this log: a forecast over {:.0f} min would be "
-                    "uncertain by {:.1f} µm of {:.1f} µm, and the slowest time constant, {:.0f} "
-                    "min, does not show in a run of {:.0f} min",
-                    fit.channel, fit.axis.mode.size(), fit.axis.mode.size() == 1 ? "mode" : "modes",
-                    request_.horizon_s / 60.0, fit.horizon_sd_um, range_um_, slowest_s / 60.0,
-                    run_s / 60.0),
-        fmt::format("run {:.0f} min at least at one speed, then let it cool as long; or take time "
-                    "constants from a longer test with --tau-from",
-                    std::max(need_s, 1.5 * run_s) / 60.0));
-  }
+  [[nodiscard]] const FitData& data() const noexcept { return data_; }
+  [[nodiscard]] const std::vector<double>& table_rev_s() const noexcept { return table_rev_s_; }
 
  private:
   static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-  [[nodiscard]] Refusal refuse(std::string what, std::string to_do) const {
-    return {Kind::bad_input, log_.file, 0, std::move(what), std::move(to_do)};
-  }
-  [[nodiscard]] std::optional<Refusal> unfit_speeds() const {
-    const std::size_t speeds = table_rev_s_.size();
-    if (speeds >= kLeastSpeeds && speeds <= kMostSpeeds) {
-      return std::nullopt;
-    }
-    std::string held;
-    for (std::size_t k = 0; k < speeds && k < kMostSpeeds; ++k) {
-      held += fmt::format("{}{:.0f}", k == 0 ? ": " : ", ",
-                          kernel::units::rpm_from_rev_s(table_rev_s_[k]));
-    }
-    return refuse(fmt::format("a table of levels needs {} … {} speeds that are held for {:.0f} min "
-                              "each; the log has {}{}{}",
-                              kLeastSpeeds, kMostSpeeds, kHeld_s / 60.0, speeds, held,
-                              held.empty() ? "" : " rpm"),
-                  "run the test at more speeds, or fit a polynomial: --levels polynomial");
-  }
   [[nodiscard]] bool has_blocks() const { return data_.block.size() >= kLeastBlocks; }
   [[nodiscard]] Eigen::MatrixXd columns(const Structure& s) const {
     return columns_of(s, log_, data_.row);
@@ -368,13 +306,14 @@ class Identification {
 Result<AxisFit> identify(const Log& log, std::size_t channel, const std::string& name,
                          const FitRequest& request, const std::function<void(double)>& progress) {
   Identification work(log, channel, request);
-  if (auto refusal = work.unfit()) {
+  if (auto refusal = unfit(work.data(), request, work.table_rev_s())) {
     return std::unexpected(std::move(*refusal));
   }
-  const Judged chosen =
-      request.known != nullptr ? work.known_structure() : work.free_structure(progress);
+  const Judged chosen = request.known != nullptr  ? work.known_structure()
+                        : request.like != nullptr ? work.held_structure()
+                                                  : work.free_structure(progress);
   AxisFit fit = work.finish(chosen, name);
-  if (auto refusal = work.too_uncertain(fit)) {
+  if (auto refusal = too_uncertain(fit, work.data(), request)) {
     return std::unexpected(std::move(*refusal));
   }
   return fit;

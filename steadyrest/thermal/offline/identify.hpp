@@ -8,9 +8,11 @@
 
 #include <steadyrest/kernel/machine/thermal.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/thermal/offline/fit_data.hpp>
+#include <steadyrest/thermal/offline/structure_fit.hpp>
 
 namespace steadyrest::thermal::offline {
+
+struct AxisFit;
 
 struct FitRequest {
   std::optional<std::size_t> modes;  ///< without it by left-out hours
@@ -23,6 +25,8 @@ struct FitRequest {
   double to_s = 1e300;
   /// Time constants, sensors and, as what is known beforehand, levels and gains are taken from it.
   const kernel::machine::ThermalAxis* known = nullptr;
+  /// The structure of that fit stands, with its time constants; the rest is fitted.
+  const AxisFit* like = nullptr;
 };
 
 /// A fitted displacement and what it is worth.
@@ -41,6 +45,9 @@ struct AxisFit {
   double horizon_sd_um = 0.0;  ///< of a forecast over the horizon, by the parameters alone
   std::size_t blocks = 0;
   double end_s = 0.0;
+  Structure structure;
+  ErrorModel error;
+  double log_evidence = 0.0;
 };
 
 /// The thermal modes of one displacement of the log, by left-out blocks: of all structures that
