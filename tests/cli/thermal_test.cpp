@@ -129,6 +129,31 @@ TEST(ThermalForecast, StartsFromWhatTheMachineHasDone) {
   EXPECT_NEAR(answer["axes"][0]["end_um"].get<double>(), 49.0785 / std::exp(1.0), 1e-4);
 }
 
+TEST(ThermalForecast, SaysWhichTemperaturesItTakesForGranted) {
+  const Scratch scratch;
+  const std::string work = scratch.file("work.toml", R"(
+[[transition]]
+minutes = 60
+speed_rpm = 3000
+)");
+  const std::string passport = scratch.file("passport.toml", R"(
+[[thermal.axis]]
+name = "Z"
+[[thermal.axis.mode]]
+tau_min = 30
+polynomial_um = [5]
+[[thermal.axis.ambient]]
+sensor = "motor_c"
+gain_um_k = 1
+)");
+  const std::string line = "thermal forecast --machine " + passport + " --cyclogram " + work;
+  const auto untold = answer_of(line);
+  ASSERT_EQ(untold["notes"].size(), 1U);
+  EXPECT_NE(untold["notes"][0].get<std::string>().find("motor_c counts as staying"),
+            std::string::npos);
+  EXPECT_TRUE(answer_of(line + " --ambient motor_c=21")["notes"].empty());
+}
+
 TEST(Thermal, RefusesWhatItCannotForecast) {
   const Scratch scratch;
   const std::string machine = " --machine examples/paper-thermal/machine.toml";

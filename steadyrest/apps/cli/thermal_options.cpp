@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include <fmt/core.h>
@@ -125,6 +126,27 @@ Result<ThermalJob::Axis> start(const ThermalAxis& axis, const Cyclogram* before,
   return out;
 }
 
+/// What the forecast takes for granted of temperatures that were not told; empty: nothing.
+std::string note_of(const ThermalJob::Axis& axis) {
+  const ThermalAxis& passport = axis.model.config();
+  std::set<std::string> untold;
+  for (std::size_t j = 0; j < passport.ambient.size(); ++j) {
+    if (!std::isfinite(axis.ambient_c[j])) {
+      untold.insert(passport.ambient[j].sensor);
+    }
+  }
+  if (untold.empty()) {
+    return {};
+  }
+  const std::string which = untold.size() == 1
+                                ? *untold.begin() + " counts"
+                                : fmt::format("{} temperatures count", untold.size());
+  return fmt::format(
+      "{}: {} as staying at the reference; what the spindle heats does not, so fit the passport of "
+      "work that is not yet made with the sensors of the surroundings alone: thermal fit --ambient",
+      passport.name, which);
+}
+
 }  // namespace
 
 void add_thermal_options(CLI::App& verb, ThermalOptions& options) {
@@ -179,6 +201,9 @@ Result<ThermalJob> thermal_job(const ThermalOptions& options) {
     if (!made) {
       return std::unexpected(made.error());
     }
+    if (std::string note = note_of(*made); !note.empty()) {
+      job.notes.push_back(std::move(note));
+    }
     job.axis.push_back(std::move(*made));
   }
   for (const std::string& name : options.axes) {
@@ -196,6 +221,13 @@ Result<ThermalJob> thermal_job(const ThermalOptions& options) {
   job.passport = std::move(*passport);
   job.cyclogram = std::move(*cyclogram);
   return job;
+}
+
+void put_notes(Answer& answer, const ThermalJob& job) {
+  answer.json["notes"] = job.notes;
+  for (const std::string& note : job.notes) {
+    answer.text += note + "\n";
+  }
 }
 
 }  // namespace steadyrest::apps::cli

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <steadyrest/apps/cli/program_options.hpp>
+#include <steadyrest/apps/cli/session.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/thermal/offline/cyclogram.hpp>
 #include <steadyrest/thermal/online/thermal_model.hpp>
@@ -34,10 +35,14 @@ struct ThermalJob {
   kernel::machine::Thermal passport;
   thermal::offline::Cyclogram cyclogram;
   std::vector<Axis> axis;
+  std::vector<std::string> notes;  ///< what a reader of the forecast must know, a line each
 };
 
 /// Refused: what the files' readers refuse, an axis or a sensor that the passport has not, a speed
 /// far beyond what was fitted, and neither or both of cyclogram and program.
 [[nodiscard]] kernel::outcome::Result<ThermalJob> thermal_job(const ThermalOptions& options);
+
+/// The job's notes, below the answer's text and as `notes`.
+void put_notes(Answer& answer, const ThermalJob& job);
 
 }  // namespace steadyrest::apps::cli

@@ -126,6 +126,7 @@ Outcome run(const Options& options) {
     put(answer, table, axis);
   }
   answer.text = table.text();
+  put_notes(answer, *job);
   if (!options.report.empty()) {
     std::vector<thermal_page::Course> courses;
     courses.reserve(axes.size());

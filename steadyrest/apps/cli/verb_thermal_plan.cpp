@@ -238,6 +238,7 @@ Outcome run(const Options& options) {
   answer.json["k"] = request.share;
   answer.json["tolerance_um"] = options.tolerance_um;
   show(answer, *planned, request.share);
+  put_notes(answer, *job);
   if (!options.report.empty()) {
     std::vector<thermal_page::Course> courses;
     courses.reserve(planned->axis.size());
