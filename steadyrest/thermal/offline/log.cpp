@@ -125,7 +125,8 @@ class LogMaker {
         log_.gap.push_back(i + 1);
         note(line_of_row(i + 1),
              fmt::format("{:.1f} min are missing before this row", step[i] / 60.0),
-             "the state of the machine is taken anew from there");
+             "what the machine did there is not known: a fit takes its state anew from this row, a "
+             "forecast lets it stand until then");
       }
     }
   }

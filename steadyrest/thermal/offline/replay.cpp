@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/core.h>
 
@@ -52,7 +54,7 @@ class Replay {
     std::vector<ReplayPoint> out;
     for (; row < log_.rows(); ++row) {
       const double t = log_.time_s[row];
-      advance(t - now_s, row);
+      std::ranges::binary_search(log_.gap, row) ? stand(t - now_s, row) : advance(t - now_s, row);
       now_s = t;
       ReplayPoint point{t, displacement(), 0.0, measured(row), t > from_s};
       const bool probe = request_.rezero_s > 0.0 && t > from_s && t >= next_probe_s;
@@ -62,7 +64,7 @@ class Replay {
         point.displacement_mm = displacement();
         point.forecast = false;
       }
-      point.sd_mm = std::sqrt(variance_mm2_ + uncertainty_.parameter_variance_mm2(since_));
+      point.sd_mm = std::sqrt(variance_mm2());
       out.push_back(point);
     }
     return out;
@@ -92,16 +94,50 @@ class Replay {
     return request_.channel ? log_.displacement[*request_.channel].value[row] : kNan;
   }
 
-  /// The inputs of a row hold until the next; those of the first row also before it.
-  void advance(double elapsed_s, std::size_t row) {
-    const std::size_t from = row == 0 ? 0 : row - 1;
+  /// The inputs of a row.
+  [[nodiscard]] online::Drive drive_at(std::size_t row) const {
     online::Drive drive;
-    drive.speed_rev_s = log_.speed_rev_s[from];
+    drive.speed_rev_s = log_.speed_rev_s[row];
     drive.ambient_c.fill(kNan);
     for (std::size_t j = 0; j < sensor_.size(); ++j) {
-      drive.ambient_c[j] = sensor_[j]->value[from];
+      drive.ambient_c[j] = sensor_[j]->value[row];
     }
+    return drive;
+  }
+
+  /// The inputs of a row hold until the next; those of the first row also before it.
+  void advance(double elapsed_s, std::size_t row) {
+    step(elapsed_s, drive_at(row == 0 ? 0 : row - 1));
+  }
+
+  /// Through a gap of the log, which ends with `row`: the machine stands, as on line, but it may
+  /// have done anything else. As far as its modes were away it is then unknown, until they forget
+  /// it or a reading says it. A lag shorter than the gap begins anew with the next temperature.
+  void stand(double elapsed_s, std::size_t row) {
+    const auto before_mm = model_.state().mode_mm;
+    online::Drive drive = drive_at(row == 0 ? 0 : row - 1);
+    drive.speed_rev_s = 0.0;
+    step(elapsed_s, drive);
+    const ThermalAxis& axis = model_.config();
+    online::ThermalModel::State state = model_.state();
+    for (std::size_t j = 0; j < sensor_.size(); ++j) {
+      const auto& value = sensor_[j]->value;
+      const auto next = std::find_if(value.begin() + static_cast<std::ptrdiff_t>(row), value.end(),
+                                     [](double v) { return std::isfinite(v); });
+      if (elapsed_s > axis.ambient[j].tau_s && next != value.end()) {
+        state.ambient_c[j] = *next;
+      }
+    }
+    model_.restore(state);
+    variance_mm2_ = axis.drift_mm * axis.drift_mm;
+    unknown_mm_ = before_mm;
+  }
+
+  void step(double elapsed_s, const online::Drive& drive) {
     uncertainty_.step(elapsed_s, drive, model_.state());
+    for (std::size_t i = 0; i < model_.config().mode.size(); ++i) {
+      unknown_mm_[i] *= model_.decay(i, elapsed_s, drive);
+    }
     model_.update(elapsed_s, drive);
     const ThermalAxis& axis = model_.config();
     const double keep = std::exp(-elapsed_s / axis.drift_tau_s);
@@ -112,12 +148,18 @@ class Replay {
 
   void take(double reading_mm) {
     const ThermalAxis& axis = model_.config();
-    const double unknown = variance_mm2_ + uncertainty_.parameter_variance_mm2(since_);
+    const double unknown = variance_mm2();
     const double noise = axis.noise_mm * axis.noise_mm;
     const double gain = unknown > 0.0 ? unknown / (unknown + noise) : 1.0;
     drift_mm_ += gain * (reading_mm - displacement());
     variance_mm2_ = (1.0 - gain) * unknown;
+    unknown_mm_.fill(0.0);
     since_ = uncertainty_.answer();
+  }
+
+  [[nodiscard]] double variance_mm2() const {
+    const double modes_mm = std::accumulate(unknown_mm_.begin(), unknown_mm_.end(), 0.0);
+    return variance_mm2_ + modes_mm * modes_mm + uncertainty_.parameter_variance_mm2(since_);
   }
 
   online::ThermalModel model_;
@@ -127,7 +169,10 @@ class Replay {
   Uncertainty uncertainty_;
   Uncertainty::Answer since_;
   double drift_mm_ = 0.0;
-  double variance_mm2_;
+  double variance_mm2_;  ///< of the drift
+  /// What the modes could be away since a gap: as far as they were before it, forgotten as they
+  /// are.
+  std::array<double, online::kMaxThermalModes> unknown_mm_{};
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <steadyrest/thermal/offline/forecast.hpp>
 #include <steadyrest/thermal/offline/replay.hpp>
 #include <steadyrest/thermal/offline/test/synthetic_log.hpp>
 
@@ -19,6 +20,7 @@ using test::KnownMachine;
 using test::log_of;
 using testing::HasSubstr;
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::pair<int, double>> kShift = {{120, 3000}, {60, 0}, {60, 1500}, {60, 0}};
 
 KnownMachine machine_without_noise() {
@@ -121,6 +123,72 @@ TEST(Replay, TheBandGrowsFromReadingToReading) {
   EXPECT_LT(points[61].sd_mm, points[119].sd_mm);
   EXPECT_LT(points[120].sd_mm, points[119].sd_mm) << "a reading";
   EXPECT_NEAR(points[59].sd_mm, 3e-3 * std::sqrt(1.0 - std::exp(-2.0 * 59.0 / 60.0)), 1e-6);
+}
+
+/// Two hours of work, ten that are not recorded, and two more.
+Log with_a_night(double speed_at_night_rpm) {
+  Log log = log_of(machine_without_noise(), {{120, 3000}, {600, speed_at_night_rpm}, {120, 0}}, 1);
+  const auto cut = [](auto& values) { values.erase(values.begin() + 120, values.begin() + 720); };
+  cut(log.time_s);
+  cut(log.speed_rev_s);
+  cut(log.displacement[0].value);
+  cut(log.temperature[0].value);
+  log.gap = {120};
+  return log;
+}
+
+TEST(Replay, TheMachineStandsThroughAGapOfTheLog) {
+  const Log log = with_a_night(0.0);
+  ReplayRequest request;
+  request.channel = 0;
+  request.state_s = -1e9;
+  request.from_s = 7200.0;
+  const auto points = replayed(its_passport(), log, request);
+  ASSERT_EQ(points.size(), log.rows());
+  EXPECT_GT(points[119].displacement_mm, 20e-3);
+  // Ten hours let e^-5 of 17 µm; and the lagged temperature is not known when the log goes on.
+  EXPECT_NEAR(points[120].displacement_mm, log.displacement[0].value[120], 1e-3);
+  EXPECT_GT(points[120].sd_mm, 20e-3) << "it may have done anything";
+}
+
+TEST(Replay, AfterAGapTheBandIsThatOfAnUnknownStateUntilAReading) {
+  const Log log = with_a_night(3000.0);
+  ThermalAxis axis = its_passport();
+  axis.noise_mm = 0.1e-3;
+  ReplayRequest request;
+  request.channel = 0;
+  request.state_s = -1e9;
+  request.from_s = 7200.0;
+  const auto points = replayed(axis, log, request);
+  const double error = points[120].measured_mm - points[120].displacement_mm;
+  EXPECT_GT(error, 20e-3) << "it has worked all night";
+  EXPECT_LE(error, kBand * points[120].sd_mm);
+  request.from_s = log.time_s[120];
+  const auto read = replayed(axis, log, request);
+  EXPECT_LT(read[120].sd_mm, 0.2e-3) << "the row's reading tells the state";
+  EXPECT_NEAR(read[120].displacement_mm, read[120].measured_mm, 0.1e-3);
+}
+
+TEST(Replay, ALagThatIsShorterThanTheGapBeginsAnewBehindIt) {
+  Log log = with_a_night(0.0);
+  log.temperature[0].value.assign(120, 20.0);
+  log.temperature[0].value.resize(log.rows(), 24.0);
+  log.temperature[0].value[120] = kUnknown;
+  ThermalAxis axis = its_passport();
+  for (const double tau_s : {2700.0, 40'000.0}) {
+    axis.ambient[0].tau_s = tau_s;
+    ReplayRequest request;
+    request.state_s = -1e9;
+    const auto points = replayed(axis, log, request);
+    const auto still = [&] {
+      ThermalAxis without = axis;
+      without.ambient[0].gain_mm_k = 0.0;
+      return replayed(without, log, request);
+    }();
+    const double room_mm = points[121].displacement_mm - still[121].displacement_mm;
+    const double kelvin = room_mm / axis.ambient[0].gain_mm_k + axis.ambient[0].reference_c;
+    EXPECT_NEAR(kelvin, tau_s < 36'000.0 ? 24.0 : 20.0, 0.05) << tau_s;
+  }
 }
 
 TEST(Replay, RefusesWhatThePassportDoesNotKnow) {
