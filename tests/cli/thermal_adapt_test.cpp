@@ -108,6 +108,42 @@ TEST(ThermalAdapt, NamesAnOutlierAndLeavesItOut) {
   EXPECT_NEAR(answer["axes"][0]["gain"][0].get<double>(), 1.1, 0.02);
 }
 
+TEST(ThermalAdapt, OfThreePartsOutliersCountForTheLevelAndTheGainsStay) {
+  const Scratch scratch;
+  const std::string far = "part,time_min,deviation_um\na,5,900\nb,98,-900\nc,192,900\n";
+  const auto answer = answer_of(adapt(scratch, far, " -o " + scratch.at("new.toml")));
+  EXPECT_EQ(answer["outside"], 3);
+  EXPECT_EQ(answer["level"], 1);
+  EXPECT_FALSE(answer["fits"].get<bool>());
+  EXPECT_EQ(answer["outliers"].size(), 3U);
+  EXPECT_NE(text_of_file(scratch.at("new.toml")).find("levels_um = [0, 35.2245, 49.0785]"),
+            std::string::npos);
+  const Finished shown = run_line(adapt(scratch, far));
+  EXPECT_NE(shown.out.find("outlier: line 3, part b, -900.0 µm"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("Outliers count for the level"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("3 parts are too few"), std::string::npos) << shown.out;
+}
+
+TEST(ThermalAdapt, ThreeGoodPartsAreTooFewForTheGainsToo) {
+  const Scratch scratch;
+  const std::string all = text_of_file(project_file("examples/paper-thermal/measured.csv"));
+  std::size_t end = 0;
+  for (int line = -1; line < 5; ++line) {  // a comment and the head come first
+    end = all.find('\n', end) + 1;
+    if (line > 0) {
+      const auto answer =
+          answer_of(adapt(scratch, all.substr(0, end), " -o " + scratch.at("new.toml")));
+      const bool enough = line >= 4;
+      EXPECT_TRUE(answer["fits"].get<bool>());
+      EXPECT_EQ(answer["axes"][0]["gains_kept"], !enough) << line << " parts";
+      EXPECT_EQ(text_of_file(scratch.at("new.toml")).find("levels_um = [0, 35.2245, 49.0785]") ==
+                    std::string::npos,
+                enough)
+          << line << " parts";
+    }
+  }
+}
+
 TEST(ThermalAdapt, APlanThatNamesNoWorkStillGivesTheLevel) {
   const Scratch scratch;
   const std::string plan = scratch.file(

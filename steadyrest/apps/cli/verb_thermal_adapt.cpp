@@ -148,7 +148,7 @@ Thermal adapted(Thermal passport, std::uint32_t level, const std::vector<Learnt>
   passport.level = level;
   for (auto& axis : passport.axis) {
     for (const Learnt& one : learnt) {
-      if (one.axis == axis.name && one.gains.fits) {
+      if (one.axis == axis.name && one.gains.fits && !one.gains.few) {
         thermal::offline::apply_gains(axis, one.gains.gain);
       }
     }
@@ -177,21 +177,42 @@ Json axes_json(const std::vector<Learnt>& learnt) {
                    {"bias_um", um_from_mm(one.gains.bias_mm)},
                    {"rms_before_um", um_from_mm(one.gains.rms_before_mm)},
                    {"rms_after_um", um_from_mm(one.gains.rms_after_mm)},
+                   {"gains_kept", !one.gains.fits || one.gains.few},
                    {"fits", one.gains.fits}});
   }
   return out;
 }
 
+/// The first few, and what became of them.
+std::string text_of(const Json& outliers, bool counted) {
+  constexpr std::size_t kShown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, outliers.size()); ++i) {
+    const std::string part = outliers[i]["part"].get<std::string>();
+    text += fmt::format("outlier: line {}{}, {:.1f} µm\n", outliers[i]["line"].get<std::size_t>(),
+                        part.empty() ? "" : ", part " + part,
+                        outliers[i]["deviation_um"].get<double>());
+  }
+  if (outliers.size() > kShown) {
+    text += fmt::format("and {} outliers more\n", outliers.size() - kShown);
+  }
+  if (!outliers.empty()) {
+    text += counted ? "Outliers count for the level here: they may be right, and the model wrong.\n"
+                    : "Outliers count neither for the level nor for the gains.\n";
+  }
+  return text;
+}
+
 std::string text_of(const Level& before, const thermal::offline::LevelChoice& choice,
-                    const std::vector<Learnt>& learnt, std::size_t parts, std::size_t left_out) {
+                    const std::vector<Learnt>& learnt, std::size_t parts, const Json& outliers) {
   Table table;
   table.row({"parts", fmt::format("{}", parts)})
-      .row({"outliers", fmt::format("{}", left_out)})
+      .row({"outliers", fmt::format("{}", outliers.size())})
       .row({"outside their share", fmt::format("{}", choice.outside)})
       .row({"largest error over share", fmt::format("{:.2f}", choice.largest_ratio)})
       .row({"level", fmt::format("{} (was {})", choice.level, before.number)})
       .row({"k", fmt::format("{:.6g} (was {:.6g})", choice.share, before.share)});
-  std::string text = table.text();
+  std::string text = table.text() + text_of(outliers, !fits(learnt));
   if (choice.exhausted) {
     text += "The parts leave their share at the strictest level.\n";
   }
@@ -203,7 +224,11 @@ std::string text_of(const Level& before, const thermal::offline::LevelChoice& ch
     text += fmt::format("; on all parts {:.1f} µm; error {:.1f} → {:.1f} µm RMS\n",
                         um_from_mm(one.gains.bias_mm), um_from_mm(one.gains.rms_before_mm),
                         um_from_mm(one.gains.rms_after_mm));
-    if (!one.gains.fits) {
+    if (one.gains.few) {
+      text +=
+          fmt::format("{}: {} parts are too few to change its gains by. They stay as they are.\n",
+                      one.axis, one.part.size());
+    } else if (!one.gains.fits) {
       text += fmt::format("{}: {} Its gains stay as they are.\n", one.axis,
                           kernel::outcome::sentence(Reason::thermal_model_unfit));
     }
@@ -300,7 +325,7 @@ Outcome run(Options options) {
       {"axes", axes_json(learnt)},
       {"fits", fits(learnt)},
       {"reason", kernel::outcome::name(fits(learnt) ? Reason::none : Reason::thermal_model_unfit)}};
-  answer.text = text_of(*level, choice, learnt, parts->size(), left_out.size());
+  answer.text = text_of(*level, choice, learnt, parts->size(), left_out);
   if (!options.output.empty()) {
     const Thermal next = adapted(*passport, choice.level, learnt);
     if (const auto written = write(options, options.thermal.machine, next); !written) {

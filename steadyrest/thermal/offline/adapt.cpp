@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -11,6 +12,9 @@ namespace steadyrest::thermal::offline {
 namespace {
 
 constexpr std::size_t kLeastForFit = 4;
+/// Of that many observations at most one is taken out in a round, of more the worst together: so
+/// the rounds do not grow with the observations.
+constexpr std::size_t kRounds = 400;
 constexpr double kNormal999 = 3.2905;
 constexpr double kUpper999 = 3.0902;
 
@@ -34,10 +38,16 @@ class Pass {
   }
 
   void run(const std::vector<bool>& left_out) {
+    out_ = left_out;
+    innovation_.reserve(observations_.size());
     for (std::size_t k = 0; k < observations_.size(); ++k) {
-      left_out[k] ? outlier_.push_back(k) : take(k);
+      if (!left_out[k]) {
+        take(k);
+      }
     }
   }
+
+  [[nodiscard]] const std::vector<bool>& out() const { return out_; }
 
   /// What is left of an observation with the parameters as they are.
   [[nodiscard]] double left_mm(std::size_t k) const {
@@ -55,7 +65,11 @@ class Pass {
       out.gain_sd.push_back(std::sqrt(std::max(p_(at, at), 0.0)));
     }
     out.bias_mm = x_(size() - 1);
-    out.outlier = outlier_;
+    for (std::size_t k = 0; k < out_.size(); ++k) {
+      if (out_[k]) {
+        out.outlier.push_back(k);
+      }
+    }
     rms(out);
     const auto all = static_cast<double>(observations_.size());
     const auto n = static_cast<double>(innovation_.size());
@@ -65,8 +79,9 @@ class Pass {
     const bool told = innovation_.size() >= kLeastForFit;
     const bool wide =
         told && (energy > chi_square_999(n) || std::abs(sum) > kNormal999 * std::sqrt(n));
-    const bool many =
-        observations_.size() >= kLeastForFit && static_cast<double>(outlier_.size()) > 0.25 * all;
+    out.few = observations_.size() < kLeastForFit;
+    // Of few parts nobody can say whether they are wrong or the model: one is enough.
+    const bool many = static_cast<double>(out.outlier.size()) > (out.few ? 0.0 : 0.25 * all);
     out.fits = !wide && !many && !out.clamped;
     return out;
   }
@@ -91,7 +106,7 @@ class Pass {
     const double e = innovation / std::sqrt(s);
     innovation_.push_back(std::clamp(e, -rule_.gate_sd, rule_.gate_sd));
     if (std::abs(e) > rule_.gate_sd) {
-      outlier_.push_back(k);
+      out_[k] = true;
       return;
     }
     x_ += ph * (innovation / s);
@@ -103,7 +118,7 @@ class Pass {
     double after = 0.0;
     std::size_t count = 0;
     for (std::size_t k = 0; k < observations_.size(); ++k) {
-      if (std::ranges::find(outlier_, k) == outlier_.end()) {
+      if (!out_[k]) {
         const double was = observations_[k].deviation_mm - observations_[k].expected_mm;
         before += was * was;
         after += left_mm(k) * left_mm(k);
@@ -121,7 +136,7 @@ class Pass {
   std::size_t modes_;
   Eigen::VectorXd x_;
   Eigen::MatrixXd p_;
-  std::vector<std::size_t> outlier_;
+  std::vector<bool> out_;  ///< of each observation: not taken
   std::vector<double> innovation_;
 };
 
@@ -192,25 +207,30 @@ Gains learn_gains(std::span<const Observation> observations, const GainRule& rul
   if (observations.empty()) {
     return {};
   }
-  std::vector<bool> left_out(observations.size(), false);
-  for (std::size_t round = 0;; ++round) {
+  const std::size_t all = observations.size();
+  const std::size_t at_once = std::max<std::size_t>(1, all / kRounds);
+  std::vector<bool> left_out(all, false);
+  std::vector<std::pair<double, std::size_t>> beyond;
+  for (std::size_t gone = 0;;) {
     Pass pass(observations, rule);
     pass.run(left_out);
-    Gains gains = pass.gains();
-    std::size_t worst = observations.size();
-    double most = rule.gate_sd * rule.measuring_sd_mm;
-    for (std::size_t k = 0; k < observations.size(); ++k) {
-      const bool out = std::ranges::find(gains.outlier, k) != gains.outlier.end();
-      if (!out && std::abs(pass.left_mm(k)) > most) {
-        most = std::abs(pass.left_mm(k));
-        worst = k;
+    beyond.clear();
+    for (std::size_t k = 0; k < all; ++k) {
+      const double left_mm = std::abs(pass.left_mm(k));
+      if (!pass.out()[k] && left_mm > rule.gate_sd * rule.measuring_sd_mm) {
+        beyond.emplace_back(-left_mm, k);
       }
     }
     // Where many would have to go it is not they that are wrong.
-    if (worst == observations.size() || 10 * (round + 1) > observations.size()) {
-      return gains;
+    if (beyond.empty() || 10 * (gone + 1) > all) {
+      return pass.gains();
     }
-    left_out[worst] = true;
+    const std::size_t worst = std::min(at_once, beyond.size());
+    std::ranges::nth_element(beyond, beyond.begin() + static_cast<std::ptrdiff_t>(worst - 1));
+    for (std::size_t i = 0; i < worst; ++i) {
+      left_out[beyond[i].second] = true;
+    }
+    gone += worst;
   }
 }
 

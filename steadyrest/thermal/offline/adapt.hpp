@@ -78,6 +78,7 @@ struct Gains {
   double rms_before_mm = 0.0;        ///< deviation less expected, outliers aside
   double rms_after_mm = 0.0;         ///< the same with the new gains and bias
   bool clamped = false;
+  bool few = false;  ///< fewer than 4: they cannot say what is wrong, and gains should stay
   bool fits = true;  ///< else the model no longer fits this machine
 };
 
@@ -87,7 +88,7 @@ struct Gains {
 ///
 /// The model no longer fits when Σe² of the normalised innovations, each held to ±gate, passes the
 /// 99.9 % point of χ²_N, or |Σe|/√N that of the normal law (from 4 on), when more than a quarter
-/// are outliers, or when a gain is held at its limit.
+/// are outliers (of fewer than 4: one), or when a gain is held at its limit.
 [[nodiscard]] Gains learn_gains(std::span<const Observation> observations, const GainRule& rule);
 
 /// The passport with these gains in its levels and in their covariance.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -155,6 +156,34 @@ TEST(LearnGains, LeavesOutliersAloneAlsoTheFirst) {
     EXPECT_TRUE(gains.fits);
     EXPECT_NEAR(gains.gain[1], 1.1, 4.0 * gains.gain_sd[1]);
   }
+}
+
+TEST(LearnGains, OneOutlierOfThreeIsEnoughForNoFit) {
+  auto observations = measured({1.0, 1.0}, 0.0, 0.0002, 6);
+  observations.resize(3);
+  Gains gains = learn_gains(observations, {});
+  EXPECT_TRUE(gains.fits);
+  EXPECT_TRUE(gains.few);
+  observations[1].deviation_mm = 0.9;
+  gains = learn_gains(observations, {});
+  EXPECT_FALSE(gains.fits);
+  EXPECT_EQ(gains.outlier.size(), 1U);
+}
+
+TEST(LearnGains, TwentyThousandPartsTakeNoTimeWhateverTheyAre) {
+  const auto thirty = measured({1.1, 1.1}, 0.0, 0.0005, 7);
+  std::vector<Observation> observations;
+  for (std::size_t k = 0; k < 20'000; ++k) {
+    observations.push_back(thirty[k % thirty.size()]);
+    observations.back().deviation_mm = 1e-3 * (static_cast<double>(k % 7) - 3.0);
+    observations.back().expected_mm = k % 100 < 50 ? 0.0 : 0.004;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const Gains gains = learn_gains(observations, {});
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  EXPECT_GT(gains.outlier.size(), 1'000U);
+  EXPECT_FALSE(gains.fits);
+  EXPECT_LT(taken.count(), 0.5) << "rounds must not grow with the parts";
 }
 
 TEST(LearnGains, SaysWhenNoGainExplainsTheParts) {
