@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "expectations.hpp"
 #include "program.hpp"
@@ -10,6 +13,8 @@
 
 namespace steadyrest::test {
 namespace {
+
+using List = std::vector<double>;
 
 const std::string kPaper =
     " --machine examples/paper-thermal/machine.toml --cyclogram "
@@ -58,6 +63,39 @@ TEST(ThermalPlan, GoesIntoAProgramAndIsProved) {
                               scratch.at("plan.json") + " -o " + scratch.at("out.ngc"));
   EXPECT_EQ(done["insertions"].size(), plan["axes"][0]["corrections"].get<std::size_t>());
   EXPECT_GE(done["insertions"].size(), 2U);
+}
+
+// Instants of two axes that no decimal holds: rounded one by one they end at different times.
+TEST(ThermalPlan, OfTwoAxesGoesIntoAProgramAndIsAdapted) {
+  const Scratch scratch;
+  std::string machine = text_of_file(project_file("examples/machines/linuxcnc-mill.toml"));
+  for (const auto& [axis, minutes] : {std::pair{"X", "1.3"}, {"Z", "0.7"}}) {
+    machine += std::string("\n[[thermal.axis]]\nname = \"") + axis +
+               "\"\n[[thermal.axis.mode]]\ntau_min = " + minutes +
+               "\nspeeds_rpm = [0, 6000]\nlevels_um = [0, 20]\n";
+  }
+  const std::string passport = scratch.file("mill.toml", machine);
+  const std::string program = project_file("examples/programs/rib-pocket.ngc");
+  const std::string plan = scratch.at("plan.json");
+  const std::string measured =
+      scratch.file("measured.csv", "part,time_min,axis,deviation_um\n1,0.5,X,1\n1,0.5,Z,1\n");
+  for (const char* tolerance_um : {"2.5", "3", "3.5", "4", "4.5", "5"}) {
+    answer_of("thermal plan --machine " + passport + " --program " + program + " --tolerance-um " +
+              tolerance_um + " -o " + plan);
+    const auto done = answer_of("program compensate " + program + " --plan " + plan + " -o " +
+                                scratch.at("out.ngc"));
+    EXPECT_GE(done["insertions"].size(), 2U);
+    const auto adapted = answer_of("thermal adapt " + plan + " --measured " + measured);
+    EXPECT_EQ(adapted["axes"].size(), 2U);
+    const auto written = nlohmann::json::parse(text_of_file(plan))["axes"];
+    for (std::size_t i = 0; i < written["X"]["transitions"].size(); ++i) {
+      const auto minutes_of = [&](const char* axis) {
+        const List times = written[axis]["transitions"][i]["t_min"];
+        return std::accumulate(times.begin(), times.end(), 0.0);
+      };
+      EXPECT_NEAR(minutes_of("X"), minutes_of("Z"), 1e-9) << "to the last digit that is written";
+    }
+  }
 }
 
 // The truth: one mode of a minute over two stretches of 60 s each, in closed form.

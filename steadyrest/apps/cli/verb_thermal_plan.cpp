@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
@@ -39,13 +40,32 @@ struct Options {
   double resolution_min = -1.0;
 };
 
-/// Seven digits of a minute are a microsecond: what binary fractions add behind them goes.
-double minutes(double seconds) {
-  return std::round(seconds / 60.0 * 1e7) * 1e-7;
+/// What binary fractions add behind the seventh digit of a minute goes.
+double seven_digits(double minutes) {
+  return std::round(minutes * 1e7) * 1e-7;
 }
 
-double micrometres(double mm) {
-  return std::round(um_from_mm(mm) * 1e6) * 1e-6;
+/// Rounded are the instants, so that the intervals of every axis sum to the same transition.
+std::vector<double> minutes(const std::vector<double>& interval_s) {
+  std::vector<double> out;
+  double end_s = 0.0;
+  double before_min = 0.0;
+  for (const double interval : interval_s) {
+    end_s += interval;
+    const double end_min = seven_digits(end_s / 60.0);
+    out.push_back(seven_digits(end_min - before_min));
+    before_min = end_min;
+  }
+  return out;
+}
+
+std::vector<double> micrometres(const std::vector<double>& delta_mm) {
+  std::vector<double> out;
+  out.reserve(delta_mm.size());
+  for (const double mm : delta_mm) {
+    out.push_back(std::round(um_from_mm(mm) * 1e6) * 1e-6);
+  }
+  return out;
 }
 
 Json transitions(const AxisCorrections& axis) {
@@ -55,15 +75,9 @@ Json transitions(const AxisCorrections& axis) {
     if (!row.name.empty()) {
       one["name"] = row.name;
     }
-    Json times = Json::array();
-    Json deltas = Json::array();
-    for (std::size_t j = 0; j < row.interval_s.size(); ++j) {
-      times.push_back(minutes(row.interval_s[j]));
-      deltas.push_back(micrometres(row.delta_mm[j]));
-    }
-    one["n"] = times.size();
-    one["t_min"] = std::move(times);
-    one["delta_um"] = std::move(deltas);
+    one["n"] = row.interval_s.size();
+    one["t_min"] = minutes(row.interval_s);
+    one["delta_um"] = micrometres(row.delta_mm);
     out.push_back(std::move(one));
   }
   return out;
@@ -72,16 +86,12 @@ Json transitions(const AxisCorrections& axis) {
 /// The system R as the paper writes it.
 std::string system_text(const AxisCorrections& axis) {
   std::string text;
-  const auto list = [](const std::vector<double>& values, auto unit) {
-    std::string out;
-    for (const double value : values) {
-      out += fmt::format("{}{:.6g}", out.empty() ? "" : ", ", unit(value));
-    }
-    return "{" + out + "}";
+  const auto list = [](const std::vector<double>& values) {
+    return fmt::format("{{{:.6g}}}", fmt::join(values, ", "));
   };
   for (const PlannedTransition& row : axis.transition) {
-    text += fmt::format("  {}; {}; {}{}{}\n", row.interval_s.size(), list(row.interval_s, minutes),
-                        list(row.delta_mm, micrometres), row.name.empty() ? "" : "  ", row.name);
+    text += fmt::format("  {}; {}; {}{}{}\n", row.interval_s.size(), list(minutes(row.interval_s)),
+                        list(micrometres(row.delta_mm)), row.name.empty() ? "" : "  ", row.name);
   }
   return text;
 }

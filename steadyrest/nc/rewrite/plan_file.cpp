@@ -24,7 +24,8 @@ constexpr std::size_t kLargestFile = 1U << 24U;
 constexpr std::size_t kMostTransitions = 100'000;
 constexpr double kLongest_min = 30.0 * 24.0 * 60.0;
 constexpr double kLargest_um = 10'000.0;
-constexpr double kSameTime_s = 1e-6;
+/// Axes that end so near to one another end together: their makers may have rounded each interval.
+constexpr double kSameTime_s = 1e-3;
 
 /// What the maker of a plan may say about it; nothing here depends on it.
 constexpr std::array<std::string_view, 15> kNotes = {
