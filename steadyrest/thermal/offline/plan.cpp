@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -15,6 +16,25 @@ using kernel::outcome::Result;
 
 /// A residual that is nearer to its border than that has reached it.
 constexpr double kReached_mm = 1e-9;
+/// Instants nearer to one another than that are one.
+constexpr double kInstant_s = 1e-3;
+
+Exponentials slope_of(const Exponentials& f) {
+  Exponentials out;
+  for (const Exponential& term : f) {
+    out.push_back({-term.amplitude * term.rate_1_s, term.rate_1_s});
+  }
+  return out;
+}
+
+double steepest_mm_s(const Exponentials& f, double seconds) {
+  const Exponentials slope = slope_of(f);
+  double most = std::max(std::abs(value(slope, 0.0)), std::abs(value(slope, seconds)));
+  for (const double t : extremes_of(slope, seconds)) {
+    most = std::max(most, std::abs(value(slope, t)));
+  }
+  return most;
+}
 
 class Planner {
  public:
@@ -29,7 +49,9 @@ class Planner {
         return std::unexpected(done.error());
       }
     }
-    out_.largest_residual_mm = largest_residual_mm();
+    if (auto held = band_is_held(); !held) {
+      return std::unexpected(held.error());
+    }
     return std::move(out_);
   }
 
@@ -60,28 +82,42 @@ class Planner {
     row.delta_mm.push_back(at_border(piece, band));
     Result<void> done = correct(i, 0.0, row.delta_mm.back());
     double from_s = 0.0;
+    double after_s = 0.0;
     while (done) {
-      const auto [crossing_s, sign] = next(piece, band, from_s);
-      if (sign == 0) {
-        break;
-      }
+      const auto [crossing_s, sign] = next(piece, band, after_s);
       const double at_s = rounded(piece, crossing_s);
-      if (at_s >= piece.seconds) {
-        break;
+      if (sign == 0 || at_s > piece.seconds - kInstant_s) {
+        break;  // what is beyond the band at the end is corrected at the next transition's start
       }
-      if (at_s - from_s < request_.min_interval_s) {
+      after_s = std::max(crossing_s, at_s);
+      const bool early = belongs_to_start(piece, from_s, at_s, sign);
+      const double delta_mm = sign * (request_.whole_band && !early ? 2.0 : 1.0) * band;
+      if (early || at_s - from_s < kInstant_s) {
+        row.delta_mm.back() += delta_mm;
+        done = correct(i, from_s, delta_mm);
+        continue;
+      }
+      if (piece.start_s + at_s - corrected_s_ < request_.min_interval_s) {
         return refuse(fmt::format("corrections of {} would follow one another within {:.3g} s",
-                                  place(i, at_s), at_s - from_s),
+                                  place(i, at_s), piece.start_s + at_s - corrected_s_),
                       "give a wider tolerance or a lower level");
       }
       row.interval_s.push_back(at_s - from_s);
-      row.delta_mm.push_back(sign * (request_.whole_band ? 2.0 : 1.0) * band);
+      row.delta_mm.push_back(delta_mm);
       from_s = at_s;
-      done = correct(i, at_s, row.delta_mm.back());
+      done = correct(i, at_s, delta_mm);
     }
     row.interval_s.push_back(piece.seconds - from_s);
     out_.transition.push_back(std::move(row));
     return done;
+  }
+
+  /// Too soon behind the correction at a transition's start, which may as well take it along: the
+  /// residual is on that side of the band already.
+  [[nodiscard]] bool belongs_to_start(const Curve::Piece& piece, double from_s, double at_s,
+                                      int sign) const {
+    return from_s == 0.0 && corrected_s_ == piece.start_s && at_s < request_.min_interval_s &&
+           sign * (value(piece.displacement_mm, 0.0) - corrected_mm_) >= 0.0;
   }
 
   /// What brings the residual inside a band that it has not been held to so far.
@@ -95,7 +131,7 @@ class Planner {
   }
 
   [[nodiscard]] double rounded(const Curve::Piece& piece, double at_s) const {
-    if (!(request_.resolution_s > 0.0)) {
+    if (!(request_.resolution_s > 0.0) || at_s < kInstant_s) {
       return at_s;
     }
     const double whole = std::round((piece.start_s + at_s) / request_.resolution_s);
@@ -107,8 +143,14 @@ class Planner {
     int sign = 0;  ///< 0: none until the end
   };
 
-  /// The next instant behind `from_s` at which the residual leaves the band.
+  /// The next instant from `from_s` on at which the residual leaves the band: `from_s` itself where
+  /// it stands on the border, or beyond, and goes on outward.
   [[nodiscard]] Event next(const Curve::Piece& piece, double band, double from_s) const {
+    const double residual = value(piece.displacement_mm, from_s) - corrected_mm_;
+    if (std::abs(residual) >= band - kReached_mm &&
+        residual * value(slope_of(piece.displacement_mm), from_s) > 0.0) {
+      return {from_s, residual > 0.0 ? 1 : -1};
+    }
     Event first;
     for (const int sign : {1, -1}) {
       Exponentials beyond = piece.displacement_mm;
@@ -129,7 +171,11 @@ class Planner {
 
   Result<void> correct(std::size_t i, double at_s, double delta_mm) {
     corrected_mm_ += delta_mm;
-    out_.corrections += delta_mm != 0.0 ? 1U : 0U;
+    if (delta_mm != 0.0) {
+      const double now_s = curve_.piece[i].start_s + at_s;
+      out_.corrections += now_s != corrected_s_ ? 1U : 0U;
+      corrected_s_ = now_s;
+    }
     out_.largest_offset_mm = std::max(out_.largest_offset_mm, std::abs(corrected_mm_));
     if (std::abs(corrected_mm_) > request_.max_offset_mm + kReached_mm) {
       return refuse(
@@ -141,13 +187,15 @@ class Planner {
     return {};
   }
 
-  [[nodiscard]] double largest_residual_mm() const {
-    double most = 0.0;
+  /// Rounded instants, and those that were taken as one, may pass the band by what the displacement
+  /// does meanwhile.
+  Result<void> band_is_held() {
     double corrected = 0.0;
     for (std::size_t i = 0; i < out_.transition.size(); ++i) {
       const Exponentials& f = curve_.piece[i].displacement_mm;
       const PlannedTransition& row = out_.transition[i];
       const std::vector<double> extremes = extremes_of(f, curve_.piece[i].seconds);
+      double most = 0.0;
       double from_s = 0.0;
       for (std::size_t j = 0; j < row.interval_s.size(); ++j) {
         corrected += row.delta_mm[j];
@@ -164,8 +212,17 @@ class Planner {
         }
         from_s = to_s;
       }
+      const double early_s = std::max(kInstant_s, 0.5 * request_.resolution_s);
+      const double allowed = request_.share * row.tolerance_mm + 2.0 * kReached_mm +
+                             early_s * steepest_mm_s(f, curve_.piece[i].seconds);
+      if (most > allowed) {
+        return refuse(fmt::format("{} would be left {:.3g} µm off, more than the {:.3g} µm allowed",
+                                  place(i, 0.0), most * 1e3, allowed * 1e3),
+                      "give a wider tolerance, a lower level or a finer resolution");
+      }
+      out_.largest_residual_mm = std::max(out_.largest_residual_mm, most);
     }
-    return most;
+    return {};
   }
 
   const Curve& curve_;
@@ -173,6 +230,7 @@ class Planner {
   const PlanRequest& request_;
   AxisCorrections out_;
   double corrected_mm_ = 0.0;
+  double corrected_s_ = -std::numeric_limits<double>::infinity();  ///< the last that was not zero
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ struct PlanRequest {
   double tolerance_mm = 0.010;  ///< Δ where a transition has none of its own
   double share = 1.0;           ///< k; Δ_k = k·Δ
   double max_offset_mm = 0.1;   ///< no sum of corrections goes beyond it
-  double min_interval_s = 1.0;  ///< shorter intervals between corrections are refused
+  double min_interval_s = 1.0;  ///< from one correction that is not zero to the next
   /// Instants are rounded to whole multiples of it since the beginning; 0 = not. The residual may
   /// then pass the band by half of it times the slope.
   double resolution_s = 0.0;
@@ -44,8 +44,11 @@ struct AxisCorrections {
 /// transition. At the border of a stricter transition as many Δ_k are taken as bring it inside.
 /// Instants are roots of the closed form. Source: Marusich 2012, blocks 3 to 5, loops A to C.
 ///
-/// Refused: tolerances that are not positive, corrections beyond `max_offset_mm`, and corrections
-/// that follow one another within `min_interval_s`.
+/// What reaches the border at a transition's start, or is rounded onto it, is corrected by the
+/// transition's first δ.
+///
+/// Refused: tolerances that are not positive, corrections beyond `max_offset_mm`, corrections that
+/// follow one another within `min_interval_s`, and a plan that would not hold its band.
 [[nodiscard]] kernel::outcome::Result<AxisCorrections> plan_corrections(const std::string& name,
                                                                         const Curve& curve,
                                                                         const Cyclogram& cyclogram,

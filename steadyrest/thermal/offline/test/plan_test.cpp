@@ -173,6 +173,64 @@ TEST(Plan, InstantsCanBeWholeMinutes) {
   EXPECT_LT(plan.largest_residual_mm, 0.0105);
 }
 
+// 10 µm of 40 are reached at τ·ln(4/3): the first transition ends there, in the second it rises on.
+TEST(Plan, ABorderReachedAtATransitionsEndIsCorrectedAtTheNextOnesStart) {
+  ThermalAxis axis;
+  ThermalMode mode;
+  mode.tau_s = 1800.0;
+  mode.speed_rev_s = {0.0, 10.0};
+  mode.level_mm = {0.0, 0.040};
+  axis.mode = {mode};
+  const auto model = *online::ThermalModel::make(axis);
+  const double reached_min = 30.0 * std::log(4.0 / 3.0);
+  for (const double later_min : {-1e-12, 0.0, 1e-12, 1e-9, 1e-6}) {
+    for (const bool whole_band : {false, true}) {
+      PlanRequest request;
+      request.whole_band = whole_band;
+      const auto plan = planned(model, stages({{reached_min + later_min, 10}, {4, 10}}), request);
+      ASSERT_EQ(plan.transition.size(), 2U);
+      EXPECT_EQ(plan.corrections, 1U) << later_min;
+      EXPECT_EQ(plan.transition[1].delta_mm, (List{whole_band ? 0.020 : 0.010})) << later_min;
+      EXPECT_LE(plan.largest_residual_mm, 0.010 + 1e-8);
+      // Where it falls again there is nothing to correct.
+      EXPECT_EQ(planned(model, stages({{reached_min, 10}, {4, 0}}), request).corrections, 0U);
+    }
+  }
+}
+
+// The band is passed at most by what half a minute of the steepest slope is, 35.2 µm / 53.5 min.
+TEST(Plan, EveryToleranceOfTheSweepHasItsPlan) {
+  const auto cyclogram = stages({{60, 10}, {60, 20}, {60, 20}, {60, 20}, {60, 20}});
+  const double half_minute_mm = 0.5 * 0.0352245 / 53.475;
+  for (int i = 0; i <= 360; ++i) {
+    PlanRequest request;
+    request.tolerance_mm = 1e-3 * (2.0 + 0.05 * i);
+    for (const double resolution_s : {0.0, 60.0}) {
+      request.resolution_s = resolution_s;
+      const auto plan = planned(paper(), cyclogram, request);
+      EXPECT_LE(plan.largest_residual_mm,
+                request.tolerance_mm + 1e-8 + (resolution_s > 0.0 ? half_minute_mm : 0.0))
+          << request.tolerance_mm;
+      EXPECT_EQ(plan.corrections,
+                static_cast<std::size_t>(std::floor(plan.largest_mm / request.tolerance_mm)));
+    }
+  }
+}
+
+// 0.4 s behind the start, on the narrow band that already took a correction there.
+TEST(Plan, ACrossingJustBehindACorrectedStartBelongsToIt) {
+  auto cyclogram = stages({{30, 20}, {60, 20}});
+  const auto curve = curve_of(paper(), cyclogram);
+  PlanRequest request;
+  request.tolerance_mm = 0.5 * curve.at(1800.0 + 0.4);
+  cyclogram.transition[0].tolerance_mm = 0.1;
+  const auto plan = planned(paper(), cyclogram, request);
+  ASSERT_EQ(plan.transition.size(), 2U);
+  ASSERT_EQ(plan.transition[1].delta_mm.size(), 2U);
+  EXPECT_DOUBLE_EQ(plan.transition[1].delta_mm[0], 2.0 * request.tolerance_mm);
+  EXPECT_LE(plan.largest_residual_mm, 0.1);
+}
+
 TEST(Plan, BeyondTheMachinesClampIsRefused) {
   PlanRequest request;
   request.max_offset_mm = 0.035;
