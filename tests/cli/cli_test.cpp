@@ -110,6 +110,28 @@ TEST(ContourLimit, RefusesWhatIsNoCircle) {
                       "contour limit --radius-mm 10 --kv-1-s 50"});
 }
 
+// A range lets NaN pass; without one infinity passes too.
+TEST(Cli, NoOptionTakesANumberThatIsNotFinite) {
+  const std::string paper =
+      " --machine examples/paper-thermal/machine.toml --cyclogram "
+      "examples/paper-thermal/cyclogram.toml ";
+  const std::string log = " examples/thermal/spindle-test.csv ";
+  for (const std::string& line :
+       {"thermal forecast" + paper + "--step-s nan", "thermal plan" + paper + "--tolerance-um nan",
+        "thermal plan" + paper + "--tolerance-um 10 --resolution-min nan",
+        "thermal forecast --machine none.toml --log" + log + "--from-min NaN",
+        "thermal forecast --machine none.toml --log" + log + "--from-min inf",
+        "thermal fit" + log + "-o none/none.toml --horizon-min nan",
+        std::string("thermal adapt examples/paper-thermal/plan.json --measured "
+                    "examples/paper-thermal/measured.csv --noise-um nan"),
+        std::string("cut examples/programs/circle-r10.ngc --machine "
+                    "examples/thermal-batch/machine.toml --batch 2 --pause-min nan"),
+        kCircle + "--max-error-mm nan",
+        std::string("chatter lobes examples/processes/slot-922hz.toml --depth-mm nan")}) {
+    expect_refused(line, "is not a finite number; see steadyrest");
+  }
+}
+
 TEST(Doctor, FindsAGoodMachineWell) {
   const Finished finished = run_line("doctor --machine examples/machines/vmc-840d.toml --json");
   ASSERT_EQ(finished.code, 0) << finished.err;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 
@@ -50,6 +52,24 @@ bool print_out(std::string_view text) {
 bool print_json(const Json& json) {
   // A file name need not be UTF-8; JSON must.
   return print_out(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+std::string finite(const std::string& text) {
+  const bool number = std::isfinite(std::strtod(text.c_str(), nullptr));
+  return number ? std::string() : fmt::format("{} is not a finite number", text);
+}
+
+/// CLI::Range lets NaN pass, and an option without a range lets infinity pass: no option of any
+/// verb means either.
+void demand_finite(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().starts_with("FLOAT")) {
+      option->check(finite);
+    }
+  }
+  for (CLI::App* below : app.get_subcommands({})) {
+    demand_finite(*below);
+  }
 }
 
 int unwritten() {
@@ -109,6 +129,7 @@ int Session::main(int argc, const char* const* argv) noexcept {
 }
 
 int Session::parse_and_run(int argc, const char* const* argv) {
+  demand_finite(app_);
   try {
     app_.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
