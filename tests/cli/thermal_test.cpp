@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -190,6 +191,30 @@ gain_um_k = 1
   EXPECT_NE(untold["notes"][0].get<std::string>().find("motor_c counts as staying"),
             std::string::npos);
   EXPECT_TRUE(answer_of(line + " --ambient motor_c=21")["notes"].empty());
+}
+
+// Of a radius that only the tool table has: without it the program is refused.
+TEST(ThermalPlan, TakesTheDataThatTheProgramNeeds) {
+  const Scratch scratch;
+  const std::string machine = scratch.file(
+      "mill.toml", text_of_file(project_file("examples/machines/linuxcnc-mill.toml")) +
+                       "\n[[thermal.axis]]\nname = \"Z\"\n[[thermal.axis.mode]]\ntau_min = "
+                       "1\nspeeds_rpm = [0, 6000]\nlevels_um = [0, 20]\n");
+  const std::string program =
+      scratch.file("part.ngc",
+                   "G21 G90 G17 G61\nT1 M6\nS6000 M3\nG0 X-20 Y-20\nG41 D1\nG1 X0 Y0 F300\nY50\n"
+                   "o<dwell> call\nG40 G0 X-20\nM2\n");
+  const std::string tools = scratch.file("tool.tbl", "T1 P1 D6 Z0\n");
+  std::filesystem::create_directory(scratch.at("below"));
+  ASSERT_FALSE(scratch.file("below/dwell.ngc", "o<dwell> sub\nG4 P60\no<dwell> endsub\n").empty());
+  const std::string work = " --machine " + machine + " --program " + program;
+  const std::string data = " --tools " + tools + " --subprograms " + scratch.at("below");
+  EXPECT_GE(answer_of("thermal plan" + work + data + " --tolerance-um 4")["axes"][0]["corrections"]
+                .get<std::size_t>(),
+            2U);
+  EXPECT_GT(answer_of("thermal forecast" + work + data)["max_um"].get<double>(), 10.0);
+  expect_refused("thermal plan" + work + " --tolerance-um 4");
+  expect_refused("thermal plan" + kPaper + " --tolerance-um 10 --tools " + tools, "--program");
 }
 
 TEST(Thermal, RefusesWhatItCannotForecast) {

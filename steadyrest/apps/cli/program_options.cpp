@@ -13,26 +13,38 @@ using nc::interpret::Config;
 
 namespace {
 
+/// --dialect first, then the control's data.
+std::vector<CLI::Option*> add_data(CLI::App& verb, ProgramOptions& options) {
+  std::vector<CLI::Option*> made;
+  made.push_back(
+      verb.add_option("--dialect", options.dialect, "The control that the program is written for")
+          ->check(CLI::IsMember({"linuxcnc", "fanuc", "sinumerik"})));
+  made.push_back(
+      verb.add_option("--tools", options.tools,
+                      "Tool table in LinuxCNC's format; without one every tool has length 0"));
+  made.push_back(verb.add_option("--variables", options.variables,
+                                 "Offsets and reference points from LinuxCNC's variable file"));
+  made.push_back(verb.add_option("--data-units", options.units,
+                                 "Unit of the lengths in the tool table and the variable file")
+                     ->check(CLI::IsMember({"mm", "inch"})));
+  made.push_back(
+      verb.add_option("--subprograms", options.subprograms,
+                      "Folders of subprogram files, in the order of the search; the program's own "
+                      "folder when none is given"));
+  made.push_back(verb.add_flag("--block-delete", options.block_delete,
+                               "Leave out the lines that begin with /"));
+  made.push_back(verb.add_flag("--least-increment", options.least_increment,
+                               "fanuc: X100 is 0.100 mm (without it: 100 mm)"));
+  return made;
+}
+
 CLI::Option* add_common(CLI::App& verb, ProgramOptions& options) {
   verb.add_option("FILE", options.file, "The NC program")->required();
-  CLI::Option* dialect =
-      verb.add_option("--dialect", options.dialect, "The control that the program is written for");
-  dialect->check(CLI::IsMember({"linuxcnc", "fanuc", "sinumerik"}));
-  verb.add_option("--tools", options.tools,
-                  "Tool table in LinuxCNC's format; without one every tool has length 0");
-  verb.add_option("--variables", options.variables,
-                  "Offsets and reference points from LinuxCNC's variable file");
-  verb.add_option("--data-units", options.units,
-                  "Unit of the lengths in the tool table and the variable file")
-      ->check(CLI::IsMember({"mm", "inch"}));
-  verb.add_option("--subprograms", options.subprograms,
-                  "Folders of subprogram files, in the order of the search; the program's own "
-                  "folder when none is given");
-  verb.add_flag("--block-delete", options.block_delete, "Leave out the lines that begin with /");
-  verb.add_flag("--least-increment", options.least_increment,
-                "fanuc: X100 is 0.100 mm (without it: 100 mm)");
-  return dialect;
+  return add_data(verb, options).front();
 }
+
+constexpr const char* kOtherDialect =
+    "The control that the program is written for, if not the machine's";
 
 std::string dialect_name(kernel::machine::Dialect dialect) {
   switch (dialect) {
@@ -54,8 +66,16 @@ void add_program_options(CLI::App& verb, ProgramOptions& options) {
 }
 
 void add_machine_program_options(CLI::App& verb, ProgramOptions& options) {
-  add_common(verb, options)
-      ->description("The control that the program is written for, if not the machine's");
+  add_common(verb, options)->description(kOtherDialect);
+}
+
+void add_optional_program(CLI::App& verb, ProgramOptions& options, const std::string& description) {
+  CLI::Option* program = verb.add_option("--program", options.file, description);
+  const std::vector<CLI::Option*> data = add_data(verb, options);
+  data.front()->description(kOtherDialect);
+  for (CLI::Option* option : data) {
+    option->needs(program);
+  }
 }
 
 Result<Config> program_config(const ProgramOptions& options) {

@@ -32,6 +32,8 @@ void add_program_options(CLI::App& verb, ProgramOptions& options);
 /// The same for a verb that has a machine file: dialect and axes are the machine's, --dialect may
 /// still say otherwise.
 void add_machine_program_options(CLI::App& verb, ProgramOptions& options);
+/// The same for a verb that may do without a program: --program, and what is only said of one.
+void add_optional_program(CLI::App& verb, ProgramOptions& options, const std::string& description);
 
 /// The interpreter's configuration; reads the files that the options name.
 [[nodiscard]] kernel::outcome::Result<nc::interpret::Config> program_config(

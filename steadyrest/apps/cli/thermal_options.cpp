@@ -154,8 +154,8 @@ void add_thermal_options(CLI::App& verb, ThermalOptions& options) {
       ->required();
   verb.add_option("--cyclogram", options.cyclogram,
                   "What the machine does, TOML: [[transition]] with minutes and speed_rpm");
-  verb.add_option("--program", options.program.file,
-                  "NC program, instead of a cyclogram; needs a whole machine file");
+  add_optional_program(verb, options.program,
+                       "NC program, instead of a cyclogram; needs a whole machine file");
   verb.add_option("--axis", options.axes, "Only this axis of the passport; may be given again");
   verb.add_option("--ambient", options.ambient,
                   "SENSOR=temperature in °C during the work; without it nothing changes there");
