@@ -309,7 +309,7 @@ void OffsetGovernor::rezero(std::size_t axis, const StateFilter::Reading& readin
   if (Axis* of = find(axis); of != nullptr) {
     step();
     of->filter.rezero(
-        {.displacement_mm = reading.displacement_mm + of->reference_mm - of->offset_mm,
+        {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm(),
          .sd_mm = reading.sd_mm});
   }
 }

@@ -146,6 +146,18 @@ TEST(OffsetGovernor, HoldsWhenTheReadingsNoLongerFit) {
   EXPECT_NEAR(on.seconds(60.0).request.offset_mm[kZ], before - 0.004, 1e-3);
 }
 
+// The request was not in force: the reading is the whole of the displacement.
+TEST(OffsetGovernor, RezeroCountsWhatStandsOnTheMachineNotWhatWasAsked) {
+  Governed on;
+  on.seconds(1200.0);
+  ASSERT_LT(on.governor.output().request.offset_mm[kZ], -0.015);
+  const kernel::signal::AxisValues nothing{};
+  on.frame.time_s += Governed::kCycle_s;
+  on.governor.update(on.frame, Reason::none, true, &nothing);
+  on.governor.rezero(kZ, {.displacement_mm = 0.004, .sd_mm = 1e-6});
+  EXPECT_NEAR(on.cycle().displacement_mm[kZ], 0.004, 1e-4);
+}
+
 TEST(OffsetGovernor, OutOfTheCutItMovesByTheRetractSlopeWhereThereIsOne) {
   // A reading asks for 4 µm; the time that the offset takes to get there.
   const auto walks_s = [](double retract_um_min, double slew_mm_s, bool in_cut, Motion motion) {
