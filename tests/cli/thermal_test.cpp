@@ -217,6 +217,22 @@ TEST(ThermalPlan, TakesTheDataThatTheProgramNeeds) {
   expect_refused("thermal plan" + kPaper + " --tolerance-um 10 --tools " + tools, "--program");
 }
 
+TEST(ThermalForecast, RefusesMoreRowsThanMemoryHolds) {
+  const Scratch scratch;
+  const std::string work =
+      scratch.file("long.toml", "[[transition]]\nminutes = 40000\nspeed_rpm = 1000\n");
+  const std::string line =
+      "thermal forecast --machine examples/paper-thermal/machine.toml --cyclogram " + work;
+  expect_refused(line + " --step-s 0.1", "give --step-s 2 or more");
+  answer_of(line + " --step-s 2");
+}
+
+TEST(ThermalForecast, OptionsOfALogNeedOne) {
+  expect_refused("thermal forecast" + kPaper + " --rezero-min 60", "--log");
+  expect_refused("thermal forecast" + kPaper + " --from-min 60", "--log");
+  expect_refused("thermal forecast" + kPaper + " --channel z_um=Z", "--log");
+}
+
 TEST(Thermal, RefusesWhatItCannotForecast) {
   const Scratch scratch;
   const std::string machine = " --machine examples/paper-thermal/machine.toml";

@@ -24,6 +24,9 @@ using kernel::units::rpm_from_rev_s;
 using kernel::units::um_from_mm;
 using thermal::offline::ForecastPoint;
 
+/// What memory and a spreadsheet hold.
+constexpr double kMostRows = 2e6;
+
 struct Options {
   ThermalOptions thermal;
   ThermalReplayOptions replay;
@@ -103,6 +106,15 @@ Outcome run(const Options& options) {
   if (!job) {
     return refused(job.error());
   }
+  const double rows = job->cyclogram.total_s() / options.step_s;
+  if (rows > kMostRows) {
+    return refused(
+        {kernel::outcome::Kind::bad_input, job->cyclogram.file, 0,
+         fmt::format("{:.3g} minutes in steps of {:.3g} s are {:.3g} rows, more than {:.0f}",
+                     job->cyclogram.total_s() / 60.0, options.step_s, rows, kMostRows),
+         fmt::format("give --step-s {:.0f} or more",
+                     std::ceil(job->cyclogram.total_s() / kMostRows))});
+  }
   std::vector<AxisForecast> axes;
   double most_um = 0.0;
   for (const ThermalJob::Axis& axis : job->axis) {
@@ -154,16 +166,20 @@ void add_verb_thermal_forecast(Session& session) {
   add_report_option(verb, options->report);
   verb.add_option("--step-s", options->step_s, "Seconds from row to row")
       ->check(CLI::Range(0.1, 86400.0));
-  verb.add_option("--log", options->replay.log,
-                  "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
+  CLI::Option* log =
+      verb.add_option("--log", options->replay.log,
+                      "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
   verb.add_option("--from-min", options->replay.from_min,
                   "Of the log's clock: readings before it set the state, after it is forecast; "
-                  "without it from the passport's end on");
+                  "without it from the passport's end on")
+      ->needs(log);
   verb.add_option("--rezero-min", options->replay.rezero_min,
                   "A reading of the log each so many minutes sets the forecast right; 0 = none")
-      ->check(CLI::Range(0.0, 1e5));
+      ->check(CLI::Range(0.0, 1e5))
+      ->needs(log);
   verb.add_option("--channel", options->replay.channels,
-                  "Column of the log that measures an axis, as z_um=Z; may be given again");
+                  "Column of the log that measures an axis, as z_um=Z; may be given again")
+      ->needs(log);
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 
