@@ -10,6 +10,7 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/log.hpp>
 #include <steadyrest/thermal/offline/log_table.hpp>
+#include <steadyrest/thermal/online/sensor_watch.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
@@ -22,6 +23,9 @@ constexpr double kMostSpeed_rpm = 200'000.0;
 constexpr double kMostDisplacement_mm = 2.0;
 constexpr double kColdest_c = -50.0;
 constexpr double kHottest_c = 150.0;
+constexpr double kMostTime_s = 1e11;  ///< 3000 years: a clock since 1970 is far below
+constexpr double kMostStep_s = 600.0;
+constexpr double kLeastRange_mm = 0.5e-3;
 constexpr double kAbsentShare = 0.5;  ///< a sensor that is silent for more than this is absent
 constexpr double kWild_share = 0.01;  ///< single readings that cannot be are left out up to this
 constexpr double kLively = 0.1;       ///< of the rows in which a living sensor changes
@@ -82,6 +86,10 @@ class LogMaker {
       if (std::isnan(t)) {
         return refuse(line, fmt::format("{} is empty", clock.name), "give each row its time");
       }
+      if (!(std::abs(t) <= kMostTime_s)) {
+        return refuse(line, fmt::format("{} = {:.10g} is no time", clock.name, t / clock.factor),
+                      "correct the row's time, or leave out the row");
+      }
       if (row_.empty() || t > log_.time_s.back()) {
         row_.push_back(i);
         log_.time_s.push_back(t);
@@ -107,11 +115,10 @@ class LogMaker {
       return refuse(0, fmt::format("holds {} rows; {} are needed", log_.rows(), kLeastRows),
                     "log the whole test");
     }
-    find_gaps();
-    return {};
+    return find_gaps();
   }
 
-  void find_gaps() {
+  Done find_gaps() {
     std::vector<double> step;
     for (std::size_t i = 1; i < log_.rows(); ++i) {
       step.push_back(log_.time_s[i] - log_.time_s[i - 1]);
@@ -119,6 +126,13 @@ class LogMaker {
     std::vector<double> sorted = step;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);
+    if (*middle > kMostStep_s) {
+      return refuse(
+          table_.head_line,
+          fmt::format("the rows are {:.1f} min apart in {} (median); {:.0f} min are allowed",
+                      *middle / 60.0, only(Quantity::time).name, kMostStep_s / 60.0),
+          "give the clock the unit that its name says: time_s, time_ms, time_min, time_h");
+    }
     const double most = std::max(kGap_s, 10.0 * *middle);
     for (std::size_t i = 0; i < step.size(); ++i) {
       if (step[i] > most) {
@@ -129,6 +143,7 @@ class LogMaker {
              "forecast lets it stand until then");
       }
     }
+    return {};
   }
 
   Done take_speed() {
@@ -163,6 +178,9 @@ class LogMaker {
         return fit;
       }
       drop_stuck(channel);
+      if (column.quantity == Quantity::temperature) {
+        drop_unbelieved(channel);
+      }
       keep(std::move(channel), column.quantity);
     }
     return {};
@@ -197,6 +215,36 @@ class LogMaker {
       value = value < least || value > most ? kNan : value;
     }
     return {};
+  }
+
+  /// What would not be believed on line either.
+  void drop_unbelieved(LogChannel& channel) {
+    using online::SensorWatch;
+    SensorWatch watch;  // of one sensor: stuck is drop_stuck()'s
+    std::size_t wild = 0;
+    std::size_t first = 0;
+    double first_c = 0.0;
+    for (std::size_t k = 0; k < channel.value.size(); ++k) {
+      kernel::signal::Temperatures seen{};
+      seen[0] = channel.value[k];
+      watch.update(k == 0 ? 0.0 : log_.time_s[k] - log_.time_s[k - 1], 1, seen);
+      if (watch.fault(0) != kernel::outcome::Reason::thermal_sensor_wild) {
+        continue;
+      }
+      if (wild++ == 0) {
+        first = k;
+        first_c = channel.value[k];
+      }
+      channel.value[k] = kNan;
+    }
+    if (wild > 0) {
+      note(line_of_row(first),
+           fmt::format("{} cannot be believed in {} rows, from this one ({:.4g} °C): outside of "
+                       "{:.0f} … {:.0f} °C, or a step that no part of a machine can make",
+                       channel.name, wild, first_c, SensorWatch::kColdest_c,
+                       SensorWatch::kHottest_c),
+           "these readings are left out");
+    }
   }
 
   void drop_stuck(LogChannel& channel) {
@@ -270,8 +318,26 @@ class LogMaker {
            fmt::format("{} has holes of more than {:.0f} min", channel.name, kBridge_s / 60.0),
            "its last value is held there");
     }
+    if (quantity == Quantity::displacement) {
+      check_range(channel);
+    }
     (quantity == Quantity::displacement ? log_.displacement : log_.temperature)
         .push_back(std::move(channel));
+  }
+
+  void check_range(const LogChannel& channel) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const double v : channel.value) {
+      least = v < least ? v : least;
+      most = v > most ? v : most;
+    }
+    if (most - least < kLeastRange_mm) {
+      note(table_.head_line,
+           fmt::format("{} moves by {:.3g} µm in all: is its unit the one that its name says?",
+                       channel.name, kernel::units::um_from_mm(most - least)),
+           "it is taken as it is named");
+    }
   }
 
   Done check_what_is_left() {

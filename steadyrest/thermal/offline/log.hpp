@@ -40,8 +40,10 @@ struct Log {
 };
 
 /// Refused, by line: columns that are missing or stand twice, words where numbers should be, a
-/// clock that runs back or gives two rows one time, values that cannot be (their unit is wrong).
-/// Noted, and left out: rows that stand twice, sensors that are absent, stuck or wild for a while.
+/// clock that runs back, gives two rows one time or has rows more than 10 min apart, values that
+/// cannot be (their unit is wrong). Noted, and left out: rows that stand twice, sensors that are
+/// absent, stuck or wild for a while (temperatures by the rules of online::SensorWatch). Noted: a
+/// displacement that hardly moves.
 [[nodiscard]] kernel::outcome::Result<Log> read_log(const std::string& path);
 [[nodiscard]] kernel::outcome::Result<Log> parse_log(std::string_view text,
                                                      const std::string& file);

@@ -154,6 +154,70 @@ TEST(ThermalLog, SingleReadingsThatCannotBeAreLeftOut) {
   EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:42: z_um = 99999 cannot be")));
 }
 
+TEST(ThermalLog, ReadingsThatNoMachineCanHaveAreLeftOutAndCounted) {
+  const Log half_an_hour = parsed(log_text([](int i, Row& row) {
+    if (i >= 100 && i < 130) {
+      row.t = "95";
+    }
+  }));
+  EXPECT_TRUE(std::isnan(half_an_hour.temperature[0].value[110]));
+  EXPECT_EQ(half_an_hour.temperature[0].value[130], 21.3);
+  EXPECT_THAT(half_an_hour.notes,
+              ElementsAre(HasSubstr("day.csv:102: t1_c cannot be believed in 30 "
+                                    "rows, from this one (95 °C)"),
+                          HasSubstr("t1_c has holes of more than 10 min")));
+  const Log now_and_then = parsed(log_text([](int i, Row& row) {
+    if (i % 40 == 7) {
+      row.t = "85";
+    }
+  }));
+  EXPECT_NEAR(now_and_then.temperature[0].value[47], 20.47, 1e-9) << "bridged";
+  EXPECT_THAT(now_and_then.notes,
+              ElementsAre(HasSubstr("day.csv:9: t1_c cannot be believed in 10")));
+}
+
+TEST(ThermalLog, AStepThatNoMachineCanMakeIsLeftOut) {
+  const Log log = parsed(log_text([](int i, Row& row) {
+    if (i >= 100 && i < 130) {
+      row.t = "60";
+    }
+  }));
+  EXPECT_TRUE(std::isnan(log.temperature[0].value[110]));
+  EXPECT_THAT(log.notes,
+              ElementsAre(HasSubstr("cannot be believed in 30 rows"), HasSubstr("has holes")));
+  const Log dead = parsed(log_text([](int /*i*/, Row& row) { row.t = "149.9"; }));
+  EXPECT_TRUE(dead.temperature.empty());
+}
+
+TEST(ThermalLog, RowsThatAreHoursApartAreAWrongUnit) {
+  const auto spread = [](double factor) {
+    return parse_log(log_text([factor](int, Row& row) { row.time_s *= factor; }), "day.csv");
+  };
+  EXPECT_TRUE(spread(10.0).has_value());
+  const auto wrong = spread(1000.0);
+  ASSERT_FALSE(wrong.has_value());
+  EXPECT_THAT(wrong.error().what, HasSubstr("1000.0 min apart in time_s"));
+  EXPECT_THAT(wrong.error().to_do, HasSubstr("unit"));
+}
+
+TEST(ThermalLog, ATimeThatCannotBeIsNamedWithItsRow) {
+  const auto log = parse_log(log_text([](int i, Row& row) {
+                               if (i == kRows - 1) {
+                                 row.time_s = 1e300;
+                               }
+                             }),
+                             "day.csv");
+  ASSERT_FALSE(log.has_value());
+  EXPECT_EQ(log.error().line, 401U);
+  EXPECT_THAT(log.error().what, HasSubstr("time_s = 1e+300 is no time"));
+}
+
+TEST(ThermalLog, ADisplacementThatHardlyMovesMayHaveAnotherUnit) {
+  const Log log =
+      parsed(log_text([](int i, Row& row) { row.z = fmt::format("{:.6f}", 0.0001 * i); }));
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("z_um moves by 0.0399 µm in all")));
+}
+
 TEST(ThermalLog, ColumnsWithoutAUnitArePassedOverAndNamed) {
   const Log log = parsed(log_text({}, "time_s,spindle_rpm,z_um,load"));
   EXPECT_THAT(log.temperature, IsEmpty());
