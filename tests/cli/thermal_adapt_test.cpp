@@ -173,6 +173,16 @@ TEST(ThermalAdapt, RefusesWhatDoesNotFitThePlan) {
   expect_refused(adapt(scratch, "part,time_min,deviation\n1,30,3\n"), "deviation is not known");
   expect_refused(adapt(scratch, "part,time_min,deviation_mm\n1,30,3\n"), "look at the unit");
   expect_refused("thermal adapt " + kPlan, "--measured");
+  expect_refused("thermal adapt nosuch.json --measured x.csv", "give the path of a plan (JSON)");
+  expect_refused("thermal adapt examples --measured x.csv", "is a folder; give the path of a plan");
+  expect_refused("thermal adapt " + kPlan + " --measured nosuch.csv", "CSV of measured parts");
+  expect_refused("thermal adapt " + kPlan + " --measured examples", "CSV of measured parts");
+  for (const char* verb : {"forecast", "plan --tolerance-um 10"}) {
+    const std::string work = std::string("thermal ") + verb +
+                             " --machine examples/paper-thermal/machine.toml --cyclogram ";
+    expect_refused(work + "nosuch.toml", "give the path of a cyclogram");
+    expect_refused(work + scratch.file("empty.toml", ""), "is empty; give a cyclogram (TOML)");
+  }
   expect_refused("thermal adapt examples/paper-thermal/machine.toml --measured x.csv", "not JSON");
 }
 

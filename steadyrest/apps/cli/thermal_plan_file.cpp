@@ -28,8 +28,12 @@ std::string beside(const std::string& plan, const std::string& named) {
 Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
   auto plan = nc::rewrite::read_plan(path);
   const auto text = kernel::machine::read_text(path);
-  if (!plan || !text) {
-    return std::unexpected(plan ? text.error() : plan.error());
+  if (!text) {  // a wrong path is the caller's mistake, whatever keeps it from being read
+    return std::unexpected(Refusal{Kind::bad_input, path, 0, text.error().what,
+                                   "give the path of a plan (JSON): thermal plan -o writes it"});
+  }
+  if (!plan) {
+    return std::unexpected(plan.error());
   }
   ThermalPlanFile out;
   out.plan = std::move(*plan);

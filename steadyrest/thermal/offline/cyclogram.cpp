@@ -2,7 +2,10 @@
 #include <array>
 #include <exception>
 #include <limits>
+#include <string_view>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include <steadyrest/kernel/machine/section_reader.hpp>
 #include <steadyrest/kernel/machine/text_check.hpp>
@@ -97,6 +100,14 @@ double Cyclogram::total_s() const noexcept {
 Result<Cyclogram> parse_cyclogram(std::string_view text, const std::string& file) {
   if (auto refusal = kernel::machine::unfit_text(text)) {
     refusal->file = file;
+    // What is said there of a machine file.
+    if (text.size() > kernel::machine::kMaxFileBytes) {
+      refusal->what = fmt::format("larger than {} MB; a cyclogram has a few kB",
+                                  kernel::machine::kMaxFileBytes >> 20U);
+      refusal->to_do = "give the cyclogram, not a program or a log";
+    } else if (text.find_first_not_of(" \n\r\t") == std::string_view::npos) {
+      refusal->to_do = "give a cyclogram (TOML), as examples/paper-thermal/cyclogram.toml";
+    }
     return std::unexpected(std::move(*refusal));
   }
   Cyclogram out;
@@ -118,9 +129,10 @@ Result<Cyclogram> parse_cyclogram(std::string_view text, const std::string& file
 }
 
 Result<Cyclogram> read_cyclogram(const std::string& path) {
-  const auto text = kernel::machine::read_text(path);
+  auto text = kernel::machine::read_text(path);
   if (!text) {
-    return std::unexpected(text.error());
+    text.error().to_do = "give the path of a cyclogram (TOML)";
+    return std::unexpected(std::move(text.error()));
   }
   return parse_cyclogram(*text, path);
 }

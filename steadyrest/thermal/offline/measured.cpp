@@ -180,9 +180,12 @@ Result<std::vector<Measured>> parse_measured(std::string_view text, const std::s
 }
 
 Result<std::vector<Measured>> read_measured(const std::string& path) {
-  const auto text = read_packed(path);
+  auto text = read_packed(path);
   if (!text) {
-    return std::unexpected(text.error());
+    text.error().to_do =
+        "give the path of a CSV of measured parts, with part, transition or "
+        "time_min, deviation_um";
+    return std::unexpected(std::move(text.error()));
   }
   return parse_measured(*text, path);
 }
