@@ -111,7 +111,7 @@ TEST(ChatterRadius, RefusesBadUsage) {
   expect_refused(sine + " --rvf 0.1", "without an amplitude");
   expect_refused(sine + " --rva 0.1", "without a period");
   expect_refused(sine + " --rva 1 --rvf 0.1", "must lie between 0 and 1");
-  expect_refused(sine + " --rva nan --rvf 0.1", "must lie between 0 and 1");
+  expect_refused(sine + " --rva nan --rvf 0.1", "--rva nan is not a finite number");
   expect_refused(sine + " --amplitude-rpm 6000 --rvf 0.1", "1.2 of the mean speed");
   expect_refused(sine + " --rva 0.1 --rvf 0", "--rvf 0");
   expect_refused(sine + " --rva 0.1 --rvf inf", "--rvf inf");

@@ -54,17 +54,18 @@ bool print_json(const Json& json) {
   return print_out(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-std::string finite(const std::string& text) {
-  const bool number = std::isfinite(std::strtod(text.c_str(), nullptr));
-  return number ? std::string() : fmt::format("{} is not a finite number", text);
-}
-
 /// CLI::Range lets NaN pass, and an option without a range lets infinity pass: no option of any
 /// verb means either.
 void demand_finite(CLI::App& app) {
-  for (CLI::Option* option : app.get_options()) {
-    if (option->get_type_name().starts_with("FLOAT")) {
-      option->check(finite);
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->get_type_name().starts_with("FLOAT")) {
+      continue;
+    }
+    for (const std::string& given : option->results()) {
+      if (!std::isfinite(std::strtod(given.c_str(), nullptr))) {
+        throw CLI::ValidationError(
+            fmt::format("{} {} is not a finite number", option->get_name(), given));
+      }
     }
   }
   for (CLI::App* below : app.get_subcommands({})) {
@@ -129,9 +130,9 @@ int Session::main(int argc, const char* const* argv) noexcept {
 }
 
 int Session::parse_and_run(int argc, const char* const* argv) {
-  demand_finite(app_);
   try {
     app_.parse(argc, argv);
+    demand_finite(app_);
   } catch (const CLI::ParseError& error) {
     return usage(error);
   }
