@@ -217,6 +217,24 @@ class LogMaker {
     return {};
   }
 
+  /// The first reading that the next one bears out; what comes before it nothing vouches for.
+  [[nodiscard]] std::size_t first_believed(const LogChannel& channel) const {
+    using online::SensorWatch;
+    std::size_t k = 0;
+    for (std::size_t next = 1; next < channel.value.size(); ++next) {
+      if (std::isnan(channel.value[next])) {
+        continue;
+      }
+      const double reach_k =
+          SensorWatch::kStep_k + SensorWatch::kRate_k_s * (log_.time_s[next] - log_.time_s[k]);
+      if (std::abs(channel.value[next] - channel.value[k]) <= reach_k) {
+        return k;
+      }
+      k = next;
+    }
+    return 0;
+  }
+
   /// What would not be believed on line either.
   void drop_unbelieved(LogChannel& channel) {
     using online::SensorWatch;
@@ -224,11 +242,15 @@ class LogMaker {
     std::size_t wild = 0;
     std::size_t first = 0;
     double first_c = 0.0;
+    const std::size_t begin = first_believed(channel);
     for (std::size_t k = 0; k < channel.value.size(); ++k) {
       kernel::signal::Temperatures seen{};
       seen[0] = channel.value[k];
-      watch.update(k == 0 ? 0.0 : log_.time_s[k] - log_.time_s[k - 1], 1, seen);
-      if (watch.fault(0) != kernel::outcome::Reason::thermal_sensor_wild) {
+      const bool before = k < begin && std::isfinite(seen[0]);
+      if (k >= begin) {
+        watch.update(k == begin ? 0.0 : log_.time_s[k] - log_.time_s[k - 1], 1, seen);
+      }
+      if (!before && watch.fault(0) != kernel::outcome::Reason::thermal_sensor_wild) {
         continue;
       }
       if (wild++ == 0) {

@@ -189,6 +189,15 @@ TEST(ThermalLog, AStepThatNoMachineCanMakeIsLeftOut) {
   EXPECT_TRUE(dead.temperature.empty());
 }
 
+TEST(ThermalLog, AWrongFirstReadingDoesNotSpeakForTheOthers) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.t = i == 0 ? "60" : row.t; }));
+  ASSERT_EQ(log.temperature.size(), 1U);
+  EXPECT_TRUE(std::isnan(log.temperature[0].value[0]));
+  EXPECT_EQ(log.temperature[0].value[1], 20.01);
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:2: t1_c cannot be believed in 1 rows"),
+                                     HasSubstr("has holes")));
+}
+
 TEST(ThermalLog, RowsThatAreHoursApartAreAWrongUnit) {
   const auto spread = [](double factor) {
     return parse_log(log_text([factor](int, Row& row) { row.time_s *= factor; }), "day.csv");
