@@ -108,6 +108,9 @@ class Planner {
       done = correct(i, at_s, delta_mm);
     }
     row.interval_s.push_back(piece.seconds - from_s);
+    for (const double delta_mm : row.delta_mm) {
+      out_.corrections += delta_mm != 0.0 ? 1U : 0U;
+    }
     out_.transition.push_back(std::move(row));
     return done;
   }
@@ -172,9 +175,7 @@ class Planner {
   Result<void> correct(std::size_t i, double at_s, double delta_mm) {
     corrected_mm_ += delta_mm;
     if (delta_mm != 0.0) {
-      const double now_s = curve_.piece[i].start_s + at_s;
-      out_.corrections += now_s != corrected_s_ ? 1U : 0U;
-      corrected_s_ = now_s;
+      corrected_s_ = curve_.piece[i].start_s + at_s;
     }
     out_.largest_offset_mm = std::max(out_.largest_offset_mm, std::abs(corrected_mm_));
     if (std::abs(corrected_mm_) > request_.max_offset_mm + kReached_mm) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -229,6 +230,24 @@ TEST(Plan, ACrossingJustBehindACorrectedStartBelongsToIt) {
   ASSERT_EQ(plan.transition[1].delta_mm.size(), 2U);
   EXPECT_DOUBLE_EQ(plan.transition[1].delta_mm[0], 2.0 * request.tolerance_mm);
   EXPECT_LE(plan.largest_residual_mm, 0.1);
+}
+
+// Up to 12 µm within 4 s, at 0 again after 23 s: both crossings are rounded onto the start.
+TEST(Plan, WhatCancelsInTheRoundingIsNoCorrection) {
+  ThermalAxis axis;
+  for (const auto& [tau_s, level_mm] : {std::pair{2.0, 0.020}, {20.0, -0.029}}) {
+    ThermalMode mode;
+    mode.tau_s = tau_s;
+    mode.speed_rev_s = {0.0, 10.0};
+    mode.level_mm = {0.0, level_mm};
+    axis.mode.push_back(mode);
+  }
+  PlanRequest request;
+  request.resolution_s = 60.0;
+  const auto plan = planned(*online::ThermalModel::make(axis), stages({{60, 10}}), request);
+  ASSERT_EQ(plan.transition.size(), 1U);
+  EXPECT_EQ(plan.transition[0].delta_mm, (List{0.0}));
+  EXPECT_EQ(plan.corrections, 0U);
 }
 
 TEST(Plan, BeyondTheMachinesClampIsRefused) {
