@@ -45,6 +45,7 @@ struct ThermalAxis {
   double drift_tau_s = 3600.0;
   double drift_state_mm = 0.0;   ///< its value at the passport's `state_s`
   double max_speed_rev_s = 0.0;  ///< fastest that was fitted; 0 = not known
+  double zero_mm = 0.0;          ///< reading of the log's gauge where nothing displaces the machine
   std::vector<ThermalMode> mode;
   std::vector<ThermalAmbient> ambient;
   /// Lower triangle, row by row, of the covariance of the linear parameters: for each mode its

@@ -40,6 +40,9 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
                        "Time constant of that process."},
       Key<ThermalAxis>{"drift_state_um", &ThermalAxis::drift_state_mm, -1e5, 1e5,
                        "What it had come to at `state_s`."},
+      Key<ThermalAxis>{"zero_um", &ThermalAxis::zero_mm, -1e6, 1e6,
+                       "What the gauge of the log shows where nothing displaces the machine; only "
+                       "forecasts of that log go by it."},
       Key<ThermalAxis>{"max_speed_rpm", &ThermalAxis::max_speed_rev_s, 0, 1e6,
                        "Fastest spindle speed that was fitted; 0 = not known. No forecast beyond "
                        "1.2 times that."},

@@ -37,9 +37,7 @@ ColumnGrid::ColumnGrid(const FitData& data, const std::vector<std::size_t>& sens
       1 + kGridTau_min.size() * (2 + stretches_) + sensors.size() * kGridLag_min.size();
   columns_.resize(static_cast<Eigen::Index>(data.rows()), static_cast<Eigen::Index>(count) + 1);
   columns_.col(0).setOnes();
-  for (const double n : log.speed_rev_s) {
-    fastest_krpm_ = std::max(fastest_krpm_, n * kKrpmPer_rev_s);
-  }
+  fastest_krpm_ = std::max(fastest_krpm_, data.fastest_rev_s * kKrpmPer_rev_s);
   for (std::size_t t = 0; t < kGridTau_min.size(); ++t) {
     const double tau_s = 60.0 * kGridTau_min[t];
     columns_.col(power(t, 1)) = lagged_power(log, data.row, 1.0, tau_s);

@@ -138,7 +138,7 @@ std::optional<Dense> dense_fit(const FitData& data, const ErrorModel& guess,
     const Evidence evidence(data, out.error, grid, sensors.size());
     out.structure = structure_of(best(evidence, modes, data.rows()), sensors);
     out.error = likely_error(columns_of(out.structure, *data.log, data.row), data,
-                             wide_prior(out.structure, *data.log));
+                             wide_prior(out.structure, data));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/error_model.hpp>
@@ -14,6 +15,7 @@ constexpr double kLeastNoise_um = 0.01;  // a logger's last digit
 constexpr double kLeastBlock_s = 2.0 * 3600.0;
 constexpr double kLeastOwn_s = 30.0 * 60.0;  // less is no block of its own
 constexpr std::size_t kEqualBlocks = 5;
+constexpr double kSame_um = 1e-6;
 constexpr double kBeyondFitted = 1.2;  // no forecast is made for faster ones
 
 /// Rows of the log at which the spindle starts after a rest.
@@ -31,6 +33,16 @@ std::vector<std::size_t> starts(const Log& log) {
     }
   }
   return out;
+}
+
+/// The least step between readings: what the gauge resolves.
+double last_digit_um(const std::vector<double>& reading_um) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < reading_um.size(); ++i) {
+    const double step = std::abs(reading_um[i] - reading_um[i - 1]);
+    least = step > kSame_um && step < least ? step : least;  // a hole is no step
+  }
+  return std::isfinite(least) ? least : 0.0;
 }
 
 void cut(FitData& data, const std::vector<double>& border_s) {
@@ -141,10 +153,17 @@ FitData fit_data(const Log& log, std::size_t channel, double from_s, double to_s
   }
   data.reading_um =
       Eigen::Map<const Eigen::VectorXd>(read_um.data(), static_cast<Eigen::Index>(read_um.size()));
-  std::vector<double> all_um(value);
-  std::ranges::transform(all_um, all_um.begin(), kernel::units::um_from_mm);
-  data.noise_um = std::max(noise_of(log.time_s, all_um), kLeastNoise_um);
   if (!data.row.empty()) {
+    data.zero_um = data.reading_um(0);
+    data.reading_um.array() -= data.zero_um;
+    const std::size_t begin = data.row.front();
+    const std::size_t count = data.row.back() + 1 - begin;
+    data.fastest_rev_s = std::ranges::max(std::span(log.speed_rev_s).subspan(begin, count));
+    std::vector<double> all_um(count);
+    std::ranges::transform(std::span(value).subspan(begin, count), all_um.begin(),
+                           kernel::units::um_from_mm);
+    data.noise_um = std::max({noise_of(std::span(log.time_s).subspan(begin, count), all_um),
+                              last_digit_um(all_um) / std::sqrt(12.0), kLeastNoise_um});
     cut_into_blocks(data);
   }
   return data;

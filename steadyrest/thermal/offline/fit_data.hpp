@@ -13,13 +13,15 @@ namespace steadyrest::thermal::offline {
 
 /// The readings of one displacement that a fit works with.
 struct FitData {
-  const Log* log = nullptr;      ///< its inputs are taken row by row, whatever rows are read
-  std::size_t channel = 0;       ///< of the displacements
-  std::vector<std::size_t> row;  ///< of the log, rising; the displacement is known there
-  std::vector<double> time_s;    ///< of these rows
-  Eigen::VectorXd reading_um;
+  const Log* log = nullptr;        ///< its inputs are taken row by row, whatever rows are read
+  std::size_t channel = 0;         ///< of the displacements
+  std::vector<std::size_t> row;    ///< of the log, rising; the displacement is known there
+  std::vector<double> time_s;      ///< of these rows
+  Eigen::VectorXd reading_um;      ///< less the first one: where a gauge has its zero says nothing
+  double zero_um = 0.0;            ///< the first one
   std::vector<std::size_t> fresh;  ///< rows here that are the first after a gap
   double noise_um = 0.0;
+  double fastest_rev_s = 0.0;  ///< of the spindle, from the first of the rows to the last
 
   /// Pieces that are left out in turn: from the spindle's start to its next, or, where it starts
   /// less than three times, pieces of equal time; none of less than half an hour. Fewer than

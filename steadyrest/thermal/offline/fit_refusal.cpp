@@ -92,16 +92,22 @@ std::optional<Refusal> too_uncertain(const AxisFit& fit, const FitData& data,
   if (request.known != nullptr || (fit.horizon_sd_um <= kMostHorizonSd * range_um && !hidden)) {
     return std::nullopt;
   }
+  std::string why;
+  if (fit.horizon_sd_um > kMostHorizonSd * range_um) {
+    why = fmt::format("a forecast over {:.0f} min would be uncertain by {:.1f} µm of {:.1f} µm",
+                      request.horizon_s / 60.0, fit.horizon_sd_um, range_um);
+  }
+  if (run_s < need_s) {
+    why +=
+        fmt::format("{}the slowest time constant, {:.0f} min, does not show in a run of {:.0f} min",
+                    why.empty() ? "" : ", and ", slowest_s / 60.0, run_s / 60.0);
+  }
   return refuse(
       log,
-      fmt::format("{}: {} {} cannot be told from this log: a forecast over {:.0f} min would be "
-                  "uncertain by {:.1f} µm of {:.1f} µm, and the slowest time constant, {:.0f} "
-                  "min, does not show in a run of {:.0f} min",
-                  fit.channel, fit.axis.mode.size(), fit.axis.mode.size() == 1 ? "mode" : "modes",
-                  request.horizon_s / 60.0, fit.horizon_sd_um, range_um, slowest_s / 60.0,
-                  run_s / 60.0),
-      fmt::format("run {:.0f} min at least at one speed, then let it cool as long; or take time "
-                  "constants from a longer test with --tau-from",
+      fmt::format("{}: {} {} cannot be told from this log: {}", fit.channel, fit.axis.mode.size(),
+                  fit.axis.mode.size() == 1 ? "mode" : "modes", why),
+      fmt::format("run {:.0f} min at least at one speed, then let it cool as long; or "
+                  "take time constants from a longer test with --tau-from",
                   std::max(need_s, 1.5 * run_s) / 60.0));
 }
 

@@ -43,15 +43,17 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
   const Log& log = *data.log;
   const std::array last = {data.row.back()};
   const Eigen::VectorXd end = columns_of(structure, log, last).row(0);
+  const std::array begin = {data.row.front()};
+  const Eigen::VectorXd start = columns_of(structure, log, begin).row(0);
   const Eigen::VectorXd& a = fit.amplitude;
   const auto levels = static_cast<Eigen::Index>(structure.levels());
   const auto gains = static_cast<Eigen::Index>(structure.ambient.size());
   const auto terms = static_cast<Eigen::Index>(structure.level_terms());
   const auto starts = static_cast<Eigen::Index>(log.gap.size()) + 1;
-  const Eigen::Index first_state = levels + gains + (gains > 0 ? 1 : 0);
+  const Eigen::Index first_state = levels + gains + 1;
   ThermalAxis out;
   out.noise_mm = mm_from_um(data.noise_um);
-  out.max_speed_rev_s = std::ranges::max(log.speed_rev_s);
+  out.max_speed_rev_s = data.fastest_rev_s;
   for (std::size_t m = 0; m < structure.mode.size(); ++m) {
     const auto i = static_cast<Eigen::Index>(m);
     ThermalMode mode;
@@ -65,23 +67,19 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
         mm_from_um(from_levels + a.segment(state, starts).dot(end.segment(state, starts)));
     out.mode.push_back(std::move(mode));
   }
-  const Eigen::MatrixXd all = columns_of(structure, log, data.row);
-  const double square = a.segment(levels, gains).squaredNorm();
-  double constant = gains > 0 ? a(levels + gains) : 0.0;
-  for (Eigen::Index j = 0; j < gains; ++j) {
-    constant += a(levels + j) * all.col(levels + j).mean();
-  }
+  double zero_um = data.zero_um + a(levels + gains);
   for (Eigen::Index j = 0; j < gains; ++j) {
     const Structure::Ambient& from = structure.ambient[static_cast<std::size_t>(j)];
     ThermalAmbient ambient;
     ambient.sensor = log.temperature[from.sensor].name;
     ambient.tau_s = from.tau_s;
     ambient.gain_mm_k = mm_from_um(a(levels + j));
-    ambient.reference_c =
-        all.col(levels + j).mean() - (square > 0.0 ? constant * a(levels + j) / square : 0.0);
+    ambient.reference_c = start(levels + j);
     ambient.state_c = end(levels + j);
+    zero_um += a(levels + j) * start(levels + j);
     out.ambient.push_back(std::move(ambient));
   }
+  out.zero_mm = mm_from_um(zero_um);
   // A polynomial without its first term, and a table's level at 0 rpm, still have their places in
   // the passport: known to be nought.
   std::vector<Eigen::Index> place;

@@ -56,7 +56,7 @@ class Walk {
         model_.update(elapsed_s, drive);
       }
       const auto to = static_cast<Eigen::Index>(row - from);
-      modelled_mm(to) = model_.displacement_mm();
+      modelled_mm(to) = model_.config().zero_mm + model_.displacement_mm();
       parameters_mm2(to) = uncertainty_.parameter_variance_mm2(since_);
       fading.row(to).segment(first, left.size()) = left;
     }

@@ -161,7 +161,7 @@ class Identification {
     return columns_of(s, log_, data_.row);
   }
   [[nodiscard]] LinearPrior prior(const Structure& s) const {
-    LinearPrior out = wide_prior(s, log_);
+    LinearPrior out = wide_prior(s, data_);
     if (request_.known != nullptr) {
       known_prior(*request_.known, kUnsure, s, out);
     }

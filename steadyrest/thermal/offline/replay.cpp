@@ -89,7 +89,9 @@ class Replay {
     variance_mm2_ = axis.noise_mm * axis.noise_mm;
   }
 
-  [[nodiscard]] double displacement() const { return model_.displacement_mm() + drift_mm_; }
+  [[nodiscard]] double displacement() const {
+    return model_.config().zero_mm + model_.displacement_mm() + drift_mm_;
+  }
   [[nodiscard]] double measured(std::size_t row) const {
     return request_.channel ? log_.displacement[*request_.channel].value[row] : kNan;
   }

@@ -21,8 +21,7 @@ Eigen::MatrixXd columns_of(const Structure& structure, const Log& log,
                            std::span<const std::size_t> rows) {
   const auto starts = stretches(log);
   const auto n =
-      static_cast<Eigen::Index>(structure.linear() + (structure.ambient.empty() ? 0 : 1) +
-                                structure.mode.size() * starts.size());
+      static_cast<Eigen::Index>(structure.linear() + 1 + structure.mode.size() * starts.size());
   Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), n);
   Eigen::Index at = 0;
   for (const Structure::Mode& m : structure.mode) {
@@ -36,9 +35,7 @@ Eigen::MatrixXd columns_of(const Structure& structure, const Log& log,
   for (const Structure::Ambient& a : structure.ambient) {
     out.col(at++) = lagged_temperature(log, rows, log.temperature[a.sensor], a.tau_s);
   }
-  if (!structure.ambient.empty()) {
-    out.col(at++).setOnes();
-  }
+  out.col(at++).setOnes();
   for (const Structure::Mode& m : structure.mode) {
     for (const std::size_t start : starts) {
       out.col(at++) = fading(log, rows, start, m.tau_s, m.rest_tau_s);

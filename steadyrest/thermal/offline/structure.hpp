@@ -50,8 +50,8 @@ inline constexpr double kLeastTau_s = 2.0 * 60.0;
 inline constexpr double kMostTau_s = 600.0 * 60.0;
 inline constexpr double kSeparation = 2.0;  ///< of the modes' time constants, at least
 
-/// The columns of least squares over rows of the log: levels mode by mode, gains, then, with
-/// ambient inputs, a constant, then for each mode and each stretch of the log the state that it
+/// The columns of least squares over rows of the log: levels mode by mode, gains, then a
+/// constant, then for each mode and each stretch of the log the state that it
 /// began with.
 [[nodiscard]] Eigen::MatrixXd columns_of(const Structure& structure, const Log& log,
                                          std::span<const std::size_t> rows);

@@ -12,6 +12,7 @@ namespace steadyrest::thermal::offline {
 namespace {
 
 constexpr double kFree = 1e5;
+constexpr double kNoises = 3.0;
 constexpr double kPer_rev_s = 60.0 / 1000.0;
 
 /// Rows that are fitted, their times and where a stretch begins.
@@ -131,8 +132,8 @@ class Projection {
 
 }  // namespace
 
-LinearPrior wide_prior(const Structure& structure, const Log& log) {
-  const double most = std::max(std::ranges::max(log.speed_rev_s) * kPer_rev_s, 0.1);
+LinearPrior wide_prior(const Structure& structure, const FitData& data) {
+  const double most = std::max(data.fastest_rev_s * kPer_rev_s, 0.1);
   std::vector<double> usual;
   for (std::size_t m = 0; m < structure.mode.size(); ++m) {
     for (std::size_t p = 0; p < structure.level_terms(); ++p) {
@@ -141,8 +142,10 @@ LinearPrior wide_prior(const Structure& structure, const Log& log) {
     }
   }
   usual.insert(usual.end(), structure.ambient.size(), structure.usual.gain_um_k);
-  usual.insert(usual.end(), structure.ambient.empty() ? 0 : 1, kFree);
-  usual.insert(usual.end(), structure.mode.size() * (log.gap.size() + 1), structure.usual.state_um);
+  // Without inputs the gauge has its zero at the first reading, but for that reading's noise.
+  usual.push_back(structure.ambient.empty() ? kNoises * data.noise_um : kFree);
+  usual.insert(usual.end(), structure.mode.size() * (data.log->gap.size() + 1),
+               structure.usual.state_um);
   const auto n = static_cast<Eigen::Index>(usual.size());
   LinearPrior out{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   for (Eigen::Index i = 0; i < n; ++i) {

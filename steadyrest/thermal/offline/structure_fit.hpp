@@ -19,10 +19,11 @@ struct LinearPrior {
   Eigen::VectorXd mean;
   Eigen::MatrixXd root;
 };
-/// The structure's own `usual`; the constant is free. Levels of a table go from speed to speed as a
+/// The structure's own `usual`; the constant is free where there are inputs,
+/// else what the first reading may be off. Levels of a table go from speed to speed as a
 /// random walk from 0 at 0 rpm, to the same at the fastest: one that was not tested lies between
 /// its neighbours.
-[[nodiscard]] LinearPrior wide_prior(const Structure& structure, const Log& log);
+[[nodiscard]] LinearPrior wide_prior(const Structure& structure, const FitData& data);
 
 /// The linear parameters and what goes with them.
 struct LinearFit {

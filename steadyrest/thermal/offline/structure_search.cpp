@@ -29,7 +29,7 @@ struct Candidate {
 class Products {
  public:
   Products(const FitData& data, const ErrorModel& error, const SearchLimits& limits)
-      : grid_(data, limits.sensor) {
+      : grid_(data, limits.sensor), zero_(1.0 / (9.0 * data.noise_um * data.noise_um)) {
     const Eigen::MatrixXd& all = grid_.columns();
     for (const FitData::Block& block : data.block) {
       const auto begin = static_cast<Eigen::Index>(block.begin);
@@ -59,9 +59,7 @@ class Products {
 
   [[nodiscard]] double loss(const Candidate& c) const {
     std::vector<Eigen::Index> column;
-    if (!c.lag.empty()) {
-      column.push_back(0);
-    }
+    column.push_back(0);
     for (const std::size_t t : c.tau) {
       for (const int p : kPowers[c.power]) {
         column.push_back(grid_.power(t, p));
@@ -85,7 +83,7 @@ class Products {
           const Eigen::Index cj = column[static_cast<std::size_t>(j)];
           normal(i, j) = sum_(cj, ci) - white_[b](cj, ci);
         }
-        normal(i, i) += kRidge;
+        normal(i, i) += ci == 0 && c.lag.empty() ? zero_ : kRidge;
         right(i) = sum_(y, ci) - white_[b](y, ci);
       }
       const Eigen::VectorXd a = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
@@ -112,6 +110,7 @@ class Products {
     return std::max(sum, 0.0);
   }
   ColumnGrid grid_;
+  double zero_;  ///< precision of the gauge's zero, where the first reading has it
   std::vector<Eigen::MatrixXd> white_;
   std::vector<Eigen::MatrixXd> free_;
   std::vector<Eigen::MatrixXd> probed_;

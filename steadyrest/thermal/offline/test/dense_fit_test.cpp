@@ -63,7 +63,7 @@ TEST(DenseFit, EvidenceIsTheDensityOfTheReadings) {
   structure.usual = {20.0, 3.0, 10.0};
   const ErrorModel error{1.5, 3600.0, 0.4};
   const Eigen::MatrixXd columns = columns_of(structure, log, data.row);
-  const LinearPrior prior = wide_prior(structure, log);
+  const LinearPrior prior = wide_prior(structure, data);
   const auto n = static_cast<Eigen::Index>(data.rows());
   const Eigen::MatrixXd precision = prior.root.transpose() * prior.root;
   Eigen::MatrixXd covariance =

@@ -139,6 +139,55 @@ TEST(Identify, AnHourIsEnoughWithTimeConstantsOfALongerTest) {
   EXPECT_LT(std::sqrt(square), 1.0);
 }
 
+TEST(Identify, WhereTheGaugeHasItsZeroChangesNothing) {
+  for (const double gain_um_k : {4.0, 0.3, 0.0}) {
+    SCOPED_TRACE(gain_um_k);
+    const KnownMachine machine{{{40.0, 8.0}}, 0.3, gain_um_k, 60.0, 7};
+    Log log = log_of(machine, kDays, gain_um_k > 0.0 ? 2 : 0);
+    const AxisFit fit = fitted(log);
+    for (double& reading : log.displacement[0].value) {
+      reading += 0.4;
+    }
+    const AxisFit moved = fitted(log);
+    EXPECT_NEAR(moved.left_out_um, fit.left_out_um, 1e-6);
+    ASSERT_EQ(moved.axis.mode.size(), fit.axis.mode.size());
+    EXPECT_NEAR(moved.axis.mode[0].tau_s, fit.axis.mode[0].tau_s, 1e-6);
+    EXPECT_NEAR(moved.axis.zero_mm, fit.axis.zero_mm + 0.4, 1e-9);
+    for (const auto& ambient : moved.axis.ambient) {
+      EXPECT_NEAR(ambient.reference_c, 20.0, 3.0) << "a temperature that there has been";
+    }
+    ReplayRequest again;
+    again.channel = 0;
+    again.state_s = fit.end_s - 1.0;
+    again.from_s = log.time_s.front() + 3600.0;
+    const auto points = replay(moved.axis, log, again);
+    ASSERT_TRUE(points.has_value());
+    EXPECT_LT(1e3 * score(*points, moved.axis.noise_mm).rms_mm, 1.0);
+  }
+}
+
+TEST(Identify, HoursBeyondTheWindowSayNothing) {
+  const KnownMachine machine{{{40.0, 8.0}}, 0.3, 4.0, 60.0, 7};
+  auto days = kDays;
+  days.insert(days.end(), {{240, 9000}, {240, 0}});
+  FitRequest request;
+  request.to_s = 60.0 * (8 * 240 - 1);
+  const AxisFit window = fitted(log_of(machine, days, 3), request);
+  const AxisFit cut = fitted(log_of(machine, kDays, 3));
+  EXPECT_EQ(window.axis.max_speed_rev_s, cut.axis.max_speed_rev_s);
+  EXPECT_EQ(window.left_out_um, cut.left_out_um);
+  EXPECT_EQ(window.axis.mode[0].tau_s, cut.axis.mode[0].tau_s);
+  EXPECT_EQ(window.axis.covariance, cut.axis.covariance);
+}
+
+TEST(Identify, AGaugeIsNoSurerThanItsLastDigit) {
+  Log log = log_of({{{40.0, 8.0}}, 0.1}, kDays);
+  for (double& reading : log.displacement[0].value) {
+    reading = 2e-3 * std::round(reading / 2e-3);
+  }
+  EXPECT_GE(1e3 * fitted(log).axis.noise_mm, 2.0 / std::sqrt(12.0) - 1e-6);
+}
+
 Log recorded() {
   const char* data = std::getenv("STEADYREST_SHARED_DATA");
   const fs::path path = fs::path(data != nullptr ? data : STEADYREST_SOURCE_DIR "/../shared/data") /
