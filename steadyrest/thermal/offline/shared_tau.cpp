@@ -17,6 +17,7 @@ using Group = std::vector<std::size_t>;
 /// ln τ of each mode, then of those that have one of their own at rest.
 std::vector<double> ln_taus(const Structure& s) {
   std::vector<double> out;
+  out.reserve(2 * s.mode.size());
   for (const Structure::Mode& m : s.mode) {
     out.push_back(std::log(m.tau_s));
   }
