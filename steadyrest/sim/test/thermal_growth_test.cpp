@@ -14,7 +14,6 @@ namespace steadyrest::sim {
 namespace {
 
 using kernel::machine::Thermal;
-using kernel::machine::ThermalAmbient;
 using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
 
@@ -112,6 +111,7 @@ TEST(ThermalGrowth, IsTheIntegralOfTheLawForRandomMachinesAndWork) {
                                       .feed_s = uniform(-1e-4, 1e-4)});
     }
     std::vector<std::pair<double, ThermalGrowth::Input>> work;
+    work.reserve(6);
     for (int i = 0; i < 6; ++i) {
       work.push_back({60.0 * std::round(uniform(1, 60)),
                       {.speed_rev_s = i % 3 == 2 ? 0.0 : uniform(5, 80),

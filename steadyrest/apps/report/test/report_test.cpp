@@ -40,7 +40,7 @@ class Report : public ::testing::Test {
 };
 
 std::string data_element(const std::string& html) {
-  const std::string open = "id=\"report-data\" type=\"application/json\">";
+  const std::string open = R"(id="report-data" type="application/json">)";
   const std::size_t begin = html.find(open) + open.size();
   return html.substr(begin, html.find("</script>", begin) - begin);
 }

@@ -46,6 +46,7 @@ AxisCorrections planned(const online::ThermalModel& model, const Cyclogram& cycl
 
 std::vector<double> whole_minutes(const std::vector<double>& seconds) {
   std::vector<double> out;
+  out.reserve(seconds.size());
   for (const double s : seconds) {
     out.push_back(std::round(s / 60.0));
   }

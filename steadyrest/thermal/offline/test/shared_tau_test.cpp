@@ -31,6 +31,7 @@ Log three_axes() {
 TEST(SharedTau, DisplacementsOfOneBodyShareAndOthersDoNot) {
   const Log log = three_axes();
   std::vector<AxisFit> fit;
+  fit.reserve(3);
   for (std::size_t c = 0; c < 3; ++c) {
     fit.push_back(identify(log, c, log.displacement[c].name, {}).value());
   }

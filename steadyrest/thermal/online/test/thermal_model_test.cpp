@@ -10,7 +10,6 @@
 namespace steadyrest::thermal::online {
 namespace {
 
-using kernel::machine::ThermalAmbient;
 using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
 
