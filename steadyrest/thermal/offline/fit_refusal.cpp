@@ -7,6 +7,7 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/fit_refusal.hpp>
 #include <steadyrest/thermal/offline/level_table.hpp>
+#include <steadyrest/thermal/offline/log_inputs.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
@@ -50,14 +51,9 @@ std::optional<Refusal> unfit(const FitData& data, const FitRequest& request,
                               kLeastRows),
                   "widen the window");
   }
-  for (std::size_t j = 0; request.known != nullptr && j < request.known->ambient.size(); ++j) {
-    const std::string& sensor = request.known->ambient[j].sensor;
-    if (std::ranges::find(log.temperature, sensor, &LogChannel::name) == log.temperature.end()) {
-      return refuse(log,
-                    fmt::format("the passport of {} needs the temperature {}, which the log has "
-                                "not",
-                                request.known->name, sensor),
-                    "log that sensor, or take time constants from a passport without it");
+  if (request.known != nullptr) {
+    if (const auto inputs = inputs_of(*request.known, log); !inputs) {
+      return inputs.error();
     }
   }
   const double run_s = longest_run_s(log, request.from_s, request.to_s);

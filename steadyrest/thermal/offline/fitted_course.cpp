@@ -9,6 +9,7 @@
 
 #include <steadyrest/thermal/offline/fitted_course.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
+#include <steadyrest/thermal/offline/log_inputs.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
@@ -120,22 +121,16 @@ Result<std::vector<FittedPoint>> fitted_course(const ThermalAxis& axis, const Lo
   if (!model) {
     return std::unexpected(model.error());
   }
-  std::vector<const LogChannel*> sensor;
-  for (const auto& ambient : axis.ambient) {
-    const auto found = std::ranges::find(log.temperature, ambient.sensor, &LogChannel::name);
-    if (found == log.temperature.end()) {
-      return refuse(fmt::format("{} needs the temperature {}, which the log has not", axis.name,
-                                ambient.sensor),
-                    "log that sensor too");
-    }
-    sensor.push_back(&*found);
+  auto sensor = inputs_of(axis, log);
+  if (!sensor) {
+    return std::unexpected(sensor.error());
   }
   const auto from =
       static_cast<std::size_t>(std::ranges::lower_bound(log.time_s, from_s) - log.time_s.begin());
   if (from >= log.rows()) {
     return refuse("the window begins after the log's end", "choose an earlier one");
   }
-  Walk walk(std::move(*model), log, std::move(sensor));
+  Walk walk(std::move(*model), log, std::move(*sensor));
   walk.run(from);
   std::vector<FittedPoint> out;
   out.reserve(log.rows() - from);

@@ -9,6 +9,7 @@
 
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
+#include <steadyrest/thermal/offline/log_inputs.hpp>
 #include <steadyrest/thermal/offline/replay.hpp>
 
 namespace steadyrest::thermal::offline {
@@ -189,16 +190,9 @@ Result<std::vector<ReplayPoint>> replay(const ThermalAxis& axis, const Log& log,
   if (!model) {
     return std::unexpected(model.error());
   }
-  std::vector<const LogChannel*> sensor;
-  for (const auto& ambient : axis.ambient) {
-    const auto found = std::ranges::find(log.temperature, ambient.sensor, &LogChannel::name);
-    if (found == log.temperature.end()) {
-      return refuse(
-          fmt::format("the passport of {} needs the temperature {}, which the log has not",
-                      axis.name, ambient.sensor),
-          "log that sensor, or fit a passport without it: thermal fit --no-ambient");
-    }
-    sensor.push_back(&*found);
+  auto sensor = inputs_of(axis, log);
+  if (!sensor) {
+    return std::unexpected(sensor.error());
   }
   const double fastest = std::ranges::max(log.speed_rev_s);
   if (axis.max_speed_rev_s > 0.0 && fastest > kBeyondFitted * axis.max_speed_rev_s) {
@@ -208,7 +202,7 @@ Result<std::vector<ReplayPoint>> replay(const ThermalAxis& axis, const Log& log,
                               kernel::units::rpm_from_rev_s(axis.max_speed_rev_s)),
                   "test the machine at that speed and fit again");
   }
-  return Replay(std::move(*model), log, std::move(sensor), request).run();
+  return Replay(std::move(*model), log, std::move(*sensor), request).run();
 }
 
 ReplayScore score(const std::vector<ReplayPoint>& points, double noise_mm) {
