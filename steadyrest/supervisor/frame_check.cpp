@@ -54,12 +54,15 @@ bool FrameCheck::in_range(const Frame& frame) const noexcept {
   return true;
 }
 
-Reason FrameCheck::fault(const Frame& frame, double last_time_s) const noexcept {
+Reason FrameCheck::fault(const Frame& frame, Reason of_time) const noexcept {
   if (!finite(frame)) {
     return Reason::input_not_finite;
   }
-  if (!in_range(frame) || frame.time_s < last_time_s) {
+  if (!in_range(frame)) {
     return Reason::input_out_of_range;
+  }
+  if (of_time != Reason::none) {
+    return of_time;
   }
   return frame.age_s > stale_after_s_ ? Reason::input_stale : Reason::none;
 }

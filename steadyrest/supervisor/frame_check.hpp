@@ -12,8 +12,9 @@ namespace steadyrest::supervisor {
 /// Says whether one cycle's inputs may be acted on.
 ///
 /// Law, first that holds: any number that is not finite → input_not_finite; more axes than there
-/// are, time that runs backwards, a negative feed, a linear axis further than its whole travel
-/// outside of its limits → input_out_of_range; age above `stale_after_s` → input_stale; else none.
+/// are, a negative feed, a linear axis further than its whole travel outside of its limits →
+/// input_out_of_range; what the clock says of the time stamp; age above `stale_after_s` →
+/// input_stale; else none.
 /// The override states are not looked at here: each channel's envelope does that for its own, so
 /// that a bad spindle panel does not withdraw the feed.
 /// A port that shows an old sample must say so in `age_s`; there is no clock here.
@@ -21,9 +22,9 @@ class FrameCheck {
  public:
   explicit FrameCheck(const kernel::machine::Machine& machine) noexcept;
 
-  /// `last_time_s`: of the frame before; the frame's own time may equal it.
+  /// `of_time`: FrameClock's verdict on the frame's time stamp.
   [[nodiscard]] kernel::outcome::Reason fault(const kernel::signal::Frame& frame,
-                                              double last_time_s) const noexcept;
+                                              kernel::outcome::Reason of_time) const noexcept;
 
  private:
   struct Range {

@@ -18,6 +18,8 @@ using kernel::override::OffsetEnvelope;
 using machine::Mode;
 
 constexpr double kNeverReadS = 1e9;
+/// Between two blocks a control may show idle for some cycles with the tool in the cut.
+constexpr double kIdleLeavesCutS = 1.0;
 
 Result<std::optional<Channel>> channel(const Channel::Config& config) {
   if (config.table.ratio.empty()) {
@@ -42,7 +44,7 @@ Result<std::optional<Room>> room(bool on, const machine::Machine& machine) {
   return std::move(*made);
 }
 
-bool in_cut(signal::Motion motion, bool before) noexcept {
+bool in_cut(signal::Motion motion, double idle_s, bool before) noexcept {
   switch (motion) {
     case signal::Motion::feed:
     case signal::Motion::thread:
@@ -52,6 +54,7 @@ bool in_cut(signal::Motion motion, bool before) noexcept {
     case signal::Motion::tool_change:
       return false;
     case signal::Motion::idle:
+      return before && idle_s < kIdleLeavesCutS;
     case signal::Motion::probe:
     case signal::Motion::dwell:
     case signal::Motion::spindle_wait:
@@ -65,11 +68,10 @@ bool in_thread(signal::Motion motion) noexcept {
 }
 
 template <class Request>
-kernel::override::RatioEnvelope::Input channel_input(const signal::Frame& frame,
-                                                     const Request& request, Reason unfit,
-                                                     bool hold,
+kernel::override::RatioEnvelope::Input channel_input(double step_s, const Request& request,
+                                                     Reason unfit, bool hold,
                                                      const signal::OverrideState& panel) noexcept {
-  return {.time_s = frame.time_s,
+  return {.step_s = step_s,
           .ratio = hold ? 1.0 : request.ratio,
           .reason = hold ? Reason::withdrawn_thread : request.reason,
           .panel = panel,
@@ -91,7 +93,16 @@ Reason without_channel(const Request& request, Reason unfit) noexcept {
   return wish ? Reason::port_cannot_write : request.reason;
 }
 
-/// What stands without the layer: the panel's own value.
+/// The frame as the rooms see it: all its times in good time. A frame of before has them already.
+void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
+  const double shift_s = read_now ? time_s - frame.time_s : 0.0;
+  frame.time_s = time_s;
+  for (auto& axis : frame.axis) {
+    axis.edge_s += shift_s;
+  }
+}
+
+/// What holds without the layer: the panel's own value.
 signal::Command panel_command(const signal::Frame& frame) noexcept {
   return {.feed_ratio = shown(frame.feed),
           .feed_code = frame.feed.panel_code,
@@ -147,6 +158,8 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
 Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capability& capability,
                        MotionStage motion, const OffsetEnvelope& offset)
     : check_(machine),
+      clock_(machine.control.interpolator_period_s),
+      watchdog_s_(machine.envelope.stale_after_s),
       motion_(std::move(motion)),
       offset_(offset),
       offset_available_(capability.axis_offset) {
@@ -161,28 +174,16 @@ void Supervisor::settle_mode() noexcept {
   if (state_.mode_wanted == state_.mode_in_force || (leaving_act() && !handed_back_)) {
     return;
   }
-  // What was only advised never stood on the machine: begin from the panel.
-  for (auto* channel : {&feed_, &spindle_}) {
-    if (*channel) {
-      (*channel)->reset();
-    }
-  }
-  offset_.reset();
-  if (thermal_) {
-    thermal_->yield_to({});
-  }
-  handed_back_ = true;
+  begin_at_panel();  // what was only advised was never on the machine
   state_.mode_in_force = state_.mode_wanted;
 }
 
-Reason Supervisor::inspect(const signal::Frame& frame) noexcept {
-  const Reason fault = check_.fault(frame, state_.started ? state_.time_s : frame.time_s);
+Reason Supervisor::inspect(const signal::Frame& frame, const FrameClock::Tick& tick) noexcept {
+  const Reason fault = check_.fault(frame, tick.fault);
   if (fault == Reason::none) {
-    state_.tool_in_cut = in_cut(frame.motion, state_.tool_in_cut);
-  }
-  if (std::isfinite(frame.time_s)) {
-    state_.time_s = frame.time_s;
-    state_.started = true;
+    state_.idle_s = frame.motion == signal::Motion::idle ? state_.idle_s + tick.step_s : 0.0;
+    state_.tool_in_cut = in_cut(frame.motion, state_.idle_s, state_.tool_in_cut);
+    state_.in_thread = in_thread(frame.motion);
   }
   return fault;
 }
@@ -216,7 +217,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   if (thermal_) {
     // What is not written stands nowhere.
     static constexpr signal::AxisValues kNothing{};
-    const bool written = state_.mode_in_force == Mode::act;
+    const bool written = state_.mode_in_force == Mode::act && !state_.interrupted;
     estimates_.thermal = thermal_->update(frame, unfit, state_.tool_in_cut,
                                           written ? &offset_.state().offset_mm : &kNothing);
   }
@@ -246,15 +247,15 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
           .spindle = spindle.decision(),
           .offset = offset.decision(),
           .unfit = unfit == Reason::none && leaving_act() ? Reason::observe_only : unfit,
-          .hold = unfit == Reason::none && in_thread(frame.motion)};
+          .hold = state_.in_thread || in_thread(frame.motion)};
 }
 
-void Supervisor::clamp(const signal::Frame& frame, const Decisions& decisions,
+void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,
                        signal::Command& command) noexcept {
   handed_back_ = true;
   if (feed_) {
     const auto feed = feed_->update(
-        channel_input(frame, decisions.feed, decisions.unfit, decisions.hold, frame.feed));
+        channel_input(step_s, decisions.feed, decisions.unfit, decisions.hold, frame.feed));
     command.feed_ratio = feed.ratio;
     command.feed_code = feed.code;
     command.feed_masks_panel = feed.masks_panel;
@@ -265,7 +266,7 @@ void Supervisor::clamp(const signal::Frame& frame, const Decisions& decisions,
   }
   if (spindle_) {
     const auto spindle = spindle_->update(
-        channel_input(frame, decisions.spindle, decisions.unfit, decisions.hold, frame.spindle));
+        channel_input(step_s, decisions.spindle, decisions.unfit, decisions.hold, frame.spindle));
     command.spindle_ratio = spindle.ratio;
     command.spindle_code = spindle.code;
     command.spindle_masks_panel = spindle.masks_panel;
@@ -274,7 +275,7 @@ void Supervisor::clamp(const signal::Frame& frame, const Decisions& decisions,
   } else {
     command.spindle_reason = without_channel(decisions.spindle, decisions.unfit);
   }
-  const auto offset = offset_.update({.time_s = frame.time_s,
+  const auto offset = offset_.update({.step_s = step_s,
                                       .request = decisions.offset,
                                       .unfit = decisions.unfit,
                                       .tool_in_cut = state_.tool_in_cut});
@@ -291,27 +292,36 @@ void Supervisor::clamp(const signal::Frame& frame, const Decisions& decisions,
 
 signal::Command Supervisor::update(const signal::Frame& frame, const Requests& requests,
                                    bool read_now) noexcept {
+  before_ = written();
   settle_mode();
-  const Reason unfit = inspect(frame);
+  const double last_s = clock_.time_s();
+  const bool ever_read = clock_.state().started;
+  const FrameClock::Tick tick = clock_.update(frame.time_s);
+  resume(tick);
   signal::Frame known = frame;
+  if (!read_now) {
+    known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;
+  }
+  const Reason unfit = inspect(known, tick);
+  if (std::isfinite(frame.time_s)) {
+    in_good_time(known, tick.time_s, read_now);
+  }
   estimate(known, read_now && unfit == Reason::none, unfit);
   const Decisions decisions = arbitrate(frame, requests, unfit);
   signal::Command command = panel_command(frame);
-  if (state_.mode_in_force != Mode::observe) {
-    clamp(frame, decisions, command);
+  if (state_.mode_in_force != Mode::observe && !state_.interrupted) {
+    clamp(frame, tick.step_s, decisions, command);
   }
-  command.write = state_.mode_in_force == Mode::act;
+  command.write = state_.mode_in_force == Mode::act && !state_.interrupted;
+  if (command.write) {
+    state_.delivered_s = tick.time_s;
+  }
   command.heartbeat = ++state_.heartbeat;
   return command;
 }
 
 signal::Command Supervisor::update_without_frame(double time_s) noexcept {
   signal::Frame frame = last_frame_;
-  if (state_.started) {
-    frame.age_s += std::max(0.0, time_s - frame.time_s);
-  } else {
-    frame.age_s = kNeverReadS;
-  }
   frame.time_s = time_s;
   return update(frame, {}, false);
 }
@@ -320,59 +330,17 @@ Result<signal::Command> Supervisor::cycle(kernel::port::Port& port,
                                           const Requests& requests) noexcept {
   auto frame = port.read();
   if (!frame) {
+    state_.interrupted = true;
     return std::unexpected(std::move(frame.error()));
   }
   const signal::Command command = update(*frame, requests);
   if (command.write) {
     if (auto written = port.write(command); !written) {
+      not_delivered();
       return std::unexpected(std::move(written.error()));
     }
   }
   return command;
-}
-
-Supervisor::State Supervisor::state() const noexcept {
-  State state = state_;
-  if (feed_) {
-    state.feed = feed_->state();
-  }
-  if (spindle_) {
-    state.spindle = spindle_->state();
-  }
-  state.offset = offset_.state();
-  if (thermal_) {
-    state.thermal = thermal_->state();
-  }
-  return state;
-}
-
-void Supervisor::restore(const State& state) noexcept {
-  state_ = state;
-  if (feed_) {
-    feed_->restore(state.feed);
-  }
-  if (spindle_) {
-    spindle_->restore(state.spindle);
-  }
-  offset_.restore(state.offset);
-  motion_.reset();
-  if (contour_) {
-    contour_->reset();
-    estimates_.contour.reset();
-  }
-  if (chatter_) {
-    chatter_->reset();
-    estimates_.chatter.reset();
-  }
-  if (listener_) {
-    listener_->reset();
-    estimates_.heard.reset();
-  }
-  if (thermal_) {
-    thermal_->restore(state.thermal);
-    estimates_.thermal.reset();
-  }
-  handed_back_ = false;
 }
 
 }  // namespace steadyrest::supervisor

@@ -17,6 +17,7 @@
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
 #include <steadyrest/supervisor/frame_check.hpp>
+#include <steadyrest/supervisor/frame_clock.hpp>
 #include <steadyrest/supervisor/listening_stage.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
 #include <steadyrest/thermal/online/offset_governor.hpp>
@@ -29,9 +30,19 @@ namespace steadyrest::supervisor {
 /// would be written. act: it is, and `Command::write` says so; only then. Leaving act hands back
 /// first: neutral through the slew limit, offsets out once no tool is in the cut; until then the
 /// mode in force stays act.
-/// Thread cutting and tapping hold feed and spindle where they are; the operator still wins.
+/// Time. FrameClock makes good time of the frames' stamps; rooms, envelopes and words are fed with
+/// nothing else. What it doubts gives no credit to any slew and settles no word.
+/// Thread cutting and tapping hold feed and spindle where they are, from the first frame that shows
+/// them to the first fit one that shows something else, whatever the mode and the input; the
+/// operator still wins.
 /// The tool counts as in the cut during feed, thread and tap, and as out of it during rapids and
-/// tool changes; anything else, and unfit input, keeps what was last known.
+/// tool changes and after a second of idle (program end, abort); anything else, and unfit input,
+/// keeps what was last known.
+/// What was not written is not there: what was only advised is dropped on the way to act, a cycle
+/// that the port did not take is taken back. After an interruption (restore(), a port that could
+/// not be read or written) of more than `stale_after` the machine's watchdog has dropped all, so
+/// the layer begins at the panel and at offset 0; while the time does not say how long it was,
+/// nothing is written.
 /// All of update() is online code: bounded, noexcept, without allocation, lock or I/O.
 class Supervisor {
  public:
@@ -50,15 +61,18 @@ class Supervisor {
     std::optional<thermal::online::OffsetGovernor::Output> thermal;
   };
 
-  /// Without the rooms' estimates: those start anew after restore(). The heat in the machine does
-  /// not, so the thermal room's stand in it.
+  /// Without the rooms' estimates: those begin again after restore(). The heat in the machine does
+  /// not, so it has the thermal room's.
   struct State {
     kernel::machine::Mode mode_in_force = kernel::machine::Mode::observe;
     kernel::machine::Mode mode_wanted = kernel::machine::Mode::observe;
     std::uint64_t heartbeat = 0;
-    double time_s = 0.0;
-    bool started = false;
+    FrameClock::State clock;
+    double delivered_s = 0.0;  ///< good time of the last cycle that was written
+    double idle_s = 0.0;       ///< good time since the control is idle
     bool tool_in_cut = false;
+    bool in_thread = false;    ///< by the last fit frame
+    bool interrupted = false;  ///< what is on the machine is not known until the time is
     kernel::override::Channel::State feed;
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
@@ -80,6 +94,8 @@ class Supervisor {
   kernel::signal::Command update(const kernel::signal::Frame& frame) noexcept {
     return update(frame, {});
   }
+  /// The last command did not reach the machine: what it had before still holds there.
+  void not_delivered() noexcept;
   /// A cycle in which nothing could be read: the last frame, aged. The caller gives the time.
   kernel::signal::Command update_without_frame(double time_s) noexcept;
   /// One whole cycle on a port: its refusal when it cannot be read or written.
@@ -129,17 +145,31 @@ class Supervisor {
              MotionStage motion, const kernel::override::OffsetEnvelope& offset);
   kernel::signal::Command update(const kernel::signal::Frame& frame, const Requests& requests,
                                  bool read_now) noexcept;
-  kernel::outcome::Reason inspect(const kernel::signal::Frame& frame) noexcept;
+  kernel::outcome::Reason inspect(const kernel::signal::Frame& frame,
+                                  const FrameClock::Tick& tick) noexcept;
   void settle_mode() noexcept;
+  void begin_at_panel() noexcept;
+  void resume(const FrameClock::Tick& tick) noexcept;
   void hear(const kernel::signal::Frame& frame, bool fit) noexcept;
   void estimate(kernel::signal::Frame& frame, bool fit, kernel::outcome::Reason unfit) noexcept;
   [[nodiscard]] Decisions arbitrate(const kernel::signal::Frame& frame, const Requests& requests,
                                     kernel::outcome::Reason unfit) noexcept;
-  void clamp(const kernel::signal::Frame& frame, const Decisions& decisions,
+  void clamp(const kernel::signal::Frame& frame, double step_s, const Decisions& decisions,
              kernel::signal::Command& command) noexcept;
   [[nodiscard]] bool leaving_act() const noexcept;
 
+  struct Written {
+    kernel::override::Channel::State feed;
+    kernel::override::Channel::State spindle;
+    kernel::override::OffsetEnvelope::State offset;
+    double delivered_s = 0.0;
+  };
+  [[nodiscard]] Written written() const noexcept;
+  void put_back(const Written& written) noexcept;
+
   FrameCheck check_;
+  FrameClock clock_;
+  double watchdog_s_;  ///< the machine drops what no heartbeat renews for so long
   MotionStage motion_;
   std::optional<contour::online::FeedGovernor> contour_;
   std::optional<chatter::online::Modulator> chatter_;
@@ -150,7 +180,8 @@ class Supervisor {
   std::optional<kernel::override::Channel> spindle_;
   kernel::override::OffsetEnvelope offset_;
   bool offset_available_;
-  bool handed_back_ = true;  ///< nothing of the layer stands on the machine
+  bool handed_back_ = true;  ///< nothing of the layer is on the machine
+  Written before_;           ///< the last cycle
   State state_;              ///< the parts that are not a member's own
   kernel::signal::Frame last_frame_;
 };

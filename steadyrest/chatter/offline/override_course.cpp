@@ -116,7 +116,7 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
     frame.time_s = static_cast<double>(i) * dt_s;
     frame.spindle_actual_rev_s = speed;
     const auto asked = modulator->update(frame);
-    const auto written = spindle->update({.time_s = frame.time_s,
+    const auto written = spindle->update({.step_s = i > 0 ? dt_s : 0.0,
                                           .ratio = asked.spindle.ratio,
                                           .reason = asked.spindle.reason,
                                           .panel = frame.spindle,

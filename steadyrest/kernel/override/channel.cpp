@@ -48,7 +48,7 @@ outcome::Result<Channel> Channel::make(const Config& config) {
 
 Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
   const auto wanted = envelope_.update(input);
-  const auto word = handover_.update(input.time_s, wanted);
+  const auto word = handover_.update(input.step_s, wanted, input.hold);
   if (word.masks_panel) {
     envelope_.wait_within(word.reach_low, word.reach_high);
   } else if (handover_.available()) {
@@ -65,7 +65,7 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
 
 void Channel::reset() noexcept {
   envelope_.reset();
-  handover_.restore({.word = handover_.state().word, .masked = false});
+  handover_.reset();
 }
 
 void Channel::restore(const State& state) noexcept {

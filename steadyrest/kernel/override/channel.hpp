@@ -45,6 +45,7 @@ class Channel {
   Output update(const RatioEnvelope::Input& input) noexcept;
 
   [[nodiscard]] const Table& table() const noexcept { return handover_.table(); }
+  /// What is on the machine is not known: begins at the panel, without a mask.
   void reset() noexcept;
   [[nodiscard]] State state() const noexcept {
     return {.envelope = envelope_.state(), .handover = handover_.state()};

@@ -33,14 +33,9 @@ double toward(double from, double target, double fall, double rise) noexcept {
   return std::clamp(target, from - fall, from + rise);
 }
 
-double elapsed(double now_s, double max_step_s, double& last_s, bool& started) noexcept {
-  if (!std::isfinite(now_s)) {
-    return 0.0;
-  }
-  const double passed_s = started ? std::clamp(now_s - last_s, 0.0, max_step_s) : 0.0;
-  last_s = now_s;
-  started = true;
-  return passed_s;
+/// Time that is no time gives no credit.
+double credit_s(double step_s, double max_step_s) noexcept {
+  return std::isfinite(step_s) ? std::clamp(step_s, 0.0, max_step_s) : 0.0;
 }
 
 }  // namespace
@@ -62,10 +57,6 @@ outcome::Result<RatioEnvelope> RatioEnvelope::make(const Config& config) {
     return std::unexpected(refusal("max_step_s", config.max_step_s, "finite and > 0"));
   }
   return RatioEnvelope(config);
-}
-
-double RatioEnvelope::elapsed_s(double time_s) noexcept {
-  return elapsed(time_s, config_.max_step_s, state_.time_s, state_.started);
 }
 
 Reason RatioEnvelope::read_panel(const signal::OverrideState& panel) noexcept {
@@ -121,9 +112,10 @@ Reason RatioEnvelope::explain(const Target& target, Reason asked) const noexcept
 }
 
 RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
-  const double step_s = elapsed_s(input.time_s);
+  // Nothing of the layer was in force before its first look at the panel.
+  const double step_s = state_.panel_seen ? credit_s(input.step_s, config_.max_step_s) : 0.0;
   const Reason panel_fault = read_panel(input.panel);
-  Reason unfit = std::isfinite(input.time_s) ? input.unfit : Reason::input_not_finite;
+  Reason unfit = std::isfinite(input.step_s) ? input.unfit : Reason::input_not_finite;
   for (const Reason fault : {panel_fault, fault_of(input.ratio)}) {
     unfit = unfit == Reason::none ? fault : unfit;
   }
@@ -152,8 +144,8 @@ RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
 }
 
 void RatioEnvelope::restore(const State& state) noexcept {
-  const bool fit = fault_of(state.ratio) == Reason::none &&
-                   fault_of(state.panel_ratio) == Reason::none && std::isfinite(state.time_s);
+  const bool fit =
+      fault_of(state.ratio) == Reason::none && fault_of(state.panel_ratio) == Reason::none;
   state_ = fit ? state : State{};
 }
 
@@ -185,16 +177,18 @@ bool OffsetEnvelope::approach(const signal::AxisValues& target_mm, double step_m
 }
 
 void OffsetEnvelope::restore(const State& state) noexcept {
-  const bool fit = all_finite(state.offset_mm) && std::isfinite(state.time_s);
-  state_ = fit ? state : State{};
+  state_ = all_finite(state.offset_mm) ? state : State{};
+  for (std::size_t axis = 0; axis < state_.offset_mm.size(); ++axis) {
+    state_.offset_mm[axis] =
+        std::clamp(state_.offset_mm[axis], -config_.max_mm[axis], config_.max_mm[axis]);
+  }
 }
 
 OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
-  const double step_mm =
-      config_.slew_mm_s * elapsed(input.time_s, config_.max_step_s, state_.time_s, state_.started);
+  const double step_mm = config_.slew_mm_s * credit_s(input.step_s, config_.max_step_s);
   const auto& request = input.request;
   const bool finite = all_finite(request.offset_mm);
-  Reason unfit = std::isfinite(input.time_s) ? input.unfit : Reason::input_not_finite;
+  Reason unfit = std::isfinite(input.step_s) ? input.unfit : Reason::input_not_finite;
   unfit = unfit == Reason::none && !finite ? Reason::input_not_finite : unfit;
 
   Output output;

@@ -21,8 +21,9 @@ namespace steadyrest::kernel::override {
 ///   r = 0.
 /// Neutral is transparent once r has reached p: from there on the operator moves the ratio alone.
 /// Input that is unfit makes the request neutral. While the panel's code is unknown, p is the last
-/// that was known. Δt has no credit beyond `max_step_s`, so that a gap in the input is no licence
-/// to jump.
+/// that was known. In a thread or tap (`hold`) r stays, whatever the wish and the input; p still
+/// limits it. Δt is good time (supervisor/frame_clock); it has no credit beyond `max_step_s`, and
+/// none where it is negative or not finite.
 class RatioEnvelope {
  public:
   struct Config {
@@ -35,7 +36,7 @@ class RatioEnvelope {
   };
 
   struct Input {
-    double time_s = 0.0;
+    double step_s = 0.0;                             ///< Δt, good time since the last cycle
     double ratio = 1.0;                              ///< what the rooms ask for
     outcome::Reason reason = outcome::Reason::none;  ///< and why
     signal::OverrideState panel{};
@@ -54,10 +55,8 @@ class RatioEnvelope {
   struct State {
     double ratio = 1.0;
     double panel_ratio = 1.0;
-    double time_s = 0.0;
     bool panel_seen = false;  ///< some panel value has been good
     bool at_panel = true;     ///< neutral has been reached
-    bool started = false;
   };
 
   [[nodiscard]] static outcome::Result<RatioEnvelope> make(const Config& config);
@@ -72,10 +71,11 @@ class RatioEnvelope {
     state_.ratio = std::clamp(state_.ratio, low, high);
     state_.at_panel = false;
   }
-  /// Starts anew, as when the layer takes over.
+  /// Begins again, as when the layer takes over.
   void reset() noexcept { state_ = {}; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// A state that is not finite is not taken: the envelope starts anew.
+  /// Ratios that could not be (not finite, negative, far too large) are not taken: the envelope
+  /// begins again.
   void restore(const State& state) noexcept;
 
  private:
@@ -89,7 +89,6 @@ class RatioEnvelope {
     bool panel_limits = false;
   };
 
-  double elapsed_s(double time_s) noexcept;
   [[nodiscard]] Target target(const Input& input, outcome::Reason unfit) const noexcept;
   [[nodiscard]] outcome::Reason explain(const Target& target, outcome::Reason asked) const noexcept;
   outcome::Reason read_panel(const signal::OverrideState& panel) noexcept;
@@ -112,7 +111,7 @@ class OffsetEnvelope {
   };
 
   struct Input {
-    double time_s = 0.0;
+    double step_s = 0.0;  ///< Δt, good time since the last cycle
     signal::OffsetRequest request{};
     outcome::Reason unfit = outcome::Reason::none;
     bool tool_in_cut = true;  ///< by what is known of the machine, besides the rooms' own word
@@ -126,8 +125,6 @@ class OffsetEnvelope {
 
   struct State {
     signal::AxisValues offset_mm{};
-    double time_s = 0.0;
-    bool started = false;
   };
 
   [[nodiscard]] static outcome::Result<OffsetEnvelope> make(const Config& config);
@@ -136,7 +133,7 @@ class OffsetEnvelope {
 
   void reset() noexcept { state_ = {}; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// A state that is not finite is not taken: the envelope starts anew.
+  /// Offsets that are not finite are not taken; those beyond the limit are cut to it.
   void restore(const State& state) noexcept;
 
  private:

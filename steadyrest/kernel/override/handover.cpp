@@ -16,46 +16,48 @@ outcome::Result<Handover> Handover::make(Table table, const Config& config) {
   return Handover(std::move(table), *stepper, config);
 }
 
-bool Handover::may_release(double time_s, const RatioEnvelope::Output& wanted) const noexcept {
+bool Handover::operator_releases(const RatioEnvelope::Output& wanted) const noexcept {
   const bool above_panel = word_ratio() > wanted.panel_ratio + kRatioTolerance;
-  if (wanted.panel_ratio == 0.0 || (above_panel && !table_.layer_may_exceed_panel())) {
-    return true;
-  }
-  if (!wanted.hand_back || !stepper_.settled(time_s)) {
+  return wanted.panel_ratio == 0.0 || (above_panel && !table_.layer_may_exceed_panel());
+}
+
+bool Handover::may_release(const RatioEnvelope::Output& wanted) const noexcept {
+  if (!wanted.hand_back || !stepper_.settled()) {
     return false;
   }
   const auto panel_step = table_.floor_step(wanted.panel_ratio);
   return !panel_step || word_ratio() == table_.ratio(*panel_step);
 }
 
-void Handover::follow_panel(double time_s, const RatioEnvelope::Output& wanted) noexcept {
+/// The first word is placed at once: nothing of the layer was there before it.
+void Handover::follow_panel(const RatioEnvelope::Output& wanted, bool is_first) noexcept {
   const auto panel_step = table_.floor_step(wanted.panel_ratio);
-  if (!wanted.panel_known || !panel_step || !stepper_.settled(time_s)) {
+  if (!wanted.panel_known || !panel_step || !(stepper_.settled() || is_first)) {
     return;
   }
-  stepper_.place(time_s, *panel_step);
-  if (config_.available && !wanted.hand_back && stepper_.settled(time_s)) {
+  stepper_.place(*panel_step);
+  if (config_.available && !wanted.hand_back && stepper_.settled()) {
     masked_ = true;
-    stepper_.touch(time_s);
-    write_word(time_s, wanted);
+    stepper_.touch();
+    write_word(wanted);
   }
 }
 
-void Handover::write_word(double time_s, const RatioEnvelope::Output& wanted) noexcept {
-  stepper_.update(time_s, table_.floor_step(wanted.ratio).value_or(0));
+void Handover::write_word(const RatioEnvelope::Output& wanted) noexcept {
+  stepper_.update(table_.floor_step(wanted.ratio).value_or(0));
 }
 
-Handover::Output Handover::update(double time_s, const RatioEnvelope::Output& wanted) noexcept {
-  if (!stepper_.state().written) {
-    stepper_.touch(time_s);
-  }
-  if (!masked_) {
-    follow_panel(time_s, wanted);
-  } else if (may_release(time_s, wanted)) {
+Handover::Output Handover::update(double step_s, const RatioEnvelope::Output& wanted,
+                                  bool hold) noexcept {
+  const bool is_first = !stepper_.state().written;
+  stepper_.pass(step_s);
+  if (masked_ && (operator_releases(wanted) || (!hold && may_release(wanted)))) {
     masked_ = false;
-    stepper_.touch(time_s);
-  } else {
-    write_word(time_s, wanted);
+    stepper_.touch();
+  } else if (masked_ && !hold) {
+    write_word(wanted);
+  } else if (!hold) {
+    follow_panel(wanted, is_first);
   }
   const std::size_t step = stepper_.state().step;
   return {.ratio = masked_ ? word_ratio() : wanted.panel_ratio,
@@ -67,7 +69,7 @@ Handover::Output Handover::update(double time_s, const RatioEnvelope::Output& wa
 
 void Handover::restore(const State& state) noexcept {
   stepper_.restore(state.word);
-  masked_ = state.masked && config_.available;
+  masked_ = state.masked && state.word.written && config_.available;
 }
 
 }  // namespace steadyrest::kernel::override

@@ -24,8 +24,10 @@ namespace steadyrest::kernel::override {
 ///             back at the panel and the word stands at the largest step not above it, so that
 ///             handing back raises the value by less than one step. The word stands still for one
 ///             more scan.
-/// Panel 0 takes the mask off in the same cycle. A panel whose code is unknown is never masked
-/// anew.
+/// Panel 0 takes the mask off in the same cycle. A panel whose code is unknown is never masked.
+///   hold:     the word stays where it is, also in the middle of a walk, and no mask goes on; the
+///             mask goes off only for the operator (panel 0, or panel below the word).
+/// Waits are counted in good time (`step_s`), so a cycle whose time is none settles nothing.
 class Handover {
  public:
   struct Config {
@@ -48,7 +50,8 @@ class Handover {
 
   [[nodiscard]] static outcome::Result<Handover> make(Table table, const Config& config);
 
-  Output update(double time_s, const RatioEnvelope::Output& wanted) noexcept;
+  /// `step_s`: good time since the last cycle; `hold`: thread or tap.
+  Output update(double step_s, const RatioEnvelope::Output& wanted, bool hold = false) noexcept;
 
   [[nodiscard]] const Table& table() const noexcept { return table_; }
   [[nodiscard]] bool available() const noexcept { return config_.available; }
@@ -56,14 +59,17 @@ class Handover {
     return {.word = stepper_.state(), .masked = masked_};
   }
   void restore(const State& state) noexcept;
+  /// What the word's wires show is not known, and no mask is on.
+  void reset() noexcept { restore({}); }
 
  private:
   Handover(Table table, Stepper stepper, const Config& config)
       : table_(std::move(table)), stepper_(stepper), config_(config) {}
   [[nodiscard]] double word_ratio() const noexcept { return table_.ratio(stepper_.state().step); }
-  void follow_panel(double time_s, const RatioEnvelope::Output& wanted) noexcept;
-  void write_word(double time_s, const RatioEnvelope::Output& wanted) noexcept;
-  [[nodiscard]] bool may_release(double time_s, const RatioEnvelope::Output& wanted) const noexcept;
+  void follow_panel(const RatioEnvelope::Output& wanted, bool is_first) noexcept;
+  void write_word(const RatioEnvelope::Output& wanted) noexcept;
+  [[nodiscard]] bool operator_releases(const RatioEnvelope::Output& wanted) const noexcept;
+  [[nodiscard]] bool may_release(const RatioEnvelope::Output& wanted) const noexcept;
 
   Table table_;
   Stepper stepper_;

@@ -67,49 +67,39 @@ outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config)
   return Stepper(table.steps(), config);
 }
 
-std::size_t Stepper::update(double time_s, std::size_t target) noexcept {
+void Stepper::pass(double step_s) noexcept {
+  const bool counts = state_.written && std::isfinite(step_s) && step_s > 0.0;
+  state_.stood_s = counts ? state_.stood_s + step_s : state_.stood_s;
+  state_.written = true;
+}
+
+std::size_t Stepper::update(std::size_t target) noexcept {
   target = std::min(target, steps_ - 1);
-  if (!state_.written) {
-    touch(time_s);
-  }
-  if (!std::isfinite(time_s) || target == state_.step) {
-    return state_.step;
-  }
   if (config_.latched) {
-    place(time_s, target);
-  } else if (time_s < state_.changed_s) {
-    state_.changed_s = time_s;
-  } else if (settled(time_s)) {
-    place(time_s, target > state_.step ? state_.step + 1 : state_.step - 1);
+    place(target);
+  } else if (target != state_.step && settled()) {
+    place(target > state_.step ? state_.step + 1 : state_.step - 1);
   }
   return state_.step;
 }
 
-void Stepper::place(double time_s, std::size_t step) noexcept {
+void Stepper::place(std::size_t step) noexcept {
   step = std::min(step, steps_ - 1);
   if (step != state_.step) {
     state_.step = step;
-    touch(time_s);
+    touch();
   }
 }
 
-void Stepper::touch(double time_s) noexcept {
-  if (std::isfinite(time_s)) {
-    state_.changed_s = time_s;
-    state_.written = true;
-  }
-}
-
-bool Stepper::settled(double time_s) const noexcept {
-  return config_.latched ||
-         (state_.written && time_s - state_.changed_s >= config_.scan_period_s - kTimeTolerance);
+bool Stepper::settled() const noexcept {
+  return config_.latched || state_.stood_s >= config_.scan_period_s - kTimeTolerance;
 }
 
 void Stepper::restore(const State& state) noexcept {
   state_ = state;
   state_.step = std::min(state_.step, steps_ - 1);
-  if (!std::isfinite(state_.changed_s)) {
-    state_.changed_s = 0.0;
+  if (!(std::isfinite(state_.stood_s) && state_.stood_s >= 0.0)) {
+    state_.stood_s = 0.0;
   }
 }
 

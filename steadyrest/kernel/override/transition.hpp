@@ -24,8 +24,9 @@ namespace steadyrest::kernel::override {
 /// Brings the word of one override switch from step to step.
 ///
 /// A latched word takes effect as a whole and goes to its target at once. Any other word walks from
-/// neighbour to neighbour and stands for one scan period at each, so that at most one bit is in
-/// motion at any scan. Works on step numbers; ratio and code are the table's.
+/// neighbour to neighbour and stays for one scan period at each, so that at most one bit is in
+/// motion at any scan. Works on step numbers; ratio and code are the table's. Time comes in as the
+/// good time of each cycle, so that no fault of a clock can shorten the wait or stop it.
 class Stepper {
  public:
   struct Config {
@@ -35,26 +36,28 @@ class Stepper {
 
   struct State {
     std::size_t step = 0;
-    double changed_s = 0.0;  ///< time of the last change
-    bool written = false;    ///< a first word has been out; what stood before is not known
+    double stood_s = 0.0;  ///< good time since the last change
+    bool written = false;  ///< a first word has been out; what was there before is not known
   };
 
   /// Refuses a word that is neither latched nor safe to walk, and a time that is not finite or < 0.
   [[nodiscard]] static outcome::Result<Stepper> make(const Table& table, const Config& config);
 
-  /// One cycle: the step whose word is to be written now. A time that is not finite changes
-  /// nothing; one that runs backwards starts the wait anew.
-  std::size_t update(double time_s, std::size_t target) noexcept;
+  /// A cycle has passed: the word that was written then has stood for `step_s` more. The first
+  /// cycle only says that a word is written from now on.
+  void pass(double step_s) noexcept;
+  /// The step whose word is to be written now.
+  std::size_t update(std::size_t target) noexcept;
 
   /// Puts the word at a step at once: allowed only while nothing reads it (the mask is off).
-  void place(double time_s, std::size_t step) noexcept;
+  void place(std::size_t step) noexcept;
   /// Says that something that belongs to the word changed (the mask): the next change waits.
-  void touch(double time_s) noexcept;
+  void touch() noexcept { state_.stood_s = 0.0; }
   /// The word has stood for a whole scan: every reader has seen it.
-  [[nodiscard]] bool settled(double time_s) const noexcept;
+  [[nodiscard]] bool settled() const noexcept;
 
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// A step beyond the table is brought to its last.
+  /// A step beyond the table is brought to its last; a wait that is none begins again.
   void restore(const State& state) noexcept;
 
  private:

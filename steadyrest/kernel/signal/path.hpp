@@ -16,7 +16,7 @@ using AxisValues = std::array<double, kMaxAxes>;  ///< mm for linear axes, rad f
 
 /// What the control does with a piece of path.
 enum class Motion : std::uint8_t {
-  idle,         ///< standstill, no block active
+  idle,         ///< standstill, no block active; a feed hold in a block stays that block's motion
   rapid,        ///< G0: rapid override applies
   feed,         ///< G1–G3 in the cut: feed override applies
   thread,       ///< G33, G76: the override is fixed at 100 %

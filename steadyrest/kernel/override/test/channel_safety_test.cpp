@@ -54,7 +54,6 @@ Scene random_scene(bool may_exceed = false) {
   Scene scene{.config = random_config(may_exceed), .inputs = {}};
   const auto& ratio = scene.config.table.ratio;
   const double cycle_s = *rc::gen::inRange(1, 20) / 1000.0;
-  double time_s = *rc::gen::inRange(-10, 10);
   const int acts = *rc::gen::inRange(1, 12);
   RatioEnvelope::Input input;
   for (int act = 0; act < acts; ++act) {
@@ -76,12 +75,13 @@ Scene random_scene(bool may_exceed = false) {
     input.panel.panel_code = input.panel.panel_code_known ? 1U : 0xFFFFU;
     const int cycles = *rc::gen::inRange(1, 120);
     for (int i = 0; i < cycles; ++i) {
-      time_s += cycle_s;
-      input.time_s = time_s;
+      input.step_s = cycle_s;
       scene.inputs.push_back(input);
     }
     if (*rc::gen::inRange(0, 6) == 0) {
-      time_s += 5.0;
+      scene.inputs.back().step_s =
+          *rc::gen::element(5.0, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity());
     }
   }
   return scene;
@@ -155,19 +155,18 @@ RC_GTEST_PROP(Safety, TheLayerNeverRaisesTheFeedByAJump, (bool may_exceed)) {
   // table, unless it is the operator who turns his switch up while no mask is on.
   const Scene scene = random_scene(may_exceed);
   double bound = std::numeric_limits<double>::infinity();
-  double last_s = 0.0;
-  play(scene,
-       [&](auto& channel, auto& input, auto&, auto&, auto&, double before, double now, double) {
-         const double passed_s = std::clamp(input.time_s - last_s, 0.0, scene.config.max_step_s);
-         last_s = input.time_s;
-         const double step = widest_step(channel.table()) + kTolerance;
-         // `before` has the last word with this cycle's panel: a rise up to there is the
-         // operator's.
-         bound = std::max(bound, before + step) + scene.config.rise_1_s * passed_s;
-         RC_ASSERT(now <= bound);
-         RC_ASSERT(now <= before + step + scene.config.rise_1_s * passed_s);
-         bound = std::min(bound, now + step);
-       });
+  play(scene, [&](auto& channel, auto& input, auto&, auto&, auto&, double before, double now,
+                  double) {
+    const double passed_s =
+        std::isfinite(input.step_s) ? std::clamp(input.step_s, 0.0, scene.config.max_step_s) : 0.0;
+    const double step = widest_step(channel.table()) + kTolerance;
+    // `before` has the last word with this cycle's panel: a rise up to there is the
+    // operator's.
+    bound = std::max(bound, before + step) + scene.config.rise_1_s * passed_s;
+    RC_ASSERT(now <= bound);
+    RC_ASSERT(now <= before + step + scene.config.rise_1_s * passed_s);
+    bound = std::min(bound, now + step);
+  });
 }
 
 RC_GTEST_PROP(Safety, QuantisedDownNeverAboveWhatTheSlewAllows, ()) {
@@ -186,8 +185,8 @@ RC_GTEST_PROP(Safety, QuantisedDownNeverAboveWhatTheSlewAllows, ()) {
 void settle(Scene& scene, RatioEnvelope::Input input) {
   input.hold = false;
   input.panel.panel_code_known = true;
+  input.step_s = 0.002;
   for (double waited_s = 0.0; waited_s < 3.0; waited_s += 0.002) {
-    input.time_s += 0.002;
     scene.inputs.push_back(input);
   }
 }
@@ -246,7 +245,8 @@ RC_GTEST_PROP(Safety, AnUnknownPanelCodeIsNeverMaskedAnew, (bool may_exceed)) {
        [](auto&, auto& input, auto& output, const Word& from, auto&, double, double, double) {
          if (!input.panel.panel_code_known) {
            RC_ASSERT(!output.masks_panel || from.masks);
-           RC_ASSERT(output.reason == Reason::unknown_override_code || input.unfit != Reason::none);
+           RC_ASSERT(output.reason == Reason::unknown_override_code ||
+                     input.unfit != Reason::none || !std::isfinite(input.step_s));
          }
        });
 }
@@ -265,6 +265,23 @@ RC_GTEST_PROP(Safety, UnfitInputEndsWithThePanelHandedBack, (bool may_exceed)) {
   RC_ASSERT(last.reason == fault);
 }
 
+RC_GTEST_PROP(Safety, AThreadHoldsTheWordWhateverComesIn, (bool may_exceed)) {
+  // Only the operator moves what is in force: by panel 0, or by a panel below the word.
+  play(random_scene(may_exceed), [&](auto&, auto& input, auto&, const Word& from, const Word& to,
+                                     double before, double now, double panel) {
+    if (!input.hold) {
+      return;
+    }
+    RC_ASSERT(from.code == to.code || !(from.masks || to.masks));
+    RC_ASSERT(!to.masks || from.masks);
+    if (from.masks && !to.masks) {
+      RC_ASSERT(panel == 0.0 || (panel < before && !may_exceed));
+    } else {
+      RC_ASSERT(now == before);
+    }
+  });
+}
+
 RC_GTEST_PROP(Safety, APortThatCannotWriteIsNeverAskedTo, ()) {
   Scene scene = random_scene();
   scene.config.available = false;
@@ -280,7 +297,7 @@ TEST(Channel, AskedForASteadyWishItStandsOnTheLargestStepBelow) {
   input.panel.panel_code = 0b11010;
   Channel::Output output;
   for (int ms = 0; ms < 200; ++ms) {
-    input.time_s = 0.001 * ms;
+    input.step_s = 0.001;
     output = channel->update(input);
   }
   EXPECT_TRUE(output.masks_panel);
@@ -295,7 +312,7 @@ TEST(Channel, OnTheDmgTableTheWordForSeventyPercentIsTheOneThatElsewhereMeansHun
   RatioEnvelope::Input input{.ratio = 0.7, .reason = Reason::contour_limit};
   Channel::Output output;
   for (int ms = 0; ms < 200; ++ms) {
-    input.time_s = 0.001 * ms;
+    input.step_s = 0.001;
     output = channel->update(input);
   }
   EXPECT_EQ(output.ratio, 0.7);
@@ -309,7 +326,7 @@ TEST(Channel, TheLowerLimitIsAStepOfTheTable) {
   RatioEnvelope::Input input{.ratio = 0.0, .reason = Reason::contour_limit};
   Channel::Output output;
   for (int ms = 0; ms < 500; ++ms) {
-    input.time_s = 0.001 * ms;
+    input.step_s = 0.001;
     output = channel->update(input);
   }
   EXPECT_EQ(output.ratio, 0.30);
@@ -322,7 +339,7 @@ TEST(Channel, WhereThePortCannotWriteTheReasonSaysSo) {
   RatioEnvelope::Input input{.ratio = 0.3, .reason = Reason::contour_limit};
   Channel::Output output;
   for (int ms = 0; ms < 500; ++ms) {
-    input.time_s = 0.001 * ms;
+    input.step_s = 0.001;
     output = channel->update(input);
   }
   EXPECT_FALSE(output.masks_panel);
@@ -344,12 +361,12 @@ TEST(Channel, ARestoredStateGoesOnWhereItWas) {
   ASSERT_TRUE(second);
   RatioEnvelope::Input input{.ratio = 0.3, .reason = Reason::contour_limit};
   for (int ms = 0; ms < 90; ++ms) {
-    input.time_s = 0.001 * ms;
+    input.step_s = 0.001;
     first->update(input);
   }
   second->restore(first->state());
   for (int ms = 90; ms < 300; ++ms) {
-    input.time_s = 0.001 * ms;
+    input.step_s = 0.001;
     const auto a = first->update(input);
     const auto b = second->update(input);
     ASSERT_EQ(a.code, b.code);

@@ -14,18 +14,15 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kCycle_s = 0.001;
 
-/// One envelope and its clock; each call is one cycle of 1 ms.
+/// One envelope; each call is one cycle of 1 ms.
 class RatioBench {
  public:
   explicit RatioBench(const RatioEnvelope::Config& config = {})
       : envelope_(RatioEnvelope::make(config).value()) {}
 
-  RatioEnvelope::Input input;
+  RatioEnvelope::Input input{.step_s = kCycle_s};
 
-  RatioEnvelope::Output cycle() {
-    input.time_s += kCycle_s;
-    return envelope_.update(input);
-  }
+  RatioEnvelope::Output cycle() { return envelope_.update(input); }
   RatioEnvelope::Output cycles(int count) {
     auto output = cycle();
     for (int i = 1; i < count; ++i) {
@@ -132,10 +129,12 @@ TEST(RatioEnvelope, TimeThatIsNotFiniteMovesNothing) {
   bench.wish(0.4);
   bench.cycles(100);
   auto input = bench.input;
-  input.time_s = kNan;
-  const auto output = bench.envelope().update(input);
-  EXPECT_EQ(output.ratio, 0.4);
-  EXPECT_EQ(output.reason, Reason::input_not_finite);
+  for (const double no_time_s : {kNan, kInf, -kInf}) {
+    input.step_s = no_time_s;
+    const auto output = bench.envelope().update(input);
+    EXPECT_EQ(output.ratio, 0.4);
+    EXPECT_EQ(output.reason, Reason::input_not_finite);
+  }
   EXPECT_EQ(bench.cycle().ratio, 0.4);
 }
 
@@ -145,9 +144,9 @@ TEST(RatioEnvelope, AGapInTheInputIsNoLicenceToJump) {
   bench.wish(0.2);
   bench.cycles(200);
   bench.wish(1.0);
-  bench.input.time_s += 60.0;
+  bench.input.step_s = 60.0;
   EXPECT_NEAR(bench.cycle().ratio, 0.4, 1e-9) << "0.1 s of credit at 2 1/s";
-  bench.input.time_s -= 30.0;
+  bench.input.step_s = -30.0;
   EXPECT_NEAR(bench.cycle().ratio, 0.4, 1e-9) << "time that runs backwards gives none";
 }
 
@@ -161,6 +160,9 @@ TEST(RatioEnvelope, HoldKeepsTheRatioButNotAgainstTheOperator) {
   bench.input.reason = Reason::withdrawn_thread;
   EXPECT_EQ(bench.cycles(500).ratio, 0.6);
   EXPECT_EQ(bench.cycle().reason, Reason::withdrawn_thread);
+  bench.input.unfit = Reason::input_stale;
+  EXPECT_EQ(bench.cycles(500).ratio, 0.6) << "unfit input does not move it";
+  EXPECT_EQ(bench.cycle().reason, Reason::input_stale);
   bench.panel(0.2);
   EXPECT_EQ(bench.cycle().ratio, 0.2);
   bench.panel(0.0);
@@ -200,7 +202,7 @@ TEST(RatioEnvelope, RefusesAConfigThatWouldSwitchItOff) {
 TEST(RatioEnvelope, AStateThatIsNotFiniteIsNotRestored) {
   RatioBench bench;
   bench.cycle();
-  bench.envelope().restore({.ratio = kNan, .panel_seen = true, .started = true});
+  bench.envelope().restore({.ratio = kNan, .panel_seen = true});
   EXPECT_EQ(bench.cycle().ratio, 1.0);
 }
 
@@ -216,12 +218,11 @@ class OffsetBench {
     return config;
   }
 
-  OffsetEnvelope::Input input;
+  OffsetEnvelope::Input input{.step_s = kCycle_s};
 
   OffsetEnvelope::Output cycles(int count) {
     OffsetEnvelope::Output output;
     for (int i = 0; i < count; ++i) {
-      input.time_s += kCycle_s;
       output = envelope_.update(input);
     }
     return output;
@@ -235,7 +236,7 @@ TEST(OffsetEnvelope, SlewsAndClampsEachAxis) {
   OffsetBench bench;
   bench.input.request.offset_mm[0] = 0.01;
   bench.input.request.offset_mm[2] = -5.0;
-  auto output = bench.cycles(101);  // the first cycle only sets the clock
+  auto output = bench.cycles(100);
   EXPECT_NEAR(output.offset_mm[0], 0.005, 1e-12);
   EXPECT_NEAR(output.offset_mm[2], -0.005, 1e-12);
   EXPECT_EQ(output.reason, Reason::slew_limited);
@@ -273,6 +274,20 @@ TEST(OffsetEnvelope, FreezesInTheCutThenRampsOut) {
   spoilt([](auto& input) { input.request.reason = Reason::input_out_of_range; },
          Reason::input_out_of_range);
   spoilt([](auto& input) { input.request.reason = Reason::none; }, Reason::none);
+}
+
+TEST(OffsetEnvelope, ARestoredOffsetIsCutToTheLimitAndNoNumberIsNotTaken) {
+  auto envelope = OffsetEnvelope::make(OffsetBench::config());
+  ASSERT_TRUE(envelope);
+  OffsetEnvelope::State state;
+  state.offset_mm[0] = 5.0;
+  state.offset_mm[1] = 0.1;
+  envelope->restore(state);
+  EXPECT_EQ(envelope->update({}).offset_mm[0], 0.2);
+  EXPECT_EQ(envelope->update({}).offset_mm[1], 0.0) << "this axis takes none";
+  state.offset_mm[2] = kNan;
+  envelope->restore(state);
+  EXPECT_TRUE(envelope->update({}).at_zero);
 }
 
 TEST(OffsetEnvelope, RefusesLimitsThatAreNone) {

@@ -78,8 +78,8 @@ TEST(Transition, BinaryWordIsRefusedUnlessLatched) {
 
   auto latched = Stepper::make(*table, {.latched = true});
   ASSERT_TRUE(latched);
-  EXPECT_EQ(latched->update(0.0, 150), 150U) << "one latched word";
-  EXPECT_EQ(latched->update(0.001, 20), 20U);
+  EXPECT_EQ(latched->update(150), 150U) << "one latched word";
+  EXPECT_EQ(latched->update(20), 20U);
 }
 
 TEST(Transition, RefusesAScanPeriodThatIsNone) {
@@ -97,13 +97,14 @@ TEST(Stepper, WalksOneNeighbourForEachScan) {
   ASSERT_TRUE(stepper);
   std::vector<std::size_t> seen;
   for (int ms = 0; ms <= 60; ++ms) {
-    const auto step = stepper->update(1.0 + 0.001 * ms, 3);
+    stepper->pass(0.001);
+    const auto step = stepper->update(3);
     if (seen.empty() || seen.back() != step) {
       seen.push_back(step);
     }
   }
   EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 2, 3}));
-  EXPECT_NEAR(stepper->state().changed_s, 1.030, 1e-9) << "a scan for each, the first word too";
+  EXPECT_NEAR(stepper->state().stood_s, 0.030, 1e-9) << "a scan for each, the first word too";
 }
 
 TEST(Stepper, ATargetBeyondTheTableIsItsLastStep) {
@@ -111,21 +112,26 @@ TEST(Stepper, ATargetBeyondTheTableIsItsLastStep) {
   ASSERT_TRUE(table);
   auto stepper = Stepper::make(*table, {.latched = true});
   ASSERT_TRUE(stepper);
-  EXPECT_EQ(stepper->update(0.0, 1000), 22U);
+  EXPECT_EQ(stepper->update(1000), 22U);
 }
 
-TEST(Stepper, TimeThatIsNotFiniteOrRunsBackwardsDoesNotHurry) {
+TEST(Stepper, TimeThatIsNoneNeitherHurriesNorDelays) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
   auto stepper = Stepper::make(*table, {.latched = false, .scan_period_s = 0.01});
   ASSERT_TRUE(stepper);
-  EXPECT_EQ(stepper->update(9.99, 5), 0U);
-  EXPECT_EQ(stepper->update(10.0, 5), 1U);
-  EXPECT_EQ(stepper->update(std::numeric_limits<double>::quiet_NaN(), 5), 1U);
-  EXPECT_EQ(stepper->update(std::numeric_limits<double>::infinity(), 5), 1U);
-  EXPECT_EQ(stepper->update(3.0, 5), 1U);
-  EXPECT_EQ(stepper->update(3.005, 5), 1U);
-  EXPECT_EQ(stepper->update(3.010, 5), 2U) << "a whole scan after the clock was set back";
+  const auto cycle = [&](double step_s) {
+    stepper->pass(step_s);
+    return stepper->update(5);
+  };
+  EXPECT_EQ(cycle(9.99), 0U) << "before the first word nothing has stood";
+  EXPECT_EQ(cycle(0.010), 1U);
+  EXPECT_EQ(cycle(std::numeric_limits<double>::quiet_NaN()), 1U);
+  EXPECT_EQ(cycle(std::numeric_limits<double>::infinity()), 1U);
+  EXPECT_EQ(cycle(0.009), 1U);
+  EXPECT_EQ(cycle(-7.0), 1U);
+  EXPECT_EQ(cycle(0.0), 1U);
+  EXPECT_EQ(cycle(0.001), 2U) << "a whole scan of good time, neither sooner nor later";
 }
 
 RC_GTEST_PROP(Stepper, NoIntermediateWordDecodesOutsideOfFromAndTo, ()) {
@@ -137,14 +143,15 @@ RC_GTEST_PROP(Stepper, NoIntermediateWordDecodesOutsideOfFromAndTo, ()) {
   const auto from = *rc::gen::inRange<std::size_t>(0, table->steps());
   const auto to = *rc::gen::inRange<std::size_t>(0, table->steps());
   const int cycle_ms = *rc::gen::inRange(1, 30);
-  stepper->place(0.0, from);
+  stepper->place(from);
   const auto [low, high] = std::minmax({table->ratio(from), table->ratio(to)});
   double time_s = 0.0;
   double word_since_s = 0.0;
   std::size_t before = from;
   for (int i = 0; i < 30 * 31 && before != to; ++i) {
     time_s += 0.001 * cycle_ms;
-    const auto step = stepper->update(time_s, to);
+    stepper->pass(0.001 * cycle_ms);
+    const auto step = stepper->update(to);
     for (const auto word : words_between(table->code(before), table->code(step))) {
       const auto seen = table->step_of_code(word);
       RC_ASSERT(seen.has_value());

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <steadyrest/supervisor/frame_clock.hpp>
+
+namespace steadyrest::supervisor {
+namespace {
+
+using kernel::outcome::Reason;
+
+constexpr double kSlackSteps = 1.5;    // beyond the calls: a late stamp and a lost frame
+constexpr double kMemorySteps = 16.0;  // of the usual step
+constexpr std::uint32_t kSlowerRun = 16;
+constexpr double kLongestStepS = 10.0;  // no source delivers more slowly
+
+}  // namespace
+
+FrameClock::Tick FrameClock::begin(double stamp_s) noexcept {
+  const double time_s = this->time_s();
+  state_ = {.stamp_s = stamp_s,
+            .shift_s = state_.started ? time_s - stamp_s : 0.0,
+            .usual_s = state_.usual_s,
+            .started = true};
+  return {.time_s = this->time_s(), .good = true, .set = true};
+}
+
+FrameClock::Tick FrameClock::accept(double stamp_s, double step_s) noexcept {
+  if (step_s > 0.0) {
+    state_.usual_s += (step_s - state_.usual_s) / kMemorySteps;
+  }
+  state_.stamp_s = stamp_s;
+  state_.doubts = 0;
+  state_.run = 0;
+  state_.in_doubt = false;
+  return {.time_s = time_s(), .step_s = step_s, .good = true};
+}
+
+FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
+  const bool earlier = stamp_s < state_.stamp_s;
+  if (state_.in_doubt && stamp_s > state_.candidate_s) {
+    const double step_s = stamp_s - state_.candidate_s;
+    const bool follows = step_s <= (1.0 + kSlackSteps) * state_.usual_s;
+    state_.run = step_s <= kLongestStepS ? state_.run + 1 : 0;
+    state_.run_from_s = state_.run == 0 ? stamp_s : state_.run_from_s;
+    const bool slower = state_.run >= kSlowerRun;
+    if (follows || slower) {
+      if (!follows) {
+        state_.usual_s = (stamp_s - state_.run_from_s) / static_cast<double>(state_.run);
+      }
+      const double credit_s = follows ? step_s : 0.0;
+      if (earlier) {
+        const double time_s = this->time_s() + credit_s;
+        state_.shift_s = time_s - stamp_s;
+      }
+      Tick tick = accept(stamp_s, credit_s);
+      tick.set = earlier;
+      return tick;
+    }
+  } else if (!state_.in_doubt || stamp_s < state_.candidate_s) {
+    state_.run = 0;
+    state_.run_from_s = stamp_s;
+  }
+  state_.candidate_s = stamp_s;
+  state_.in_doubt = true;
+  return {.time_s = time_s(), .fault = earlier ? Reason::input_out_of_range : Reason::none};
+}
+
+FrameClock::Tick FrameClock::update(double stamp_s) noexcept {
+  if (!std::isfinite(stamp_s)) {
+    state_.doubts += state_.doubts < std::numeric_limits<std::uint32_t>::max() ? 1U : 0U;
+    return {.time_s = time_s(), .fault = Reason::input_not_finite};
+  }
+  if (!state_.started) {
+    return begin(stamp_s);
+  }
+  const double calls = static_cast<double>(state_.doubts) + 1.0;
+  const double passed_s = stamp_s - state_.stamp_s;
+  if (passed_s >= 0.0 && passed_s <= (calls + kSlackSteps) * state_.usual_s) {
+    const double before_s = time_s();
+    return accept(stamp_s, (stamp_s + state_.shift_s - before_s) / calls);
+  }
+  state_.doubts += state_.doubts < std::numeric_limits<std::uint32_t>::max() ? 1U : 0U;
+  return doubt(stamp_s);
+}
+
+void FrameClock::restore(const State& state) noexcept {
+  const bool fit = std::isfinite(state.stamp_s) && std::isfinite(state.shift_s) &&
+                   std::isfinite(state.candidate_s) && std::isfinite(state.run_from_s) &&
+                   std::isfinite(state.usual_s) && state.usual_s > 0.0;
+  state_ = fit ? state : State{.usual_s = usual_s_};
+}
+
+}  // namespace steadyrest::supervisor

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <steadyrest/kernel/outcome/reason.hpp>
+
+namespace steadyrest::supervisor {
+
+/// Good time: the one clock from which every slew, timer and wait of the layer is fed, made from
+/// the frames' time stamps and from nothing else.
+///
+/// Law, t the stamp of this call, t₀ the last good one, n the calls since then, T the usual step:
+///   good      0 ≤ t − t₀ ≤ (n + 1.5)·T. The step counts (t − t₀)/n: where calls between had no
+///   good
+///             stamp, their time is not made up for. T follows the steps, by 1/16 of the
+///             difference.
+///   in doubt  anything else: no credit, good time stands. t becomes a candidate.
+///   set       t is later than the candidate by no more than 2.5·T: the clock goes on from there,
+///             and the step counts t − candidate. Forward, the time between has passed (`time_s`
+///             takes it in) but nobody was there, so it gives no credit. Backwards, good time goes
+///             on without a step. A stamp that returns to t₀'s time is good again: a single wrong
+///             stamp moves nothing.
+///   slower    sixteen steps in doubt one after another, all forward and none above 10 s: T becomes
+///             their mean. A source that delivers every 75 ms counts from the 17th frame on.
+/// So the credit never passes the time by the stamps, at any stamps, save that a clock which runs
+/// fast all the time cannot be told from the right one: there is no other clock here.
+/// `time_s` never runs backwards; as long as all stamps are good it is the stamp itself, exactly.
+class FrameClock {
+ public:
+  struct Tick {
+    double time_s = 0.0;  ///< good time, for the rooms
+    double step_s = 0.0;  ///< credit of this cycle, ≥ 0
+    bool good = false;    ///< the stamp counts
+    bool set = false;     ///< the clock began or went back: what passed meanwhile is not known
+    /// none; input_not_finite; input_out_of_range: the stamp is earlier than the last good one
+    kernel::outcome::Reason fault = kernel::outcome::Reason::none;
+  };
+
+  struct State {
+    double stamp_s = 0.0;  ///< t₀
+    double shift_s = 0.0;  ///< time_s = stamp_s + shift_s
+    double usual_s = 0.0;  ///< T
+    double candidate_s = 0.0;
+    double run_from_s = 0.0;   ///< first stamp of a run of later and later ones in doubt
+    std::uint32_t doubts = 0;  ///< calls since t₀ without a good stamp
+    std::uint32_t run = 0;
+    bool in_doubt = false;  ///< there is a candidate
+    bool started = false;
+  };
+
+  /// `usual_s` > 0: T to begin with.
+  explicit FrameClock(double usual_s) noexcept : usual_s_(usual_s) { state_.usual_s = usual_s; }
+
+  Tick update(double stamp_s) noexcept;
+
+  [[nodiscard]] double time_s() const noexcept { return state_.stamp_s + state_.shift_s; }
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// A state that is not finite is not taken: the clock begins with the next stamp.
+  void restore(const State& state) noexcept;
+
+ private:
+  Tick begin(double stamp_s) noexcept;
+  Tick accept(double stamp_s, double step_s) noexcept;
+  Tick doubt(double stamp_s) noexcept;
+
+  double usual_s_;
+  State state_;
+};
+
+}  // namespace steadyrest::supervisor

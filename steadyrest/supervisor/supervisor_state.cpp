@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/supervisor/supervisor.hpp>
+
+// What is on the machine: taken back, brought back after a restart, or given up.
+namespace steadyrest::supervisor {
+
+using kernel::override::Channel;
+
+/// Nothing of the layer is on the machine, and what its words show is not known.
+void Supervisor::begin_at_panel() noexcept {
+  for (auto* channel : {&feed_, &spindle_}) {
+    if (*channel) {
+      (*channel)->reset();
+    }
+  }
+  offset_.reset();
+  if (thermal_) {
+    thermal_->yield_to({});
+  }
+  handed_back_ = true;
+}
+
+void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
+  if (!state_.interrupted || !tick.good) {
+    return;
+  }
+  state_.interrupted = false;
+  if (tick.set || tick.time_s - state_.delivered_s > watchdog_s_) {
+    begin_at_panel();
+  }
+}
+
+Supervisor::Written Supervisor::written() const noexcept {
+  return {.feed = feed_ ? feed_->state() : Channel::State{},
+          .spindle = spindle_ ? spindle_->state() : Channel::State{},
+          .offset = offset_.state(),
+          .delivered_s = state_.delivered_s};
+}
+
+void Supervisor::put_back(const Written& written) noexcept {
+  if (feed_) {
+    feed_->restore(written.feed);
+  }
+  if (spindle_) {
+    spindle_->restore(written.spindle);
+  }
+  offset_.restore(written.offset);
+  state_.delivered_s = written.delivered_s;
+  handed_back_ = false;
+}
+
+void Supervisor::not_delivered() noexcept {
+  put_back(before_);
+  if (thermal_) {
+    thermal_->yield_to(before_.offset.offset_mm);
+  }
+  state_.interrupted = true;
+}
+
+Supervisor::State Supervisor::state() const noexcept {
+  State state = state_;
+  const Written now = written();
+  state.feed = now.feed;
+  state.spindle = now.spindle;
+  state.offset = now.offset;
+  state.clock = clock_.state();
+  if (thermal_) {
+    state.thermal = thermal_->state();
+  }
+  return state;
+}
+
+void Supervisor::restore(const State& state) noexcept {
+  state_ = state;
+  state_.interrupted = true;
+  state_.idle_s = std::isfinite(state.idle_s) ? std::max(0.0, state.idle_s) : 0.0;
+  clock_.restore(state.clock);
+  put_back({.feed = state.feed,
+            .spindle = state.spindle,
+            .offset = state.offset,
+            .delivered_s = state.delivered_s});
+  motion_.reset();
+  if (contour_) {
+    contour_->reset();
+    estimates_.contour.reset();
+  }
+  if (chatter_) {
+    chatter_->reset();
+    estimates_.chatter.reset();
+  }
+  if (listener_) {
+    listener_->reset();
+    estimates_.heard.reset();
+  }
+  if (thermal_) {
+    thermal_->restore(state.thermal);
+    estimates_.thermal.reset();
+  }
+}
+
+}  // namespace steadyrest::supervisor

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <steadyrest/supervisor/frame_clock.hpp>
+
+namespace steadyrest::supervisor {
+namespace {
+
+using kernel::outcome::Reason;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kCycle_s = 0.004;
+
+FrameClock running() {
+  FrameClock clock(kCycle_s);
+  for (int i = 1; i <= 100; ++i) {
+    clock.update(kCycle_s * i);
+  }
+  return clock;
+}
+
+TEST(FrameClock, WhereAllStampsAreGoodItIsTheStamp) {
+  FrameClock clock(kCycle_s);
+  for (int i = 1; i < 100'000; ++i) {
+    const double stamp_s = kCycle_s * i;
+    const auto tick = clock.update(stamp_s);
+    ASSERT_TRUE(tick.good);
+    ASSERT_EQ(tick.time_s, stamp_s);
+    ASSERT_NEAR(tick.step_s, i == 1 ? 0.0 : kCycle_s, 1e-9);
+  }
+}
+
+TEST(FrameClock, OneWrongStampGivesNoCreditAndMovesNothing) {
+  for (const double wrong_s : {-1.0, -1e9, 0.3, 0.4 + 0.15, 5.0, 1e300, kNan, kInf, -kInf}) {
+    FrameClock clock = running();
+    const auto doubted = clock.update(wrong_s);
+    EXPECT_FALSE(doubted.good) << wrong_s;
+    EXPECT_EQ(doubted.step_s, 0.0) << wrong_s;
+    EXPECT_EQ(doubted.time_s, 0.4) << wrong_s;
+    const auto again = clock.update(0.4 + 2 * kCycle_s);
+    EXPECT_TRUE(again.good) << wrong_s;
+    EXPECT_NEAR(again.step_s, kCycle_s, 1e-12) << wrong_s;
+    EXPECT_EQ(again.time_s, 0.4 + 2 * kCycle_s) << wrong_s;
+  }
+}
+
+TEST(FrameClock, TimeThatStandsGivesNoCredit) {
+  FrameClock clock = running();
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(clock.update(0.4).step_s, 0.0);
+  }
+  EXPECT_NEAR(clock.update(0.4 + kCycle_s).step_s, kCycle_s, 1e-12);
+}
+
+TEST(FrameClock, AClockThatWasSetBackGoesOnFromItsSecondStamp) {
+  FrameClock clock = running();
+  EXPECT_EQ(clock.update(0.1).fault, Reason::input_out_of_range);
+  const auto tick = clock.update(0.1 + kCycle_s);
+  EXPECT_TRUE(tick.good);
+  EXPECT_TRUE(tick.set);
+  EXPECT_EQ(tick.fault, Reason::none);
+  EXPECT_NEAR(tick.step_s, kCycle_s, 1e-12);
+  EXPECT_NEAR(tick.time_s, 0.4 + kCycle_s, 1e-12) << "good time never runs backwards";
+}
+
+TEST(FrameClock, AGapPassesButGivesNoCredit) {
+  FrameClock clock = running();
+  const auto first = clock.update(60.0);
+  EXPECT_FALSE(first.good);
+  EXPECT_EQ(first.fault, Reason::none) << "what the frame shows may be acted on";
+  const auto tick = clock.update(60.0 + kCycle_s);
+  EXPECT_TRUE(tick.good);
+  EXPECT_NEAR(tick.step_s, kCycle_s, 1e-12);
+  EXPECT_EQ(tick.time_s, 60.0 + kCycle_s);
+}
+
+TEST(FrameClock, ASlowSourceCountsFromItsSeventeenthFrame) {
+  FrameClock clock(kCycle_s);
+  double counted_s = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    counted_s += clock.update(0.075 * i).step_s;
+  }
+  EXPECT_NEAR(counted_s, 0.075 * 82, 1e-9);
+}
+
+TEST(FrameClock, LostAndLateFramesOfARegularSourceCostLittle) {
+  FrameClock clock(kCycle_s);
+  double counted_s = 0.0;
+  for (int i = 0; i < 10'000; ++i) {
+    if (i % 10 != 3) {
+      counted_s += clock.update(kCycle_s * i + (i % 3) * 0.001).step_s;
+    }
+  }
+  EXPECT_GT(counted_s, 0.95 * 10'000 * kCycle_s);
+  EXPECT_LE(counted_s, 10'000 * kCycle_s);
+}
+
+TEST(FrameClock, AStateThatIsNotFiniteIsNotRestored) {
+  FrameClock clock = running();
+  auto state = clock.state();
+  state.stamp_s = kNan;
+  clock.restore(state);
+  EXPECT_TRUE(clock.update(7.0).set);
+  EXPECT_TRUE(clock.update(7.0 + kCycle_s).good);
+}
+
+RC_GTEST_PROP(FrameClock, CreditNeverPassesTheRealTimeWhateverTheStamps, ()) {
+  // The source is called every cycle; some stamps are wrong: anywhere, not finite, or repeated.
+  FrameClock clock = running();
+  double real_s = 0.4;
+  double last_s = real_s;
+  double credit_s = 0.0;
+  const int cycles = *rc::gen::inRange(1, 400);
+  const int wrong_of_20 = *rc::gen::inRange(0, 20);
+  double offset_s = 0.0;
+  for (int i = 0; i < cycles; ++i) {
+    real_s += kCycle_s;
+    if (*rc::gen::inRange(0, 60) == 0) {
+      offset_s = *rc::gen::inRange(-1000, 1000) * 0.1;  // set, for good
+    }
+    double stamp_s = real_s + offset_s;
+    if (*rc::gen::inRange(0, 20) < wrong_of_20) {
+      stamp_s = *rc::gen::element(kNan, kInf, -kInf, 0.0, -1e300, 1e300, last_s, stamp_s - 1.0,
+                                  stamp_s - 0.05, stamp_s + 0.15, stamp_s + 30.0);
+    }
+    last_s = stamp_s;
+    const double before_s = clock.time_s();
+    const auto tick = clock.update(stamp_s);
+    credit_s += tick.step_s;
+    RC_ASSERT(tick.step_s >= 0.0);
+    RC_ASSERT(tick.step_s <= 2.5 * kCycle_s);
+    RC_ASSERT(tick.time_s >= before_s);
+    RC_ASSERT(credit_s <= real_s - 0.4 + 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::supervisor

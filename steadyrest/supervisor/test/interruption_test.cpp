@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faults of time, modes, threads, aborts and links: what a review found, as tests.
+#include <gtest/gtest.h>
+
+#include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/supervisor/test/bench.hpp>
+
+namespace steadyrest::supervisor {
+namespace {
+
+namespace signal = kernel::signal;
+using kernel::machine::Mode;
+using kernel::outcome::Reason;
+using test::Bench;
+using test::FakePort;
+using test::kAll;
+using test::kCycle_s;
+using test::kInf;
+using test::kNan;
+using test::mill;
+
+/// Words go over separate wires and are read every 20 ms.
+kernel::machine::Machine wired(Mode mode, bool may_exceed = false) {
+  auto machine = mill(mode);
+  for (auto* table : {&machine.feed_override, &machine.spindle_override}) {
+    table->latched_word = false;
+    table->scan_period_s = 0.02;
+    table->layer_may_exceed_panel = may_exceed;
+  }
+  return machine;
+}
+
+TEST(Interruption, AWrongTimeStampGivesNoCreditToAnySlew) {
+  for (const double wrong_s : {-1.0, -1e6, -0.05, 0.05, 0.15, 5.0, 1e9, kNan, kInf, -kInf}) {
+    Bench bench;
+    bench.wish_feed(0.4);
+    bench.wish_offset(0.0);
+    bench.cycles(500);
+    bench.wish_feed(1.0);
+    bench.wish_offset(0.1);
+    for (int k = 1; k <= 20; ++k) {
+      auto glitch = bench.frame;
+      glitch.time_s += kCycle_s + wrong_s;
+      auto command = bench.supervisor.update(
+          glitch, {.feed = bench.feed, .spindle = bench.spindle, .offset = bench.offset});
+      EXPECT_LE(command.feed_ratio, 0.4 + 2.0 * kCycle_s * k + 1e-9) << wrong_s;
+      command = bench.cycle();
+      EXPECT_LE(command.feed_ratio, 0.4 + 2.0 * kCycle_s * k + 1e-9) << wrong_s;
+      EXPECT_LE(command.offset_mm[2], 0.05 * kCycle_s * k + 1e-9) << wrong_s;
+    }
+    EXPECT_GT(bench.cycles(100).feed_ratio, 0.55) << wrong_s << ": and it goes on";
+  }
+}
+
+TEST(Interruption, WordsThatWereOnlyAdvisedHaveNotSettledInAct) {
+  for (const bool may_exceed : {false, true}) {
+    Bench bench(wired(Mode::advise, may_exceed));
+    if (may_exceed) {
+      bench.wish_feed(1.2);
+    }
+    bench.cycles(500);
+    bench.supervisor.set_mode(Mode::act);
+    bench.wish_feed(0.5);
+    for (int ms = 0; ms < 20; ++ms) {
+      const auto command = bench.cycle();
+      EXPECT_TRUE(command.write);
+      EXPECT_FALSE(command.feed_masks_panel) << ms << " ms after the first write";
+      EXPECT_EQ(command.feed_code, 0b11010U) << "the panel's own step, from the first write on";
+    }
+    EXPECT_TRUE(bench.cycles(2).feed_masks_panel);
+  }
+}
+
+TEST(Interruption, AFrameWithoutTimeSettlesNoWord) {
+  Bench bench(wired(Mode::act));
+  bench.wish_feed(0.5);
+  bench.frame.feed.panel_ratio = 0.0;
+  bench.cycles(100);
+  bench.frame.feed.panel_ratio = 0.95;
+  for (const double time_s : {kInf, kNan, -kInf, 0.0}) {
+    auto glitch = bench.frame;
+    glitch.time_s = time_s;
+    const auto command =
+        bench.supervisor.update(glitch, {.feed = bench.feed, .spindle = {}, .offset = {}});
+    EXPECT_FALSE(command.feed_masks_panel) << time_s;
+  }
+}
+
+TEST(Interruption, AClockThatBeginsAgainBlocksNoMask) {
+  Bench bench(wired(Mode::act));
+  bench.frame.time_s = 1000.0;
+  bench.wish_feed(0.5);
+  EXPECT_EQ(bench.cycles(500).feed_ratio, 0.5);
+  bench.frame.time_s = 0.0;
+  bench.feed.clear();
+  EXPECT_FALSE(bench.cycles(1000).feed_masks_panel) << "handed back";
+  bench.frame.time_s = -500.0;
+  bench.wish_feed(0.3);
+  EXPECT_EQ(bench.cycles(1000).feed_ratio, 0.3) << "and taken over";
+  bench.frame.time_s = -900.0;
+  bench.supervisor.set_mode(Mode::observe);
+  bench.cycles(1000);
+  EXPECT_EQ(bench.supervisor.mode_in_force(), Mode::observe);
+}
+
+TEST(Interruption, WhatTheWatchdogHasDroppedIsNotWrittenAfterARestore) {
+  for (const double away_s : {60.0, 0.5, -100.0, -1e9}) {
+    Bench first(wired(Mode::act));
+    first.wish_feed(0.5);
+    first.wish_offset(0.02);
+    first.cycles(2000);
+    Bench second(wired(Mode::act));
+    second.wish_feed(0.5);
+    second.wish_offset(0.02);
+    second.frame = first.frame;
+    second.frame.time_s += away_s;
+    second.supervisor.restore(first.supervisor.state());
+    EXPECT_FALSE(second.cycle().write) << away_s << ": nobody knows yet how long it was";
+    auto command = second.cycle();
+    EXPECT_TRUE(command.write) << away_s;
+    EXPECT_FALSE(command.feed_masks_panel) << away_s;
+    EXPECT_LE(command.offset_mm[2], 0.05 * kCycle_s + 1e-8) << away_s;
+    command = second.cycles(1000);
+    EXPECT_EQ(command.feed_ratio, 0.5) << away_s;
+    EXPECT_EQ(command.offset_mm[2], 0.02) << away_s;
+  }
+}
+
+TEST(Interruption, ARestoreWithoutTimeWritesNothing) {
+  Bench first;
+  first.wish_offset(0.02);
+  first.cycles(1000);
+  Bench second;
+  second.frame = first.frame;
+  second.supervisor.restore(first.supervisor.state());
+  auto frame = second.frame;
+  frame.time_s = kNan;
+  for (int i = 0; i < 50; ++i) {
+    const auto command = second.supervisor.update(frame);
+    EXPECT_FALSE(command.write);
+    EXPECT_EQ(command.offset_mm[2], 0.0);
+  }
+}
+
+TEST(Interruption, AWordHoldsInTheMiddleOfItsWalkInATap) {
+  auto machine = wired(Mode::act);
+  machine.envelope.spindle_slew_1_s = 10.0;
+  Bench bench(machine);
+  bench.cycles(100);
+  bench.wish_spindle(0.6);
+  double before = 1.0;
+  while (before > 0.81) {
+    before = bench.cycle().spindle_ratio;
+  }
+  bench.frame.motion = signal::Motion::tap;
+  EXPECT_EQ(bench.cycles(500).spindle_ratio, before);
+  bench.frame.motion = signal::Motion::feed;
+  EXPECT_EQ(bench.cycles(500).spindle_ratio, 0.6);
+}
+
+TEST(Interruption, ATapHoldsWhateverTheInputDoesUntilAFitFrameShowsItsEnd) {
+  using Spoil = void (*)(Bench&);
+  const Spoil spoils[] = {
+      [](Bench& b) { b.frame.axis[0].following_error_mm = kNan; },
+      [](Bench& b) { b.frame.age_s = 9.0; }, [](Bench& b) { b.frame.axis_count = 200; },
+      [](Bench& b) { b.frame.feed.panel_code_known = b.frame.spindle.panel_code_known = false; },
+      [](Bench& b) { b.supervisor.set_mode(Mode::observe); },
+      [](Bench& b) { b.supervisor.set_mode(Mode::advise); },
+      [](Bench& b) { b.feed.clear(), b.spindle.clear(); },
+      [](Bench& b) { b.wish_feed(kNan), b.wish_spindle(kNan); },
+      // An unfit frame that shows a cut does not say that the tap is over.
+      [](Bench& b) { b.frame.motion = signal::Motion::feed, b.frame.age_s = 9.0; }};
+  for (const Spoil spoil : spoils) {
+    Bench bench;
+    bench.wish_feed(0.6);
+    bench.wish_spindle(0.8);
+    bench.cycles(500);
+    bench.frame.motion = signal::Motion::tap;
+    bench.cycles(10);
+    spoil(bench);
+    for (int i = 0; i < 1000; ++i) {
+      const auto command = bench.cycle();
+      ASSERT_EQ(command.feed_ratio, 0.6) << &spoil - spoils;
+      ASSERT_EQ(command.spindle_ratio, 0.8) << &spoil - spoils;
+      ASSERT_TRUE(command.write);
+    }
+    double time_s = bench.frame.time_s;
+    for (int i = 0; i < 1000; ++i) {
+      time_s += kCycle_s;
+      ASSERT_EQ(bench.supervisor.update_without_frame(time_s).feed_ratio, 0.6) << "lost link";
+    }
+  }
+}
+
+TEST(Interruption, AnUnfitFrameThatShowsATapHoldsToo) {
+  Bench bench;
+  bench.wish_feed(0.6);
+  bench.cycles(500);
+  bench.frame.motion = signal::Motion::tap;
+  bench.frame.age_s = 9.0;
+  EXPECT_EQ(bench.cycles(1000).feed_ratio, 0.6);
+  bench.frame.motion = signal::Motion::feed;
+  EXPECT_EQ(bench.cycles(1000).feed_ratio, 1.0) << "handed back once nothing shows a tap";
+}
+
+TEST(Interruption, AfterAnAbortTheOffsetFades) {
+  Bench bench;
+  bench.wish_offset(0.02);
+  bench.cycles(1000);
+  bench.frame.motion = signal::Motion::idle;
+  bench.supervisor.set_mode(Mode::observe);
+  EXPECT_EQ(bench.cycles(900).offset_mm[2], 0.02) << "between two blocks a control is idle too";
+  EXPECT_NEAR(bench.cycles(300).offset_mm[2], 0.01, 1e-4) << "0.05 mm/s from 1 s of idle on";
+  EXPECT_FALSE(bench.cycles(400).write);
+  EXPECT_EQ(bench.supervisor.mode_in_force(), Mode::observe);
+}
+
+TEST(Interruption, ADwellOrAShortIdleInTheCutKeepsTheOffset) {
+  Bench bench;
+  bench.wish_offset(0.02);
+  bench.cycles(1000);
+  bench.offset.clear();
+  for (int i = 0; i < 10; ++i) {
+    bench.frame.motion = signal::Motion::idle;
+    bench.cycles(500);
+    bench.frame.motion = signal::Motion::feed;
+    bench.cycles(10);
+    bench.frame.motion = signal::Motion::dwell;
+    EXPECT_EQ(bench.cycles(2000).offset_mm[2], 0.02);
+  }
+}
+
+/// A port that refuses to write for a while.
+class DeafPort final : public kernel::port::Port {
+ public:
+  [[nodiscard]] kernel::port::Capability capability() const noexcept override { return kAll; }
+  kernel::outcome::Result<signal::Frame> read() noexcept override {
+    frame.time_s += kCycle_s;
+    if (blind) {
+      return std::unexpected(kernel::outcome::Refusal{});
+    }
+    return frame;
+  }
+  kernel::outcome::Result<void> write(const signal::Command& command) noexcept override {
+    if (deaf) {
+      return std::unexpected(kernel::outcome::Refusal{});
+    }
+    written.push_back(command);
+    return {};
+  }
+
+  bool deaf = false;
+  bool blind = false;
+  signal::Frame frame;
+  std::vector<signal::Command> written;
+};
+
+TEST(Interruption, AWordThatThePortDidNotTakeWasNotWritten) {
+  auto supervisor = Supervisor::make(wired(Mode::act), kAll);
+  ASSERT_TRUE(supervisor);
+  DeafPort port;
+  port.frame.motion = signal::Motion::feed;
+  const std::vector<signal::FeedRequest> wish = {{.ratio = 0.2, .reason = Reason::contour_limit}};
+  const auto cycles = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      static_cast<void>(supervisor->cycle(port, {.feed = wish, .spindle = {}, .offset = {}}));
+    }
+  };
+  cycles(100);
+  const double before = port.written.back().feed_ratio;
+  port.deaf = true;
+  cycles(60);
+  port.deaf = false;
+  cycles(1);
+  EXPECT_GE(port.written.back().feed_ratio, before - 0.05 - 1e-9)
+      << "three scans long no step was written: now comes the next one, not the fourth";
+  EXPECT_TRUE(port.written.back().feed_masks_panel);
+}
+
+TEST(Interruption, AfterALostLinkLongerThanTheWatchdogItBeginsAtThePanel) {
+  for (const bool blind : {false, true}) {
+    auto supervisor = Supervisor::make(wired(Mode::act), kAll);
+    ASSERT_TRUE(supervisor);
+    DeafPort port;
+    port.frame.motion = signal::Motion::feed;
+    const std::vector<signal::FeedRequest> wish = {{.ratio = 0.2, .reason = Reason::contour_limit}};
+    std::vector<signal::OffsetRequest> offset = {{.reason = Reason::contour_limit}};
+    offset[0].offset_mm[2] = 0.02;
+    const auto cycles = [&](int count) {
+      for (int i = 0; i < count; ++i) {
+        static_cast<void>(supervisor->cycle(port, {.feed = wish, .spindle = {}, .offset = offset}));
+      }
+    };
+    cycles(1000);
+    EXPECT_EQ(port.written.back().offset_mm[2], 0.02);
+    (blind ? port.blind : port.deaf) = true;
+    cycles(500);
+    port.blind = port.deaf = false;
+    const std::size_t so_far = port.written.size();
+    cycles(3);
+    ASSERT_GT(port.written.size(), so_far);
+    EXPECT_FALSE(port.written[so_far].feed_masks_panel);
+    EXPECT_LE(port.written[so_far].offset_mm[2], 0.05 * kCycle_s + 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::supervisor
