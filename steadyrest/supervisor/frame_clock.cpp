@@ -49,7 +49,7 @@ FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
       if (!follows) {
         state_.usual_s = (stamp_s - state_.run_from_s) / static_cast<double>(state_.run);
       }
-      const double credit_s = follows ? step_s : 0.0;
+      const double credit_s = follows ? std::min(step_s, state_.usual_s) : 0.0;
       if (earlier) {
         const double time_s = this->time_s() + credit_s;
         state_.shift_s = time_s - stamp_s;

@@ -17,7 +17,7 @@ namespace steadyrest::supervisor {
 ///             difference.
 ///   in doubt  anything else: no credit, good time stands. t becomes a candidate.
 ///   set       t is later than the candidate by no more than 2.5·T: the clock goes on from there,
-///             and the step counts t − candidate. Forward, the time between has passed (`time_s`
+///             and the step counts min(t − candidate, T). Forward, the time between has passed (`time_s`
 ///             takes it in) but nobody was there, so it gives no credit. Backwards, good time goes
 ///             on without a step. A stamp that returns to t₀'s time is good again: a single wrong
 ///             stamp moves nothing.

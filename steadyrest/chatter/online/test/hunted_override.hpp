@@ -45,7 +45,7 @@ class HuntedOverride {
   Seen drive(double time_s, const Request& request, const kernel::signal::OverrideState& panel,
              kernel::outcome::Reason unfit, bool hold) {
     Seen seen;
-    const auto out = channel_.update({.time_s = time_s,
+    const auto out = channel_.update({.step_s = time_s - std::exchange(driven_s_, time_s),
                                       .ratio = hold ? 1.0 : request.ratio,
                                       .reason = request.reason,
                                       .panel = panel,
@@ -112,6 +112,7 @@ class HuntedOverride {
     }
   }
 
+  double driven_s_ = 0.0;
   Channel channel_;
   bool walked_;
   double scan_s_;
