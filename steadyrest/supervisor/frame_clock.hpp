@@ -17,10 +17,10 @@ namespace steadyrest::supervisor {
 ///             difference.
 ///   in doubt  anything else: no credit, good time stands. t becomes a candidate.
 ///   set       t is later than the candidate by no more than 2.5·T: the clock goes on from there,
-///             and the step counts min(t − candidate, T). Forward, the time between has passed (`time_s`
-///             takes it in) but nobody was there, so it gives no credit. Backwards, good time goes
-///             on without a step. A stamp that returns to t₀'s time is good again: a single wrong
-///             stamp moves nothing.
+///             and the step counts min(t − candidate, T). Forward, the time between has passed
+///             (`time_s` takes it in) but nobody was there, so it gives no credit. Backwards, good
+///             time goes on without a step. A stamp that returns to t₀'s time is good again: a
+///             single wrong stamp moves nothing.
 ///   slower    sixteen steps in doubt one after another, all forward and none above 10 s: T becomes
 ///             their mean. A source that delivers every 75 ms counts from the 17th frame on.
 /// So the credit never passes the time by the stamps, at any stamps, save that a clock which runs
