@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -12,12 +13,14 @@
 #include <steadyrest/apps/cli/cut_chatter.hpp>
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/program_options.hpp>
+#include <steadyrest/apps/cli/program_warnings.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_cut.hpp>
 #include <steadyrest/apps/cut/comparison.hpp>
 #include <steadyrest/apps/cut/cut_job.hpp>
 #include <steadyrest/apps/report/report.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/nc/plan/idle_override.hpp>
 #include <steadyrest/nc/plan/path_builder.hpp>
 
 namespace steadyrest::apps::cli {
@@ -64,8 +67,14 @@ std::optional<Refusal> apply(const Options& options, Machine& machine) {
   return std::nullopt;
 }
 
-/// The program as the machine's control would plan it.
-std::expected<PathPointer, Answer> plan(const ProgramOptions& options, const Machine& machine) {
+/// The program as the machine's control would plan it, and what of it the machine cannot do.
+struct Planned {
+  PathPointer path;
+  std::vector<nc::plan::Warning> warnings;
+  std::size_t warning_count = 0;
+};
+
+std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine& machine) {
   Answer answer;
   const auto config = program_config(options, machine);
   if (!config) {
@@ -74,7 +83,9 @@ std::expected<PathPointer, Answer> plan(const ProgramOptions& options, const Mac
     return std::unexpected(std::move(answer));
   }
   nc::plan::PathBuilder builder(machine);
-  const auto report = nc::interpret::run_file(options.file, *config, builder);
+  nc::plan::MachineCheck check(machine, known_of(options));
+  nc::plan::Both both(builder, check);
+  const auto report = nc::interpret::run_file(options.file, *config, both);
   if (!report) {
     answer.refusals.push_back(report.error());
     answer.exit_code = report.error().kind == Kind::bad_input ? kRefused : kFailed;
@@ -98,7 +109,13 @@ std::expected<PathPointer, Answer> plan(const ProgramOptions& options, const Mac
     answer.exit_code = kRefused;
     return std::unexpected(std::move(answer));
   }
-  return std::make_shared<const PlannedPath>(std::move(*path));
+  Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
+              check.count()};
+  if (auto idle = nc::plan::idle_override(*out.path, machine.feed_override)) {
+    out.warnings.insert(out.warnings.begin(), std::move(*idle));
+    ++out.warning_count;
+  }
+  return out;
 }
 
 Json json_of(const Figures& figures) {
@@ -216,19 +233,20 @@ Outcome run(const Options& options, Progress& progress) {
   if (auto fault = apply(options, *machine)) {
     return refused(std::move(*fault));
   }
-  auto path = plan(options.program, *machine);
-  if (!path) {
-    return std::move(path.error());
+  auto planned = plan(options.program, *machine);
+  if (!planned) {
+    return std::move(planned.error());
   }
-  const auto chatter = cut_chatter(options.chatter, **path, *machine, progress);
+  const PathPointer& path = planned->path;
+  const auto chatter = cut_chatter(options.chatter, *path, *machine, progress);
   if (!chatter) {
     return std::unexpected(chatter.error());
   }
-  const auto without = cut_once(*machine, *path, *chatter, false, progress);
+  const auto without = cut_once(*machine, path, *chatter, false, progress);
   if (!without) {
     return refused(without.error());
   }
-  const auto with = cut_once(*machine, *path, *chatter, true, progress);
+  const auto with = cut_once(*machine, path, *chatter, true, progress);
   if (!with) {
     return refused(with.error());
   }
@@ -242,7 +260,8 @@ Outcome run(const Options& options, Progress& progress) {
   answer.json["motion"] = json_of(with->motion());
   answer.json["probes"] = json_of(with->probes());
   answer.text = text_of(without->figures(), with->figures(), machine->contour.limit_mm) +
-                text_of(with->motion(), *machine) + text_of(with->probes());
+                text_of(with->motion(), *machine) + text_of(with->probes()) +
+                put_warnings(answer, planned->warnings, planned->warning_count);
   put_vibration(answer, *chatter, *without, *with);
   if (auto done =
           put_batch(answer, options.batch, options.program, *machine, options.report, progress);

@@ -11,6 +11,7 @@
 
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/program_options.hpp>
+#include <steadyrest/apps/cli/program_warnings.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_program_time.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -143,7 +144,9 @@ Outcome run(const Options& options) {
   }
   timer->set_overrides(options.feed_percent / 100.0, options.rapid_percent / 100.0,
                        options.spindle_percent / 100.0);
-  const auto report = nc::interpret::run_file(options.program.file, *config, *timer);
+  nc::plan::MachineCheck check(*machine, known_of(options.program));
+  nc::plan::Both both(*timer, check);
+  const auto report = nc::interpret::run_file(options.program.file, *config, both);
   if (!report) {
     return refused(report.error());
   }
@@ -164,7 +167,7 @@ Outcome run(const Options& options) {
     }
   }
   put_time(answer, *time, options.lines);
-  answer.text = text_of(*time);
+  answer.text = text_of(*time) + put_warnings(answer, check.warnings(), check.count());
   return answer;
 }
 

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/nc/interpret/move.hpp>
+#include <steadyrest/nc/plan/reach.hpp>
 #include <steadyrest/nc/rewrite/plan_file.hpp>
 #include <steadyrest/nc/rewrite/settings.hpp>
 
 namespace steadyrest::nc::rewrite {
 
-/// How far an axis goes in one move, machine coordinates, bulges of arcs counted.
-struct Reach {
-  double low_mm = 0.0;
-  double high_mm = 0.0;
-};
-[[nodiscard]] Reach reach_of(const interpret::Move& move, std::size_t axis) noexcept;
+using plan::Reach;
+using plan::reach_of;
 
 inline constexpr std::string_view kAgainstTravel =
     "leave room for the correction: move the work offset or the program, or plan without this axis";

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <steadyrest/nc/plan/reach.hpp>
+
+namespace steadyrest::nc::plan {
+namespace {
+
+using interpret::Axes;
+using interpret::Move;
+using interpret::MoveKind;
+
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
+
+/// What is added to the ends of an arc: where it passes the axis' direction from its centre.
+void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
+  const auto* const largest =
+      std::ranges::max_element(move.normal, {}, [](double part) { return std::abs(part); });
+  const auto normal = static_cast<std::size_t>(largest - move.normal.begin());
+  if (axis >= move.normal.size() || axis == normal) {
+    return;
+  }
+  const std::size_t first = (normal + 1) % 3;
+  const std::size_t second = (normal + 2) % 3;
+  Axes centre = move.start;
+  std::ranges::copy(move.centre_mm, centre.begin());
+  centre = machine_of(move, centre);
+  const Axes start = machine_of(move, move.start);
+  const Axes end = machine_of(move, move.end);
+  const auto angle = [&](const Axes& at) {
+    return std::atan2(at[second] - centre[second], at[first] - centre[first]);
+  };
+  const auto behind_start = [&](double at) {  // in the direction of travel, 0 … 2π
+    const double ahead = (move.turns < 0 ? -1.0 : 1.0) * (at - angle(start));
+    return ahead - kFullTurn * std::floor(ahead / kFullTurn);
+  };
+  const double radius_mm =
+      std::max(std::hypot(start[first] - centre[first], start[second] - centre[second]),
+               std::hypot(end[first] - centre[first], end[second] - centre[second]));
+  double swept = behind_start(angle(end));
+  if (std::abs(move.turns) > 1 || swept < 1e-9) {
+    swept = kFullTurn;
+  }
+  // Where the work coordinates are turned out of the arc's plane, all of the circle counts.
+  if (move.rotation_deg != 0.0 && normal != 2) {
+    swept = kFullTurn;
+  }
+  const double high_at = axis == first ? 0.0 : 0.5 * std::numbers::pi;
+  if (behind_start(high_at) <= swept) {
+    reach.high_mm = std::max(reach.high_mm, centre[axis] + radius_mm);
+  }
+  if (behind_start(high_at + std::numbers::pi) <= swept) {
+    reach.low_mm = std::min(reach.low_mm, centre[axis] - radius_mm);
+  }
+}
+
+}  // namespace
+
+Reach reach_of(const Move& move, std::size_t axis) noexcept {
+  const double start_mm = machine_of(move, move.start)[axis];
+  const double end_mm = machine_of(move, move.end)[axis];
+  Reach reach{.low_mm = std::min(start_mm, end_mm), .high_mm = std::max(start_mm, end_mm)};
+  if (move.kind == MoveKind::arc) {
+    bulge(move, axis, reach);
+  }
+  for (const interpret::SplinePoint& point : move.spline) {  // the curve lies within their hull
+    Axes at = move.start;
+    at[0] = point.x_mm;
+    at[1] = point.y_mm;
+    const double at_mm = machine_of(move, at)[axis];
+    reach.low_mm = std::min(reach.low_mm, at_mm);
+    reach.high_mm = std::max(reach.high_mm, at_mm);
+  }
+  return reach;
+}
+
+}  // namespace steadyrest::nc::plan
