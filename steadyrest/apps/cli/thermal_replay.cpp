@@ -142,7 +142,7 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
   if (!passport) {
     return refused(passport.error());
   }
-  const auto log = offline::read_log(options.log);
+  const auto log = offline::read_log(options.log, format_of(options.format));
   if (!log) {
     return refused(log.error());
   }

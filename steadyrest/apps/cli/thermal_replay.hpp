@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/session.hpp>
 
 namespace steadyrest::apps::cli {
@@ -13,6 +14,7 @@ namespace steadyrest::apps::cli {
 struct ThermalReplayOptions {
   std::string machine;
   std::string log;
+  LogOptions format;
   std::string output;
   std::string report;                 ///< folder of the page; empty: none
   std::vector<std::string> axes;      ///< empty: all of the passport

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/chatter_page/detect_page.hpp>
+#include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
@@ -42,6 +43,7 @@ struct Options {
   std::optional<double> programmed_rpm;
   std::optional<double> depth_mm;
   std::string report;
+  LogOptions format;
 };
 
 /// One stretch of chatter.
@@ -245,7 +247,7 @@ std::string page_of(const Json& answer, const Options& options, const Machine& m
 
 Outcome detect(const Options& options, const Machine& machine, std::size_t teeth,
                const std::optional<offline::Process>& process, Progress& progress) {
-  auto signal = offline::read_signal(options.signal);
+  auto signal = offline::read_signal(options.signal, format_of(options.format));
   if (!signal) {
     return refused(signal.error());
   }
@@ -318,6 +320,7 @@ void add_verb_chatter_detect(Session& session) {
   add_machine_option(verb, options->machine);
   CLI::Option* const teeth =
       verb.add_option("--teeth", options->teeth, "Teeth of the tool, 1 in turning");
+  add_log_options(verb, options->format);
   verb.add_option("--process", options->process,
                   "Process file (TOML): the better speed comes from its stability, not from the "
                   "rule of whole waves between two teeth")

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -7,6 +9,7 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_fit.hpp>
 #include <steadyrest/chatter/offline/frf.hpp>
@@ -24,6 +27,7 @@ struct Options {
   std::string axis;
   std::string output;
   offline::ModeFitConfig fit;
+  LogOptions format;
 };
 
 /// Sections for a process file.
@@ -68,14 +72,41 @@ Answer answer_of(const offline::ModeFit& fit, const Options& options) {
   return answer;
 }
 
+constexpr double kLowCoherence = 0.8;
+
+/// What was measured, and how well, of each response.
+void put_response(Answer& answer, const std::string& file, const offline::Frf& frf) {
+  constexpr std::array kMeasured = {"displacement", "velocity", "acceleration"};
+  const auto order = static_cast<std::size_t>(frf.measured_order);
+  Json one = {{"file", file}, {"measured", kMeasured[order]}, {"points", frf.frequency_hz.size()}};
+  if (order > 0) {
+    answer.text += fmt::format("{}: {} per force, taken as displacement by {}\n", file,
+                               kMeasured[order], order == 1 ? "1/(iω)" : "−1/ω²");
+  }
+  if (!frf.coherence.empty()) {
+    const auto low =
+        std::ranges::count_if(frf.coherence, [](double c) { return c < kLowCoherence; });
+    one["coherence_low_points"] = low;
+    one["coherence_min"] = *std::ranges::min_element(frf.coherence);
+    if (low > 0) {
+      answer.text += fmt::format("{}: coherence below {} at {} of {} points\n", file, kLowCoherence,
+                                 low, frf.coherence.size());
+    }
+  }
+  answer.json["responses"].push_back(std::move(one));
+}
+
 Outcome run(const Options& options) {
   std::vector<offline::Frf> responses;
+  Answer said;
+  said.json["responses"] = Json::array();
   for (const std::string& file : options.files) {
-    auto read = offline::read_frf(file);
+    auto read = offline::read_frf(file, format_of(options.format));
     if (!read) {
       return refused(read.error());
     }
     for (offline::Frf& frf : *read) {
+      put_response(said, file, frf);
       responses.push_back(std::move(frf));
     }
   }
@@ -92,7 +123,10 @@ Outcome run(const Options& options) {
                              "check the folder, the rights and the disk space"});
     }
   }
-  return answer_of(*fit, options);
+  Answer answer = answer_of(*fit, options);
+  answer.json.update(said.json);
+  answer.text += said.text;
+  return answer;
 }
 
 }  // namespace
@@ -105,7 +139,8 @@ void add_verb_chatter_fit(Session& session) {
   auto options = std::make_shared<Options>();
   verb.add_option("frf", options->files,
                   "Responses of one point and direction: CSV (frequency_hz, real and imag or "
-                  "magnitude and phase, unit in the head) or universal file format 58")
+                  "magnitude and phase, coherence if recorded; displacement, velocity or "
+                  "acceleration per N, unit in the head) or universal file format 58")
       ->required();
   verb.add_option("--axis", options->axis, "Direction of the measurement: x or y")
       ->required()
@@ -113,6 +148,7 @@ void add_verb_chatter_fit(Session& session) {
   verb.add_option("--modes", options->fit.order,
                   "Number of modes, 1 … 16; without it by the criterion")
       ->check(CLI::Range(1, 16));
+  add_log_options(verb, options->format, false);
   verb.add_option("--from-hz", options->fit.least_frequency_hz, "Leave out what lies below");
   verb.add_option("--to-hz", options->fit.most_frequency_hz, "Leave out what lies above");
   verb.add_option("-o,--output", options->output,

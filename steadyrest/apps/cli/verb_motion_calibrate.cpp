@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_motion_calibrate.hpp>
 #include <steadyrest/kernel/machine/calibration_text.hpp>
@@ -39,6 +40,7 @@ struct Options {
   std::optional<double> count_mm;  ///< of a rotary axis in rad
   std::optional<double> count_deg;
   offline::LineCalibrationConfig config{};
+  LogOptions format;
 };
 
 Refusal cannot_write(const std::string& path) {
@@ -166,8 +168,9 @@ Outcome run(Options options, Progress& progress) {
     return refused(Refusal{Kind::bad_input, options.output, 0, "is the log itself",
                            "give another file for the calibration"});
   }
-  const auto log = offline::read_edge_log(
-      options.log, {}, [&](double share) { progress.update(share, "reading the log"); });
+  const auto log =
+      offline::read_edge_log(options.log, {.format = format_of(options.format)},
+                             [&](double share) { progress.update(share, "reading the log"); });
   if (!log) {
     return refused(log.error());
   }
@@ -214,6 +217,7 @@ void add_verb_motion_calibrate(Session& session) {
                   "Rotary encoder: the table is one revolution and repeats");
   verb.add_option("--range", options->range,
                   "First and last line of the table, A:B; otherwise all lines of the log");
+  add_log_options(verb, options->format);
   verb.add_option("--passes", options->config.passes, "Times that the log is learnt from")
       ->capture_default_str();
   verb.add_option("--machine", options->machine,

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_motion_estimate.hpp>
 #include <steadyrest/kernel/machine/calibration_text.hpp>
@@ -44,6 +45,7 @@ struct Options {
   std::optional<double> line_error_um;
   std::string calibration;
   std::string axis;
+  LogOptions format;
 
   [[nodiscard]] bool edges() const { return input == "edges"; }
 };
@@ -62,6 +64,7 @@ offline::EdgeLogConfig log_config(const Options& options) {
   offline::EdgeLogConfig config;
   config.max_step = options.edges() ? 1 : 0;
   config.rising_time = !options.edges();
+  config.format = format_of(options.format, options.setup.cycle_hz);
   if (options.setup.count_mm > 0.0) {
     // A count may lie anywhere in its cell: 1 % more than the axis can do is still no jump.
     config.max_speed_counts_s = 1.01 * options.setup.max_speed_mm_s / options.setup.count_mm;
@@ -297,6 +300,7 @@ void add_verb_motion_estimate(Session& session) {
       ->required()
       ->check(CLI::IsMember({"edges", "ticks"}));
   add_axis_options(verb, *options);
+  add_log_options(verb, options->format);
   verb.add_option("--calibration", options->calibration,
                   "Lines of the encoder as motion calibrate wrote them, or a machine file");
   verb.add_option("--axis", options->axis, "Axis of the machine file that the log is of");

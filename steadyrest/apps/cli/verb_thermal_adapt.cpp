@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
@@ -41,6 +42,7 @@ struct Options {
   std::string output;
   double tolerance_um = 0.0;
   double noise_um = 0.0;
+  LogOptions format;
 };
 
 std::unexpected<Refusal> refuse(std::string file, std::size_t line, std::string what,
@@ -280,7 +282,7 @@ Outcome run(Options options) {
     return refused(passport.error());
   }
   const auto level = level_of(*plan, *passport);
-  const auto rows = thermal::offline::read_measured(options.measured);
+  const auto rows = thermal::offline::read_measured(options.measured, format_of(options.format));
   if (!level || !rows) {
     return refused(level ? rows.error() : level.error());
   }
@@ -350,6 +352,7 @@ void add_verb_thermal_adapt(Session& session) {
           "CSV: part; transition or time_min; deviation_um (the tool's place less the right "
           "one); if wanted tolerance_um, axis")
       ->required();
+  add_log_options(verb, options->format, false);
   verb.add_option("--machine", options->thermal.machine,
                   "Machine file or thermal passport; without it the one that the plan names");
   verb.add_option("--cyclogram", options->thermal.cyclogram,

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/text_file.hpp>
@@ -45,6 +46,7 @@ struct Options {
   double to_min = 1e12;
   std::string tau_from;
   bool own_tau = false;
+  LogOptions format;
 };
 
 Refusal refusal(std::string file, std::string what, std::string to_do) {
@@ -171,6 +173,27 @@ std::string inputs_of(const ThermalAxis& axis) {
 /// Places of axes that have the same time constants.
 using Groups = std::vector<std::vector<std::size_t>>;
 
+/// Of bands that did not hold when they were made without the hours that they were tried on.
+void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
+  constexpr double kLow = 0.9;
+  answer.json["warnings"] = Json::array();
+  for (const offline::AxisFit& fit : fits) {
+    for (const auto& [coverage, how] :
+         {std::pair{fit.coverage, "running free"},
+          std::pair{fit.coverage_probed, "with a probe every hour"}}) {
+      if (coverage < kLow) {
+        answer.json["warnings"].push_back(fmt::format(
+            "{}: {}, the 95 % band of the other hours held {:.0f} % of those left out; it "
+            "was widened for that. Log more runs, or the temperature that is missing",
+            fit.axis.name, how, 100.0 * coverage));
+      }
+    }
+  }
+  for (const Json& warning : answer.json["warnings"]) {
+    answer.text += "warning: " + warning.get<std::string>() + "\n";
+  }
+}
+
 Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared,
                  const offline::Log& log) {
   Answer answer;
@@ -208,6 +231,7 @@ Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared
   for (const std::string& note : log.notes) {
     answer.text += note + "\n";
   }
+  put_warnings(answer, fits);
   return answer;
 }
 
@@ -221,7 +245,7 @@ struct Job {
 
 Result<Job> job_of(const Options& options) {
   Job job;
-  auto log = offline::read_log(options.log);
+  auto log = offline::read_log(options.log, format_of(options.format));
   if (!log) {
     return std::unexpected(log.error());
   }
@@ -346,6 +370,7 @@ void add_verb_thermal_fit(Session& session) {
       ->required();
   verb.add_option("-o,--output", options->output, "Write the passport, TOML: [thermal] sections");
   add_report_option(verb, options->report);
+  add_log_options(verb, options->format);
   verb.add_option("--channel", options->channels,
                   "Only this displacement, and the axis that it moves: z_um=Z; may be given again");
   verb.add_option("--ambient", options->sensors,

@@ -169,6 +169,7 @@ void add_verb_thermal_forecast(Session& session) {
   CLI::Option* log =
       verb.add_option("--log", options->replay.log,
                       "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
+  add_log_options(verb, options->replay.format);
   verb.add_option("--from-min", options->replay.from_min,
                   "Of the log's clock: readings before it set the state, after it is forecast; "
                   "without it from the passport's end on")

@@ -51,7 +51,8 @@ bool named_wav(const std::string& file) {
   return end == ".wav";
 }
 
-OrFault<RecordedSignal> parse(std::string_view bytes, const std::string& file) {
+OrFault<RecordedSignal> parse(std::string_view bytes, const std::string& file,
+                              const table::Format& format) {
   if (bytes.size() > kMaxBytes) {
     return std::unexpected(SignalFault{0, fmt::format("larger than {} MB", kMaxBytes >> 20U),
                                        "cut out the minutes that matter"});
@@ -60,15 +61,15 @@ OrFault<RecordedSignal> parse(std::string_view bytes, const std::string& file) {
     return parse_wav_signal(bytes);
   }
   if (named_wav(file)) {
-    return std::unexpected(
-        SignalFault{0, "is not RIFF: its first bytes are \"" + shown(bytes.substr(0, 4)) + "\"",
-                    "save the recording as WAV (RIFF, PCM)"});
+    return std::unexpected(SignalFault{
+        0, "is not RIFF: its first bytes are \"" + table::shown(bytes.substr(0, 4)) + "\"",
+        "save the recording as WAV (RIFF, PCM)"});
   }
   if (bytes.find('\0') != std::string_view::npos) {
     return std::unexpected(
         SignalFault{0, "is neither text nor RIFF", "give CSV in UTF-8, or WAV (RIFF, PCM)"});
   }
-  return parse_csv_signal(bytes);
+  return parse_csv_signal(bytes, format);
 }
 
 }  // namespace
@@ -83,27 +84,21 @@ std::optional<SignalFault> unfit_rate(double rate_hz) {
                          : "record at 1 kHz or more; t_s is in seconds"};
 }
 
-/// At most 40 characters, with nothing that a terminal would act on.
-std::string shown(std::string_view text) {
-  std::string out(text.substr(0, 40));
-  std::ranges::replace_if(out, [](char c) { return c < 0x20 || c > 0x7E; }, '?');
-  return out;
-}
-
-Result<RecordedSignal> parse_signal(std::string_view bytes, const std::string& file) {
-  auto out = parse(bytes, file);
+Result<RecordedSignal> parse_signal(std::string_view bytes, const std::string& file,
+                                    const table::Format& format) {
+  auto out = parse(bytes, file, format);
   if (!out) {
     return std::unexpected(refusal_of(std::move(out.error()), file));
   }
   return std::move(*out);
 }
 
-Result<RecordedSignal> read_signal(const std::string& path) {
+Result<RecordedSignal> read_signal(const std::string& path, const table::Format& format) {
   auto bytes = bytes_of(path);
   if (!bytes) {
     return std::unexpected(refusal_of(std::move(bytes.error()), path));
   }
-  return parse_signal(*bytes, path);
+  return parse_signal(*bytes, path, format);
 }
 
 }  // namespace steadyrest::chatter::offline

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/table/row_reader.hpp>
 
 /// Reader of a recorded vibration, sound or power: CSV or WAV, told apart by the first bytes.
 ///
-/// CSV: columns `t_s`, `value` and, where it was recorded, `speed_rpm`, found by their names in the
-/// header; others beside them; separator `,`, `;` or tab (the one that the header has); lines that
-/// begin with `#`, blank lines, CR LF and a byte order mark are allowed. Decimals have a point.
-/// Each step of the time is within 25 % of the median one: no sample may be missing.
+/// CSV: columns `t_s`, `value` and, where it was recorded, `speed_rpm`, found by their names,
+/// others beside them, as table::RowReader takes them; times also as stamps (ISO 8601) or sample
+/// numbers. Each step of the time is within 25 % of the median one: no sample may be missing.
 ///
 /// WAV: RIFF with PCM of 16, 24 or 32 bits or floats of 32; of several channels the first; values
 /// in ±1. It has no speed. Layout: Multimedia Programming Interface and Data Specifications 1.0
@@ -29,10 +29,11 @@ struct RecordedSignal {
   std::vector<double> speed_rev_s;  ///< ≥ 0, as many; empty: not recorded
 };
 
-[[nodiscard]] kernel::outcome::Result<RecordedSignal> read_signal(const std::string& path);
+[[nodiscard]] kernel::outcome::Result<RecordedSignal> read_signal(const std::string& path,
+                                                                  const table::Format& format = {});
 
 /// The same of bytes; `file` is what the refusals are to call it.
-[[nodiscard]] kernel::outcome::Result<RecordedSignal> parse_signal(std::string_view bytes,
-                                                                   const std::string& file);
+[[nodiscard]] kernel::outcome::Result<RecordedSignal> parse_signal(
+    std::string_view bytes, const std::string& file, const table::Format& format = {});
 
 }  // namespace steadyrest::chatter::offline

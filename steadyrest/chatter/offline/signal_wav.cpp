@@ -115,7 +115,7 @@ OrFault<RecordedSignal> parse_wav_signal(std::string_view bytes) {
   }
   if (bytes.substr(8, 4) != "WAVE") {
     return std::unexpected(SignalFault{
-        0, fmt::format("byte 8: RIFF of kind \"{}\", not WAVE", shown(bytes.substr(8, 4))),
+        0, fmt::format("byte 8: RIFF of kind \"{}\", not WAVE", table::shown(bytes.substr(8, 4))),
         "give a WAV file"});
   }
   if (const std::size_t riff = little_endian(bytes, 4, 4); riff + 8 > bytes.size()) {

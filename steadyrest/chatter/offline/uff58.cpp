@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -304,6 +303,7 @@ class UffReader {
   std::optional<Refusal> put(const std::vector<double>& values, const Axis& response,
                              double scale) {
     Frf frf;
+    frf.measured_order = response.kind == kAcceleration ? 2 : response.kind == kVelocity ? 1 : 0;
     double last = -1.0;
     for (std::size_t i = 0; i < count_; ++i) {
       const double* at = values.data() + i * (even_ ? 2 : 3);
@@ -317,11 +317,7 @@ class UffReader {
       if (f <= 0.0) {
         continue;
       }
-      const std::complex<double> iw(0.0, 2.0 * std::numbers::pi * f);
-      const std::complex<double> rate = response.kind == kVelocity       ? iw
-                                        : response.kind == kAcceleration ? iw * iw
-                                                                         : 1.0;
-      const std::complex<double> compliance = scale * h / rate;
+      const std::complex<double> compliance = displacement_of(scale * h, f, frf.measured_order);
       if (!possible(compliance)) {
         return bad(fmt::format("the response at {} Hz is out of range", f), "check the units");
       }

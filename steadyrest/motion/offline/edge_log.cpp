@@ -4,261 +4,221 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <expected>
 #include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include <steadyrest/motion/offline/edge_log.hpp>
-#include <steadyrest/motion/offline/edge_log_header.hpp>
+#include <steadyrest/table/clock.hpp>
+#include <steadyrest/table/row_reader.hpp>
 
 namespace steadyrest::motion::offline {
 
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
+using table::Fault;
+using table::Row;
 
 namespace {
 
 constexpr std::size_t kLongestLine = 65536;
 constexpr double kMaxTime_s = 9e9;             // nanoseconds fit into 64 bits
 constexpr std::int64_t kMaxCount = 1LL << 52;  // positions stay exact to a fraction of a count
+constexpr double kLeap = 10.0;  // a stamp that leaps so much farther is the wrong one
+constexpr std::string_view kRepair = "repair the row or cut the log before it";
 
-/// A row as it stands in the file.
-struct Fields {
-  std::string_view time;
-  std::string_view count;
-};
-
-std::string_view without_plus(std::string_view field) {
-  return field.size() > 1 && field[0] == '+' && field[1] != '-' ? field.substr(1) : field;
-}
-
-std::optional<double> number(std::string_view field) {
-  field = without_plus(field);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size()) {
-    return std::nullopt;
-  }
-  return value;
-}
-
-/// Digits after the point, less the exponent.
-int decimals_of(std::string_view field) {
-  const std::size_t e = field.find_first_of("eE");
-  const std::string_view mantissa = field.substr(0, e);
-  const std::size_t point = mantissa.find('.');
-  int out = point == std::string_view::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
-  if (e != std::string_view::npos) {
-    int exponent = 0;
-    const std::string_view text = without_plus(field.substr(e + 1));
-    std::from_chars(text.data(), text.data() + text.size(), exponent);
-    out -= std::clamp(exponent, -400, 400);
-  }
-  return std::max(out, 0);
-}
-
-LogFault no_number(std::string_view name, std::string_view field) {
-  if (field.empty()) {
-    return {fmt::format("{} is empty", name), "repair the row or cut the log before it"};
-  }
-  return {fmt::format("{} = \"{}\" is not a number", name, shown(field)),
-          field.find(',') != std::string_view::npos ? "write decimals with a point"
-                                                    : "repair the row or cut the log before it"};
-}
-
-std::expected<double, LogFault> time_of(std::string_view field) {
-  const auto value = number(field);
-  if (!value) {
-    return std::unexpected(no_number("t_s", field));
-  }
-  if (!std::isfinite(*value) || std::abs(*value) > kMaxTime_s) {
-    return std::unexpected(LogFault{
-        fmt::format("t_s = {} is out of range; allowed is ±{:g} s", shown(field), kMaxTime_s),
-        "repair the row or cut the log before it"});
-  }
-  return *value;
-}
-
-std::expected<std::int64_t, LogFault> count_of(std::string_view field) {
+std::expected<std::int64_t, Fault> count_of(const Row& row, std::size_t column) {
+  const std::string_view field = row.field(column);
   std::int64_t value = 0;
-  const std::string_view digits = without_plus(field);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool whole = error == std::errc{} && end == digits.data() + digits.size();
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  const bool whole = error == std::errc{} && end == field.data() + field.size();
   if (whole && value >= -kMaxCount && value <= kMaxCount) {
     return value;
   }
-  const auto real = number(field);
+  const auto real = row.number(column);
   if (!real) {
-    return std::unexpected(no_number("count", field));
+    return std::unexpected(real.error());
   }
-  if (!std::isfinite(*real) || std::abs(*real) > static_cast<double>(kMaxCount)) {
-    return std::unexpected(
-        LogFault{fmt::format("count = {} is out of range; allowed is ±{}", shown(field), kMaxCount),
-                 "repair the row or cut the log before it"});
+  if (std::abs(*real) > static_cast<double>(kMaxCount)) {
+    return std::unexpected(Fault{
+        row.line(),
+        fmt::format("count = {} is out of range; allowed is ±{}", table::shown(field), kMaxCount),
+        std::string(kRepair)});
   }
   if (*real != std::trunc(*real)) {
-    return std::unexpected(LogFault{fmt::format("count = {} is not a whole number", shown(field)),
-                                    "give the counter's value; positions in mm are not counts"});
+    return std::unexpected(
+        Fault{row.line(), fmt::format("count = {} is not a whole number", table::shown(field)),
+              "give the counter's value; positions in mm are not counts"});
   }
   return static_cast<std::int64_t>(*real);
 }
 
 }  // namespace
 
-class EdgeLogReader::Parser {
+/// Takes rows from the reader of columns and judges how they follow one another.
+class EdgeLogReader::Parser final : public table::Sink {
  public:
-  Parser(std::string file, const EdgeLogConfig& config) : config_(config) {
+  Parser(std::string file, EdgeLogConfig config)
+      : config_(std::move(config)), reader_(config_.format, *this) {
     log_.file = std::move(file);
   }
 
   /// One line without its LF. False: nothing more is wanted.
   bool line(std::string_view text, bool ended) {
-    ++line_;
-    if (line_ == 1 && !first_line(text)) {
-      return false;
-    }
-    const bool carriage_return = text.ends_with('\r');
-    if (carriage_return) {
-      text.remove_suffix(1);
-    }
     if (ended) {
-      check_line_end(carriage_return);
+      check_line_end(text.ends_with('\r'));
     }
-    const std::string_view content = trimmed(text);
-    if (content.empty() || content.front() == '#') {
+    ended_ = ended;
+    text_ = text;
+    const auto fault = reader_.line(text);
+    if (fault && !ended && reader_.has_head()) {
+      cut_off();
       return true;
     }
-    if (!have_header_) {
-      return header(text);
-    }
-    return ended ? row(text) : last_row(text);
+    return !fault || take(*fault);
   }
 
   /// A line that is too long to be one.
   void endless() {
-    ++line_;
-    const LogFault fault{fmt::format("a line of more than {} characters", kLongestLine),
-                         "give a log with LF or CR LF as line ends"};
-    have_header_ ? stop(fault) : refuse(fault);
+    take({line_number() + 1, fmt::format("a line of more than {} characters", kLongestLine),
+          "give a log with LF or CR LF as line ends"});
   }
 
   EdgeLogResult finish() {
-    if (!refused_ && line_ == 0) {
-      refuse({"is empty", "give a log with the columns t_s and count"});
-    } else if (!refused_ && !have_header_) {
-      refuse({"has no header", "see to it that the header names the columns t_s and count"}, true);
+    if (!refused_ && !log_.stopped) {
+      if (const auto fault = reader_.finish()) {
+        refuse(*fault);
+      }
+    }
+    if (!refused_ && line_number() == 0) {
+      refuse({0, "is empty", "give a log with the columns t_s and count"});
+    } else if (!refused_ && !reader_.has_head()) {
+      refuse({0, "has no header", "see to it that the header names the columns t_s and count"});
     } else if (!refused_ && log_.rows.empty()) {
-      refuse(log_.stopped
-                 ? LogFault{log_.findings.back().what, log_.findings.back().to_do}
-                 : LogFault{"has no rows after its header", "give a log with at least one row"},
-             !log_.stopped);
+      refuse({0, "has no rows after its header", "give a log with at least one row"});
     }
     if (refused_) {
       return std::unexpected(std::move(*refused_));
     }
+    for (const Fault& note : reader_.notes()) {
+      report(note);
+    }
+    std::ranges::stable_sort(log_.findings, {}, &Refusal::line);
     return std::move(log_);
   }
 
- private:
-  bool first_line(std::string_view& text) {
-    const LogFault fault = fault_of_kind(text);
-    if (!fault.what.empty()) {
-      return refuse(fault, true);
+  std::optional<Fault> head(const table::Head& head) override {
+    constexpr std::string_view kWay =
+        "see to it that the header names the columns t_s and count once, with , or ; or tab "
+        "between "
+        "them, or name them with --columns";
+    const auto missing = [&](std::string_view name) {
+      std::string names;
+      for (const std::string& one : head.name) {
+        names += (names.empty() ? "" : ",") + one;
+      }
+      return Fault{0, fmt::format("the column {} is missing in \"{}\"", name, table::shown(names)),
+                   std::string(kWay)};
+    };
+    for (const std::string_view name : {"t_s", "count"}) {
+      if (auto fault = head.twice(name)) {
+        return fault;
+      }
     }
-    constexpr std::string_view kMark = "\xef\xbb\xbf";
-    if (text.starts_with(kMark)) {
-      text.remove_prefix(kMark.size());
+    clock_ = table::Clock::of(head, config_.format, head.place("t_s"));
+    if (!clock_) {
+      return missing("t_s");
     }
-    return true;
+    const auto count = head.place("count");
+    if (!count) {
+      return missing("count");
+    }
+    count_ = *count;
+    all_ = head.name.size();
+    return std::nullopt;
   }
 
-  bool header(std::string_view text) {
-    const auto columns = columns_of(text);
-    if (!columns) {
-      return refuse(columns.error());
+  std::optional<Fault> row(const Row& row) override {
+    const auto t_s = clock_->seconds(row);
+    if (!t_s) {
+      return t_s.error();
     }
-    columns_ = *columns;
-    have_header_ = true;
-    return true;
+    if (std::abs(*t_s) > kMaxTime_s) {
+      return Fault{row.line(),
+                   fmt::format("t_s = {:g} is out of range; allowed is ±{:g} s", *t_s, kMaxTime_s),
+                   std::string(kRepair)};
+    }
+    const auto count = count_of(row, count_);
+    if (!count) {
+      return count.error();
+    }
+    const std::size_t time_size = clock_->column() ? row.field(*clock_->column()).size() : 0;
+    const LogRow next{*t_s, *count};
+    if (!ended_ && !goes_on(next, time_size)) {
+      cut_off();
+      return std::nullopt;
+    }
+    return follow(next, row, time_size);
   }
+
+ private:
+  [[nodiscard]] std::size_t line_number() const { return reader_.line_number(); }
 
   void check_line_end(bool carriage_return) {
-    if (line_ == 1) {
+    if (line_number() == 0) {
       carriage_return_ = carriage_return;
     } else if (carriage_return != carriage_return_ && !mixed_) {
       mixed_ = true;
-      report({fmt::format("the line ends change from {} to {} here",
+      report({line_number() + 1,
+              fmt::format("the line ends change from {} to {} here",
                           carriage_return_ ? "CR LF" : "LF", carriage_return ? "CR LF" : "LF"),
               "see whether two logs were joined here"});
     }
   }
 
-  /// Finds the two fields and gives the number of all.
-  std::size_t split(std::string_view text, Fields& fields) const {
-    std::size_t column = 0;
-    for (;;) {
-      const void* at =
-          text.empty() ? nullptr : std::memchr(text.data(), columns_.separator, text.size());
-      const std::size_t size =
-          at == nullptr ? text.size()
-                        : static_cast<std::size_t>(static_cast<const char*>(at) - text.data());
-      if (column == columns_.time) {
-        fields.time = trimmed(text.substr(0, size));
-      } else if (column == columns_.count) {
-        fields.count = trimmed(text.substr(0, size));
-      }
-      ++column;
-      if (at == nullptr) {
-        return column;
-      }
-      text.remove_prefix(size + 1);
-    }
-  }
-
-  std::expected<LogRow, LogFault> parse(std::string_view text, Fields& fields) const {
-    const std::size_t found = split(text, fields);
-    if (found != columns_.all) {
-      return std::unexpected(LogFault{fmt::format("the row has {} fields, the header {}: \"{}\"",
-                                                  found, columns_.all, shown(text)),
-                                      "repair the row or cut the log before it"});
-    }
-    const auto time = time_of(fields.time);
-    if (!time) {
-      return std::unexpected(time.error());
-    }
-    const auto count = count_of(fields.count);
-    if (!count) {
-      return std::unexpected(count.error());
-    }
-    return LogRow{*time, *count};
-  }
-
-  bool row(std::string_view text) {
-    Fields fields;
-    const auto next = parse(text, fields);
-    if (!next) {
-      return stop(next.error());
-    }
+  std::optional<Fault> follow(const LogRow& next, const Row& row, std::size_t time_size) {
     if (!log_.rows.empty()) {
-      const LogRow& before = log_.rows.back();
-      if (next->t_s < before.t_s) {
-        return stop({fmt::format("time goes back from {:.9f} s to {:.9f} s", before.t_s, next->t_s),
-                     "cut the log here, or read both parts apart"});
+      const LogRow before = log_.rows.back();
+      if (next.t_s < before.t_s) {
+        return back(before, next, row.line());
       }
-      if (config_.rising_time && next->t_s == before.t_s) {
-        report({fmt::format("the time stamp {:.9f} s repeats", next->t_s),
+      if (config_.rising_time && next.t_s == before.t_s) {
+        report({row.line(), fmt::format("the time stamp {:.9f} s repeats", next.t_s),
                 "the row is left out; see whether the stamps have digits enough"});
-        return true;
+        return std::nullopt;
       }
-      check_step(before, *next);
+      check_step(before, next, row.line());
+      if (next.t_s - before.t_s > log_.longest_step_s) {
+        log_.longest_step_s = next.t_s - before.t_s;
+        log_.longest_step_line = row.line();
+      }
     }
-    log_.decimals = std::max(log_.decimals, decimals_of(fields.time));
-    time_size_ = fields.time.size();
-    log_.rows.push_back(*next);
-    return true;
+    log_.decimals = std::max(log_.decimals, clock_->decimals(row));
+    time_size_ = time_size;
+    last_line_ = row.line();
+    log_.rows.push_back(next);
+    return std::nullopt;
   }
 
-  void check_step(const LogRow& before, const LogRow& next) {
+  /// Time that goes back ends the log. Where the row before had leapt ahead, that one is wrong.
+  Fault back(const LogRow& before, const LogRow& next, std::size_t line) {
+    const std::size_t rows = log_.rows.size();
+    const double ahead_s = rows < 2 ? 0.0 : next.t_s - log_.rows[rows - 2].t_s;
+    if (ahead_s <= 0.0 || before.t_s - log_.rows[rows - 2].t_s <= kLeap * ahead_s) {
+      return {line, fmt::format("time goes back from {:.9f} s to {:.9f} s", before.t_s, next.t_s),
+              "cut the log here, or read both parts apart"};
+    }
+    log_.rows.pop_back();
+    return {last_line_,
+            fmt::format("t_s = {:.9g} leaps ahead of its neighbours; between {:.9f} s and {:.9f} s "
+                        "is allowed",
+                        before.t_s, log_.rows.back().t_s, next.t_s),
+            "correct the row's time, or cut the log before it"};
+  }
+
+  void check_step(const LogRow& before, const LogRow& next, std::size_t line) {
     const std::int64_t step = std::abs(next.count - before.count);
     const bool lost = config_.max_step > 0 && step > config_.max_step;
     // One count may be due at any time; every further one takes the axis 1/v.
@@ -272,26 +232,22 @@ class EdgeLogReader::Parser {
       ++log_.finding_count;
       return;
     }
-    report({fmt::format("the count jumps from {} to {} within {:.3g} s{}", before.count, next.count,
+    report({line,
+            fmt::format("the count jumps from {} to {} within {:.3g} s{}", before.count, next.count,
                         next.t_s - before.t_s,
                         lost ? fmt::format(": {} edges are lost", step - 1)
                              : std::string(", faster than the axis")),
             "see whether the recorder keeps up with the axis"});
   }
 
-  /// A row without line end: whole, or cut off by the end of the file?
-  bool last_row(std::string_view text) {
-    Fields fields;
-    const auto next = parse(text, fields);
-    if (next && goes_on(*next, fields)) {
-      return row(text);
-    }
-    report({fmt::format("the log ends within a row: \"{}\"", shown(text)),
+  void cut_off() {
+    report({line_number(),
+            fmt::format("the log ends within a row: \"{}\"", table::shown(table::trimmed(text_))),
             "the row is left out; see whether the log is whole"});
-    return true;
   }
 
-  [[nodiscard]] bool goes_on(const LogRow& next, const Fields& fields) const {
+  /// A row without line end: whole, or cut off by the end of the file?
+  [[nodiscard]] bool goes_on(const LogRow& next, std::size_t time_size) const {
     const std::size_t rows = log_.rows.size();
     if (rows == 0) {
       return false;
@@ -299,36 +255,44 @@ class EdgeLogReader::Parser {
     const LogRow& before = log_.rows[rows - 1];
     const std::int64_t step = rows == 1 ? 0 : before.count - log_.rows[rows - 2].count;
     const std::int64_t off = std::abs(next.count - (before.count + step));
-    const bool time_may_be_cut = columns_.time + 1 == columns_.all;
+    const bool time_may_be_cut = clock_->column() && *clock_->column() + 1 == all_;
     return next.t_s >= before.t_s && off <= std::abs(step) / 2 + 2 &&
-           (!time_may_be_cut || fields.time.size() >= time_size_);
+           (!time_may_be_cut || time_size >= time_size_);
   }
 
-  bool refuse(const LogFault& fault, bool whole_file = false) {
-    refused_ = Refusal{Kind::bad_input, log_.file, whole_file ? 0 : line_, fault.what, fault.to_do};
-    return false;
+  void refuse(const Fault& fault) {
+    refused_ = Refusal{Kind::bad_input, log_.file, fault.line, fault.what, fault.to_do};
   }
-  void report(const LogFault& fault) {
+  void report(const Fault& fault) {
     ++log_.finding_count;
     if (log_.findings.size() < config_.max_findings) {
-      log_.findings.push_back({Kind::bad_input, log_.file, line_, fault.what, fault.to_do});
+      log_.findings.push_back({Kind::bad_input, log_.file, fault.line, fault.what, fault.to_do});
     }
   }
-  /// The finding that ends the log is kept whatever max_findings says.
-  bool stop(const LogFault& fault) {
+  /// A fault of the head refuses the file. One behind it ends the log; it is kept whatever
+  /// max_findings says.
+  bool take(const Fault& fault) {
+    if (!reader_.has_head() || log_.rows.empty()) {
+      refuse(fault);
+      return false;
+    }
     ++log_.finding_count;
-    log_.findings.push_back({Kind::bad_input, log_.file, line_, fault.what, fault.to_do});
+    log_.findings.push_back({Kind::bad_input, log_.file, fault.line, fault.what, fault.to_do});
     log_.stopped = true;
     return false;
   }
 
   EdgeLogConfig config_;
+  table::RowReader reader_;
   EdgeLog log_;
   std::optional<Refusal> refused_;
-  LogColumns columns_;
-  std::size_t line_ = 0;
+  std::optional<table::Clock> clock_;
+  std::size_t count_ = 0;
+  std::size_t all_ = 0;
   std::size_t time_size_ = 0;
-  bool have_header_ = false;
+  std::size_t last_line_ = 0;  ///< of the last row that was kept
+  std::string_view text_;
+  bool ended_ = true;
   bool carriage_return_ = false;
   bool mixed_ = false;
 };

@@ -11,20 +11,19 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/table/row_reader.hpp>
 
-/// Reads encoder logs: text with the columns `t_s` and `count`, a row each.
-///
-/// Accepted: separator `,`, `;` or tab (the one that the header has); columns in any order, others
-/// beside them; blanks around a field; LF or CR LF; a UTF-8 byte order mark; blank lines; lines
-/// that begin with `#`; counts with a fraction of noughts (`5.000e+00`). Decimals have a point.
-/// Time stamps may repeat but not go back.
+/// Reads encoder logs: text with the columns `t_s` and `count`, a row each, as table::RowReader
+/// takes them; times also as stamps (ISO 8601) or sample numbers (table::Clock). Counts may have a
+/// fraction of noughts (`5.000e+00`). Time stamps may repeat but not go back.
 ///
 /// Three grades of fault:
 /// - *refused* (there is no log): not readable, compressed, UTF-16, binary, no header, a column
 ///   missing or twice, no row at all;
 /// - *ends the log* (`EdgeLog::stopped`): a row that cannot be right – a field missing or too many,
 ///   not a number, NaN, ∞, a count with a fraction, time going back. What stood before it is kept,
-///   what follows is not read: after such a row nobody knows which side is wrong;
+///   what follows is not read: after such a row nobody knows which side is wrong. A stamp that
+///   leaps ahead and back is the wrong one itself;
 /// - *reported only*: jumps of the count (lost edges), mixed line ends, repeated stamps of ticks, a
 ///   last row without line end that is cut or may be. A last row without line end is kept when it
 ///   is whole and goes on as the rows before it did.
@@ -42,6 +41,7 @@ struct EdgeLogConfig {
   double max_speed_counts_s = std::numeric_limits<double>::infinity();
   bool rising_time = false;       ///< a time stamp that repeats is reported and its row left out
   std::size_t max_findings = 20;  ///< kept with their text; all are counted
+  table::Format format;           ///< what the file itself does not say
 };
 
 struct EdgeLog {
@@ -51,7 +51,9 @@ struct EdgeLog {
   std::size_t finding_count = 0;                   ///< also those beyond max_findings
   std::size_t jumps = 0;                           ///< rows with lost edges
   bool stopped = false;                            ///< the last finding ended the reading
-  int decimals = 0;  ///< most decimals that a time stamp was printed with
+  int decimals = 0;                   ///< most decimals that a time stamp was printed with
+  double longest_step_s = 0.0;        ///< between two rows
+  std::size_t longest_step_line = 0;  ///< of the row behind it
 };
 
 using EdgeLogResult = kernel::outcome::Result<EdgeLog>;

@@ -63,11 +63,16 @@ void add_edges(const EdgeLog& log, double count_mm, Record& out) {
 std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& config, Record& out) {
   const double first = std::ceil(log.rows.front().t_s * config.cycle_hz - kTickTolerance);
   const double last = std::floor(log.rows.back().t_s * config.cycle_hz + kTickTolerance);
-  if (!(last - first < static_cast<double>(config.max_ticks))) {
+  const double allowed = std::min(static_cast<double>(config.max_ticks),
+                                  kFreeTicks + kTicksPerRow * static_cast<double>(log.rows.size()));
+  if (!(last - first < allowed)) {
     return Refusal{
-        Kind::bad_input, log.file, 0,
-        fmt::format("spans {:.6g} s, which is {:.3g} control cycles; allowed are {}",
-                    log.rows.back().t_s - log.rows.front().t_s, last - first, config.max_ticks),
+        Kind::bad_input, log.file, log.longest_step_line,
+        fmt::format(
+            "{} rows span {:.6g} s, which is {:.3g} control cycles; allowed are {:.3g}. The "
+            "time goes on by {:.6g} s before this row",
+            log.rows.size(), log.rows.back().t_s - log.rows.front().t_s, last - first, allowed,
+            log.longest_step_s),
         "look for a wrong time stamp, or split the log"};
   }
   if (last < first) {
@@ -100,6 +105,9 @@ kernel::outcome::Result<Record> record_of(const EdgeLog& log, const LogRecordCon
       config.clock_s ? *config.clock_s : std::min(clock_of(log), 1.0 / config.cycle_hz);
   if (log.rows.empty()) {
     return out;
+  }
+  if (auto refusal = other_kind(log, config.input, config.cycle_hz)) {
+    return std::unexpected(std::move(*refusal));
   }
   if (config.input == LogInput::edges) {
     add_edges(log, config.count_mm, out);

@@ -6,15 +6,11 @@
 
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/motion/offline/edge_log.hpp>
+#include <steadyrest/motion/offline/log_kind.hpp>
 #include <steadyrest/motion/offline/scene.hpp>
 
 /// Makes what an estimator takes out of a log.
 namespace steadyrest::motion::offline {
-
-enum class LogInput {
-  edges,  ///< every row is one edge: the count after it, with the time of the edge
-  ticks,  ///< every row is one control cycle: the count that it saw
-};
 
 struct LogRecordConfig {
   LogInput input = LogInput::edges;
@@ -25,6 +21,10 @@ struct LogRecordConfig {
   std::size_t max_ticks = 100'000'000;
 };
 
+/// Cycles that edges may make: this many, and so many more for each row.
+inline constexpr double kFreeTicks = 1e6;
+inline constexpr double kTicksPerRow = 1000.0;
+
 /// `edges`: the first row only tells the cell in which the axis stands. From c to c' > c the last
 /// line passed is c', upwards; to c' < c it is c' + 1, downwards; |c' − c| − 1 edges before it are
 /// lost. A row that does not change the count only tells that the axis stood there. Ticks stand at
@@ -33,7 +33,9 @@ struct LogRecordConfig {
 ///
 /// `ticks`: no edges; a tick for each row at its own time.
 ///
-/// Refused: count_mm or cycle_hz not finite and positive, clock_s negative, more than max_ticks.
+/// Refused: count_mm or cycle_hz not finite and positive, clock_s negative, a log of the other kind
+/// (other_kind), edges that span more cycles than their number warrants (a wrong time stamp), more
+/// than max_ticks.
 [[nodiscard]] kernel::outcome::Result<Record> record_of(const EdgeLog& log,
                                                         const LogRecordConfig& config);
 

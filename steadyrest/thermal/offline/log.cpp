@@ -38,6 +38,9 @@ class LogMaker {
   }
 
   Result<Log> make() {
+    for (const table::Fault& passed : table_.notes) {
+      note(passed.line, passed.what, passed.to_do);
+    }
     if (!table_.passed_over.empty()) {
       note(table_.head_line,
            fmt::format("columns whose names end in no unit that is known: {}",
@@ -377,20 +380,20 @@ class LogMaker {
 
 }  // namespace
 
-Result<Log> parse_log(std::string_view text, const std::string& file) {
-  auto table = parse_log_table(text, file);
+Result<Log> parse_log(std::string_view text, const std::string& file, const table::Format& format) {
+  auto table = parse_log_table(text, file, format);
   if (!table) {
     return std::unexpected(std::move(table.error()));
   }
   return LogMaker(std::move(*table), file).make();
 }
 
-Result<Log> read_log(const std::string& path) {
+Result<Log> read_log(const std::string& path, const table::Format& format) {
   const auto text = read_packed(path);
   if (!text) {
     return std::unexpected(text.error());
   }
-  return parse_log(*text, path);
+  return parse_log(*text, path, format);
 }
 
 }  // namespace steadyrest::thermal::offline

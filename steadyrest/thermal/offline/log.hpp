@@ -7,13 +7,15 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/table/row_reader.hpp>
 
 /// The log of a thermal test or of a working day: CSV, or the same packed by gzip.
 ///
 /// A head with names that end in their unit: a time (`time_s`, `t_s`, or `_ms`, `_min`, `_h`),
 /// the spindle's speed (`spindle_rpm` or `speed_rpm`), displacements (`…_um`, `…_mm`) and
-/// temperatures (`…_c`, `…_k`, `…_f`); then rows. Separated by commas, semicolons or tabs; lines
-/// that begin with # and empty ones are passed over, so are columns of other names.
+/// temperatures (`…_c`, `…_k`, `…_f`); then rows, as table::RowReader takes them. In place of a
+/// time in numbers there may be stamps (ISO 8601) or sample numbers (table::Clock). Columns of
+/// other names are passed over.
 namespace steadyrest::thermal::offline {
 
 struct LogChannel {
@@ -44,9 +46,10 @@ struct Log {
 /// cannot be (their unit is wrong). Noted, and left out: rows that stand twice, sensors that are
 /// absent, stuck or wild for a while (temperatures by the rules of online::SensorWatch). Noted: a
 /// displacement that hardly moves.
-[[nodiscard]] kernel::outcome::Result<Log> read_log(const std::string& path);
-[[nodiscard]] kernel::outcome::Result<Log> parse_log(std::string_view text,
-                                                     const std::string& file);
+[[nodiscard]] kernel::outcome::Result<Log> read_log(const std::string& path,
+                                                    const table::Format& format = {});
+[[nodiscard]] kernel::outcome::Result<Log> parse_log(std::string_view text, const std::string& file,
+                                                     const table::Format& format = {});
 
 /// A sensor that repeats itself to the last digit for so long is stuck, if it lives elsewhere.
 inline constexpr double kStuck_s = 2.0 * 3600.0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -12,8 +11,8 @@
 #include <fmt/core.h>
 #include <zlib.h>
 
+#include <steadyrest/table/clock.hpp>
 #include <steadyrest/thermal/offline/log_table.hpp>
-#include <steadyrest/thermal/offline/row_splitter.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
@@ -21,9 +20,9 @@ namespace {
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
+using table::Fault;
 
 constexpr std::size_t kMaxBytes = 512U << 20U;
-constexpr std::size_t kMaxColumns = 256;
 
 struct Unit {
   std::string_view ending;
@@ -56,18 +55,10 @@ constexpr std::array kNamed = {
     Named{"speed_rpm", Quantity::speed, 1 / 60.0},
 };
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  });
-  return out;
-}
-
 LogColumn column_named(std::string_view name) {
   LogColumn out;
   out.name = std::string(name);
-  const std::string low = lower(name);
+  const std::string low = table::lower(name);
   if (const auto* found = std::ranges::find(kNamed, low, &Named::name); found != kNamed.end()) {
     out.quantity = found->quantity;
     out.factor = found->factor;
@@ -86,128 +77,113 @@ LogColumn column_named(std::string_view name) {
 
 /// An absent value, as loggers write it.
 bool absent(std::string_view field) {
-  const std::string low = lower(field);
+  const std::string low = table::lower(field);
   return low.empty() || low == "nan" || low == "-" || low == "null" || low == "na" || low == "n/a";
 }
 
-class TableReader {
+class TableReader final : public table::Sink {
  public:
-  explicit TableReader(std::string file) : file_(std::move(file)) {}
+  explicit TableReader(const table::Format& format) : format_(format) {}
 
-  Result<LogTable> read(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.starts_with(kByteOrderMark)) {
-      text.remove_prefix(kByteOrderMark.size());
+  std::optional<Fault> head(const table::Head& head) override {
+    out_.head_line = head.line;
+    for (const std::string& name : head.name) {
+      all_.push_back(column_named(name));
     }
-    while (!text.empty() && !fault_) {
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      ++line_;
-      if (const auto row = trimmed(text.substr(0, end)); !row.empty() && row.front() != '#') {
-        split(text.substr(0, end));
-        fields_of_head_ == 0 ? take_head() : take_row();
+    if (auto fault = find_clock(head)) {
+      return fault;
+    }
+    for (const auto& [quantity, what, to_do] :
+         {Needed{Quantity::speed, "the spindle's speed", "name one column spindle_rpm"},
+          Needed{Quantity::displacement, "a displacement",
+                 "name the displacements with their unit: ch1_um, z_um, x_mm"}}) {
+      const auto count = std::ranges::count(all_, quantity, &LogColumn::quantity);
+      if (count == 0 || (count > 1 && quantity != Quantity::displacement)) {
+        return wrong_number(count, what, to_do);
       }
-      text.remove_prefix(std::min(end + 1, text.size()));
     }
-    if (!fault_ && fields_of_head_ == 0) {
-      line_ = 0;
-      refuse("the log is empty", "give a CSV with a head and rows");
+    return head.twice();
+  }
+
+  std::optional<Fault> row(const table::Row& row) override {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      LogColumn& column = all_[i];
+      if (column.quantity == Quantity::other || (column.quantity == Quantity::time && i == time_)) {
+        continue;
+      }
+      double value = std::numeric_limits<double>::quiet_NaN();
+      if (!absent(row.field(i))) {
+        const auto number = row.number(i);
+        if (!number) {
+          return number.error();
+        }
+        value = *number;
+      }
+      column.value.push_back(column.factor * value + column.offset);
     }
-    if (fault_) {
-      return std::unexpected(std::move(*fault_));
+    const auto t_s = clock_->seconds(row);
+    if (!t_s) {
+      return t_s.error();
     }
-    finish();
+    all_[time_].value.push_back(*t_s);
+    out_.line.push_back(row.line());
+    return std::nullopt;
+  }
+
+  LogTable take() {
+    for (LogColumn& column : all_) {
+      if (column.quantity != Quantity::other) {
+        out_.column.push_back(std::move(column));
+      } else if (!column.name.empty()) {
+        out_.passed_over.push_back(column.name);
+      }
+    }
     return std::move(out_);
   }
 
  private:
-  void refuse(std::string what, std::string to_do) {
-    fault_ = Refusal{Kind::bad_input, file_, line_, std::move(what), std::move(to_do)};
+  struct Needed {
+    Quantity quantity;
+    std::string_view what;
+    std::string_view to_do;
+  };
+
+  static Fault wrong_number(std::ptrdiff_t count, std::string_view what, std::string_view to_do) {
+    return {0,
+            count == 0 ? fmt::format("the head has no column for {}", what)
+                       : fmt::format("the head has {} columns for {}", count, what),
+            std::string(to_do)};
   }
 
-  void split(std::string_view row) {
-    if (fields_of_head_ == 0) {
-      splitter_.head(row);
+  /// One column of a known name, or what else tells the time of a row.
+  std::optional<Fault> find_clock(const table::Head& head) {
+    const auto count = std::ranges::count(all_, Quantity::time, &LogColumn::quantity);
+    std::optional<std::size_t> own;
+    double factor = 1.0;
+    if (count > 0) {
+      const auto found = std::ranges::find(all_, Quantity::time, &LogColumn::quantity);
+      own = static_cast<std::size_t>(found - all_.begin());
+      factor = found->factor;
     }
-    splitter_.split(row, fields_);
+    clock_ = table::Clock::of(head, format_, own, factor, table::Epoch::unix);
+    if (count > 1 || !clock_) {
+      return wrong_number(count, "a time",
+                          "name one column time_s (or t_s, time_min), or give stamps as "
+                          "2026-11-22T23:47:06");
+    }
+    if (!clock_->column()) {  // the rows themselves
+      all_.emplace_back();
+      all_.back().name = "row";
+    }
+    time_ = clock_->column().value_or(all_.size() - 1);
+    all_[time_].quantity = Quantity::time;
+    return std::nullopt;
   }
 
-  void take_head() {
-    out_.head_line = line_;
-    fields_of_head_ = fields_.size();
-    if (fields_of_head_ > kMaxColumns) {
-      return refuse(fmt::format("{} columns; {} are allowed", fields_of_head_, kMaxColumns),
-                    "leave out what is not needed");
-    }
-    for (const std::string_view name : fields_) {
-      all_.push_back(column_named(name));
-    }
-    need(Quantity::time, "a time", "name one column time_s (or t_s, time_min)");
-    need(Quantity::speed, "the spindle's speed", "name one column spindle_rpm");
-    need(Quantity::displacement, "a displacement",
-         "name the displacements with their unit: ch1_um, z_um, x_mm");
-    for (std::size_t i = 1; i < fields_.size() && !fault_; ++i) {
-      const auto before = fields_.begin() + static_cast<std::ptrdiff_t>(i);
-      if (std::find(fields_.begin(), before, fields_[i]) != before && !fields_[i].empty()) {
-        refuse(fmt::format("the column {} stands twice in the head", shown(fields_[i])),
-               "give each column its own name");
-      }
-    }
-  }
-
-  void need(Quantity quantity, std::string_view what, std::string_view to_do) {
-    const auto count = std::ranges::count(all_, quantity, &LogColumn::quantity);
-    if (fault_ || (count == 1 || (count > 1 && quantity == Quantity::displacement))) {
-      return;
-    }
-    refuse(count == 0 ? fmt::format("the head has no column for {}", what)
-                      : fmt::format("the head has {} columns for {}", count, what),
-           std::string(to_do));
-  }
-
-  void take_row() {
-    if (fields_.size() != fields_of_head_) {
-      return refuse(
-          fmt::format("the row has {} fields, the head {}", fields_.size(), fields_of_head_),
-          "give each row a field for each column, decimals with a point");
-    }
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      LogColumn& column = all_[i];
-      if (column.quantity == Quantity::other) {
-        continue;
-      }
-      double value = std::numeric_limits<double>::quiet_NaN();
-      if (!absent(fields_[i])) {
-        const char* const begin = std::to_address(fields_[i].begin());
-        const char* const end = std::to_address(fields_[i].end());
-        const auto parsed = std::from_chars(begin, end, value);
-        if (parsed.ec != std::errc{} || parsed.ptr != end || !std::isfinite(value)) {
-          return refuse(
-              fmt::format("{} = \"{}\" is not a finite number", column.name, shown(fields_[i])),
-              "write numbers with a decimal point; leave the field empty where there is no value");
-        }
-      }
-      column.value.push_back(column.factor * value + column.offset);
-    }
-    out_.line.push_back(line_);
-  }
-
-  void finish() {
-    for (LogColumn& column : all_) {
-      if (column.quantity == Quantity::other) {
-        out_.passed_over.push_back(column.name);
-      } else {
-        out_.column.push_back(std::move(column));
-      }
-    }
-  }
-
-  std::string file_;
-  std::size_t line_ = 0;
-  RowSplitter splitter_;
-  std::size_t fields_of_head_ = 0;
-  std::vector<std::string_view> fields_;
+  const table::Format& format_;
   std::vector<LogColumn> all_;
-  std::optional<Refusal> fault_;
+  std::size_t time_ = 0;
+  std::optional<table::Clock> clock_;
   LogTable out_;
 };
 
@@ -216,14 +192,6 @@ struct CloseGzip {
 };
 
 }  // namespace
-
-std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string out(text.substr(0, kMost));
-  std::ranges::replace_if(
-      out, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-  return text.size() > kMost ? out + "…" : out;
-}
 
 Result<std::string> read_packed(const std::string& path) {
   const auto refuse = [&](Kind kind, std::string what, std::string to_do) {
@@ -259,12 +227,22 @@ Result<std::string> read_packed(const std::string& path) {
   return out;
 }
 
-Result<LogTable> parse_log_table(std::string_view text, const std::string& file) {
-  if (text.find('\0') != std::string_view::npos) {
-    return std::unexpected(Refusal{Kind::bad_input, file, 0, "is not text in UTF-8",
-                                   "save the log as CSV in UTF-8 or ASCII"});
+Result<LogTable> parse_log_table(std::string_view text, const std::string& file,
+                                 const table::Format& format) {
+  const auto refuse = [&](const Fault& fault) {
+    return std::unexpected(Refusal{Kind::bad_input, file, fault.line, fault.what, fault.to_do});
+  };
+  TableReader table(format);
+  table::RowReader rows(format, table);
+  if (const auto fault = table::read_rows(text, rows)) {
+    return refuse(*fault);
   }
-  return TableReader(file).read(text);
+  if (!rows.has_head()) {
+    return refuse({0, "the log is empty", "give a CSV with a head and rows"});
+  }
+  LogTable out = table.take();
+  out.notes = rows.notes();
+  return out;
 }
 
 }  // namespace steadyrest::thermal::offline

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/table/row_reader.hpp>
 
 /// The text of a log as columns of numbers; log.hpp says what they mean.
 namespace steadyrest::thermal::offline {
@@ -27,15 +28,14 @@ struct LogTable {
   std::vector<std::size_t> line;  ///< of each row
   std::vector<std::string> passed_over;
   std::size_t head_line = 0;
+  std::vector<table::Fault> notes;  ///< what was passed over
 };
 
 /// The bytes of a file, unpacked where gzip has packed them.
 [[nodiscard]] kernel::outcome::Result<std::string> read_packed(const std::string& path);
 
 [[nodiscard]] kernel::outcome::Result<LogTable> parse_log_table(std::string_view text,
-                                                                const std::string& file);
-
-/// At most 40 characters, with nothing that a terminal would act on.
-[[nodiscard]] std::string shown(std::string_view text);
+                                                                const std::string& file,
+                                                                const table::Format& format);
 
 }  // namespace steadyrest::thermal::offline

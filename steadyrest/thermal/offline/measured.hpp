@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/table/row_reader.hpp>
 
 /// What was measured of the parts (the paper's eighth block): CSV with a head.
 namespace steadyrest::thermal::offline {
@@ -28,9 +29,11 @@ inline constexpr double kLargestDeviation_mm = 1.0;
 
 /// Columns: `part`; `transition` or `time_min` (`time_s`, `time_h`); `deviation_um` (`_mm`);
 /// if wanted `tolerance_um` (`_mm`) and `axis`. Others are refused, so that none is misread; so are
-/// an empty file, words where numbers should be, and values that no heat can give.
-[[nodiscard]] kernel::outcome::Result<std::vector<Measured>> read_measured(const std::string& path);
+/// an empty file, words where numbers should be, and values that no heat can give. Rows are read by
+/// table::RowReader.
+[[nodiscard]] kernel::outcome::Result<std::vector<Measured>> read_measured(
+    const std::string& path, const table::Format& format = {});
 [[nodiscard]] kernel::outcome::Result<std::vector<Measured>> parse_measured(
-    std::string_view text, const std::string& file);
+    std::string_view text, const std::string& file, const table::Format& format = {});
 
 }  // namespace steadyrest::thermal::offline

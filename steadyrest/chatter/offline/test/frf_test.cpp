@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -54,6 +56,39 @@ TEST(FrfCsv, TakesMagnitudeAndPhase) {
   expect_near(read->compliance_mm_n[0], {0.0, -0.002});
 }
 
+TEST(FrfCsv, TurnsVelocityAndAccelerationIntoDisplacement) {
+  const double w = 2.0 * std::numbers::pi * 200.0;
+  const Complex h(2.0, -1.0);
+  for (const auto& [head, order, wanted] :
+       {std::tuple{"frequency_hz,real_m_s2_N,imag_m_s2_N", 2, -1e3 * h / (w * w)},
+        std::tuple{"Frequency [Hz],Real [(m/s²)/N],Imag [(m/s²)/N]", 2, -1e3 * h / (w * w)},
+        std::tuple{"frequency_hz,real_mm_s2_N,imag_mm_s2_N", 2, -1.0 * h / (w * w)},
+        std::tuple{"frequency_hz,real_g_N,imag_g_N", 2, -9806.65 * h / (w * w)},
+        std::tuple{"frequency;real;imag\nHz;m/s2/N;m/s2/N", 2, -1e3 * h / (w * w)},
+        std::tuple{"frequency_hz,real_m_s_N,imag_m_s_N", 1, 1e3 * h / Complex(0.0, w)}}) {
+    std::string given = rows(head);
+    if (given.find(';') != std::string::npos) {
+      std::ranges::replace(given, ',', ';');
+    }
+    const auto read = parse_frf_csv(given, "tap.csv");
+    ASSERT_TRUE(read) << text(read.error()) << head;
+    EXPECT_EQ(read->measured_order, order);
+    expect_near(read->compliance_mm_n[1], wanted);
+  }
+}
+
+TEST(FrfCsv, KeepsTheCoherence) {
+  std::string given = "frequency_hz;real_um_N;imag_um_N;coherence\n";
+  for (int f = 1; f <= 8; ++f) {
+    given += fmt::format("{};1,5;-0,25;0,{}\n", f, f);
+  }
+  const auto read = parse_frf_csv(given, "tap.csv");
+  ASSERT_TRUE(read) << text(read.error());
+  ASSERT_EQ(read->coherence.size(), 8U);
+  EXPECT_DOUBLE_EQ(read->coherence[7], 0.8);
+  expect_near(read->compliance_mm_n[0], {0.0015, -0.00025});
+}
+
 TEST(FrfCsv, RefusesByLine) {
   const auto refusal = [](const std::string& given) {
     const auto read = parse_frf_csv(given, "tap.csv");
@@ -69,9 +104,11 @@ TEST(FrfCsv, RefusesByLine) {
   EXPECT_THAT(refusal(rows("t_s,x,y")), HasSubstr("tap.csv:1: the head is t,x,y"));
   EXPECT_THAT(refusal(rows("frequency_hz,real_um_N")), HasSubstr("2 columns"));
   EXPECT_THAT(refusal(head + "\n1,2,3\n"), HasSubstr("has 1 points"));
-  EXPECT_THAT(refusal(rows(head) + "900,1"), HasSubstr("tap.csv:10: 2 values"));
-  EXPECT_THAT(refusal(rows(head) + "900,1,x\n"), HasSubstr("tap.csv:10: \"x\" is no number"));
-  EXPECT_THAT(refusal(rows(head) + "900,nan,1\n"), HasSubstr("no number"));
+  EXPECT_THAT(refusal(rows(head) + "900,1"),
+              HasSubstr("tap.csv:10: the row has 2 fields, the header 3"));
+  EXPECT_THAT(refusal(rows(head) + "900,1,x\n"),
+              HasSubstr("tap.csv:10: imag_um_N = \"x\" is not a finite number"));
+  EXPECT_THAT(refusal(rows(head) + "900,nan,1\n"), HasSubstr("is not a finite number"));
   EXPECT_THAT(refusal(rows(head) + "800,1,1\n"), HasSubstr("tap.csv:10: frequency 800 Hz after"));
   EXPECT_THAT(refusal(""), HasSubstr("has 0 points"));
 }

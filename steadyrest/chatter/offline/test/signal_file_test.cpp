@@ -66,6 +66,19 @@ TEST(SignalFile, ReadsColumnsByTheirNames) {
   EXPECT_THAT(read->speed_rev_s, testing::ElementsAre(10.0, 20.0, 0.0));
 }
 
+TEST(SignalFile, ReadsWhatHasNoTimeWhenItsRateIsSaid) {
+  table::Format format;
+  format.columns = {"sample", "value"};
+  format.sample_hz = 2000.0;
+  const auto read = parse_signal("4 0.5 \n5 -0.5 \n6 0.25 \n", "signal", format);
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_NEAR(read->rate_hz, 2000.0, 1e-6);
+  EXPECT_THAT(read->value, testing::ElementsAre(0.5, -0.5, 0.25));
+  const auto lost = parse_signal("4 0.5 \n5 -0.5 \n6 0.5 \noverrun\n9 0.25 \n", "signal", format);
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().line, 5U);
+}
+
 TEST(SignalFile, HasNoSpeedWithoutTheColumn) {
   const auto read = parse_signal("t_s,value\n0,1\n0.001,2\n", "signal");
   ASSERT_TRUE(read);
@@ -89,12 +102,12 @@ TEST(SignalFile, RefusesTextByLine) {
   expect_refused("# x\ntime,value\n0,1\n", "t_s is missing", 2);
   expect_refused("t_s,val\n0,1\n", "value is missing", 1);
   expect_refused("t_s,value,t_s\n0,1,0\n", "t_s stands twice", 1);
-  expect_refused(head + "0.003\n", "1 fields; the header has 2", 5);
+  expect_refused(head + "0.003\n", "the row has 1 fields, the header 2", 5);
   expect_refused(head + "0.003,4,5\n", "3 fields", 5);
-  expect_refused(head + "0.003,nan\n", "\"nan\" is not a finite number", 5);
+  expect_refused(head + "0.003,nan\n", "value = \"nan\" is not a finite number", 5);
   expect_refused(head + "0.003,4x\n", "\"4x\"", 5);
   expect_refused(head + "0.003,1e999\n", "\"1e999\"", 5);
-  expect_refused(head + "0.003,\n", "\"\"", 5);
+  expect_refused(head + "0.003,\n", "value is empty", 5);
   expect_refused(head + "0.004,4\n", "t_s goes on by 0.002 s, elsewhere by 0.001 s", 5);
   expect_refused(head + "0.002,4\n", "t_s goes on by 0 s", 5);
   expect_refused(head + "0.001,4\n0.002,1\n", "t_s goes on by -0.001 s", 5);

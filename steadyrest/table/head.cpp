@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include <fmt/core.h>
+
+#include <steadyrest/table/head.hpp>
+
+namespace steadyrest::table {
+namespace {
+
+using namespace std::string_view_literals;
+
+/// Units by the way in which names end.
+constexpr std::array kUnits = {
+    "s"sv,     "ms"sv,     "us"sv,   "ns"sv,     "min"sv,     "h"sv,    "hz"sv,    "khz"sv,
+    "m"sv,     "mm"sv,     "um"sv,   "nm"sv,     "in"sv,      "c"sv,    "k"sv,     "f"sv,
+    "rpm"sv,   "n"sv,      "kn"sv,   "g"sv,      "deg"sv,     "rad"sv,  "w"sv,     "kw"sv,
+    "v"sv,     "mv"sv,     "a"sv,    "db"sv,     "m/n"sv,     "mm/n"sv, "um/n"sv,  "nm/n"sv,
+    "m/s/n"sv, "mm/s/n"sv, "g/n"sv,  "m/s2/n"sv, "mm/s2/n"sv, "m/s2"sv, "mm/s2"sv, "mm/s"sv,
+    "m/s"sv,   "mm/min"sv, "n/um"sv, "nm/v"sv,   "v/n"sv,
+};
+/// Other words for one of them; "1" is none at all.
+struct Other {
+  std::string_view word;
+  std::string_view unit;
+};
+constexpr std::array kOthers = {
+    Other{"sec", "s"},     Other{"degc", "c"},    Other{"degf", "f"},    Other{"celsius", "c"},
+    Other{"1/min", "rpm"}, Other{"u/min", "rpm"}, Other{"min-1", "rpm"}, Other{"rev/min", "rpm"},
+    Other{"-", "1"},       Other{"1", "1"},       Other{"%", "1"},       Other{"count", "1"},
+    Other{"counts", "1"},  Other{"inc", "1"},     Other{"micron", "um"}, Other{"microns", "um"},
+    Other{"iso8601", "1"},
+};
+
+/// Small letters; µ (either code) as u, `^2` and `²` as 2; blanks, ° and round brackets off.
+std::string plain(std::string_view field) {
+  std::string out;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const std::string_view rest = field.substr(i);
+    if (rest.starts_with("\xC2\xB5") || rest.starts_with("\xCE\xBC")) {
+      out += 'u';
+      ++i;
+    } else if (rest.starts_with("\xC2\xB2")) {
+      out += '2';
+      ++i;
+    } else if (rest.starts_with("\xC2\xB0")) {
+      ++i;
+    } else if (std::string_view(" ^()").find(field[i]) == std::string_view::npos) {
+      out += field[i];
+    }
+  }
+  return lower(out);
+}
+
+std::string_view unquoted(std::string_view field) {
+  field = trimmed(field);
+  const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+  return quoted ? trimmed(field.substr(1, field.size() - 2)) : field;
+}
+
+bool bracketed(std::string_view field) {
+  return field.size() > 2 && ((field.front() == '[' && field.back() == ']') ||
+                              (field.front() == '(' && field.back() == ')'));
+}
+
+}  // namespace
+
+std::optional<std::size_t> Head::place(std::string_view wanted) const {
+  const auto at = std::ranges::find(name, wanted);
+  return at == name.end() ? std::nullopt
+                          : std::optional(static_cast<std::size_t>(at - name.begin()));
+}
+
+std::optional<Fault> Head::twice(std::string_view only) const {
+  for (std::size_t i = 1; i < name.size(); ++i) {
+    const auto before = std::span(name).first(i);
+    const bool counts = only.empty() ? !name[i].empty() : name[i] == only;
+    if (counts && std::ranges::find(before, name[i]) != before.end()) {
+      return Fault{line, fmt::format("the column {} stands twice", shown(name[i])),
+                   "give each column its own name"};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string unit_of(std::string_view field) {
+  field = unquoted(field);
+  if (bracketed(field)) {
+    field = trimmed(field.substr(1, field.size() - 2));
+  }
+  const std::string word = plain(field);
+  if (std::ranges::find(kUnits, word) != kUnits.end()) {
+    return word;
+  }
+  const auto* const other = std::ranges::find(kOthers, word, &Other::word);
+  return other == kOthers.end() ? std::string() : std::string(other->unit);
+}
+
+std::string name_of(std::string_view field) {
+  field = unquoted(field);
+  const char close = field.empty() ? '\0' : field.back();
+  if (close != ']' && close != ')') {
+    return std::string(field);
+  }
+  // The unit may have brackets of its own: `real ((m/s²)/N)`.
+  const char open = close == ']' ? '[' : '(';
+  for (std::size_t at = field.rfind(open); at != std::string_view::npos && at > 0;
+       at = field.rfind(open, at - 1)) {
+    const std::string name(trimmed(field.substr(0, at)));
+    if (const std::string unit = unit_of(field.substr(at)); !unit.empty()) {
+      return unit == "1" ? name : name + "_" + unit;
+    }
+  }
+  return std::string(field);
+}
+
+bool are_units(const std::vector<std::string_view>& fields) {
+  bool any = false;
+  for (const std::string_view field : fields) {
+    const bool empty = unquoted(field).empty();
+    if (!empty && unit_of(field).empty()) {
+      return false;
+    }
+    any = any || (!empty && unit_of(field) != "1");
+  }
+  return any;
+}
+
+std::optional<Fault> add_units(const std::vector<std::string_view>& fields, std::size_t line,
+                               Head& head) {
+  for (std::size_t i = 0; i < std::min(fields.size(), head.name.size()); ++i) {
+    std::string& name = head.name[i];
+    const std::string unit = unit_of(fields[i]);
+    const std::size_t mark = name.rfind('_');
+    const std::string own = mark == std::string::npos ? "" : unit_of(name.substr(mark + 1));
+    if (unit.empty() || unit == "1" || name.empty() || lower(name).ends_with("_" + unit)) {
+      continue;
+    }
+    if (!own.empty()) {
+      return Fault{line, fmt::format("the unit of {} is \"{}\"", shown(name), shown(fields[i])),
+                   "give the name and the row of units the same unit"};
+    }
+    name += "_" + unit;
+  }
+  return std::nullopt;
+}
+
+}  // namespace steadyrest::table

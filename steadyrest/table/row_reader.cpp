@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/table/row_reader.hpp>
+#include <steadyrest/table/stamp.hpp>
+
+namespace steadyrest::table {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::size_t kMostNotes = 20;
+constexpr std::size_t kMostColumns = 256;
+
+bool is_control(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return (byte < 0x20 && c != '\t') || byte == 0x7F;
+}
+
+/// The bytes of the field at the front of `text`, quotes and what they hold counted.
+std::size_t size_of_field(std::string_view text, char separator) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin != std::string_view::npos && text[begin] == '"') {
+    // A quote ends at one that the separator or the line's end follows.
+    for (std::size_t at = text.find('"', begin + 1); at != std::string_view::npos;
+         at = text.find('"', at + 1)) {
+      const std::size_t next = text.find_first_not_of(separator == '\t' ? " "sv : " \t"sv, at + 1);
+      if (next == std::string_view::npos) {
+        return text.size();
+      }
+      if (text[next] == separator) {
+        return next;
+      }
+    }
+  }
+  const void* const at = text.empty() ? nullptr : std::memchr(text.data(), separator, text.size());
+  return at == nullptr ? text.size()
+                       : static_cast<std::size_t>(static_cast<const char*>(at) - text.data());
+}
+
+std::string_view field_of(std::string_view text) {
+  text = trimmed(text);
+  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return quoted ? trimmed(text.substr(1, text.size() - 2)) : text;
+}
+
+void split_by(std::string_view text, char separator, std::vector<std::string_view>& fields) {
+  fields.clear();
+  if (separator == ' ') {
+    for (text = trimmed(text); !text.empty();) {
+      const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+      fields.push_back(text.substr(0, end));
+      text = trimmed(text.substr(end));
+    }
+    return;
+  }
+  for (;;) {
+    const std::size_t size = size_of_field(text, separator);
+    fields.push_back(field_of(text.substr(0, size)));
+    if (size == text.size()) {
+      return;
+    }
+    text.remove_prefix(size + 1);
+  }
+}
+
+bool holds_value(std::string_view field) {
+  return like_a_number(field) || stamp_of(field).has_value();
+}
+
+/// The first mark of the head that parts head and first row alike, else the first one.
+char separator_of(std::string_view head, std::string_view row) {
+  std::vector<std::string_view> of_head;
+  std::vector<std::string_view> of_row;
+  char first = '\0';
+  for (const char c : head) {
+    if (c != ',' && c != ';' && c != '\t') {
+      continue;
+    }
+    first = first == '\0' ? c : first;
+    split_by(head, c, of_head);
+    split_by(row, c, of_row);
+    if (of_head.size() == of_row.size() && of_row.size() > 1) {
+      return c;
+    }
+  }
+  return first == '\0' ? ',' : first;
+}
+
+}  // namespace
+
+std::expected<double, Fault> Row::number(std::size_t column) const {
+  return reader_.numbers().read(fields_[column], reader_.names().name[column], line_);
+}
+
+RowReader::RowReader(Format format, Sink& sink)
+    : format_(std::move(format)), sink_(sink), numbers_(format_.decimal) {}
+
+std::optional<Fault> RowReader::first_line(std::string_view& text) {
+  if (auto fault = fault_of_kind(text)) {
+    return fault;
+  }
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) {
+    text.remove_prefix(kByteOrderMark.size());
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> RowReader::line(std::string_view text) {
+  ++line_;
+  if (line_ == 1) {
+    if (auto fault = first_line(text)) {
+      return fault;
+    }
+  }
+  if (text.ends_with('\r')) {
+    text.remove_suffix(1);
+  }
+  const std::string_view content = trimmed(text);
+  if (content.empty() || content.front() == '#') {
+    return std::nullopt;
+  }
+  if (content == "overrun") {
+    return overrun();
+  }
+  if (!have_names_) {
+    return format_.columns.empty() ? take_head(text) : take_named(text);
+  }
+  return head_given_ ? take_row(text) : behind_head(text);
+}
+
+std::optional<Fault> RowReader::overrun() {
+  if (format_.rows_are_samples &&
+      std::ranges::find(format_.columns, "sample"sv) == format_.columns.end()) {
+    return Fault{line_, "the sampler overran: samples are missing here, nobody knows how many",
+                 "sample with halsampler -t and name its first column sample"};
+  }
+  if (notes_.size() < kMostNotes) {
+    notes_.push_back({line_, "the sampler overran: samples are missing here",
+                      "record fewer pins, or give the sampler a deeper FIFO"});
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> RowReader::take_head(std::string_view text) {
+  if (text.find('\r') != std::string_view::npos) {
+    return Fault{line_, "the lines end with a carriage return alone",
+                 "save the log with LF or CR LF as line ends"};
+  }
+  if (std::ranges::any_of(text, is_control)) {
+    return Fault{line_, "the header has control characters: this is no text", "give a text file"};
+  }
+  const std::string_view first = field_of(text.substr(0, text.find_first_of(",;\t ")));
+  if (!first.empty() &&
+      (like_a_number(first) || stamp_of(field_of(text.substr(0, text.find_first_of(",;\t")))))) {
+    return Fault{line_, fmt::format("there is no header before \"{}\"", shown(text)),
+                 "name the columns in a first line without # before it, or with --columns"};
+  }
+  head_text_ = std::string(text);
+  head_.line = line_;
+  have_names_ = true;
+  return std::nullopt;
+}
+
+/// The first line where the command line names the columns.
+std::optional<Fault> RowReader::take_named(std::string_view text) {
+  const std::size_t wanted = format_.columns.size();
+  std::size_t best = 0;
+  for (const char candidate : {'\t', ';', ',', ' '}) {
+    split_by(text, candidate, fields_);
+    const std::size_t found =
+        fields_.size() - (fields_.size() > wanted && fields_.back().empty() ? 1 : 0);
+    best = std::max(best, found);
+    const bool inner_blank = std::ranges::any_of(fields_, [](std::string_view field) {
+      return field.find_first_of(" \t") != std::string_view::npos && !stamp_of(field);
+    });
+    if (found != wanted ||
+        (candidate != ' ' && inner_blank && std::ranges::any_of(fields_, like_a_number))) {
+      continue;
+    }
+    separator_ = candidate;
+    for (const std::string& name : format_.columns) {
+      head_.name.push_back(name == "-" ? std::string() : name_of(name));
+    }
+    have_names_ = true;
+    if (std::ranges::none_of(fields_, holds_value)) {
+      notes_.push_back({line_, "the header is passed over", "the columns are those of --columns"});
+      return std::nullopt;
+    }
+    units_may_follow_ = false;
+    return behind_head(text);
+  }
+  return Fault{
+      line_,
+      fmt::format("--columns names {} columns, the row has {}: \"{}\"", wanted, best, shown(text)),
+      "name each column, - for one that is to be passed over"};
+}
+
+/// The first line behind the head: the units, or the first row. Now the separator can be told.
+std::optional<Fault> RowReader::behind_head(std::string_view text) {
+  if (head_.name.empty()) {
+    separator_ = separator_of(head_text_, text);
+    split_by(head_text_, separator_, fields_);
+    for (const std::string_view field : fields_) {
+      head_.name.push_back(name_of(field));
+    }
+  }
+  split(text);
+  if (units_may_follow_ && fields_.size() <= head_.name.size() && are_units(fields_)) {
+    units_may_follow_ = false;
+    return add_units(fields_, line_, head_);
+  }
+  open_end_ = fields_.size() == head_.name.size() + 1 && fields_.back().empty();
+  for (std::size_t i = 0; i < std::min(fields_.size(), head_.name.size()); ++i) {
+    if (stamp_of(fields_[i])) {
+      head_.stamped = head_.stamped ? head_.name.size() : i;  // two: neither is told from the other
+    }
+  }
+  if (head_.stamped == head_.name.size()) {
+    head_.stamped = std::nullopt;
+  }
+  if (auto fault = give_head()) {
+    return fault;
+  }
+  return take_row(text);
+}
+
+std::optional<Fault> RowReader::give_head() {
+  std::optional<Fault> fault;
+  if (head_.name.size() > kMostColumns) {
+    fault = Fault{0, fmt::format("{} columns; {} are allowed", head_.name.size(), kMostColumns),
+                  "leave out what is not needed"};
+  } else {
+    fault = sink_.head(head_);
+  }
+  if (fault && fault->line == 0) {
+    fault->line = head_.line;
+  }
+  head_given_ = !fault;
+  return fault;
+}
+
+void RowReader::split(std::string_view text) {
+  split_by(text, separator_, fields_);
+}
+
+std::optional<Fault> RowReader::take_row(std::string_view text) {
+  split(text);
+  if (open_end_ && fields_.size() == head_.name.size() + 1 && fields_.back().empty()) {
+    fields_.pop_back();
+  }
+  if (fields_.size() != head_.name.size()) {
+    return Fault{line_,
+                 fmt::format("the row has {} fields, the header {}: \"{}\"", fields_.size(),
+                             head_.name.size(), shown(trimmed(text))),
+                 "give each row a field for each column; where a comma parts them, decimals have a "
+                 "point"};
+  }
+  return sink_.row(Row(*this, line_, fields_));
+}
+
+std::optional<Fault> RowReader::finish() {
+  if (have_names_ && !head_given_) {
+    if (head_.name.empty()) {
+      separator_ = separator_of(head_text_, "");
+      split_by(head_text_, separator_, fields_);
+      for (const std::string_view field : fields_) {
+        head_.name.push_back(name_of(field));
+      }
+    }
+    if (auto fault = give_head()) {
+      return fault;
+    }
+  }
+  return numbers_.unproved();
+}
+
+std::optional<Fault> read_rows(std::string_view text, RowReader& reader) {
+  if (text.find('\0') != std::string_view::npos) {
+    auto fault = fault_of_kind(text);
+    return fault ? fault : Fault{0, "is not text in UTF-8", "save it as CSV in UTF-8 or ASCII"};
+  }
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (auto fault = reader.line(text.substr(0, end))) {
+      return fault;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return reader.finish();
+}
+
+std::optional<Fault> fault_of_kind(std::string_view first_bytes) {
+  struct Kind {
+    std::string_view magic;
+    std::string_view what;
+    std::string_view to_do;
+  };
+  static constexpr std::array kKinds{
+      Kind{"\x1f\x8b"sv, "is compressed by gzip", "unpack it: zcat LOG.gz > LOG"},
+      Kind{"\xfd"
+           "7zXZ"sv,
+           "is compressed by xz", "unpack it: xzcat LOG.xz > LOG"},
+      Kind{"\x28\xb5\x2f\xfd"sv, "is compressed by zstd", "unpack it: zstdcat LOG.zst > LOG"},
+      Kind{"BZh"sv, "is compressed by bzip2", "unpack it: bzcat LOG.bz2 > LOG"},
+      Kind{"PK\x03\x04"sv, "is a zip archive", "unpack it first"},
+      Kind{"\xff\xfe"sv, "is UTF-16 text", "save it as UTF-8"},
+      Kind{"\xfe\xff"sv, "is UTF-16 text", "save it as UTF-8"},
+  };
+  for (const Kind& kind : kKinds) {
+    if (first_bytes.starts_with(kind.magic)) {
+      return Fault{0, std::string(kind.what), std::string(kind.to_do)};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace steadyrest::table

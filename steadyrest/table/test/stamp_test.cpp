@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <steadyrest/table/stamp.hpp>
+
+namespace steadyrest::table {
+namespace {
+
+// From `date -u -d … +%s`.
+constexpr std::int64_t kInstant_s = 1795391226;  // 2026-11-22T23:47:06Z
+
+TEST(Stamp, IsReadInEachSpelling) {
+  for (const auto* text :
+       {"2026-11-22T23:47:06", "2026-11-22 23:47:06", "2026-11-22T23:47:06Z",
+        "2026-11-23T00:47:06+01:00", "2026-11-23T00:47:06+01", "2026-11-22T18:17:06-0530",
+        "20261122T234706Z", "2026-11-22t23:47:06z", "2026-11-22T23:47:06.000"}) {
+    const auto stamp = stamp_of(text);
+    ASSERT_TRUE(stamp) << text;
+    EXPECT_EQ(stamp->whole_s, kInstant_s) << text;
+    EXPECT_EQ(stamp->fraction_s, 0.0) << text;
+  }
+  EXPECT_EQ(stamp_of("2026-11-22T23:47")->whole_s, kInstant_s - 6);
+  EXPECT_EQ(stamp_of("1970-01-01T00:00:00")->whole_s, 0);
+  EXPECT_EQ(stamp_of("2024-02-29T00:00:00Z")->whole_s, 1709164800);
+}
+
+TEST(Stamp, HasItsFractionAndItsZone) {
+  const auto point = stamp_of("2026-11-22T23:47:06.1234567");
+  const auto comma = stamp_of("2026-11-22T23:47:06,1234567+02:00");
+  ASSERT_TRUE(point && comma);
+  EXPECT_DOUBLE_EQ(point->fraction_s, 0.1234567);
+  EXPECT_EQ(point->decimals, 7);
+  EXPECT_FALSE(point->zoned);
+  EXPECT_DOUBLE_EQ(comma->fraction_s, 0.1234567);
+  EXPECT_TRUE(comma->zoned);
+}
+
+TEST(Stamp, IsNothingElse) {
+  for (const auto* text :
+       {"", "0.001", "08:00:00", "2026-11-22", "2026-02-29T00:00:00", "2026-13-01T00:00:00",
+        "2026-11-22T24:00:00", "2026-11-22T23:60:00", "2026-11-22T23:47:06x",
+        "2026-11-22T23:47:06.", "2026-1122T23:47:06", "22.11.2026 23:47:06", "2026-11-22T23:47:06+",
+        "2026-11-22T23:47:06+1", "1969-12-31T23:59:59", "2026-11-22T23:47:06+01:0", "20261122",
+        "2026-11-22T2347:06"}) {
+    EXPECT_FALSE(stamp_of(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::table
