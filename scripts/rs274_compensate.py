@@ -14,6 +14,7 @@ correction that stands, on Z alone; the variable file after the run must be that
 import argparse
 import collections
 import json
+import math
 import os
 import re
 import subprocess
@@ -25,32 +26,62 @@ STEPS_UM = (50.0, 50.0, -30.0)
 MOVES = ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED", "STRAIGHT_PROBE", "RIGID_TAP")
 
 
-def calls(oracle, program, folder):
-    """`folder` is where its subprograms are. (accepted, canonical calls, variables after the run)"""
+def calls(oracle, program, folder, block_delete=False):
+    """`folder` is where its subprograms are. (accepted, canonical calls, what is left behind: numbers of the variable file and
+    words of the tool table)"""
     oracle.fresh()
-    done = subprocess.run([oracle.rs274, "-g", "-t", oracle.path("tool.tbl"), "-v", oracle.path("my.var"), program],
+    done = subprocess.run([oracle.rs274, "-g", *(["-b"] if block_delete else []), "-t", oracle.path("tool.tbl"),
+                           "-v", oracle.path("my.var"), program],
                           stdin=subprocess.DEVNULL, capture_output=True, timeout=120, cwd=folder,
                           env={**os.environ, "HOME": oracle.folder})
     found = [CALL.match(line) for line in done.stdout.decode("latin-1").splitlines()]
-    variables = {}
+    left = {}
     with open(oracle.path("my.var")) as source:
         for line in source:
             parts = line.split()
             if len(parts) == 2:
-                variables[int(parts[0])] = float(parts[1])
-    return done.returncode == 0, [(call.group(1), call.group(2)) for call in found if call], variables
+                left["#" + parts[0]] = float(parts[1])
+    with open(oracle.path("tool.tbl")) as source:
+        for line in source:
+            words = re.findall(r"([A-Z])\s*([-+]?[\d.]+)", line.split(";")[0])
+            left.update({f"T{dict(words).get('T')} {letter}": float(value) for letter, value in words})
+    return done.returncode == 0, [(call.group(1), call.group(2)) for call in found if call], left
+
+
+def trace(before, after):
+    """'' or what the changed program leaves behind otherwise."""
+    for name in sorted(set(before) | set(after)):
+        if abs(before.get(name, 0.0) - after.get(name, 0.0)) > 2e-6:  # six decimals
+            return f"leaves {name} at {after.get(name)} instead of {before.get(name)}"
+    return ""
+
+
+def turned(point, degrees):
+    """About Z; None stays None."""
+    if not degrees or None in point[:2]:
+        return point
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return [c * point[0] - s * point[1], s * point[0] + c * point[1], point[2]]
 
 
 def machine_moves(listed):
-    """Each move as (name, (x, y, z) in machine mm, centre or None, digits in mm)."""
-    unit, plane = 1.0, "XY"
+    """Each move as (name, (x, y, z) in machine mm, centre or None, digits in mm): turned(work + G92) + G5x + tool."""
+    unit, plane, rotation = 1.0, "XY", 0.0
     offsets = {"SET_G5X_OFFSET": [0.0] * 3, "SET_G92_OFFSET": [0.0] * 3, "USE_TOOL_LENGTH_OFFSET": [0.0] * 3}
     moves, restated = [], False
+
+    def machine(point):
+        shifted = [None if value is None else value * unit + offsets["SET_G92_OFFSET"][i] for i, value in enumerate(point)]
+        return [None if value is None else value + offsets["SET_G5X_OFFSET"][i] + offsets["USE_TOOL_LENGTH_OFFSET"][i]
+                for i, value in enumerate(turned(shifted, rotation))]
+
     for name, values in listed:
         if name == "USE_LENGTH_UNITS":
             unit = MM_PER_INCH if "INCHES" in values else 1.0
         elif name == "SELECT_PLANE":
             plane = values[-2:]
+        elif name == "SET_XY_ROTATION":
+            rotation = float(values)
         elif name in offsets:
             at = 1 if name == "SET_G5X_OFFSET" else 0
             offsets[name] = [value * unit for value in numbers(values)[at:at + 3]]
@@ -58,48 +89,54 @@ def machine_moves(listed):
             restated = True
         elif name in MOVES:
             printed = numbers(values)
-            shift = [sum(one[i] for one in offsets.values()) for i in range(3)]
             centre = None
             if name == "ARC_FEED":
                 first, second, normal = {"XY": (0, 1, 2), "XZ": (2, 0, 1), "YZ": (1, 2, 0)}[plane]
                 end, centre = [0.0] * 3, [None] * 3
                 end[first], end[second], end[normal] = printed[0], printed[1], printed[5]
-                centre[first] = printed[2] * unit + shift[first]
-                centre[second] = printed[3] * unit + shift[second]
+                centre[first], centre[second] = printed[2], printed[3]
+                centre = machine(centre)
             else:
                 end = printed[:3]
             if not restated:
                 # Coordinate and up to three offsets, each rounded to four decimals, in both programs.
-                moves.append((name, [end[i] * unit + shift[i] for i in range(3)], centre, 4.0 * 1e-4 * unit))
+                moves.append((name, machine(end), centre, (4.0 if not rotation else 6.0) * 1e-4 * unit))
             restated = False
     return moves
 
 
-def disagreement(original, changed, totals_mm, may_leave):
-    """'' or how the changed program's machine goes otherwise."""
+def disagreement(original, changed, totals_mm, may_leave, to_its_end=True):
+    """'' or how the changed program's machine goes otherwise. `totals_mm`: by axis 0 … 2, what stands from each step on. The last
+    move may stand in the line that ends the program: then it goes without a correction."""
     if len(original) != len(changed):
         return f"{len(original)} moves became {len(changed)}"
-    wanted, stands = list(totals_mm), 0.0
+    wanted, stands, digit = {axis: list(totals) for axis, totals in totals_mm.items()}, [0.0] * 3, 0.0
     for index, (before, after) in enumerate(zip(original, changed)):
         where = f"move {index + 1}"
         if before[0] != after[0]:
             return f"{where}: {before[0]} became {after[0]}"
         digit = before[3]
-        for axis in (0, 1):
-            if abs(after[1][axis] - before[1][axis]) > digit:
-                return f"{where}: {'xy'[axis]} differs by {after[1][axis] - before[1][axis]:.4f}"
-        shift = after[1][2] - before[1][2]
-        while wanted and abs(shift - stands) > digit and not (may_leave and abs(shift) <= digit):
-            stands = wanted.pop(0)
-        if abs(shift - stands) > digit and not (may_leave and abs(shift) <= digit):
-            return f"{where}: z differs by {shift:.4f}; {stands:.4f} stands"
-        if before[2]:
-            for axis in range(3):
-                if before[2][axis] is not None:
-                    off = after[2][axis] - before[2][axis] - (shift if axis == 2 else 0.0)
-                    if abs(off) > digit:
-                        return f"{where}: centre {'xyz'[axis]} differs by {off:.4f}"
-    return f"corrections that never act: {wanted}" if wanted else ""
+        shift = [after[1][axis] - before[1][axis] for axis in range(3)]
+        for axis in range(3):
+            left = (may_leave or index + 1 == len(original)) and abs(shift[axis]) <= digit
+            while wanted.get(axis) and abs(shift[axis] - stands[axis]) > digit and not left:
+                stands[axis] = wanted[axis].pop(0)
+            if abs(shift[axis] - stands[axis]) > digit and not left:
+                return f"{where}: {'xyz'[axis]} differs by {shift[axis]:.4f}; {stands[axis]:.4f} stands"
+            if before[2] and before[2][axis] is not None:
+                off = after[2][axis] - before[2][axis] - shift[axis]
+                if abs(off) > digit:
+                    return f"{where}: centre {'xyz'[axis]} differs by {off:.4f}"
+    never = {axis: totals for axis, totals in wanted.items() if totals and abs(totals[-1] - stands[axis]) > 2 * digit}
+    return f"corrections that never act: {never}" if never and to_its_end else ""
+
+
+def totals_of(insertions):
+    """By axis 0 … 2, what stands from each place on, mm; steps that meet at one place are one."""
+    totals = {}
+    for one in insertions:
+        totals.setdefault("XYZ".index(one["axis"]), {})[one["original_line"]] = one["total_um"] * 1e-3
+    return {axis: list(by_line.values()) for axis, by_line in totals.items()}
 
 
 def run(steadyrest, *arguments):
@@ -112,7 +149,7 @@ def judge(steadyrest, oracle, program, machine):
     oracle.fresh()
     folder = os.path.dirname(program)
     common = ["--dialect", "linuxcnc", "--machine", machine, "--tools", oracle.path("tool.tbl"), "--data-units", "inch",
-              "--subprograms", folder]
+              "--variables", oracle.path("my.var"), "--subprograms", folder]
     code, time = run(steadyrest, "time", program, *common)
     if code and time["refused"][0].get("reason") == "no_program_end":  # a file without M2 is read as if it had one
         ended = oracle.path("ended.ngc")
@@ -142,15 +179,11 @@ def judge(steadyrest, oracle, program, machine):
     ok, after, left_after = calls(oracle, changed, folder)
     if not ok:
         return "wrong", "rs274 refuses the changed program"
-    totals = [one["total_um"] * 1e-3 for one in made["insertions"]]
     with open(program, errors="replace") as source:
         may_leave = re.search(r"(?i)G0*(53|28|30)(?!\d)", source.read()) is not None
-    fault = disagreement(machine_moves(before), machine_moves(after), totals, may_leave)
+    fault = disagreement(machine_moves(before), machine_moves(after), totals_of(made["insertions"]), may_leave) or trace(left_before, left_after)
     if fault:
         return "wrong", fault
-    for number in sorted(set(left_before) | set(left_after)):
-        if abs(left_before.get(number, 0.0) - left_after.get(number, 0.0)) > 1e-6:
-            return "wrong", f"leaves #{number} at {left_after.get(number)} instead of {left_before.get(number)}"
     return "right", f"{len(machine_moves(before))} moves, {made['proved_moves']} proved"
 
 

@@ -145,7 +145,6 @@ Result<void> put_batch(Answer& answer, const CutBatchOptions& options,
   job.config = std::move(*config);
   job.cyclogram = std::move(*cyclogram);
   static_cast<nc::rewrite::Way&>(job.settings) = *way;
-  job.settings.offsets_known = !program.variables.empty();
   job.settings.clamp_mm = machine.envelope.max_offset_mm;
   job.parts = options.parts;
   job.pause_s = 60.0 * options.pause_min;

@@ -169,7 +169,6 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
     return std::unexpected(way.error());
   }
   static_cast<Way&>(task.settings) = *way;
-  task.settings.offsets_known = !options.program.variables.empty();
   task.config.external_offset = way->method != Method::haas;
   task.settings.window_s = options.window_s;
   task.settings.clamp_mm = task.machine.envelope.max_offset_mm;

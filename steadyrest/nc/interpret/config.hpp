@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <steadyrest/nc/interpret/move.hpp>
@@ -46,6 +47,11 @@ struct Config {
   std::size_t active_offset = 0;  ///< index into work_offset that is in force at the start
   Axes g92{};                     ///< G92 offset in force at the start
   std::array<Axes, 2> home{};     ///< G28 and G30, machine coordinates
+  /// linuxcnc: other numbered parameters that the control keeps, with their values at the start.
+  std::vector<std::pair<int, double>> numbers;
+  /// The offsets, the active one, the reference points and the parameters above are those of the
+  /// control; false: they are only taken for the want of better.
+  bool start_known = false;
   /// Without a table every tool exists, with length 0: positions are then those of the tool tip of
   /// a tool without length. With a table a tool that is not in it is refused.
   std::optional<std::vector<Tool>> tools;

@@ -67,6 +67,7 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
   state_.position = config_.start;
   update_offset();
   state_.position = to_work(config_.start);
+  parameters_->keep(config_.numbers);
 }
 
 bool Interpreter::execute(const Block& block, Sink& sink) {

@@ -52,6 +52,10 @@ class Interpreter {
     parameters_->bind(state_, config_);
     return *parameters_;
   }
+  /// The tool table as the program has left it; nothing where none was given.
+  [[nodiscard]] const std::optional<std::vector<Tool>>& tools() const noexcept {
+    return config_.tools;
+  }
   /// A subprogram begins or ends: what M70 and M73 kept belongs to it.
   void enter_call();
   void leave_call(Sink& sink);

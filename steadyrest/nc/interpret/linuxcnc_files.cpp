@@ -138,6 +138,8 @@ bool put_variable(Config& config, int number, double value, double unit_mm) {
     } else if (axis == kAxes) {
       config.rotation_deg[set] = value;
     }
+  } else {
+    config.numbers.emplace_back(number, value);
   }
   return true;
 }
@@ -181,6 +183,7 @@ Result<void> read_variables(const std::string& path, double unit_mm, Config& con
   if (!g92_on) {
     config.g92 = {};
   }
+  config.start_known = true;
   return {};
 }
 

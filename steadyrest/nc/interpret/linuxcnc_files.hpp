@@ -15,8 +15,9 @@ namespace steadyrest::nc::interpret {
 kernel::outcome::Result<std::vector<Tool>> read_tool_table(const std::string& path, double unit_mm);
 
 /// Reads a LinuxCNC variable file (`5221  12.5`) into a configuration: G28 (5161…), G30 (5181…),
-/// G92 (5210…), active work offset (5220) and the nine work offsets (5221…). Behind
-/// the nine values of a work offset stands its rotation (5230, 5250, …).
+/// G92 (5210…), active work offset (5220) and the nine work offsets (5221…), other numbers as they
+/// are; `start_known` is set. Behind the nine values of a work offset stands its rotation (5230,
+/// 5250, …).
 kernel::outcome::Result<void> read_variables(const std::string& path, double unit_mm,
                                              Config& config);
 

@@ -15,6 +15,35 @@ constexpr bool is_kept(int index) noexcept {
          (index >= 500 && index <= 999);
 }
 
+/// What #4001 … show.
+constexpr ModeMask mode_of(int index) noexcept {
+  switch (index) {
+    case 4001:
+    case 4009:
+      return mode(GGroup::motion);
+    case 4002:
+      return mode(GGroup::plane);
+    case 4003:
+      return mode(GGroup::distance);
+    case 4005:
+      return mode(GGroup::feed_mode);
+    case 4006:
+      return mode(GGroup::units);
+    case 4010:
+      return mode(GGroup::retract);
+    case 4014:
+      return mode(GGroup::work_offset);
+    case 4109:
+      return kFeedMode;
+    case 4119:
+      return kSpeedMode;
+    case 4120:
+      return kToolMode;
+    default:
+      return 0;
+  }
+}
+
 }  // namespace
 
 MacroVariables::MacroVariables(const State& state) : state_(state) {
@@ -42,6 +71,7 @@ bool MacroVariables::mode(int index, double& value) const {
     value = answer;
     return true;
   };
+  asked_.about_mode(mode_of(index));
   switch (index) {
     case 4001:
       return state_.motion >= 0 && state_.motion <= 30 && yes(state_.motion / 10.0);
@@ -89,6 +119,10 @@ bool MacroVariables::position(int index, double& value) const {
                                      : first == kMachine ? state_.offset[axis]
                                                          : state_.tool_offset[axis]);
     value /= state_.unit_mm;
+    asked_.about_position(axis);
+    if (first != kBlockEnd) {  // what the offset and the tool add is not the program's
+      asked_.about("#" + std::to_string(index));
+    }
     return true;
   }
   return false;
@@ -118,6 +152,14 @@ void MacroVariables::commit() {
     numbers_[static_cast<std::size_t>(index)] = value;
   }
   drop();
+}
+
+void MacroVariables::list(std::vector<std::pair<std::string, double>>& out) const {
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (!std::isnan(numbers_[i])) {
+      out.emplace_back("#" + std::to_string(i), numbers_[i]);
+    }
+  }
 }
 
 void MacroVariables::drop() noexcept {

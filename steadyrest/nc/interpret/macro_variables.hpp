@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <steadyrest/nc/interpret/asked.hpp>
 #include <steadyrest/nc/interpret/state.hpp>
 #include <steadyrest/nc/read/values.hpp>
 
@@ -33,6 +35,11 @@ class MacroVariables final : public read::Values {
   [[nodiscard]] double increment(char letter) const override;
   void drop() noexcept override;
 
+  [[nodiscard]] Asked& asked() noexcept { return asked_; }
+  [[nodiscard]] const Asked& asked() const noexcept { return asked_; }
+  /// The variables that are set, `#500`, with their values.
+  void list(std::vector<std::pair<std::string, double>>& out) const;
+
  private:
   static constexpr std::size_t kNumbers = 1000;
   [[nodiscard]] bool mode(int index, double& value) const;
@@ -40,6 +47,7 @@ class MacroVariables final : public read::Values {
 
   const State& state_;
   std::array<double, kNumbers> numbers_{};
+  mutable Asked asked_;
   std::vector<std::pair<int, double>> pending_;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <steadyrest/nc/interpret/frame.hpp>
+#include <steadyrest/nc/interpret/parameter_answers.hpp>
 #include <steadyrest/nc/interpret/parameters.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -43,75 +44,67 @@ bool of_machine(std::string_view name) noexcept {
          name == "_selected_pocket" || name == "_metric_machine";
 }
 
-using Answers = std::unordered_map<std::string_view, double (*)(const State&)>;
-
-/// What the interpreter answers for by name.
-const Answers& answers() {
-  static constexpr auto kTruth = [](bool yes) { return yes ? 1.0 : 0.0; };
-  static const Answers kAnswers = {
-      {"_vmajor", [](const State&) { return 2.9; }},
-      {"_vminor", [](const State&) { return 0.0; }},
-      {"_motion_mode",
-       [](const State& s) { return s.motion < 0 ? 800.0 : static_cast<double>(s.motion); }},
-      {"_plane",
-       [](const State& s) {
-         return s.plane == Plane::xy ? 170.0 : s.plane == Plane::zx ? 180.0 : 190.0;
-       }},
-      {"_ccomp",
-       [](const State& s) {
-         return s.cutter_side == 0 ? 400.0 : s.cutter_side < 0 ? 410.0 : 420.0;
-       }},
-      {"_metric", [](const State& s) { return kTruth(s.unit_mm == 1.0); }},
-      {"_imperial", [](const State& s) { return kTruth(s.unit_mm != 1.0); }},
-      {"_absolute", [](const State& s) { return kTruth(!s.incremental); }},
-      {"_incremental", [](const State& s) { return kTruth(s.incremental); }},
-      {"_inverse_time",
-       [](const State& s) { return kTruth(s.feed_mode == FeedMode::inverse_time); }},
-      {"_units_per_minute",
-       [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_minute); }},
-      {"_units_per_rev",
-       [](const State& s) { return kTruth(s.feed_mode == FeedMode::per_revolution); }},
-      {"_coord_system",
-       [](const State& s) {
-         const auto set = static_cast<double>(s.active_offset);
-         return set < 6.0 ? 540.0 + 10.0 * set : 585.0 + set;
-       }},
-      {"_tool_offset", [](const State& s) { return kTruth(s.tool_offset != Axes{}); }},
-      {"_retract_r_plane", [](const State& s) { return kTruth(!s.retract_to_initial); }},
-      {"_retract_old_z", [](const State& s) { return kTruth(s.retract_to_initial); }},
-      {"_spindle_rpm_mode", [](const State& s) { return kTruth(!s.surface_speed); }},
-      {"_spindle_css_mode", [](const State& s) { return kTruth(s.surface_speed); }},
-      {"_ijk_absolute_mode", [](const State& s) { return kTruth(s.centre_absolute); }},
-      {"_lathe_diameter_mode", [](const State& s) { return kTruth(s.diameter); }},
-      {"_lathe_radius_mode", [](const State& s) { return kTruth(!s.diameter); }},
-      {"_spindle_on", [](const State& s) { return kTruth(s.spindle_direction != 0); }},
-      {"_spindle_cw", [](const State& s) { return kTruth(s.spindle_direction > 0); }},
-      {"_mist",
-       [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 1U) != 0); }},
-      {"_flood",
-       [](const State& s) { return kTruth((static_cast<unsigned>(s.coolant) & 2U) != 0); }},
-      {"_speed_override", [](const State&) { return 1.0; }},
-      {"_feed_override", [](const State& s) { return kTruth(!s.override_off); }},
-      {"_adaptive_feed", [](const State&) { return 0.0; }},
-      {"_feed_hold", [](const State&) { return 1.0; }},
-      {"_feed",
-       [](const State& s) {
-         return s.feed_mm_s * (s.feed_mode == FeedMode::per_revolution ? 1.0 : 60.0) /
-                (s.feed_mode == FeedMode::inverse_time ? 1.0 : s.unit_mm);
-       }},
-      {"_rpm", [](const State& s) { return s.spindle_speed_rev_s * 60.0; }},
-      {"_current_tool", [](const State& s) { return static_cast<double>(s.tool_in_spindle); }},
-      {"_selected_tool", [](const State& s) { return static_cast<double>(s.selected_tool); }},
-      {"_task", [](const State&) { return 0.0; }},
-      {"_remap_level", [](const State&) { return 0.0; }},
-  };
-  return kAnswers;
-}
-
 }  // namespace
 
-Parameters::Parameters() : numbers_(static_cast<std::size_t>(kNumbers), 0.0) {
+Parameters::Parameters()
+    : numbers_(static_cast<std::size_t>(kNumbers), 0.0), set_(numbers_.size(), false) {
   numbers_[kDebugging] = 1.0;
+  set_[kDebugging] = true;
+}
+
+void Parameters::keep(std::span<const std::pair<int, double>> numbers) {
+  for (const auto& [index, value] : numbers) {
+    if (index >= 1 && index < kProbe) {
+      numbers_[static_cast<std::size_t>(index)] = value;
+      set_[static_cast<std::size_t>(index)] = true;
+    }
+  }
+}
+
+void Parameters::list(std::vector<std::pair<std::string, double>>& out) const {
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (set_[i]) {
+      out.emplace_back("#" + std::to_string(i), numbers_[i]);
+    }
+  }
+  const std::size_t first = out.size();
+  for (const auto& [name, value] : globals_) {
+    out.emplace_back("#<" + name + ">", value);
+  }
+  std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
+}
+
+// Of the numbers that of_state() answers for.
+void Parameters::ask(int index) const {
+  if (within(index, kPosition)) {
+    asked_.about_position(static_cast<std::size_t>(index - kPosition));
+  } else if (index == kActiveOffset) {
+    asked_.about_mode(mode(GGroup::work_offset));
+  } else if (index == kTool) {
+    asked_.about_mode(kToolMode);
+  } else if (index > kTool && index < kToolDiameter + 4) {
+    asked_.about_mode(kToolMode);
+    if (!config_->tools) {
+      asked_.about("#" + std::to_string(index));
+    }
+  } else if (!config_->start_known) {
+    asked_.about("#" + std::to_string(index));
+  }
+}
+
+void Parameters::ask(std::string_view name) const {
+  constexpr std::string_view kLetters = "xyzabcuvw";
+  const std::size_t axis = kLetters.find(name.back());
+  if (name.size() == 2 && axis != std::string_view::npos) {
+    asked_.about_position(axis);
+  } else if (name.starts_with("_abs_") && name.size() == 6 && axis != std::string_view::npos) {
+    asked_.about_position(axis);
+    if (!config_->start_known) {
+      asked_.about("#<" + std::string{name} + ">");
+    }
+  } else if (const Answer* const answer = answer_of(name); answer != nullptr && answer->mode != 0) {
+    asked_.about_mode(answer->mode);
+  }
 }
 
 double* Parameters::stored(int index, bool& rotary) const noexcept {
@@ -218,11 +211,11 @@ bool Parameters::of_state(std::string_view name, double& value) const {
     value = static_cast<double>(calls_.size());
     return true;
   }
-  const auto found = answers().find(name);
-  if (found == answers().end()) {
+  const Answer* const answer = answer_of(name);
+  if (answer == nullptr) {
     return false;
   }
-  value = found->second(*state_);
+  value = answer->value(*state_);
   return true;
 }
 
@@ -234,9 +227,13 @@ Lookup Parameters::number(int index, double& value) const {
     return Lookup::not_while_compensating;
   }
   if (index >= kHome && of_state(index, value)) {
+    ask(index);
     return Lookup::found;
   }
   value = numbers_[static_cast<std::size_t>(index)];
+  if (!set_[static_cast<std::size_t>(index)]) {
+    asked_.about("#" + std::to_string(index));
+  }
   return Lookup::found;
 }
 
@@ -261,6 +258,7 @@ Lookup Parameters::name(std::string_view name, double& value) const {
     return Lookup::found;
   }
   if (of_state(name, value)) {
+    ask(name);
     return Lookup::found;
   }
   const auto found = globals_.find(name);
@@ -268,6 +266,7 @@ Lookup Parameters::name(std::string_view name, double& value) const {
     value = found->second;
     return Lookup::found;
   }
+  asked_.about("#<" + std::string{name} + ">");  // EXISTS
   return of_machine(name) ? Lookup::not_known_here : Lookup::no_such_name;
 }
 
@@ -300,6 +299,7 @@ void Parameters::assign(int index, double value) {
   }
   if (index < kChangerFault) {
     numbers_[static_cast<std::size_t>(index)] = value;
+    set_[static_cast<std::size_t>(index)] = true;
   }
 }
 
@@ -321,16 +321,21 @@ void Parameters::drop() noexcept {
 
 void Parameters::record_probe(const Axes& end) {
   for (int axis = 0; axis < kAxes; ++axis) {
-    numbers_[static_cast<std::size_t>(kProbe) + static_cast<std::size_t>(axis)] =
+    const auto number = static_cast<std::size_t>(kProbe) + static_cast<std::size_t>(axis);
+    numbers_[number] =
         end[static_cast<std::size_t>(axis)] / (is_rotary(axis) ? 1.0 : state_->unit_mm);
+    set_[number] = false;  // where it touches is not known
   }
+  set_[kProbe + kAxes] = false;
   numbers_[kProbe + kAxes] = 0.0;
 }
 
 void Parameters::enter(std::span<const double> arguments) {
   Call call;
   std::copy_n(numbers_.begin() + 1, kLocals, call.saved.begin());
+  std::copy_n(set_.begin() + 1, kLocals, call.saved_set.begin());
   std::fill_n(numbers_.begin() + 1, kLocals, 0.0);
+  std::fill_n(set_.begin() + 1, kLocals, true);
   std::ranges::copy(arguments, numbers_.begin() + 1);
   calls_.push_back(std::move(call));
 }
@@ -342,6 +347,7 @@ void Parameters::enter_shared() {
 void Parameters::leave(const double* returned) {
   if (!calls_.back().shared) {
     std::ranges::copy(calls_.back().saved, numbers_.begin() + 1);
+    std::copy_n(calls_.back().saved_set.begin(), kLocals, set_.begin() + 1);
   }
   calls_.pop_back();
   record_value(returned);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <steadyrest/nc/interpret/asked.hpp>
 #include <steadyrest/nc/interpret/config.hpp>
 #include <steadyrest/nc/interpret/state.hpp>
 #include <steadyrest/nc/read/values.hpp>
@@ -57,6 +58,15 @@ class Parameters final : public read::Values {
   void record_value(const double* returned) noexcept;
   [[nodiscard]] std::size_t calls() const noexcept { return calls_.size(); }
 
+  /// What the control has kept from before the program.
+  void keep(std::span<const std::pair<int, double>> numbers);
+  /// What the line in hand has asked of the control's own state; cleared by whoever reads lines.
+  [[nodiscard]] Asked& asked() noexcept { return asked_; }
+  [[nodiscard]] const Asked& asked() const noexcept { return asked_; }
+  /// Numbers and global names that are set, `#100` and `#<_name>`, with their values: what the
+  /// control keeps when the program is over.
+  void list(std::vector<std::pair<std::string, double>>& out) const;
+
  private:
   struct Hash {
     using is_transparent = void;  // NOLINT(readability-identifier-naming): the library's name
@@ -67,6 +77,7 @@ class Parameters final : public read::Values {
   using Names = std::unordered_map<std::string, double, Hash, std::equal_to<>>;
   struct Call {
     std::array<double, kLocals> saved{};
+    std::array<bool, kLocals> saved_set{};
     Names names;
     bool shared = false;
   };
@@ -78,10 +89,14 @@ class Parameters final : public read::Values {
   /// Where a stored offset or reference point lies in the state; nullptr when it is none of them.
   [[nodiscard]] double* stored(int index, bool& rotary) const noexcept;
   void assign(int index, double value);
+  void ask(int index) const;
+  void ask(std::string_view name) const;
 
   State* state_ = nullptr;
   const Config* config_ = nullptr;
   std::vector<double> numbers_;
+  std::vector<bool> set_;  ///< by the program, or known from before
+  mutable Asked asked_;
   Names globals_;
   Names main_names_;
   std::vector<Call> calls_;

@@ -73,6 +73,7 @@ class ProgramRun::Run {
     if (!flow_.count_line(report_.moves - std::exchange(moves_before_, report_.moves))) {
       return refuse(flow_.refused());
     }
+    asked().clear();
     executed_ = false;
     at_top_ = files_.in_main() && !flow_.repeating();
     in_main_ = files_.in_main();
@@ -128,6 +129,10 @@ class ProgramRun::Run {
         return end_of_subprogram();
     }
     return true;
+  }
+
+  Asked& asked() noexcept {
+    return dialect_ == read::Dialect::fanuc ? macro_.asked() : interpreter_.parameters().asked();
   }
 
   bool same_as_ahead(const LineSource& source) noexcept {
@@ -337,6 +342,20 @@ bool ProgramRun::in_main() const noexcept {
 }
 const Block& ProgramRun::block() const noexcept {
   return run_->block_;
+}
+const Asked& ProgramRun::asked() const noexcept {
+  return run_->asked();
+}
+ProgramRun::Kept ProgramRun::kept() const {
+  Kept kept{.tools = run_->interpreter_.tools().value_or(std::vector<Tool>{}), .variables = {}};
+  if (run_->dialect_ == read::Dialect::linuxcnc) {
+    run_->interpreter_.parameters().list(kept.variables);
+  } else if (run_->dialect_ == read::Dialect::fanuc) {
+    run_->macro_.list(kept.variables);
+  } else {
+    run_->typed_.list(kept.variables);
+  }
+  return kept;
 }
 const State& ProgramRun::state() const noexcept {
   return run_->interpreter_.state();

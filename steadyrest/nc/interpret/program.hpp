@@ -6,9 +6,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/asked.hpp>
 #include <steadyrest/nc/interpret/config.hpp>
 #include <steadyrest/nc/interpret/move.hpp>
 #include <steadyrest/nc/interpret/state.hpp>
@@ -34,6 +36,13 @@ struct Report {
 /// Executes a program line by line, for those who look at the state between two lines.
 class ProgramRun {
  public:
+  /// What the control keeps when the program is over, beside the offsets of the state.
+  struct Kept {
+    std::vector<Tool> tools;  ///< where a table was given
+    /// Variables that are set, by the name that the program has for them.
+    std::vector<std::pair<std::string, double>> variables;
+  };
+
   /// `source` and `sink` outlive the run.
   static kernel::outcome::Result<ProgramRun> make(read::LineSource& source, const Config& config,
                                                   Sink& sink);
@@ -60,7 +69,10 @@ class ProgramRun {
   [[nodiscard]] bool at_top() const noexcept;
   [[nodiscard]] bool in_main() const noexcept;  ///< not in a subprogram's own file
   [[nodiscard]] const read::Block& block() const noexcept;
+  /// What its expressions have asked of the control's own state.
+  [[nodiscard]] const Asked& asked() const noexcept;
   [[nodiscard]] const State& state() const noexcept;  ///< as it stands now
+  [[nodiscard]] Kept kept() const;                    ///< likewise
 
  private:
   class Run;

@@ -25,6 +25,14 @@ double converted(ValueType type, double value) noexcept {
 SinumerikVariables::SinumerikVariables()
     : numbers_(kParameters, std::numeric_limits<double>::quiet_NaN()), frames_(1) {}
 
+void SinumerikVariables::list(std::vector<std::pair<std::string, double>>& out) const {
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (!std::isnan(numbers_[i])) {
+      out.emplace_back("R" + std::to_string(i), numbers_[i]);
+    }
+  }
+}
+
 Lookup SinumerikVariables::number(int index, double& value) const {
   if (index < 0 || index >= kParameters) {
     return Lookup::no_such_number;

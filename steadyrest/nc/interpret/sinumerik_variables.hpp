@@ -32,6 +32,8 @@ class SinumerikVariables final : public read::TypedValues {
   bool define_argument(std::string_view name, read::ValueType type, std::size_t place,
                        double otherwise) override;
 
+  /// The R-parameters that are set, `R5`, with their values: what the control keeps.
+  void list(std::vector<std::pair<std::string, double>>& out) const;
   /// A subprogram begins with the values of its call, begins again (P), ends.
   void enter(const read::Flow& call);
   void restart();

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include <steadyrest/nc/interpret/move.hpp>
+#include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/interpret/state.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -52,8 +54,14 @@ struct Modes {
 /// The same into what they were before a line that `moved_alone` (interpret::ProgramRun), or not.
 void renew(Modes& modes, const interpret::State& state, bool moved_alone);
 
-/// What two programs leave behind differently; empty when nothing.
+/// What the state at the end of two programs differs in, where a next program would find it; empty
+/// when in nothing.
 [[nodiscard]] std::string_view state_difference(const interpret::State& a,
                                                 const interpret::State& b);
+
+/// What else outlives two programs and differs: reference points, stored rotations, the tool table,
+/// variables (those of the inserted lines left out). With its name; empty when nothing.
+[[nodiscard]] std::string kept_difference(const interpret::ProgramRun& original,
+                                          const interpret::ProgramRun& changed);
 
 }  // namespace steadyrest::nc::rewrite

@@ -35,10 +35,11 @@ class Rewriter {
            const kernel::machine::Machine& machine, const Settings& settings)
       : program_(program),
         plan_(plan),
-        config_(config),
+        config_(with_unknown_offsets(config, settings)),
         machine_(machine),
         settings_(settings),
         plain_(config.dialect),
+        unsaid_(plan.axes.size()),
         frames_(plan.axes.size()),
         head_(settings) {
     for (const AxisPlan& axis : plan.axes) {
@@ -91,7 +92,7 @@ class Rewriter {
         return refuse(lines->number(), "carries the mark of a correction already",
                       "take the corrections out first: program strip");
       }
-      if (std::string use = own_use(settings_, lines->line()); !use.empty()) {
+      if (std::string use = bare ? "" : own_use(settings_, lines->line()); !use.empty()) {
         return refuse(lines->number(), std::move(use), std::string(against_own_use(settings_)));
       }
       head_.look(lines->line(), lines->number());
@@ -105,7 +106,7 @@ class Rewriter {
       return std::unexpected(surveyed.error());
     }
     survey_ = std::move(*surveyed);
-    auto walk = Walk::make(program_, config_, survey_);
+    auto walk = Walk::make(program_, config_, survey_, settings_.method);
     auto clock = Clock::make(machine_, [this](std::uint64_t /*ticket*/, double time_s) {
       waiting_.front().second.time_s = time_s;
       schedules_[waiting_.front().first].offer(waiting_.front().second);
@@ -119,6 +120,9 @@ class Rewriter {
     }
     if (const auto report = (*walk)->take(); !report.refused.empty()) {
       return std::unexpected(interpret::first_refusal(report, program_));
+    }
+    if (const auto& taken = (*walk)->taken(); taken && corrects(plan_)) {
+      return refuse(taken->line, taken->what, std::string(kAgainstTaken));
     }
     const auto total = (*clock)->finish();
     if (!total) {
@@ -154,13 +158,17 @@ class Rewriter {
                                           .unit_mm = walk.before().unit_mm,
                                           .active_offset = walk.before().active_offset});
       }
-      const Frame frame = walk.frame(letter, index);
+      if (const Walk::Unsaid* const unsaid = walk.unsaid(letter, index);
+          unsaid != nullptr && unsaid_[axis].first == 0) {
+        unsaid_[axis] = {walk.line(), *unsaid};
+      }
+      const Frame frame = walk.frame(letter);
       if (walk.ends() || (frame != Frame::kept && in_work_offset(settings_.method))) {
         const auto& now = walk.run().state();
         frames_[axis].push_back({.line = walk.line(),
                                  .top_line = walk.top_line(),
                                  .frame = walk.ends() ? Frame::kept : frame,
-                                 .may_write = walk.may_write(),
+                                 .may_write = walk.may_write(index),
                                  .moves_axis = walk.moves_axis(index),
                                  .incremental_before = walk.before().incremental,
                                  .incremental_behind = now.incremental,
@@ -182,6 +190,12 @@ class Rewriter {
     if (!chosen) {
       Refusal refusal = chosen.error();
       refusal.file = program_;
+      if (const auto& [line, unsaid] = unsaid_[axis]; line != 0) {
+        refusal.line = line;
+        refusal.what +=
+            fmt::format("; this line would be one, but the program has not said {}", unsaid.what);
+        refusal.to_do = unsaid.to_do;
+      }
       return std::unexpected(std::move(refusal));
     }
     std::size_t next = 0;
@@ -253,27 +267,8 @@ class Rewriter {
     if (stands_mm == 0.0) {
       return {};
     }
-    if (frame.frame == Frame::measured) {
-      return refuse(frame.line,
-                    fmt::format("measures another work offset (G10 L20) while a "
-                                "correction of {} stands",
-                                plan.letter),
-                    "measure before the first correction, or leave this axis out of the plan");
-    }
-    if (!frame.may_write) {
-      return refuse(frame.line,
-                    end ? "the program ends in a subprogram, a loop, cutter compensation or a "
-                          "rotated frame: the correction cannot be taken off"
-                        : "the work offset changes in a subprogram, a loop, cutter compensation or "
-                          "a rotated frame while a correction stands",
-                    end ? "end the program at its top level" : "change it at the top level");
-    }
-    if (frame.moves_axis && !end) {
-      return refuse(frame.line,
-                    fmt::format("the work offset changes in a line that moves {} while a "
-                                "correction stands",
-                                plan.letter),
-                    "change the work offset in a line of its own");
+    if (auto fault = fault_of(frame, plan.letter, program_)) {
+      return std::unexpected(*std::move(fault));
     }
     const auto change = [&](double from_mm, double to_mm, bool behind) {
       return change_text(
@@ -364,12 +359,14 @@ class Rewriter {
 
   const std::string& program_;
   const Plan& plan_;
-  const interpret::Config& config_;
+  const interpret::Config config_;
   const kernel::machine::Machine& machine_;
   const Settings& settings_;
   PlainSurvey plain_;
   Survey survey_;
   std::vector<Schedule> schedules_;
+  /// By axis: the first line that would be a place, and what the program has not said before it.
+  std::vector<std::pair<std::uint32_t, Walk::Unsaid>> unsaid_;
   std::vector<std::vector<FrameLine>> frames_;  ///< by axis, in the order of execution
   std::deque<std::pair<std::size_t, Place>> waiting_;
   std::map<std::uint32_t, Text> texts_;  ///< what is written before a line

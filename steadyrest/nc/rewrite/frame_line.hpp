@@ -3,7 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 
+#include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/rewrite/walk.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -22,5 +25,10 @@ struct FrameLine {
   double unit_before_mm = 1.0;
   double unit_behind_mm = 1.0;
 };
+
+/// Why a correction of the axis may not stand at the line; nothing where it is taken off before it
+/// (and put on again behind it, unless the program ends there).
+[[nodiscard]] std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char letter,
+                                                               const std::string& program);
 
 }  // namespace steadyrest::nc::rewrite

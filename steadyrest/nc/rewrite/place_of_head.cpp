@@ -71,6 +71,8 @@ std::string own_use(const Way& way, std::string_view line) {
   constexpr std::string_view kSetting = "$SA_TEMP_COMP";
   constexpr std::string_view kFrames = "$P_";
   switch (way.method) {
+    case Method::linuxcnc:
+      return uses_own_names(line) ? "uses the parameters of the corrections, #<_steadyrest…>" : "";
     case Method::r_parameter:
       return uses_parameter(line, way.r_parameter)
                  ? fmt::format("may use R{} itself", way.r_parameter)
@@ -85,8 +87,9 @@ std::string own_use(const Way& way, std::string_view line) {
 }
 
 std::string_view against_own_use(const Way& way) noexcept {
-  return way.method == Method::r_parameter ? "give the correction another R-parameter"
-                                           : "write the corrections by another method";
+  return way.method == Method::linuxcnc      ? "give the program's parameter another name"
+         : way.method == Method::r_parameter ? "give the correction another R-parameter"
+                                             : "write the corrections by another method";
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -32,6 +33,11 @@ struct Plan {
   double total_s = 0.0;
   std::vector<AxisPlan> axes;
 };
+
+/// There is something to correct.
+[[nodiscard]] inline bool corrects(const Plan& plan) noexcept {
+  return std::ranges::any_of(plan.axes, [](const AxisPlan& axis) { return !axis.steps.empty(); });
+}
 
 /// Reads PLAN.json (README.md has its keys). Refused with the line or the key: what is not JSON,
 /// keys that are not known, a key twice, lists whose length is not n, numbers out of range.

@@ -74,6 +74,9 @@ std::string whole_head(const Plan& plan, const Way& way) {
 interpret::Config with_unknown_offsets(interpret::Config config, const Way& way) {
   constexpr double kOwn_mm = 0.375;
   const auto none = [](const interpret::Axes& axes) { return axes == interpret::Axes{}; };
+  if (config.start_known) {
+    return config;
+  }
   if (none(config.external) && config.dialect == read::Dialect::fanuc && config.external_offset &&
       !way.external_offset_free) {
     std::fill_n(config.external.begin(), 3, kOwn_mm);

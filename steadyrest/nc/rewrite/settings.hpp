@@ -16,9 +16,8 @@ namespace steadyrest::nc::rewrite {
 
 /// What compensate() and verify() must know beside the files.
 struct Settings : Way {
-  double window_s = 60.0;      ///< how far from its planned instant a correction may be placed
-  double clamp_mm = 0.2;       ///< the machine's limit of a correction (envelope.max_offset_mm)
-  bool offsets_known = false;  ///< the work offsets are the machine's: its travel is watched
+  double window_s = 60.0;  ///< how far from its planned instant a correction may be placed
+  double clamp_mm = 0.2;   ///< the machine's limit of a correction (envelope.max_offset_mm)
   /// Told how much of the work is done, 0 … 1; may be empty.
   std::function<void(double share, std::string_view what)> progress;
 };
@@ -36,8 +35,8 @@ inline constexpr double kFit_s = 30.0;
 /// The heads of all axes that the plan corrects, one under the other.
 [[nodiscard]] std::string whole_head(const Plan& plan, const Way& way);
 
-/// Where the caller has named no offsets, some that no program knows: a correction that is written
-/// as an absolute value would show.
+/// Where the control's own offsets are not known (start_known), some that no program knows: a
+/// correction that is written as an absolute value would show.
 [[nodiscard]] interpret::Config with_unknown_offsets(interpret::Config config, const Way& way);
 
 /// The correction that stands from a step on: against the displacement, as it can be written.

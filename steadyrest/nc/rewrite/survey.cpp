@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <utility>
 
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/read/line_source.hpp>
@@ -25,23 +26,9 @@ bool puts_length_on(const read::Block& block, read::Dialect dialect) {
   });
 }
 
-}  // namespace
-
-void Survey::mark(std::uint32_t line, std::vector<bool>& seen, bool again) {
-  if (line >= seen.size()) {
-    seen.resize(line + 1U);
-  }
-  again = again || seen[line];
-  seen[line] = true;
-  if (again && line >= repeated.size()) {
-    repeated.resize(line + 1U);
-  }
-  if (again) {
-    repeated[line] = true;
-  }
-}
-
-kernel::outcome::Result<Survey> survey(const std::string& path, const interpret::Config& config) {
+/// What is found with the switch as it is, and whether there are lines that it takes away.
+kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& path,
+                                                             const interpret::Config& config) {
   auto source = read::LineSource::open(path);
   if (!source) {
     return std::unexpected(source.error());
@@ -55,8 +42,10 @@ kernel::outcome::Result<Survey> survey(const std::string& path, const interpret:
   std::vector<bool> seen;
   std::uint64_t steps = 0;
   std::uint64_t changed_at = 0;
+  bool deletable = false;
   while (run->step()) {
     ++steps;
+    deletable = deletable || run->block().deleted();
     found.leaves_file = found.leaves_file || !run->in_main();
     if (run->in_main()) {
       found.mark(run->line(), seen, !run->at_top());
@@ -78,7 +67,51 @@ kernel::outcome::Result<Survey> survey(const std::string& path, const interpret:
   if (!report.refused.empty()) {
     return std::unexpected(interpret::first_refusal(report, path));
   }
-  return found;
+  return std::pair{std::move(found), deletable};
+}
+
+}  // namespace
+
+void Survey::mark(std::uint32_t line, std::vector<bool>& seen, bool again) {
+  if (line >= seen.size()) {
+    seen.resize(line + 1U);
+  }
+  again = again || seen[line];
+  seen[line] = true;
+  if (again && line >= repeated.size()) {
+    repeated.resize(line + 1U);
+  }
+  if (again) {
+    repeated[line] = true;
+  }
+}
+
+kernel::outcome::Result<Survey> survey(const std::string& path, const interpret::Config& config) {
+  auto found = survey_once(path, config);
+  if (!found) {
+    return std::unexpected(found.error());
+  }
+  if (found->second) {
+    auto other = survey_once(path, switched(config));
+    if (!other) {
+      return std::unexpected(of_other_position(other.error(), config));
+    }
+    found->first.other = std::make_shared<const Survey>(std::move(other->first));
+  }
+  return std::move(found->first);
+}
+
+interpret::Config switched(interpret::Config config) {
+  config.block_delete = !config.block_delete;
+  return config;
+}
+
+kernel::outcome::Refusal of_other_position(kernel::outcome::Refusal refusal,
+                                           const interpret::Config& config) {
+  refusal.what = std::string{config.block_delete ? "without block delete (lines with / executed): "
+                                                 : "with block delete (lines with / skipped): "} +
+                 refusal.what;
+  return refusal;
 }
 
 }  // namespace steadyrest::nc::rewrite

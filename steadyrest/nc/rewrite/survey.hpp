@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ struct Survey {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> without_length;
   std::uint32_t end_line = 0;  ///< the line that ends the program
   bool leaves_file = false;    ///< lines of other files are executed: subprograms
+  /// The same with block delete in its other position, where the program has lines with `/`.
+  std::shared_ptr<const Survey> other;
 
   /// `line` is executed, perhaps where it may be executed `again`; `seen` keeps what was.
   void mark(std::uint32_t line, std::vector<bool>& seen, bool again);
@@ -28,8 +31,15 @@ struct Survey {
   }
 };
 
-/// Runs the program once. Refused: what the interpreter refuses.
+/// Runs the program once, with lines that begin with `/` twice: in both positions of the operator's
+/// switch. Refused: what the interpreter refuses.
 [[nodiscard]] kernel::outcome::Result<Survey> survey(const std::string& path,
                                                      const interpret::Config& config);
+
+/// Block delete in its other position.
+[[nodiscard]] interpret::Config switched(interpret::Config config);
+/// What was refused with the switch in the other position than the configuration has it.
+[[nodiscard]] kernel::outcome::Refusal of_other_position(kernel::outcome::Refusal refusal,
+                                                         const interpret::Config& config);
 
 }  // namespace steadyrest::nc::rewrite

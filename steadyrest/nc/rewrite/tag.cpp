@@ -55,6 +55,23 @@ bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
   return false;
 }
 
+bool uses_own_names(std::string_view line) noexcept {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
+    std::size_t next = at;
+    const bool same = std::ranges::all_of(kOwnNames, [&](char wanted) {
+      while (next < line.size() && (line[next] == ' ' || line[next] == '\t')) {
+        ++next;
+      }
+      const char c = next < line.size() ? line[next++] : '\0';
+      return wanted == (c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+    });
+    if (same) {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool names_variable(std::string_view line, std::string_view upper_begin) noexcept {
   const std::string_view code = line.substr(0, line.find(';'));
   return !std::ranges::search(code, upper_begin, {}, [](char c) {

@@ -24,6 +24,11 @@ inline constexpr std::string_view kTag = "STEADYREST ";
 /// $R[…]. Comments do not count.
 [[nodiscard]] bool uses_parameter(std::string_view line, std::uint32_t number) noexcept;
 
+/// What the global parameters of inserted lines begin with, on linuxcnc.
+inline constexpr std::string_view kOwnNames = "#<_steadyrest";
+/// A LinuxCNC line names one of them, in whatever letters and with blanks.
+[[nodiscard]] bool uses_own_names(std::string_view line) noexcept;
+
 /// A SINUMERIK line names the frames' variables, or the setting data of the temperature
 /// compensation. Comments do not count.
 [[nodiscard]] bool names_variable(std::string_view line, std::string_view upper_begin) noexcept;

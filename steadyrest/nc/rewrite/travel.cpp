@@ -35,10 +35,10 @@ std::string over_travel(const kernel::machine::Machine& machine, char letter, co
   return {};
 }
 
-std::string over_travel(const Settings& settings, const kernel::machine::Machine& machine,
-                        const Plan& plan, const Move& original, const Move& corrected) {
+std::string over_travel(const kernel::machine::Machine& machine, const Plan& plan,
+                        const Move& original, const Move& corrected) {
   std::string fault;
-  for (std::size_t i = 0; settings.offsets_known && fault.empty() && i < plan.axes.size(); ++i) {
+  for (std::size_t i = 0; fault.empty() && i < plan.axes.size(); ++i) {
     const AxisPlan& axis = plan.axes[i];
     fault = over_travel(machine, axis.letter, reach_of(original, axis.index),
                         reach_of(corrected, axis.index));

@@ -23,9 +23,8 @@ inline constexpr std::string_view kAgainstTravel =
 /// own affair, or shows that the work offset is not the machine's.
 [[nodiscard]] std::string over_travel(const kernel::machine::Machine& machine, char letter,
                                       const Reach& original, const Reach& corrected);
-/// The same for a pair of moves and all axes of a plan; empty where the offsets are not known.
-[[nodiscard]] std::string over_travel(const Settings& settings,
-                                      const kernel::machine::Machine& machine, const Plan& plan,
+/// The same for a pair of moves and all axes of a plan.
+[[nodiscard]] std::string over_travel(const kernel::machine::Machine& machine, const Plan& plan,
                                       const interpret::Move& original,
                                       const interpret::Move& corrected);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,16 +8,15 @@
 #include <fmt/core.h>
 
 #include <steadyrest/nc/interpret/step.hpp>
-#include <steadyrest/nc/rewrite/clock.hpp>
 #include <steadyrest/nc/rewrite/compare.hpp>
 #include <steadyrest/nc/rewrite/inserted_lines.hpp>
 #include <steadyrest/nc/rewrite/shifts.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
 #include <steadyrest/nc/rewrite/text_pair.hpp>
 #include <steadyrest/nc/rewrite/travel.hpp>
-#include <steadyrest/nc/rewrite/verify.hpp>
-#include <steadyrest/nc/rewrite/verify_beside.hpp>
+#include <steadyrest/nc/rewrite/verify_moves.hpp>
 #include <steadyrest/nc/rewrite/walk.hpp>
+#include <steadyrest/nc/rewrite/window.hpp>
 
 namespace steadyrest::nc::rewrite {
 namespace {
@@ -34,7 +32,7 @@ class Prover {
  public:
   Prover(const std::string& original, const std::string& changed, const Plan& plan,
          const interpret::Config& config, const kernel::machine::Machine& machine,
-         const Settings& settings, const KnownTimes* known)
+         const Settings& settings, const KnownTimes* known, bool timed)
       : original_(original),
         changed_(changed),
         plan_(plan),
@@ -42,10 +40,11 @@ class Prover {
         machine_(machine),
         settings_(settings),
         known_(known),
+        timed_(timed),
         shifts_(plan),
         done_(plan.axes.size(), 0) {}
 
-  Result<Proof> run() {
+  Result<Proved> run() {
     PlainSurvey plain(config_.dialect);
     auto text = compare_text(original_, changed_, plain);
     if (!text) {
@@ -69,7 +68,7 @@ class Prover {
       return std::unexpected(refusal_);
     }
     proof_.largest_error_mm = shifts_.largest_error_mm();
-    return proof_;
+    return Proved{.proof = proof_, .switchable = survey_.other != nullptr};
   }
 
  private:
@@ -99,20 +98,20 @@ class Prover {
     }
     changed_run_.emplace(std::move(*run));
     offset_before_ = changed_run_->state().offset;
-    auto walk = Walk::make(original_, config_, survey_);
+    auto walk = Walk::make(original_, config_, survey_, settings_.method);
     if (!walk) {
       return refuse(walk.error(), original_);
     }
     walk_ = std::move(*walk);
     changed_run_->read_with(walk_->run());
-    auto clock = Clock::make(known_, machine_, [this](std::uint64_t ticket, double time_s) {
-      told(asked_.front(), ticket, time_s);
-      asked_.pop_front();
-    });
-    if (!clock) {
-      return refuse(clock.error(), {});
+    if (!timed_) {
+      return true;
     }
-    clock_ = std::move(*clock);
+    auto window = Window::make(known_, machine_, plan_, settings_, changed_);
+    if (!window) {
+      return refuse(window.error(), {});
+    }
+    window_ = std::move(*window);
     return true;
   }
 
@@ -122,13 +121,18 @@ class Prover {
       if (!inserted_lines() || !pair()) {
         return false;
       }
-      clock_->feed(*walk_);
+      if (window_ != nullptr) {
+        window_->feed(*walk_);
+      }
       if (settings_.progress && walk_->line() % kEvery == 0) {
         settings_.progress(0.5 + 0.5 * walk_->line() / std::max(survey_.end_line, 1U), "proving");
       }
     }
     if (const auto report = walk_->take(); !report.refused.empty()) {
       return refuse(interpret::first_refusal(report, original_), original_);
+    }
+    if (const auto& taken = walk_->taken(); taken && corrects(plan_)) {
+      return refuse_at(original_, taken->line, taken->what, std::string(kAgainstTaken));
     }
     if (changed_run_->step()) {
       return refuse("goes on where the original has ended");
@@ -209,7 +213,15 @@ class Prover {
     }
     restated_ = false;
     offset_before_ = changed_run_->state().offset;
-    return compare_moves();
+    return compare_moves() && (!walk_->stores() || keeps_the_same());
+  }
+
+  /// What outlives the program holds no correction, at this line already.
+  bool keeps_the_same() {
+    const std::string kept = kept_difference(walk_->run(), *changed_run_);
+    return kept.empty() || refuse("a correction would stay in " + kept + " after the program",
+                                  "do this before the first correction, or leave the axis out of "
+                                  "the plan");
   }
 
   /// Before the paired line: the correction that stands is the last one, or changes here.
@@ -218,12 +230,12 @@ class Prover {
     if (same(stands_mm, wanted_mm)) {
       return true;
     }
-    const bool frame = walk_->frame(axis.letter, axis.index) == Frame::changed;
-    if (same(stands_mm, 0.0) && walk_->may_write() && (walk_->ends() || frame)) {
+    const bool frame = walk_->frame(axis.letter) == Frame::changed;
+    if (same(stands_mm, 0.0) && walk_->may_write(axis.index) && (walk_->ends() || frame)) {
       if (walk_->ends()) {
         wanted_mm = 0.0;
         ++proof_.changes;
-        return done == axis.steps.size() ||
+        return !timed_ || done == axis.steps.size() ||
                refuse(fmt::format("the correction of {} planned at {:.1f} s is missing",
                                   axis.letter, axis.steps[done].time_s));
       }
@@ -265,32 +277,13 @@ class Prover {
                       axis.letter));
     }
     acts_at_once_ |= site == Site::clearance ? 0U : std::uint32_t{1} << axis.index;
-    clock_->ask(done);
-    asked_.push_back({.axis = &axis, .to = to, .line = changed_run_->line()});
+    if (window_ != nullptr) {
+      window_->ask(axis, done, to, changed_run_->line());
+    }
     done = to + 1;
     wanted_mm = stands_mm;
     ++proof_.changes;
     return true;
-  }
-
-  struct Asked {
-    const AxisPlan* axis;
-    std::size_t to;
-    std::uint32_t line;
-  };
-  void told(const Asked& asked, std::uint64_t from, double time_s) {
-    for (std::size_t i = from; i <= asked.to && !too_far_; ++i) {
-      const double planned_s = asked.axis->steps[i].time_s;
-      if (std::abs(time_s - planned_s) > settings_.window_s) {
-        too_far_ = Refusal{
-            Kind::bad_input, changed_, asked.line,
-            fmt::format(
-                "a correction of {} acts at {:.1f} s; it is planned at {:.1f} s, and {:g} s "
-                "of difference are allowed",
-                asked.axis->letter, time_s, planned_s, settings_.window_s),
-            "make the changed program anew, or allow a wider --window-s"};
-      }
-    }
   }
 
   bool compare_moves() {
@@ -315,8 +308,14 @@ class Prover {
         return refuse(std::move(fault));
       }
       proof_.corrected += shifts_.any() ? 1U : 0U;
-      if (auto fault = over_travel(settings_, machine_, plan_, before[i], after[i]);
-          !fault.empty()) {
+      if (before[i].kind == interpret::MoveKind::probe && shifts_.any()) {
+        return refuse("probes while a correction stands: what it finds would hold it",
+                      "probe before the first correction");
+      }
+      if (!config_.start_known) {
+        continue;
+      }
+      if (auto fault = over_travel(machine_, plan_, before[i], after[i]); !fault.empty()) {
         return refuse_at(original_, walk_->line(), std::move(fault), std::string(kAgainstTravel));
       }
     }
@@ -324,17 +323,21 @@ class Prover {
   }
 
   bool at_end() {
-    const auto total = clock_->finish();
+    if (window_ != nullptr && !in_time()) {
+      return false;
+    }
+    const std::string_view left = state_difference(walk_->run().state(), changed_run_->state());
+    return (left.empty() ||
+            refuse(fmt::format("leaves another {} behind than the original", left))) &&
+           keeps_the_same();
+  }
+
+  bool in_time() {
+    const auto total = window_->finish();
     if (!total) {
       return refuse(total.error(), original_);
     }
     proof_.program_s = *total;
-    if (auto fits = check_total(plan_, *total); !fits) {
-      return refuse(fits.error(), plan_.file);
-    }
-    if (too_far_) {
-      return refuse(*too_far_, changed_);
-    }
     for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
       const AxisPlan& axis = plan_.axes[i];
       if (done_[i] != axis.steps.size()) {
@@ -342,11 +345,8 @@ class Prover {
                                   axis.letter, axis.steps[done_[i]].time_s));
       }
     }
-    if (executed_inserted_ + head_lines_ != inserted_.size()) {
-      return refuse("not every inserted line is executed exactly once");
-    }
-    const std::string_view left = state_difference(walk_->run().state(), changed_run_->state());
-    return left.empty() || refuse(fmt::format("leaves another {} behind than the original", left));
+    return executed_inserted_ + head_lines_ == inserted_.size() ||
+           refuse("not every inserted line is executed exactly once");
   }
 
   const std::string& original_;
@@ -356,6 +356,7 @@ class Prover {
   const kernel::machine::Machine& machine_;
   const Settings& settings_;
   const KnownTimes* known_;
+  bool timed_;
   Survey survey_;
   InsertedLines inserted_;
   std::size_t head_lines_ = 0;
@@ -366,31 +367,24 @@ class Prover {
   KeptMoves changed_moves_;
   std::optional<interpret::ProgramRun> changed_run_;
   std::unique_ptr<Walk> walk_;
-  std::deque<Asked> asked_;
-  std::unique_ptr<Clock> clock_;
+  std::unique_ptr<Window> window_;
   Shifts shifts_;
   std::vector<std::size_t> done_;  ///< by axis of the plan: steps that stand or have stood
   Axes offset_before_{};
   Axes shift_before_{};  ///< before the inserted lines in hand
   bool restated_ = false;
   std::uint32_t acts_at_once_ = 0;  ///< axes whose correction must act in this line, a mask
-  std::optional<Refusal> too_far_;
   Refusal refusal_;
   Proof proof_;
 };
 
 }  // namespace
 
-Result<Proof> verify(const std::string& original, const std::string& changed, const Plan& plan,
-                     const interpret::Config& config, const kernel::machine::Machine& machine,
-                     const Settings& settings, const KnownTimes* known) {
-  if (auto checked = check_plan(plan, settings, config); !checked) {
-    return std::unexpected(checked.error());
-  }
-  if (beside_program(settings.method)) {
-    return verify_beside(original, changed, plan, config, machine, settings, known);
-  }
-  return Prover(original, changed, plan, config, machine, settings, known).run();
+Result<Proved> verify_moves(const std::string& original, const std::string& changed,
+                            const Plan& plan, const interpret::Config& config,
+                            const kernel::machine::Machine& machine, const Settings& settings,
+                            const KnownTimes* known, bool timed) {
+  return Prover(original, changed, plan, config, machine, settings, known, timed).run();
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/rewrite/clock.hpp>
 #include <steadyrest/nc/rewrite/place_of_head.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
@@ -16,6 +13,7 @@
 #include <steadyrest/nc/rewrite/travel.hpp>
 #include <steadyrest/nc/rewrite/verify_beside.hpp>
 #include <steadyrest/nc/rewrite/walk.hpp>
+#include <steadyrest/nc/rewrite/window.hpp>
 
 namespace steadyrest::nc::rewrite {
 namespace {
@@ -34,7 +32,10 @@ class Prover {
         machine_(machine),
         settings_(settings) {}
 
-  Result<Proof> run(const Plan& plan, const interpret::Config& config, const KnownTimes* known) {
+  Result<Proved> run(const Plan& plan, const interpret::Config& config, const KnownTimes* known,
+                     bool timed) {
+    timed_ = timed;
+    start_known_ = config.start_known;
     PlainSurvey plain(config.dialect);
     auto text = compare_text(original_, changed_, plain, true);
     auto surveyed = survey(original_, config, plain);
@@ -45,16 +46,16 @@ class Prover {
     if (auto own = uses_it_itself(*surveyed); !own.what.empty()) {
       return std::unexpected(std::move(own));
     }
-    auto walk = Walk::make(original_, config, *surveyed);
-    auto clock = Clock::make(known, machine_, [this](std::uint64_t step, double time_s) {
-      told(static_cast<std::size_t>(step), time_s);
-    });
-    if (!walk || !clock) {
-      return std::unexpected(walk ? clock.error() : walk.error());
+    auto walk = Walk::make(original_, config, *surveyed, settings_.method);
+    auto window = Window::make(known, machine_, plan, settings_, original_);
+    if (!walk || !window) {
+      return std::unexpected(walk ? window.error() : walk.error());
     }
     while (!refusal_ && (*walk)->step()) {
-      line(**walk, **clock);
-      (*clock)->feed(**walk);
+      line(**walk, **window);
+      if (timed_) {
+        (*window)->feed(**walk);
+      }
     }
     if (refusal_) {
       return std::unexpected(*refusal_);
@@ -62,15 +63,14 @@ class Prover {
     if (const auto report = (*walk)->take(); !report.refused.empty()) {
       return std::unexpected(interpret::first_refusal(report, original_));
     }
-    const auto total = (*clock)->finish();
-    if (!total) {
-      return std::unexpected(total.error());
+    if (timed_) {
+      const auto total = (*window)->finish();
+      if (!total) {
+        return std::unexpected(total.error());
+      }
+      proof_.program_s = *total;
     }
-    proof_.program_s = *total;
     proof_.inserted_lines = text_.lines.size();
-    if (auto fits = check_total(plan, *total); !fits) {
-      return std::unexpected(fits.error());
-    }
     at_end();
     if (!refusal_) {
       run_changed(config);
@@ -78,7 +78,7 @@ class Prover {
     if (refusal_) {
       return std::unexpected(*refusal_);
     }
-    return proof_;
+    return Proved{.proof = proof_, .switchable = surveyed->other != nullptr};
   }
 
  private:
@@ -119,17 +119,17 @@ class Prover {
                        "\n");
   }
 
-  void line(const Walk& walk, Clock& clock) {
+  void line(const Walk& walk, Window& window) {
     if (text_.head_before == walk.line() && proof_.moves > 0) {
       refuse(walk.line(), "the head stands behind the first move");
     }
     if (const auto group = text_.groups.find(walk.line()); group != text_.groups.end()) {
-      change(walk, clock, group->second);
+      change(walk, window, group->second);
       text_.groups.erase(group);
     }
     proof_.moves += walk.moves().size();
     proof_.corrected += stands_mm_ == 0.0 ? 0U : walk.moves().size();
-    if (settings_.offsets_known && stands_mm_ != 0.0) {
+    if (start_known_ && stands_mm_ != 0.0) {
       travel(walk);
     }
   }
@@ -147,9 +147,9 @@ class Prover {
     }
   }
 
-  void change(const Walk& walk, Clock& clock, const std::string& group) {
+  void change(const Walk& walk, Window& window, const std::string& group) {
     ++proof_.changes;
-    if (walk.ends() && walk.may_write() && group == text_to(0.0)) {
+    if (walk.ends() && walk.may_write(axis_.index) && group == text_to(0.0)) {
       stands_mm_ = 0.0;
       return;
     }
@@ -164,8 +164,9 @@ class Prover {
                                         "place for it",
                                         axis_.letter));
       }
-      first_of_[step] = done_;
-      clock.ask(step);
+      if (timed_) {
+        window.ask(axis_, done_, step, walk.line());
+      }
       done_ = step + 1;
       stands_mm_ = to_mm;
       return;
@@ -175,24 +176,14 @@ class Prover {
                                     group.substr(0, group.find('\n'))));
   }
 
-  void told(std::size_t step, double time_s) {
-    for (std::size_t i = first_of_[step]; i <= step; ++i) {
-      if (std::abs(time_s - axis_.steps[i].time_s) > settings_.window_s) {
-        refuse(0, fmt::format("a correction of {} acts at {:.1f} s; it is planned at {:.1f} s, and "
-                              "{:g} s of difference are allowed",
-                              axis_.letter, time_s, axis_.steps[i].time_s, settings_.window_s));
-      }
-    }
-  }
-
   void at_end() {
-    if (!text_.groups.empty()) {
+    if (timed_ && !text_.groups.empty()) {
       refuse(text_.groups.begin()->first, "inserted lines that are never executed");
     }
     if (text_.head != (axis_.steps.empty() ? "" : head_text(settings_, axis_.letter, "\n"))) {
       refuse(0, "the head is not the one that belongs to this plan");
     }
-    if (done_ != axis_.steps.size()) {
+    if (timed_ && done_ != axis_.steps.size()) {
       refuse(0, fmt::format("the correction of {} planned at {:.1f} s is missing", axis_.letter,
                             axis_.steps[done_].time_s));
     }
@@ -221,8 +212,9 @@ class Prover {
   const AxisPlan& axis_;
   const kernel::machine::Machine& machine_;
   const Settings& settings_;
+  bool timed_ = true;
+  bool start_known_ = false;
   Inserted text_;
-  std::map<std::size_t, std::size_t> first_of_;  ///< step → first of the steps placed with it
   std::size_t done_ = 0;
   double stands_mm_ = 0.0;
   std::optional<Refusal> refusal_;
@@ -231,11 +223,11 @@ class Prover {
 
 }  // namespace
 
-Result<Proof> verify_beside(const std::string& original, const std::string& changed,
-                            const Plan& plan, const interpret::Config& config,
-                            const kernel::machine::Machine& machine, const Settings& settings,
-                            const KnownTimes* known) {
-  return Prover(original, changed, plan, machine, settings).run(plan, config, known);
+Result<Proved> verify_beside(const std::string& original, const std::string& changed,
+                             const Plan& plan, const interpret::Config& config,
+                             const kernel::machine::Machine& machine, const Settings& settings,
+                             const KnownTimes* known, bool timed) {
+  return Prover(original, changed, plan, machine, settings).run(plan, config, known, timed);
 }
 
 }  // namespace steadyrest::nc::rewrite

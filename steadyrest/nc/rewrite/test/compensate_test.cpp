@@ -81,7 +81,7 @@ TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
   Workshop shop;
   shop.settings.window_s = 20.0;
   const std::string program =
-      "G21 G90 G94\nG0 Z5\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nG0 Z20\nM2\n";
+      "G21 G90 G94 G54\nG0 Z5\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nG0 Z20\nM2\n";
   const auto done = shop.compensate(program, one_step(1.0, 1.05, 10)).value();
   ASSERT_EQ(done.insertions.size(), 1U);
   EXPECT_EQ(done.insertions[0].site, Site::clearance);
@@ -92,11 +92,11 @@ TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
 // Where the axis stands is not known then: a number in its place would move it by the work offset.
 TEST(Compensate, RestatesNoAxisThatTheProgramHasNotSentToItsPlace) {
   const Case cases[] = {
-      {"never moved", "G21 G90 G94\nG0 X0\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
+      {"never moved", "G21 G90 G94 G54\nG0 X0\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
       {"by machine coordinates",
-       "G21 G90 G94\nG53 G0 Z0\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
+       "G21 G90 G94 G54\nG53 G0 Z0\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
       {"another work offset",
-       "G21 G90 G94\nG0 Z5\nG55\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
+       "G21 G90 G94 G54\nG0 Z5\nG55\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
   };
   for (const Case& one : cases) {
     Workshop shop;
@@ -129,19 +129,20 @@ TEST(Compensate, RefusesAWorkOffsetThatChangesWithTheAxis) {
 // Each of these makes the only place near the instant unsafe.
 TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
   const Case kCases[] = {
-      {"G91", "G21 G90 G94\nG0 Z5\nG91\nG1 X100 F100\nG0 Z5\nG1 X100\nG90\nM2\n"},
+      {"G91", "G21 G90 G94 G54\nG0 Z5\nG91\nG1 X100 F100\nG0 Z5\nG1 X100\nG90\nM2\n"},
       {"cycle",
-       "G21 G90 G94\nG0 Z5\nG1 X100 F100\nG81 X1 Z-1 R2 F900\nG0 Z5\nG81 X2 Z-1 R2\n"
+       "G21 G90 G94 G54\nG0 Z5\nG1 X100 F100\nG81 X1 Z-1 R2 F900\nG0 Z5\nG81 X2 Z-1 R2\n"
        "G80\nG1 X102 F100\nM2\n"},
       {"loop",
-       "G21 G90 G94\nG0 Z5\no1 repeat [2]\nG0 Z5\nG1 X100 F100\nG0 Z5\nG1 X0\no1 endrepeat\n"
+       "G21 G90 G94 G54\nG0 Z5\no1 repeat [2]\nG0 Z5\nG1 X100 F100\nG0 Z5\nG1 X0\no1 endrepeat\n"
        "M2\n"},
-      {"arcs", "G21 G90 G94 G17\nG0 Z5\nG2 X20 I10 F60\nG1 Z4\nG2 X40 I10\nM2\n"},
-      {"G93", "G21 G90 G94\nG0 Z5\nG93 G1 X100 F1\nG0 Z5\nG1 X0 F1\nG94\nM2\n"},
-      {"G53", "G21 G90 G94\nG0 Z5\nG1 X100 F100\nG53 G0 Z5\nG1 X0\nM2\n"},
-      {"before G43", "G21 G90 G94\nG0 Z5\nG1 X100 F100\nT1 M6\nG0 Z5\nG43 H1\nG1 X0\nM2\n"},
-      {"block delete", "G21 G90 G94\nG0 Z5\nG1 X100 F100\n/G0 Z5\nG1 X0\nM2\n"},
-      {"condition", "G21 G90 G94\nG0 Z5\nG1 X100 F100\no1 if [1]\nG0 Z5\no1 endif\nG1 X0\nM2\n"},
+      {"arcs", "G21 G90 G94 G17 G54\nG0 X0 Y0 Z5\nG2 X20 I10 F60\nG1 Z4\nG2 X40 I10\nM2\n"},
+      {"G93", "G21 G90 G94 G54\nG0 Z5\nG93 G1 X100 F1\nG0 Z5\nG1 X0 F1\nG94\nM2\n"},
+      {"G53", "G21 G90 G94 G54\nG0 Z5\nG1 X100 F100\nG53 G0 Z5\nG1 X0\nM2\n"},
+      {"before G43", "G21 G90 G94 G54\nG0 Z5\nG1 X100 F100\nT1 M6\nG0 Z5\nG43 H1\nG1 X0\nM2\n"},
+      {"block delete", "G21 G90 G94 G54\nG0 Z5\nG1 X100 F100\n/G0 Z5\nG1 X0\nM2\n"},
+      {"condition",
+       "G21 G90 G94 G54\nG0 Z5\nG1 X100 F100\no1 if [1]\nG0 Z5\no1 endif\nG1 X0\nM2\n"},
   };
   for (const Case& one : kCases) {
     Workshop shop;
@@ -212,7 +213,7 @@ TEST(Compensate, APlanThatCorrectsNothingCopiesTheProgram) {
 TEST(Compensate, WritesMillimetresIntoAProgramInInches) {
   const Workshop shop;
   const std::string program =
-      "G20 G90 G94\nG0 Z1\nG1 X4 F4\nG0 Z1\nG0 X0\nG0 Z.5\nG1 X4 F4\nG0 Z1\nM2\n";
+      "G20 G90 G94 G54\nG0 Z1\nG1 X4 F4\nG0 Z1\nG0 X0\nG0 Z.5\nG1 X4 F4\nG0 Z1\nM2\n";
   ASSERT_TRUE(shop.compensate(program, one_step(1.0, 1.05, 10)));
   EXPECT_THAT(read_file(shop.changed()), HasSubstr("Z[#<_z>+0.0100/25.4]"));
 }

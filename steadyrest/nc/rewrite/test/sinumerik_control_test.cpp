@@ -157,7 +157,7 @@ TEST_F(FrameFine, RefusesInchesAndProgramsWithFramesOfTheirOwn) {
   EXPECT_THAT(refusal(replaced(kProgram, "G0 X0 Y30\n", "$P_UIFR[1,X,TR]=0\nG0 X0 Y30\n")),
               HasSubstr("uses the frames' variables itself"));
   const auto done = shop_.compensate(
-      "G700 G90 G94\nG0 Z1.\nG1 X4. F4.\nG0 Z1.\nG0 X0\nG0 Z.5\nG1 X4. F4.\nG0 Z1.\nM30\n",
+      "G700 G90 G94 G54\nG0 Z1.\nG1 X4. F4.\nG0 Z1.\nG0 X0\nG0 Z.5\nG1 X4. F4.\nG0 Z1.\nM30\n",
       R"({"transitions": [{"n": 2, "t_min": [1, 1.05], "delta_um": [0, 10]}]})");
   ASSERT_FALSE(done);
   EXPECT_THAT(done.error().what, HasSubstr("inch"));

@@ -40,7 +40,7 @@ std::string random_program(std::mt19937& random) {
   if (percent) {
     text += "%" + usual;
   }
-  line("G21 G90 G94 G17");
+  line("G21 G90 G94 G17 G54");
   line("G0 X0 Y0 Z20");
   for (int pass = 0; pass < 6; ++pass) {
     line("G0 Z5");

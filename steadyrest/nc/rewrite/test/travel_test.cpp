@@ -61,7 +61,7 @@ class TravelOfAProgram : public ::testing::Test {
  protected:
   TravelOfAProgram() {
     shop_.settings.window_s = 30.0;
-    shop_.settings.offsets_known = true;
+    shop_.config.start_known = true;
     shop_.config.work_offset[0][2] = -50.0;
   }
   void to(double min_mm) { shop_.machine.axes[2].min_mm = min_mm; }
@@ -90,7 +90,7 @@ TEST_F(TravelOfAProgram, IsTheProgramsOwnAffairWhereItIsOverWithoutACorrection) 
 
 TEST_F(TravelOfAProgram, IsNotWatchedWhereTheOffsetsAreNotKnown) {
   to(-51.0199);
-  shop_.settings.offsets_known = false;
+  shop_.config.start_known = false;
   EXPECT_TRUE(shop_.compensate(kPasses, kGrowth));
 }
 
