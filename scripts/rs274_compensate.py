@@ -127,7 +127,9 @@ def disagreement(original, changed, totals_mm, may_leave, to_its_end=True):
                 off = after[2][axis] - before[2][axis] - shift[axis]
                 if abs(off) > digit:
                     return f"{where}: centre {'xyz'[axis]} differs by {off:.4f}"
-    never = {axis: totals for axis, totals in wanted.items() if totals and abs(totals[-1] - stands[axis]) > 2 * digit}
+    # What is within the digits of what stands, or of nothing, cannot be told from it.
+    never = {axis: totals for axis, totals in wanted.items()
+             if totals and min(abs(totals[-1] - stands[axis]), abs(totals[-1])) > 2 * digit}
     return f"corrections that never act: {never}" if never and to_its_end else ""
 
 
