@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <steadyrest/apps/chatter_page/lobes_page.hpp>
 #include <steadyrest/apps/report/json_numbers.hpp>
@@ -78,23 +79,23 @@ Json map_json(const LobeMap& map) {
 }  // namespace
 
 Result<std::vector<Border>> other_borders(const Process& process, const LobeMap& map,
+                                          const offline::BorderLine& border,
                                           const offline::Modulation& modulation) {
   std::vector<Border> out;
-  const std::vector<double> speeds = picked(map.speed_rev_s, kMostSpeeds);
   if (modulation.law != chatter::online::Law::constant) {
-    const auto constant = offline::lobe_map(
-        process,
-        {.speed_rev_s = speeds, .depth_mm = picked(map.depth_mm, kMostDepths), .modulation = {}},
-        {});
+    auto constant =
+        offline::border_line(process, {.speed_rev_s = picked(map.speed_rev_s, kMostSpeeds),
+                                       .most_depth_mm = map.depth_mm.back(),
+                                       .modulation = {}});
     if (!constant) {
       return std::unexpected(constant.error());
     }
-    out.push_back({"constant speed", speeds, or_nan(constant->border_mm)});
+    out.push_back({"constant speed", std::move(*constant)});
   }
   if (sketch_applies(process)) {
-    Border sketch{"zero-order sketch", speeds, {}};
-    for (const double speed : speeds) {
-      sketch.depth_mm.push_back(offline::zero_order_limit_mm(process, speed).value_or(kNaN));
+    Border sketch{"zero-order sketch", {.speed_rev_s = border.speed_rev_s}};
+    for (const double speed : border.speed_rev_s) {
+      sketch.line.depth_mm.push_back(offline::zero_order_limit_mm(process, speed));
     }
     out.push_back(std::move(sketch));
   }
@@ -120,13 +121,13 @@ Result<std::vector<Step>> override_steps(const Process& process,
 
 void put_lobes(Json& page, const LobesPage& lobes) {
   page["map"] = map_json(lobes.map);
-  page["border"] = {{"speed_rpm", in_rpm(lobes.map.speed_rev_s)},
-                    {"depth_mm", or_nan(lobes.map.border_mm)}};
+  page["border"] = {{"speed_rpm", in_rpm(lobes.border.speed_rev_s)},
+                    {"depth_mm", or_nan(lobes.border.depth_mm)}};
   page["others"] = Json::array();
   for (const Border& other : lobes.others) {
     page["others"].push_back({{"name", other.name},
-                              {"speed_rpm", report::short_numbers(in_rpm(other.speed_rev_s))},
-                              {"depth_mm", report::short_numbers(other.depth_mm)}});
+                              {"speed_rpm", report::short_numbers(in_rpm(other.line.speed_rev_s))},
+                              {"depth_mm", report::short_numbers(or_nan(other.line.depth_mm))}});
   }
   page["steps"] = Json::array();
   for (const Step& step : lobes.steps) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <steadyrest/apps/chatter_page/chatter_page.hpp>
+#include <steadyrest/chatter/offline/border_line.hpp>
 #include <steadyrest/chatter/offline/lobe_map.hpp>
 #include <steadyrest/chatter/offline/process.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -13,11 +14,10 @@
 
 namespace steadyrest::apps::chatter_page {
 
-/// A border to compare with; NaN where the speed has none.
+/// A border to compare with.
 struct Border {
   std::string name;
-  std::vector<double> speed_rev_s;
-  std::vector<double> depth_mm;
+  chatter::offline::BorderLine line;
 };
 
 /// An override step of the machine.
@@ -29,16 +29,17 @@ struct Step {
 
 struct LobesPage {
   chatter::offline::LobeMap map;
+  chatter::offline::BorderLine border;
   std::vector<Border> others;
   std::vector<Step> steps;
 };
 
-/// Borders beside that of the map: where the law modulates, that at constant speed; the zero-order
-/// sketch of constant speed where it applies (milling, straight teeth, even pitch, no process
-/// damping).
+/// Borders beside that of the map, at the speeds of `border` or refined as it is: where the law
+/// modulates, that at constant speed; the zero-order sketch of constant speed where it applies
+/// (milling, straight teeth, even pitch, no process damping).
 [[nodiscard]] kernel::outcome::Result<std::vector<Border>> other_borders(
     const chatter::offline::Process& process, const chatter::offline::LobeMap& map,
-    const chatter::offline::Modulation& modulation);
+    const chatter::offline::BorderLine& border, const chatter::offline::Modulation& modulation);
 
 /// The steps that may be written at this programmed speed, with the border of each up to the map's
 /// greatest depth.

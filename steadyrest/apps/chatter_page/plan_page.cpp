@@ -43,22 +43,13 @@ Range range_of(const std::vector<Step>& steps, double programmed_rev_s) {
   return out;
 }
 
-Result<Border> border_under(const offline::Process& process, const Range& range,
-                            double most_depth_mm, const offline::Modulation& modulation) {
-  const auto map =
-      offline::lobe_map(process,
-                        {.speed_rev_s = even(range.low_rev_s, range.high_rev_s, kLawSpeeds),
-                         .depth_mm = even(0.0, most_depth_mm, kLawDepths),
-                         .modulation = modulation},
-                        {});
-  if (!map) {
-    return std::unexpected(map.error());
-  }
-  Border out{"under the chosen law", map->speed_rev_s, {}};
-  for (const auto& depth : map->border_mm) {
-    out.depth_mm.push_back(depth.value_or(std::numeric_limits<double>::quiet_NaN()));
-  }
-  return out;
+Result<offline::BorderLine> border_under(const offline::Process& process, const Range& range,
+                                         std::size_t speeds, double most_depth_mm,
+                                         const offline::Modulation& modulation) {
+  return offline::border_line(process,
+                              {.speed_rev_s = even(range.low_rev_s, range.high_rev_s, speeds),
+                               .most_depth_mm = most_depth_mm,
+                               .modulation = modulation});
 }
 
 }  // namespace
@@ -79,13 +70,18 @@ Result<std::string> plan_page(const Json& answer, const offline::Process& proces
   if (!map) {
     return std::unexpected(map.error());
   }
-  LobesPage lobes{std::move(*map), {}, std::move(*steps)};
+  auto border = border_under(process, range, kSpeeds, plan.most_depth_mm, {});
+  if (!border) {
+    return std::unexpected(border.error());
+  }
+  LobesPage lobes{std::move(*map), std::move(*border), {}, std::move(*steps)};
   if (plan.chosen.modulation.law != chatter::online::Law::constant) {
-    auto border = border_under(process, range, plan.most_depth_mm, plan.chosen.modulation);
-    if (!border) {
-      return std::unexpected(border.error());
+    auto under =
+        border_under(process, range, kLawSpeeds, plan.most_depth_mm, plan.chosen.modulation);
+    if (!under) {
+      return std::unexpected(under.error());
     }
-    lobes.others.push_back(std::move(*border));
+    lobes.others.push_back({"under the chosen law", std::move(*under)});
   }
   Json page = page_head("plan", process.name, answer);
   page["machine"] = machine.name;

@@ -19,6 +19,7 @@
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/verb_chatter_lobes.hpp>
+#include <steadyrest/chatter/offline/border_line.hpp>
 #include <steadyrest/chatter/offline/lobe_map.hpp>
 #include <steadyrest/chatter/offline/process_file.hpp>
 #include <steadyrest/chatter/offline/stability.hpp>
@@ -51,6 +52,7 @@ struct Options {
 /// What was made and how long it took.
 struct Made {
   offline::LobeMap map;
+  offline::BorderLine border;
   double seconds = 0.0;
 };
 
@@ -73,12 +75,12 @@ std::string map_csv(const offline::LobeMap& map) {
 }
 
 /// Speeds that are stable at all depths have no row.
-std::string border_csv(const offline::LobeMap& map) {
+std::string border_csv(const offline::BorderLine& border) {
   std::string out = "speed_rpm,depth_mm\n";
-  for (std::size_t s = 0; s < map.speed_rev_s.size(); ++s) {
-    if (map.border_mm[s]) {
+  for (std::size_t i = 0; i < border.speed_rev_s.size(); ++i) {
+    if (border.depth_mm[i]) {
       fmt::format_to(std::back_inserter(out), "{:.10g},{:.10g}\n",
-                     rpm_from_rev_s(map.speed_rev_s[s]), *map.border_mm[s]);
+                     rpm_from_rev_s(border.speed_rev_s[i]), *border.depth_mm[i]);
     }
   }
   return out;
@@ -87,13 +89,22 @@ std::string border_csv(const offline::LobeMap& map) {
 Result<Made> make(const offline::Process& process, const offline::LobeMapConfig& config,
                   Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  auto map = offline::lobe_map(process, config,
-                               [&progress](double share) { progress.update(share, "the map"); });
+  auto map = offline::lobe_map(
+      process, config, [&progress](double share) { progress.update(0.5 * share, "the map"); });
   if (!map) {
     return std::unexpected(map.error());
   }
+  auto border = offline::border_line(
+      process,
+      {.speed_rev_s = config.speed_rev_s,
+       .most_depth_mm = config.depth_mm.back(),
+       .modulation = config.modulation},
+      [&progress](double share) { progress.update(0.5 + 0.5 * share, "its border"); });
+  if (!border) {
+    return std::unexpected(border.error());
+  }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  return Made{std::move(*map), taken.count()};
+  return Made{std::move(*map), std::move(*border), taken.count()};
 }
 
 /// RVF is a ratio: with a period in s the law would differ from speed to speed.
@@ -109,37 +120,38 @@ Result<ChosenLaw> law_of(const Options& options, const offline::Process& process
 
 Answer answer_of(const Made& made, const ChosenLaw& law, const Options& options) {
   const offline::LobeMap& map = made.map;
-  std::size_t borders = 0;
+  const offline::BorderLine& line = made.border;
+  std::size_t points = 0;
   std::optional<std::size_t> deepest;
   std::optional<std::size_t> lowest;
-  for (std::size_t s = 0; s < map.speed_rev_s.size(); ++s) {
-    const auto& border = map.border_mm[s];
-    borders += border ? 1U : 0U;
-    if (border && (!deepest || *border > *map.border_mm[*deepest])) {
+  for (std::size_t s = 0; s < line.speed_rev_s.size(); ++s) {
+    const auto& border = line.depth_mm[s];
+    points += border ? 1U : 0U;
+    if (border && (!deepest || *border > *line.depth_mm[*deepest])) {
       deepest = s;
     }
-    if (border && (!lowest || *border < *map.border_mm[*lowest])) {
+    if (border && (!lowest || *border < *line.depth_mm[*lowest])) {
       lowest = s;
     }
   }
   Answer answer;
-  answer.json = {{"seconds", made.seconds},
-                 {"points", map.log_radius.size()},
-                 {"speeds", map.speed_rev_s.size()},
-                 {"depths", map.depth_mm.size()},
-                 {"border_points", borders},
-                 {"output", options.output},
-                 {"border_output", border_path(options.output).string()}};
+  answer.json = {
+      {"seconds", made.seconds},          {"points", map.log_radius.size()},
+      {"speeds", map.speed_rev_s.size()}, {"depths", map.depth_mm.size()},
+      {"border_points", points},          {"border_settled", line.settled},
+      {"output", options.output},         {"border_output", border_path(options.output).string()}};
   put_law(answer.json, law, map.speed_rev_s.size() == 1 ? rpm_from_rev_s(map.speed_rev_s[0]) : 0.0);
   Table table;
   table.row({"points", fmt::format("{}", map.log_radius.size())})
       .row({"time", fmt::format("{:.3g} s", made.seconds)})
-      .row({"speeds with a border", fmt::format("{} of {}", borders, map.speed_rev_s.size())});
+      .row({"points of the border",
+            fmt::format("{}{}", points,
+                        line.settled ? "" : ", not smooth everywhere: give more speeds")});
   if (lowest) {
-    table.row({"lowest border", fmt::format("{:.4g} mm at {:.6g} rpm", *map.border_mm[*lowest],
-                                            rpm_from_rev_s(map.speed_rev_s[*lowest]))});
-    table.row({"highest border", fmt::format("{:.4g} mm at {:.6g} rpm", *map.border_mm[*deepest],
-                                             rpm_from_rev_s(map.speed_rev_s[*deepest]))});
+    table.row({"lowest border", fmt::format("{:.4g} mm at {:.6g} rpm", *line.depth_mm[*lowest],
+                                            rpm_from_rev_s(line.speed_rev_s[*lowest]))});
+    table.row({"highest border", fmt::format("{:.4g} mm at {:.6g} rpm", *line.depth_mm[*deepest],
+                                             rpm_from_rev_s(line.speed_rev_s[*deepest]))});
   }
   answer.text = table.text();
   return answer;
@@ -239,8 +251,9 @@ std::expected<Task, Refusals> task_of(const Options& options) {
 }
 
 Result<std::string> page_of(const Json& answer, const Task& task, const Options& options,
-                            offline::LobeMap map) {
-  auto others = chatter_page::other_borders(task.process, map, task.law.modulation);
+                            Made made) {
+  offline::LobeMap& map = made.map;
+  auto others = chatter_page::other_borders(task.process, map, made.border, task.law.modulation);
   if (!others) {
     return std::unexpected(others.error());
   }
@@ -254,8 +267,9 @@ Result<std::string> page_of(const Json& answer, const Task& task, const Options&
     }
     steps = std::move(*made);
   }
-  return chatter_page::lobes_page(answer, task.process,
-                                  {std::move(map), std::move(*others), std::move(steps)});
+  return chatter_page::lobes_page(
+      answer, task.process,
+      {std::move(map), std::move(made.border), std::move(*others), std::move(steps)});
 }
 
 /// Before hours of work.
@@ -264,9 +278,9 @@ Result<void> ready(const Options& options) {
   return map ? ready_report(options.report) : map;
 }
 
-Result<void> write_map(const Options& options, const offline::LobeMap& map) {
-  const auto done = write_text(options.output, map_csv(map));
-  return done ? write_text(border_path(options.output), border_csv(map)) : done;
+Result<void> write_map(const Options& options, const Made& made) {
+  const auto done = write_text(options.output, map_csv(made.map));
+  return done ? write_text(border_path(options.output), border_csv(made.border)) : done;
 }
 
 Outcome run(const Options& options, Progress& progress) {
@@ -281,7 +295,7 @@ Outcome run(const Options& options, Progress& progress) {
   if (!made) {
     return refused(made.error());
   }
-  if (const auto done = write_map(options, made->map); !done) {
+  if (const auto done = write_map(options, *made); !done) {
     return refused(done.error());
   }
   Answer answer = answer_of(*made, task->law, options);
@@ -294,7 +308,7 @@ Outcome run(const Options& options, Progress& progress) {
     answer.text += point_text(*point);
   }
   if (!options.report.empty()) {
-    const auto page = page_of(answer.json, *task, options, std::move(made->map));
+    const auto page = page_of(answer.json, *task, options, std::move(*made));
     const auto written =
         page ? put_report(answer, options.report, *page) : std::unexpected(page.error());
     if (!written) {
@@ -329,9 +343,9 @@ void add_verb_chatter_lobes(Session& session) {
                   "Machine file (TOML), for the override steps in the report");
   add_law_options(verb, options->law);
   verb.add_option("-o,--output", options->output,
-                  "The map (CSV: speed_rpm,depth_mm,spectral_radius); the lowest border of each "
-                  "speed goes to OUT.border.csv (speed_rpm,depth_mm; no row where all depths of "
-                  "the map are stable)")
+                  "The map (CSV: speed_rpm,depth_mm,spectral_radius); the border, refined between "
+                  "these speeds until it is smooth, goes to OUT.border.csv (speed_rpm,depth_mm; no "
+                  "row where all depths of the map are stable)")
       ->required();
   add_report_option(verb, options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });

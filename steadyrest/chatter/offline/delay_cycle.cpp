@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/delay_cycle.hpp>
+#include <steadyrest/chatter/offline/reach.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
@@ -57,6 +59,10 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
                   "take RVF = teeth/q with whole q, or a ratio of small whole numbers"});
     }
   }
+  if (auto refusal =
+          beyond_reach(process, speed.slowest_rad_s() / kTurn, config.most_depth_mm, out.passes_)) {
+    return std::unexpected(std::move(*refusal));
+  }
   out.period_s_ = speed.time_s(static_cast<double>(out.passes_) * out.pass_rad_);
   out.plan(speed, config);
   return out;
@@ -90,7 +96,7 @@ void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
       pass.push_back(std::move(piece));
     }
   }
-  state_size_ = 2 * static_cast<Index>(process_.modes.size());
+  state_size_ = modal_size();
   for (Piece& piece : pass) {
     if (piece.cuts) {
       piece.slot = state_size_;
@@ -266,8 +272,7 @@ void DelayCycle::delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& 
 void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
   // A piece's values of this pass take the place of the last one's as soon as it is passed: no
   // delay is longer than a pass.
-  const Index modal_size = 2 * static_cast<Index>(process_.modes.size());
-  modal_ = state.head(modal_size);
+  modal_ = state.head(modal_size());
   for (Piece& piece : pieces_[pass]) {
     if (!piece.cuts) {
       piece.x.noalias() = piece.phi * modal_;
@@ -301,7 +306,67 @@ void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
     }
     before = piece.x;
   }
-  state.head(modal_size) = modal_;
+  state.head(modal_size()) = modal_;
+}
+
+/// Σ_j H_jᵀ·f onto the displacements at θ − δ_j.
+void DelayCycle::undelayed(const Piece& piece, const Eigen::VectorXd& forces,
+                           Eigen::Ref<Eigen::VectorXd> row) const {
+  const Index n = piece.nodes;
+  for (const Delayed& term : piece.delayed) {
+    for (Index i = 0; i < n; ++i) {
+      const Read& read = term.read[static_cast<std::size_t>(i)];
+      const Eigen::Matrix2d& h = term.h[static_cast<std::size_t>(i)];
+      const Piece& from = pieces_[0][read.piece];
+      for (Index b = 0; b < components_ && from.slot >= 0; ++b) {
+        double weight = 0.0;
+        for (Index c = 0; c < components_; ++c) {
+          weight += h(c, b) * forces[c * n + i];
+        }
+        const Index first = from.slot + b * from.nodes;
+        if (read.row.size() == 0) {
+          row[first + read.node] += weight;
+        } else {
+          row.segment(first, from.nodes) += weight * read.row.transpose();
+        }
+      }
+    }
+  }
+}
+
+/// advance() backwards, each line of it transposed.
+void DelayCycle::retreat(std::size_t pass, Eigen::Ref<Eigen::VectorXd> row) {
+  Eigen::VectorXd modal = row.head(modal_size());
+  for (std::size_t i = pieces_[pass].size(); i-- > 0;) {
+    const Piece& piece = pieces_[pass][i];
+    if (!piece.cuts) {
+      modal = (piece.e.transpose() * modal).eval();
+      continue;
+    }
+    const Index size = piece.nodes * components_;
+    auto slot = row.segment(piece.slot, size);
+    const auto solve = [&] {
+      solved_.resize(size);
+      piece.inverse.apply_transposed({right_.data(), static_cast<std::size_t>(size)},
+                                     {solved_.data(), static_cast<std::size_t>(size)});
+    };
+    if (plain_) {
+      right_ = slot;
+      right_.noalias() -= piece.rh.transpose() * (depth_mm_ * modal);
+      solve();
+      modal = (piece.e.transpose() * modal + piece.phi.transpose() * solved_).eval();
+      slot -= solved_;
+    } else {
+      right_ = depth_mm_ * (piece.k.transpose() * slot + piece.r.transpose() * modal);
+      solve();
+      modal = (piece.e.transpose() * modal + piece.phi.transpose() * slot -
+               piece.hphi.transpose() * solved_)
+                  .eval();
+      slot.setZero();
+      undelayed(piece, solved_, row);
+    }
+  }
+  row.head(modal_size()) = modal;
 }
 
 // A Ref is a view, cheap to hand on.

@@ -44,13 +44,18 @@ class DelayCycle {
     double fineness = 1.0;       ///< nodes over the usual; for convergence studies
   };
 
-  /// Refuses a modulation whose period shares no multiple with the tooth pitch below 4096 pitches.
+  /// Refuses a modulation whose period shares no multiple with the tooth pitch below 4096 pitches,
+  /// and what is beyond_reach().
   static kernel::outcome::Result<DelayCycle> make(const Process& process, const Config& config);
 
   /// Depth of cut in mm, ≥ 0. Must be called before apply().
   void set_depth(double depth_mm);
 
   [[nodiscard]] Eigen::Index state_size() const noexcept { return state_size_; }
+  /// The state's first numbers: q and v/ω of each mode.
+  [[nodiscard]] Eigen::Index modal_size() const noexcept {
+    return 2 * static_cast<Eigen::Index>(process_.modes.size());
+  }
   /// Tooth passes (revolutions where the pitch is uneven) in the period.
   [[nodiscard]] std::size_t passes() const noexcept { return passes_; }
   /// Periods of the modulation law in the principal period; 1 without modulation.
@@ -60,6 +65,8 @@ class DelayCycle {
 
   /// From the state at the beginning of a pass (0 … passes() − 1) to that at its end.
   void advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state);
+  /// The adjoint of advance(): `row` times the map of the pass.
+  void retreat(std::size_t pass, Eigen::Ref<Eigen::VectorXd> row);
   /// Over the whole period.
   void apply(Eigen::Ref<Eigen::VectorXd> state);
 
@@ -107,6 +114,9 @@ class DelayCycle {
   [[nodiscard]] Read read_at(double angle_rad) const;
   void delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& state,
                Eigen::Ref<Eigen::VectorXd> out) const;
+  /// Adds forces' weights to those of the displacements that delayed() made them of.
+  void undelayed(const Piece& piece, const Eigen::VectorXd& forces,
+                 Eigen::Ref<Eigen::VectorXd> row) const;
 
   Process process_;
   Eigen::Index components_ = 1;  ///< 1: x alone vibrates

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/crossing.hpp>
 #include <steadyrest/chatter/offline/depth_line.hpp>
 #include <steadyrest/chatter/offline/multipliers.hpp>
+#include <steadyrest/chatter/offline/reach.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
@@ -62,6 +64,11 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
   const double decay = least_decay_1_s(process);
   const bool straight =
       process.tool.helix_rad == 0.0 || process.cut.operation == Operation::turning;
+  if (constant) {
+    if (auto refused = beyond_reach(process, speed_rev_s, most_depth_mm)) {
+      return std::unexpected(std::move(*refused));
+    }
+  }
   if (constant && PassMatrix::simple(process) && (straight || process.modes.size() == 1)) {
     out.tracker_ = std::make_unique<DepthTracker>(process, speed_rev_s, most_depth_mm);
     out.free_log_radius_ = -decay / (speed_rev_s * static_cast<double>(process.tool.teeth));
@@ -95,9 +102,9 @@ double DepthLine::log_radius(double depth_mm) {
   }
   DelayCycle::Config config = config_;
   config.most_depth_mm = depth_mm;
-  // What make() refuses does not depend on the depth.
-  auto cycle = DelayCycle::make(process_, config);
-  return of(*cycle, depth_mm);
+  // What make() accepts at the greatest depth it accepts at every smaller one.
+  auto cycle = DelayCycle::make(process_, config).value();
+  return of(cycle, depth_mm);
 }
 
 double DepthLine::crossing_mm(double stable_mm, double log_stable, double unstable_mm,

@@ -29,6 +29,11 @@ class DepthLine {
   /// pitch is uneven) when constant. 0 ≤ depth ≤ most_depth_mm; quickest with rising depths.
   [[nodiscard]] double log_radius(double depth_mm);
 
+  [[nodiscard]] const Process& process() const noexcept { return process_; }
+
+  /// DepthTracker's way: a depth costs some tens of microseconds.
+  [[nodiscard]] bool quick() const noexcept { return tracker_ != nullptr; }
+
   /// The crossing of ρ = 1 between a stable and an unstable depth, to 1e-10 of the depth.
   [[nodiscard]] double crossing_mm(double stable_mm, double log_stable, double unstable_mm,
                                    double log_unstable);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include <Eigen/QR>
 
@@ -14,6 +16,8 @@ using Eigen::Index;
 constexpr std::size_t kMostStarts = 16;
 constexpr std::size_t kLeastWindow = 20;  ///< passes
 constexpr double kForget = 1e-8;          ///< what a map loses in rank is less than this share
+constexpr Index kMostRows = 200;          ///< that are followed one by one
+constexpr double kBeyondLog = 700.0;      ///< as far as peak() tells
 constexpr double kDied = 1e-4;            ///< of its peak, then it is followed no longer
 
 /// ‖X·Y‖_∞ without more memory than one row.
@@ -24,6 +28,86 @@ double row_sum_norm(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
   }
   return out;
 }
+
+/// Ends the course where it has died.
+bool died(const std::vector<double>& log_growth, double peak) {
+  const double now = log_growth.back();
+  return now < peak + std::log(kDied) && now < 0.0;
+}
+
+/// Where all passes are the same map P: row i of P^k is e_iᵀ·P^k, so that each row is followed by
+/// itself, and the sum of its moduli is that row's growth. A low speed has thousands of rows, which
+/// change little from one to the next: some are followed, then the neighbours of the worst.
+class EvenPasses {
+ public:
+  EvenPasses(DelayCycle& cycle, std::size_t window)
+      : cycle_(cycle),
+        rows_(cycle.state_size()),
+        log_growth_(window + 1, -std::numeric_limits<double>::infinity()),
+        worst_row_(window + 1, 0) {
+    log_growth_[0] = 0.0;
+  }
+
+  GrowthCourse course(Index modal_rows) {
+    const Index apart = (rows_ + kMostRows - 1) / kMostRows;
+    std::set<Index> wanted;
+    for (Index i = 0; i < rows_; i += i < modal_rows ? 1 : apart) {
+      wanted.insert(i);
+    }
+    for (const Index i : wanted) {
+      follow(i);
+    }
+    std::set<Index> near;
+    for (const Index worst : worst_row_) {
+      for (Index i = std::max<Index>(0, worst - apart + 1); i < std::min(rows_, worst + apart);
+           ++i) {
+        near.insert(i);
+      }
+    }
+    for (const Index i : near) {
+      if (!wanted.contains(i)) {
+        follow(i);
+      }
+    }
+    GrowthCourse out{.start_pass = 0, .log_growth = {0.0}};
+    double peak = 0.0;
+    for (std::size_t k = 1; k < log_growth_.size() && std::isfinite(log_growth_[k]); ++k) {
+      out.log_growth.push_back(log_growth_[k]);
+      if (died(out.log_growth, peak)) {
+        break;
+      }
+      peak = std::max(peak, log_growth_[k]);
+    }
+    return out;
+  }
+
+ private:
+  void follow(Index i) {
+    Eigen::VectorXd row = Eigen::VectorXd::Unit(rows_, i);
+    double log_size = 0.0;
+    for (std::size_t k = 1; k < log_growth_.size(); ++k) {
+      cycle_.retreat(0, row);
+      const double sum = row.cwiseAbs().sum();
+      if (!std::isfinite(sum)) {  // beyond a double's range within one pass
+        log_growth_[k] = kBeyondLog;
+      }
+      if (!(sum > 0.0) || !std::isfinite(sum)) {
+        return;
+      }
+      row /= sum;
+      log_size += std::log(sum);
+      if (log_size > log_growth_[k]) {
+        log_growth_[k] = log_size;
+        worst_row_[k] = i;
+      }
+    }
+  }
+
+  DelayCycle& cycle_;
+  Index rows_;
+  std::vector<double> log_growth_;
+  std::vector<Index> worst_row_;
+};
 
 /// The map from the pass `begin` on as X·Y with few columns in X: all but a handful of directions
 /// die within a pass or two.
@@ -55,7 +139,7 @@ GrowthCourse course_from(DelayCycle& cycle, std::size_t begin, std::size_t windo
     log_scale += std::log(largest);
     const double now = log_scale + std::log(row_sum_norm(x, y));
     out.log_growth.push_back(now);
-    if (now < peak + std::log(kDied) && now < 0.0) {
+    if (died(out.log_growth, peak)) {
       break;
     }
     peak = std::max(peak, now);
@@ -75,6 +159,9 @@ double GrowthCourse::peak() const noexcept {
 
 std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {
   const std::size_t passes = cycle.passes();
+  if (passes == 1) {
+    return {EvenPasses(cycle, kLeastWindow).course(cycle.modal_size())};
+  }
   const std::size_t starts = std::min(passes, kMostStarts);
   std::vector<GrowthCourse> out;
   out.reserve(starts);

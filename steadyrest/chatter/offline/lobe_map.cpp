@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <mutex>
+#include <optional>
 
 #include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <steadyrest/chatter/offline/depth_line.hpp>
-#include <steadyrest/chatter/offline/limit_depth.hpp>
 #include <steadyrest/chatter/offline/lobe_map.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -18,11 +18,19 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+constexpr std::size_t kMostPoints = 10'000'000;
+
 std::optional<Refusal> fault(const LobeMapConfig& config) {
   if (config.speed_rev_s.empty()) {
     return Refusal{Kind::bad_input, "", 0, "no speed", "give at least one speed"};
   }
   const std::vector<double>& depth = config.depth_mm;
+  if (config.speed_rev_s.size() > kMostPoints / std::max<std::size_t>(depth.size(), 1)) {
+    return Refusal{Kind::bad_input, "", 0,
+                   fmt::format("a map of {} speeds × {} depths; allowed are {} points",
+                               config.speed_rev_s.size(), depth.size(), kMostPoints),
+                   "give fewer steps; the border is refined between them"};
+  }
   if (depth.empty() || !(depth.front() >= 0.0) || !(depth.back() > 0.0)) {
     return Refusal{Kind::bad_input, "", 0, "depths must start at 0 or above and reach above 0",
                    "give rising depths"};
@@ -43,26 +51,6 @@ void fill(DepthLine& line, std::size_t speed, LobeMap& map) {
   for (std::size_t i = 0; i < depths; ++i) {
     map.log_radius[speed * depths + i] = line.log_radius(map.depth_mm[i]);
   }
-  const double* const log_radius = &map.log_radius[speed * depths];
-  double low = 0.0;
-  double log_low = line.log_radius(0.0);
-  for (std::size_t i = 0; i < depths; ++i) {
-    if (log_radius[i] >= 0.0) {
-      map.border_mm[speed] = line.crossing_mm(low, log_low, map.depth_mm[i], log_radius[i]);
-      return;
-    }
-    if (i + 1 < depths && map.depth_mm[i] > low && log_radius[i] >= log_low &&
-        log_radius[i] > log_radius[i + 1]) {
-      const std::array depth{low, map.depth_mm[i], map.depth_mm[i + 1]};
-      const auto island = island_mm(line, depth, {log_low, log_radius[i], log_radius[i + 1]});
-      if (island) {
-        map.border_mm[speed] = line.crossing_mm(low, log_low, *island, line.log_radius(*island));
-        return;
-      }
-    }
-    low = map.depth_mm[i];
-    log_low = log_radius[i];
-  }
 }
 
 }  // namespace
@@ -74,8 +62,7 @@ Result<LobeMap> lobe_map(const Process& process, const LobeMapConfig& config,
   }
   const std::size_t speeds = config.speed_rev_s.size();
   LobeMap map{config.speed_rev_s, config.depth_mm,
-              std::vector<double>(speeds * config.depth_mm.size()),
-              std::vector<std::optional<double>>(speeds)};
+              std::vector<double>(speeds * config.depth_mm.size())};
   std::mutex mutex;
   std::optional<Refusal> refused;
   std::size_t done = 0;

@@ -16,12 +16,17 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 
 constexpr Index kMostKrylov = 90;
+constexpr Index kPerKrylov = 8;  ///< of the state: at low speed many multipliers are nearly alike
+constexpr Index kMostAtLowSpeed = 300;
+constexpr double kAlike = 0.99;  ///< of the largest modulus: these have to settle with it
 constexpr Index kFirstKrylov = 6;
 constexpr Index kKrylovStep = 4;
 constexpr Index kBasis = 6;  ///< vectors of the QR method
 /// ln of the growth within a period over |μ| up to which Arnoldi's values are right to 1e-9.
 constexpr double kSafeLogGrowth = 14.0;
 constexpr int kMostPeriods = 16;
+/// ln|μ| that is told where a vibration grows beyond a double's range within the period.
+constexpr double kBeyondLog = 700.0;
 
 Eigen::VectorXd start_vector(Index size) {
   std::mt19937_64 random(20260401);
@@ -50,17 +55,33 @@ Ritz ritz(const Eigen::MatrixXd& h, const Eigen::MatrixXd& v, Index m, std::size
   for (std::size_t i = 0; i < std::min(wanted, order.size()); ++i) {
     out.value.push_back(values[order[i]]);
   }
-  const Eigen::VectorXcd y = eigen.eigenvectors().col(order[0]).normalized();
-  out.residual = std::abs(h(m, m - 1) * y[m - 1]) / std::max(std::abs(values[order[0]]), 1e-300);
+  const Eigen::MatrixXcd vectors = eigen.eigenvectors();
+  const Eigen::VectorXcd y = vectors.col(order[0]).normalized();
+  out.residual = 0.0;
+  // One that has settled may hide another of nearly its modulus that has not.
+  const double alike = kAlike * std::abs(values[order[0]]);
+  for (const Index i : order) {
+    if (std::abs(values[i]) < alike) {
+      break;
+    }
+    const double last = std::abs(vectors(m - 1, i)) / vectors.col(i).norm();
+    out.residual = std::max(out.residual,
+                            std::abs(h(m, m - 1)) * last / std::max(std::abs(values[i]), 1e-300));
+  }
   out.vector = (v.leftCols(m) * y).real();
   return out;
+}
+
+/// A vibration grew beyond a double's range.
+Ritz beyond(const Eigen::VectorXd& start) {
+  return {.value = {std::exp(kBeyondLog)}, .residual = 0.0, .vector = start};
 }
 
 using Map = std::function<void(Eigen::Ref<Eigen::VectorXd>)>;
 
 Ritz arnoldi(const Map& apply, Index size, std::size_t wanted, double tolerance,
              std::size_t& applied) {
-  const Index most = std::min(size, kMostKrylov);
+  const Index most = std::min(size, std::clamp(size / kPerKrylov, kMostKrylov, kMostAtLowSpeed));
   Eigen::MatrixXd v = Eigen::MatrixXd::Zero(size, most + 1);
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(most + 1, most);
   v.col(0) = start_vector(size);
@@ -70,6 +91,9 @@ Ritz arnoldi(const Map& apply, Index size, std::size_t wanted, double tolerance,
     apply(w);
     ++applied;
     const double grown = w.norm();
+    if (!std::isfinite(grown)) {
+      return beyond(v.col(0));
+    }
     for (int twice = 0; twice < 2; ++twice) {
       const Eigen::VectorXd c = v.leftCols(k + 1).transpose() * w;
       w -= v.leftCols(k + 1) * c;
@@ -83,7 +107,7 @@ Ritz arnoldi(const Map& apply, Index size, std::size_t wanted, double tolerance,
       if (out.residual < tolerance || whole) {
         return out;
       }
-      look = std::min(look + kKrylovStep, most);
+      look = std::min(look + std::max(kKrylovStep, look / 8), most);
     }
     v.col(k + 1) = w / left;
   }
@@ -130,6 +154,11 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, double tolerance, Multiplier
     for (std::size_t p = 0; p < cycle.passes(); ++p) {
       for (Index i = 0; i < k; ++i) {
         cycle.advance(p, frame.basis.col(i));
+      }
+      if (!frame.basis.allFinite()) {
+        out.log_modulus = {kBeyondLog};
+        out.vector = start.col(0);
+        return {1.0};
       }
       frame.renew();
     }
@@ -199,8 +228,10 @@ Multipliers multipliers(DelayCycle& cycle, std::size_t wanted, double tolerance)
   Multipliers out = multipliers_of([&](const auto& state) { cycle.apply(state); },
                                    cycle.state_size(), wanted, tolerance);
   out.passes_done *= cycle.passes();
+  // Out of range over the period may still be within it from pass to pass.
   if (cycle.passes() > 1 &&
-      log_growth_within(cycle, out.vector) - out.log_modulus[0] > kSafeLogGrowth) {
+      (out.log_modulus[0] >= kBeyondLog ||
+       log_growth_within(cycle, out.vector) - out.log_modulus[0] > kSafeLogGrowth)) {
     out.value = discrete_qr(cycle, std::max(tolerance, 1e-9), out);
   }
   return out;

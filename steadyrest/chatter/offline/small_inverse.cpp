@@ -68,4 +68,13 @@ void SmallInverse::apply(std::span<const double> in, std::span<double> out) cons
   std::copy_n(sum.begin(), size_, out.begin());
 }
 
+void SmallInverse::apply_transposed(std::span<const double> in, std::span<double> out) const {
+  using Column = Eigen::Map<const Eigen::VectorXd>;
+  const auto rows = static_cast<Eigen::Index>(size_);
+  const Column given(in.data(), rows);
+  for (std::size_t j = 0; j < size_; ++j) {
+    out[j] = Column(&number_[j * stride_], rows).dot(given);
+  }
+}
+
 }  // namespace steadyrest::chatter::offline

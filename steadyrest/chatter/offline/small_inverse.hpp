@@ -21,6 +21,8 @@ class SmallInverse {
 
   /// out = (I + a·M)⁻¹·in; both of the matrix's size, apart from each other.
   void apply(std::span<const double> in, std::span<double> out) const;
+  /// The same with the transposed inverse.
+  void apply_transposed(std::span<const double> in, std::span<double> out) const;
 
  private:
   std::size_t size_ = 0;

@@ -108,7 +108,8 @@ TEST(LobesPage, ThinsTheMapButNotTheBorder) {
   LobesPage lobes;
   for (std::size_t i = 0; i < 1001; ++i) {
     lobes.map.speed_rev_s.push_back(50.0 + static_cast<double>(i));
-    lobes.map.border_mm.emplace_back(i == 7 ? std::nullopt : std::optional(0.5));
+    lobes.border.speed_rev_s.push_back(50.0 + static_cast<double>(i));
+    lobes.border.depth_mm.emplace_back(i == 7 ? std::nullopt : std::optional(0.5));
   }
   for (std::size_t i = 0; i < 501; ++i) {
     lobes.map.depth_mm.push_back(0.01 * static_cast<double>(i));

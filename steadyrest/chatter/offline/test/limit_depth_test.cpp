@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/chatter/offline/border_line.hpp>
 #include <steadyrest/chatter/offline/limit_depth.hpp>
-#include <steadyrest/chatter/offline/lobe_map.hpp>
 #include <steadyrest/chatter/offline/test/cuts.hpp>
 
 namespace steadyrest::chatter::offline::test {
@@ -40,15 +40,11 @@ TEST(LimitDepth, SeesNoneBeyondTheIslandsEnd) {
   EXPECT_GT(**limit, 4.1);
 }
 
-TEST(LimitDepth, TheMapsBorderFindsItToo) {
-  LobeMapConfig config;
-  config.speed_rev_s = {kEnd_rev_s};
-  for (int i = 1; i <= 8; ++i) {
-    config.depth_mm.push_back(0.35 * i);
-  }
-  const auto map = lobe_map(helical(), config, {});
-  ASSERT_TRUE(map.has_value() && map->border_mm[0].has_value());
-  EXPECT_NEAR(*map->border_mm[0], 1.4177, 1e-4);
+TEST(LimitDepth, TheBorderOfAMapFindsItToo) {
+  const auto line =
+      border_line(helical(), {.speed_rev_s = {kEnd_rev_s}, .most_depth_mm = 2.8, .modulation = {}});
+  ASSERT_TRUE(line.has_value() && line->depth_mm[0].has_value());
+  EXPECT_NEAR(*line->depth_mm[0], 1.4177, 1e-4);
 }
 
 }  // namespace
