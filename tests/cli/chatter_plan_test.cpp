@@ -31,6 +31,28 @@ TEST(ChatterPlan, TakesTheOverrideStepIntoTheStablePocket) {
   EXPECT_FALSE(plan["alternatives"][10]["reasons"].empty());
 }
 
+/// Ranked, within the spindle's limits, and what `chatter radius` says of them.
+TEST(ChatterPlan, NamesTheBestSpeedsOfTheSpindle) {
+  const json plan = answer_of(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1");
+  const json& best = plan["best_speeds"];
+  ASSERT_GE(best.size(), 2U);
+  double last = 1e9;
+  for (const json& one : best) {
+    const double rpm = one["speed_rpm"];
+    EXPECT_GT(rpm, 0.0);
+    EXPECT_LE(rpm, 12000.0 * (1.0 + 1e-9));
+    const double sure = one["sure_depth_mm"].is_null() ? 5.0 : one["sure_depth_mm"].get<double>();
+    EXPECT_LE(sure, last);
+    last = sure;
+    const json radius =
+        answer_of("chatter radius examples/processes/slot-922hz.toml --speed-rpm " +
+                  std::to_string(rpm) + " --depth-mm " + std::to_string(0.95 * sure));
+    EXPECT_EQ(radius["stable"], true) << rpm;
+  }
+  EXPECT_THAT(run_line(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1").out,
+              HasSubstr("best speeds of the spindle"));
+}
+
 TEST(ChatterPlan, KeepsWhatIsStable) {
   const json plan = answer_of(kPlan + kMill + "--speed-rpm 5500 --depth-mm 1");
   EXPECT_EQ(plan["decision"], "keep");

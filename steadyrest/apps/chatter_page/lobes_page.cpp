@@ -93,7 +93,7 @@ Result<std::vector<Border>> other_borders(const Process& process, const LobeMap&
     out.push_back({"constant speed", std::move(*constant)});
   }
   if (sketch_applies(process)) {
-    Border sketch{"zero-order sketch", {.speed_rev_s = border.speed_rev_s}};
+    Border sketch{"zero-order sketch", {.speed_rev_s = border.speed_rev_s, .depth_mm = {}}};
     for (const double speed : border.speed_rev_s) {
       sketch.line.depth_mm.push_back(offline::zero_order_limit_mm(process, speed));
     }
@@ -102,19 +102,17 @@ Result<std::vector<Border>> other_borders(const Process& process, const LobeMap&
   return out;
 }
 
-Result<std::vector<Step>> override_steps(const Process& process,
-                                         const kernel::machine::Machine& machine,
-                                         double programmed_rev_s, double most_depth_mm,
-                                         const offline::Modulation& modulation) {
+std::vector<Step> override_steps(const Process& process, const kernel::machine::Machine& machine,
+                                 double programmed_rev_s, double most_depth_mm,
+                                 const offline::Modulation& modulation) {
   const offline::DriveLimits limits(machine, process, most_depth_mm, {});
   std::vector<Step> out;
   for (const double ratio : limits.writable(programmed_rev_s)) {
     const double speed = ratio * programmed_rev_s;
     const auto limit = offline::limit_depth_mm(process, speed, modulation, most_depth_mm);
-    if (!limit) {
-      return std::unexpected(limit.error());
+    if (limit) {  // the planner names the steps that the solver does not reach
+      out.push_back({ratio, speed, *limit});
     }
-    out.push_back({ratio, speed, *limit});
   }
   return out;
 }

@@ -42,10 +42,11 @@ struct LobesPage {
     const chatter::offline::BorderLine& border, const chatter::offline::Modulation& modulation);
 
 /// The steps that may be written at this programmed speed, with the border of each up to the map's
-/// greatest depth.
-[[nodiscard]] kernel::outcome::Result<std::vector<Step>> override_steps(
-    const chatter::offline::Process& process, const kernel::machine::Machine& machine,
-    double programmed_rev_s, double most_depth_mm, const chatter::offline::Modulation& modulation);
+/// greatest depth; not those beyond reach.
+[[nodiscard]] std::vector<Step> override_steps(const chatter::offline::Process& process,
+                                               const kernel::machine::Machine& machine,
+                                               double programmed_rev_s, double most_depth_mm,
+                                               const chatter::offline::Modulation& modulation);
 
 /// The columns of the lobes: `map` (at most 400 speeds × 250 depths of it), `border` (whole, null
 /// where all depths are stable), `others`, `steps`.

@@ -58,10 +58,7 @@ Result<std::string> plan_page(const Json& answer, const offline::Process& proces
                               const kernel::machine::Machine& machine, double programmed_rev_s,
                               const offline::Plan& plan) {
   auto steps = override_steps(process, machine, programmed_rev_s, plan.most_depth_mm, {});
-  if (!steps) {
-    return std::unexpected(steps.error());
-  }
-  const Range range = range_of(*steps, programmed_rev_s);
+  const Range range = range_of(steps, programmed_rev_s);
   auto map = offline::lobe_map(process,
                                {.speed_rev_s = even(range.low_rev_s, range.high_rev_s, kSpeeds),
                                 .depth_mm = even(0.0, plan.most_depth_mm, kDepths),
@@ -74,7 +71,7 @@ Result<std::string> plan_page(const Json& answer, const offline::Process& proces
   if (!border) {
     return std::unexpected(border.error());
   }
-  LobesPage lobes{std::move(*map), std::move(*border), {}, std::move(*steps)};
+  LobesPage lobes{std::move(*map), std::move(*border), {}, std::move(steps)};
   if (plan.chosen.modulation.law != chatter::online::Law::constant) {
     auto under =
         border_under(process, range, kLawSpeeds, plan.most_depth_mm, plan.chosen.modulation);

@@ -259,13 +259,9 @@ Result<std::string> page_of(const Json& answer, const Task& task, const Options&
   }
   std::vector<chatter_page::Step> steps;
   if (task.machine) {
-    auto made = chatter_page::override_steps(task.process, *task.machine,
-                                             kernel::units::rev_s_from_rpm(*options.speed_rpm),
-                                             map.depth_mm.back(), task.law.modulation);
-    if (!made) {
-      return std::unexpected(made.error());
-    }
-    steps = std::move(*made);
+    steps = chatter_page::override_steps(task.process, *task.machine,
+                                         kernel::units::rev_s_from_rpm(*options.speed_rpm),
+                                         map.depth_mm.back(), task.law.modulation);
   }
   return chatter_page::lobes_page(
       answer, task.process,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_plan.hpp>
+#include <steadyrest/chatter/offline/best_speeds.hpp>
 #include <steadyrest/chatter/offline/planner.hpp>
 #include <steadyrest/chatter/offline/process_file.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -26,6 +28,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using offline::Alternative;
 using offline::PlanDecision;
+
+constexpr double kSigmas = 2.0;  ///< of the frequencies, within which a best speed holds its depth
 
 struct Options {
   std::string process;
@@ -102,6 +106,35 @@ Json to_json(const offline::Plan& plan, const Options& options) {
     out["alternatives"].push_back(std::move(one));
   }
   return out;
+}
+
+using BestSpeeds = std::vector<offline::BestSpeed>;
+
+Json json_of(const BestSpeeds& best) {
+  Json out = Json::array();
+  for (const offline::BestSpeed& one : best) {
+    out.push_back({{"speed_rpm", units::rpm_from_rev_s(one.speed_rev_s)},
+                   {"limit_depth_mm", or_null(one.limit_depth_mm)},
+                   {"sure_depth_mm", or_null(one.sure_depth_mm)}});
+  }
+  return out;
+}
+
+/// The speeds to program, the best first.
+std::string text_of(const BestSpeeds& best, const Options& options, double most_depth_mm) {
+  if (best.empty()) {
+    return "";
+  }
+  const auto depth = [&](const std::optional<double>& limit) {
+    return limit ? fmt::format("{:.3f}", *limit) : fmt::format("> {:.3g}", most_depth_mm);
+  };
+  Table table({"best speeds of the spindle", "border, mm",
+               fmt::format("border within ±{:.3g} %, mm", kSigmas * options.frequency_percent)});
+  for (const offline::BestSpeed& one : best) {
+    table.row({fmt::format("{:.0f} rpm", units::rpm_from_rev_s(one.speed_rev_s)),
+               depth(one.limit_depth_mm), depth(one.sure_depth_mm)});
+  }
+  return "\n" + table.text();
 }
 
 std::string choice_words(const Alternative& a, double speed_rpm) {
@@ -212,9 +245,19 @@ Outcome run(Options options, Progress& progress) {
   if (!found) {
     return refused(found.error());
   }
+  progress.update(1.0, "the best speeds of the spindle");
+  const auto best = offline::best_speeds(
+      *process, {.min_rev_s = machine->spindle.min_rev_s,
+                 .max_rev_s = machine->spindle.max_rev_s,
+                 .most_depth_mm = found->most_depth_mm,
+                 .tolerance_ratio = std::min(0.2, kSigmas * plan.uncertainty.frequency)});
+  if (!best) {
+    return refused(best.error());
+  }
   Answer answer;
   answer.json = to_json(*found, options);
-  answer.text = for_people(*found, options);
+  answer.json["best_speeds"] = json_of(*best);
+  answer.text = for_people(*found, options) + text_of(*best, options, found->most_depth_mm);
   if (!options.report.empty()) {
     const auto page = chatter_page::plan_page(answer.json, *process, *machine,
                                               units::rev_s_from_rpm(options.speed_rpm), *found);

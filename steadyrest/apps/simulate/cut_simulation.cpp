@@ -20,6 +20,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDisturbance_mm = 1e-3;
 constexpr double kLeastBlock = 8.0;   ///< pitches in one mean
 constexpr double kLeastBlocks = 8.0;  ///< half of them are measured
+constexpr double kMostSteps = 1e7;    ///< of all blocks, unless the least number needs more
 
 double slowest_rev_s(const CutSettings& settings) {
   return settings.speed_rev_s * (settings.modulation.law == chatter::online::Law::constant
@@ -87,8 +88,9 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
   // A block is one period of the law, or some turns.
   const double block_rad =
       speed.constant() ? kTurn * std::ceil(kLeastBlock / teeth) : speed.period_rad();
-  const double blocks =
-      std::max(kLeastBlocks, std::ceil(static_cast<double>(pitches) * kTurn / teeth / block_rad));
+  const double wanted_rad =
+      std::min(static_cast<double>(pitches) * kTurn / teeth, kMostSteps * step_rad);
+  const double blocks = std::max(kLeastBlocks, std::ceil(wanted_rad / block_rad));
   cut->step({.speed_rev_s = speed.speed_rad_s(0.0) / kTurn});
   cut->disturb(kDisturbance_mm);
   std::vector<double> log_size;

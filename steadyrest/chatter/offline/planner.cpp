@@ -8,6 +8,7 @@
 
 #include <steadyrest/chatter/offline/alternative_check.hpp>
 #include <steadyrest/chatter/offline/planner.hpp>
+#include <steadyrest/chatter/offline/reach.hpp>
 #include <steadyrest/chatter/offline/stability.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -23,6 +24,7 @@ constexpr double kSame = 1e-9;
 constexpr std::size_t kMostAmplitudes = 12;
 constexpr std::size_t kMostJudged = 3;  ///< frequencies of one law and amplitude
 constexpr double kFastest = 0.5;        ///< RVF
+constexpr double kSlowest = 5e-4;       ///< likewise, near what the solver takes
 constexpr double kNextFrequency = 1.45;
 constexpr double kDepthsOver = 5.0;  ///< limit depths up to so many times the wanted one
 constexpr double kStepsShare = 0.2;  ///< of the progress
@@ -41,18 +43,24 @@ std::optional<Refusal> fault(const Process& process, double speed, double depth,
         fmt::format("speed {} rpm and depth {} mm; both must be above 0", 60.0 * speed, depth),
         "give the programmed speed and the wanted depth");
   }
+  const double most_depth = o.most_depth_mm > 0.0 ? o.most_depth_mm : kDepthsOver * depth;
+  if (auto refused = beyond_reach(process, speed, most_depth)) {
+    refused->to_do +=
+        "; --most-depth-mm is how deep borders are sought, five times the wanted "
+        "depth without it";
+    return refused;
+  }
   const Uncertainty& u = o.uncertainty;
   if (!(o.least_probability >= 0.0 && o.least_probability <= 1.0) || !(o.most_growth >= 1.0) ||
-      !(o.least_rvf > 0.0 && o.least_rvf <= kFastest) ||
+      !(o.least_rvf >= kSlowest && o.least_rvf <= kFastest) ||
       (o.most_depth_mm != 0.0 && !(o.most_depth_mm >= depth)) || u.samples < 1 ||
       u.samples > 4096 || !(u.frequency >= 0.0 && u.frequency <= 0.1) ||
       !(u.damping >= 0.0 && u.damping <= 1.0) ||
       !(u.coefficients >= 0.0 && u.coefficients <= 1.0)) {
-    return bad(
-        "an option of the plan is out of its range",
-        "probability 0 … 1, growth at least 1, slowest RVF above 0 up to 0.5, greatest depth "
-        "not below the wanted one, 1 … 4096 samples, σ of frequency 0 … 0.1, of damping and "
-        "coefficients 0 … 1");
+    return bad("an option of the plan is out of its range",
+               "probability 0 … 1, growth at least 1, slowest RVF 0.0005 … 0.5, greatest depth "
+               "not below the wanted one, 1 … 4096 samples, σ of frequency 0 … 0.1, of damping and "
+               "coefficients 0 … 1");
   }
   for (const double rva : o.rva) {
     if (!(rva > 0.0 && rva < 1.0)) {

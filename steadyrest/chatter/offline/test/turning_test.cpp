@@ -68,6 +68,44 @@ TEST(Turning, BorderInClosedForm) {
   }
 }
 
+/// A mode at the angle α from x (into the work) towards y (the way the tool cuts; the work's
+/// surface comes against it): the forces (−Kr, −Kt)·a·Δx excite it by Kr·cos α + Kt·sin α, and it
+/// moves the tool along x by cos α. Tlusty's oriented response: b_lim = −1/(2·Re G_o), G_o = cos
+/// α·(Kr·cos α + Kt·sin α)·G. Where the product is negative, chatter comes below the natural
+/// frequency.
+TEST(Turning, AnObliqueModeHasTheOrientedResponse) {
+  std::size_t on_the_border = 0;
+  for (const double alpha_deg : {30.0, 80.0, 135.0, -60.0, -20.0, 210.0}) {
+    Process p = turning();
+    const double alpha = alpha_deg / 360.0 * kTurn;
+    Mode& mode = p.modes[0];
+    mode.shape = {std::cos(alpha), std::sin(alpha)};
+    const double wn = kTurn * mode.frequency_hz;
+    const double oriented_n_mm2 = mode.shape[0] * (p.cut.radial_n_mm2 * mode.shape[0] +
+                                                   p.cut.tangential_n_mm2 * mode.shape[1]);
+    for (const double off : {0.008, 0.012, 0.02, 0.05}) {
+      const double w = wn * (oriented_n_mm2 > 0.0 ? 1.0 + off : 1.0 - off);
+      const std::complex<double> g =
+          oriented_n_mm2 * 1000.0 / mode.mass_kg /
+          std::complex<double>(wn * wn - w * w, 2.0 * mode.damping_ratio * wn * w);
+      const double want = -1.0 / (2.0 * g.real());
+      ASSERT_GT(want, 0.0) << alpha_deg;
+      // 1 + b·G_o·(1 − e^{−iε}) = 0 gives ε, and n = (ω/2π)/(k + ε/2π).
+      const double phase = -std::arg(1.0 + 1.0 / (want * g));
+      const double turns = phase / kTurn - std::floor(phase / kTurn);
+      for (const double waves : {1.0, 3.0, 6.0}) {
+        const double speed = w / kTurn / (waves + turns);
+        const auto limit = limit_depth_mm(p, speed, {}, 2.0 * want).value();
+        ASSERT_TRUE(limit.has_value()) << alpha_deg << " " << off << " " << waves;
+        // A neighbouring lobe may lie lower there.
+        EXPECT_LT(*limit, want * (1.0 + 1e-8)) << alpha_deg << " " << off << " " << waves;
+        on_the_border += std::abs(*limit - want) < 1e-7 * want ? 1U : 0U;
+      }
+    }
+  }
+  EXPECT_GE(on_the_border, 36U);  // of 72
+}
+
 /// No speed is worse than −1/(2·Kr·min Re G) = 2ζ(1 + ζ)·k/Kr, and some are nearly as bad.
 TEST(Turning, TheWorstSpeedHasTheAbsoluteLimit) {
   const Process p = turning();
