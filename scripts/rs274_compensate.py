@@ -100,7 +100,7 @@ def machine_moves(listed):
                 end = printed[:3]
             if not restated:
                 # Coordinate and up to three offsets, each rounded to four decimals, in both programs.
-                moves.append((name, machine(end), centre, (4.0 if not rotation else 6.0) * 1e-4 * unit))
+                moves.append((name, machine(end), centre, (4.01 if not rotation else 6.01) * 1e-4 * unit))
             restated = False
     return moves
 
