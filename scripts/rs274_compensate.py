@@ -66,7 +66,7 @@ def turned(point, degrees):
 
 def machine_moves(listed):
     """Each move as (name, (x, y, z) in machine mm, centre or None, digits in mm): turned(work + G92) + G5x + tool."""
-    unit, plane, rotation = 1.0, "XY", 0.0
+    unit, coarsest, plane, rotation = 1.0, 1.0, "XY", 0.0
     offsets = {"SET_G5X_OFFSET": [0.0] * 3, "SET_G92_OFFSET": [0.0] * 3, "USE_TOOL_LENGTH_OFFSET": [0.0] * 3}
     moves, restated = [], False
 
@@ -78,6 +78,7 @@ def machine_moves(listed):
     for name, values in listed:
         if name == "USE_LENGTH_UNITS":
             unit = MM_PER_INCH if "INCHES" in values else 1.0
+            coarsest = max(coarsest, unit)  # offsets keep the digits that they were printed with
         elif name == "SELECT_PLANE":
             plane = values[-2:]
         elif name == "SET_XY_ROTATION":
@@ -100,7 +101,7 @@ def machine_moves(listed):
                 end = printed[:3]
             if not restated:
                 # Coordinate and up to three offsets, each rounded to four decimals, in both programs.
-                moves.append((name, machine(end), centre, (4.01 if not rotation else 6.01) * 1e-4 * unit))
+                moves.append((name, machine(end), centre, (4.01 if not rotation else 6.01) * 1e-4 * coarsest))
             restated = False
     return moves
 
