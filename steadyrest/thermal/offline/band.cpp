@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <tuple>
@@ -12,7 +13,9 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-constexpr double kWanted = 0.97;  // a few blocks say less than they seem to: 95 % of others
+constexpr double kWanted = 0.95;
+constexpr double kWantedHourly = 0.97;  // a few blocks say less than they seem to: 95 % of others
+constexpr double kMostWider = 10.0;
 constexpr double kLeastTau_min = 20.0;
 constexpr double kMostTau_min = 2e4;
 
@@ -64,19 +67,62 @@ std::pair<double, double> made_from(const std::vector<Sample>& free,
   const double probed_drift = least(1e-3, 1e3, [&](double d) {
     return covered(probed, which, [&](const Sample& s) {
              return drift_um2(s, d, 60.0 * kLeastTau_min);
-           }) >= kWanted;
+           }) >= kWantedHourly;
   });
   const double drift = std::max(free_drift, probed_drift);
   const double rate = least(1.0 / kMostTau_min, 1.0 / kLeastTau_min, [&](double r) {
     return covered(probed, which, [&](const Sample& s) { return drift_um2(s, drift, 60.0 / r); }) >=
-           kWanted;
+           kWantedHourly;
   });
   // What it does within an hour is seen many times in each block, what it comes to only once.
-  const double more = another(blocks);
-  return {more * drift, more * more * 60.0 / rate};
+  const double more = student(blocks) * another(blocks);
+  return {more * drift, 60.0 * std::min(more * more / rate, kMostTau_min)};
 }
 
+/// Each block seen by the band that the others make.
+class Others {
+ public:
+  Others(const std::vector<Sample>& free, const std::vector<Sample>& probed,
+         const std::vector<std::size_t>& blocks)
+      : free_(free), probed_(probed), blocks_(blocks) {
+    for (const std::size_t b : blocks) {
+      made_.push_back(made_from(free, probed, blocks.size() - 1,
+                                [b](const Sample& s) { return s.block != b; }));
+    }
+  }
+
+  /// Shares of the readings, running free and probed, within bands that are so much wider.
+  [[nodiscard]] std::pair<double, double> coverage(double wider) const {
+    std::pair<double, double> out;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      const double drift = wider * made_[i].first;
+      const double tau_s = made_[i].second;
+      const auto here = [b = blocks_[i]](const Sample& s) { return s.block == b; };
+      const double share = static_cast<double>(std::ranges::count_if(free_, here)) /
+                           static_cast<double>(free_.size());
+      out.first += share * covered(free_, here, [&](const Sample&) { return drift * drift; });
+      out.second += share * covered(probed_, here,
+                                    [&](const Sample& s) { return drift_um2(s, drift, tau_s); });
+    }
+    return out;
+  }
+
+ private:
+  const std::vector<Sample>& free_;
+  const std::vector<Sample>& probed_;
+  const std::vector<std::size_t>& blocks_;
+  std::vector<std::pair<double, double>> made_;  ///< drift, its time constant
+};
+
 }  // namespace
+
+double student(std::size_t blocks) {
+  constexpr std::array kT = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262};
+  const std::size_t freedom = std::max<std::size_t>(blocks, 2) - 1;
+  const double t =
+      freedom <= kT.size() ? kT[freedom - 1] : kBand + 2.5 / static_cast<double>(freedom);
+  return t / kBand;
+}
 
 Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::MatrixXd& columns,
                const Eigen::MatrixXd& covariance) {
@@ -109,15 +155,14 @@ Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::Matrix
   Band out;
   std::tie(out.drift_um, out.tau_s) =
       made_from(free, probe, reach.size(), [](const Sample&) { return true; });
-  const auto rows = static_cast<double>(free.size());
-  for (const std::size_t b : reach) {
-    const auto [drift, tau_s] =
-        made_from(free, probe, reach.size() - 1, [b](const Sample& s) { return s.block != b; });
-    const auto here = [b](const Sample& s) { return s.block == b; };
-    const double share = static_cast<double>(data.block[b].end - data.block[b].begin) / rows;
-    out.free_coverage += share * covered(free, here, [&](const Sample&) { return drift * drift; });
-    out.probed_coverage +=
-        share * covered(probe, here, [&](const Sample& s) { return drift_um2(s, drift, tau_s); });
+  const Others others(free, probe, reach);
+  std::tie(out.free_coverage, out.probed_coverage) = others.coverage(1.0);
+  const auto holds = [&](double wider) {
+    const auto [whole, hourly] = others.coverage(wider);
+    return whole >= kWanted && hourly >= kWanted;
+  };
+  if (!holds(1.0)) {
+    out.drift_um *= least(1.0, kMostWider, holds);
   }
   return out;
 }

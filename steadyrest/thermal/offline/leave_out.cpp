@@ -10,6 +10,7 @@ namespace steadyrest::thermal::offline {
 namespace {
 
 constexpr double kWorth = 0.03;  ///< 3 % of the error are worth no parameter
+constexpr double kMostWorse = 0.1;
 
 double mean_square(const Eigen::VectorXd& v) {
   return v.size() == 0 ? 0.0 : v.squaredNorm() / static_cast<double>(v.size());
@@ -106,7 +107,7 @@ bool as_good(const LeftOut& a, const LeftOut& b) {
     const double d = a.loss[i] - b.loss[i] - mean;
     square += d * d;
   }
-  return mean <= std::max(std::sqrt(square / (n - 1.0) / n), kWorth);
+  return mean <= std::max(std::min(std::sqrt(square / (n - 1.0) / n), kMostWorse), kWorth);
 }
 
 }  // namespace steadyrest::thermal::offline
