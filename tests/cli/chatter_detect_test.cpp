@@ -135,6 +135,27 @@ TEST(ChatterDetect, AdvisesTheDeepestStepOfTheProcess) {
   EXPECT_LT(radius(advised_rpm), 1.0);
 }
 
+/// One question, one answer: 110 % by the planner, where the rule of thumb says 95 %.
+TEST(ChatterDetect, WithProcessAndDepthSaysWhatThePlannerSays) {
+  const std::string cut =
+      "examples/processes/slot-922hz.toml --machine "
+      "examples/machines/vmc-840d.toml --depth-mm 1 ";
+  const json plan = answer_of("chatter plan " + cut + "--speed-rpm 5000");
+  const std::string line =
+      "chatter detect examples/logs/slot-chatter.csv --programmed-rpm 5000 --process " + cut;
+  const json answer = answer_of(line);
+  EXPECT_EQ(answer["advice_by"], "planner");
+  const json& event = answer["events"].at(0);
+  EXPECT_EQ(event["decision"], plan["decision"]);
+  EXPECT_NEAR(event["advised_override_percent"], plan["override_percent"][0], 1e-9);
+  EXPECT_NEAR(event["advised_speed_rpm"], plan["speed_rpm"], 1e-9);
+  EXPECT_THAT(run_line(line).out, HasSubstr("better, by the planner"));
+  const json rule = answer_of(kExample + " --teeth 2");
+  EXPECT_EQ(rule["advice_by"], "rule of thumb");
+  EXPECT_TRUE(rule["events"].at(0)["decision"].is_null());
+  EXPECT_THAT(run_line(kExample + " --teeth 2").out, HasSubstr("better, by the rule of thumb"));
+}
+
 TEST(ChatterDetect, AdvisesNothingBeyondTheSpindle) {
   const Scratch scratch;
   std::string machine = text_of_file(project_file("examples/machines/vmc-840d.toml"));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -14,6 +15,7 @@
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_detect.hpp>
+#include <steadyrest/chatter/offline/planner.hpp>
 #include <steadyrest/chatter/offline/process_file.hpp>
 #include <steadyrest/chatter/offline/signal_file.hpp>
 #include <steadyrest/chatter/offline/speed_table_of.hpp>
@@ -54,6 +56,7 @@ struct Event {
   double speed_rev_s = 0.0;   ///< mean over the stretch
   bool flip = false;          ///< what most spectra said
   online::SpeedTable::Advice advice;
+  std::optional<offline::Plan> plan;  ///< where process and depth are known
 };
 
 Refusal bad(std::string what, std::string to_do, const std::string& file = {}) {
@@ -174,16 +177,69 @@ std::vector<Event> events_of(const offline::RecordedSignal& signal, online::Dete
   return out;
 }
 
+/// What `chatter plan` says of the cut, asked once for speeds that are nearly the same.
+class AskedPlans {
+ public:
+  AskedPlans(const offline::Process& process, const Machine& machine, double depth_mm)
+      : process_(process), machine_(machine), depth_mm_(depth_mm) {}
+
+  Result<offline::Plan> at(double programmed_rev_s) {
+    constexpr double kSame = 0.005;
+    for (const auto& [speed, plan] : asked_) {
+      if (std::abs(speed - programmed_rev_s) <= kSame * speed) {
+        return plan;
+      }
+    }
+    auto plan = offline::plan(process_, machine_, programmed_rev_s, depth_mm_, {});
+    if (plan) {
+      asked_.emplace_back(programmed_rev_s, *plan);
+    }
+    return plan;
+  }
+
+ private:
+  const offline::Process& process_;
+  const Machine& machine_;
+  double depth_mm_;
+  std::vector<std::pair<double, offline::Plan>> asked_;
+};
+
+/// The planner's constant step as advice; a law is told beside it.
+online::SpeedTable::Advice advice_of(const offline::Plan& plan, double programmed_rev_s,
+                                     double present_rev_s) {
+  constexpr double kSame = 1e-6;
+  online::SpeedTable::Advice out;
+  const double speed = plan.chosen.ratio * programmed_rev_s;
+  const bool step = plan.decision == offline::PlanDecision::constant ||
+                    (plan.decision == offline::PlanDecision::keep &&
+                     std::abs(speed - present_rev_s) > kSame * speed);
+  if (step) {
+    out.request.ratio = plan.chosen.ratio;
+    out.speed_rev_s = speed;
+    out.limit_depth_mm = plan.chosen.limit_depth_mm.value_or(0.0);
+  }
+  return out;
+}
+
 std::optional<Refusal> advise(const Options& options, const Machine& machine, std::size_t teeth,
-                              const std::optional<offline::Process>& process, Event& event) {
+                              const std::optional<offline::Process>& process,
+                              std::optional<AskedPlans>& plans, Event& event) {
   online::SpeedTable::Config config = offline::steps_of(machine);
   config.teeth = teeth;
   const double programmed = options.programmed_rpm
                                 ? kernel::units::rev_s_from_rpm(*options.programmed_rpm)
                                 : event.speed_rev_s;
+  if (plans) {
+    auto plan = plans->at(programmed);
+    if (!plan) {
+      return plan.error();
+    }
+    event.advice = advice_of(*plan, programmed, event.speed_rev_s);
+    event.plan = std::move(*plan);
+    return std::nullopt;
+  }
   if (process) {
-    const double most_mm = options.depth_mm ? 5.0 * *options.depth_mm : kMostDepthMm;
-    if (auto added = offline::add_depths(*process, {programmed}, most_mm, config); !added) {
+    if (auto added = offline::add_depths(*process, {programmed}, kMostDepthMm, config); !added) {
       return added.error();
     }
   }
@@ -193,15 +249,40 @@ std::optional<Refusal> advise(const Options& options, const Machine& machine, st
   }
   event.advice = table->ask({.programmed_rev_s = programmed,
                              .ratio = event.speed_rev_s / programmed,
-                             .depth_mm = options.depth_mm.value_or(0.0),
+                             .depth_mm = 0.0,
                              .frequency_hz = event.frequency_hz});
   return std::nullopt;
 }
 
-Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>& events) {
+/// Who advises: the planner, its borders, or the rule.
+const char* adviser(const Options& options) {
+  return options.process.empty() ? "rule of thumb" : options.depth_mm ? "planner" : "deepest step";
+}
+
+std::string better_words(const Event& event) {
+  const auto& advice = event.advice;
+  if (advice.speed_rev_s > 0.0) {
+    return fmt::format("{:.0f} rpm ({:.4g} %)", rpm_from_rev_s(advice.speed_rev_s),
+                       100.0 * advice.request.ratio);
+  }
+  if (event.plan && event.plan->decision == offline::PlanDecision::law) {
+    const auto& law = event.plan->chosen.modulation;
+    return fmt::format("{} law of ±{:.4g} %, RVF {:.4g}", online::name(law.law), 100.0 * law.rva,
+                       law.rvf);
+  }
+  if (event.plan && event.plan->decision == offline::PlanDecision::keep) {
+    return "none: the process file says that it is stable";
+  }
+  return "none";
+}
+
+Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>& events,
+                 const Options& options) {
   Answer answer;
+  answer.json["advice_by"] = adviser(options);
   answer.json["events"] = Json::array();
-  Table table({"from", "to", "frequency", "type", "at", "better"});
+  Table table({"from", "to", "frequency", "type", "at",
+               fmt::format("better, by the {}", adviser(options))});
   for (const Event& event : events) {
     const auto& advice = event.advice;
     const bool better = advice.speed_rev_s > 0.0;
@@ -214,13 +295,11 @@ Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>
          {"type", type},
          {"speed_rpm", rpm_from_rev_s(event.speed_rev_s)},
          {"advised_speed_rpm", better ? Json(rpm_from_rev_s(advice.speed_rev_s)) : Json(nullptr)},
-         {"advised_override_percent", better ? Json(percent) : Json(nullptr)}});
-    table.row(
-        {fmt::format("{:.3f} s", event.start_s), fmt::format("{:.3f} s", event.end_s),
-         fmt::format("{:.1f} Hz", event.frequency_hz), type,
-         fmt::format("{:.0f} rpm", rpm_from_rev_s(event.speed_rev_s)),
-         better ? fmt::format("{:.0f} rpm ({:.4g} %)", rpm_from_rev_s(advice.speed_rev_s), percent)
-                : std::string("none")});
+         {"advised_override_percent", better ? Json(percent) : Json(nullptr)},
+         {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}});
+    table.row({fmt::format("{:.3f} s", event.start_s), fmt::format("{:.3f} s", event.end_s),
+               fmt::format("{:.1f} Hz", event.frequency_hz), type,
+               fmt::format("{:.0f} rpm", rpm_from_rev_s(event.speed_rev_s)), better_words(event)});
   }
   const double length_s = static_cast<double>(signal.value.size()) / signal.rate_hz;
   answer.json["seconds"] = length_s;
@@ -264,12 +343,17 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
                        "give a longer recording, some tenths of a second", options.signal));
   }
   auto events = events_of(*signal, *detector, progress);
+  std::optional<AskedPlans> plans;
+  if (process && options.depth_mm) {
+    plans.emplace(*process, machine, *options.depth_mm);
+  }
   for (Event& event : events) {
-    if (auto refusal = advise(options, machine, teeth, process, event)) {
+    progress.update(1.0, "the better speed");
+    if (auto refusal = advise(options, machine, teeth, process, plans, event)) {
       return refused(*refusal);
     }
   }
-  Answer answer = answer_of(*signal, events);
+  Answer answer = answer_of(*signal, events, options);
   if (!options.report.empty()) {
     const auto page = page_of(answer.json, options, machine, *signal, teeth, detector->window());
     if (const auto written = put_report(answer, options.report, page); !written) {
@@ -322,8 +406,9 @@ void add_verb_chatter_detect(Session& session) {
       verb.add_option("--teeth", options->teeth, "Teeth of the tool, 1 in turning");
   add_log_options(verb, options->format);
   verb.add_option("--process", options->process,
-                  "Process file (TOML): the better speed comes from its stability, not from the "
-                  "rule of whole waves between two teeth")
+                  "Process file (TOML): with --depth-mm the better speed is what chatter plan "
+                  "says, without it the deepest override step; without a process it is a rule of "
+                  "thumb, whole waves between two teeth")
       ->excludes(teeth);
   verb.add_option("--speed-rpm", options->speed_rpm,
                   "Spindle speed in rev/min of a signal without the column");
