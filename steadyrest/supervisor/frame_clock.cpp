@@ -12,7 +12,9 @@ using kernel::outcome::Reason;
 
 constexpr double kSlackSteps = 1.5;    // beyond the calls: a late stamp and a lost frame
 constexpr double kMemorySteps = 16.0;  // of the usual step
+constexpr double kMostSteps = 1.1;     // that one call counts: as many as can have passed in it
 constexpr std::uint32_t kSlowerRun = 16;
+constexpr double kFarthestS = 1e10;     // beyond it a double has no steps as small as a cycle
 constexpr double kLongestStepS = 10.0;  // no source delivers more slowly
 
 }  // namespace
@@ -68,9 +70,11 @@ FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
 }
 
 FrameClock::Tick FrameClock::update(double stamp_s) noexcept {
-  if (!std::isfinite(stamp_s)) {
+  if (!(std::abs(stamp_s) <= kFarthestS)) {
     state_.doubts += state_.doubts < std::numeric_limits<std::uint32_t>::max() ? 1U : 0U;
-    return {.time_s = time_s(), .fault = Reason::input_not_finite};
+    return {
+        .time_s = time_s(),
+        .fault = std::isfinite(stamp_s) ? Reason::input_out_of_range : Reason::input_not_finite};
   }
   if (!state_.started) {
     return begin(stamp_s);
@@ -78,8 +82,8 @@ FrameClock::Tick FrameClock::update(double stamp_s) noexcept {
   const double calls = static_cast<double>(state_.doubts) + 1.0;
   const double passed_s = stamp_s - state_.stamp_s;
   if (passed_s >= 0.0 && passed_s <= (calls + kSlackSteps) * state_.usual_s) {
-    const double before_s = time_s();
-    return accept(stamp_s, (stamp_s + state_.shift_s - before_s) / calls);
+    const double step_s = (stamp_s + state_.shift_s - time_s()) / calls;
+    return accept(stamp_s, std::min(step_s, kMostSteps * state_.usual_s));
   }
   state_.doubts += state_.doubts < std::numeric_limits<std::uint32_t>::max() ? 1U : 0U;
   return doubt(stamp_s);

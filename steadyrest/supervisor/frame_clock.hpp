@@ -11,11 +11,11 @@ namespace steadyrest::supervisor {
 /// the frames' time stamps and from nothing else.
 ///
 /// Law, t the stamp of this call, t₀ the last good one, n the calls since then, T the usual step:
-///   good      0 ≤ t − t₀ ≤ (n + 1.5)·T. The step counts (t − t₀)/n: where calls between had no
-///   good
-///             stamp, their time is not made up for. T follows the steps, by 1/16 of the
-///             difference.
-///   in doubt  anything else: no credit, good time stands. t becomes a candidate.
+///   good      0 ≤ t − t₀ ≤ (n + 1.5)·T. The step counts (t − t₀)/n and no more than 1.1·T: what
+///             lost or late frames and calls without a good stamp cost is not made up for. T
+///             follows what counts, by 1/16 of the difference.
+///   in doubt  anything else: no credit, good time stays. t becomes a candidate, unless it is not
+///             finite or beyond 10¹⁰ s.
 ///   set       t is later than the candidate by no more than 2.5·T: the clock goes on from there,
 ///             and the step counts min(t − candidate, T). Forward, the time between has passed
 ///             (`time_s` takes it in) but nobody was there, so it gives no credit. Backwards, good

@@ -292,12 +292,12 @@ void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decision
 
 signal::Command Supervisor::update(const signal::Frame& frame, const Requests& requests,
                                    bool read_now) noexcept {
-  before_ = written();
-  settle_mode();
   const double last_s = clock_.time_s();
   const bool ever_read = clock_.state().started;
   const FrameClock::Tick tick = clock_.update(frame.time_s);
   resume(tick);
+  settle_mode();
+  before_ = written();
   signal::Frame known = frame;
   if (!read_now) {
     known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;

@@ -59,7 +59,7 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
   return {.ratio = word.ratio,
           .code = word.code,
           .masks_panel = word.masks_panel,
-          .handed_back = envelope_.state().at_panel && !word.masks_panel,
+          .handed_back = envelope_.state().at_panel && !word.masks_panel && word.settled,
           .reason = stuck ? outcome::Reason::port_cannot_write : wanted.reason};
 }
 

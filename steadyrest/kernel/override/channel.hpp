@@ -31,7 +31,7 @@ class Channel {
     double ratio = 1.0;      ///< in force: the word's when masked, else the panel's
     std::uint32_t code = 0;  ///< the word to write
     bool masks_panel = false;
-    bool handed_back = true;  ///< neutral and without a mask: nothing of the layer stands
+    bool handed_back = true;  ///< neutral, and every reader has seen that no mask is on
     outcome::Reason reason = outcome::Reason::none;
   };
 

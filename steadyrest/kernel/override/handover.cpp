@@ -63,6 +63,7 @@ Handover::Output Handover::update(double step_s, const RatioEnvelope::Output& wa
   return {.ratio = masked_ ? word_ratio() : wanted.panel_ratio,
           .code = table_.code(stepper_.state().step),
           .masks_panel = masked_,
+          .settled = stepper_.settled(),
           .reach_low = step > 0 ? table_.ratio(step - 1) : 0.0,
           .reach_high = step + 1 < table_.steps() ? table_.ratio(step + 1) : kMaxRequestRatio};
 }

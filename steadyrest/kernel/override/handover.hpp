@@ -39,6 +39,7 @@ class Handover {
     double ratio = 1.0;      ///< in force by the layer: the word's when masked, else the panel's
     std::uint32_t code = 0;  ///< the word to write
     bool masks_panel = false;
+    bool settled = false;    ///< word and mask have stood for a scan
     double reach_low = 0.0;  ///< ratios of the word's neighbours: the envelope waits within them
     double reach_high = 0.0;
   };

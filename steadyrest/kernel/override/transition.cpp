@@ -68,8 +68,10 @@ outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config)
 }
 
 void Stepper::pass(double step_s) noexcept {
-  const bool counts = state_.written && std::isfinite(step_s) && step_s > 0.0;
-  state_.stood_s = counts ? state_.stood_s + step_s : state_.stood_s;
+  if (state_.written && std::isfinite(step_s) && step_s > 0.0) {
+    state_.stood_s += step_s;
+    state_.changed = false;
+  }
   state_.written = true;
 }
 
@@ -92,7 +94,8 @@ void Stepper::place(std::size_t step) noexcept {
 }
 
 bool Stepper::settled() const noexcept {
-  return config_.latched || state_.stood_s >= config_.scan_period_s - kTimeTolerance;
+  return config_.latched ||
+         (!state_.changed && state_.stood_s >= config_.scan_period_s - kTimeTolerance);
 }
 
 void Stepper::restore(const State& state) noexcept {

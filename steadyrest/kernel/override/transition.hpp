@@ -38,6 +38,7 @@ class Stepper {
     std::size_t step = 0;
     double stood_s = 0.0;  ///< good time since the last change
     bool written = false;  ///< a first word has been out; what was there before is not known
+    bool changed = true;   ///< no time has passed since: without a scan it settles no sooner either
   };
 
   /// Refuses a word that is neither latched nor safe to walk, and a time that is not finite or < 0.
@@ -52,7 +53,10 @@ class Stepper {
   /// Puts the word at a step at once: allowed only while nothing reads it (the mask is off).
   void place(std::size_t step) noexcept;
   /// Says that something that belongs to the word changed (the mask): the next change waits.
-  void touch() noexcept { state_.stood_s = 0.0; }
+  void touch() noexcept {
+    state_.stood_s = 0.0;
+    state_.changed = true;
+  }
   /// The word has stood for a whole scan: every reader has seen it.
   [[nodiscard]] bool settled() const noexcept;
 

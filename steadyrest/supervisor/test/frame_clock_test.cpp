@@ -88,16 +88,23 @@ TEST(FrameClock, ASlowSourceCountsFromItsSeventeenthFrame) {
   EXPECT_NEAR(counted_s, 0.075 * 82, 1e-9);
 }
 
-TEST(FrameClock, LostAndLateFramesOfARegularSourceCostLittle) {
+TEST(FrameClock, LostFramesOfARegularSourceCostTheirTime) {
   FrameClock clock(kCycle_s);
   double counted_s = 0.0;
   for (int i = 0; i < 10'000; ++i) {
     if (i % 10 != 3) {
-      counted_s += clock.update(kCycle_s * i + (i % 3) * 0.001).step_s;
+      counted_s += clock.update(kCycle_s * i + (i % 3) * 0.0002).step_s;
     }
   }
-  EXPECT_GT(counted_s, 0.95 * 10'000 * kCycle_s);
-  EXPECT_LE(counted_s, 10'000 * kCycle_s);
+  EXPECT_GT(counted_s, 0.89 * 10'000 * kCycle_s);
+  EXPECT_LE(counted_s, 0.93 * 10'000 * kCycle_s);
+}
+
+TEST(FrameClock, AStampWithoutResolutionIsNoBeginning) {
+  FrameClock clock(kCycle_s);
+  EXPECT_EQ(clock.update(1e300).fault, Reason::input_out_of_range);
+  EXPECT_TRUE(clock.update(5.0).set);
+  EXPECT_NEAR(clock.update(5.0 + kCycle_s).step_s, kCycle_s, 1e-12);
 }
 
 TEST(FrameClock, AStateThatIsNotFiniteIsNotRestored) {
@@ -133,7 +140,7 @@ RC_GTEST_PROP(FrameClock, CreditNeverPassesTheRealTimeWhateverTheStamps, ()) {
     const auto tick = clock.update(stamp_s);
     credit_s += tick.step_s;
     RC_ASSERT(tick.step_s >= 0.0);
-    RC_ASSERT(tick.step_s <= 2.5 * kCycle_s);
+    RC_ASSERT(tick.step_s <= 1.3 * kCycle_s);
     RC_ASSERT(tick.time_s >= before_s);
     RC_ASSERT(credit_s <= real_s - 0.4 + 1e-9);
   }

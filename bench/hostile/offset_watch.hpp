@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <steadyrest/kernel/signal/path.hpp>
+
+namespace steadyrest::bench::hostile {
+
+/// The machine's side of the axis offsets, from the design's safety section alone: inside the
+/// clamp, by the slew over real time, frozen in the cut without a good wish, towards 0 without one.
+class OffsetWatch {
+ public:
+  struct Rules {
+    kernel::signal::AxisValues max_mm{};  ///< 0: this axis takes none
+    double slew_mm_s = 0.05;
+    double slack_s = 0.0;  ///< a stamp may come late by so much
+  };
+
+  explicit OffsetWatch(const Rules& rules) : rules_(rules) {}
+
+  void pass(double real_s) noexcept {
+    for (double& credit_s : credit_s_) {
+      credit_s = std::min(credit_s + real_s, real_s + rules_.slack_s);
+    }
+  }
+  /// The watchdog drops them.
+  void drop() noexcept { held_mm_ = {}; }
+
+  /// `wished`: somebody may ask for an offset; `in_cut`: certainly a tool in the cut.
+  [[nodiscard]] std::string write(const kernel::signal::AxisValues& offset_mm, bool wished,
+                                  bool in_cut) {
+    for (std::size_t axis = 0; axis < offset_mm.size(); ++axis) {
+      const double now_mm = offset_mm[axis];
+      const double before_mm = held_mm_[axis];
+      const double moved_mm = std::abs(now_mm - before_mm);
+      if (!(std::abs(now_mm) <= rules_.max_mm[axis])) {
+        return fmt::format("clamp: axis {} at {:g} mm", axis, now_mm);
+      }
+      if (moved_mm > rules_.slew_mm_s * credit_s_[axis] + 1e-9) {
+        return fmt::format("offset slew: axis {} from {:g} to {:g} mm", axis, before_mm, now_mm);
+      }
+      if (!wished && moved_mm > 0.0 && in_cut) {
+        return fmt::format("freeze: axis {} from {:g} to {:g} mm in the cut", axis, before_mm,
+                           now_mm);
+      }
+      if (!wished && std::abs(now_mm) > std::abs(before_mm)) {
+        return fmt::format("ramp out: axis {} from {:g} to {:g} mm", axis, before_mm, now_mm);
+      }
+      credit_s_[axis] = std::max(0.0, credit_s_[axis] - moved_mm / rules_.slew_mm_s);
+    }
+    held_mm_ = offset_mm;
+    return {};
+  }
+  [[nodiscard]] bool at_zero() const { return held_mm_ == kernel::signal::AxisValues{}; }
+
+ private:
+  Rules rules_;
+  kernel::signal::AxisValues held_mm_{};
+  kernel::signal::AxisValues credit_s_{};
+};
+
+}  // namespace steadyrest::bench::hostile

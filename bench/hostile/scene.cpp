@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <bench/hostile/scene.hpp>
+#include <fmt/format.h>
+
+namespace steadyrest::bench::hostile {
+namespace {
+
+namespace machine = kernel::machine;
+namespace signal = kernel::signal;
+using kernel::outcome::Reason;
+using machine::Mode;
+using signal::Motion;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kLateSteps = 0.5;  // a stamp may be late by so much of a cycle
+constexpr double kShortIdle_s = 0.5;
+
+bool thread(Motion motion) {
+  return motion == Motion::thread || motion == Motion::tap;
+}
+
+/// Another machine of the same kind: other wires, other rights, other rates.
+void vary(machine::Machine& m, Dice& dice) {
+  for (auto* table : {&m.feed_override, &m.spindle_override}) {
+    table->layer_may_exceed_panel = dice.one_in(4);
+    if (table->coding == machine::Coding::gray) {
+      table->latched_word = dice.one_in(2);
+    }
+    if (dice.one_in(3)) {
+      table->scan_period_s = dice.of({0.0, 0.002, 0.01, 0.05});
+    }
+  }
+  if (dice.one_in(2)) {
+    m.envelope.feed_fall_1_s = dice.of({0.5, 2.0, 10.0, 100.0});
+    m.envelope.feed_rise_1_s = dice.of({0.2, 1.0, 5.0, 50.0});
+    m.envelope.spindle_slew_1_s = dice.of({0.5, 2.0, 10.0});
+    m.envelope.offset_slew_mm_s = dice.of({0.01, 0.05, 1.0});
+  }
+  m.mode = dice.of({Mode::observe, Mode::advise, Mode::act, Mode::act});
+  m.contour.enabled = false;
+}
+
+OverrideWatch::Rules rules(const machine::OverrideTable& table, bool latched, bool available,
+                           double fall_1_s, double rise_1_s, double slack_s) {
+  return {.table = table,
+          .latched = latched && table.latched_word,
+          .available = available,
+          .fall_1_s = fall_1_s,
+          .rise_1_s = rise_1_s,
+          .slack_s = slack_s};
+}
+
+}  // namespace
+
+Scene::Scene(const machine::Machine& of, std::uint64_t seed)
+    : dice_(seed), seed_(seed), machine_(of) {
+  vary(machine_, dice_);
+  can_ = {.feed_override = !dice_.one_in(10),
+          .spindle_override = !dice_.one_in(10),
+          .axis_offset = !dice_.one_in(10),
+          .latched_word = dice_.one_in(2)};
+  auto made = supervisor::Supervisor::make(machine_, can_);
+  if (!made) {  // a table that cannot be walked needs a port that latches
+    can_.latched_word = true;
+    made = supervisor::Supervisor::make(machine_, can_);
+  }
+  layer_.emplace(std::move(made.value()));
+  cycle_s_ = machine_.control.interpolator_period_s;
+  watchdog_s_ = machine_.envelope.stale_after_s;
+  const double slack_s = kLateSteps * cycle_s_;
+  const auto& e = machine_.envelope;
+  if (!machine_.feed_override.ratio.empty()) {
+    feed_.emplace(rules(machine_.feed_override, can_.latched_word, can_.feed_override,
+                        e.feed_fall_1_s, e.feed_rise_1_s, slack_s));
+  }
+  if (!machine_.spindle_override.ratio.empty()) {
+    spindle_.emplace(rules(machine_.spindle_override, can_.latched_word, can_.spindle_override,
+                           e.spindle_slew_1_s, e.spindle_slew_1_s, slack_s));
+  }
+  OffsetWatch::Rules offset{.max_mm = {}, .slew_mm_s = e.offset_slew_mm_s, .slack_s = slack_s};
+  for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+    offset.max_mm[i] = can_.axis_offset && !machine_.axes[i].rotary ? e.max_offset_mm : 0.0;
+  }
+  offset_.emplace(offset);
+  port_.emplace(machine_, can_, cycle_s_, dice_);
+  wanted_ = machine_.mode;
+  may_write_ = wanted_ == Mode::act;
+}
+
+void Scene::broken(const std::string& what) {
+  if (!what.empty() && ++tally_.broken == 1) {
+    tally_.first = fmt::format("{}, seed {}, cycle {} (t = {:g} s): {}", machine_.name, seed_,
+                               tally_.cycles, port_->frame.time_s, what);
+  }
+}
+
+/// Wishes of all kinds, reasonable ones among them.
+void Scene::wish() {
+  const auto reason = [this] {
+    return dice_.of({Reason::contour_limit, Reason::contour_limit, Reason::chatter_modulating,
+                     Reason::none, Reason::not_cutting, Reason::input_stale});
+  };
+  const auto ratio = [this] {
+    return dice_.one_in(8) ? dice_.of({kNan, kInf, -kInf, -1.0, 1e300, 0.0, 9.9})
+                           : dice_.within(0.0, 1.4);
+  };
+  feed_wish_.clear();
+  spindle_wish_.clear();
+  offset_wish_.clear();
+  for (std::size_t n = dice_.below(3); n > 0; --n) {
+    feed_wish_.push_back({signal::Room::contour, ratio(), reason()});
+  }
+  for (std::size_t n = dice_.below(3); n > 0; --n) {
+    spindle_wish_.push_back(
+        {dice_.of({signal::Room::chatter, signal::Room::motion}), ratio(), reason()});
+  }
+  for (std::size_t n = dice_.below(3); n > 0; --n) {
+    signal::OffsetRequest wished{.reason = reason()};
+    for (double& mm : wished.offset_mm) {
+      mm = dice_.one_in(20) ? dice_.of({kNan, kInf, 1e9}) : dice_.within(-0.3, 0.3);
+    }
+    offset_wish_.push_back(wished);
+  }
+}
+
+void Scene::let_pass(double real_s) {
+  port_->pass(real_s);
+  unheard_s_ += real_s;
+  for (auto* watch : {&feed_, &spindle_}) {
+    if (*watch) {
+      (*watch)->pass(real_s);
+    }
+  }
+  offset_->pass(real_s);
+  if (unheard_s_ > watchdog_s_) {
+    for (auto* watch : {&feed_, &spindle_}) {
+      if (*watch) {
+        (*watch)->drop();
+      }
+    }
+    offset_->drop();
+    unsure_ = true;
+  }
+}
+
+void Scene::restart(double away_s) {
+  const supervisor::Supervisor::State state = layer_->state();
+  layer_.emplace(supervisor::Supervisor::make(machine_, can_).value());
+  layer_->restore(state);
+  if (away_s > 0.0) {
+    let_pass(away_s);
+  }
+  ++tally_.interrupted;
+}
+
+/// What two clean frames show, one after the other, the layer knows.
+void Scene::know() {
+  const Motion motion = port_->frame.motion;
+  if (port_->clean && was_clean_ && motion == last_) {
+    shown_ = motion;
+    unsure_ = false;
+    idle_s_ = motion == Motion::idle ? idle_s_ + cycle_s_ : 0.0;
+    const bool cuts = motion == Motion::feed || thread(motion);
+    cut_ = cuts || (cut_ && motion != Motion::rapid && motion != Motion::tool_change &&
+                    idle_s_ < kShortIdle_s);
+  } else if (motion == Motion::rapid || motion == Motion::tool_change) {
+    cut_ = false;  // the layer may or may not believe it
+  } else if (motion == Motion::idle) {
+    idle_s_ += cycle_s_;
+    cut_ = cut_ && idle_s_ < kShortIdle_s;
+  }
+  // A frame that shows something else may be believed by the layer, unless it is certainly unfit.
+  if (!thread(motion) && !port_->unfit && thread(shown_)) {
+    unsure_ = true;
+  }
+  was_clean_ = port_->clean;
+  last_ = motion;
+}
+
+bool Scene::in_thread() const {
+  return !unsure_ && (thread(port_->frame.motion) || thread(shown_));
+}
+
+bool Scene::in_cut() const {
+  return cut_;
+}
+
+void Scene::check_write() {
+  const signal::Command& c = port_->last;
+  unheard_s_ = 0.0;
+  ++tally_.written;
+  tally_.masked += c.feed_masks_panel || c.spindle_masks_panel ? 1 : 0;
+  tally_.held += in_thread() && (c.feed_masks_panel || c.spindle_masks_panel) ? 1 : 0;
+  if (feed_) {
+    const bool was = feed_->masked();
+    const double before = feed_->in_force();
+    broken(feed_->write({c.feed_code, c.feed_masks_panel}, in_thread()));
+    tally_.moved += was && feed_->in_force() != before ? 1 : 0;
+  } else if (c.feed_masks_panel) {
+    broken("capability: a feed override that the machine does not have");
+  }
+  if (spindle_) {
+    broken(spindle_->write({c.spindle_code, c.spindle_masks_panel}, in_thread()));
+  } else if (c.spindle_masks_panel) {
+    broken("capability: a spindle override that the machine does not have");
+  }
+  const bool asks = !offset_wish_.empty() || machine_.thermal.enabled;
+  broken(offset_->write(c.offset_mm, asks && !port_->unfit && wanted_ == Mode::act, in_cut()));
+}
+
+void Scene::check_mode(bool has_command, const signal::Command& command) {
+  if (port_->taken && !may_write_) {
+    broken("mode: written without act");
+  }
+  if (has_command && command.heartbeat != heartbeat_ + 1) {
+    broken("heartbeat: not one more");
+  }
+  heartbeat_ = has_command ? command.heartbeat : layer_->state().heartbeat;
+  const bool nothing_left =
+      (!feed_ || !feed_->masked()) && (!spindle_ || !spindle_->masked()) && offset_->at_zero();
+  if (has_command && !command.write && wanted_ != Mode::act && nothing_left &&
+      layer_->mode_in_force() != Mode::act) {
+    may_write_ = false;
+  }
+}
+
+void Scene::cycle() {
+  let_pass(cycle_s_);
+  const auto command =
+      layer_->cycle(*port_, {.feed = feed_wish_, .spindle = spindle_wish_, .offset = offset_wish_});
+  ++tally_.cycles;
+  if (!command && port_->reads_fail) {
+    unsure_ = unsure_ || !thread(shown_);
+  } else {
+    know();
+  }
+  if (feed_ && port_->any_shown) {
+    feed_->panel(port_->shown_feed);
+  }
+  if (spindle_ && port_->any_shown) {
+    spindle_->panel(port_->shown_spindle);
+  }
+  if (port_->taken) {
+    check_write();
+  }
+  check_mode(command.has_value(), command ? *command : signal::Command{});
+  port_->outage -= port_->outage > 0 ? 1 : 0;
+}
+
+/// Between two cycles: modes, restarts, lost links, a process that was held up.
+void Scene::events() {
+  if (dice_.one_in(400)) {
+    wanted_ = dice_.of({Mode::observe, Mode::advise, Mode::act, Mode::act});
+    layer_->set_mode(wanted_);
+    may_write_ = may_write_ || wanted_ == Mode::act;
+  }
+  if (dice_.one_in(2000) && port_->keeps_time()) {
+    restart(0.0);
+  }
+  if (dice_.one_in(4000) && port_->keeps_time_well()) {
+    restart(2.0 * watchdog_s_ + dice_.within(0.0, 60.0));
+  }
+  if (dice_.one_in(500)) {
+    let_pass(dice_.within(0.0, 0.5) * std::max(0.0, watchdog_s_ - unheard_s_));
+  }
+  if (dice_.one_in(2000) && port_->keeps_time_well() && port_->outage == 0) {
+    const double for_s = watchdog_s_ * (dice_.one_in(2) ? 0.4 : dice_.within(2.0, 5.0));
+    port_->outage = static_cast<std::uint32_t>(std::ceil(for_s / cycle_s_));
+    port_->reads_fail = dice_.one_in(2);
+    ++tally_.interrupted;
+  }
+}
+
+void Scene::act() {
+  port_->begin_act();
+  wish();
+  const std::size_t cycles = 1 + dice_.below(400);
+  for (std::size_t i = 0; i < cycles && tally_.broken == 0; ++i) {
+    if (dice_.one_in(100)) {
+      wish();
+    }
+    if (i > 20 && i + 5 < cycles && port_->outage == 0) {
+      events();
+    }
+    cycle();
+  }
+  while (port_->outage > 0 && tally_.broken == 0) {
+    cycle();
+  }
+  for (int i = 0; i < 5 && tally_.broken == 0; ++i) {
+    cycle();  // what ended is known before the next act begins
+  }
+}
+
+/// With good input for long enough a wish is in force, whatever was before.
+void Scene::settle_on_a_wish() {
+  if (!feed_ || !can_.feed_override || port_->outage > 0) {
+    return;
+  }
+  port_->behave(Motion::feed);
+  wanted_ = Mode::act;
+  layer_->set_mode(wanted_);
+  may_write_ = true;
+  spindle_wish_.clear();
+  offset_wish_.clear();
+  const double wished = dice_.within(0.05, 0.9);
+  feed_wish_ = {{signal::Room::contour, wished, Reason::contour_limit}};
+  const auto cycles =
+      static_cast<std::size_t>((2.0 * feed_->longest_way_s() + 0.2) / cycle_s_) + 40;
+  for (std::size_t i = 0; i < cycles && tally_.broken == 0; ++i) {
+    cycle();
+  }
+  const double least = feed_->floor(machine_.envelope.min_feed_ratio) + feed_->widest_step();
+  const double most = std::max(wished, std::min(least, feed_->panel()));
+  if (tally_.broken == 0 && !(feed_->in_force() <= most + kTolerance)) {
+    broken(fmt::format("ends: a wish of {:g} for {} cycles, in force is {:g}, panel {:g}", wished,
+                       cycles, feed_->in_force(), feed_->panel()));
+  }
+}
+
+/// With good input, nothing in the cut and observe asked for, nothing of the layer is left.
+void Scene::settle_on_observe() {
+  if (port_->outage > 0) {
+    return;
+  }
+  port_->behave(dice_.of({Motion::idle, Motion::rapid, Motion::tool_change}));
+  wanted_ = dice_.of({Mode::observe, Mode::advise});
+  layer_->set_mode(wanted_);
+  double for_s = 2.0 + machine_.envelope.max_offset_mm / machine_.envelope.offset_slew_mm_s;
+  for (const auto* watch : {&feed_, &spindle_}) {
+    for_s = *watch ? std::max(for_s, 2.0 * (*watch)->longest_way_s()) : for_s;
+  }
+  const auto cycles = static_cast<std::size_t>(for_s / cycle_s_) + 40;
+  for (std::size_t i = 0; i < cycles && tally_.broken == 0; ++i) {
+    cycle();
+    if (!port_->taken && i > 40 && !may_write_) {
+      return;
+    }
+  }
+  if (tally_.broken == 0 && may_write_) {
+    broken(fmt::format(
+        "ends: observe for {} cycles of good input without a cut, and it still writes", cycles));
+  }
+}
+
+Tally Scene::run(int acts) {
+  for (int i = 0; i < acts && tally_.broken == 0; ++i) {
+    act();
+    if (dice_.one_in(60)) {
+      settle_on_a_wish();
+    }
+    if (dice_.one_in(60)) {
+      settle_on_observe();
+    }
+  }
+  return tally_;
+}
+
+}  // namespace steadyrest::bench::hostile
