@@ -13,7 +13,7 @@ help:
 	@echo "make fast    the fast tests (under two minutes once built)"
 	@echo "make test    everything: format, house, both compilers, sanitizers, clang-tidy, web, all tests"
 	@echo "make bench   the benchmarks"
-	@echo "make format  clang-format over all sources;  make tidy  clang-tidy over them"
+	@echo "make format  clang-format over all sources;  make tidy  clang-tidy over all of them, tests too"
 	@echo "make clean   remove what was built"
 
 setup:

@@ -36,8 +36,8 @@ if [ "$1" = fast ]; then
   run_tests release -L fast
   exit 0
 fi
-step 'clang-tidy'
-sh scripts/tidy.sh
+step 'clang-tidy: what differs from the last full run (make tidy is the full run)'
+sh scripts/tidy.sh --changed
 # The sanitizers keep their shadow memory at fixed addresses; a kernel that randomises more bits of the
 # layout than they allow for puts a library there now and then.
 setarch "$(uname -m)" -R true 2>/dev/null && unrandomised="setarch $(uname -m) -R" || unrandomised=

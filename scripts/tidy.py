@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """clang-tidy over our translation units and through them our headers; any finding fails.
 
-    scripts/tidy.py [--tests] [PATTERN]
+    scripts/tidy.py [--tests] [--changed] [PATTERN]
 
---tests takes the tests too; PATTERN (a regular expression) only files whose path matches.
+--tests takes the tests too; PATTERN (a regular expression) only files whose path matches. --changed takes
+the sources that differ from the commit in scripts/tidy-base, at which the full run was clean, and for each
+header that differs one source that includes it; the full run where history does not reach back that far.
 A file whose preprocessed text, flags and checks are those of an earlier clean run is not examined again.
 """
 
@@ -45,6 +47,43 @@ def commands(tests, pattern):
         yield name, entry
 
 
+def changed_since_base():
+    """Paths that differ from the commit in scripts/tidy-base; None where git does not know it, or where
+    the checks themselves differ."""
+    base = (ROOT / "scripts" / "tidy-base").read_text().split()[0]
+    done = subprocess.run(["git", "diff", "--name-only", "--diff-filter=d", base], cwd=ROOT,
+                          capture_output=True, text=True, check=False)
+    paths = set(done.stdout.split())
+    return None if done.returncode or ".clang-tidy" in paths else paths
+
+
+def sees(header, names, includes):
+    """Of the sources `names` one that includes `header`, the one named like it first; a chain of headers counts."""
+    stem = re.sub(r"\.hpp$", "", header)
+    reached, rings = {header}, [header]
+    while rings:
+        ring = [path for path in includes if includes[path] & set(rings) and path not in reached]
+        sources = sorted((name for name in ring if name in names), key=lambda n: (not n.startswith(stem), n))
+        if sources:
+            return sources[0]
+        reached.update(ring)
+        rings = ring
+    return None
+
+
+def only_changed(work, paths):
+    names = {name for name, _ in work}
+    includes = {}
+    for folder in FOLDERS:
+        for path in (ROOT / folder).rglob("*.[hc]pp"):
+            text = path.read_text(errors="replace")
+            includes[str(path.relative_to(ROOT))] = set(re.findall(r"#include <([^>]+)>", text))
+    wanted = names & paths
+    for header in sorted(path for path in paths if path.endswith(".hpp")):
+        wanted.add(sees(header, names, includes))
+    return [item for item in work if item[0] in wanted]
+
+
 def key_of(name, entry):
     words = [w for w in shlex.split(entry["command"]) if w != "ccache"]
     out = words.index("-o")
@@ -73,10 +112,15 @@ def examine(name, entry):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--tests", action="store_true", help="the tests too")
+    parser.add_argument("--changed", action="store_true", help="what differs from scripts/tidy-base")
     parser.add_argument("pattern", nargs="?", default="", help="only files whose path matches")
     options = parser.parse_args()
     CACHE.mkdir(parents=True, exist_ok=True)
     work = list(commands(options.tests, options.pattern))
+    paths = changed_since_base() if options.changed else None
+    if paths is not None:
+        whole, work = len(work), only_changed(work, paths)
+        print(f"clang-tidy: {len(work)} of {whole} files, what differs from scripts/tidy-base")
     seen, known, failed = set(), 0, 0
     jobs = int(os.environ.get("JOBS") or os.cpu_count() or 1)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
@@ -96,7 +140,7 @@ def main():
                 if show:
                     print(line, flush=True)
     print(f"clang-tidy: {len(work)} files, {known} unchanged since a clean run, {failed} with findings")
-    return 1 if failed or not work else 0
+    return 1 if failed or not (work or options.changed) else 0
 
 
 if __name__ == "__main__":
