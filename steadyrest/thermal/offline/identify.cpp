@@ -25,10 +25,7 @@ using kernel::outcome::Result;
 
 constexpr double kDriftGuess = 0.07;     ///< of the range, before anything is known
 constexpr double kStrongEvidence = 6.0;  ///< in Bayes' criterion
-/// In the loss of left-out hours: inputs that were chosen by them look better than they are, but
-/// not by so much.
-constexpr double kMostWorse = 0.15;
-constexpr double kUnsure = 0.15;  ///< of known levels and gains, from one run to another
+constexpr double kUnsure = 0.15;         ///< of known levels and gains, from one run to another
 
 struct Judged {
   Structure structure;
@@ -292,8 +289,7 @@ class Identification {
     const ErrorModel error_few = std::exchange(error_, found->error);
     Judged dense = judged(found->structure);
     error_ = likely_error(columns(dense.structure), data_, prior(dense.structure));
-    const bool forecasts = dense.left_out.mean_loss < few.left_out.mean_loss + kMostWorse;
-    if (forecasts && evidence(dense.structure) > evidence_few + kStrongEvidence) {
+    if (evidence(dense.structure) > evidence_few + kStrongEvidence) {
       return dense;
     }
     error_ = error_few;
