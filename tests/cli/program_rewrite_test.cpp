@@ -56,5 +56,22 @@ TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
   EXPECT_FALSE(std::filesystem::exists(scratch.at("changed.ngc")));
 }
 
+TEST(ProgramVerify, KnowsFromTheMarkWhatTheProgramWasMadeWith) {
+  const Scratch scratch;
+  const std::string changed = scratch.at("changed.ngc");
+  const std::string files = kProgram + " " + changed + kPlan;
+  answer_of("program compensate " + kProgram + kPlan + " -o " + changed +
+            " --window-s 45 --data-units mm");
+  EXPECT_THAT(text_of_file(changed),
+              HasSubstr("(STEADYREST head told --dialect linuxcnc --window-s 45 --data-units mm)"));
+  EXPECT_TRUE(answer_of("program verify " + files)["proved"].get<bool>());
+  EXPECT_TRUE(answer_of("program verify " + files + " --window-s 45.0")["proved"].get<bool>());
+  expect_refused("program verify " + files + " --window-s 60",
+                 "was made with --window-s 45, not 60");
+  expect_refused("program verify " + files + " --block-delete", "was made without --block-delete");
+  answer_of("program strip " + changed + " -o " + changed);
+  EXPECT_EQ(text_of_file(changed), text_of_file(project_file(kProgram)));
+}
+
 }  // namespace
 }  // namespace steadyrest::test

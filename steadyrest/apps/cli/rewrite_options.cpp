@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/rewrite_options.hpp>
@@ -109,10 +114,143 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
                                 : static_cast<std::uint32_t>(options.r_parameter),
              .sign = compensation.sign < 0 ? -1 : 1,
              .external_offset_free =
-                 compensation.external_offset_free && written(method, own) == Method::fanuc};
+                 compensation.external_offset_free && written(method, own) == Method::fanuc,
+             .increment_mm = compensation.least_increment_mm};
+}
+
+namespace {
+
+using nc::rewrite::Told;
+
+/// What a mark tells: everything but the files that verify is given anyway.
+constexpr std::array kTold = {"dialect",      "control",        "r-parameter", "window-s",
+                              "tools",        "variables",      "data-units",  "subprograms",
+                              "block-delete", "least-increment"};
+
+std::vector<std::string> given(const RewriteOptions& options, std::string_view name) {
+  const CLI::Option* option = options.verb->get_option_no_throw("--" + std::string(name));
+  if (option == nullptr || option->count() == 0) {
+    return {};
+  }
+  const bool flag = option->get_expected_max() == 0;
+  return flag ? std::vector<std::string>{""} : option->results();
+}
+
+std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options,
+                                                   nc::read::Dialect dialect) {
+  std::vector<Told> told;
+  for (const std::string name : kTold) {
+    std::vector<std::string> values = given(options, name);
+    if (values.empty() && name == "dialect") {
+      values = {std::string(dialect_name(dialect))};
+    } else if (values.empty() && name == "window-s") {
+      values = {fmt::format("{:g}", options.window_s)};
+    }
+    for (std::string& value : values) {
+      told.push_back({.name = name, .value = std::move(value)});
+      if (nc::rewrite::told_as_text(told.back()).size() > nc::rewrite::kLongestTold) {
+        return std::unexpected(
+            Refusals{Refusal{Kind::bad_input,
+                             {},
+                             0,
+                             fmt::format("--{} is too long for a comment in the program", name),
+                             "give a shorter path"}});
+      }
+    }
+  }
+  return told;
+}
+
+/// A file may have been moved since.
+std::string comparable(const std::string& name, const std::string& value) {
+  if (name == "tools" || name == "variables" || name == "subprograms") {
+    return std::filesystem::path(value).filename().string();
+  }
+  double number = 0.0;
+  const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
+  return !value.empty() && read.ptr == value.data() + value.size() ? fmt::format("{:g}", number)
+                                                                   : value;
+}
+
+void set(RewriteOptions& options, const Told& one) {
+  ProgramOptions& program = options.program;
+  const auto number = [&one](auto& value) {
+    std::from_chars(one.value.data(), one.value.data() + one.value.size(), value);
+  };
+  if (one.name == "dialect") {
+    program.dialect = one.value;
+  } else if (one.name == "control") {
+    options.control = one.value;
+  } else if (one.name == "r-parameter") {
+    number(options.r_parameter);
+  } else if (one.name == "window-s") {
+    number(options.window_s);
+  } else if (one.name == "tools") {
+    program.tools = one.value;
+  } else if (one.name == "variables") {
+    program.variables = one.value;
+  } else if (one.name == "data-units") {
+    program.units = one.value;
+  } else if (one.name == "subprograms") {
+    program.subprograms.push_back(one.value);
+  } else if (one.name == "block-delete") {
+    program.block_delete = true;
+  } else if (one.name == "least-increment") {
+    program.least_increment = true;
+  }
+}
+
+}  // namespace
+
+std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                       const std::string& changed,
+                                                       Progress& progress) {
+  const auto mark = nc::rewrite::read_mark(changed);
+  if (!mark) {
+    return std::unexpected(Refusals{mark.error()});
+  }
+  if (mark->empty()) {  // of an earlier version, or no change at all
+    auto task = read_rewrite_task(options, progress);
+    if (task) {
+      task->settings.told.clear();
+    }
+    return task;
+  }
+  RewriteOptions told = options;
+  for (const std::string name : kTold) {
+    std::vector<std::string> made_with;
+    for (const Told& one : *mark) {
+      if (one.name == name) {
+        made_with.push_back(one.value);
+      }
+    }
+    const std::vector<std::string> now = given(options, name);
+    const bool same = std::ranges::equal(
+        now, made_with, {}, [&](const auto& value) { return comparable(name, value); },
+        [&](const auto& value) { return comparable(name, value); });
+    if (!now.empty() && !same) {
+      return std::unexpected(Refusals{
+          Refusal{Kind::bad_input, changed, 0,
+                  made_with.empty() ? fmt::format("was made without --{}", name)
+                                    : fmt::format("was made with --{} {}, not {}", name,
+                                                  fmt::join(made_with, " "), fmt::join(now, " ")),
+                  fmt::format("leave --{} out, or compensate the program again", name)}});
+    }
+    if (now.empty()) {
+      for (const std::string& value : made_with) {
+        set(told, {.name = name, .value = value});
+      }
+    }
+  }
+  auto task = read_rewrite_task(told, progress);
+  if (task) {
+    task->settings.told = *mark;
+  }
+  return task;
 }
 
 void add_rewrite_options(CLI::App& verb, RewriteOptions& options) {
+  options.verb = &verb;
   verb.add_option("--plan", options.plan,
                   "The corrections (JSON); nc/rewrite/README.md has its keys")
       ->required()
@@ -169,8 +307,14 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
     return std::unexpected(way.error());
   }
   static_cast<Way&>(task.settings) = *way;
+  task.settings.axes = task.config.axes;
   task.config.external_offset = way->method != Method::haas;
   task.settings.window_s = options.window_s;
+  auto told = told_of(options, task.config.dialect);
+  if (!told) {
+    return std::unexpected(told.error());
+  }
+  task.settings.told = std::move(*told);
   task.settings.clamp_mm = task.machine.envelope.max_offset_mm;
   task.settings.progress = [&progress](double share, std::string_view what) {
     progress.update(share, what);

@@ -25,6 +25,7 @@ struct RewriteOptions {
   std::string control;
   int r_parameter = kNoParameter;
   double window_s = 60.0;
+  const CLI::App* verb = nullptr;  ///< which of them were given
 };
 
 /// Everything read.
@@ -44,6 +45,11 @@ struct RewriteTask {
 /// Adds all but the programs' own names.
 void add_rewrite_options(CLI::App& verb, RewriteOptions& options);
 [[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                                     Progress& progress);
+/// For a program that is changed already: what its mark says need not be given, and what is given
+/// must not say otherwise.
+[[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                                     const std::string& changed,
                                                                      Progress& progress);
 
 }  // namespace steadyrest::apps::cli

@@ -16,7 +16,7 @@ struct Options {
 };
 
 Outcome run(const Options& options, Progress& progress) {
-  const auto task = read_rewrite_task(options.rewrite, progress);
+  const auto task = read_rewrite_task(options.rewrite, options.changed, progress);
   if (!task) {
     return std::unexpected(task.error());
   }

@@ -38,6 +38,11 @@ std::span<const Key<Compensation>> compensation_keys() noexcept {
                         "`fanuc`: nobody else uses the external offset, so it is 0 whenever a "
                         "program starts. The head of a program then sets it to 0, and so takes off "
                         "what an aborted run has left."},
+      Key<Compensation>{"least_increment_um", &Compensation::least_increment_mm, 0.01, 10,
+                        "fanuc, haas, sinumerik: the control's least input increment. Every "
+                        "correction is a whole number of them; in programs in inches the increment "
+                        "is 0.0001 inch where it is 1 um here. 1 is IS-B, 0.1 is IS-C. A multiple "
+                        "of 0.01. linuxcnc has none."},
   };
   return kKeys;
 }

@@ -162,6 +162,18 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
   if (compensation.external_offset_free && method != Method::fanuc) {
     needs(false, "external_offset_free", true);
   }
+  if (method == Method::linuxcnc) {
+    needs(false, "least_increment_um", given.has("least_increment_um"));
+  }
+  constexpr double kGrain_mm = 1e-5;
+  constexpr double kRounding = 1e-6;
+  const double grains = compensation.least_increment_mm / kGrain_mm;
+  if (std::abs(grains - std::round(grains)) > kRounding) {
+    faults.add(given.at({"least_increment_um"}),
+               fmt::format("{} has least_increment_um = {:g}", given.section,
+                           compensation.least_increment_mm * 1e3),
+               "write a multiple of 0.01; 1 where the control's increment system is IS-B");
+  }
 }
 
 void contradictions(const Envelope& envelope, const Given& given, Faults& faults) {

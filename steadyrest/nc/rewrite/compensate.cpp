@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
-#include <map>
 #include <utility>
 
 #include <fmt/core.h>
@@ -12,6 +11,7 @@
 #include <steadyrest/nc/rewrite/file_writer.hpp>
 #include <steadyrest/nc/rewrite/frame_line.hpp>
 #include <steadyrest/nc/rewrite/place_of_head.hpp>
+#include <steadyrest/nc/rewrite/placing.hpp>
 #include <steadyrest/nc/rewrite/plain_survey.hpp>
 #include <steadyrest/nc/rewrite/schedule.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
@@ -23,11 +23,6 @@ namespace {
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
-
-struct Text {
-  std::string before_line;
-  std::vector<std::size_t> insertions;  ///< indices into Compensated::insertions
-};
 
 class Rewriter {
  public:
@@ -156,6 +151,7 @@ class Rewriter {
                                           .time_s = 0.0,
                                           .position_mm = walk.before().position[index],
                                           .unit_mm = walk.before().unit_mm,
+                                          .units_said = walk.units_said(),
                                           .active_offset = walk.before().active_offset});
       }
       if (const Walk::Unsaid* const unsaid = walk.unsaid(letter, index);
@@ -163,11 +159,14 @@ class Rewriter {
         unsaid_[axis] = {walk.line(), *unsaid};
       }
       const Frame frame = walk.frame(letter);
-      if (walk.ends() || (frame != Frame::kept && in_work_offset(settings_.method))) {
+      const bool sets_offset = settings_.method == Method::linuxcnc && offset_was_set(walk, index);
+      if (sets_offset || walk.ends() ||
+          (frame != Frame::kept && in_work_offset(settings_.method))) {
         const auto& now = walk.run().state();
         frames_[axis].push_back({.line = walk.line(),
                                  .top_line = walk.top_line(),
                                  .frame = walk.ends() ? Frame::kept : frame,
+                                 .ends = walk.ends(),
                                  .may_write = walk.may_write(index),
                                  .moves_axis = walk.moves_axis(index),
                                  .incremental_before = walk.before().incremental,
@@ -179,6 +178,17 @@ class Rewriter {
       }
     }
     clock.feed(walk);
+  }
+
+  /// The program itself gives the axis' work offset, or its G92, another value.
+  bool offset_was_set(const Walk& walk, std::size_t index) {
+    const interpret::State& now = walk.run().state();
+    if (walk.run().moved_alone()) {
+      return false;
+    }
+    const double value_mm =
+        now.work_offset[now.active_offset][index] + (now.g92_on ? now.g92_stored[index] : 0.0);
+    return std::exchange(offset_mm_[index], value_mm) != value_mm;
   }
 
   Result<void> place(std::size_t axis) {
@@ -203,89 +213,14 @@ class Rewriter {
     for (const FrameLine& frame : frames_[axis]) {
       // A correction before the very line acts first; below it, in a subprogram, likewise.
       while (next < chosen->size() && (*chosen)[next].place.line <= frame.top_line) {
-        if (auto put = put_correction(plan, *chosen, next, stands_mm); !put) {
+        if (auto put = placing_.put_correction(plan, *chosen, next, stands_mm); !put) {
           return put;
         }
       }
-      if (auto put = put_frame(plan, frame, stands_mm); !put) {
+      if (auto put = placing_.put_frame(plan, frame, chosen->front().place.unit_mm, stands_mm);
+          !put) {
         return put;
       }
-    }
-    return {};
-  }
-
-  Result<void> put_correction(const AxisPlan& plan, const std::vector<Chosen>& chosen,
-                              std::size_t& next, double& stands_mm) {
-    const std::size_t first = next;
-    const Place& place = chosen[first].place;
-    while (next < chosen.size() && chosen[next].place.line == place.line) {
-      ++next;
-    }
-    if (settings_.method == Method::frame_fine && place.unit_mm != 1.0) {
-      return refuse(place.line,
-                    "a fine offset in an inch program: its unit is a setting of the "
-                    "control",
-                    "write the program in mm, or the corrections by another method");
-    }
-    if (!unit_free(settings_.method) && place.unit_mm != chosen.front().place.unit_mm) {
-      return refuse(place.line, "the program changes its units between two corrections",
-                    "write the program in one unit");
-    }
-    const double before_mm = stands_mm;
-    double from_mm = stands_mm;
-    for (std::size_t i = first; i < next; ++i) {
-      const double to_mm = correction_mm(settings_, place.unit_mm, chosen[i].step.displacement_um);
-      texts_[place.line].insertions.push_back(result_.insertions.size());
-      result_.insertions.push_back({.line = 0,
-                                    .original_line = place.line,
-                                    .axis = plan.letter,
-                                    .time_s = place.time_s,
-                                    .planned_s = chosen[i].step.time_s,
-                                    .delta_um = (to_mm - from_mm) * 1e3,
-                                    .total_um = to_mm * 1e3,
-                                    .site = place.site});
-      from_mm = to_mm;
-    }
-    stands_mm = from_mm;
-    std::string& text = texts_[place.line].before_line;
-    text += change_text(settings_,
-                        {.letter = plan.letter,
-                         .from_mm = before_mm,
-                         .to_mm = stands_mm,
-                         .unit_mm = place.unit_mm,
-                         .active_offset = place.active_offset,
-                         .incremental = false},
-                        "\n");
-    if (place.site == Site::clearance && !beside_program(settings_.method)) {
-      text += restate_text(settings_.method, plan.letter, place.position_mm, place.unit_mm, "\n");
-    }
-    return {};
-  }
-
-  Result<void> put_frame(const AxisPlan& plan, const FrameLine& frame, double& stands_mm) {
-    const bool end = frame.frame == Frame::kept;
-    if (stands_mm == 0.0) {
-      return {};
-    }
-    if (auto fault = fault_of(frame, plan.letter, program_)) {
-      return std::unexpected(*std::move(fault));
-    }
-    const auto change = [&](double from_mm, double to_mm, bool behind) {
-      return change_text(
-          settings_,
-          {.letter = plan.letter,
-           .from_mm = from_mm,
-           .to_mm = to_mm,
-           .unit_mm = behind ? frame.unit_behind_mm : frame.unit_before_mm,
-           .active_offset = behind ? frame.behind : frame.before,
-           .incremental = behind ? frame.incremental_behind : frame.incremental_before},
-          "\n");
-    };
-    texts_[frame.line].before_line += change(stands_mm, 0.0, false);
-    if (end) {
-      stands_mm = 0.0;
-    } else {
-      texts_[frame.line + 1].before_line += change(0.0, stands_mm, true);
     }
     return {};
   }
@@ -369,9 +304,11 @@ class Rewriter {
   std::vector<std::pair<std::uint32_t, Walk::Unsaid>> unsaid_;
   std::vector<std::vector<FrameLine>> frames_;  ///< by axis, in the order of execution
   std::deque<std::pair<std::size_t, Place>> waiting_;
-  std::map<std::uint32_t, Text> texts_;  ///< what is written before a line
+  Texts texts_;
   PlaceOfHead head_;
+  interpret::Axes offset_mm_{};  ///< of the axes, before the line
   Compensated result_;
+  Placing placing_{program_, settings_, texts_, result_.insertions};
 };
 
 }  // namespace

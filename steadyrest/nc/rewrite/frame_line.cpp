@@ -13,7 +13,7 @@ std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char le
     return kernel::outcome::Refusal{kernel::outcome::Kind::bad_input, program, frame.line,
                                     std::move(what), std::move(to_do)};
   };
-  const bool end = frame.frame == Frame::kept;
+  const bool end = frame.ends;
   if (frame.frame == Frame::measured) {
     return refuse(fmt::format("measures another work offset (G10 L20) while a correction of {} "
                               "stands",
@@ -35,7 +35,7 @@ std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char le
                : refuse(fmt::format("the work offset changes {} while a correction stands", kWhere),
                         "change it at the top level, without /");
   }
-  if (frame.moves_axis && !end) {
+  if (frame.moves_axis && frame.frame == Frame::changed) {
     return refuse(fmt::format("the work offset changes in a line that moves {} while a correction "
                               "stands",
                               letter),

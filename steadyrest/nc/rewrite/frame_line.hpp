@@ -11,11 +11,13 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// A line that does something to the frame in which a correction stands, or the program's end.
+/// A line that does something to the frame in which a correction stands, or the program's end;
+/// where the frame is kept and the program does not end, it gives the offset another value.
 struct FrameLine {
   std::uint32_t line = 0;
   std::uint32_t top_line = 0;
   Frame frame = Frame::kept;
+  bool ends = false;
   bool may_write = false;
   bool moves_axis = false;
   bool incremental_before = false;

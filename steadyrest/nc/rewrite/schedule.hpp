@@ -19,6 +19,7 @@ struct Place {
   double time_s = 0.0;
   double position_mm = 0.0;  ///< where the axis stands, active work coordinates
   double unit_mm = 1.0;
+  bool units_said = true;  ///< by the program, and not by how the control stands
   std::size_t active_offset = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/nc/rewrite/linuxcnc_text.hpp>
 #include <steadyrest/nc/rewrite/settings.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -15,7 +16,6 @@ using kernel::outcome::Result;
 Result<void> check_plan(const Plan& plan, const Settings& settings,
                         const interpret::Config& config) {
   constexpr std::size_t kMostSteps = 10'000;
-  constexpr double kHalfDigit_mm = 5e-7;
   const auto refuse = [&](std::string what, std::string to_do) {
     return std::unexpected(
         Refusal{Kind::bad_input, plan.file, 0, std::move(what), std::move(to_do)});
@@ -32,6 +32,13 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
     if (beside_program(settings.method) && plan.axes.size() > 1) {
       return refuse("corrections of several axes, but one variable to write them to",
                     "plan for one axis");
+    }
+    if (settings.method == Method::linuxcnc && !offset_note(settings, axis.letter)) {
+      return refuse(
+          fmt::format("corrections of {} on a machine with the axes {}: the note of what is "
+                      "corrected needs two axes that the machine has not, for each axis",
+                      axis.letter, settings.axes),
+          "plan without this axis");
     }
     if (axis.steps.size() > kMostSteps) {
       return refuse(fmt::format("{} corrections of {}; at most {} are allowed", axis.steps.size(),
@@ -63,12 +70,14 @@ Result<void> check_total(const Plan& plan, double program_s) {
               "make the plan from this program and this machine file"});
 }
 
-std::string whole_head(const Plan& plan, const Way& way) {
-  std::string head;
+std::string whole_head(const Plan& plan, const Settings& settings) {
+  std::string letters;
   for (const AxisPlan& axis : plan.axes) {
-    head += axis.steps.empty() ? "" : head_text(way, axis.letter, "\n");
+    letters += axis.steps.empty() ? std::string{} : std::string(1, axis.letter);
   }
-  return head;
+  return letters.empty()
+             ? std::string{}
+             : mark_text(settings, settings.told, "\n") + head_text(settings, letters, "\n");
 }
 
 interpret::Config with_unknown_offsets(interpret::Config config, const Way& way) {

@@ -11,7 +11,8 @@ bool is_inserted(std::string_view line) noexcept {
   for (std::size_t at = line.find(kTag); at != std::string_view::npos;
        at = line.find(kTag, at + 1)) {
     const std::string_view before = line.substr(0, at);
-    if (before.ends_with('(') || before.ends_with("(ABORT,") || before.ends_with(';')) {
+    if (before.ends_with('(') || before.ends_with("(ABORT,") || before.ends_with("(MSG,") ||
+        before.ends_with(';')) {
       return true;
     }
   }
@@ -21,7 +22,8 @@ bool is_inserted(std::string_view line) noexcept {
 bool is_head(std::string_view inserted_line) noexcept {
   return inserted_line.find("(STEADYREST head ") != std::string_view::npos ||
          inserted_line.find(";STEADYREST head ") != std::string_view::npos ||
-         inserted_line.find("(ABORT,STEADYREST ") != std::string_view::npos;
+         inserted_line.find("(ABORT,STEADYREST ") != std::string_view::npos ||
+         inserted_line.find("(MSG,STEADYREST ") != std::string_view::npos;
 }
 
 bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {

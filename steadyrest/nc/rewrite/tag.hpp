@@ -13,11 +13,12 @@ namespace steadyrest::nc::rewrite {
 inline constexpr std::string_view kTag = "STEADYREST ";
 
 /// The line was inserted: it holds a comment that begins with the tag, `(STEADYREST …)`,
-/// `(ABORT,STEADYREST …)` or `;STEADYREST …`. A program in which the author wrote such a comment
-/// himself is refused by compensate().
+/// `(ABORT,STEADYREST …)`, `(MSG,STEADYREST …)` or `;STEADYREST …`. A program in which the author
+/// wrote such a comment himself is refused by compensate().
 [[nodiscard]] bool is_inserted(std::string_view line) noexcept;
 
-/// The inserted line belongs to the program's head (head_text): it runs only after an abort.
+/// The inserted line belongs to the program's head (head_text): it does something only after an
+/// abort.
 [[nodiscard]] bool is_head(std::string_view inserted_line) noexcept;
 
 /// A SINUMERIK line names the R-parameter itself, or one by a value that is not looked at: R[…],

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,22 +42,23 @@ class Prover {
         settings_(settings),
         known_(known),
         timed_(timed),
-        shifts_(plan),
-        done_(plan.axes.size(), 0) {}
+        shifts_(plan) {}
 
   Result<Proved> run() {
     PlainSurvey plain(config_.dialect);
-    auto text = compare_text(original_, changed_, plain);
+    auto text = compare_text(original_, changed_, plain, true);
     if (!text) {
       return std::unexpected(text.error());
     }
     inserted_ = InsertedLines(std::move(text->lines));
+    groups_ = std::move(text->groups);
     head_lines_ = text->head_lines;
     head_before_ = text->head_before;
     proof_.inserted_lines = inserted_.size();
     // The head changes nothing in this run: its text is compared.
     if (text->head != whole_head(plan_, settings_)) {
-      refuse("the head is not the one that belongs to this plan");
+      refuse("the head is not the one that belongs to this plan, machine and way of writing",
+             "strip the program and compensate it again: another version may have written it");
       return std::unexpected(refusal_);
     }
     auto surveyed = survey(original_, config_, plain);
@@ -175,7 +177,10 @@ class Prover {
   /// Moves of an inserted line: a rapid of planned axes alone, to where they stand in the original
   /// and what is to stand.
   bool added_moves() {
-    if (!changed_moves_.events.empty()) {
+    const bool head = inserted_.before() < head_lines_;
+    if (std::ranges::any_of(changed_moves_.events, [head](const interpret::Event& event) {
+          return !head || event.kind != interpret::EventKind::stop;
+        })) {
       return refuse("an inserted line does more than move an axis");
     }
     for (const Move& move : changed_moves_.moves) {
@@ -200,7 +205,7 @@ class Prover {
     acts_at_once_ = 0;
     for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
       const AxisPlan& axis = plan_.axes[i];
-      if (!what_stands(axis, done_[i], offset_before_[axis.index] - before.offset[axis.index])) {
+      if (!what_stands(i, offset_before_[axis.index] - before.offset[axis.index])) {
         return false;
       }
     }
@@ -225,42 +230,68 @@ class Prover {
   }
 
   /// Before the paired line: the correction that stands is the last one, or changes here.
-  bool what_stands(const AxisPlan& axis, std::size_t& done, double stands_mm) {
+  bool what_stands(std::size_t index, double stands_mm) {
+    const AxisPlan& axis = plan_.axes[index];
     double& wanted_mm = shifts_.wanted[axis.index];
     if (same(stands_mm, wanted_mm)) {
-      return true;
+      const bool back = (framed_ & (1U << index)) != 0;
+      framed_ &= ~(1U << index);
+      return !back || is_written(axis, 0.0, wanted_mm);
     }
     const bool frame = walk_->frame(axis.letter) == Frame::changed;
     if (same(stands_mm, 0.0) && walk_->may_write(axis.index) && (walk_->ends() || frame)) {
+      framed_ |= walk_->ends() ? 0U : 1U << index;
+      if (!is_written(axis, wanted_mm, 0.0)) {
+        return false;
+      }
       if (walk_->ends()) {
         wanted_mm = 0.0;
         ++proof_.changes;
-        return !timed_ || done == axis.steps.size() ||
-               refuse(fmt::format("the correction of {} planned at {:.1f} s is missing",
-                                  axis.letter, axis.steps[done].time_s));
+        return true;
       }
       return !walk_->moves_axis(axis.index) ||
              refuse("the correction is off in a line that moves its axis");
     }
-    return changes(axis, done, stands_mm);
+    return changes(index, stands_mm);
   }
 
-  bool changes(const AxisPlan& axis, std::size_t& done, double stands_mm) {
+  /// The lines before this one hold, character for character, what makes this change: its checks
+  /// and notes change nothing here, and would be missed after an abort.
+  bool is_written(const AxisPlan& axis, double from_mm, double to_mm) {
+    const Walk::Before& before = walk_->before();
+    const std::string text = change_text(settings_,
+                                         {.letter = axis.letter,
+                                          .from_mm = from_mm,
+                                          .to_mm = to_mm,
+                                          .unit_mm = before.unit_mm,
+                                          .active_offset = before.active_offset,
+                                          .incremental = before.incremental},
+                                         "\n");
+    const auto group = groups_.find(walk_->line());
+    return (group != groups_.end() && group->second.find(text) != std::string::npos) ||
+           refuse(fmt::format("{} is corrected here by other lines than those that belong here",
+                              axis.letter),
+                  "strip the program and compensate it again: another version may have written it");
+  }
+
+  bool changes(std::size_t index, double stands_mm) {
+    const AxisPlan& axis = plan_.axes[index];
     double& wanted_mm = shifts_.wanted[axis.index];
     const double unit_mm = walk_->before().unit_mm;
-    std::size_t to = done;
-    while (to < axis.steps.size() &&
-           !same(correction_mm(settings_, unit_mm, axis.steps[to].displacement_um), stands_mm)) {
-      ++to;
-    }
-    if (to == axis.steps.size()) {
+    if (std::ranges::none_of(axis.steps, [&](const PlannedStep& step) {
+          return same(correction_mm(settings_, unit_mm, step.displacement_um), stands_mm);
+        })) {
       return refuse(fmt::format(
-          "{} stands corrected by {:.6f} mm here; the plan wants {:.6f} mm{}", axis.letter,
-          stands_mm, wanted_mm,
-          done == axis.steps.size()
-              ? ""
-              : fmt::format(" or {:.6f} mm",
-                            correction_mm(settings_, unit_mm, axis.steps[done].displacement_um))));
+          "{} stands corrected by {:.6f} mm here; the plan wants {:.6f} mm, or a later correction",
+          axis.letter, stands_mm, wanted_mm));
+    }
+    if (std::abs(stands_mm) > settings_.clamp_mm + kHalfDigit_mm) {
+      return refuse(
+          fmt::format("{} stands corrected by {:g} um here; the machine file allows {:g} um",
+                      axis.letter, stands_mm * 1e3, settings_.clamp_mm * 1e3));
+    }
+    if (!unit_free(settings_.method) && !walk_->units_said()) {
+      return refuse("a correction begins where the program has not said its units");
     }
     const Site site = walk_->site(axis.letter, axis.index);
     if (site == Site::none) {
@@ -277,10 +308,15 @@ class Prover {
                       axis.letter));
     }
     acts_at_once_ |= site == Site::clearance ? 0U : std::uint32_t{1} << axis.index;
-    if (window_ != nullptr) {
-      window_->ask(axis, done, to, changed_run_->line());
+    if (!is_written(axis, wanted_mm, stands_mm)) {
+      return false;
     }
-    done = to + 1;
+    if (window_ != nullptr) {
+      window_->ask(index, {.line = changed_run_->line(),
+                           .stands_mm = stands_mm,
+                           .unit_mm = unit_mm,
+                           .time_s = 0.0});
+    }
     wanted_mm = stands_mm;
     ++proof_.changes;
     return true;
@@ -338,13 +374,6 @@ class Prover {
       return refuse(total.error(), original_);
     }
     proof_.program_s = *total;
-    for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
-      const AxisPlan& axis = plan_.axes[i];
-      if (done_[i] != axis.steps.size()) {
-        return refuse(fmt::format("the correction of {} planned at {:.1f} s is missing",
-                                  axis.letter, axis.steps[done_[i]].time_s));
-      }
-    }
     return executed_inserted_ + head_lines_ == inserted_.size() ||
            refuse("not every inserted line is executed exactly once");
   }
@@ -369,7 +398,8 @@ class Prover {
   std::unique_ptr<Walk> walk_;
   std::unique_ptr<Window> window_;
   Shifts shifts_;
-  std::vector<std::size_t> done_;  ///< by axis of the plan: steps that stand or have stood
+  std::map<std::uint32_t, std::string> groups_;  ///< inserted lines by the original's line
+  std::uint32_t framed_ = 0;  ///< axes of the plan, taken off for a line that changes the frame
   Axes offset_before_{};
   Axes shift_before_{};  ///< before the inserted lines in hand
   bool restated_ = false;

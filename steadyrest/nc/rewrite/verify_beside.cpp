@@ -28,6 +28,7 @@ class Prover {
          const kernel::machine::Machine& machine, const Settings& settings)
       : original_(original),
         changed_(changed),
+        plan_(plan),
         axis_(plan.axes.front()),
         machine_(machine),
         settings_(settings) {}
@@ -153,8 +154,8 @@ class Prover {
       stands_mm_ = 0.0;
       return;
     }
-    for (std::size_t step = done_; step < axis_.steps.size(); ++step) {
-      const double to_mm = correction_mm(settings_, 1.0, axis_.steps[step].displacement_um);
+    for (const PlannedStep& step : axis_.steps) {
+      const double to_mm = correction_mm(settings_, 1.0, step.displacement_um);
       if (group != text_to(to_mm)) {
         continue;
       }
@@ -165,9 +166,8 @@ class Prover {
                                         axis_.letter));
       }
       if (timed_) {
-        window.ask(axis_, done_, step, walk.line());
+        window.ask(0, {.line = walk.line(), .stands_mm = to_mm, .unit_mm = 1.0, .time_s = 0.0});
       }
-      done_ = step + 1;
       stands_mm_ = to_mm;
       return;
     }
@@ -180,12 +180,8 @@ class Prover {
     if (timed_ && !text_.groups.empty()) {
       refuse(text_.groups.begin()->first, "inserted lines that are never executed");
     }
-    if (text_.head != (axis_.steps.empty() ? "" : head_text(settings_, axis_.letter, "\n"))) {
+    if (text_.head != whole_head(plan_, settings_)) {
       refuse(0, "the head is not the one that belongs to this plan");
-    }
-    if (timed_ && done_ != axis_.steps.size()) {
-      refuse(0, fmt::format("the correction of {} planned at {:.1f} s is missing", axis_.letter,
-                            axis_.steps[done_].time_s));
     }
     if (stands_mm_ != 0.0) {
       refuse(0, fmt::format("a correction of {} is left at the end", axis_.letter));
@@ -209,13 +205,13 @@ class Prover {
 
   const std::string& original_;
   const std::string& changed_;
+  const Plan& plan_;
   const AxisPlan& axis_;
   const kernel::machine::Machine& machine_;
   const Settings& settings_;
   bool timed_ = true;
   bool start_known_ = false;
   Inserted text_;
-  std::size_t done_ = 0;
   double stands_mm_ = 0.0;
   std::optional<Refusal> refusal_;
   Proof proof_;

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <utility>
-
-#include <fmt/core.h>
 
 #include <steadyrest/nc/rewrite/window.hpp>
 
@@ -17,9 +14,10 @@ Result<std::unique_ptr<Window>> Window::make(const KnownTimes* known,
                                              const Plan& plan, const Settings& settings,
                                              const std::string& changed) {
   std::unique_ptr<Window> made(new Window(plan, settings, changed));
-  auto clock = Clock::make(
-      known, machine,
-      [window = made.get()](std::uint64_t from, double time_s) { window->told(from, time_s); });
+  auto clock =
+      Clock::make(known, machine, [&changes = made->changes_](std::uint64_t ticket, double time_s) {
+        changes[ticket % changes.size()][ticket / changes.size()].time_s = time_s;
+      });
   if (!clock) {
     return std::unexpected(clock.error());
   }
@@ -27,24 +25,9 @@ Result<std::unique_ptr<Window>> Window::make(const KnownTimes* known,
   return made;
 }
 
-void Window::ask(const AxisPlan& axis, std::size_t from, std::size_t to, std::uint32_t line) {
-  clock_->ask(from);
-  asked_.push_back({.axis = &axis, .to = to, .line = line});
-}
-
-void Window::told(std::uint64_t from, double time_s) {
-  const Asked asked = asked_.front();
-  asked_.pop_front();
-  for (std::size_t i = from; i <= asked.to && !too_far_; ++i) {
-    const double planned_s = asked.axis->steps[i].time_s;
-    if (std::abs(time_s - planned_s) > settings_.window_s) {
-      too_far_ = Refusal{Kind::bad_input, changed_, asked.line,
-                         fmt::format("a correction of {} acts at {:.1f} s; it is planned at {:.1f} "
-                                     "s, and {:g} s of difference are allowed",
-                                     asked.axis->letter, time_s, planned_s, settings_.window_s),
-                         "make the changed program anew, or allow a wider --window-s"};
-    }
-  }
+void Window::ask(std::size_t axis, const WrittenChange& change) {
+  clock_->ask(changes_[axis].size() * changes_.size() + axis);
+  changes_[axis].push_back(change);
 }
 
 Result<double> Window::finish() {
@@ -55,8 +38,11 @@ Result<double> Window::finish() {
   if (auto fits = check_total(plan_, *total); !fits) {
     return std::unexpected(fits.error());
   }
-  if (too_far_) {
-    return std::unexpected(*too_far_);
+  for (std::size_t axis = 0; axis < changes_.size(); ++axis) {
+    if (auto fault = mismatch(plan_.axes[axis], settings_, changes_[axis])) {
+      return std::unexpected(Refusal{Kind::bad_input, changed_, fault->line, std::move(fault->what),
+                                     "make the changed program anew, or allow a wider --window-s"});
+    }
   }
   return total;
 }

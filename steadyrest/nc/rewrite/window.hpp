@@ -3,15 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/rewrite/clock.hpp>
 #include <steadyrest/nc/rewrite/plan_file.hpp>
+#include <steadyrest/nc/rewrite/plan_match.hpp>
 #include <steadyrest/nc/rewrite/settings.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -27,29 +27,21 @@ class Window {
   Window& operator=(const Window&) = delete;
   ~Window() = default;
 
-  /// The steps `from` … `to` of an axis act in the line that is fed next, `line` of the changed
-  /// program.
-  void ask(const AxisPlan& axis, std::size_t from, std::size_t to, std::uint32_t line);
+  /// The correction of an axis of the plan becomes another in the line that is fed next.
+  void ask(std::size_t axis, const WrittenChange& change);
   void feed(Walk& walk) { clock_->feed(walk); }
-  /// The program's time. Refused: another time than the plan's, a step beyond its window.
+  /// The program's time. Refused: another time than the plan's, changes that are not the plan's.
   [[nodiscard]] kernel::outcome::Result<double> finish();
 
  private:
-  struct Asked {
-    const AxisPlan* axis;
-    std::size_t to;
-    std::uint32_t line;
-  };
   Window(const Plan& plan, const Settings& settings, const std::string& changed)
-      : plan_(plan), settings_(settings), changed_(changed) {}
-  void told(std::uint64_t from, double time_s);
+      : plan_(plan), settings_(settings), changed_(changed), changes_(plan.axes.size()) {}
 
   const Plan& plan_;
   const Settings& settings_;
   const std::string& changed_;
   std::unique_ptr<Clock> clock_;
-  std::deque<Asked> asked_;
-  std::optional<kernel::outcome::Refusal> too_far_;
+  std::vector<std::vector<WrittenChange>> changes_;  ///< by axis of the plan
 };
 
 }  // namespace steadyrest::nc::rewrite

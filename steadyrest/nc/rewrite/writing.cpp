@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <steadyrest/nc/rewrite/linuxcnc_text.hpp>
 #include <steadyrest/nc/rewrite/writing.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -13,20 +14,12 @@ namespace {
 constexpr int kLinuxcncPlaces = 6;
 constexpr int kMmPlaces = 4;
 constexpr int kInchPlaces = 5;
-
-char lower(char letter) noexcept {
-  return static_cast<char>(letter - 'A' + 'a');
-}
+constexpr int kMostMmPlaces = 5;  ///< least increments are multiples of 0.00001 mm
+constexpr int kMostInchPlaces = 6;
 
 double rounded(double value, int places) noexcept {
   const double scale = std::pow(10.0, places);
   return std::round(value * scale) / scale + 0.0;  // no -0
-}
-
-int places_of(Method method, double unit_mm) noexcept {
-  return method == Method::linuxcnc            ? kLinuxcncPlaces
-         : unit_mm == 1.0 || unit_free(method) ? kMmPlaces
-                                               : kInchPlaces;
 }
 
 /// At least four digits behind the point (five in inches), more where they say something.
@@ -44,26 +37,15 @@ std::string tag(const Change& change, int places) {
                      number(change.to_mm, places, kMmPlaces));
 }
 
-// mm in the text whatever G20/G21 say: LinuxCNC can divide, so nothing is rounded in inches.
-std::string linuxcnc_change(const Change& change, std::string_view ending) {
-  const double step_mm = change.from_mm - change.to_mm;
-  const std::string amount = number(std::abs(step_mm), kLinuxcncPlaces, kMmPlaces);
-  const char axis = lower(change.letter);
-  return fmt::format(
-      "G10 L20 P0 {}[#<_{}>{}{}{}] #<_steadyrest_{}>={} #<_steadyrest_system_{}>=#5220 {}{}",
-      change.letter, axis, step_mm < 0.0 ? '-' : '+', amount, change.unit_mm == 1.0 ? "" : "/25.4",
-      axis, number(change.to_mm, kLinuxcncPlaces, kMmPlaces), axis, tag(change, kLinuxcncPlaces),
-      ending);
-}
-
 std::string fanuc_change(Method method, const Change& change, std::string_view ending) {
   const bool mm = change.unit_mm == 1.0;
-  const int places = mm ? kMmPlaces : kInchPlaces;
   const std::size_t system = method == Method::fanuc ? 0 : change.active_offset + 1;
-  const std::string mark = tag(change, mm ? kMmPlaces : kLinuxcncPlaces);
-  std::string text = fmt::format(
-      "G91 G10 L2 P{} {}{} {}{}", system, change.letter,
-      number((change.to_mm - change.from_mm) / change.unit_mm, places, places), mark, ending);
+  const std::string mark = tag(change, mm ? kMostMmPlaces : kLinuxcncPlaces);
+  std::string text =
+      fmt::format("G91 G10 L2 P{} {}{} {}{}", system, change.letter,
+                  number((change.to_mm - change.from_mm) / change.unit_mm,
+                         mm ? kMostMmPlaces : kMostInchPlaces, mm ? kMmPlaces : kInchPlaces),
+                  mark, ending);
   if (!change.incremental) {
     fmt::format_to(std::back_inserter(text), "G90 {}{}", mark, ending);
   }
@@ -73,7 +55,7 @@ std::string fanuc_change(Method method, const Change& change, std::string_view e
 // The control reads blocks ahead of the motion: STOPRE makes it write the value when the machine
 // gets here.
 std::string beside_change(const Way& way, const Change& change, std::string_view ending) {
-  const auto text = [](double value) { return number(value + 0.0, kMmPlaces, kMmPlaces); };
+  const auto text = [](double value) { return number(value + 0.0, kMostMmPlaces, kMmPlaces); };
   const std::string variable = way.method == Method::r_parameter
                                    ? fmt::format("R{}", way.r_parameter)
                                    : fmt::format("$SA_TEMP_COMP_ABS_VALUE[{}]", change.letter);
@@ -88,21 +70,28 @@ std::string fine_offset(char letter, double to_mm) {
   const std::string stored = fmt::format("$P_IFRAME[{0},FI]=$P_UIFR[$P_UIFRNUM,{0},FI]", letter);
   return to_mm == 0.0 ? stored
                       : fmt::format("{}{}{}", stored, to_mm < 0.0 ? "" : "+",
-                                    number(to_mm, kMmPlaces, kMmPlaces));
+                                    number(to_mm, kMostMmPlaces, kMmPlaces));
 }
 
 }  // namespace
 
-double writable_mm(Method method, double unit_mm, double correction_mm) noexcept {
-  const int places = places_of(method, unit_mm);
-  return unit_free(method) ? rounded(correction_mm, places)
-                           : rounded(correction_mm / unit_mm, places) * unit_mm;
+std::string correction_number(double mm) {
+  return number(mm, kLinuxcncPlaces, kMmPlaces);
+}
+
+double writable_mm(const Way& way, double unit_mm, double correction_mm) noexcept {
+  if (way.method == Method::linuxcnc) {
+    return rounded(correction_mm, kLinuxcncPlaces);
+  }
+  const bool inch = unit_mm != 1.0 && !unit_free(way.method);
+  const double increment_mm = way.increment_mm * (inch ? 0.1 * unit_mm : 1.0);
+  return std::round(correction_mm / increment_mm) * increment_mm + 0.0;  // no -0
 }
 
 std::string change_text(const Way& way, const Change& change, std::string_view ending) {
   switch (way.method) {
     case Method::linuxcnc:
-      return linuxcnc_change(change, ending);
+      return linuxcnc_change(way, change, ending);
     case Method::fanuc:
     case Method::haas:
       return fanuc_change(way.method, change, ending);
@@ -113,7 +102,7 @@ std::string change_text(const Way& way, const Change& change, std::string_view e
       break;
   }
   return fmt::format("{} ;STEADYREST {}{} mm{}", fine_offset(change.letter, change.to_mm),
-                     change.letter, number(change.to_mm, kMmPlaces, kMmPlaces), ending);
+                     change.letter, number(change.to_mm, kMostMmPlaces, kMmPlaces), ending);
 }
 
 std::string restate_text(Method method, char letter, double position_mm, double unit_mm,
@@ -129,9 +118,25 @@ std::string restate_text(Method method, char letter, double position_mm, double 
                      ending);
 }
 
-// The global parameters live as long as LinuxCNC runs: after an abort they say what stands in the
-// work offset. Stands it in another one than is active now, nobody but the operator can undo it.
-std::string head_text(const Way& way, char letter, std::string_view ending) {
+std::string restate_text(const Change& change, std::string_view ending) {
+  const double back_mm = change.to_mm - change.from_mm;
+  const char axis = static_cast<char>(change.letter - 'A' + 'a');
+  return fmt::format("G0 {}[#<_{}>{}{}*[#<_metric>+#<_imperial>/25.4]] (STEADYREST restated){}",
+                     change.letter, axis, back_mm < 0.0 ? '-' : '+',
+                     correction_number(std::abs(back_mm)), ending);
+}
+
+std::string check_text(const Way& way, char letter, std::string_view ending) {
+  return way.method == Method::linuxcnc ? linuxcnc_check(way, letter, ending) : std::string{};
+}
+
+std::string renote_text(const Way& way, char letter, std::string_view ending) {
+  return way.method == Method::linuxcnc ? linuxcnc_renote(way, letter, ending) : std::string{};
+}
+
+namespace {
+
+std::string axis_head(const Way& way, char letter, std::string_view ending) {
   switch (way.method) {
     case Method::r_parameter:  // these two keep their values over an abort and over power off
       return fmt::format("R{}=0.0000 ;STEADYREST head {}{}", way.r_parameter, letter, ending);
@@ -140,35 +145,32 @@ std::string head_text(const Way& way, char letter, std::string_view ending) {
                          ending);
     case Method::frame_fine:
       return fmt::format("{} ;STEADYREST head {}{}", fine_offset(letter, 0.0), letter, ending);
-    case Method::fanuc:
-      return way.external_offset_free
-                 ? fmt::format("G90 G10 L2 P0 {0}0.0000 (STEADYREST head {0}){1}", letter, ending)
-                 : std::string{};
-    case Method::haas:
-      return {};
-    case Method::linuxcnc:
-      break;
+    default:
+      return fmt::format("G90 G10 L2 P0 {0}0.0000 (STEADYREST head {0}){1}", letter, ending);
   }
-  const char axis = lower(letter);
-  std::string text;
-  const auto line = [&](const std::string& content) {
-    fmt::format_to(std::back_inserter(text), "{} (STEADYREST head {}){}", content, letter, ending);
-  };
-  line(fmt::format("o<steadyrest_{}1> if [EXISTS[#<_steadyrest_{}>]]", axis, axis));
-  line(fmt::format("o<steadyrest_{}2> if [#<_steadyrest_{}> NE 0]", axis, axis));
-  line(fmt::format("o<steadyrest_{}3> if [#<_steadyrest_system_{}> NE #5220]", axis, axis));
-  fmt::format_to(std::back_inserter(text),
-                 "(ABORT,STEADYREST a correction of {} was left in work offset number "
-                 "#<_steadyrest_system_{}>: #<_steadyrest_{}> mm; activate that offset first){}",
-                 letter, axis, axis, ending);
-  line(fmt::format("o<steadyrest_{}3> endif", axis));
-  line(
-      fmt::format("G10 L20 P0 {0}[#<_{1}>+#<_steadyrest_{1}>*[#<_metric>+#<_imperial>/25.4]] "
-                  "#<_steadyrest_{1}>=0",
-                  letter, axis));
-  line(fmt::format("o<steadyrest_{}2> endif", axis));
-  line(fmt::format("o<steadyrest_{}1> endif", axis));
-  return text;
+}
+
+}  // namespace
+
+std::string head_text(const Way& way, std::string_view letters, std::string_view ending) {
+  if (letters.empty()) {
+    return {};
+  }
+  if (way.method == Method::linuxcnc) {
+    return linuxcnc_head(way, ending);
+  }
+  const bool forgets =
+      way.method == Method::haas || (way.method == Method::fanuc && !way.external_offset_free);
+  if (forgets) {  // nothing tells it whether the last run was aborted
+    return fmt::format(
+        "M0 (STEADYREST head {}: AFTER AN ABORTED RUN TAKE OFF WHAT ITS LAST COMMENT NAMES){}",
+        letters, ending);
+  }
+  std::string head;
+  for (const char letter : letters) {
+    head += axis_head(way, letter, ending);
+  }
+  return head;
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -23,6 +23,8 @@ struct Way {
   std::uint32_t r_parameter = 0;  ///< its number
   int sign = 1;  ///< setting_data: −1 where a positive value moves the axis to smaller positions
   bool external_offset_free = false;  ///< fanuc: 0 whenever a program starts
+  std::string axes = "XYZ";           ///< linuxcnc: those of the machine
+  double increment_mm = 1e-3;  ///< the control's least input; a tenth of the number in inches
 };
 
 /// The correction stands in the active work offset: it must be moved when another one is chosen.
@@ -43,9 +45,13 @@ struct Way {
   return method == Method::linuxcnc || beside_program(method);
 }
 
-/// A correction as it can be written: to 0.000001 mm on linuxcnc, else to 0.0001 mm, or in a
-/// program in inches to 0.00001 inch (beside the program always mm).
-[[nodiscard]] double writable_mm(Method method, double unit_mm, double correction_mm) noexcept;
+/// A correction as it can be written: to 0.000001 mm on linuxcnc; else a whole number of the
+/// control's least increments, which are 0.0001 inch where they are 0.001 mm (beside the program
+/// always mm). Sums are rounded, never steps, so that what is written adds up.
+[[nodiscard]] double writable_mm(const Way& way, double unit_mm, double correction_mm) noexcept;
+
+/// A correction in mm as text: four digits behind the point, six where they say something.
+[[nodiscard]] std::string correction_number(double mm);
 
 /// One change of what stands on one axis.
 struct Change {
@@ -60,11 +66,18 @@ struct Change {
 /// The text of a change, each line with its tag and `ending`.
 [[nodiscard]] std::string change_text(const Way& way, const Change& change,
                                       std::string_view ending);
+/// Before and after a line by which the program sets the offset in which a correction stands; empty
+/// where nothing is noted of it.
+[[nodiscard]] std::string check_text(const Way& way, char letter, std::string_view ending);
+[[nodiscard]] std::string renote_text(const Way& way, char letter, std::string_view ending);
 /// `G0 Z…` with its tag. Empty when the position cannot be written exactly.
 [[nodiscard]] std::string restate_text(Method method, char letter, double position_mm,
                                        double unit_mm, std::string_view ending);
-/// What stands at the head of a program: takes off what an aborted run has left, or stops. Empty
-/// where the control has nothing to remember it by.
-[[nodiscard]] std::string head_text(const Way& way, char letter, std::string_view ending);
+/// The same behind a change, in whatever units the control is in.
+[[nodiscard]] std::string restate_text(const Change& change, std::string_view ending);
+/// What stands at the head of a program that corrects these axes: takes off what an aborted run has
+/// left, or stops.
+[[nodiscard]] std::string head_text(const Way& way, std::string_view letters,
+                                    std::string_view ending);
 
 }  // namespace steadyrest::nc::rewrite

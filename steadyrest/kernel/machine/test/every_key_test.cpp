@@ -363,7 +363,9 @@ TEST(EveryKey, Compensation) {
   EXPECT_EQ(data.method, Method::setting_data);
   EXPECT_EQ(data.sign, -1);
   EXPECT_EQ(with(kSinumerik, "method = \"frame_fine\"").method, Method::frame_fine);
-  EXPECT_EQ(compensation_keys().size(), 4U) << "a key is not tried here";
+  EXPECT_EQ(fanuc.least_increment_mm, 1e-3);
+  EXPECT_EQ(with("dialect = \"fanuc\"", "least_increment_um = 0.1").least_increment_mm, 1e-4);
+  EXPECT_EQ(compensation_keys().size(), 5U) << "a key is not tried here";
 }
 
 template <class S>

@@ -39,7 +39,7 @@ TEST(Compensate, PutsEveryCorrectionBeforeAnAbsoluteRapidOfItsAxis) {
   EXPECT_NEAR(done.insertions[0].delta_um, -10.0, 1e-9);
   EXPECT_NEAR(done.insertions[2].delta_um, 5.0, 1e-9);
   EXPECT_NEAR(done.insertions[2].total_um, -15.0, 1e-9);
-  EXPECT_THAT(text, HasSubstr("G10 L20 P0 Z[#<_z>+0.0100] #<_steadyrest_z>=-0.0100"));
+  EXPECT_THAT(text, HasSubstr(test::change_to(-0.01)));
   EXPECT_THAT(text, HasSubstr("(STEADYREST Z0.0000 mm)\nM30"));
 }
 
@@ -52,7 +52,7 @@ TEST(Compensate, TellsTheLineInTheChangedProgram) {
     for (std::uint32_t line = 1; line < one.line; ++line) {
       at = text.find('\n', at) + 1;
     }
-    EXPECT_EQ(text.compare(at, 10, "G10 L20 P0"), 0) << one.line;
+    EXPECT_EQ(text.compare(at, 17, "#<_steadyrest_z>="), 0) << one.line;
   }
 }
 
@@ -113,8 +113,8 @@ TEST(Compensate, TurnsTheCorrectionOverWhenTheWorkOffsetChanges) {
   const std::string program = replaced(kPasses, "G0 X0 Y20\n", "G55\nG0 X0 Y20\n");
   const auto done = shop.compensate(program, kGrowth).value();
   const std::string text = read_file(shop.changed());
-  EXPECT_EQ(done.inserted_lines, 8U + 3U + 2U + 1U);
-  EXPECT_THAT(text, HasSubstr("(STEADYREST Z0.0000 mm)\nG55\nG10 L20 P0"));
+  EXPECT_EQ(done.inserted_lines, 27U + 9U + 5U + 2U);
+  EXPECT_THAT(text, HasSubstr("(STEADYREST Z0.0000 mm)\nG55\n" + test::change_to(-0.02)));
 }
 
 TEST(Compensate, RefusesAWorkOffsetThatChangesWithTheAxis) {
@@ -215,7 +215,73 @@ TEST(Compensate, WritesMillimetresIntoAProgramInInches) {
   const std::string program =
       "G20 G90 G94 G54\nG0 Z1\nG1 X4 F4\nG0 Z1\nG0 X0\nG0 Z.5\nG1 X4 F4\nG0 Z1\nM2\n";
   ASSERT_TRUE(shop.compensate(program, one_step(1.0, 1.05, 10)));
-  EXPECT_THAT(read_file(shop.changed()), HasSubstr("Z[#<_z>+0.0100/25.4]"));
+  EXPECT_THAT(read_file(shop.changed()), HasSubstr(test::change_to(-0.01)));
+}
+
+TEST(Compensate, StepsThatCancelAtOnePlaceLeaveNoText) {
+  const Workshop shop;
+  const auto done = shop.compensate(
+      kPasses,
+      R"({"transitions": [{"n": 4, "t_min": [1, 0.01, 1, 2.19], "delta_um": [0, 10, -10, 7]}]})");
+  ASSERT_TRUE(done) << done.error().what;
+  ASSERT_EQ(done->insertions.size(), 1U);
+  EXPECT_NEAR(done->insertions[0].total_um, -7.0, 1e-9);
+}
+
+TEST(Compensate, FollowsAnOffsetThatTheProgramSetsItself) {
+  Workshop shop;
+  for (const std::string line : {"G92 Z4", "G10 L20 P0 Z4", "G52 Z1"}) {
+    const std::string program =
+        replaced(kPasses, "G0 X0 Y20\n", "G0 X0 Y20\n" + line + "\nG0 Z6\n");
+    const auto done = shop.compensate(program, kGrowth);
+    ASSERT_TRUE(done) << line << ": " << done.error().what;
+    EXPECT_THAT(read_file(shop.changed()), HasSubstr(" (STEADYREST Z noted)\nG0 Z6")) << line;
+  }
+  const std::string in_loop = "o1 repeat [2]\nG92 Z4\no1 endrepeat\nG0 Z6\n";
+  EXPECT_FALSE(shop.compensate(replaced(kPasses, "G0 X0 Y20\n", "G0 X0 Y20\n" + in_loop), kGrowth));
+}
+
+// The lines hold whatever unit the control is in when the program does not say it.
+TEST(Compensate, WritesForEitherUnitWhereTheProgramSaysNone) {
+  for (const bool inch : {false, true}) {
+    Workshop shop;
+    shop.config.inch = inch;
+    shop.settings.window_s = 20.0;
+    const std::string feed = inch ? "F4" : "F100";
+    const std::string far = inch ? "X4" : "X100";
+    const std::string program = "G90 G94 G54\nG0 Z5\nG1 " + far + " " + feed +
+                                "\nG0 Y10\nG0 X0\nG1 " + far + "\nG0 Z20\nM2\n";
+    const auto done = shop.compensate(program, one_step(1.0, 1.05, 10));
+    ASSERT_TRUE(done) << done.error().what;
+    const std::string text = read_file(shop.changed());
+    EXPECT_THAT(text, HasSubstr(test::change_to(-0.01) +
+                                "G0 Z[#<_z>-0.0100*[#<_metric>+#<_imperial>/25.4]] "
+                                "(STEADYREST restated)\n"));
+    EXPECT_EQ(done->proof.added, 1U);
+  }
+}
+
+TEST(Compensate, RefusesAnAxisOfWhichTheMachineHasNoRoomForANote) {
+  Workshop shop;
+  shop.settings.axes = shop.config.axes = "XYZAC";  // B U V W are left: Z and Y
+  EXPECT_TRUE(shop.compensate(kPasses, kGrowth));
+  const auto refused = shop.compensate(kPasses, replaced(kGrowth, "{", R"({"axis": "X", )"));
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("XYZAC"));
+}
+
+TEST(Compensate, EveryLineForLinuxcncIsShortEnough) {
+  constexpr std::size_t kMost = 250;  // LinuxCNC reads 255
+  Workshop shop;
+  shop.settings.axes = shop.config.axes = "XYZ";
+  std::string text = whole_head(parse_plan(kGrowth, "plan.json").value(), shop.settings);
+  text +=
+      change_text(shop.settings, {.letter = 'Z', .from_mm = -0.123456, .to_mm = -0.654321}, "\n");
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    EXPECT_LE(end - at, kMost) << text.substr(at, end - at);
+    at = end + 1;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
@@ -51,7 +57,7 @@ TEST_F(Fanuc, NeedsNoCareWhenTheWorkOffsetChanges) {
   const std::string program = replaced(kFanuc, "G0 X0 Y20\n", "G55 G0 X0 Y20 Z5\n");
   const auto done = shop_.compensate(program, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
-  EXPECT_EQ(done->inserted_lines, 8U);
+  EXPECT_EQ(done->inserted_lines, 9U);
 }
 
 TEST_F(Fanuc, LeavesG91InForceAtTheEnd) {
@@ -67,14 +73,64 @@ TEST_F(Fanuc, RefusesAProgramThatSetsTheExternalOffsetItself) {
       shop_.compensate(replaced(kFanuc, "G0 X0 Y30\n", "G10 L2 P0 Z0\nG0 X0 Y30\n"), kGrowth));
 }
 
-TEST_F(Fanuc, WritesInchesToFivePlaces) {
+// 0.0001 inch where the increment is 0.001 mm.
+TEST_F(Fanuc, WritesInchesInWholeIncrements) {
   const std::string program =
       "G20 G90 G94\nG0 Z1.\nG1 X4. F4.\nG0 Z1.\nG0 X0\nG0 Z.5\nG1 X4. F4.\nG0 Z1.\nM30\n";
-  const auto done = shop_.compensate(
-      program, R"({"transitions": [{"n": 2, "t_min": [1, 1.05], "delta_um": [0, 10]}]})");
+  const std::string plan =
+      R"({"transitions": [{"n": 2, "t_min": [1, 1.05], "delta_um": [0, 10]}]})";
+  const auto done = shop_.compensate(program, plan);
   ASSERT_TRUE(done) << done.error().what;
-  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.00039 (STEADYREST Z-0.009906"));
-  EXPECT_NEAR(done->insertions.at(0).total_um, -9.906, 1e-9);
+  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.00040 (STEADYREST Z-0.01016"));
+  EXPECT_NEAR(done->insertions.at(0).total_um, -10.16, 1e-9);
+  shop_.settings.increment_mm = 1e-5;
+  ASSERT_TRUE(shop_.compensate(program, plan));
+  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.000394 (STEADYREST"));
+}
+
+TEST_F(Fanuc, NeedsTheUnitsSaid) {
+  const auto refused = shop_.compensate(replaced(kFanuc, "G21 G90", "G90"), kGrowth);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("has not said its units"));
+  EXPECT_THAT(refused.error().to_do, HasSubstr("G21"));
+}
+
+TEST_F(Fanuc, RefusesAProgramThatTakesTheCorrectionOffInOtherUnits) {
+  const auto refused = shop_.compensate(replaced(kFanuc, "M30\n", "G20\nM30\n"), kGrowth);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("changes its units"));
+}
+
+// What the control adds up is what it takes: whole increments, in whatever order they are written.
+RC_GTEST_PROP(Increments, AddUpToNothingAndStayWithinHalfOfOneOfThePlan, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<unsigned>());
+  const auto below = [&random](unsigned n) { return static_cast<int>(random() % n); };
+  Way way;
+  way.method = below(2) == 0 ? Method::fanuc : Method::haas;
+  const int grains[] = {1, 10, 100, 25, 1000};
+  const int grain = grains[below(5)];
+  way.increment_mm = grain * 1e-5;
+  const double unit_mm = below(2) == 0 ? 1.0 : 25.4;
+  const double increment_mm = way.increment_mm * (unit_mm == 1.0 ? 1.0 : 2.54);
+  double stands_mm = 0.0;
+  long long counts = 0;
+  for (int step = 0; step < 50; ++step) {
+    const double wanted_mm = step == 49 ? 0.0 : (below(400'000) - 200'000) * 1e-6;
+    const double to_mm = writable_mm(way, unit_mm, wanted_mm);
+    RC_ASSERT(std::abs(to_mm - wanted_mm) <= 0.5 * increment_mm + 1e-12);
+    const std::string text = change_text(
+        way, {.letter = 'Z', .from_mm = stands_mm, .to_mm = to_mm, .unit_mm = unit_mm}, "\n");
+    const auto at = text.find(" Z") + 2;
+    const std::string digits = text.substr(at, text.find(' ', at) - at);
+    // In hundred-thousandths of a millimetre, or millionths of an inch, as the text has it.
+    const double read = std::strtod(digits.c_str(), nullptr) * (unit_mm == 1.0 ? 1e5 : 1e6);
+    const long long count = std::llround(read);
+    RC_ASSERT(std::abs(read - static_cast<double>(count)) < 1e-6);
+    RC_ASSERT(count % grain == 0);
+    counts += count;
+    stands_mm = to_mm;
+  }
+  RC_ASSERT(counts == 0);
 }
 
 TEST_F(Fanuc, VerifyCatchesAMissingG90) {
@@ -95,6 +151,17 @@ TEST_F(Haas, MovesTheActiveWorkOffsetAndTurnsItOver) {
   EXPECT_THAT(text, HasSubstr("G91 G10 L2 P1 Z-0.0100"));
   EXPECT_THAT(text, HasSubstr("\nG55\nG91 G10 L2 P2 Z-0."));
   EXPECT_THAT(text, Not(HasSubstr("P0")));
+}
+
+TEST_F(Fanuc, StopsAtTheHeadWhereNothingTellsWhatAnAbortedRunHasLeft) {
+  const auto done = shop_.compensate(kFanuc, kGrowth);
+  ASSERT_TRUE(done) << done.error().what;
+  const std::string text = read_file(shop_.changed());
+  EXPECT_THAT(text, HasSubstr("%\r\nO1234 (PASSES)\nM0 (STEADYREST head Z: AFTER AN ABORTED RUN"));
+  ASSERT_TRUE(shop_.verify(kGrowth));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text, "M0 (STEADYREST", "M1 (STEADYREST")),
+              HasSubstr("head"));
+  EXPECT_NE(shop_.fault(kGrowth, replaced(text, "G90 (STEADYREST", "M0 G90 (STEADYREST")), "");
 }
 
 TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffset) {

@@ -63,7 +63,7 @@ TEST_F(Switch, MovesOnToAPlaceThatIsOneInBothPositions) {
       shop_.compensate(replaced(kClamp, "N110 G0 X100 Y0", "N110 G0 X100 Y0 Z50"), kOneStep);
   ASSERT_TRUE(done) << done.error().what;
   EXPECT_EQ(done->insertions.front().site, Site::rapid);
-  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("mm)\nN110 G0"));
+  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("noted)\nN110 G0"));
 }
 
 TEST_F(Switch, ProvesForBothPositions) {
@@ -146,7 +146,7 @@ TEST_F(Start, TheWorkOffsetIsSaidBeforeTheFirstPlace) {
   shop_.config.active_offset = 1;
   shop_.config.work_offset[1][2] = 5.0;
   ASSERT_EQ(fault_of(late), "");
-  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("mm)\nN175 G54\nG10 L20 P0"));
+  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("N175 G54\n#<_steadyrest_z>=[1/"));
 }
 
 TEST_F(Start, AbsolutePositionsAreSaid) {

@@ -15,9 +15,7 @@ using test::replaced;
 using test::Workshop;
 using ::testing::HasSubstr;
 
-const std::string kFirst =
-    "G10 L20 P0 Z[#<_z>+0.0100] #<_steadyrest_z>=-0.0100 #<_steadyrest_system_z>=#5220 "
-    "(STEADYREST Z-0.0100 mm)\n";
+const std::string kFirst = test::change_to(-0.01);
 
 class Verify : public ::testing::Test {
  protected:
@@ -46,21 +44,21 @@ TEST_F(Verify, ProvesWhatIsRight) {
 }
 
 TEST_F(Verify, CatchesAWrongSign) {
-  EXPECT_THAT(fault(replaced(text_, "Z[#<_z>+0.0100]", "Z[#<_z>-0.0100]")),
+  EXPECT_THAT(fault(replaced(text_, "+0.0100]*", "-0.0100]*")),
               HasSubstr("stands corrected by 0.010000 mm"));
 }
 
 TEST_F(Verify, CatchesAWrongAmount) {
-  EXPECT_THAT(fault(replaced(text_, "Z[#<_z>+0.0100]", "Z[#<_z>+0.0101]")),
+  EXPECT_THAT(fault(replaced(text_, "+0.0100]*", "+0.0101]*")),
               HasSubstr("stands corrected by -0.010100 mm"));
 }
 
 TEST_F(Verify, CatchesAnAbsoluteValueInTheWorkOffset) {
-  EXPECT_NE(fault(replaced(text_, "L20 P0 Z[#<_z>+0.0100]", "L2 P0 Z-0.0100")), "");
+  EXPECT_NE(fault(replaced(text_, kFirst, replaced(kFirst, "L20 P0", "L2 P0"))), "");
 }
 
 TEST_F(Verify, CatchesAWrongAxis) {
-  EXPECT_NE(fault(replaced(text_, "P0 Z[#<_z>+0.0100]", "P0 X[#<_x>+0.0100]")), "");
+  EXPECT_NE(fault(replaced(text_, kFirst, replaced(kFirst, "P0 Z[#<_z>", "P0 X[#<_x>"))), "");
 }
 
 TEST_F(Verify, CatchesAShiftBeforeAnArc) {
@@ -84,7 +82,7 @@ TEST_F(Verify, CatchesAMissingReset) {
 }
 
 TEST_F(Verify, CatchesAMissingCorrection) {
-  EXPECT_THAT(fault(replaced(text_, kFirst, "")), HasSubstr("stands corrected by"));
+  EXPECT_THAT(fault(replaced(text_, kFirst, "")), HasSubstr("acts at"));
 }
 
 TEST_F(Verify, CatchesACorrectionBeyondTheWindow) {
@@ -118,8 +116,29 @@ TEST_F(Verify, CatchesAnInsertedRapidOfThePlannedAxisToWhereThePlanDoesNotWantIt
 }
 
 TEST_F(Verify, CatchesAHeadThatWouldUndoTheWrongWay) {
-  EXPECT_THAT(fault(replaced(text_, "#<_z>+#<_steadyrest_z>", "#<_z>-#<_steadyrest_z>")),
+  const std::string takes_off = "M0 (STEADYREST head Z)\nG10 L20 P0 Z[#<_z>+";
+  EXPECT_THAT(fault(replaced(text_, takes_off, replaced(takes_off, "_z>+", "_z>-"))),
               HasSubstr("head"));
+}
+
+// They do nothing in a run from the beginning to the end.
+TEST_F(Verify, CatchesAMissingCheckAndAMissingNote) {
+  const auto check = kFirst.find('\n') + 1;
+  const auto note = kFirst.find('\n', check) + 1;
+  EXPECT_NE(fault(replaced(text_, kFirst, kFirst.substr(check))), "");
+  EXPECT_NE(fault(replaced(text_, kFirst, kFirst.substr(0, note))), "");
+  EXPECT_THAT(fault(replaced(text_, kFirst, replaced(kFirst, "=-0.0100", "=-0.0101"))),
+              HasSubstr("other lines"));
+}
+
+TEST_F(Verify, SaysWhatToDoWithAProgramOfAnEarlierVersion) {
+  const std::string old_head =
+      "o<steadyrest_z1> if [EXISTS[#<_steadyrest_z>]] (STEADYREST head Z)\n";
+  test::write_file(shop_.changed(), old_head + kPasses);
+  const auto refused = shop_.verify(kGrowth);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("head"));
+  EXPECT_THAT(refused.error().to_do, HasSubstr("compensate it again"));
 }
 
 TEST_F(Verify, CatchesAnotherPlan) {

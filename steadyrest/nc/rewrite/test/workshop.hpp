@@ -78,6 +78,11 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
+/// What is written on linuxcnc from where Z stands corrected by `to_mm`.
+inline std::string change_to(double to_mm) {
+  return change_text(Way{}, Change{.letter = 'Z', .to_mm = to_mm}, "\n");
+}
+
 /// Four passes of 60 s each with a retract between them; then arcs. 4 min and a little.
 inline const std::string kPasses =
     "%\n"
