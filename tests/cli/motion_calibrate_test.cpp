@@ -104,7 +104,8 @@ TEST(MotionCalibrate, PutsTheTableIntoAMachineFileAndEstimateTakesItFromThere) {
       "max_acceleration_mm_s2 = 2000\n[override.feed]\npercent = [0, 100]\n";
   std::ofstream(machine) << head << tail;
   const std::string learn = "motion calibrate " + log + kCount;
-  const Finished done = run_line(learn + " --machine " + machine + " --axis X -o " + machine);
+  const Finished done =
+      run_line(learn + " --machine " + machine + " --axis X --force -o " + machine);
   ASSERT_EQ(done.code, 0) << done.err;
   const std::string text = text_of_file(machine);
   EXPECT_TRUE(text.starts_with(head));

@@ -98,7 +98,11 @@ std::string text_of(const Batch& made) {
 
 }  // namespace
 
-void add_cut_batch_options(CLI::App& verb, CutBatchOptions& options) {
+std::string batch_folder(const std::string& report) {
+  return (std::filesystem::path(report) / "batch").string();
+}
+
+void add_cut_batch_options(Verb& verb, CutBatchOptions& options) {
   auto* parts = verb.add_option("--batch", options.parts,
                                 "Besides, a batch of that many parts by the thermal passport, from "
                                 "cold: without correction, corrected in the text and on line")
@@ -162,7 +166,7 @@ Result<void> put_batch(Answer& answer, const CutBatchOptions& options,
   if (directory.empty()) {
     return {};
   }
-  const std::string folder = (std::filesystem::path(directory) / "batch").string();
+  const std::string folder = batch_folder(directory);
   const std::string page = thermal_page::batch_page(answer.json["batch"], program.file, *made);
   const auto written = report::write_files(thermal_page::to_html(page), page, folder);
   if (!written) {

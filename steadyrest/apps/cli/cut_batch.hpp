@@ -22,7 +22,10 @@ struct CutBatchOptions {
   double tolerance_um = 10.0;
 };
 
-void add_cut_batch_options(CLI::App& verb, CutBatchOptions& options);
+/// Where the batch's own report goes within that of the cut.
+[[nodiscard]] std::string batch_folder(const std::string& report);
+
+void add_cut_batch_options(Verb& verb, CutBatchOptions& options);
 
 /// Makes the batch and puts `batch` beside the other keys: `parts[]`, for each way (`without`,
 /// `text`, `online`) its `largest_um`, `rms_um`, `improvement` and `worse_parts`. With a directory

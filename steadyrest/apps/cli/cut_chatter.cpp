@@ -117,10 +117,10 @@ std::string vibration_text(const report::VibrationFigures& without,
 
 }  // namespace
 
-void add_cut_chatter_options(CLI::App& verb, CutChatterOptions& options) {
+void add_cut_chatter_options(Verb& verb, CutChatterOptions& options) {
   CLI::Option* process =
-      verb.add_option("--process", options.process,
-                      "Process file (TOML): what the tool cuts in G1–G3, its vibration with it");
+      verb.reads("--process", options.process,
+                 "Process file (TOML): what the tool cuts in G1–G3, its vibration with it");
   verb.add_option("--depth-mm", options.depth_mm, "Depth of cut of that process")->needs(process);
   verb.add_option("--chatter", options.source,
                   "What the layer does against chatter: plan (ask the planner for each spindle "

@@ -25,7 +25,7 @@ struct CutChatterOptions {
   std::string source = "plan";  ///< of the layer's choice: plan, detect, machine
 };
 
-void add_cut_chatter_options(CLI::App& verb, CutChatterOptions& options);
+void add_cut_chatter_options(Verb& verb, CutChatterOptions& options);
 
 /// What both cuts need.
 struct CutChatter {

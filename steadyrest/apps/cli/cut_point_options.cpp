@@ -13,9 +13,8 @@ namespace steadyrest::apps::cli {
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-void add_cut_point_options(CLI::App& verb, CutPointOptions& options) {
-  verb.add_option("process", options.process, "Process file (TOML): tool, cut and modes")
-      ->required();
+void add_cut_point_options(Verb& verb, CutPointOptions& options) {
+  verb.reads("process", options.process, "Process file (TOML): tool, cut and modes")->required();
   verb.add_option("--speed-rpm", options.speed_rpm, "Mean spindle speed in rev/min")->required();
   verb.add_option("--depth-mm", options.depth_mm, "Axial depth of cut")->required();
   add_law_options(verb, options.law);

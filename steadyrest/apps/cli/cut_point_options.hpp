@@ -20,7 +20,7 @@ struct CutPointOptions {
 };
 
 /// PROCESS, --speed-rpm, --depth-mm and the options of the law.
-void add_cut_point_options(CLI::App& verb, CutPointOptions& options);
+void add_cut_point_options(Verb& verb, CutPointOptions& options);
 
 struct CutPoint {
   chatter::offline::Process process;

@@ -73,7 +73,7 @@ Result<double> rational(double rvf, double passes_per_rev) {
 
 }  // namespace
 
-void add_law_options(CLI::App& verb, LawOptions& options) {
+void add_law_options(Verb& verb, LawOptions& options) {
   verb.add_option(
           "--law", options.law,
           "Modulation of the spindle speed: constant, square, pulse, triangle, sine, random "

@@ -30,7 +30,7 @@ struct LawOptions {
 };
 
 /// --law, --rva or --amplitude-rpm or --amplitude-percent, --rvf or --period-s, --seed.
-void add_law_options(CLI::App& verb, LawOptions& options);
+void add_law_options(Verb& verb, LawOptions& options);
 
 /// The modulation at this mean speed. An RVF that shares no multiple of 64 periods with the tooth
 /// pitch is moved to the nearest that does, by 0.5 % at most (more below 10 passes); `wanted_rvf`

@@ -4,8 +4,8 @@
 
 namespace steadyrest::apps::cli {
 
-void add_machine_option(CLI::App& verb, std::string& path) {
-  verb.add_option("--machine", path, "Machine file (TOML); docs/machine-file.md has its keys")
+void add_machine_option(Verb& verb, std::string& path) {
+  verb.reads("--machine", path, "Machine file (TOML); docs/machine-file.md has its keys")
       ->required()
       ->option_text("FILE");
 }

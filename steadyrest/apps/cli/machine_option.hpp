@@ -12,7 +12,7 @@
 namespace steadyrest::apps::cli {
 
 /// Adds the mandatory `--machine FILE` to a verb.
-void add_machine_option(CLI::App& verb, std::string& path);
+void add_machine_option(Verb& verb, std::string& path);
 
 /// Reads a machine file; all of its faults are in the refusals.
 [[nodiscard]] std::expected<kernel::machine::Machine, Refusals> read_machine(

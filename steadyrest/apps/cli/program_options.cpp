@@ -14,23 +14,23 @@ using nc::interpret::Config;
 namespace {
 
 /// --dialect first, then the control's data.
-std::vector<CLI::Option*> add_data(CLI::App& verb, ProgramOptions& options) {
+std::vector<CLI::Option*> add_data(Verb& verb, ProgramOptions& options) {
   std::vector<CLI::Option*> made;
   made.push_back(
       verb.add_option("--dialect", options.dialect, "The control that the program is written for")
           ->check(CLI::IsMember({"linuxcnc", "fanuc", "sinumerik"})));
   made.push_back(
-      verb.add_option("--tools", options.tools,
-                      "Tool table in LinuxCNC's format; without one every tool has length 0"));
-  made.push_back(verb.add_option("--variables", options.variables,
-                                 "Offsets and reference points from LinuxCNC's variable file"));
+      verb.reads("--tools", options.tools,
+                 "Tool table in LinuxCNC's format; without one every tool has length 0"));
+  made.push_back(verb.reads("--variables", options.variables,
+                            "Offsets and reference points from LinuxCNC's variable file"));
   made.push_back(verb.add_option("--data-units", options.units,
                                  "Unit of the lengths in the tool table and the variable file")
                      ->check(CLI::IsMember({"mm", "inch"})));
   made.push_back(
-      verb.add_option("--subprograms", options.subprograms,
-                      "Folders of subprogram files, in the order of the search; the program's own "
-                      "folder when none is given"));
+      verb.reads("--subprograms", options.subprograms,
+                 "Folders of subprogram files, in the order of the search; the program's own "
+                 "folder when none is given"));
   made.push_back(verb.add_flag("--block-delete", options.block_delete,
                                "Leave out the lines that begin with /"));
   made.push_back(verb.add_flag("--least-increment", options.least_increment,
@@ -38,8 +38,8 @@ std::vector<CLI::Option*> add_data(CLI::App& verb, ProgramOptions& options) {
   return made;
 }
 
-CLI::Option* add_common(CLI::App& verb, ProgramOptions& options) {
-  verb.add_option("FILE", options.file, "The NC program")->required();
+CLI::Option* add_common(Verb& verb, ProgramOptions& options) {
+  verb.reads("FILE", options.file, "The NC program")->required();
   return add_data(verb, options).front();
 }
 
@@ -60,17 +60,17 @@ std::string dialect_name(kernel::machine::Dialect dialect) {
 
 }  // namespace
 
-void add_program_options(CLI::App& verb, ProgramOptions& options) {
+void add_program_options(Verb& verb, ProgramOptions& options) {
   add_common(verb, options)->required();
   verb.add_option("--axes", options.axes, "Letters of the machine's axes");
 }
 
-void add_machine_program_options(CLI::App& verb, ProgramOptions& options) {
+void add_machine_program_options(Verb& verb, ProgramOptions& options) {
   add_common(verb, options)->description(kOtherDialect);
 }
 
-void add_optional_program(CLI::App& verb, ProgramOptions& options, const std::string& description) {
-  CLI::Option* program = verb.add_option("--program", options.file, description);
+void add_optional_program(Verb& verb, ProgramOptions& options, const std::string& description) {
+  CLI::Option* program = verb.reads("--program", options.file, description);
   const std::vector<CLI::Option*> data = add_data(verb, options);
   data.front()->description(kOtherDialect);
   for (CLI::Option* option : data) {

@@ -28,12 +28,12 @@ struct ProgramOptions {
 };
 
 /// Adds FILE, --dialect and the options of the control's data.
-void add_program_options(CLI::App& verb, ProgramOptions& options);
+void add_program_options(Verb& verb, ProgramOptions& options);
 /// The same for a verb that has a machine file: dialect and axes are the machine's, --dialect may
 /// still say otherwise.
-void add_machine_program_options(CLI::App& verb, ProgramOptions& options);
+void add_machine_program_options(Verb& verb, ProgramOptions& options);
 /// The same for a verb that may do without a program: --program, and what is only said of one.
-void add_optional_program(CLI::App& verb, ProgramOptions& options, const std::string& description);
+void add_optional_program(Verb& verb, ProgramOptions& options, const std::string& description);
 
 /// The interpreter's configuration; reads the files that the options name.
 [[nodiscard]] kernel::outcome::Result<nc::interpret::Config> program_config(

@@ -9,15 +9,6 @@ namespace steadyrest::apps::cli {
 
 using kernel::outcome::Result;
 
-void add_report_option(CLI::App& verb, std::string& directory) {
-  verb.add_option("--report", directory,
-                  "Folder for report.html and report.json; it is made when missing");
-}
-
-Result<void> ready_report(const std::string& directory) {
-  return directory.empty() ? Result<void>{} : report::make_directory(directory);
-}
-
 Result<void> put_report(Answer& answer, const std::string& directory, std::string_view page_json) {
   return put_report(answer, directory, page_json, chatter_page::to_html(page_json));
 }

@@ -4,18 +4,11 @@
 #include <string>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
-
 #include <steadyrest/apps/cli/session.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 /// `--report DIR` of the chatter and thermal verbs.
 namespace steadyrest::apps::cli {
-
-void add_report_option(CLI::App& verb, std::string& directory);
-
-/// Makes the folder that was asked for, before the work; nothing when none was.
-[[nodiscard]] kernel::outcome::Result<void> ready_report(const std::string& directory);
 
 /// Writes the page with `page_json` inside and says in the answer where it is.
 [[nodiscard]] kernel::outcome::Result<void> put_report(Answer& answer, const std::string& directory,

@@ -249,14 +249,18 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   return task;
 }
 
-void add_rewrite_options(CLI::App& verb, RewriteOptions& options) {
+std::vector<std::string> files_of(const RewriteOptions& options) {
+  const auto plan = nc::rewrite::read_plan(options.plan);
+  return plan ? std::vector<std::string>{machine_path(options, *plan)} : std::vector<std::string>{};
+}
+
+void add_rewrite_options(Verb& verb, RewriteOptions& options) {
   options.verb = &verb;
-  verb.add_option("--plan", options.plan,
-                  "The corrections (JSON); nc/rewrite/README.md has its keys")
+  verb.reads("--plan", options.plan, "The corrections (JSON); nc/rewrite/README.md has its keys")
       ->required()
       ->option_text("PLAN.json");
-  verb.add_option("--machine", options.machine,
-                  "Machine file (TOML): times, clamp; without it the one that the plan names")
+  verb.reads("--machine", options.machine,
+             "Machine file (TOML): times, clamp; without it the one that the plan names")
       ->option_text("FILE");
   verb.add_option("--control", options.control,
                   "fanuc: the make of the control; G10 L2 P0 is another offset on a Haas. Without "

@@ -42,8 +42,11 @@ struct RewriteTask {
     const RewriteOptions& options, const kernel::machine::Machine& machine,
     nc::read::Dialect program);
 
+/// The machine file, which the plan may name.
+[[nodiscard]] std::vector<std::string> files_of(const RewriteOptions& options);
+
 /// Adds all but the programs' own names.
-void add_rewrite_options(CLI::App& verb, RewriteOptions& options);
+void add_rewrite_options(Verb& verb, RewriteOptions& options);
 [[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                                      Progress& progress);
 /// For a program that is changed already: what its mark says need not be given, and what is given

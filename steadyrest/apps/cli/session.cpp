@@ -8,6 +8,8 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/session.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/file/temporary.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -106,20 +108,26 @@ CLI::App& Session::group(const std::string& name, const std::string& description
   return made;
 }
 
-CLI::App& Session::verb(CLI::App& parent, const std::string& name, const std::string& description,
-                        const std::string& example) {
-  CLI::App& made = *parent.add_subcommand(name, description);
+Verb& Session::verb(CLI::App& parent, const std::string& name, const std::string& description,
+                    const std::string& example) {
+  const auto owned = std::make_shared<Verb>(description, name, parent);
+  parent.add_subcommand(owned);
+  Verb& made = *owned;
   made.add_flag("--json", json_, "Print one JSON object on stdout and nothing else there");
   made.footer("Example:\n  steadyrest " + example);
   return made;
 }
 
-void Session::on(CLI::App& verb, Run run) {
-  verb.callback([this, run = std::move(run)] { run_ = run; });
+void Session::on(Verb& verb, Run run) {
+  verb.callback([this, &verb, run = std::move(run)] {
+    chosen_ = &verb;
+    run_ = run;
+  });
 }
 
 int Session::main(int argc, const char* const* argv) noexcept {
   try {
+    kernel::file::remove_temporaries_on_signals();
     return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "steadyrest: internal error: %s; please report it\n", error.what());
@@ -158,10 +166,31 @@ int Session::usage(const CLI::ParseError& error) const {
   return kRefused;
 }
 
-int Session::run_verb() {
+Outcome Session::work() const {
+  const auto ready = chosen_->ready(json_);
+  if (!ready) {
+    return std::unexpected(ready.error());
+  }
   Progress progress;
   Outcome outcome = run_(progress);
   progress.clear();
+  if (!outcome || !chosen_->has_outputs()) {
+    return outcome;
+  }
+  if (ready->takes_stdout) {
+    outcome->text.clear();
+    return outcome;
+  }
+  Json& written = outcome->json["written"] = Json::array();
+  for (const kernel::file::Written& one : kernel::file::written_files()) {
+    written.push_back({{"file", one.file}, {"bytes", one.bytes}, {"lines", one.lines}});
+    outcome->text += fmt::format("wrote {}: {} lines, {} bytes\n", one.file, one.lines, one.bytes);
+  }
+  return outcome;
+}
+
+int Session::run_verb() {
+  const Outcome outcome = work();
   if (!outcome) {
     print_refusals(outcome.error());
     if (json_ && !print_json({{"refused", as_json(outcome.error())}})) {

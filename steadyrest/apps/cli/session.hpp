@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <steadyrest/apps/cli/progress.hpp>
+#include <steadyrest/apps/cli/verb.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 /// What all verbs of the command line have in common: options, printing, exit codes.
@@ -48,9 +49,9 @@ class Session {
   CLI::App& group(const std::string& name, const std::string& description);
   /// A verb. `example` is the command that --help ends with, without `steadyrest`; it must work as
   /// it stands in the project's folder.
-  CLI::App& verb(CLI::App& parent, const std::string& name, const std::string& description,
-                 const std::string& example);
-  void on(CLI::App& verb, Run run);
+  Verb& verb(CLI::App& parent, const std::string& name, const std::string& description,
+             const std::string& example);
+  void on(Verb& verb, Run run);
 
   /// --json was given: stdout belongs to the answer's one object.
   [[nodiscard]] bool json() const noexcept { return json_; }
@@ -61,9 +62,11 @@ class Session {
  private:
   int parse_and_run(int argc, const char* const* argv);
   int run_verb();
+  [[nodiscard]] Outcome work() const;
   int usage(const CLI::ParseError& error) const;
 
   CLI::App app_;
+  const Verb* chosen_ = nullptr;
   Run run_;
   bool json_ = false;
 };

@@ -149,18 +149,18 @@ std::string note_of(const ThermalJob::Axis& axis) {
 
 }  // namespace
 
-void add_thermal_options(CLI::App& verb, ThermalOptions& options) {
-  verb.add_option("--machine", options.machine, "Machine file, or the thermal passport alone, TOML")
+void add_thermal_options(Verb& verb, ThermalOptions& options) {
+  verb.reads("--machine", options.machine, "Machine file, or the thermal passport alone, TOML")
       ->required();
-  verb.add_option("--cyclogram", options.cyclogram,
-                  "What the machine does, TOML: [[transition]] with minutes and speed_rpm");
+  verb.reads("--cyclogram", options.cyclogram,
+             "What the machine does, TOML: [[transition]] with minutes and speed_rpm");
   add_optional_program(verb, options.program,
                        "NC program, instead of a cyclogram; needs a whole machine file");
   verb.add_option("--axis", options.axes, "Only this axis of the passport; may be given again");
   verb.add_option("--ambient", options.ambient,
                   "SENSOR=temperature in °C during the work; without it nothing changes there");
-  verb.add_option("--after", options.after,
-                  "Cyclogram of what the machine has done before; without it it is cold");
+  verb.reads("--after", options.after,
+             "Cyclogram of what the machine has done before; without it it is cold");
 }
 
 Result<ThermalJob> thermal_job(const ThermalOptions& options) {

@@ -24,7 +24,7 @@ struct ThermalOptions {
   std::string after;                 ///< cyclogram of what was done before; empty: cold
 };
 
-void add_thermal_options(CLI::App& verb, ThermalOptions& options);
+void add_thermal_options(Verb& verb, ThermalOptions& options);
 
 /// The same, read: the passport, the work, and for each axis the model in its starting state.
 struct ThermalJob {

@@ -66,6 +66,18 @@ Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
   return out;
 }
 
+std::vector<std::string> files_of(const std::string& plan) {
+  std::vector<std::string> out;
+  if (const auto read = read_thermal_plan(plan)) {
+    for (const std::string* file : {&read->machine, &read->cyclogram, &read->program}) {
+      if (!file->empty()) {
+        out.push_back(*file);
+      }
+    }
+  }
+  return out;
+}
+
 double corrected_um(const nc::rewrite::AxisPlan& axis, double time_s) {
   double sum = 0.0;
   for (const auto& step : axis.steps) {

@@ -29,6 +29,9 @@ struct ThermalPlanFile {
 /// Refused: what nc::rewrite::read_plan() refuses, and notes of another type.
 [[nodiscard]] kernel::outcome::Result<ThermalPlanFile> read_thermal_plan(const std::string& path);
 
+/// The files that a plan names; none where it cannot be read.
+[[nodiscard]] std::vector<std::string> files_of(const std::string& plan);
+
 /// What stands corrected in an axis from `time_s` on.
 [[nodiscard]] double corrected_um(const nc::rewrite::AxisPlan& axis, double time_s);
 

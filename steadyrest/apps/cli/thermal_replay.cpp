@@ -8,9 +8,9 @@
 
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
-#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_replay.hpp>
 #include <steadyrest/apps/thermal_page/fit_page.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/machine/thermal_passport.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
@@ -135,9 +135,6 @@ std::string page_of(const Answer& answer, const offline::Log& log,
 }  // namespace
 
 Outcome replay_thermal_log(const ThermalReplayOptions& options) {
-  if (auto ready = ready_report(options.report); !ready) {
-    return refused(ready.error());
-  }
   const auto passport = kernel::machine::read_thermal_passport(options.machine);
   if (!passport) {
     return refused(passport.error());
@@ -178,7 +175,8 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
                            "choose an axis of the passport"));
   }
   if (!options.output.empty()) {
-    if (const auto written = write_text(options.output, csv_of(axes, *log, options.step_s));
+    if (const auto written =
+            kernel::file::write_file(options.output, csv_of(axes, *log, options.step_s));
         !written) {
       return refused(written.error());
     }

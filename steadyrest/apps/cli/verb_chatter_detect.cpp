@@ -371,9 +371,6 @@ Outcome run(const Options& options, Progress& progress) {
   if (!machine) {
     return std::unexpected(machine.error());
   }
-  if (const auto ready = ready_report(options.report); !ready) {
-    return refused(ready.error());
-  }
   std::optional<offline::Process> process;
   if (!options.process.empty()) {
     auto read = offline::read_process(options.process);
@@ -390,7 +387,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_chatter_detect(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "detect", "Where a recorded vibration or sound chatters, and the better speed",
       "chatter detect examples/logs/slot-chatter.csv --machine examples/machines/vmc-840d.toml "
       "--teeth 2\n"
@@ -398,14 +395,13 @@ void add_verb_chatter_detect(Session& session) {
       "examples/machines/vmc-840d.toml --process examples/processes/slot-922hz.toml "
       "--report out/heard");
   auto options = std::make_shared<Options>();
-  verb.add_option("signal", options->signal,
-                  "CSV (t_s, value, optional speed_rpm) or WAV, 1 … 50 kHz")
+  verb.reads("signal", options->signal, "CSV (t_s, value, optional speed_rpm) or WAV, 1 … 50 kHz")
       ->required();
   add_machine_option(verb, options->machine);
   CLI::Option* const teeth =
       verb.add_option("--teeth", options->teeth, "Teeth of the tool, 1 in turning");
   add_log_options(verb, options->format);
-  verb.add_option("--process", options->process,
+  verb.reads("--process", options->process,
                   "Process file (TOML): with --depth-mm the better speed is what chatter plan "
                   "says, without it the deepest override step; without a process it is a rule of "
                   "thumb, whole waves between two teeth")
@@ -416,7 +412,7 @@ void add_verb_chatter_detect(Session& session) {
                   "Spindle speed at override 100 %; without it that of the signal");
   verb.add_option("--depth-mm", options->depth_mm,
                   "Axial depth of the cut, for --process; without it the deepest step is advised");
-  add_report_option(verb, options->report);
+  verb.reports(options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
 
@@ -14,13 +12,12 @@
 #include <steadyrest/apps/cli/verb_chatter_fit.hpp>
 #include <steadyrest/chatter/offline/frf.hpp>
 #include <steadyrest/chatter/offline/mode_fit.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
 
 namespace offline = chatter::offline;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 
 struct Options {
   std::vector<std::string> files;
@@ -115,12 +112,9 @@ Outcome run(const Options& options) {
     return refused(fit.error());
   }
   if (!options.output.empty()) {
-    std::ofstream out(options.output, std::ios::binary | std::ios::trunc);
-    out << modes_toml(*fit, options);
-    out.close();
-    if (!out) {
-      return refused(Refusal{Kind::unavailable, options.output, 0, "cannot be written",
-                             "check the folder, the rights and the disk space"});
+    if (auto written = kernel::file::write_file(options.output, modes_toml(*fit, options));
+        !written) {
+      return refused(written.error());
     }
   }
   Answer answer = answer_of(*fit, options);
@@ -133,12 +127,12 @@ Outcome run(const Options& options) {
 
 void add_verb_chatter_fit(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  CLI::App& verb = session.verb(
-      group, "fit", "Modes out of measured frequency responses of the tool tip (tap test)",
-      "chatter fit examples/processes/tap-922hz.csv --axis x -o modes.toml");
+  Verb& verb = session.verb(group, "fit",
+                            "Modes out of measured frequency responses of the tool tip (tap test)",
+                            "chatter fit examples/processes/tap-922hz.csv --axis x -o modes.toml");
   auto options = std::make_shared<Options>();
-  verb.add_option("frf", options->files,
-                  "Responses of one point and direction: CSV (frequency_hz, real and imag or "
+  verb.reads("frf", options->files,
+             "Responses of one point and direction: CSV (frequency_hz, real and imag or "
                   "magnitude and phase, coherence if recorded; displacement, velocity or "
                   "acceleration per N, unit in the head) or universal file format 58")
       ->required();
@@ -151,8 +145,9 @@ void add_verb_chatter_fit(Session& session) {
   add_log_options(verb, options->format, false);
   verb.add_option("--from-hz", options->fit.least_frequency_hz, "Leave out what lies below");
   verb.add_option("--to-hz", options->fit.most_frequency_hz, "Leave out what lies above");
-  verb.add_option("-o,--output", options->output,
-                  "Write the modes to this file (TOML: [[mode]] sections for a process file)");
+  verb.writes("-o,--output", options->output,
+              "Write the modes to this file (TOML: [[mode]] sections for a process file)",
+              toml_content("a file of modes alone (TOML: [[mode]])", {"mode"}));
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -17,12 +18,12 @@
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/stability_answer.hpp>
 #include <steadyrest/apps/cli/table.hpp>
-#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/verb_chatter_lobes.hpp>
 #include <steadyrest/chatter/offline/border_line.hpp>
 #include <steadyrest/chatter/offline/lobe_map.hpp>
 #include <steadyrest/chatter/offline/process_file.hpp>
 #include <steadyrest/chatter/offline/stability.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -36,6 +37,7 @@ using kernel::outcome::Result;
 using kernel::units::rpm_from_rev_s;
 
 constexpr double kLeastSpeed_rpm = 1e-3;
+constexpr const char* kBorderHead = "speed_rpm,depth_mm\n";
 
 struct Options {
   std::string process;
@@ -76,7 +78,7 @@ std::string map_csv(const offline::LobeMap& map) {
 
 /// Speeds that are stable at all depths have no row.
 std::string border_csv(const offline::BorderLine& border) {
-  std::string out = "speed_rpm,depth_mm\n";
+  std::string out = kBorderHead;
   for (std::size_t i = 0; i < border.speed_rev_s.size(); ++i) {
     if (border.depth_mm[i]) {
       fmt::format_to(std::back_inserter(out), "{:.10g},{:.10g}\n",
@@ -268,24 +270,23 @@ Result<std::string> page_of(const Json& answer, const Task& task, const Options&
       {std::move(map), std::move(made.border), std::move(*others), std::move(steps)});
 }
 
-/// Before hours of work.
-Result<void> ready(const Options& options) {
-  const auto map = write_text(options.output, "");
-  return map ? ready_report(options.report) : map;
+Result<void> write_map(const Options& options, const Made& made) {
+  const std::array files = {kernel::file::FileText{.file = options.output, .text = map_csv(made.map)},
+                            kernel::file::FileText{.file = border_path(options.output).string(),
+                                                   .text = border_csv(made.border)}};
+  return kernel::file::write_files(files);
 }
 
-Result<void> write_map(const Options& options, const Made& made) {
-  const auto done = write_text(options.output, map_csv(made.map));
-  return done ? write_text(border_path(options.output), border_csv(made.border)) : done;
+/// The map and its border.
+std::vector<PlannedFile> map_files(const std::string& output) {
+  return {{output, csv_content("a stability map (CSV)", {"speed_rpm,depth_mm,spectral_radius"})},
+          {border_path(output).string(), csv_content("the border of a map (CSV)", {kBorderHead})}};
 }
 
 Outcome run(const Options& options, Progress& progress) {
   const auto task = task_of(options);
   if (!task) {
     return std::unexpected(task.error());
-  }
-  if (const auto writable = ready(options); !writable) {
-    return refused(writable.error());
   }
   auto made = make(task->process, task->map, progress);
   if (!made) {
@@ -318,14 +319,13 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_chatter_lobes(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  CLI::App& verb =
+  Verb& verb =
       session.verb(group, "lobes", "Stability over speed and depth, and the border of each speed",
                    "chatter lobes examples/processes/slot-922hz.toml --speeds-rpm 5000:15000:101 "
                    "--depths-mm 0:5:51 -o lobes.csv --speed-rpm 5000 --depth-mm 1 "
                    "--machine examples/machines/vmc-840d.toml --report out/lobes");
   auto options = std::make_shared<Options>();
-  verb.add_option("process", options->process, "Process file (TOML): tool, cut and modes")
-      ->required();
+  verb.reads("process", options->process, "Process file (TOML): tool, cut and modes")->required();
   verb.add_option("--speeds-rpm", options->speeds_rpm,
                   "Mean spindle speeds in rev/min as FROM:TO:STEPS")
       ->required();
@@ -335,15 +335,16 @@ void add_verb_chatter_lobes(Session& session) {
                   "Spindle speed of the wanted cut; with --depth-mm the answer says how stable it "
                   "is");
   verb.add_option("--depth-mm", options->depth_mm, "Axial depth of the wanted cut");
-  verb.add_option("--machine", options->machine,
-                  "Machine file (TOML), for the override steps in the report");
+  verb.reads("--machine", options->machine,
+             "Machine file (TOML), for the override steps in the report");
   add_law_options(verb, options->law);
-  verb.add_option("-o,--output", options->output,
+  verb.writes("-o,--output", options->output,
                   "The map (CSV: speed_rpm,depth_mm,spectral_radius); the border, refined between "
                   "these speeds until it is smooth, goes to OUT.border.csv (speed_rpm,depth_mm; no "
-                  "row where all depths of the map are stable)")
+                  "row where all depths of the map are stable)",
+              map_files)
       ->required();
-  add_report_option(verb, options->report);
+  verb.reports(options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -216,9 +216,6 @@ Outcome run(Options options, Progress& progress) {
   if (!machine) {
     return std::unexpected(machine.error());
   }
-  if (const auto ready = ready_report(options.report); !ready) {
-    return refused(ready.error());
-  }
   offline::PlanOptions& plan = options.plan;
   if (!options.laws.empty()) {
     plan.laws.clear();
@@ -270,8 +267,8 @@ Outcome run(Options options, Progress& progress) {
   return answer;
 }
 
-void add_options(CLI::App& verb, Options& o) {
-  verb.add_option("PROCESS", o.process, "Process file (TOML): tool, cut, modes")->required();
+void add_options(Verb& verb, Options& o) {
+  verb.reads("PROCESS", o.process, "Process file (TOML): tool, cut, modes")->required();
   add_machine_option(verb, o.machine);
   verb.add_option("--speed-rpm", o.speed_rpm, "Programmed spindle speed")->required();
   verb.add_option("--depth-mm", o.depth_mm, "Wanted depth of cut")->required();
@@ -311,14 +308,14 @@ void add_options(CLI::App& verb, Options& o) {
   verb.add_flag("--laws-only", o.laws_only, "Plan a law even where an override step is enough");
   verb.add_flag("--leave-speed-band", o.leave_speed_band,
                 "Laws may leave the tolerance band of the control's speed monitor");
-  add_report_option(verb, o.report);
+  verb.reports(o.report);
 }
 
 }  // namespace
 
 void add_verb_chatter_plan(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "plan", "The override step or the speed law that keeps a cut stable",
       "chatter plan examples/processes/slot-922hz.toml --machine "
       "examples/machines/vmc-840d.toml --speed-rpm 5000 --depth-mm 1 --report out/plan");

@@ -59,9 +59,6 @@ Outcome run(const Options& options, Progress& progress) {
   if (!cut) {
     return refused(cut.error());
   }
-  if (const auto ready = ready_report(options.report); !ready) {
-    return refused(ready.error());
-  }
   progress.update(0.0, "one point");
   auto cycle = offline::DelayCycle::make(cut->process, {.speed_rev_s = cut->speed_rev_s,
                                                         .modulation = cut->law.modulation,
@@ -89,14 +86,14 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_chatter_radius(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "radius", "Is a cut stable at this speed and depth, constant or modulated",
       "chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5\n"
       "  steadyrest chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm "
       "1 --law sine --rva 0.2 --rvf 0.1 --report out/growth");
   auto options = std::make_shared<Options>();
   add_cut_point_options(verb, options->cut);
-  add_report_option(verb, options->report);
+  verb.reports(options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

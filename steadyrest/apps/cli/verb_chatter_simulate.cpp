@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <steadyrest/apps/chatter_page/cut_recorder.hpp>
 #include <steadyrest/apps/cli/cut_point_options.hpp>
@@ -15,14 +14,17 @@
 #include <steadyrest/apps/cli/verb_chatter_simulate.hpp>
 #include <steadyrest/apps/simulate/vibration_summary.hpp>
 #include <steadyrest/chatter/offline/stability.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
 
 namespace offline = chatter::offline;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::file::OutputFile;
 using kernel::outcome::Result;
+
+constexpr const char* kHead =
+    "t_s,angle_rad,speed_rpm,x_mm,y_mm,fx_N,fy_N,torque_Nm,power_W,chip_mm\n";
 
 struct Options {
   CutPointOptions cut;
@@ -31,16 +33,6 @@ struct Options {
   std::string output;
   std::string report;
 };
-
-struct CloseFile {
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-Refusal cannot_write(const std::string& path) {
-  return {Kind::unavailable, path, 0, std::string{"cannot be written: "} + std::strerror(errno),
-          "check the folder, the rights and the disk space"};
-}
 
 /// Steps after which the forced vibration repeats; 0 under modulation.
 std::size_t repeat_of(const offline::Process& process, const simulate::CutSettings& settings) {
@@ -54,12 +46,14 @@ std::size_t repeat_of(const offline::Process& process, const simulate::CutSettin
   return alike ? cut->steps() / process.tool.teeth : cut->steps();
 }
 
-void put_row(std::FILE* file, const simulate::Moment& now) {
+void put_row(std::string& row, const simulate::Moment& now) {
   const auto& cut = now.cut;
-  fmt::print(file, "{:.9f},{:.9f},{:.6f},{:.9f},{:.9f},{:.6g},{:.6g},{:.6g},{:.6g},{:.9f}\n",
-             now.t_s, now.angle_rad, 60.0 * now.speed_rev_s, cut.displacement_mm[0],
-             cut.displacement_mm[1], cut.force_n[0], cut.force_n[1], cut.torque_n_m, cut.power_w,
-             cut.chip_mm);
+  row.clear();
+  fmt::format_to(std::back_inserter(row),
+                 "{:.9f},{:.9f},{:.6f},{:.9f},{:.9f},{:.6g},{:.6g},{:.6g},{:.6g},{:.9f}\n", now.t_s,
+                 now.angle_rad, 60.0 * now.speed_rev_s, cut.displacement_mm[0],
+                 cut.displacement_mm[1], cut.force_n[0], cut.force_n[1], cut.torque_n_m,
+                 cut.power_w, cut.chip_mm);
 }
 
 Json number(const std::optional<double>& value) {
@@ -116,37 +110,32 @@ class Steps {
  public:
   static Result<Steps> make(const std::string& path, std::size_t every) {
     Steps out;
-    out.path_ = path;
     out.every_ = every;
     if (path.empty()) {
       return out;
     }
-    out.file_.reset(std::fopen(path.c_str(), "wb"));
-    if (!out.file_) {
-      return std::unexpected(cannot_write(path));
+    auto file = OutputFile::open(path);
+    if (!file) {
+      return std::unexpected(std::move(file.error()));
     }
-    fmt::print(out.file_.get(),
-               "t_s,angle_rad,speed_rpm,x_mm,y_mm,fx_N,fy_N,torque_Nm,power_W,chip_mm\n");
+    out.file_.emplace(std::move(*file));
+    out.file_->write(kHead);
     return out;
   }
 
   void add(const simulate::Moment& now) {
     if (file_ && seen_++ % every_ == 0) {
-      put_row(file_.get(), now);
+      put_row(row_, now);
+      file_->write(row_);
       ++rows_;
     }
   }
   [[nodiscard]] std::size_t rows() const { return rows_; }
-  [[nodiscard]] Result<void> finish() {
-    if (file_ && (std::fflush(file_.get()) != 0 || std::ferror(file_.get()) != 0)) {
-      return std::unexpected(cannot_write(path_));
-    }
-    return {};
-  }
+  [[nodiscard]] Result<void> finish() { return file_ ? file_->commit() : Result<void>{}; }
 
  private:
-  File file_;
-  std::string path_;
+  std::optional<OutputFile> file_;
+  std::string row_;
   std::size_t every_ = 1;
   std::size_t seen_ = 0;
   std::size_t rows_ = 0;
@@ -209,9 +198,6 @@ Outcome run(const Options& options, Progress& progress) {
   if (!point) {
     return refused(point.error());
   }
-  if (const auto ready = ready_report(options.report); !ready) {
-    return refused(ready.error());
-  }
   return cut(*point, options, progress);
 }
 
@@ -219,7 +205,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_chatter_simulate(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "simulate", "A cut in time: the tool may leave the material",
       "chatter simulate examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5 "
       "--seconds 0.5 -o out.csv --report out/cut");
@@ -229,10 +215,11 @@ void add_verb_chatter_simulate(Session& session) {
   verb.add_option("--every", options->every, "Write each nth step only")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb.add_option("-o,--output", options->output,
-                  "Write t_s, angle_rad, speed_rpm, x_mm, y_mm, fx_N, fy_N, torque_Nm, power_W and "
-                  "chip_mm of each step to this file");
-  add_report_option(verb, options->report);
+  verb.writes("-o,--output", options->output,
+              "Write t_s, angle_rad, speed_rpm, x_mm, y_mm, fx_N, fy_N, torque_Nm, power_W and "
+              "chip_mm of each step to this file",
+              csv_content("the steps of a cut (CSV)", {kHead}));
+  verb.reports(options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

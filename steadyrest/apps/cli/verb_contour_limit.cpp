@@ -106,9 +106,9 @@ Outcome run(const Options& options) {
 
 void add_verb_contour_limit(Session& session) {
   CLI::App& group = session.group("contour", "Contour error");
-  CLI::App& verb = session.verb(
-      group, "limit", "Contour error of an arc and the feed that keeps it, in closed form",
-      "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 0.010");
+  Verb& verb = session.verb(group, "limit",
+                            "Contour error of an arc and the feed that keeps it, in closed form",
+                            "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 0.010");
   auto options = std::make_shared<Options>();
   verb.add_option("--radius-mm", options->radius_mm, "Radius of the arc")->required();
   verb.add_option("--kv-1-s", options->gain_1_s, "Servo gain in 1/s; 1 (m/min)/mm = 16.667 1/s")

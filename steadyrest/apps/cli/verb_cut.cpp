@@ -283,7 +283,7 @@ Outcome run(const Options& options, Progress& progress) {
 }  // namespace
 
 void add_verb_cut(Session& session) {
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       session.root(), "cut",
       "Cuts a part twice on the simulated machine, without and with the layer, and compares",
       "cut examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml "
@@ -291,8 +291,15 @@ void add_verb_cut(Session& session) {
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);
-  verb.add_option("--report", options->report,
-                  "Folder for report.html and report.json; it is made when missing");
+  verb.reports(options->report, [options](const std::string& folder) {
+    std::vector<PlannedFile> files = report_files(folder);
+    if (options->batch.parts > 0) {
+      for (PlannedFile& file : report_files(batch_folder(folder))) {
+        files.push_back(std::move(file));
+      }
+    }
+    return files;
+  });
   verb.add_option("--limit-um", options->limit_um,
                   "Contour error limit instead of the machine file's");
   verb.add_option("--strategy", options->strategy, "Strategy instead of the machine file's")

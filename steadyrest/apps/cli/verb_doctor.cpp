@@ -120,9 +120,9 @@ Answer report_refused(Refusals refusals) {
 }  // namespace
 
 void add_verb_doctor(Session& session) {
-  CLI::App& verb = session.verb(session.root(), "doctor",
-                                "Check a machine file, its port, the clock and real-time settings",
-                                "doctor --machine examples/machines/vmc-840d.toml");
+  Verb& verb = session.verb(session.root(), "doctor",
+                            "Check a machine file, its port, the clock and real-time settings",
+                            "doctor --machine examples/machines/vmc-840d.toml");
   auto path = std::make_shared<std::string>();
   add_machine_option(verb, *path);
   session.on(verb, [path](Progress& /*progress*/) -> Outcome {

@@ -8,9 +8,9 @@
 #include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/table.hpp>
-#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/verb_motion_bench.hpp>
 #include <steadyrest/apps/motion_bench/bench_page.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/motion/offline/benchmark.hpp>
 #include <steadyrest/motion/offline/estimator_choice.hpp>
 #include <steadyrest/motion/offline/requirement.hpp>
@@ -33,6 +33,13 @@ struct Options {
 
 fs::path requirement_path(const fs::path& csv) {
   return fs::path(csv).replace_extension(".requirement.csv");
+}
+
+/// The table and the requirement.
+std::vector<PlannedFile> table_files(const std::string& csv) {
+  return {{csv, csv_content("a table of the bench (CSV)", {"scene,estimator,limits,ticks,"})},
+          {requirement_path(csv).string(), csv_content("a table of the requirement (CSV)",
+                                                       {"speed_mm_s,clock_s,line_error_counts,"})}};
 }
 
 std::string number(double value) {
@@ -114,23 +121,23 @@ Result<Json> write_files(const Options& options, const offline::Benchmark& bench
   if (!requirement) {
     return std::unexpected(requirement.error());
   }
-  std::vector<std::pair<fs::path, std::string>> out;
+  std::vector<kernel::file::FileText> out;
   if (!options.csv.empty()) {
-    out.emplace_back(options.csv, offline::to_csv(benchmark));
-    out.emplace_back(requirement_path(options.csv), offline::to_csv(*requirement));
+    out.push_back({options.csv, offline::to_csv(benchmark)});
+    out.push_back({requirement_path(options.csv).string(), offline::to_csv(*requirement)});
   }
   if (!options.page.empty()) {
     const auto data = motion_bench::page_data(benchmark, std::move(*requirement));
     if (!data) {
       return std::unexpected(data.error());
     }
-    out.emplace_back(options.page, motion_bench::to_html(motion_bench::to_json(*data)));
+    out.push_back({options.page, motion_bench::to_html(motion_bench::to_json(*data))});
   }
-  for (const auto& [path, text] : out) {
-    if (const auto written = write_text(path, text); !written) {
-      return std::unexpected(written.error());
-    }
-    files.push_back(path.string());
+  if (const auto written = kernel::file::write_files(out); !written) {
+    return std::unexpected(written.error());
+  }
+  for (const kernel::file::FileText& one : out) {
+    files.push_back(one.file);
   }
   return files;
 }
@@ -158,7 +165,7 @@ Outcome run(Options options, Progress& progress) {
 
 void add_verb_motion_bench(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  CLI::App& verb =
+  Verb& verb =
       session.verb(group, "bench", "Errors of all estimators on motions that are known exactly",
                    "motion bench --scenes sine,s-curve --phases 1");
   auto options = std::make_shared<Options>();
@@ -171,16 +178,17 @@ void add_verb_motion_bench(Session& session) {
           "--estimators", options->bench.estimators,
           fmt::format("Some of {}; all without it", fmt::join(offline::estimator_names(), ",")))
       ->delimiter(',');
-  verb.add_option("--recorded", options->recorded,
-                  "Folder of the recorded logs (k50m.csv or k50m.csv.gz, …)");
-  verb.add_option("--linuxcnc", options->peer,
-                  "Program that runs LinuxCNC's encoder: steadyrest_encoder_peer");
+  verb.reads("--recorded", options->recorded,
+             "Folder of the recorded logs (k50m.csv or k50m.csv.gz, …)");
+  verb.reads("--linuxcnc", options->peer,
+             "Program that runs LinuxCNC's encoder: steadyrest_encoder_peer");
   verb.add_option("--phases", options->bench.phases,
                   "Starts inside of a count over which the S-curve goes")
       ->capture_default_str();
-  verb.add_option("-o,--output", options->csv,
-                  "Write the table to this CSV, the requirement beside it");
-  verb.add_option("--page", options->page, "Write a page with all of it to this HTML file");
+  verb.writes("-o,--output", options->csv, "Write the table to this CSV, the requirement beside it",
+              table_files);
+  verb.writes("--page", options->page, "Write a page with all of it to this HTML file",
+              page_content());
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -13,6 +9,7 @@
 #include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_motion_calibrate.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/machine/calibration_text.hpp>
 #include <steadyrest/kernel/machine/machine_file.hpp>
 #include <steadyrest/kernel/machine/text_file.hpp>
@@ -43,11 +40,6 @@ struct Options {
   LogOptions format;
 };
 
-Refusal cannot_write(const std::string& path) {
-  return {Kind::unavailable, path, 0, std::string{"cannot be written: "} + std::strerror(errno),
-          "check the folder, the rights and the disk space"};
-}
-
 std::optional<offline::LineRange> range_of(const std::string& text) {
   offline::LineRange out;
   const char* const end = text.data() + text.size();
@@ -57,21 +49,6 @@ std::optional<offline::LineRange> range_of(const std::string& text) {
   }
   const auto last = std::from_chars(first.ptr + 1, end, out.last);
   return last.ec == std::errc{} && last.ptr == end ? std::optional(out) : std::nullopt;
-}
-
-/// Whole or not at all: the output may be the machine file itself.
-bool write_file(const std::string& path, const std::string& text) {
-  const std::string part = path + ".part";
-  std::FILE* const file = std::fopen(part.c_str(), "wb");
-  if (file == nullptr) {
-    return false;
-  }
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (std::fclose(file) != 0 || !written || std::rename(part.c_str(), path.c_str()) != 0) {
-    std::remove(part.c_str());
-    return false;
-  }
-  return true;
 }
 
 /// What is written, and whether its lengths are angles.
@@ -163,11 +140,6 @@ Outcome run(Options options, Progress& progress) {
     return refused(Refusal{Kind::bad_input, "", 0, "--machine and --axis go together",
                            "give both, or neither for the keys alone"});
   }
-  std::error_code error;
-  if (std::filesystem::equivalent(options.log, options.output, error)) {
-    return refused(Refusal{Kind::bad_input, options.output, 0, "is the log itself",
-                           "give another file for the calibration"});
-  }
   const auto log =
       offline::read_edge_log(options.log, {.format = format_of(options.format)},
                              [&](double share) { progress.update(share, "reading the log"); });
@@ -192,8 +164,8 @@ Outcome run(Options options, Progress& progress) {
   if (!text) {
     return refused(text.error());
   }
-  if (!write_file(options.output, text->text)) {
-    return refused(cannot_write(options.output));
+  if (const auto written = kernel::file::write_file(options.output, text->text); !written) {
+    return refused(written.error());
   }
   return answer_of(*calibration, encoder, *log, text->rotary);
 }
@@ -202,11 +174,11 @@ Outcome run(Options options, Progress& progress) {
 
 void add_verb_motion_calibrate(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "calibrate", "Where the encoder's lines stand, out of a log of edges (CSV: t_s,count)",
       "motion calibrate examples/logs/sine-edges.csv --count-mm 0.001 -o lines.toml");
   auto options = std::make_shared<Options>();
-  verb.add_option("log", options->log, "Log of edges with the columns t_s and count; - is stdin")
+  verb.reads("log", options->log, "Log of edges with the columns t_s and count; - is stdin")
       ->required();
   auto* const count_mm =
       verb.add_option("--count-mm", options->count_mm,
@@ -220,10 +192,15 @@ void add_verb_motion_calibrate(Session& session) {
   add_log_options(verb, options->format);
   verb.add_option("--passes", options->config.passes, "Times that the log is learnt from")
       ->capture_default_str();
-  verb.add_option("--machine", options->machine,
-                  "Write this machine file with the calibration of --axis put in");
+  verb.reads("--machine", options->machine,
+             "Write this machine file with the calibration of --axis put in");
   verb.add_option("--axis", options->axis, "Axis of the machine file");
-  verb.add_option("-o,--output", options->output, "File to write (TOML)")->required();
+  verb.writes("-o,--output", options->output, "File to write (TOML)",
+              either(toml_content("the calibration of an encoder (TOML)",
+                                  {"phase_error_um", "phase_error_deg", "line_table_first",
+                                   "line_table_periodic", "line_table_um", "line_table_deg"}),
+                     machine_content()))
+      ->required();
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

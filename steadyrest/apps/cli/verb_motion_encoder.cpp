@@ -151,7 +151,7 @@ Outcome run(const Options& options) {
 
 void add_verb_motion_encoder(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "encoder", "The finest encoder that a speed permits, and the speed for an encoder",
       "motion encoder --feed-mm-min 7500 --lead-mm 10 --max-frequency-hz 300000\n"
       "  steadyrest motion encoder --speed-rpm 2000 --max-frequency-hz 300000\n"

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -12,6 +8,7 @@
 #include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_motion_estimate.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/machine/calibration_text.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/edge_log.hpp>
@@ -27,8 +24,10 @@ namespace {
 
 namespace offline = motion::offline;
 namespace online = motion::online;
+using kernel::file::OutputFile;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
+using kernel::outcome::Result;
 using CycleReport = online::CycleMonitor::Report;
 using offline::EdgeLog;
 using offline::LogInput;
@@ -49,16 +48,6 @@ struct Options {
 
   [[nodiscard]] bool edges() const { return input == "edges"; }
 };
-
-struct CloseFile {
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-Refusal cannot_write(const std::string& path) {
-  return {Kind::unavailable, path, 0, std::string{"cannot be written: "} + std::strerror(errno),
-          "check the folder, the rights and the disk space"};
-}
 
 offline::EdgeLogConfig log_config(const Options& options) {
   offline::EdgeLogConfig config;
@@ -84,8 +73,8 @@ kernel::outcome::Result<Record> record_of(const Options& options, const EdgeLog&
 }
 
 /// Runs the estimator and writes each estimate at once: the log may be long.
-bool write_estimates(const Record& record, online::Estimator& estimator, std::FILE* out,
-                     Progress& progress) {
+Result<void> write_estimates(const Record& record, online::Estimator& estimator, OutputFile& out,
+                             Progress& progress) {
   constexpr std::size_t kBetweenUpdates = 4096;
   offline::EstimateTable table(out);
   auto edge = record.edges.begin();
@@ -99,7 +88,8 @@ bool write_estimates(const Record& record, online::Estimator& estimator, std::FI
                       "estimating");
     }
   }
-  return table.finish();
+  table.finish();
+  return out.commit();
 }
 
 Json findings_json(const EdgeLog& log) {
@@ -201,15 +191,16 @@ kernel::outcome::Result<std::optional<online::LineTable>> lines_of(const Options
   return std::move(*table);
 }
 
-bool same_file(const std::string& one, const std::string& other) {
-  std::error_code error;
-  return std::filesystem::equivalent(one, other, error) && !error;
+/// Without -o the table goes to stdout, unless that belongs to the JSON object.
+Result<OutputFile> opened(const std::string& output, bool json) {
+  if (output.empty() && !json) {
+    return OutputFile::standard_output();
+  }
+  return OutputFile::open(output.empty() ? "/dev/null" : output);
 }
 
-/// Writes to `out`; with the table on stdout there is no room for a summary.
-Outcome estimate(const Options& options, const EdgeLog& log, std::FILE* out,
-                 const std::string& name, const std::optional<online::LineTable>& lines,
-                 Progress& progress) {
+Outcome estimate(const Options& options, const EdgeLog& log,
+                 const std::optional<online::LineTable>& lines, bool json, Progress& progress) {
   auto record = record_of(options, log);
   if (!record) {
     return refused(record.error());
@@ -223,13 +214,15 @@ Outcome estimate(const Options& options, const EdgeLog& log, std::FILE* out,
   if (!estimator) {
     return refused(estimator.error());
   }
-  const File opened(out == nullptr ? std::fopen(name.c_str(), "wb") : nullptr);
-  std::FILE* const to = out == nullptr ? opened.get() : out;
-  if (to == nullptr || !write_estimates(*record, **estimator, to, progress)) {
-    return refused(cannot_write(name));
+  auto out = opened(options.output, json);
+  if (!out) {
+    return refused(out.error());
+  }
+  if (const auto written = write_estimates(*record, **estimator, *out, progress); !written) {
+    return refused(written.error());
   }
   Answer answer = answer_of(options, log, *record);
-  if (out == stdout) {
+  if (options.output.empty()) {  // the table has stdout: there is no room for a summary
     answer.text.clear();
   }
   return answer;
@@ -245,10 +238,6 @@ Outcome run(Options options, bool json, Progress& progress) {
   if (const auto probe = offline::make_estimator(options.estimator, options.setup); !probe) {
     return refused(probe.error());
   }
-  if (!options.output.empty() && same_file(options.log, options.output)) {
-    return refused(Refusal{Kind::bad_input, options.output, 0, "is the log itself",
-                           "give another file for the estimates"});
-  }
   const auto lines = lines_of(options);
   if (!lines) {
     return refused(lines.error());
@@ -259,14 +248,10 @@ Outcome run(Options options, bool json, Progress& progress) {
   if (!log) {
     return refused(log.error());
   }
-  if (options.output.empty() && !json) {
-    return estimate(options, *log, stdout, "stdout", *lines, progress);
-  }
-  return estimate(options, *log, nullptr, options.output.empty() ? "/dev/null" : options.output,
-                  *lines, progress);
+  return estimate(options, *log, *lines, json, progress);
 }
 
-void add_axis_options(CLI::App& verb, Options& options) {
+void add_axis_options(Verb& verb, Options& options) {
   offline::EstimatorSetup& setup = options.setup;
   verb.add_option("--count-mm", setup.count_mm, "One count in mm")->required();
   verb.add_option("--cycle-hz", setup.cycle_hz,
@@ -288,29 +273,29 @@ void add_axis_options(CLI::App& verb, Options& options) {
 
 void add_verb_motion_estimate(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "estimate", "Velocity and acceleration out of a log of counts (CSV: t_s,count)",
       "motion estimate examples/logs/sine-edges.csv --input edges --count-mm 0.001 "
       "--cycle-hz 1000 --max-acceleration 25 --max-jerk 300 -o out.csv");
   auto options = std::make_shared<Options>();
-  verb.add_option("log", options->log, "Log with the columns t_s and count; - is stdin")
-      ->required();
+  verb.reads("log", options->log, "Log with the columns t_s and count; - is stdin")->required();
   verb.add_option("--input", options->input,
                   "edges: a row for each edge, with the count after it; ticks: one for each cycle")
       ->required()
       ->check(CLI::IsMember({"edges", "ticks"}));
   add_axis_options(verb, *options);
   add_log_options(verb, options->format);
-  verb.add_option("--calibration", options->calibration,
-                  "Lines of the encoder as motion calibrate wrote them, or a machine file");
+  verb.reads("--calibration", options->calibration,
+             "Lines of the encoder as motion calibrate wrote them, or a machine file");
   verb.add_option("--axis", options->axis, "Axis of the machine file that the log is of");
   verb.add_option("--estimator", options->estimator,
                   fmt::format("One of {}", fmt::join(offline::estimator_names(), ", ")))
       ->capture_default_str();
   verb.add_option("--lag-ms", options->lag_ms,
                   "Estimate this long after the fact: finer, where the estimator can");
-  verb.add_option("-o,--output", options->output,
-                  "Write the estimates to this file, not to stdout");
+  verb.writes("-o,--output", options->output, "Write the estimates to this file, not to stdout",
+              csv_content("a table of estimates (CSV)",
+                          {"t_s,position_mm,velocity_mm_s,acceleration_mm_s2,"}));
   session.on(verb, [options, &session](Progress& progress) {
     return run(*options, session.json(), progress);
   });

@@ -107,7 +107,7 @@ Outcome run(const Options& options) {
 
 void add_verb_motion_units(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  CLI::App& verb =
+  Verb& verb =
       session.verb(group, "units", "Feed and overload in the control's counts and ticks, and back",
                    "motion units --feed-mm-min 20000 --cycle-hz 1000 --count-mm 0.001\n"
                    "  steadyrest motion units --counts-per-tick2 0.9 --cycle-hz 1000");

@@ -105,7 +105,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_program_check(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "check", "Reads an NC program; lists every word that is not understood, with its line",
       "program check examples/programs/rib-pocket.ngc --dialect linuxcnc");
   auto options = std::make_shared<Options>();

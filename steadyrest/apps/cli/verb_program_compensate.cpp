@@ -59,7 +59,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_program_compensate(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "compensate", "Writes the corrections of a plan into an NC program, and proves it",
       "program compensate examples/programs/rib-pocket.ngc --dialect linuxcnc --plan "
       "examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml "
@@ -67,9 +67,12 @@ void add_verb_program_compensate(Session& session) {
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->rewrite.program);
   add_rewrite_options(verb, options->rewrite);
-  verb.add_option("-o,--output", options->output,
-                  "The changed program; may be the program itself, which is then replaced")
+  verb.writes("-o,--output", options->output,
+              "The changed program; with --force it may be the program itself, which is then "
+              "replaced",
+              program_content())
       ->required();
+  verb.also_reads([options] { return files_of(options->rewrite); });
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

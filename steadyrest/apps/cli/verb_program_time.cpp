@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -14,14 +11,13 @@
 #include <steadyrest/apps/cli/program_warnings.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_program_time.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/plan/program_timer.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using kernel::units::mm_min_from_mm_s;
 using kernel::units::rpm_from_rev_s;
@@ -84,15 +80,7 @@ Result<void> write_cyclogram(const ProgramTime& time, const Options& options) {
         t.seconds / 60.0, rpm_from_rev_s(t.speed_rev_s), mm_min_from_mm_s(t.path_speed_mm_s()),
         name(t.load()), 100.0 * t.cut_share(), t.coolant, t.tool, t.line);
   }
-  std::ofstream out(options.cyclogram, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) {
-    return std::unexpected(Refusal{Kind::unavailable, options.cyclogram, 0,
-                                   std::string{"cannot be written: "} + std::strerror(errno),
-                                   "check the folder, the rights and the disk space"});
-  }
-  return {};
+  return kernel::file::write_file(options.cyclogram, text);
 }
 
 std::string text_of(const ProgramTime& time) {
@@ -175,7 +163,7 @@ Outcome run(const Options& options) {
 
 void add_verb_program_time(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
-  CLI::App& verb =
+  Verb& verb =
       session.verb(group, "time", "How long a program takes on a machine, and where the time goes",
                    "program time examples/programs/rib-pocket.ngc --dialect linuxcnc "
                    "--machine examples/machines/linuxcnc-mill.toml");
@@ -189,9 +177,9 @@ void add_verb_program_time(Session& session) {
   percent("--feed-percent", options->feed_percent, "Feed override in force, %");
   percent("--rapid-percent", options->rapid_percent, "Rapid override in force, %");
   percent("--spindle-percent", options->spindle_percent, "Spindle override in force, %");
-  verb.add_option(
-      "--cyclogram", options->cyclogram,
-      "Write the transitions (tool, spindle speed, feed, load, time) to this TOML file");
+  verb.writes("--cyclogram", options->cyclogram,
+              "Write the transitions (tool, spindle speed, feed, load, time) to this TOML file",
+              toml_content("a cyclogram (TOML: [[transition]])", {"transition", "resolution_min"}));
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

@@ -44,14 +44,14 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_program_verify(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
-  CLI::App& verb = session.verb(
+  Verb& verb = session.verb(
       group, "verify", "Proves that a changed program differs by a plan's corrections alone",
       "program verify examples/programs/rib-pocket.ngc "
       "examples/plans/rib-pocket-compensated.ngc --dialect linuxcnc --plan "
       "examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml");
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->rewrite.program);
-  verb.add_option("CHANGED", options->changed, "The changed program")->required();
+  verb.reads("CHANGED", options->changed, "The changed program")->required();
   add_rewrite_options(verb, options->rewrite);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }

@@ -10,11 +10,11 @@
 
 #include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
-#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
 #include <steadyrest/apps/cli/thermal_parts.hpp>
 #include <steadyrest/apps/cli/thermal_plan_file.hpp>
 #include <steadyrest/apps/cli/verb_thermal_adapt.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/machine/text_file.hpp>
 #include <steadyrest/kernel/machine/thermal_edit.hpp>
 #include <steadyrest/kernel/machine/thermal_passport.hpp>
@@ -167,7 +167,7 @@ Result<void> write(const Options& options, const std::string& machine, const The
   if (!with) {
     return std::unexpected(with.error());
   }
-  return write_text(options.output, *with);
+  return kernel::file::write_file(options.output, *with);
 }
 
 Json axes_json(const std::vector<Learnt>& learnt) {
@@ -341,35 +341,36 @@ Outcome run(Options options) {
 
 void add_verb_thermal_adapt(Session& session) {
   CLI::App& group = session.group("thermal", "Drift by heat");
-  CLI::App& verb =
+  Verb& verb =
       session.verb(group, "adapt", "What measured parts say about the level k and about the model",
                    "thermal adapt examples/paper-thermal/plan.json --measured "
                    "examples/paper-thermal/measured.csv");
   auto options = std::make_shared<Options>();
-  verb.add_option("plan", options->plan, "PLAN.json that the parts were made with")->required();
-  verb.add_option(
-          "--measured", options->measured,
-          "CSV: part; transition or time_min; deviation_um (the tool's place less the right "
-          "one); if wanted tolerance_um, axis")
+  verb.reads("plan", options->plan, "PLAN.json that the parts were made with")->required();
+  verb.reads("--measured", options->measured,
+             "CSV: part; transition or time_min; deviation_um (the tool's place less the right "
+             "one); if wanted tolerance_um, axis")
       ->required();
   add_log_options(verb, options->format, false);
-  verb.add_option("--machine", options->thermal.machine,
-                  "Machine file or thermal passport; without it the one that the plan names");
-  verb.add_option("--cyclogram", options->thermal.cyclogram,
-                  "Cyclogram of the plan; without it the one that the plan names");
-  verb.add_option("--program", options->thermal.program.file,
-                  "NC program of the plan; without it the one that the plan names");
+  verb.reads("--machine", options->thermal.machine,
+             "Machine file or thermal passport; without it the one that the plan names");
+  verb.reads("--cyclogram", options->thermal.cyclogram,
+             "Cyclogram of the plan; without it the one that the plan names");
+  verb.reads("--program", options->thermal.program.file,
+             "NC program of the plan; without it the one that the plan names");
   verb.add_option("--ambient", options->thermal.ambient,
                   "SENSOR=temperature in °C during the work, as for the plan");
-  verb.add_option("--after", options->thermal.after,
-                  "Cyclogram of what the machine had done before, as for the plan");
+  verb.reads("--after", options->thermal.after,
+             "Cyclogram of what the machine had done before, as for the plan");
   verb.add_option("--tolerance-um", options->tolerance_um, "Tolerance Δ, µm; without it the plan's")
       ->check(CLI::Range(0.01, 1e5));
   verb.add_option("--noise-um", options->noise_um,
                   "Standard deviation of a measured part, µm; without it the passport's noise")
       ->check(CLI::Range(0.001, 1e3));
-  verb.add_option("-o,--output", options->output,
-                  "Write the machine file (or passport) with the new level and gains");
+  verb.writes("-o,--output", options->output,
+              "Write the machine file (or passport) with the new level and gains",
+              machine_content());
+  verb.also_reads([options] { return files_of(options->plan); });
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

@@ -12,9 +12,9 @@
 #include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
-#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/verb_thermal_fit.hpp>
 #include <steadyrest/apps/thermal_page/fit_page.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/machine/thermal_passport.hpp>
 #include <steadyrest/kernel/machine/thermal_text.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -298,9 +298,6 @@ Result<void> write_page(Answer& answer, const std::string& directory, const Job&
 }
 
 Outcome run(const Options& options, Progress& progress) {
-  if (auto ready = ready_report(options.report); !ready) {
-    return refused(ready.error());
-  }
   auto job = job_of(options);
   if (!job) {
     return refused(job.error());
@@ -341,7 +338,8 @@ Outcome run(const Options& options, Progress& progress) {
     passport.axis.push_back(fit.axis);
   }
   if (!options.output.empty()) {
-    if (const auto written = write_text(options.output, kernel::machine::thermal_text(passport));
+    if (const auto written =
+            kernel::file::write_file(options.output, kernel::machine::thermal_text(passport));
         !written) {
       return refused(written.error());
     }
@@ -359,17 +357,17 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_thermal_fit(Session& session) {
   CLI::App& group = session.group("thermal", "Drift by heat");
-  CLI::App& verb = session.verb(group, "fit", "The thermal passport of a machine from a test's log",
-                                "thermal fit examples/thermal/spindle-test.csv -o passport.toml "
-                                "--report out/fit");
+  Verb& verb = session.verb(group, "fit", "The thermal passport of a machine from a test's log",
+                            "thermal fit examples/thermal/spindle-test.csv -o passport.toml "
+                            "--report out/fit");
   auto options = std::make_shared<Options>();
-  verb.add_option(
-          "log", options->log,
-          "Log of the test: CSV, or packed by gzip, with time_s, spindle_rpm, displacements "
-          "(…_um) and temperatures (…_c); docs/thermal-test.md says how to make it")
+  verb.reads("log", options->log,
+             "Log of the test: CSV, or packed by gzip, with time_s, spindle_rpm, displacements "
+             "(…_um) and temperatures (…_c); docs/thermal-test.md says how to make it")
       ->required();
-  verb.add_option("-o,--output", options->output, "Write the passport, TOML: [thermal] sections");
-  add_report_option(verb, options->report);
+  verb.writes("-o,--output", options->output, "Write the passport, TOML: [thermal] sections",
+              toml_content("a thermal passport (TOML: [thermal] alone)", {"thermal"}));
+  verb.reports(options->report);
   add_log_options(verb, options->format);
   verb.add_option("--channel", options->channels,
                   "Only this displacement, and the axis that it moves: z_um=Z; may be given again");
@@ -380,9 +378,9 @@ void add_verb_thermal_fit(Session& session) {
                 "Each axis keeps its own time constants, also where several could have the same");
   verb.add_option("--modes", options->modes, "Number of modes; without it by the left-out hours")
       ->check(CLI::Range(1, 3));
-  CLI::Option* known = verb.add_option(
-      "--tau-from", options->tau_from,
-      "Passport of a longer test: its time constants stand, its levels are a prior");
+  CLI::Option* known =
+      verb.reads("--tau-from", options->tau_from,
+                 "Passport of a longer test: its time constants stand, its levels are a prior");
   verb.add_option("--levels", options->levels,
                   "What levels are of the spindle's speed: polynomial (n, n² or both), or table, "
                   "over the speeds that the log holds for 20 min, straight between them")

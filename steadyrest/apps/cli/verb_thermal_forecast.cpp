@@ -8,11 +8,11 @@
 
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
-#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
 #include <steadyrest/apps/cli/thermal_replay.hpp>
 #include <steadyrest/apps/cli/verb_thermal_forecast.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/curve.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
@@ -40,6 +40,15 @@ struct AxisForecast {
   std::vector<ForecastPoint> point;
   thermal::offline::Curve::Extreme most;
 };
+
+/// Of a cyclogram or of a log: the one may replace the other.
+Content curve_content() {
+  return {"the curve of a forecast (CSV)", [](std::string_view text) {
+            const std::string_view head = text.substr(0, text.find('\n'));
+            return head.starts_with("t_s,transition,speed_rpm,") ||
+                   (head.starts_with("t_s,speed_rpm,") && head.ends_with("_measured_um"));
+          }};
+}
 
 /// All axes have the same times: `t_s,transition,speed_rpm`, then for each its displacement and
 /// standard deviation.
@@ -99,9 +108,6 @@ Outcome run(const Options& options) {
   if (!options.replay.log.empty()) {
     return run_log(options);
   }
-  if (auto ready = ready_report(options.report); !ready) {
-    return refused(ready.error());
-  }
   const auto job = thermal_job(options.thermal);
   if (!job) {
     return refused(job.error());
@@ -125,7 +131,8 @@ Outcome run(const Options& options) {
     most_um = std::max(most_um, std::abs(um_from_mm(axes.back().most.displacement_mm)));
   }
   if (!options.output.empty()) {
-    if (const auto written = write_text(options.output, csv_of(axes, job->cyclogram)); !written) {
+    if (const auto written = kernel::file::write_file(options.output, csv_of(axes, job->cyclogram));
+        !written) {
       return refused(written.error());
     }
   }
@@ -157,18 +164,17 @@ Outcome run(const Options& options) {
 
 void add_verb_thermal_forecast(Session& session) {
   CLI::App& group = session.group("thermal", "Drift by heat");
-  CLI::App& verb = session.verb(group, "forecast", "How far heat will displace the axes",
-                                "thermal forecast --machine examples/paper-thermal/machine.toml "
-                                "--cyclogram examples/paper-thermal/cyclogram.toml");
+  Verb& verb = session.verb(group, "forecast", "How far heat will displace the axes",
+                            "thermal forecast --machine examples/paper-thermal/machine.toml "
+                            "--cyclogram examples/paper-thermal/cyclogram.toml");
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
-  verb.add_option("-o,--output", options->output, "Write the curve to this CSV");
-  add_report_option(verb, options->report);
+  verb.writes("-o,--output", options->output, "Write the curve to this CSV", curve_content());
+  verb.reports(options->report);
   verb.add_option("--step-s", options->step_s, "Seconds from row to row")
       ->check(CLI::Range(0.1, 86400.0));
-  CLI::Option* log =
-      verb.add_option("--log", options->replay.log,
-                      "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
+  CLI::Option* log = verb.reads("--log", options->replay.log,
+                                "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
   add_log_options(verb, options->replay.format);
   verb.add_option("--from-min", options->replay.from_min,
                   "Of the log's clock: readings before it set the state, after it is forecast; "

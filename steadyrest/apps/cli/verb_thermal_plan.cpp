@@ -11,10 +11,10 @@
 
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
-#include <steadyrest/apps/cli/text_file.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
 #include <steadyrest/apps/cli/verb_thermal_plan.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/forecast.hpp>
 #include <steadyrest/thermal/offline/plan.hpp>
@@ -210,9 +210,6 @@ void show(Answer& answer, const Planned& planned, double share) {
 }
 
 Outcome run(const Options& options) {
-  if (auto ready = ready_report(options.report); !ready) {
-    return refused(ready.error());
-  }
   const auto job = thermal_job(options.thermal);
   if (!job) {
     return refused(job.error());
@@ -239,7 +236,7 @@ Outcome run(const Options& options) {
   }
   if (!options.output.empty()) {
     const std::string text = file_of(*planned, head_of(options, level, request.share)).dump(2);
-    if (const auto written = write_text(options.output, text + "\n"); !written) {
+    if (const auto written = kernel::file::write_file(options.output, text + "\n"); !written) {
       return refused(written.error());
     }
   }
@@ -268,10 +265,10 @@ Outcome run(const Options& options) {
 
 void add_verb_thermal_plan(Session& session) {
   CLI::App& group = session.group("thermal", "Drift by heat");
-  CLI::App& verb = session.verb(group, "plan", "When which axis must be corrected by how much",
-                                "thermal plan --machine examples/paper-thermal/machine.toml "
-                                "--cyclogram examples/paper-thermal/cyclogram.toml "
-                                "--tolerance-um 10 --level 0");
+  Verb& verb = session.verb(group, "plan", "When which axis must be corrected by how much",
+                            "thermal plan --machine examples/paper-thermal/machine.toml "
+                            "--cyclogram examples/paper-thermal/cyclogram.toml "
+                            "--tolerance-um 10 --level 0");
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
   verb.add_option("--tolerance-um", options->tolerance_um,
@@ -285,9 +282,9 @@ void add_verb_thermal_plan(Session& session) {
   verb.add_option("--resolution-min", options->resolution_min,
                   "Round the instants to whole multiples, min; 0 = not")
       ->check(CLI::Range(0.0, 60.0));
-  add_report_option(verb, options->report);
-  verb.add_option("-o,--output", options->output,
-                  "Write PLAN.json, which `program compensate` reads");
+  verb.reports(options->report);
+  verb.writes("-o,--output", options->output, "Write PLAN.json, which `program compensate` reads",
+              plan_content());
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

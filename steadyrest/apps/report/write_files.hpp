@@ -14,11 +14,8 @@ struct WrittenFiles {
   std::filesystem::path json;
 };
 
-/// Makes the directory when it is missing; refuses one that cannot be made or written.
-[[nodiscard]] kernel::outcome::Result<void> make_directory(const std::filesystem::path& directory);
-
 /// Writes both files into `directory`, which is made when it is missing. Each appears whole or not
-/// at all.
+/// at all, and neither before both are on the disk.
 [[nodiscard]] kernel::outcome::Result<WrittenFiles> write_files(
     std::string_view html, std::string_view json, const std::filesystem::path& directory);
 

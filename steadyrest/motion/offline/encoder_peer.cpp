@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
@@ -14,12 +15,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/motion/offline/encoder_peer.hpp>
 
 namespace steadyrest::motion::offline {
 namespace {
 
 namespace fs = std::filesystem;
+using kernel::file::OutputFile;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
@@ -30,32 +33,20 @@ Refusal unavailable(const fs::path& program, std::string what, std::string to_do
   return {Kind::unavailable, program.string(), 0, std::move(what), std::move(to_do)};
 }
 
-/// A folder of its own, gone afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "steadyrest-peer-XXXXXX").string();
-    path_ = mkdtemp(name.data()) == nullptr ? fs::path{} : fs::path{name};
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
+/// A file beside nothing, gone afterwards: an output that is never committed.
+Result<OutputFile> scratch() {
+  return OutputFile::open((fs::temp_directory_path() / "steadyrest-peer.csv").string());
+}
 
- private:
-  fs::path path_;
-};
-
-void write_edges(const Record& record, const fs::path& path) {
-  std::ofstream out(path);
-  out << fmt::format("t_s,count\n{},{}\n", record.ticks.front().t_s, record.ticks.front().count);
+void write_edges(const Record& record, OutputFile& file) {
+  std::string out =
+      fmt::format("t_s,count\n{},{}\n", record.ticks.front().t_s, record.ticks.front().count);
+  const auto at = std::back_inserter(out);
   for (const online::Edge& edge : record.edges) {
-    out << fmt::format("{},{}\n", edge.t_s, edge.direction > 0 ? edge.line : edge.line - 1);
+    fmt::format_to(at, "{},{}\n", edge.t_s, edge.direction > 0 ? edge.line : edge.line - 1);
   }
-  out << fmt::format("{},{}\n", record.ticks.back().t_s, record.ticks.back().count);
+  fmt::format_to(at, "{},{}\n", record.ticks.back().t_s, record.ticks.back().count);
+  file.write(out);
 }
 
 /// Exit code of the program, −1 when it could not be run; what it says is of no interest here.
@@ -106,14 +97,19 @@ std::vector<online::Estimate> read_estimates(const Record& record, const fs::pat
 
 Result<std::vector<online::Estimate>> run_encoder_peer(const fs::path& program,
                                                        const Record& record) {
-  const Folder folder;
-  const fs::path edges = folder.path() / "edges.csv";
-  const fs::path out = folder.path() / "out.csv";
-  write_edges(record, edges);
+  auto edges = scratch();
+  const auto out = scratch();
+  if (!edges || !out) {
+    return std::unexpected(edges ? out.error() : edges.error());
+  }
+  write_edges(record, *edges);
+  if (auto written = edges->flush(); !written) {
+    return std::unexpected(std::move(written.error()));
+  }
   const auto base_ns = std::max(1LL, std::llround(record.how.clock_s * 1e9));
   const int code =
-      run_program({program.string(), edges.string(), "--base-ns", std::to_string(base_ns),
-                   "--tick-s", fmt::format("{}", 1.0 / record.how.cycle_hz), "-o", out.string()});
+      run_program({program.string(), edges->path(), "--base-ns", std::to_string(base_ns),
+                   "--tick-s", fmt::format("{}", 1.0 / record.how.cycle_hz), "-o", out->path()});
   if (code == kNotInstalled) {
     return std::unexpected(unavailable(program, "LinuxCNC's encoder component is not installed",
                                        "install the package linuxcnc-uspace"));
@@ -122,7 +118,7 @@ Result<std::vector<online::Estimate>> run_encoder_peer(const fs::path& program,
     return std::unexpected(unavailable(program, fmt::format("does not run (exit code {})", code),
                                        "build steadyrest_encoder_peer and give its path"));
   }
-  return read_estimates(record, out);
+  return read_estimates(record, out->path());
 }
 
 }  // namespace steadyrest::motion::offline

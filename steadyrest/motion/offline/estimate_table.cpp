@@ -43,7 +43,7 @@ void put_time(std::string& out, double t_s) {
 
 }  // namespace
 
-EstimateTable::EstimateTable(std::FILE* out) : out_(out) {
+EstimateTable::EstimateTable(kernel::file::OutputFile& out) : out_(out) {
   buffer_.reserve(kBuffer + 256);
   buffer_ =
       "t_s,position_mm,velocity_mm_s,acceleration_mm_s2,velocity_bound_mm_s,"
@@ -60,18 +60,13 @@ void EstimateTable::put(const online::Estimate& estimate) {
   }
   buffer_ += '\n';
   if (buffer_.size() >= kBuffer) {
-    flush();
+    finish();
   }
 }
 
-void EstimateTable::flush() {
-  good_ = std::fwrite(buffer_.data(), 1, buffer_.size(), out_) == buffer_.size() && good_;
+void EstimateTable::finish() {
+  out_.write(buffer_);
   buffer_.clear();
-}
-
-bool EstimateTable::finish() {
-  flush();
-  return std::fflush(out_) == 0 && good_;
 }
 
 }  // namespace steadyrest::motion::offline

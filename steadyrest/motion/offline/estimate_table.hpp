@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <string>
 
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/motion/online/estimator.hpp>
 
 namespace steadyrest::motion::offline {
@@ -15,17 +15,15 @@ namespace steadyrest::motion::offline {
 /// there is no bound.
 class EstimateTable {
  public:
-  explicit EstimateTable(std::FILE* out);
+  /// The file stays the caller's, who commits it.
+  explicit EstimateTable(kernel::file::OutputFile& out);
   void put(const online::Estimate& estimate);
-  /// Writes what is left. False when anything could not be written.
-  [[nodiscard]] bool finish();
+  /// Hands over what is still held back.
+  void finish();
 
  private:
-  void flush();
-
-  std::FILE* out_;
+  kernel::file::OutputFile& out_;
   std::string buffer_;
-  bool good_ = true;
 };
 
 }  // namespace steadyrest::motion::offline

@@ -79,7 +79,7 @@ double feed_mm_min(const Move& move) noexcept {
   return 0.0;
 }
 
-MoveTable::MoveTable(std::FILE* out) : out_(out) {
+MoveTable::MoveTable(kernel::file::OutputFile& out) : out_(out) {
   buffer_.reserve(kBuffer + 4096);
   buffer_ = kHead;
 }
@@ -117,18 +117,13 @@ void MoveTable::on_move(const Move& move) {
   }
   buffer_ += '\n';
   if (buffer_.size() >= kBuffer) {
-    flush();
+    finish();
   }
 }
 
-void MoveTable::flush() {
-  written_ = written_ && std::fwrite(buffer_.data(), 1, buffer_.size(), out_) == buffer_.size();
+void MoveTable::finish() {
+  out_.write(buffer_);
   buffer_.clear();
-}
-
-bool MoveTable::finish() {
-  flush();
-  return written_ && std::fflush(out_) == 0;
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <string_view>
 
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/nc/interpret/move.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -30,21 +30,19 @@ class MoveTable final : public Sink {
   static constexpr std::string_view kHead =
       "line,kind,x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,feed_mm_min,i_mm,j_mm,k_mm,turns\n";
 
-  /// Writes the head line. The file stays the caller's.
-  explicit MoveTable(std::FILE* out);
+  /// Writes the head line. The file stays the caller's, who commits it.
+  explicit MoveTable(kernel::file::OutputFile& out);
 
   void on_move(const Move& move) override;
   void on_event(const Event& /*event*/) override {}
-  /// Writes what is still held back. False when the file did not take everything.
-  bool finish();
+  /// Hands over what is still held back.
+  void finish();
 
  private:
   void number(double value);
-  void flush();
 
-  std::FILE* out_;
+  kernel::file::OutputFile& out_;
   std::string buffer_;
-  bool written_ = true;
 };
 
 }  // namespace steadyrest::nc::interpret

@@ -6,9 +6,9 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/nc/rewrite/clock.hpp>
 #include <steadyrest/nc/rewrite/compensate.hpp>
-#include <steadyrest/nc/rewrite/file_writer.hpp>
 #include <steadyrest/nc/rewrite/frame_line.hpp>
 #include <steadyrest/nc/rewrite/place_of_head.hpp>
 #include <steadyrest/nc/rewrite/placing.hpp>
@@ -20,6 +20,7 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
+using kernel::file::OutputFile;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
@@ -236,9 +237,15 @@ class Rewriter {
       }
     }
     auto lines = SourceLines::open(program_);
-    auto writer = FileWriter::open(output);
+    auto writer = OutputFile::open(output);
     if (!lines || !writer) {
       return std::unexpected(lines ? writer.error() : lines.error());
+    }
+    if (writer->path().empty()) {
+      return std::unexpected(
+          Refusal{Kind::bad_input, output, 0,
+                  "is not a file: the changed program is read again for its proof",
+                  "name a file, not a device or a pipe"});
     }
     copy(*lines, *writer);
     if (auto whole = lines->whole(); !whole) {
@@ -265,7 +272,7 @@ class Rewriter {
     return writer->commit();
   }
 
-  void copy(SourceLines& lines, FileWriter& writer) {
+  void copy(SourceLines& lines, OutputFile& writer) {
     std::string ending;
     auto text = texts_.begin();
     while (lines.next()) {

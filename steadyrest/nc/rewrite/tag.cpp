@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include <steadyrest/nc/rewrite/file_writer.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
 #include <steadyrest/nc/rewrite/tag.hpp>
 
@@ -86,7 +86,7 @@ kernel::outcome::Result<std::size_t> strip(const std::string& program, const std
   if (!lines) {
     return std::unexpected(lines.error());
   }
-  auto writer = FileWriter::open(output);
+  auto writer = kernel::file::OutputFile::open(output);
   if (!writer) {
     return std::unexpected(writer.error());
   }

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <mutex>
+#include <random>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <steadyrest/kernel/file/output_file.hpp>
+
+namespace steadyrest::kernel::file {
+namespace {
+
+using outcome::Kind;
+using outcome::Refusal;
+using outcome::Result;
+
+/// What the process has written, for the one answer at its end.
+struct Ledger {
+  std::mutex mutex;
+  std::vector<Written> files;
+};
+
+Ledger& ledger() {
+  static Ledger all;
+  return all;
+}
+
+/// In the target's folder, so that the rename stays within a file system; short, so that no name is
+/// too long for it.
+std::string name_beside(const Place& place) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz012345";
+  constexpr int kLength = 12;
+  std::random_device device;
+  std::string name = ".steadyrest-";
+  for (int i = 0; i < kLength; ++i) {
+    name += kLetters[device() % kLetters.size()];
+  }
+  return (place.path.parent_path() / name).string();
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+  if (const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+      descriptor >= 0) {
+    ::fsync(descriptor);
+    ::close(descriptor);
+  }
+}
+
+}  // namespace
+
+Result<OutputFile> OutputFile::open(const std::string& target) {
+  auto place = place_of(target);
+  if (!place) {
+    return std::unexpected(std::move(place.error()));
+  }
+  if (place->kind == Place::Kind::standard_output) {
+    return standard_output();
+  }
+  OutputFile made;
+  made.name_ = target;
+  made.place_ = std::move(*place);
+  if (made.place_.kind == Place::Kind::file) {
+    if (auto beside = made.make_beside(); !beside) {
+      return std::unexpected(std::move(beside.error()));
+    }
+    return made;
+  }
+  made.descriptor_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (made.descriptor_ < 0) {
+    return std::unexpected(made.refusal(errno));
+  }
+  return made;
+}
+
+OutputFile OutputFile::standard_output() {
+  OutputFile made;
+  made.name_ = "stdout";
+  made.place_.kind = Place::Kind::standard_output;
+  std::fflush(stdout);
+  made.descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+  made.error_ = made.descriptor_ < 0 ? errno : 0;
+  return made;
+}
+
+Result<void> OutputFile::make_beside() {
+  beside_ = Temporary(name_beside(place_), Temporary::Kind::file);
+  descriptor_ = ::open(beside_.path().c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor_ < 0) {
+    return std::unexpected(refusal(errno));
+  }
+  struct ::stat before{};
+  const bool replaces = place_.exists && ::stat(place_.path.c_str(), &before) == 0;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  if (replaces && (before.st_uid != ::geteuid() || before.st_gid != ::getegid())) {
+    // Who may not give a file away keeps it: the rights below still hold.
+    static_cast<void>(::fchown(descriptor_, before.st_uid, before.st_gid) == 0);
+  }
+  if (::fchmod(descriptor_, replaces ? before.st_mode & 07777U : 0666U & ~mask) != 0) {
+    return std::unexpected(refusal(errno));
+  }
+  return {};
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      held_(std::move(other.held_)),
+      error_(other.error_),
+      name_(std::move(other.name_)),
+      place_(std::move(other.place_)),
+      beside_(std::move(other.beside_)),
+      bytes_(other.bytes_),
+      lines_(other.lines_) {}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+}
+
+void OutputFile::write(std::string_view bytes) noexcept {
+  held_.insert(held_.end(), bytes.begin(), bytes.end());
+  if (held_.size() >= kHeld) {
+    put();
+  }
+}
+
+void OutputFile::put() noexcept {
+  bytes_ += held_.size();
+  lines_ += static_cast<std::uintmax_t>(std::ranges::count(held_, '\n'));
+  for (std::size_t done = 0; error_ == 0 && done < held_.size();) {
+    const ssize_t put = ::write(descriptor_, held_.data() + done, held_.size() - done);
+    if (put > 0) {
+      done += static_cast<std::size_t>(put);
+    } else if (put == 0 || errno != EINTR) {
+      error_ = put == 0 ? EIO : errno;
+    }
+  }
+  held_.clear();
+}
+
+Result<void> OutputFile::flush() {
+  put();
+  if (error_ != 0) {
+    return std::unexpected(refusal(error_));
+  }
+  return {};
+}
+
+Result<void> OutputFile::settle() {
+  if (auto flushed = flush(); !flushed) {
+    return flushed;
+  }
+  if (descriptor_ < 0) {
+    return {};
+  }
+  if (place_.kind == Place::Kind::file && ::fsync(descriptor_) != 0) {
+    error_ = errno;
+  }
+  if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) {
+    error_ = errno;
+  }
+  return flush();
+}
+
+Result<void> OutputFile::commit() {
+  if (auto settled = settle(); !settled || place_.kind != Place::Kind::file) {
+    return settled;
+  }
+  if (::rename(beside_.path().c_str(), place_.path.c_str()) != 0) {
+    return std::unexpected(refusal(errno));
+  }
+  beside_.keep();
+  sync_folder(place_.path.parent_path());
+  const std::scoped_lock lock(ledger().mutex);
+  ledger().files.push_back({name_, bytes_, lines_});
+  return {};
+}
+
+Refusal OutputFile::refusal(int error) const {
+  return {Kind::unavailable, name_, 0, std::string{"cannot be written: "} + std::strerror(error),
+          place_.kind == Place::Kind::file
+              ? "check the folder, the rights and the disk space; what was there is untouched"
+              : "check who reads it and the disk space"};
+}
+
+Result<void> write_files(std::span<const FileText> files) {
+  std::vector<OutputFile> out;
+  out.reserve(files.size());
+  for (const FileText& one : files) {
+    auto file = OutputFile::open(one.file);
+    if (!file) {
+      return std::unexpected(std::move(file.error()));
+    }
+    out.push_back(std::move(*file));
+    out.back().write(one.text);
+    if (auto settled = out.back().settle(); !settled) {
+      return settled;
+    }
+  }
+  for (OutputFile& file : out) {
+    if (auto committed = file.commit(); !committed) {
+      return committed;
+    }
+  }
+  return {};
+}
+
+Result<void> write_file(const std::string& file, std::string_view text) {
+  const FileText one{file, std::string(text)};
+  return write_files({&one, 1});
+}
+
+std::vector<Written> written_files() {
+  const std::scoped_lock lock(ledger().mutex);
+  return ledger().files;
+}
+
+}  // namespace steadyrest::kernel::file

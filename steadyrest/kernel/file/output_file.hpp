@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/file/place.hpp>
+#include <steadyrest/kernel/file/temporary.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::kernel::file {
+
+/// The one way in which this program writes a file: beside its target, renamed when it is whole and
+/// on the disk. The target is the old file or the new one, never a part; without commit() nothing
+/// is left behind.
+///
+/// A link is followed, and the file that it leads to replaced; the permissions of the replaced file
+/// are kept, and its owner where that is permitted. Another hard link keeps the old content. A
+/// pipe, a character device and stdout are written as the text arises: they cannot be renamed.
+class OutputFile {
+ public:
+  static outcome::Result<OutputFile> open(const std::string& target);
+  static OutputFile standard_output();
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&&) = delete;
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  /// A fault shows at flush() or commit().
+  void write(std::string_view bytes) noexcept;
+  /// What has been written can now be read at path().
+  [[nodiscard]] outcome::Result<void> flush();
+  /// Everything that can fail before the rename has been done.
+  [[nodiscard]] outcome::Result<void> settle();
+  [[nodiscard]] outcome::Result<void> commit();
+  /// Where the text is until commit(): beside the target. Empty for a stream.
+  [[nodiscard]] const std::string& path() const noexcept { return beside_.path(); }
+
+ private:
+  OutputFile() = default;
+  outcome::Result<void> make_beside();
+  [[nodiscard]] outcome::Refusal refusal(int error) const;
+  void put() noexcept;
+
+  static constexpr std::size_t kHeld = std::size_t{1} << 16U;
+  int descriptor_ = -1;
+  std::vector<char> held_;  ///< not written yet: a call for each line costs more than the line
+  int error_ = 0;
+  std::string name_;  ///< of the target, as the user gave it
+  Place place_;
+  Temporary beside_;
+  std::uintmax_t bytes_ = 0;
+  std::uintmax_t lines_ = 0;
+};
+
+struct FileText {
+  std::string file;
+  std::string text;
+};
+
+/// Writes whole files; none is renamed before all are on the disk.
+[[nodiscard]] outcome::Result<void> write_files(std::span<const FileText> files);
+[[nodiscard]] outcome::Result<void> write_file(const std::string& file, std::string_view text);
+
+/// A file that has been put in its place by this process.
+struct Written {
+  std::string file;  ///< as the user named it
+  std::uintmax_t bytes = 0;
+  std::uintmax_t lines = 0;
+};
+
+/// All of them, in their order: what a verb says that it has written.
+[[nodiscard]] std::vector<Written> written_files();
+
+}  // namespace steadyrest::kernel::file

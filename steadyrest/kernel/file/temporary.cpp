@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include <unistd.h>
+
+#include <steadyrest/kernel/file/temporary.hpp>
+
+namespace steadyrest::kernel::file {
+namespace {
+
+enum class Use : int { free, filling, file, folder };
+
+struct Slot {
+  std::atomic<Use> use = Use::free;
+  std::array<char, 4096> path{};
+};
+
+// A signal handler may neither allocate nor lock. A verb has at most a handful open at a time; one
+// more than this table holds is removed by its object alone.
+std::array<Slot, 16> slots;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+static_assert(std::atomic<Use>::is_always_lock_free);
+
+std::optional<std::size_t> occupy(const std::string& path, Temporary::Kind kind) {
+  for (std::size_t i = 0; i < slots.size() && path.size() < slots[i].path.size(); ++i) {
+    Use expected = Use::free;
+    if (slots[i].use.compare_exchange_strong(expected, Use::filling)) {
+      std::memcpy(slots[i].path.data(), path.c_str(), path.size() + 1);
+      slots[i].use = kind == Temporary::Kind::file ? Use::file : Use::folder;
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+extern "C" void remove_and_end(int signal) {
+  for (Slot& slot : slots) {
+    if (slot.use == Use::file) {
+      ::unlink(slot.path.data());
+    }
+  }
+  for (Slot& slot : slots) {  // deeper folders were registered later
+    Slot& last = slots[static_cast<std::size_t>(&slots.back() - &slot)];
+    if (last.use == Use::folder) {
+      ::rmdir(last.path.data());
+    }
+  }
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+}  // namespace
+
+Temporary::Temporary(std::string path, Kind kind)
+    : path_(std::move(path)), kind_(kind), slot_(occupy(path_, kind)) {}
+
+Temporary::Temporary(Temporary&& other) noexcept
+    : path_(std::exchange(other.path_, {})),
+      kind_(other.kind_),
+      slot_(std::exchange(other.slot_, std::nullopt)) {}
+
+Temporary& Temporary::operator=(Temporary&& other) noexcept {
+  if (this != &other) {
+    remove();
+    path_ = std::exchange(other.path_, {});
+    kind_ = other.kind_;
+    slot_ = std::exchange(other.slot_, std::nullopt);
+  }
+  return *this;
+}
+
+Temporary::~Temporary() {
+  remove();
+}
+
+void Temporary::remove() noexcept {
+  if (!path_.empty()) {
+    kind_ == Kind::file ? ::unlink(path_.c_str()) : ::rmdir(path_.c_str());
+  }
+  keep();
+}
+
+void Temporary::keep() noexcept {
+  if (slot_) {
+    slots[*slot_].use = Use::free;
+  }
+  slot_.reset();
+  path_.clear();
+}
+
+void remove_temporaries_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before{};
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) {
+      struct sigaction now{};
+      now.sa_handler = remove_and_end;
+      sigfillset(&now.sa_mask);
+      // Unblocked, so that raise() in the handler ends the process at once.
+      sigdelset(&now.sa_mask, signal);
+      now.sa_flags = SA_NODEFER;
+      ::sigaction(signal, &now, nullptr);
+    }
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);
+}
+
+}  // namespace steadyrest::kernel::file

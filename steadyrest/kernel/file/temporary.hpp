@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace steadyrest::kernel::file {
+
+/// A file or an empty folder that is to go unless it is kept: with this object, and also when a
+/// signal ends the process (remove_temporaries_on_signals).
+///
+/// The name is registered before anything of that name is made, so no instant is without cover.
+/// Only SIGKILL and a power cut can leave a temporary file behind.
+class Temporary {
+ public:
+  enum class Kind { file, folder };
+
+  Temporary() = default;
+  Temporary(std::string path, Kind kind);
+  Temporary(Temporary&& other) noexcept;
+  Temporary& operator=(Temporary&& other) noexcept;
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+  ~Temporary();
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  /// It is no longer temporary, or has been renamed.
+  void keep() noexcept;
+
+ private:
+  void remove() noexcept;
+
+  std::string path_;  ///< empty when there is nothing to remove
+  Kind kind_ = Kind::file;
+  std::optional<std::size_t> slot_;  ///< in the table of the signal handler
+};
+
+/// For a program's start: SIGINT, SIGTERM and SIGHUP remove all temporaries and then end the
+/// process as they always do (a signal that is ignored stays ignored). A closed pipe and a file
+/// above the permitted size become errors of write() instead of signals.
+void remove_temporaries_on_signals();
+
+}  // namespace steadyrest::kernel::file

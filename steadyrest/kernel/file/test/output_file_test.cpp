@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <steadyrest/kernel/file/output_file.hpp>
+
+namespace steadyrest::kernel::file {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Output : public testing::Test {
+ public:
+  Output() {
+    std::string pattern = (fs::temp_directory_path() / "steadyrest-file-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~Output() override { fs::remove_all(folder_); }
+
+ protected:
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string old(const std::string& name) const {
+    std::ofstream(at(name)) << "old\n";
+    return at(name);
+  }
+  static std::string text_of(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  [[nodiscard]] std::ptrdiff_t entries() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator{});
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Output, ReplacesAtTheEndAndNotBefore) {
+  const std::string file = old("out.csv");
+  auto out = OutputFile::open(file);
+  ASSERT_TRUE(out.has_value());
+  out->write("new\n");
+  ASSERT_TRUE(out->flush().has_value());
+  EXPECT_EQ(text_of(out->path()), "new\n");
+  EXPECT_EQ(text_of(file), "old\n");
+  ASSERT_TRUE(out->commit().has_value());
+  EXPECT_EQ(text_of(file), "new\n");
+  EXPECT_EQ(entries(), 1);
+  EXPECT_EQ(written_files().back().file, file);
+  EXPECT_EQ(written_files().back().bytes, 4U);
+  EXPECT_EQ(written_files().back().lines, 1U);
+}
+
+TEST_F(Output, LeavesNothingWithoutCommit) {
+  const std::string file = old("out.csv");
+  {
+    auto out = OutputFile::open(file);
+    ASSERT_TRUE(out.has_value());
+    out->write(std::string(std::size_t{1} << 20U, 'x'));
+  }
+  EXPECT_EQ(text_of(file), "old\n");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Output, KeepsRightsAndFollowsLinks) {
+  const std::string file = old("machine.toml");
+  ASSERT_EQ(chmod(file.c_str(), 0640), 0);
+  fs::create_symlink("machine.toml", at("link"));
+  fs::create_symlink("link", at("link-of-link"));
+  ASSERT_TRUE(write_file(at("link-of-link"), "new\n").has_value());
+  EXPECT_TRUE(fs::is_symlink(at("link")));
+  EXPECT_TRUE(fs::is_symlink(at("link-of-link")));
+  EXPECT_EQ(text_of(file), "new\n");
+  struct ::stat now{};
+  ASSERT_EQ(stat(file.c_str(), &now), 0);
+  EXPECT_EQ(now.st_mode & 07777U, 0640U);
+}
+
+TEST_F(Output, FollowsALinkToAFileThatIsYetToCome) {
+  fs::create_directory(at("deep"));
+  fs::create_symlink("deep/out.csv", at("link"));
+  ASSERT_TRUE(write_file(at("link"), "new\n").has_value());
+  EXPECT_TRUE(fs::is_symlink(at("link")));
+  EXPECT_EQ(text_of(at("deep/out.csv")), "new\n");
+}
+
+TEST_F(Output, AnotherHardLinkKeepsTheOldContent) {
+  const std::string file = old("out.csv");
+  fs::create_hard_link(file, at("copy"));
+  ASSERT_TRUE(write_file(file, "new\n").has_value());
+  EXPECT_EQ(text_of(file), "new\n");
+  EXPECT_EQ(text_of(at("copy")), "old\n");
+}
+
+TEST_F(Output, TakesTheLongestName) {
+  const std::string file = at(std::string(255, 'n'));
+  ASSERT_TRUE(write_file(file, "new\n").has_value());
+  EXPECT_EQ(text_of(file), "new\n");
+}
+
+TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
+  const std::string first = old("a.csv");
+  const std::vector<FileText> files = {{first, "new\n"}, {at("missing/b.csv"), "new\n"}};
+  const auto written = write_files(files);
+  ASSERT_FALSE(written.has_value());
+  EXPECT_EQ(written.error().file, at("missing/b.csv"));
+  EXPECT_EQ(text_of(first), "old\n");
+  EXPECT_EQ(entries(), 1);
+}
+
+/// Runs `work` in a child, so that limits and signals are its own; gives the status.
+template <class Work>
+int in_child(Work work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    remove_temporaries_on_signals();
+    work();
+    _exit(0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+TEST_F(Output, AFullDiskLeavesTheOldFile) {
+  const std::string file = old("out.csv");
+  const int status = in_child([&] {
+    const rlimit limit{1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    auto out = OutputFile::open(file);
+    out->write(std::string(5000, 'x'));
+    const auto done = out->commit();
+    _exit(!done && done.error().kind == outcome::Kind::unavailable &&
+                  done.error().what.find("cannot be written") == 0
+              ? 7
+              : 8);
+  });
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  EXPECT_EQ(text_of(file), "old\n");
+}
+
+TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const std::string file = old("out.csv");
+    const int status = in_child([&] {
+      const Temporary folder((folder_ / "new").string(), Temporary::Kind::folder);
+      fs::create_directory(at("new"));
+      const Temporary deeper((folder_ / "new" / "er").string(), Temporary::Kind::folder);
+      fs::create_directory(at("new/er"));
+      auto out = OutputFile::open(file);
+      out->write("new\n");
+      static_cast<void>(out->flush());
+      raise(signal);
+    });
+    EXPECT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), signal);
+    EXPECT_EQ(text_of(file), "old\n");
+    EXPECT_EQ(entries(), 1);
+  }
+}
+
+TEST_F(Output, AnIgnoredSignalStaysIgnored) {
+  const int status = in_child([] {
+    signal(SIGHUP, SIG_IGN);
+    remove_temporaries_on_signals();
+    raise(SIGHUP);
+  });
+  EXPECT_TRUE(WIFEXITED(status));
+}
+
+TEST_F(Output, AClosedPipeIsARefusal) {
+  ASSERT_EQ(mkfifo(at("pipe").c_str(), 0600), 0);
+  const int status = in_child([&] {
+    const int reader = open(at("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+    auto out = OutputFile::open(at("pipe"));
+    close(reader);
+    out->write("new\n");
+    const auto done = out->commit();
+    _exit(!done && done.error().what == "cannot be written: Broken pipe" ? 7 : 8);
+  });
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  EXPECT_TRUE(fs::is_fifo(at("pipe")));
+}
+
+TEST_F(Output, StdoutIsWrittenToEvenWhereItIsAFile) {
+  const std::string file = old("log");
+  const int status = in_child([&] {
+    dup2(open(file.c_str(), O_WRONLY | O_APPEND), STDOUT_FILENO);
+    auto out = OutputFile::open("/dev/stdout");
+    out->write("new\n");
+    _exit(out->commit().has_value() ? 7 : 8);
+  });
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  EXPECT_EQ(text_of(file), "old\nnew\n");
+}
+
+}  // namespace
+}  // namespace steadyrest::kernel::file

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <steadyrest/kernel/file/place.hpp>
+
+namespace steadyrest::kernel::file {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Places : public testing::Test {
+ public:
+  Places() {
+    std::string pattern = (fs::temp_directory_path() / "steadyrest-place-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    std::ofstream(at("log.csv")) << "t_s,count\n";
+    fs::create_directory(at("x"));
+    fs::create_symlink("log.csv", at("soft"));
+    fs::create_hard_link(at("log.csv"), at("hard"));
+    fs::create_directory_symlink(".", at("here"));
+  }
+  ~Places() override { fs::remove_all(folder_); }
+
+ protected:
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  fs::path folder_;
+};
+
+TEST_F(Places, OneFileHasManyNames) {
+  for (const char* name :
+       {"log.csv", "soft", "hard", "./x/../log.csv", "here/log.csv", "here/here/hard"}) {
+    EXPECT_TRUE(same_place(at("log.csv"), at(name))) << name;
+  }
+  EXPECT_FALSE(same_place(at("log.csv"), at("other.csv")));
+  EXPECT_FALSE(same_place(at("other.csv"), at("log.csv")));
+}
+
+TEST_F(Places, AFileThatIsNotThereYetHasManyNamesToo) {
+  fs::create_symlink("new.csv", at("to-new"));
+  for (const char* name : {"new.csv", "./x/../new.csv", "here/new.csv", "to-new"}) {
+    EXPECT_TRUE(same_place(at("new.csv"), at(name))) << name;
+  }
+  EXPECT_FALSE(same_place(at("new.csv"), at("newer.csv")));
+  EXPECT_FALSE(same_place(at("missing/new.csv"), at("missing/new.csv.x")));
+}
+
+TEST_F(Places, ADeviceIsNobodysFile) {
+  EXPECT_FALSE(same_place("/dev/null", "/dev/null"));
+  EXPECT_EQ(place_of("/dev/full")->kind, Place::Kind::stream);
+}
+
+TEST_F(Places, RefusesWhatCannotBeWritten) {
+  ASSERT_EQ(chmod(at("hard").c_str(), 0444), 0);
+  fs::create_symlink("round", at("round"));
+  for (const auto& [name, what] : {std::pair{"x", "is a folder"},
+                                   {"new/", "is the name of a folder"},
+                                   {"log.csv", "write-protected"},
+                                   {"missing/out.csv", "folder cannot be reached"},
+                                   {"log.csv/out.csv", "cannot be"},
+                                   {"round", "cannot be"}}) {
+    const auto place = place_of(at(name));
+    ASSERT_FALSE(place.has_value()) << name;
+    EXPECT_THAT(outcome::text(place.error()), HasSubstr(what));
+    EXPECT_THAT(outcome::text(place.error()), HasSubstr(at(name)));
+    EXPECT_FALSE(place.error().to_do.empty());
+  }
+  EXPECT_FALSE(place_of("").has_value());
+}
+
+}  // namespace
+}  // namespace steadyrest::kernel::file

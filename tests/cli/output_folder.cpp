@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output_folder.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "program.hpp"
+
+namespace steadyrest::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), std::istream_iterator<std::string>()};
+}
+
+Texts texts_of(const fs::path& folder, bool examples) {
+  Texts out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    if (!entry.is_directory() && name.starts_with("examples/") == examples) {
+      out[name] = text_of_file(entry.path());
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const OutputRow& row) : row_(row) {
+  fs::copy(project_file("examples"), scratch_.at("examples"), fs::copy_options::recursive);
+}
+
+std::vector<std::string> OutputFolder::command(const Texts& instead) const {
+  std::vector<std::string> out = words(row_.verb + " " + row_.arguments);
+  for (const OutputOption& option : row_.outputs) {
+    const auto other = instead.find(option.flag);
+    out.push_back(option.flag);
+    out.push_back(other == instead.end() ? option.value : other->second);
+  }
+  return out;
+}
+
+std::vector<std::string> OutputFolder::outputs() const {
+  std::vector<std::string> out;
+  for (const OutputOption& option : row_.outputs) {
+    out.insert(out.end(), option.files.begin(), option.files.end());
+  }
+  return out;
+}
+
+Texts OutputFolder::results() const {
+  return texts_of(scratch_.at(""), false);
+}
+
+Texts OutputFolder::examples() const {
+  return texts_of(scratch_.at(""), true);
+}
+
+void OutputFolder::place(const Texts& results) const {
+  for (const auto& entry : fs::directory_iterator(scratch_.at(""))) {
+    if (entry.path().filename() != "examples") {
+      fs::remove_all(entry.path());
+    }
+  }
+  for (const auto& [name, text] : results) {
+    fs::create_directories(fs::path(at(name)).parent_path());
+    std::ofstream(at(name), std::ios::binary) << text;
+  }
+}
+
+}  // namespace steadyrest::test

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output_rows.hpp"
+
+#include <algorithm>
+#include <ostream>
+
+namespace steadyrest::test {
+namespace {
+
+OutputOption report() {
+  return {"--report", "out/report", {"out/report/report.html", "out/report/report.json"}};
+}
+
+OutputOption file(const std::string& name) {
+  return {"--output", name, {name}};
+}
+
+const std::string kMill = "examples/machines/linuxcnc-mill.toml";
+const std::string kVmc = "examples/machines/vmc-840d.toml";
+const std::string kSlot = "examples/processes/slot-922hz.toml";
+const std::string kPaper = "examples/paper-thermal/";
+const std::string kWork =
+    "--machine " + kPaper + "machine.toml --cyclogram " + kPaper + "cyclogram.toml";
+const std::string kRib = "examples/programs/rib-pocket.ngc";
+const std::string kRibPlan = "examples/plans/rib-pocket.json";
+const std::string kCorrected = "examples/plans/rib-pocket-compensated.ngc";
+const std::string kEdges = "examples/logs/sine-edges.csv";
+
+std::vector<OutputRow> all() {
+  const std::string batch = "examples/thermal-batch/";
+  const std::string test = "examples/thermal/spindle-test.csv";
+  return {
+      {"cut",
+       batch + "plate.ngc --machine " + batch + "machine.toml --batch 2",
+       {{"--report",
+         "out",
+         {"out/report.html", "out/report.json", "out/batch/report.html", "out/batch/report.json"}}},
+       {batch + "plate.ngc", batch + "machine.toml"}},
+      {"chatter simulate",
+       kSlot + " --speed-rpm 5000 --depth-mm 0.5 --seconds 0.2",
+       {file("out.csv"), report()},
+       {kSlot}},
+      {"chatter radius", kSlot + " --speed-rpm 5000 --depth-mm 0.5", {report()}, {kSlot}},
+      {"chatter lobes",
+       kSlot + " --speeds-rpm 5000:9000:9 --depths-mm 0:3:4",
+       {{"--output", "out.csv", {"out.csv", "out.border.csv"}}, report()},
+       {kSlot},
+       true},
+      {"chatter plan",
+       kSlot + " --machine " + kVmc + " --speed-rpm 5000 --depth-mm 0.2",
+       {report()},
+       {kSlot, kVmc},
+       true},
+      {"chatter fit",
+       "examples/processes/tap-922hz.csv --axis x",
+       {file("modes.toml")},
+       {"examples/processes/tap-922hz.csv"}},
+      {"chatter detect",
+       "examples/logs/slot-chatter.csv --machine " + kVmc + " --teeth 2",
+       {report()},
+       {"examples/logs/slot-chatter.csv", kVmc}},
+      {"motion bench",
+       "--scenes constant --phases 1",
+       {{"--output", "out.csv", {"out.csv", "out.requirement.csv"}},
+        {"--page", "p.html", {"p.html"}}},
+       {},
+       true},
+      {"motion calibrate", kEdges + " --count-mm 0.001", {file("lines.toml")}, {kEdges}},
+      {"motion estimate",
+       kEdges +
+           " --input edges --count-mm 0.001 --cycle-hz 1000 --max-acceleration 25 --max-jerk 300",
+       {file("out.csv")},
+       {kEdges}},
+      {"thermal fit",
+       test + " --modes 1 --levels table",
+       {file("passport.toml"), report()},
+       {test}},
+      {"thermal forecast",
+       kWork,
+       {file("out.csv"), report()},
+       {kPaper + "machine.toml", kPaper + "cyclogram.toml"}},
+      {"thermal plan",
+       kWork + " --tolerance-um 10 --level 0",
+       {file("plan.json"), report()},
+       {kPaper + "machine.toml", kPaper + "cyclogram.toml"}},
+      {"thermal adapt",
+       kPaper + "plan.json --measured " + kPaper + "measured.csv",
+       {file("machine.toml")},
+       {kPaper + "plan.json", kPaper + "measured.csv", kPaper + "machine.toml",
+        kPaper + "cyclogram.toml"}},
+      {"program moves", kRib + " --dialect linuxcnc", {file("moves.csv")}, {kRib}},
+      {"program time",
+       kRib + " --machine " + kMill,
+       {{"--cyclogram", "work.toml", {"work.toml"}}},
+       {kRib, kMill}},
+      {"program compensate",
+       kRib + " --plan " + kRibPlan + " --machine " + kMill,
+       {file("out.ngc")},
+       {kRib, kRibPlan, kMill}},
+      {"program strip", kCorrected, {file("out.ngc")}, {kCorrected}},
+  };
+}
+
+}  // namespace
+
+std::span<const OutputRow> output_rows() {
+  static const std::vector<OutputRow> kRows = all();
+  return kRows;
+}
+
+void PrintTo(const OutputRow& row, std::ostream* out) {
+  *out << row.verb;
+}
+
+std::string test_name(const testing::TestParamInfo<OutputRow>& info) {
+  std::string name = info.param.verb;
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
+}  // namespace steadyrest::test

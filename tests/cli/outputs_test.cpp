@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "help.hpp"
+#include "output_folder.hpp"
+#include "output_rows.hpp"
+#include "process.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace steadyrest::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Key;
+using testing::UnorderedElementsAreArray;
+
+/// Old results of the same kind that differ from the new ones.
+Texts older(const Texts& results) {
+  Texts out = results;
+  for (auto& [name, text] : out) {
+    text += "\n";
+  }
+  return out;
+}
+
+class Outputs : public testing::TestWithParam<OutputRow> {
+ protected:
+  OutputFolder folder_{GetParam()};
+  const Texts examples_ = folder_.examples();
+
+  int run(const std::vector<std::string>& command, Process::Limits limits = {}) {
+    Process process(command, folder_.path(), limits);
+    const int code = process.wait();
+    err_ = process.err();
+    return code;
+  }
+  Texts made() {
+    EXPECT_EQ(run(folder_.command()), 0) << err_;
+    return folder_.results();
+  }
+  std::string err_;
+};
+
+/// OUT and DIR in a verb's help.
+std::set<std::string> output_flags(const std::string& help) {
+  static const std::regex kOutput(R"((--[a-z-]+) (OUT|DIR)\b)");
+  std::set<std::string> out;
+  for (std::sregex_iterator at(help.begin(), help.end(), kOutput), end; at != end; ++at) {
+    out.insert((*at)[1]);
+  }
+  return out;
+}
+
+TEST(OutputTable, HasEveryOutputOfEveryVerb) {
+  std::set<std::pair<std::string, std::string>> in_help;
+  for (const Words& verb : verbs()) {
+    for (const std::string& flag : output_flags(help_of(verb))) {
+      in_help.emplace(joined(verb), flag);
+    }
+  }
+  std::set<std::pair<std::string, std::string>> in_table;
+  for (const OutputRow& row : output_rows()) {
+    for (const OutputOption& option : row.outputs) {
+      in_table.emplace(row.verb, option.flag);
+    }
+  }
+  EXPECT_EQ(in_help, in_table);
+}
+
+TEST_P(Outputs, AreWrittenWholeAndReplaceOlderOnes) {
+  const Texts results = made();
+  std::vector<testing::Matcher<const Texts::value_type&>> keys;
+  for (const std::string& name : folder_.outputs()) {
+    keys.emplace_back(Key(name));
+  }
+  EXPECT_THAT(results, UnorderedElementsAreArray(keys));
+  folder_.place(older(results));
+  const Texts again = made();
+  if (!GetParam().timed) {
+    EXPECT_EQ(again, results);
+  }
+  EXPECT_NE(again, older(results));
+  EXPECT_EQ(folder_.examples(), examples_);
+}
+
+TEST_P(Outputs, ThatAreAnInputAreRefused) {
+  const auto refused = [this](const std::vector<std::string>& command, const std::string& how) {
+    EXPECT_EQ(run(command), 2) << how;
+    EXPECT_THAT(err_, HasSubstr("--force")) << how;
+    EXPECT_EQ(folder_.examples(), examples_) << how;
+  };
+  for (const std::string& input : GetParam().inputs) {
+    for (const OutputOption& option : GetParam().outputs) {
+      if (option.files.front() == option.value) {
+        refused(folder_.command({{option.flag, input}}), option.flag + " " + input);
+        refused(folder_.command({{option.flag, "./examples/../" + input}}), option.flag);
+      }
+    }
+    for (const std::string& output : folder_.outputs()) {
+      for (const bool hard : {false, true}) {
+        folder_.clear();
+        const fs::path link = folder_.at(output);
+        fs::create_directories(link.parent_path());
+        hard ? fs::create_hard_link(folder_.at(input), link)
+             : fs::create_symlink(folder_.at(input), link);
+        refused(folder_.command(), output + (hard ? " is " : " leads to ") + input);
+      }
+    }
+  }
+}
+
+TEST_P(Outputs, ReplaceNothingOfAnotherKindWithoutForce) {
+  for (const std::string& output : folder_.outputs()) {
+    for (const std::string precious :
+         {"a note of mine\n", "t_s,count\n0,0\n", "[cut]\noperation = \"milling\"\n",
+          "{\"mine\": 1}\n", "<!doctype html>\n<title>Mine</title>\n"}) {
+      folder_.place({{output, precious}});
+      EXPECT_EQ(run(folder_.command()), 2) << output;
+      EXPECT_THAT(err_, HasSubstr("exists and is not")) << output;
+      EXPECT_EQ(folder_.results(), (Texts{{output, precious}})) << output;
+    }
+  }
+  std::vector<std::string> forced = folder_.command();
+  forced.emplace_back("--force");
+  EXPECT_EQ(run(forced), 0) << err_;
+  EXPECT_EQ(folder_.results().size(), folder_.outputs().size());
+}
+
+TEST_P(Outputs, StayAsTheyWereWhenTheDiskIsFull) {
+  const Texts old = older(made());
+  for (const long bytes : {0L, 40L}) {
+    folder_.place(old);
+    EXPECT_EQ(run(folder_.command(), {.largest_file = bytes}), 1);
+    EXPECT_THAT(err_, HasSubstr("cannot be written: File too large"));
+    EXPECT_EQ(folder_.results(), old);
+  }
+  folder_.clear();
+  EXPECT_EQ(run(folder_.command(), {.largest_file = 40}), 1);
+  EXPECT_THAT(folder_.results(), IsEmpty());
+}
+
+TEST_P(Outputs, AreKeptWhenStdoutIsClosed) {
+  EXPECT_EQ(run(folder_.command(), {.out = Process::Stdout::closed_pipe}), 1);
+  EXPECT_THAT(err_, HasSubstr("the answer cannot be written to stdout"));
+  EXPECT_EQ(folder_.results().size(), folder_.outputs().size());
+}
+
+TEST_P(Outputs, WithoutANameAreRefused) {
+  for (const OutputOption& option : GetParam().outputs) {
+    EXPECT_EQ(run(folder_.command({{option.flag, ""}})), 2);
+    EXPECT_THAT(err_, HasSubstr(option.flag));
+    EXPECT_THAT(err_, HasSubstr(" is empty; name a "));
+    EXPECT_THAT(folder_.results(), IsEmpty());
+  }
+}
+
+TEST_P(Outputs, ThatCannotBeAreRefusedBeforeTheWork) {
+  fs::create_directory(folder_.at("folder"));
+  for (const OutputOption& option : GetParam().outputs) {
+    if (option.files.front() == option.value) {
+      EXPECT_EQ(run(folder_.command({{option.flag, "folder"}})), 2);
+      EXPECT_THAT(err_, HasSubstr("folder: is a folder; name a file"));
+      EXPECT_EQ(run(folder_.command({{option.flag, "no/such/out.csv"}})), 1);
+      EXPECT_THAT(err_, HasSubstr("no/such/out.csv: cannot be written"));
+    } else {
+      EXPECT_EQ(run(folder_.command({{option.flag, "examples/CMakeLists.txt/x"}})), 2);
+    }
+    EXPECT_EQ(folder_.results(), Texts{});
+  }
+  EXPECT_EQ(folder_.examples(), examples_);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAllVerbs, Outputs,
+                         testing::ValuesIn(output_rows().begin(), output_rows().end()), test_name);
+
+}  // namespace
+}  // namespace steadyrest::test

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace steadyrest::test {
+
+/// The built `steadyrest`, running in a folder of the test's, which may end it. What it prints for
+/// people goes nowhere.
+class Process {
+ public:
+  enum class Stdout { nowhere, closed_pipe };
+  struct Limits {
+    long largest_file = -1;  ///< bytes that a file may have, as on a full disk; −1 without
+    Stdout out = Stdout::nowhere;
+  };
+
+  Process(const std::vector<std::string>& arguments, const std::string& folder, Limits limits);
+  Process(const std::vector<std::string>& arguments, const std::string& folder)
+      : Process(arguments, folder, Limits{}) {}
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  ~Process();
+
+  /// Readable once it has ended.
+  [[nodiscard]] int ended() const noexcept { return pidfd_; }
+  void send(int signal) const noexcept;
+  /// Exit code, or −signal.
+  int wait();
+  /// What it said on stderr; after wait().
+  [[nodiscard]] const std::string& err() const noexcept { return err_; }
+
+ private:
+  pid_t child_ = -1;
+  int pidfd_ = -1;
+  int err_read_ = -1;
+  int code_ = 0;
+  std::string err_;
+};
+
+}  // namespace steadyrest::test
