@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "expectations.hpp"
 #include "program.hpp"
+#include "scratch.hpp"
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -37,6 +39,47 @@ TEST(Cli, UnknownVerbAndUnknownFlagAreRefused) {
   EXPECT_THAT(finished.out, IsEmpty());
   EXPECT_THAT(finished.err, HasSubstr("--colour"));
   EXPECT_THAT(finished.err, HasSubstr("; see steadyrest contour limit --help"));
+}
+
+TEST(Cli, NamesTheNearestVerbAndOption) {
+  const std::string cut = " examples/processes/slot-922hz.toml --speed-rpm 5000 ";
+  for (const auto& [line, said] :
+       {std::pair<std::string, std::string>{
+            "chatter lobe",
+            "unknown verb 'lobe'; did you mean 'lobes'? see steadyrest chatter --help"},
+        {"chater lobes", "unknown verb 'chater'; did you mean 'chatter'? see steadyrest --help"},
+        {"lobes", "unknown verb 'lobes'; did you mean 'chatter lobes'? see steadyrest --help"},
+        {"paint", "unknown verb 'paint'; see steadyrest --help"},
+        {"chatter radius" + cut + "--dept-mm 1",
+         "unknown option '--dept-mm'; did you mean '--depth-mm'? see steadyrest chatter radius "
+         "--help"},
+        {"chatter radius" + cut + "--depth-mm 1 --jsno",
+         "unknown option '--jsno'; did you mean '--json'? see steadyrest chatter radius --help"},
+        {"chatter radius" + cut + "--depht-mm=1",
+         "unknown option '--depht-mm'; did you mean '--depth-mm'? see steadyrest chatter radius "
+         "--help"},
+        {"chatter radius" + cut + "--depth-mm 1 twice",
+         "one argument too many: 'twice'; see steadyrest chatter radius --help"}}) {
+    const Finished finished = run_line(line);
+    EXPECT_EQ(finished.code, 2) << line;
+    EXPECT_EQ(finished.err, "steadyrest: " + said + "\n") << line;
+  }
+}
+
+TEST(Cli, APortThatIsNotBuiltIsRefused) {
+  const Scratch scratch;
+  const std::string mill = text_of_file(project_file("examples/machines/linuxcnc-mill.toml"));
+  for (const char* port : {"linuxcnc", "modbus", "opcua", "replay", "lines"}) {
+    std::string text = mill;
+    text.replace(text.find("port = \"sim\""), 12, fmt::format("port = \"{}\"", port));
+    const std::string machine = scratch.file("machine.toml", text);
+    for (const std::string& line : {"doctor --machine " + machine,
+                                    "cut examples/programs/circle-r10.ngc --machine " + machine}) {
+      expect_refused(
+          line,
+          fmt::format("port = \"{}\" is not known; allowed is only sim; write \"sim\"", port));
+    }
+  }
 }
 
 TEST(Cli, BadUsageIsOneJsonObjectToo) {

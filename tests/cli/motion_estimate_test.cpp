@@ -206,14 +206,15 @@ TEST(MotionEstimate, ReportsALogThatEndsMidRow) {
 
 TEST(MotionEstimate, RefusesALogThatItCannotReadAndLeavesTheOutputAlone) {
   const Scratch scratch;
-  const std::string out = scratch.file("out.csv", "precious");
+  const std::string older = "t_s,position_mm,velocity_mm_s,acceleration_mm_s2,precious\n";
+  const std::string out = scratch.file("out.csv", older);
   for (const char* name :
        {"column-count-missing.csv", "compressed.csv.gz", "empty.csv", "none.csv"}) {
     const std::string log = project_file(std::string("tests/refused/motion/") + name);
     const Finished finished = run_line("motion estimate " + log + kEdges + " -o " + out);
     EXPECT_EQ(finished.code, 2) << name;
     EXPECT_THAT(finished.err, StartsWith("steadyrest: " + log + ":")) << name;
-    EXPECT_EQ(text_of_file(out), "precious");
+    EXPECT_EQ(text_of_file(out), older);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/session.hpp>
+#include <steadyrest/apps/cli/usage.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/temporary.hpp>
 
@@ -152,13 +153,7 @@ int Session::usage(const CLI::ParseError& error) const {
     app_.exit(error, std::cout, std::cerr);
     return std::cout.flush() ? kDone : unwritten();
   }
-  std::string path(kName);
-  const CLI::App* at = &app_;
-  while (!at->get_subcommands().empty()) {
-    at = at->get_subcommands().front();
-    path += " " + at->get_name();
-  }
-  Refusal refusal{Kind::bad_input, "", 0, error.what(), fmt::format("see {} --help", path)};
+  const Refusal refusal = usage_refusal(app_, error);
   if (json_) {
     print_json({{"refused", as_json({refusal})}});
   }

@@ -83,6 +83,14 @@ std::optional<Refusal> unfit(const PlannedFile& planned, std::span<const Planned
 
 }  // namespace
 
+kernel::outcome::Result<kernel::file::OutputFile> table_output(const std::string& output,
+                                                               bool json) {
+  if (output.empty() && !json) {
+    return kernel::file::OutputFile::standard_output();
+  }
+  return kernel::file::OutputFile::open(output.empty() ? "/dev/null" : output);
+}
+
 std::vector<PlannedFile> report_files(const std::string& folder) {
   const std::filesystem::path in(folder);
   return {{(in / "report.html").string(), page_content()},

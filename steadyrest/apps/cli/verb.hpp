@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <steadyrest/apps/cli/content.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/place.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -86,6 +87,10 @@ class Verb : public CLI::App {
   std::vector<Output> outputs_;
   bool force_ = false;
 };
+
+/// Where a table goes: to its file; without one to stdout, unless that belongs to the JSON object.
+[[nodiscard]] kernel::outcome::Result<kernel::file::OutputFile> table_output(
+    const std::string& output, bool json);
 
 /// report.html and report.json in this folder.
 [[nodiscard]] std::vector<PlannedFile> report_files(const std::string& folder);

@@ -402,9 +402,9 @@ void add_verb_chatter_detect(Session& session) {
       verb.add_option("--teeth", options->teeth, "Teeth of the tool, 1 in turning");
   add_log_options(verb, options->format);
   verb.reads("--process", options->process,
-                  "Process file (TOML): with --depth-mm the better speed is what chatter plan "
-                  "says, without it the deepest override step; without a process it is a rule of "
-                  "thumb, whole waves between two teeth")
+             "Process file (TOML): with --depth-mm the better speed is what chatter plan "
+             "says, without it the deepest override step; without a process it is a rule of "
+             "thumb, whole waves between two teeth")
       ->excludes(teeth);
   verb.add_option("--speed-rpm", options->speed_rpm,
                   "Spindle speed in rev/min of a signal without the column");

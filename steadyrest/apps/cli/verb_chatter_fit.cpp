@@ -133,8 +133,8 @@ void add_verb_chatter_fit(Session& session) {
   auto options = std::make_shared<Options>();
   verb.reads("frf", options->files,
              "Responses of one point and direction: CSV (frequency_hz, real and imag or "
-                  "magnitude and phase, coherence if recorded; displacement, velocity or "
-                  "acceleration per N, unit in the head) or universal file format 58")
+             "magnitude and phase, coherence if recorded; displacement, velocity or "
+             "acceleration per N, unit in the head) or universal file format 58")
       ->required();
   verb.add_option("--axis", options->axis, "Direction of the measurement: x or y")
       ->required()

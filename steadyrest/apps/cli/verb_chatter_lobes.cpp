@@ -271,9 +271,10 @@ Result<std::string> page_of(const Json& answer, const Task& task, const Options&
 }
 
 Result<void> write_map(const Options& options, const Made& made) {
-  const std::array files = {kernel::file::FileText{.file = options.output, .text = map_csv(made.map)},
-                            kernel::file::FileText{.file = border_path(options.output).string(),
-                                                   .text = border_csv(made.border)}};
+  const std::array files = {
+      kernel::file::FileText{.file = options.output, .text = map_csv(made.map)},
+      kernel::file::FileText{.file = border_path(options.output).string(),
+                             .text = border_csv(made.border)}};
   return kernel::file::write_files(files);
 }
 
@@ -339,9 +340,9 @@ void add_verb_chatter_lobes(Session& session) {
              "Machine file (TOML), for the override steps in the report");
   add_law_options(verb, options->law);
   verb.writes("-o,--output", options->output,
-                  "The map (CSV: speed_rpm,depth_mm,spectral_radius); the border, refined between "
-                  "these speeds until it is smooth, goes to OUT.border.csv (speed_rpm,depth_mm; no "
-                  "row where all depths of the map are stable)",
+              "The map (CSV: speed_rpm,depth_mm,spectral_radius); the border, refined between "
+              "these speeds until it is smooth, goes to OUT.border.csv (speed_rpm,depth_mm; no "
+              "row where all depths of the map are stable)",
               map_files)
       ->required();
   verb.reports(options->report);

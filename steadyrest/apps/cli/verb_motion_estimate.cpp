@@ -191,14 +191,6 @@ kernel::outcome::Result<std::optional<online::LineTable>> lines_of(const Options
   return std::move(*table);
 }
 
-/// Without -o the table goes to stdout, unless that belongs to the JSON object.
-Result<OutputFile> opened(const std::string& output, bool json) {
-  if (output.empty() && !json) {
-    return OutputFile::standard_output();
-  }
-  return OutputFile::open(output.empty() ? "/dev/null" : output);
-}
-
 Outcome estimate(const Options& options, const EdgeLog& log,
                  const std::optional<online::LineTable>& lines, bool json, Progress& progress) {
   auto record = record_of(options, log);
@@ -214,7 +206,7 @@ Outcome estimate(const Options& options, const EdgeLog& log,
   if (!estimator) {
     return refused(estimator.error());
   }
-  auto out = opened(options.output, json);
+  auto out = table_output(options.output, json);
   if (!out) {
     return refused(out.error());
   }

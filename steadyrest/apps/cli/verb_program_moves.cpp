@@ -9,8 +9,6 @@
 namespace steadyrest::apps::cli {
 namespace {
 
-using kernel::file::OutputFile;
-using kernel::outcome::Result;
 using nc::interpret::MoveTable;
 
 struct Options {
@@ -20,19 +18,12 @@ struct Options {
 
 // Without -o the table itself is the text for people, written as it arises: a program of ten
 // million lines must not be held in memory. With --json stdout belongs to the JSON object.
-Result<OutputFile> opened(const std::string& output, bool json) {
-  if (output.empty() && !json) {
-    return OutputFile::standard_output();
-  }
-  return OutputFile::open(output.empty() ? "/dev/null" : output);
-}
-
 Outcome run(const Options& options, bool json) {
   const auto config = program_config(options.program);
   if (!config) {
     return refused(config.error());
   }
-  auto out = opened(options.output, json);
+  auto out = table_output(options.output, json);
   if (!out) {
     return refused(out.error());
   }
@@ -42,7 +33,9 @@ Outcome run(const Options& options, bool json) {
     return refused(report.error());
   }
   table.finish();
-  if (const auto written = out->commit(); !written) {
+  // The moves up to a refusal are no reason to replace an older table of all.
+  const bool whole = report->refused.empty();
+  if (const auto written = whole ? out->commit() : out->flush(); !written) {
     return refused(written.error());
   }
   Answer answer;

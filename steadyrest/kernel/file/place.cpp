@@ -106,7 +106,7 @@ Result<Place> place_of(const std::string& name) {
 Result<MadeFolders> MadeFolders::make(const fs::path& folder) {
   const std::string name = folder.string();
   std::error_code error;
-  const fs::path whole = fs::absolute(folder, error).lexically_normal();
+  const fs::path whole = fs::absolute(folder, error);
   std::vector<fs::path> missing;  // the innermost first
   for (fs::path at = whole; !fs::exists(at, error) && at.has_relative_path();
        at = at.parent_path()) {
@@ -115,17 +115,22 @@ Result<MadeFolders> MadeFolders::make(const fs::path& folder) {
   MadeFolders out;
   for (; !missing.empty(); missing.pop_back()) {
     Temporary made(missing.back().string(), Temporary::Kind::folder);
-    if (::mkdir(missing.back().c_str(), 0777) != 0) {
-      const int why = errno;
-      made.keep();
+    const int why = ::mkdir(missing.back().c_str(), 0777) == 0 ? 0 : errno;
+    if (why == 0) {
+      out.made_.push_back(std::move(made));
+      continue;
+    }
+    made.keep();
+    if (why != EEXIST) {  // `a/.` is there once `a` is
       return refuse(name, Kind::bad_input,
                     "the folder cannot be made: " + std::generic_category().message(why),
                     "name another folder");
     }
-    out.made_.push_back(std::move(made));
   }
   if (!fs::is_directory(whole, error)) {
-    return refuse(name, Kind::bad_input, "is not a folder", "name another folder");
+    return refuse(name, Kind::bad_input,
+                  "the folder cannot be made: " + std::generic_category().message(ENOTDIR),
+                  "name another folder");
   }
   if (::access(whole.c_str(), W_OK | X_OK) != 0) {
     return refuse(name, Kind::bad_input, "the folder cannot be written",

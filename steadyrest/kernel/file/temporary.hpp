@@ -36,8 +36,8 @@ class Temporary {
   std::optional<std::size_t> slot_;  ///< in the table of the signal handler
 };
 
-/// For a program's start: SIGINT, SIGTERM and SIGHUP remove all temporaries and then end the
-/// process as they always do (a signal that is ignored stays ignored). A closed pipe and a file
+/// For a program's start: SIGINT, SIGTERM, SIGHUP and SIGQUIT remove all temporaries and then end
+/// the process as they always do (a signal that is ignored stays ignored). A closed pipe and a file
 /// above the permitted size become errors of write() instead of signals.
 void remove_temporaries_on_signals();
 

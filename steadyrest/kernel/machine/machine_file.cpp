@@ -256,7 +256,7 @@ class FileReader {
     constexpr std::array<std::string_view, 3> kNames = {"feed", "rapid", "spindle"};
     for (const auto& [name, node] : *table) {
       if (std::find(kNames.begin(), kNames.end(), name.str()) == kNames.end()) {
-        const std::string_view close = nearest(name.str(), kNames);
+        const std::string_view close = outcome::nearest(name.str(), kNames);
         faults_.add(line_of(name.source()), fmt::format("[override] has no {}", name.str()),
                     close.empty() ? "allowed are [override.feed], [override.rapid] and "
                                     "[override.spindle]"

@@ -91,8 +91,8 @@ constexpr std::string_view kOpening =
     R"(<!-- Made from steadyrest/kernel/machine/schema.cpp; do not edit. `cmake --build --preset release --target machine_reference` writes it. -->
 # The machine file
 
-One TOML file is the machine's passport. The simulated machine and the layer on the real one read the same file; `port` is
-the only difference. Start from one of [`examples/machines/`](../examples/machines) and check yours with
+One TOML file is the machine's passport. Whatever the machine is reached through reads the same file; `port` is the
+only difference, and `sim`, the simulated machine, the only one so far. Start from one of [`examples/machines/`](../examples/machines) and check yours with
 
     steadyrest doctor --machine examples/machines/vmc-840d.toml
 

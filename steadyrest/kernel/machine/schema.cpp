@@ -9,6 +9,8 @@ namespace {
 using std::string_view;
 
 constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "modbus", "opcua", "replay"};
+/// Those that have an adapter; a file with another is refused.
+constexpr auto kBuiltPorts = std::span(kPorts).first<1>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr std::array<string_view, 3> kDialects = {"linuxcnc", "fanuc", "sinumerik"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
@@ -39,9 +41,9 @@ constexpr auto kRotary = For::rotary;
 std::span<const Key<Machine>> top_keys() noexcept {
   static const std::array kKeys = {
       Key<Machine>{"name", &Machine::name, 1, 80, "What the machine is called in reports."},
-      Key<Machine>{"port", choice<Machine, &Machine::port>(kPorts), 0, 0,
-                   "How the machine is reached. `sim` is the simulated machine; changing this word "
-                   "is the only difference to the real one."},
+      Key<Machine>{
+          "port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
+          "How the machine is reached. `sim`, the simulated machine, is the only way so far."},
       Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
                    "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
   };

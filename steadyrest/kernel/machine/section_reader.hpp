@@ -13,9 +13,9 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
-#include <steadyrest/kernel/machine/nearest.hpp>
 #include <steadyrest/kernel/machine/schema.hpp>
 #include <steadyrest/kernel/machine/unit.hpp>
+#include <steadyrest/kernel/outcome/nearest.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 /// Reads one section of the machine file by its table of keys. Internal to the reader.
@@ -245,10 +245,9 @@ class SectionReader {
         names.push_back(key.name);
       }
     }
-    const std::string_view close = nearest(name, names);
-    faults_.add(line, fmt::format("{} has no key {}", section_, cut(name)),
-                close.empty() ? fmt::format("remove it; {} has {}", section_, joined(names))
-                              : fmt::format("write {} if that is meant", close));
+    faults_.add(
+        line, fmt::format("{} has no key {}", section_, cut(name)),
+        outcome::meant(name, names, fmt::format("remove it; {} has {}", section_, joined(names))));
   }
 
   /// A key for linear axes on a rotary one, or the other way round.

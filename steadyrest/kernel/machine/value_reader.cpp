@@ -164,11 +164,13 @@ bool ValueReader::choice(const toml::node& node, std::span<const std::string_vie
   }
   const auto found = std::find(words.begin(), words.end(), value->get());
   if (found == words.end()) {
-    const std::string_view close = nearest(value->get(), words);
-    faults_.add(
-        line_of(node.source()),
-        fmt::format("{} = {} is not known; allowed is one of {}", key_, shown(node), allowed),
-        close.empty() ? "choose one of them" : fmt::format("write \"{}\" if that is meant", close));
+    const std::string_view close = outcome::nearest(value->get(), words);
+    faults_.add(line_of(node.source()),
+                fmt::format("{} = {} is not known; allowed is {}{}", key_, shown(node),
+                            words.size() > 1 ? "one of " : "only ", allowed),
+                words.size() == 1 ? fmt::format("write \"{}\"", words.front())
+                : close.empty()   ? "choose one of them"
+                                  : fmt::format("write \"{}\" if that is meant", close));
     return false;
   }
   out = static_cast<std::size_t>(found - words.begin());

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <steadyrest/kernel/outcome/nearest.hpp>
 #include <steadyrest/nc/interpret/step.hpp>
 #include <steadyrest/nc/rewrite/plan_file.hpp>
 
@@ -27,11 +28,13 @@ constexpr double kLargest_um = 10'000.0;
 /// Axes that end so near to one another end together: their makers may have rounded each interval.
 constexpr double kSameTime_s = 1e-3;
 
-/// What the maker of a plan may say about it; nothing here depends on it.
-constexpr std::array<std::string_view, 15> kNotes = {
-    "made_by", "program",   "level",       "tolerance_um",   "share",
-    "k",       "cyclogram", "date",        "passport",       "max_um",
-    "note",    "seconds",   "residual_um", "uncertainty_um", "sd_um"};
+/// The first four are read; the others are what the maker of a plan may say about it, on which
+/// nothing here depends.
+constexpr std::array<std::string_view, 19> kRootKeys = {
+    "machine",      "axis",    "axes",        "transitions",    "made_by", "program",  "level",
+    "tolerance_um", "share",   "k",           "cyclogram",      "date",    "passport", "max_um",
+    "note",         "seconds", "residual_um", "uncertainty_um", "sd_um"};
+constexpr std::array<std::string_view, 4> kTransitionKeys = {"n", "t_min", "delta_um", "name"};
 
 class PlanReader {
  public:
@@ -92,9 +95,10 @@ class PlanReader {
           return refuse_key(key, "not a text", "name the machine file");
         }
         plan_.machine = value.get<std::string>();
-      } else if (key != "axis" && key != "axes" && key != "transitions" &&
-                 std::ranges::find(kNotes, key) == kNotes.end()) {
-        return refuse_key(key, "a key that is not known", "remove it, or see nc/rewrite/README.md");
+      } else if (std::ranges::find(kRootKeys, key) == kRootKeys.end()) {
+        return refuse_key(
+            key, "a key that is not known",
+            kernel::outcome::meant(key, kRootKeys, "remove it, or see nc/rewrite/README.md"));
       }
     }
     if (one == several || (several && json_.contains("axis"))) {
@@ -159,8 +163,9 @@ class PlanReader {
     for (const auto& [name, value] : one.items()) {
       if (name != "n" && name != "t_min" && name != "delta_um" &&
           !(name == "name" && value.is_string())) {
-        return refuse_key(key + "." + name, "a key that is not known",
-                          "n, t_min, delta_um and name are");
+        return refuse_key(
+            key + "." + name, "a key that is not known",
+            kernel::outcome::meant(name, kTransitionKeys, "n, t_min, delta_um and name are"));
       }
     }
     for (const char* name : {"n", "t_min", "delta_um"}) {

@@ -58,7 +58,9 @@ void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
       out.resolution_s = read.number(node, minutes) ? 60.0 * minutes : 0.0;
     } else if (name.str() != "transition") {
       faults.add(line_of(name.source()), fmt::format("a cyclogram has no key {}", name.str()),
-                 "remove it; a cyclogram has resolution_min and [[transition]]");
+                 kernel::outcome::meant(
+                     name.str(), std::array<std::string_view, 2>{"resolution_min", "transition"},
+                     "remove it; a cyclogram has resolution_min and [[transition]]"));
     }
   }
   const toml::node* node = root.get("transition");

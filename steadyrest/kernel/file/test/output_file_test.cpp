@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -123,6 +124,7 @@ TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
 /// Runs `work` in a child, so that limits and signals are its own; gives the status.
 template <class Work>
 int in_child(Work work) {
+  std::fflush(stdout);  // or both would write what is held back
   const pid_t child = fork();
   if (child == 0) {
     remove_temporaries_on_signals();
@@ -152,7 +154,7 @@ TEST_F(Output, AFullDiskLeavesTheOldFile) {
 }
 
 TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
     const std::string file = old("out.csv");
     const int status = in_child([&] {
       const Temporary folder((folder_ / "new").string(), Temporary::Kind::folder);

@@ -57,6 +57,25 @@ TEST_F(Places, ADeviceIsNobodysFile) {
   EXPECT_EQ(place_of("/dev/full")->kind, Place::Kind::stream);
 }
 
+TEST_F(Places, FoldersThatStayEmptyGoAgain) {
+  for (const char* name : {"a/b/c", "a/./b/c/", "a/b/../c"}) {
+    {
+      const auto made = MadeFolders::make(at(name));
+      ASSERT_TRUE(made.has_value()) << name;
+      EXPECT_TRUE(fs::is_directory(at(name)));
+    }
+    EXPECT_FALSE(fs::exists(at("a"))) << name;
+  }
+  {
+    const auto made = MadeFolders::make(at("a/b"));
+    std::ofstream(at("a/b/file")) << "x";
+  }
+  EXPECT_TRUE(fs::exists(at("a/b/file")));
+  EXPECT_FALSE(MadeFolders::make(at("log.csv/below")).has_value());
+  EXPECT_FALSE(MadeFolders::make(at("log.csv")).has_value());
+  EXPECT_FALSE(MadeFolders::make("/dev/null/here").has_value());
+}
+
 TEST_F(Places, RefusesWhatCannotBeWritten) {
   ASSERT_EQ(chmod(at("hard").c_str(), 0444), 0);
   fs::create_symlink("round", at("round"));

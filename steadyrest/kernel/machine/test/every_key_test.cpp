@@ -12,7 +12,7 @@ namespace steadyrest::kernel::machine {
 namespace {
 
 constexpr std::string_view kFull = R"(name = "Full"
-port = "replay"
+port = "sim"
 mode = "advise"
 [control]
 dialect = "linuxcnc"
@@ -176,7 +176,7 @@ constexpr double kPi = std::numbers::pi;
 TEST(EveryKey, TopAndControl) {
   const Machine m = full();
   EXPECT_EQ(m.name, "Full");
-  EXPECT_EQ(m.port, PortKind::replay);
+  EXPECT_EQ(m.port, PortKind::sim);
   EXPECT_EQ(m.mode, Mode::advise);
   const Control& c = m.control;
   EXPECT_EQ(c.dialect, Dialect::linuxcnc);

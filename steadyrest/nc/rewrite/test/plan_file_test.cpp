@@ -64,6 +64,15 @@ TEST(PlanFile, RefusesEveryFileOfTheCorpus) {
   EXPECT_GE(seen, 18U);
 }
 
+TEST(PlanFile, NamesTheKeyThatIsMeant) {
+  const auto to_do = [](const char* text) { return parse_plan(text, "plan.json").error().to_do; };
+  EXPECT_EQ(to_do(R"({"transitoins": []})"), "write transitions if that is meant");
+  EXPECT_EQ(to_do(R"({"transitions": [{"n": 1, "tmin": [9], "delta_um": [3]}]})"),
+            "write t_min if that is meant");
+  EXPECT_EQ(to_do(R"({"transitions": [{"n": 1, "paint": [9], "delta_um": [3]}]})"),
+            "n, t_min, delta_um and name are");
+}
+
 TEST(PlanFile, RefusesAFileThatIsNotThere) {
   const auto plan = read_plan("/nowhere/plan.json");
   ASSERT_FALSE(plan);

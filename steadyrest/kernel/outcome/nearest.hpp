@@ -2,13 +2,18 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
-namespace steadyrest::kernel::machine {
+namespace steadyrest::kernel::outcome {
 
 /// The candidate that `word` was probably meant to be: smallest edit distance (insert, delete,
 /// replace, swap of neighbours), at most a third of the word's length plus one. Empty if none.
 [[nodiscard]] std::string_view nearest(std::string_view word,
                                        std::span<const std::string_view> candidates);
 
-}  // namespace steadyrest::kernel::machine
+/// What to do about a word that is not known: `write NEAREST if that is meant`, else `otherwise`.
+[[nodiscard]] std::string meant(std::string_view word, std::span<const std::string_view> candidates,
+                                std::string otherwise);
+
+}  // namespace steadyrest::kernel::outcome

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <utility>
 #include <vector>
 
-#include <steadyrest/kernel/machine/nearest.hpp>
+#include <steadyrest/kernel/outcome/nearest.hpp>
 
-namespace steadyrest::kernel::machine {
+namespace steadyrest::kernel::outcome {
 namespace {
 
-// Words in a machine file are short; longer ones are no misspelling of any key.
+// Words of files and of the command line are short; longer ones are no misspelling of any key.
 constexpr std::size_t kLongestWord = 64;
 
 /// Optimal string alignment distance.
@@ -51,4 +52,10 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
   return best;
 }
 
-}  // namespace steadyrest::kernel::machine
+std::string meant(std::string_view word, std::span<const std::string_view> candidates,
+                  std::string otherwise) {
+  const std::string_view close = nearest(word, candidates);
+  return close.empty() ? std::move(otherwise) : "write " + std::string(close) + " if that is meant";
+}
+
+}  // namespace steadyrest::kernel::outcome

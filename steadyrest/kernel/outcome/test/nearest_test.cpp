@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/kernel/machine/nearest.hpp>
+#include <steadyrest/kernel/outcome/nearest.hpp>
 
-namespace steadyrest::kernel::machine {
+namespace steadyrest::kernel::outcome {
 namespace {
 
 constexpr std::array<std::string_view, 3> kWords = {"coding", "percent", "codes"};
@@ -24,5 +24,10 @@ TEST(Nearest, SuggestsNothingForAnotherWord) {
   EXPECT_EQ(nearest(std::string(100000, 'c'), kWords), "");
 }
 
+TEST(Nearest, SaysWhatToWrite) {
+  EXPECT_EQ(meant("codign", kWords, "remove it"), "write coding if that is meant");
+  EXPECT_EQ(meant("colour_of_paint", kWords, "remove it"), "remove it");
+}
+
 }  // namespace
-}  // namespace steadyrest::kernel::machine
+}  // namespace steadyrest::kernel::outcome
