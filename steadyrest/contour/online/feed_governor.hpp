@@ -48,10 +48,11 @@ struct Candidate {
 ///
 /// Admissible: "go to the step, hold it for one decision, then fall to the lowest step as fast as
 /// the slew permits" keeps |ε| ≤ ε_max·(1 − margin) − reserve on the whole way. So the fall can
-/// always be put off to the next decision and no sooner: neither late nor early. Steps are tried
-/// from the highest down and the first admissible one is taken; nothing is assumed about the order
-/// of their errors. Where even the fall does not keep the limit, each place may have what the fall
-/// alone gives there.
+/// always be put off to the next decision and no sooner: neither late nor early. The largest
+/// admissible step is sought from the highest down, nothing being assumed about the order of their
+/// errors; in tables of more than 32 steps from the one in force, in doubling strides and then by
+/// halves (step_search.hpp). Where even the fall does not keep the limit, each place
+/// may have what the fall alone gives there.
 ///
 /// Steady state: a slow servo would permit a too large step for a moment, again and again. So a
 /// rise must also be sustainable: held for `pause_s` it must not break the limit within the stretch
@@ -64,8 +65,9 @@ struct Candidate {
 /// limits; the kernel's envelope enforces them.
 ///
 /// Withdraws (ratio 1): input not finite or stale, threading and tapping, no cutting within reach
-/// ahead. Bounded: a decision costs at most steps × 512 forecast steps of ≈ 50 ns; see
-/// bench/contour_bench.
+/// ahead. Bounded: a decision stops looking once its forecasts have taken `work_share` of a control
+/// cycle, at kForecastStepCostS for each of their steps, and takes the largest step that it knows
+/// to be admissible; the next one goes on from there. See bench/contour_bench.
 ///
 /// Source: Jin, Zhang, Ding (strategies, exhaustive search). The admissibility rule is this
 /// project's.
@@ -76,6 +78,7 @@ class FeedGovernor {
     double decision_s = 0.0;           ///< 0 = the override's scan period, 4…10 ms
     double objective_s = 0.10;         ///< period of the full search of the other strategies
     double pause_s = 0.5;              ///< after a fall, rises need more room
+    double work_share = 0.1;           ///< of a control cycle that one decision may take
     double forecast_step_s = 0.0;      ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
     double (*objective)(const Candidate&) noexcept = combined_objective;
   };
@@ -174,6 +177,7 @@ class FeedGovernor {
   double softest_gain_1_s_ = 50.0;
   double unseen_mm_ = 0.0;  ///< half of the largest backlash: no encoder on a motor sees it
   double decision_s_ = 0.01;
+  std::size_t most_forecast_steps_ = 0;     ///< of one decision, by `work_share`
   double reach_s_ = 0.1;                    ///< how far ahead in time the path must be known
   std::array<double, kHistory> history_{};  ///< ratio let through, by cycle
   std::size_t history_at_ = 0;

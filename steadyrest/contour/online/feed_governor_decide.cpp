@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <steadyrest/contour/online/feed_governor.hpp>
+#include <steadyrest/contour/online/step_search.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
 // Which step: the search over the table.
@@ -19,6 +20,8 @@ constexpr double kRiseRoom = 0.98;  // share of the limit that a rise may use
 constexpr double kRiseRoomInPause = 0.85;
 constexpr double kTieMm = 1e-4;       // errors closer than this are equal
 constexpr double kStretchTurn = 0.1;  // rad by which an even stretch may depart from its mean
+constexpr std::size_t kExhaustiveSteps = 32;  // up to so many all are looked at
+constexpr std::size_t kStride = 8;            // of the first look at a fine table
 constexpr double kTraceRoom = 1.02;
 constexpr double kTraceRoomMm = 2e-4;
 
@@ -64,33 +67,44 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
   plan.floor = candidate_.front();
   plan.hold_s = decision_s_;
   Choice choice;
+  std::size_t spent = 0;
+  const auto may_go_on = [&] { return spent < most_forecast_steps_; };
+  const auto forecast = [&](const RatioPlan& of, double most_mm, const Forecast::Trace* trace) {
+    const Forecast::Result result = forecast_.run(path, outset, of, most_mm, true, trace, nullptr);
+    ++forecasts;
+    spent += result.steps;
+    return result;
+  };
   const auto search = [&](const Forecast::Trace* trace) {
-    for (std::size_t c = top + 1; c-- > 0;) {
+    const auto admissible = [&](std::size_t c) {
       plan.target = candidate_[c];
-      const Forecast::Result result =
-          forecast_.run(path, outset, plan, limit, true, trace, nullptr);
-      ++forecasts;
+      const Forecast::Result result = forecast(plan, limit, trace);
       if (!result.kept) {
-        continue;
+        return false;
       }
       const bool rises = candidate_[c] > in_force + kSameRatio;
       if (rises && trace == nullptr) {
         RatioPlan lasting = plan;
         lasting.hold_s = config_.pause_s;
-        const Forecast::Result held =
-            forecast_.run(path, outset, lasting, room * limit, true, nullptr, nullptr);
-        ++forecasts;
+        const Forecast::Result held = forecast(lasting, room * limit, nullptr);
         const bool lasts = held.kept || held.broken_mm >= stretch_end_mm(path, outset);
         if (std::abs(result.error_mm) > room * limit || !lasts) {
           choice.held_back = choice.held_back || lasts;
-          continue;
+          return false;
         }
       }
-      choice.candidate = c;
-      choice.forecast = result;
+      choice.forecast = result;  // the last one that is admissible is the largest
       return true;
-    }
-    return false;
+    };
+    const auto above = std::ranges::upper_bound(candidate_, in_force + kSameRatio);
+    const auto start =
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - candidate_.begin() - 1, 0));
+    // What the fall alone gives is no bound that slower steps keep too: all of them must be tried.
+    const bool all = trace != nullptr || candidate_.size() <= kExhaustiveSteps;
+    const auto found = all ? first_admissible_below(top, admissible, may_go_on)
+                           : largest_admissible_near(start, top, admissible, may_go_on);
+    choice.candidate = found.value_or(0);
+    return found.has_value();
   };
   if (search(nullptr)) {
     return choice;
@@ -101,6 +115,7 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
   choice.floor = true;
   choice.forecast = forecast_.run(path, outset, plan, limit, false, nullptr, &trace_);
   ++forecasts;
+  spent += choice.forecast.steps;
   for (std::size_t i = 0; i < trace_.count; ++i) {
     double& error = trace_.error_mm[i];
     error = error * kTraceRoom + kTraceRoomMm;
@@ -116,7 +131,7 @@ std::size_t FeedGovernor::best_by_objective(const Outset& outset,
   const bool by_contour = contour.strategy == ContourStrategy::contour_priority;
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < candidate_.size(); ++c) {
+  const auto look = [&](std::size_t c) {
     RatioPlan plan;
     plan.start = plan.target = plan.floor = candidate_[c];
     const Forecast::Result result =
@@ -130,10 +145,24 @@ std::size_t FeedGovernor::best_by_objective(const Outset& outset,
     const double value =
         by_contour ? std::max(error, contour.target_mm) : config_.objective(candidate);
     const double tie = by_contour ? kTieMm : 1e-9;
-    // Rising order: among equals the fastest stays.
-    if (value <= least + tie) {
+    // Among equals the fastest.
+    if (value < least - tie || (value <= least + tie && c >= best)) {
       best = c;
       least = std::min(least, value);
+    }
+  };
+  // A fine table first in strides, then ever closer around the best.
+  std::size_t stride = candidate_.size() <= kExhaustiveSteps ? 1 : kStride;
+  for (std::size_t c = 0; c < candidate_.size(); c += stride) {
+    look(c);
+  }
+  for (stride /= 2; stride > 0; stride /= 2) {
+    const std::size_t around = best;
+    if (around >= stride) {
+      look(around - stride);
+    }
+    if (around + stride < candidate_.size()) {
+      look(around + stride);
     }
   }
   return best;

@@ -17,6 +17,10 @@ kernel::outcome::Refusal refuse(std::string what, std::string to_do) {
   return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), std::move(to_do)};
 }
 
+/// What one step of a forecast is taken to cost: twice what a core of 3 GHz needs, so that slower
+/// ones keep the share too. A fixed figure, so that the same input decides alike everywhere.
+constexpr double kForecastStepCostS = 100e-9;
+
 double stiffest(const Machine& machine) noexcept {
   double k = 1.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
@@ -105,6 +109,9 @@ kernel::outcome::Result<void> check(const FeedGovernor::Config& config) {
   if (!(m.envelope.feed_fall_1_s > 0.0 && m.envelope.feed_rise_1_s > 0.0)) {
     return std::unexpected(refuse("a slew limit is not above 0", "correct the envelope"));
   }
+  if (!(config.work_share > 0.0 && config.work_share <= 1.0)) {
+    return std::unexpected(refuse("work_share is not above 0 and up to 1", "correct work_share"));
+  }
   if (config.objective == nullptr) {
     return std::unexpected(refuse("objective is missing", "give an objective"));
   }
@@ -172,6 +179,8 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   unseen_mm_ = unseen_by_encoders_mm(m);
   decision_s_ = config_.decision_s > 0.0 ? config_.decision_s
                                          : std::clamp(m.feed_override.scan_period_s, 0.004, 0.010);
+  most_forecast_steps_ = static_cast<std::size_t>(
+      std::max(1.0, config_.work_share * m.control.interpolator_period_s / kForecastStepCostS));
   Forecast::Timing timing;
   timing.step_s = config_.forecast_step_s > 0.0 ? config_.forecast_step_s
                                                 : std::clamp(0.12 / stiffest(m), 5e-4, 4e-3);
