@@ -4,9 +4,9 @@ import { viteSingleFile } from 'vite-plugin-singlefile';
 
 export default defineConfig({
   plugins: [viteSingleFile({ removeViteModuleLoader: true })],
-  test: { testTimeout: 60_000, hookTimeout: 60_000, fileParallelism: false },
+  test: { testTimeout: 240_000, hookTimeout: 240_000, fileParallelism: false },
   build: {
-    rollupOptions: { input: process.env['STEADYREST_PAGE'] ?? 'report.html' },
+    rollupOptions: { input: 'page.html' },
     target: 'es2022',
     emptyOutDir: true,
     chunkSizeWarningLimit: 2000,

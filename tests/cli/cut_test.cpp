@@ -125,13 +125,41 @@ TEST(Cut, WritesTheReportAsPageAndAsJson) {
 
 TEST(Cut, TwiceTheSameIsTheSameToTheByte) {
   const Scratch scratch;
-  const std::string noisy =
-      "cut " + kCircle + " --machine examples/machines/vmc-840d.toml --report ";
-  answer_of(noisy + scratch.at("a"));
-  answer_of(noisy + scratch.at("b"));
-  const std::string first = text_of_file(scratch.at("a/report.json"));
+  const std::string noisy = "cut " + kCircle +
+                            " --machine examples/machines/vmc-840d.toml --report-date none "
+                            "--report " +
+                            scratch.at("a");
+  const auto both = [&scratch] {
+    return text_of_file(scratch.at("a/report.json")) + text_of_file(scratch.at("a/report.html"));
+  };
+  answer_of(noisy);
+  const std::string first = both();
   EXPECT_GT(first.size(), 10'000U);
-  EXPECT_TRUE(first == text_of_file(scratch.at("b/report.json")));
+  answer_of(noisy);
+  EXPECT_TRUE(first == both());
+}
+
+TEST(Cut, ShowsTheWorstLinesWithTheFeedThatWouldHold) {
+  const Scratch scratch;
+  answer_of(kCut + " --report " + scratch.at("out"));
+  const json lines = json::parse(text_of_file(scratch.at("out/report.json")))["worst_lines"];
+  ASSERT_FALSE(lines.empty());
+  double last_um = 1e9;
+  bool arc = false;
+  for (const json& line : lines) {
+    const double with_um = std::abs(line["with_um"].get<double>());
+    EXPECT_LE(with_um, last_um);
+    last_um = with_um;
+    EXPECT_GT(line["feed_with_mm_min"], 0.0);
+    if (line["held_by"] == "closed form") {
+      // As `contour limit` has it for this radius, gain and limit.
+      arc = true;
+      const json limit = answer_of("contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 0.010");
+      EXPECT_NEAR(line["radius_mm"], 10.0, 1e-3);
+      EXPECT_NEAR(line["hold_feed_mm_min"], limit["feed_mm_min"], 0.1);
+    }
+  }
+  EXPECT_TRUE(arc);
 }
 
 TEST(Cut, RefusesAProgramByFileLineAndWord) {

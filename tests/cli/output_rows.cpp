@@ -53,7 +53,7 @@ std::vector<OutputRow> all() {
        true},
       {"chatter fit",
        "examples/processes/tap-922hz.csv --axis x",
-       {file("modes.toml")},
+       {file("modes.toml"), report()},
        {"examples/processes/tap-922hz.csv"}},
       {"chatter detect",
        "examples/logs/slot-chatter.csv --machine " + kVmc + " --teeth 2",
@@ -69,7 +69,7 @@ std::vector<OutputRow> all() {
       {"motion estimate",
        kEdges +
            " --input edges --count-mm 0.001 --cycle-hz 1000 --max-acceleration 25 --max-jerk 300",
-       {file("out.csv")},
+       {file("out.csv"), report()},
        {kEdges}},
       {"thermal fit",
        test + " --modes 1 --levels table",

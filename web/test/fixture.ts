@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A made-up but lifelike report: a pocket with arcs, cut twice. Errors follow ε = v²/(2·R·k²) on
 // arcs (servo gain k), with a kick at corners; the layer slows down until the limit holds.
-import type { Figures, ReasonTime, Report, Run, Trace, WorstLine } from '../src/data';
+import type { Figures, ReasonTime, Report, Run, Trace, WorstLine } from '../src/cut/data';
 
 interface Piece {
   line: number;
@@ -217,10 +217,24 @@ function worstLines(without: Run, layer: Run): WorstLine[] {
   };
   const [before, after] = [byLine(without.trace), byLine(layer.trace)];
   const texts = new Map(pieces().map((p) => [p.line, p.text]));
+  const feeds = (trace: Trace, line: number, e: number | null) => {
+    const at = trace.contour_error_um.findIndex((v, i) => v === e && trace.line[i] === line);
+    return trace.feed_mm_min[at] ?? null;
+  };
   return [...before]
     .sort((a, b) => Math.abs(b[1]) - Math.abs(a[1]))
     .slice(0, 20)
-    .map(([line, e]) => ({ line, text: texts.get(line) ?? '', without_um: e, with_um: after.get(line) ?? null }));
+    .map(([line, e]): WorstLine => {
+      const with_um = after.get(line) ?? null;
+      const text = texts.get(line) ?? '';
+      const radius = Number(/R([\d.]+)/.exec(text)?.[1] ?? 0) || null;
+      const feed = feeds(layer.trace, line, with_um);
+      return {
+        line, text, without_um: e, with_um, feed_without_mm_min: feeds(without.trace, line, e), feed_with_mm_min: feed, radius_mm: radius,
+        hold_feed_mm_min: radius ? 60 * GAIN_1_S * Math.sqrt((2 * radius * LIMIT_UM) / 1000) : feed,
+        held_by: radius ? 'closed form' : 'driven',
+      };
+    });
 }
 
 export function makeReport(samples: number): Report {
@@ -229,6 +243,11 @@ export function makeReport(samples: number): Report {
   return {
     schema: 'steadyrest-report/1',
     version: '0.1.0',
+    made: {
+      date: '2026-01-02T03:04:05Z',
+      command: "steadyrest cut 'rib pocket.ngc' --machine vmc-840d.toml --report out/rib-pocket",
+      inputs: [{ file: 'rib pocket.ngc', sha256: 'ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad' }],
+    },
     program: 'rib-pocket.ngc',
     machine: 'VMC, SINUMERIK 840D',
     strategy: 'feed priority',

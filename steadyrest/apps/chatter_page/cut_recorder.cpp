@@ -115,8 +115,8 @@ std::vector<Moment> CutRecorder::last() const {
   return {last_.begin(), last_.end()};
 }
 
-std::string simulate_page(const Json& answer, const chatter::offline::Process& process,
-                          const CutRecorder& cut) {
+Json simulate_page(const Json& answer, const chatter::offline::Process& process,
+                   const CutRecorder& cut) {
   Json page = page_head("simulate", process.name, answer);
   page["teeth"] = process.tool.teeth;
   page["envelope"] = columns_of(cut.envelope());
@@ -125,7 +125,7 @@ std::string simulate_page(const Json& answer, const chatter::offline::Process& p
                    {"t_s", report::short_numbers(cut.turns().t_s)},
                    {"x_um", report::short_numbers(cut.turns().place_um[0])},
                    {"y_um", report::short_numbers(cut.turns().place_um[1])}};
-  return text_of(page);
+  return page;
 }
 
 }  // namespace steadyrest::apps::chatter_page

@@ -56,8 +56,7 @@ class CutRecorder {
 };
 
 /// The page of `chatter simulate`.
-[[nodiscard]] std::string simulate_page(const Json& answer,
-                                        const chatter::offline::Process& process,
-                                        const CutRecorder& cut);
+[[nodiscard]] Json simulate_page(const Json& answer, const chatter::offline::Process& process,
+                                 const CutRecorder& cut);
 
 }  // namespace steadyrest::apps::chatter_page

@@ -60,7 +60,7 @@ Json to_object(const Spectrogram& s) {
 
 }  // namespace
 
-std::string detect_page(const Json& answer, const DetectPage& page, const RecordedSignal& signal) {
+Json detect_page(const Json& answer, const DetectPage& page, const RecordedSignal& signal) {
   Json out = page_head("detect", page.signal_name, answer);
   out["machine"] = page.machine;
   out["teeth"] = page.teeth;
@@ -71,7 +71,7 @@ std::string detect_page(const Json& answer, const DetectPage& page, const Record
                                                             .start_s = signal.start_s,
                                                             .window = page.window,
                                                             .most_hz = shown_hz(page, signal)}));
-  return text_of(out);
+  return out;
 }
 
 }  // namespace steadyrest::apps::chatter_page

@@ -19,7 +19,7 @@ struct DetectPage {
 
 /// The page of `chatter detect`: spectrogram, course of the signal and speed. `signal` has a speed
 /// for each sample and at least `window` of them.
-[[nodiscard]] std::string detect_page(const Json& answer, const DetectPage& page,
-                                      const chatter::offline::RecordedSignal& signal);
+[[nodiscard]] Json detect_page(const Json& answer, const DetectPage& page,
+                               const chatter::offline::RecordedSignal& signal);
 
 }  // namespace steadyrest::apps::chatter_page

@@ -59,9 +59,8 @@ Json speed_json(const SpeedProfile& speed, double last_rad) {
 
 }  // namespace
 
-std::string growth_page(const Json& answer, const offline::Process& process,
-                        const DelayCycle& cycle, const SpeedProfile& speed,
-                        const std::vector<GrowthCourse>& courses) {
+Json growth_page(const Json& answer, const offline::Process& process, const DelayCycle& cycle,
+                 const SpeedProfile& speed, const std::vector<GrowthCourse>& courses) {
   Json page = page_head("growth", process.name, answer);
   const GrowthCourse& most = offline::worst(courses);
   std::size_t last = 0;
@@ -74,7 +73,7 @@ std::string growth_page(const Json& answer, const offline::Process& process,
   page["law_period_s"] = speed.constant() ? Json(nullptr) : Json(speed.time_s(speed.period_rad()));
   page["pass_s"] = cycle.period_s() / static_cast<double>(cycle.passes());
   page["speed"] = speed_json(speed, static_cast<double>(last) * cycle.pass_rad());
-  return text_of(page);
+  return page;
 }
 
 }  // namespace steadyrest::apps::chatter_page

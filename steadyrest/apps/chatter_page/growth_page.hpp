@@ -15,9 +15,9 @@ namespace steadyrest::apps::chatter_page {
 /// The page of `chatter radius`: how far a vibration grows on its way, over time, and the speed
 /// that makes it. Times run from the beginning of the law's period; `worst` is the index of the
 /// course with the greatest peak.
-[[nodiscard]] std::string growth_page(const Json& answer, const chatter::offline::Process& process,
-                                      const chatter::offline::DelayCycle& cycle,
-                                      const chatter::offline::SpeedProfile& speed,
-                                      const std::vector<chatter::offline::GrowthCourse>& courses);
+[[nodiscard]] Json growth_page(const Json& answer, const chatter::offline::Process& process,
+                               const chatter::offline::DelayCycle& cycle,
+                               const chatter::offline::SpeedProfile& speed,
+                               const std::vector<chatter::offline::GrowthCourse>& courses);
 
 }  // namespace steadyrest::apps::chatter_page

@@ -136,10 +136,10 @@ void put_lobes(Json& page, const LobesPage& lobes) {
   }
 }
 
-std::string lobes_page(const Json& answer, const Process& process, const LobesPage& lobes) {
+Json lobes_page(const Json& answer, const Process& process, const LobesPage& lobes) {
   Json page = page_head("lobes", process.name, answer);
   put_lobes(page, lobes);
-  return text_of(page);
+  return page;
 }
 
 }  // namespace steadyrest::apps::chatter_page

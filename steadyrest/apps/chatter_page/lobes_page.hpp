@@ -53,7 +53,7 @@ struct LobesPage {
 void put_lobes(Json& page, const LobesPage& lobes);
 
 /// The page of `chatter lobes`.
-[[nodiscard]] std::string lobes_page(const Json& answer, const chatter::offline::Process& process,
-                                     const LobesPage& lobes);
+[[nodiscard]] Json lobes_page(const Json& answer, const chatter::offline::Process& process,
+                              const LobesPage& lobes);
 
 }  // namespace steadyrest::apps::chatter_page

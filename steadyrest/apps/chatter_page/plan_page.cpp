@@ -54,9 +54,9 @@ Result<offline::BorderLine> border_under(const offline::Process& process, const 
 
 }  // namespace
 
-Result<std::string> plan_page(const Json& answer, const offline::Process& process,
-                              const kernel::machine::Machine& machine, double programmed_rev_s,
-                              const offline::Plan& plan) {
+Result<Json> plan_page(const Json& answer, const offline::Process& process,
+                       const kernel::machine::Machine& machine, double programmed_rev_s,
+                       const offline::Plan& plan) {
   auto steps = override_steps(process, machine, programmed_rev_s, plan.most_depth_mm, {});
   const Range range = range_of(steps, programmed_rev_s);
   auto map = offline::lobe_map(process,
@@ -83,7 +83,7 @@ Result<std::string> plan_page(const Json& answer, const offline::Process& proces
   Json page = page_head("plan", process.name, answer);
   page["machine"] = machine.name;
   put_lobes(page, lobes);
-  return text_of(page);
+  return page;
 }
 
 }  // namespace steadyrest::apps::chatter_page

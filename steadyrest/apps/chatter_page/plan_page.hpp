@@ -13,9 +13,10 @@ namespace steadyrest::apps::chatter_page {
 
 /// The page of `chatter plan`: the lobes at constant speed over the override steps, the
 /// alternatives in them and, where a law was chosen, its border.
-[[nodiscard]] kernel::outcome::Result<std::string> plan_page(
-    const Json& answer, const chatter::offline::Process& process,
-    const kernel::machine::Machine& machine, double programmed_rev_s,
-    const chatter::offline::Plan& plan);
+[[nodiscard]] kernel::outcome::Result<Json> plan_page(const Json& answer,
+                                                      const chatter::offline::Process& process,
+                                                      const kernel::machine::Machine& machine,
+                                                      double programmed_rev_s,
+                                                      const chatter::offline::Plan& plan);
 
 }  // namespace steadyrest::apps::chatter_page

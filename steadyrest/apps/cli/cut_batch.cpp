@@ -9,9 +9,9 @@
 
 #include <steadyrest/apps/batch/batch.hpp>
 #include <steadyrest/apps/cli/cut_batch.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/rewrite_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
-#include <steadyrest/apps/report/write_files.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
@@ -167,13 +167,8 @@ Result<void> put_batch(Answer& answer, const CutBatchOptions& options,
     return {};
   }
   const std::string folder = batch_folder(directory);
-  const std::string page = thermal_page::batch_page(answer.json["batch"], program.file, *made);
-  const auto written = report::write_files(thermal_page::to_html(page), page, folder);
-  if (!written) {
-    return std::unexpected(written.error());
-  }
-  answer.json["batch"]["report"] = written->html.string();
-  answer.text += fmt::format("report: {}\n", written->html.string());
+  report::Json page = thermal_page::batch_page(answer.json["batch"], program.file, *made);
+  answer.json["batch"]["report"] = add_report(answer, folder, std::move(page));
   return {};
 }
 

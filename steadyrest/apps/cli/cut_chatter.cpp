@@ -121,6 +121,7 @@ void add_cut_chatter_options(Verb& verb, CutChatterOptions& options) {
   CLI::Option* process =
       verb.reads("--process", options.process,
                  "Process file (TOML): what the tool cuts in G1–G3, its vibration with it");
+  verb.also_reads([&options] { return chatter::offline::response_files(options.process); });
   verb.add_option("--depth-mm", options.depth_mm, "Depth of cut of that process")->needs(process);
   verb.add_option("--chatter", options.source,
                   "What the layer does against chatter: plan (ask the planner for each spindle "

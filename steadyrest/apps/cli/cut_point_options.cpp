@@ -15,6 +15,7 @@ using kernel::outcome::Result;
 
 void add_cut_point_options(Verb& verb, CutPointOptions& options) {
   verb.reads("process", options.process, "Process file (TOML): tool, cut and modes")->required();
+  verb.also_reads([&options] { return chatter::offline::response_files(options.process); });
   verb.add_option("--speed-rpm", options.speed_rpm, "Mean spindle speed in rev/min")->required();
   verb.add_option("--depth-mm", options.depth_mm, "Axial depth of cut")->required();
   add_law_options(verb, options.law);

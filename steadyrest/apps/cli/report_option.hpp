@@ -2,20 +2,16 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include <steadyrest/apps/cli/session.hpp>
-#include <steadyrest/kernel/outcome/result.hpp>
 
-/// `--report DIR` of the chatter and thermal verbs.
+/// `--report DIR`.
 namespace steadyrest::apps::cli {
 
-/// Writes the page with `page_json` inside and says in the answer where it is.
-[[nodiscard]] kernel::outcome::Result<void> put_report(Answer& answer, const std::string& directory,
-                                                       std::string_view page_json);
-/// The same with another page than that of the chatter verbs.
-[[nodiscard]] kernel::outcome::Result<void> put_report(Answer& answer, const std::string& directory,
-                                                       std::string_view page_json,
-                                                       std::string_view html);
+/// Hands the page to the session, which writes it into `directory`, and says in the answer where it
+/// will be.
+void put_report(Answer& answer, const std::string& directory, report::Json page);
+/// The same for a report beside the main one: in the answer's text alone; gives its name.
+std::string add_report(Answer& answer, const std::string& directory, report::Json page);
 
 }  // namespace steadyrest::apps::cli

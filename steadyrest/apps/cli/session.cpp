@@ -9,6 +9,7 @@
 
 #include <steadyrest/apps/cli/session.hpp>
 #include <steadyrest/apps/cli/usage.hpp>
+#include <steadyrest/apps/report/write_files.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/temporary.hpp>
 
@@ -17,6 +18,7 @@ namespace {
 
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
+using kernel::outcome::Result;
 
 constexpr std::string_view kName = "steadyrest";
 
@@ -139,6 +141,7 @@ int Session::main(int argc, const char* const* argv) noexcept {
 }
 
 int Session::parse_and_run(int argc, const char* const* argv) {
+  command_ = report::command_of(argc, argv);
   try {
     app_.parse(argc, argv);
     demand_finite(app_);
@@ -161,14 +164,37 @@ int Session::usage(const CLI::ParseError& error) const {
   return kRefused;
 }
 
+Result<void> Session::write_pages(const std::vector<Page>& pages,
+                                  const report::Provenance& provenance) const {
+  for (const Page& page : pages) {
+    report::Json data = page.data;
+    report::put_provenance(data, provenance);
+    const std::string json = report::text_of(data);
+    if (page.folder.empty()) {
+      if (auto done = kernel::file::write_file(page.file, report::to_html(json)); !done) {
+        return done;
+      }
+    } else if (auto done = report::write_files(report::to_html(json), json, page.folder); !done) {
+      return std::unexpected(std::move(done.error()));
+    }
+  }
+  return {};
+}
+
 Outcome Session::work() const {
   const auto ready = chosen_->ready(json_);
   if (!ready) {
     return std::unexpected(ready.error());
   }
+  const report::Provenance provenance = chosen_->provenance(command_);  // before the work
   Progress progress;
   Outcome outcome = run_(progress);
   progress.clear();
+  if (outcome) {
+    if (auto done = write_pages(outcome->pages, provenance); !done) {
+      return refused(std::move(done.error()));
+    }
+  }
   if (!outcome || !chosen_->has_outputs()) {
     return outcome;
   }

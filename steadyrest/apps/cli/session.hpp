@@ -11,6 +11,7 @@
 
 #include <steadyrest/apps/cli/progress.hpp>
 #include <steadyrest/apps/cli/verb.hpp>
+#include <steadyrest/apps/report/page.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 /// What all verbs of the command line have in common: options, printing, exit codes.
@@ -23,11 +24,19 @@ inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;   ///< anything that is not the user's mistake
 inline constexpr int kRefused = 2;  ///< bad usage, bad input
 
+/// A report to be written when the work is done; the session adds how it was made.
+struct Page {
+  std::string folder;  ///< for report.html and report.json …
+  std::string file;    ///< … or, where it is empty, the page alone
+  report::Json data;
+};
+
 /// What a verb hands back. A verb that has something to show although parts were refused fills
 /// `refusals` and sets `exit_code` itself.
 struct Answer {
   Json json = Json::object();  ///< the one object of --json
   std::string text;            ///< for people; ends with a newline
+  std::vector<Page> pages;     ///< of reports; the session writes them
   Refusals refusals;           ///< go to stderr, each as `steadyrest: FILE:LINE: what; what to do`
   int exit_code = kDone;
 };
@@ -63,11 +72,14 @@ class Session {
   int parse_and_run(int argc, const char* const* argv);
   int run_verb();
   [[nodiscard]] Outcome work() const;
+  [[nodiscard]] kernel::outcome::Result<void> write_pages(
+      const std::vector<Page>& pages, const report::Provenance& provenance) const;
   int usage(const CLI::ParseError& error) const;
 
   CLI::App app_;
   const Verb* chosen_ = nullptr;
   Run run_;
+  std::string command_;  ///< as it was given
   bool json_ = false;
 };
 

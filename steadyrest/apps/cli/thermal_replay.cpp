@@ -114,8 +114,8 @@ void put(Answer& answer, Table& table, const AxisReplay& axis) {
   answer.json["max_um"] = std::max(answer.json["max_um"].get<double>(), most_um);
 }
 
-std::string page_of(const Answer& answer, const offline::Log& log,
-                    const std::vector<AxisReplay>& axes, double from_s) {
+Json page_of(const Answer& answer, const offline::Log& log, const std::vector<AxisReplay>& axes,
+             double from_s) {
   std::vector<thermal_page::FittedAxis> shown;
   for (const AxisReplay& axis : axes) {
     thermal_page::FittedAxis& one = shown.emplace_back();
@@ -198,10 +198,7 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
   if (!options.report.empty()) {
     const double from_s =
         options.from_min ? 60.0 * *options.from_min : -std::numeric_limits<double>::infinity();
-    const std::string page = page_of(answer, *log, axes, from_s);
-    if (auto done = put_report(answer, options.report, page, thermal_page::to_html(page)); !done) {
-      return refused(done.error());
-    }
+    put_report(answer, options.report, page_of(answer, *log, axes, from_s));
   }
   return answer;
 }

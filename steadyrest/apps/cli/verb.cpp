@@ -5,6 +5,7 @@
 #include <fstream>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/core.h>
@@ -18,6 +19,24 @@ using kernel::file::Place;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using Refusals = std::vector<Refusal>;
+
+constexpr std::string_view kNoDate = "none";
+
+/// The file itself; of a folder the files in it.
+std::vector<std::string> files_in(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) {
+    return {path};
+  }
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
+    if (entry.is_regular_file(error)) {
+      out.push_back(entry.path().string());
+    }
+  }
+  std::ranges::sort(out);
+  return out;
+}
 
 Refusal refusal(const std::string& file, std::string what, std::string to_do) {
   return {Kind::bad_input, file, 0, std::move(what), std::move(to_do)};
@@ -104,7 +123,7 @@ CLI::Option* Verb::add_output(const std::string& flags, std::string& path,
   if (outputs_.empty()) {
     add_flag("--force", force_, "Replace an input, or a file of another kind, by an output");
   }
-  outputs_.push_back({option, std::move(files), folder});
+  outputs_.push_back({.option = option, .files = std::move(files), .folder = folder});
   return option;
 }
 
@@ -123,6 +142,44 @@ CLI::Option* Verb::writes(const std::string& flags, std::string& path,
 void Verb::reports(std::string& folder, Files files) {
   add_output("--report", folder, "Folder for report.html and report.json; it is made when missing",
              files ? std::move(files) : report_files, true);
+  dates_last_output();
+}
+
+void Verb::writes_page(const std::string& flags, std::string& path,
+                       const std::string& description) {
+  writes(flags, path, description, page_content());
+  dates_last_output();
+}
+
+void Verb::dates_last_output() {
+  outputs_.back().page = true;
+  add_option(
+      "--report-date", date_,
+      "Date in the report instead of now: ISO 8601, or none, so that the same command on the "
+      "same inputs writes the same bytes")
+      ->check([](const std::string& given) {
+        return given == kNoDate || report::is_iso_date(given)
+                   ? std::string{}
+                   : given + " is neither a date (2026-01-02T03:04:05Z) nor none";
+      });
+}
+
+report::Provenance Verb::provenance(const std::string& command) const {
+  report::Provenance out;
+  if (std::ranges::none_of(outputs_,
+                           [](const Output& o) { return o.page && o.option->count() > 0; })) {
+    return out;
+  }
+  if (date_ != kNoDate) {
+    out.date = date_.empty() ? report::now_utc() : date_;
+  }
+  out.command = command;
+  for (const Input& input : inputs()) {
+    for (const std::string& file : files_in(input.file)) {
+      out.inputs.push_back({file, report::sha256_of_file(file)});
+    }
+  }
+  return out;
 }
 
 std::vector<Refusal> Verb::empty_names() const {

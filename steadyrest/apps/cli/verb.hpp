@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <steadyrest/apps/cli/content.hpp>
+#include <steadyrest/apps/report/provenance.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/place.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -62,8 +63,13 @@ class Verb : public CLI::App {
   /// The same for an option that leads to several files.
   CLI::Option* writes(const std::string& flags, std::string& path, const std::string& description,
                       Files files);
+  /// An option for a page alone.
+  void writes_page(const std::string& flags, std::string& path, const std::string& description);
   /// --report DIR for report.html and report.json, or what `files` says.
   void reports(std::string& folder, Files files = {});
+
+  /// How the reports that are asked for are made; empty where none is.
+  [[nodiscard]] report::Provenance provenance(const std::string& command) const;
 
   [[nodiscard]] bool has_outputs() const noexcept { return !outputs_.empty(); }
   [[nodiscard]] std::expected<Ready, std::vector<kernel::outcome::Refusal>> ready(bool json) const;
@@ -73,9 +79,11 @@ class Verb : public CLI::App {
     CLI::Option* option = nullptr;
     Files files;
     bool folder = false;
+    bool page = false;  ///< a report, which says how it was made
   };
   CLI::Option* add_output(const std::string& flags, std::string& path,
                           const std::string& description, Files files, bool folder);
+  void dates_last_output();
   [[nodiscard]] std::vector<kernel::outcome::Refusal> empty_names() const;
   [[nodiscard]] std::vector<Input> inputs() const;
   /// What is to be written; makes the folders of reports.
@@ -85,6 +93,7 @@ class Verb : public CLI::App {
   std::vector<CLI::Option*> inputs_;
   std::vector<std::function<std::vector<std::string>()>> named_;
   std::vector<Output> outputs_;
+  std::string date_;  ///< --report-date
   bool force_ = false;
 };
 

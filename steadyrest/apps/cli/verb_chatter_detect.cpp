@@ -308,8 +308,8 @@ Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>
   return answer;
 }
 
-std::string page_of(const Json& answer, const Options& options, const Machine& machine,
-                    const offline::RecordedSignal& signal, std::size_t teeth, std::size_t window) {
+Json page_of(const Json& answer, const Options& options, const Machine& machine,
+             const offline::RecordedSignal& signal, std::size_t teeth, std::size_t window) {
   double chatter_hz = 0.0;
   for (const Json& event : answer["events"]) {
     chatter_hz = std::max(chatter_hz, event["frequency_hz"].get<double>());
@@ -355,10 +355,8 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
   }
   Answer answer = answer_of(*signal, events, options);
   if (!options.report.empty()) {
-    const auto page = page_of(answer.json, options, machine, *signal, teeth, detector->window());
-    if (const auto written = put_report(answer, options.report, page); !written) {
-      return refused(written.error());
-    }
+    put_report(answer, options.report,
+               page_of(answer.json, options, machine, *signal, teeth, detector->window()));
   }
   return answer;
 }
@@ -406,6 +404,7 @@ void add_verb_chatter_detect(Session& session) {
              "says, without it the deepest override step; without a process it is a rule of "
              "thumb, whole waves between two teeth")
       ->excludes(teeth);
+  verb.also_reads([options] { return offline::response_files(options->process); });
   verb.add_option("--speed-rpm", options->speed_rpm,
                   "Spindle speed in rev/min of a signal without the column");
   verb.add_option("--programmed-rpm", options->programmed_rpm,

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
+#include <map>
 #include <memory>
 
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <steadyrest/apps/chatter_page/fit_page.hpp>
 #include <steadyrest/apps/cli/log_options.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_chatter_fit.hpp>
 #include <steadyrest/chatter/offline/frf.hpp>
@@ -23,6 +27,7 @@ struct Options {
   std::vector<std::string> files;
   std::string axis;
   std::string output;
+  std::string report;
   offline::ModeFitConfig fit;
   LogOptions format;
 };
@@ -93,6 +98,24 @@ void put_response(Answer& answer, const std::string& file, const offline::Frf& f
   answer.json["responses"].push_back(std::move(one));
 }
 
+/// Each response under its file's name, numbered where the file holds several.
+report::Json page_of(const Json& answer, const Options& options, const offline::ModeFit& fit,
+                     const std::vector<offline::Frf>& responses) {
+  const auto name_of = [](const std::string& file) {
+    return std::filesystem::path(file).filename().string();
+  };
+  chatter_page::FitPage page{
+      .title = name_of(options.files.front()), .axis = options.axis, .measured = {}};
+  std::map<std::string, int> seen;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const std::string name = name_of(answer["responses"][i]["file"].get<std::string>());
+    const int count = ++seen[name];
+    page.measured.push_back(
+        {count == 1 ? name : fmt::format("{}, {}", name, count), &responses[i]});
+  }
+  return chatter_page::fit_page(answer, page, fit, options.fit);
+}
+
 Outcome run(const Options& options) {
   std::vector<offline::Frf> responses;
   Answer said;
@@ -120,6 +143,9 @@ Outcome run(const Options& options) {
   Answer answer = answer_of(*fit, options);
   answer.json.update(said.json);
   answer.text += said.text;
+  if (!options.report.empty()) {
+    put_report(answer, options.report, page_of(answer.json, options, *fit, responses));
+  }
   return answer;
 }
 
@@ -148,6 +174,7 @@ void add_verb_chatter_fit(Session& session) {
   verb.writes("-o,--output", options->output,
               "Write the modes to this file (TOML: [[mode]] sections for a process file)",
               toml_content("a file of modes alone (TOML: [[mode]])", {"mode"}));
+  verb.reports(options->report);
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

@@ -252,8 +252,7 @@ std::expected<Task, Refusals> task_of(const Options& options) {
   return out;
 }
 
-Result<std::string> page_of(const Json& answer, const Task& task, const Options& options,
-                            Made made) {
+Result<Json> page_of(const Json& answer, const Task& task, const Options& options, Made made) {
   offline::LobeMap& map = made.map;
   auto others = chatter_page::other_borders(task.process, map, made.border, task.law.modulation);
   if (!others) {
@@ -307,11 +306,10 @@ Outcome run(const Options& options, Progress& progress) {
   }
   if (!options.report.empty()) {
     const auto page = page_of(answer.json, *task, options, std::move(*made));
-    const auto written =
-        page ? put_report(answer, options.report, *page) : std::unexpected(page.error());
-    if (!written) {
-      return refused(written.error());
+    if (!page) {
+      return refused(page.error());
     }
+    put_report(answer, options.report, *page);
   }
   return answer;
 }
@@ -327,6 +325,7 @@ void add_verb_chatter_lobes(Session& session) {
                    "--machine examples/machines/vmc-840d.toml --report out/lobes");
   auto options = std::make_shared<Options>();
   verb.reads("process", options->process, "Process file (TOML): tool, cut and modes")->required();
+  verb.also_reads([options] { return offline::response_files(options->process); });
   verb.add_option("--speeds-rpm", options->speeds_rpm,
                   "Mean spindle speeds in rev/min as FROM:TO:STEPS")
       ->required();

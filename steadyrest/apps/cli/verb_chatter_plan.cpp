@@ -258,17 +258,17 @@ Outcome run(Options options, Progress& progress) {
   if (!options.report.empty()) {
     const auto page = chatter_page::plan_page(answer.json, *process, *machine,
                                               units::rev_s_from_rpm(options.speed_rpm), *found);
-    const auto written =
-        page ? put_report(answer, options.report, *page) : std::unexpected(page.error());
-    if (!written) {
-      return refused(written.error());
+    if (!page) {
+      return refused(page.error());
     }
+    put_report(answer, options.report, *page);
   }
   return answer;
 }
 
 void add_options(Verb& verb, Options& o) {
   verb.reads("PROCESS", o.process, "Process file (TOML): tool, cut, modes")->required();
+  verb.also_reads([&o] { return offline::response_files(o.process); });
   add_machine_option(verb, o.machine);
   verb.add_option("--speed-rpm", o.speed_rpm, "Programmed spindle speed")->required();
   verb.add_option("--depth-mm", o.depth_mm, "Wanted depth of cut")->required();

@@ -74,10 +74,8 @@ Outcome run(const Options& options, Progress& progress) {
   Answer answer = answer_of(options.cut, cut->law, found);
   if (!options.report.empty()) {
     const offline::SpeedProfile speed(cut->speed_rev_s, cut->law.modulation);
-    const auto page = chatter_page::growth_page(answer.json, cut->process, *cycle, speed, courses);
-    if (const auto written = put_report(answer, options.report, page); !written) {
-      return refused(written.error());
-    }
+    put_report(answer, options.report,
+               chatter_page::growth_page(answer.json, cut->process, *cycle, speed, courses));
   }
   return answer;
 }

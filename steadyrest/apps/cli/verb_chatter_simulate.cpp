@@ -182,10 +182,8 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
   answer.json["depth_mm"] = point.depth_mm;
   put_law(answer.json, point.law, options.cut.speed_rpm);
   if (!options.report.empty()) {
-    const auto page = chatter_page::simulate_page(answer.json, point.process, recorder);
-    if (const auto written = put_report(answer, options.report, page); !written) {
-      return refused(written.error());
-    }
+    put_report(answer, options.report,
+               chatter_page::simulate_page(answer.json, point.process, recorder));
   }
   return answer;
 }

@@ -14,6 +14,7 @@
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/program_options.hpp>
 #include <steadyrest/apps/cli/program_warnings.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_cut.hpp>
 #include <steadyrest/apps/cut/comparison.hpp>
@@ -270,12 +271,7 @@ Outcome run(const Options& options, Progress& progress) {
   }
   if (!options.report.empty()) {
     const auto data = cut::compare(options.program.file, *machine, *without, *with);
-    const auto written = report::write_report(data, options.report);
-    if (!written) {
-      return refused(written.error());
-    }
-    answer.json["report"] = written->html.string();
-    answer.text += fmt::format("report: {}\n", written->html.string());
+    put_report(answer, options.report, report::to_page(data));
   }
   return answer;
 }

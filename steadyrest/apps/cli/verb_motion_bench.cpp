@@ -9,7 +9,7 @@
 
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_motion_bench.hpp>
-#include <steadyrest/apps/motion_bench/bench_page.hpp>
+#include <steadyrest/apps/motion_page/bench_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/motion/offline/benchmark.hpp>
 #include <steadyrest/motion/offline/estimator_choice.hpp>
@@ -109,9 +109,9 @@ Json rows_json(const offline::Benchmark& benchmark) {
   return out;
 }
 
-/// Writes what is asked for; the names of the files.
+/// Writes the tables that are asked for and hands the page to the session; the names of the files.
 Result<Json> write_files(const Options& options, const offline::Benchmark& benchmark,
-                         Progress& progress) {
+                         std::vector<Page>& pages, Progress& progress) {
   Json files = Json::array();
   if (options.csv.empty() && options.page.empty()) {
     return files;
@@ -127,17 +127,20 @@ Result<Json> write_files(const Options& options, const offline::Benchmark& bench
     out.push_back({requirement_path(options.csv).string(), offline::to_csv(*requirement)});
   }
   if (!options.page.empty()) {
-    const auto data = motion_bench::page_data(benchmark, std::move(*requirement));
+    const auto data = motion_page::page_data(benchmark, std::move(*requirement));
     if (!data) {
       return std::unexpected(data.error());
     }
-    out.push_back({options.page, motion_bench::to_html(motion_bench::to_json(*data))});
+    pages.push_back({.folder = {}, .file = options.page, .data = motion_page::to_page(*data)});
   }
   if (const auto written = kernel::file::write_files(out); !written) {
     return std::unexpected(written.error());
   }
   for (const kernel::file::FileText& one : out) {
     files.push_back(one.file);
+  }
+  if (!options.page.empty()) {
+    files.push_back(options.page);
   }
   return files;
 }
@@ -151,11 +154,11 @@ Outcome run(Options options, Progress& progress) {
   if (!benchmark) {
     return refused(benchmark.error());
   }
-  const auto files = write_files(options, *benchmark, progress);
+  Answer answer;
+  const auto files = write_files(options, *benchmark, answer.pages, progress);
   if (!files) {
     return refused(files.error());
   }
-  Answer answer;
   answer.json = {{"rows", rows_json(*benchmark)}, {"notes", benchmark->notes}, {"files", *files}};
   answer.text = people_table(*benchmark);
   return answer;
@@ -187,8 +190,7 @@ void add_verb_motion_bench(Session& session) {
       ->capture_default_str();
   verb.writes("-o,--output", options->csv, "Write the table to this CSV, the requirement beside it",
               table_files);
-  verb.writes("--page", options->page, "Write a page with all of it to this HTML file",
-              page_content());
+  verb.writes_page("--page", options->page, "Write a page with all of it to this HTML file");
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -6,8 +7,10 @@
 #include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/log_options.hpp>
+#include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/verb_motion_estimate.hpp>
+#include <steadyrest/apps/motion_page/estimate_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/machine/calibration_text.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -45,6 +48,7 @@ struct Options {
   std::string calibration;
   std::string axis;
   LogOptions format;
+  std::string report;
 
   [[nodiscard]] bool edges() const { return input == "edges"; }
 };
@@ -74,7 +78,7 @@ kernel::outcome::Result<Record> record_of(const Options& options, const EdgeLog&
 
 /// Runs the estimator and writes each estimate at once: the log may be long.
 Result<void> write_estimates(const Record& record, online::Estimator& estimator, OutputFile& out,
-                             Progress& progress) {
+                             motion_page::EstimateCourse& course, Progress& progress) {
   constexpr std::size_t kBetweenUpdates = 4096;
   offline::EstimateTable table(out);
   auto edge = record.edges.begin();
@@ -82,7 +86,9 @@ Result<void> write_estimates(const Record& record, online::Estimator& estimator,
     for (; edge != record.edges.end() && edge->t_s <= record.ticks[i].t_s; ++edge) {
       estimator.edge(*edge);
     }
-    table.put(estimator.tick(record.ticks[i]));
+    const online::Estimate estimate = estimator.tick(record.ticks[i]);
+    table.put(estimate);
+    course.add(estimate);
     if (i % kBetweenUpdates == 0) {
       progress.update(static_cast<double>(i) / static_cast<double>(record.ticks.size()),
                       "estimating");
@@ -210,10 +216,18 @@ Outcome estimate(const Options& options, const EdgeLog& log,
   if (!out) {
     return refused(out.error());
   }
-  if (const auto written = write_estimates(*record, **estimator, *out, progress); !written) {
+  motion_page::EstimateCourse course;
+  if (const auto written = write_estimates(*record, **estimator, *out, course, progress);
+      !written) {
     return refused(written.error());
   }
   Answer answer = answer_of(options, log, *record);
+  if (!options.report.empty()) {
+    const std::string name = std::filesystem::path(options.log).filename().string();
+    put_report(answer, options.report,
+               motion_page::estimate_page(
+                   answer.json, {.log = name, .count_mm = options.setup.count_mm}, course));
+  }
   if (options.output.empty()) {  // the table has stdout: there is no room for a summary
     answer.text.clear();
   }
@@ -288,6 +302,7 @@ void add_verb_motion_estimate(Session& session) {
   verb.writes("-o,--output", options->output, "Write the estimates to this file, not to stdout",
               csv_content("a table of estimates (CSV)",
                           {"t_s,position_mm,velocity_mm_s,acceleration_mm_s2,"}));
+  verb.reports(options->report);
   session.on(verb, [options, &session](Progress& progress) {
     return run(*options, session.json(), progress);
   });

@@ -293,8 +293,8 @@ Result<void> write_page(Answer& answer, const std::string& directory, const Job&
     }
     axes.push_back({fits[i].axis.name, channel, std::move(*course)});
   }
-  const std::string page = thermal_page::fit_page(answer.json, job.log, axes);
-  return put_report(answer, directory, page, thermal_page::to_html(page));
+  put_report(answer, directory, thermal_page::fit_page(answer.json, job.log, axes));
+  return {};
 }
 
 Outcome run(const Options& options, Progress& progress) {

@@ -152,10 +152,8 @@ Outcome run(const Options& options) {
     for (AxisForecast& axis : axes) {
       courses.push_back({.name = axis.name, .point = std::move(axis.point), .corrections = {}});
     }
-    const std::string page = thermal_page::forecast_page(answer.json, job->cyclogram, courses);
-    if (auto done = put_report(answer, options.report, page, thermal_page::to_html(page)); !done) {
-      return refused(done.error());
-    }
+    put_report(answer, options.report,
+               thermal_page::forecast_page(answer.json, job->cyclogram, courses));
   }
   return answer;
 }

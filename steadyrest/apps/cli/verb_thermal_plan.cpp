@@ -252,11 +252,8 @@ Outcome run(const Options& options) {
     for (std::size_t i = 0; i < planned->axis.size(); ++i) {
       courses.push_back({planned->axis[i].name, planned->course[i], planned->axis[i]});
     }
-    const std::string page =
-        thermal_page::plan_page(answer.json, job->cyclogram, courses, request.share);
-    if (auto done = put_report(answer, options.report, page, thermal_page::to_html(page)); !done) {
-      return refused(done.error());
-    }
+    put_report(answer, options.report,
+               thermal_page::plan_page(answer.json, job->cyclogram, courses, request.share));
   }
   return answer;
 }

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <fstream>
-#include <limits>
-#include <map>
+#include <cstddef>
 #include <string>
-#include <vector>
 
 #include <steadyrest/apps/cut/comparison.hpp>
+#include <steadyrest/apps/cut/worst_lines.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cut {
@@ -16,9 +11,6 @@ namespace {
 
 using kernel::machine::ContourStrategy;
 using kernel::units::um_from_mm;
-
-constexpr std::size_t kWorstLines = 20;
-constexpr std::size_t kLongestText = 120;
 
 std::string name_of(ContourStrategy strategy) {
   switch (strategy) {
@@ -59,49 +51,6 @@ report::Run run_of(const Recorder& record) {
   return run;
 }
 
-std::vector<report::WorstLine> worst_lines(const Recorder& without, const Recorder& with) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::map<std::uint32_t, report::WorstLine> by_line;
-  for (const LineError& error : without.line_errors()) {
-    by_line[error.line] = {error.line, "", um_from_mm(error.contour_error_mm), kNone};
-  }
-  for (const LineError& error : with.line_errors()) {
-    auto [entry, added] = by_line.try_emplace(error.line);
-    if (added) {
-      entry->second = {error.line, "", kNone, kNone};
-    }
-    entry->second.with_um = um_from_mm(error.contour_error_mm);
-  }
-  std::vector<report::WorstLine> lines;
-  lines.reserve(by_line.size());
-  for (const auto& [line, entry] : by_line) {
-    lines.push_back(entry);
-  }
-  const auto size = [](const report::WorstLine& line) {
-    return std::fmax(std::abs(line.without_um), std::abs(line.with_um));
-  };
-  std::ranges::sort(lines, [&](const auto& a, const auto& b) {
-    return size(a) != size(b) ? size(a) > size(b) : a.line < b.line;
-  });
-  lines.resize(std::min(lines.size(), kWorstLines));
-  return lines;
-}
-
-void add_texts(const std::filesystem::path& program, std::vector<report::WorstLine>& lines) {
-  std::ifstream file(program, std::ios::binary);
-  std::string text;
-  for (std::uint32_t number = 1; std::getline(file, text); ++number) {
-    const auto entry = std::ranges::find(lines, number, &report::WorstLine::line);
-    if (entry == lines.end()) {
-      continue;
-    }
-    if (!text.empty() && text.back() == '\r') {
-      text.pop_back();
-    }
-    entry->text = text.substr(0, kLongestText);
-  }
-}
-
 }  // namespace
 
 report::ReportData compare(const std::filesystem::path& program,
@@ -119,8 +68,7 @@ report::ReportData compare(const std::filesystem::path& program,
   }
   data.without = run_of(without);
   data.with = run_of(with);
-  data.worst_lines = worst_lines(without, with);
-  add_texts(program, data.worst_lines);
+  data.worst_lines = worst_lines(program, machine, without, with);
   data.motion = with.motion();
   data.probes = with.probes();
   return data;

@@ -55,19 +55,24 @@ class TrueError {
   ContourError error_;
 };
 
+/// The piece of path that the tool is on; none where it is on none.
+const kernel::signal::PathSegment* segment_of(const Frame& frame,
+                                              const ContourError::Output& error) {
+  const bool on_path = error.from_path && error.foot_index < frame.path.size();
+  return on_path ? &frame.path[error.foot_index] : nullptr;
+}
+
 /// The motion that a sample counts for: a cut is one where the control cuts and the tool is there.
 /// Just after a rapid the tool still lags on the rapid's path and leaves no surface.
-kernel::signal::Motion motion_of(const Frame& frame, const ContourError::Output& error) {
-  using kernel::signal::Motion;
-  const bool on_path = error.from_path && error.foot_index < frame.path.size();
-  if (frame.motion == Motion::feed && on_path) {
-    return frame.path[error.foot_index].motion;
-  }
-  return frame.motion;
+kernel::signal::Motion motion_of(const Frame& frame, const kernel::signal::PathSegment* segment) {
+  const bool cuts = frame.motion == kernel::signal::Motion::feed;
+  return cuts && segment != nullptr ? segment->motion : frame.motion;
 }
 
 Sample sample_of(const Frame& frame, const sim::Truth& truth, const ContourError::Output& error,
                  kernel::outcome::Reason reason) {
+  const kernel::signal::PathSegment* const segment = segment_of(frame, error);
+  const bool arc = segment != nullptr && segment->geometry == kernel::signal::Geometry::arc;
   return {.time_s = frame.time_s,
           .position_mm = first_three(truth.tool_mm),
           .path_position_mm = frame.path_position_mm,
@@ -75,8 +80,10 @@ Sample sample_of(const Frame& frame, const sim::Truth& truth, const ContourError
           .tracking_error_mm = error.tracking_error_mm,
           .feed_ratio = frame.feed.effective_ratio,
           .path_speed_mm_s = frame.path_speed_mm_s,
-          .line = frame.program_line,
-          .motion = motion_of(frame, error),
+          .arc_radius_mm = arc ? segment->radius_mm : 0.0,
+          .arc_length_mm = arc ? segment->length_mm : 0.0,
+          .line = segment != nullptr ? segment->line : frame.program_line,
+          .motion = motion_of(frame, segment),
           .reason = reason};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <steadyrest/apps/cut/recorder.hpp>
@@ -9,6 +10,8 @@ namespace steadyrest::apps::cut {
 namespace {
 
 using kernel::signal::Motion;
+
+constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 
 bool worse(const Sample& a, const Sample& b) {
   return std::abs(a.contour_error_mm) > std::abs(b.contour_error_mm);
@@ -45,12 +48,16 @@ void Recorder::add_to_figures(const Sample& sample) {
   if (error > config_.limit_mm) {
     ++figures_.samples_over_limit;
   }
-  if (sample.line >= error_by_line_.size()) {
-    error_by_line_.resize(sample.line + 1, std::numeric_limits<double>::quiet_NaN());
+  if (sample.line >= worst_by_line_.size()) {
+    worst_by_line_.resize(sample.line + 1, {.contour_error_mm = kNever});
   }
-  double& worst = error_by_line_[sample.line];
-  if (std::isnan(worst) || error > std::abs(worst)) {
-    worst = sample.contour_error_mm;
+  LineError& worst = worst_by_line_[sample.line];
+  if (std::isnan(worst.contour_error_mm) || error > std::abs(worst.contour_error_mm)) {
+    worst = {.line = sample.line,
+             .contour_error_mm = sample.contour_error_mm,
+             .path_speed_mm_s = sample.path_speed_mm_s,
+             .arc_radius_mm = sample.arc_radius_mm,
+             .arc_length_mm = sample.arc_length_mm};
   }
 }
 
@@ -88,11 +95,8 @@ Figures Recorder::figures() const {
 
 std::vector<LineError> Recorder::line_errors() const {
   std::vector<LineError> errors;
-  for (std::size_t line = 0; line < error_by_line_.size(); ++line) {
-    if (!std::isnan(error_by_line_[line])) {
-      errors.push_back({static_cast<std::uint32_t>(line), error_by_line_[line]});
-    }
-  }
+  std::ranges::copy_if(worst_by_line_, std::back_inserter(errors),
+                       [](const LineError& e) { return !std::isnan(e.contour_error_mm); });
   return errors;
 }
 

@@ -26,7 +26,9 @@ struct Sample {
   double tracking_error_mm = 0.0;  ///< distance from the commanded to the true point
   double feed_ratio = 1.0;         ///< override in force
   double path_speed_mm_s = 0.0;    ///< commanded
-  std::uint32_t line = 0;
+  double arc_radius_mm = 0.0;      ///< of the path at the tool; 0: straight
+  double arc_length_mm = 0.0;      ///< of that arc
+  std::uint32_t line = 0;          ///< that the tool is on, which lags behind the control's
   kernel::signal::Motion motion = kernel::signal::Motion::idle;
   kernel::outcome::Reason reason = kernel::outcome::Reason::none;
 };
@@ -42,10 +44,13 @@ struct HeardChatter {
 
 using report::ProbeFigures;
 
-/// Largest contour error on one line of the program.
+/// Largest contour error on one line of the program, and what was driven there.
 struct LineError {
   std::uint32_t line = 0;
   double contour_error_mm = 0.0;  ///< signed
+  double path_speed_mm_s = 0.0;
+  double arc_radius_mm = 0.0;  ///< 0: straight
+  double arc_length_mm = 0.0;
 };
 
 /// Takes every cycle of a cut; keeps the figures exactly and the trace thinned to a bounded number
@@ -99,7 +104,7 @@ class Recorder {
   double sum_of_squares_mm2_ = 0.0;
   double last_ratio_ = -1.0;
   std::map<kernel::outcome::Reason, double> time_by_reason_;
-  std::vector<double> error_by_line_;  ///< signed; NaN where the line never cut
+  std::vector<LineError> worst_by_line_;  ///< the error NaN where the line never cut
   std::vector<Sample> trace_;
   std::vector<report::MotionFigures> motion_;
   std::optional<VibrationRecord> vibration_;

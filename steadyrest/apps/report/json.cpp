@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <string_view>
 #include <utility>
-
-#include <nlohmann/json.hpp>
 
 #include <steadyrest/apps/report/report.hpp>
 
 namespace steadyrest::apps::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// To a decimal place, so that the shortest text of the double is short. nlohmann-json writes what
 /// is not finite as null.
@@ -27,6 +24,18 @@ Json to_object(const Figures& figures) {
           {"samples", figures.samples},
           {"samples_over_limit", figures.samples_over_limit},
           {"override_changes", figures.override_changes}};
+}
+
+std::string_view name_of(HeldBy by) {
+  switch (by) {
+    case HeldBy::closed_form:
+      return "closed form";
+    case HeldBy::record:
+      return "record";
+    case HeldBy::driven:
+      return "driven";
+  }
+  return "";
 }
 
 Json or_null(const std::optional<double>& value) {
@@ -138,23 +147,35 @@ Json to_object(const ProbeFigures& p) {
           {"sentence", kernel::outcome::sentence(p.reason)}};
 }
 
+Json to_object(const WorstLine& w) {
+  constexpr double kTenths = 1e1;
+  constexpr double kHundredths = 1e2;
+  constexpr double kTenThousandths = 1e4;
+  return {{"line", w.line},
+          {"text", w.text},
+          {"without_um", rounded(w.without_um, kHundredths)},
+          {"with_um", rounded(w.with_um, kHundredths)},
+          {"feed_without_mm_min", rounded(w.feed_without_mm_min, kTenths)},
+          {"feed_with_mm_min", rounded(w.feed_with_mm_min, kTenths)},
+          {"radius_mm", rounded(w.radius_mm, kTenThousandths)},
+          {"hold_feed_mm_min", rounded(w.hold_feed_mm_min, kTenths)},
+          {"held_by", name_of(w.held_by)}};
+}
+
 }  // namespace
 
 std::string to_json(const VibrationFigures& vibration) {
   return to_object(vibration).dump();
 }
 
-std::string to_json(const ReportData& data) {
+Json to_page(const ReportData& data) {
   Json table = Json::array();
   for (const OverrideStep& step : data.override_table) {
     table.push_back({{"code", step.code}, {"percent", rounded(step.percent, 1e6)}});
   }
   Json worst = Json::array();
   for (const WorstLine& line : data.worst_lines) {
-    worst.push_back({{"line", line.line},
-                     {"text", line.text},
-                     {"without_um", rounded(line.without_um, 1e2)},
-                     {"with_um", rounded(line.with_um, 1e2)}});
+    worst.push_back(to_object(line));
   }
   Json motion = Json::array();
   for (const MotionFigures& figures : data.motion) {
@@ -164,19 +185,18 @@ std::string to_json(const ReportData& data) {
   for (const ProbeFigures& probe : data.probes) {
     probes.push_back(to_object(probe));
   }
-  const Json report = {{"schema", "steadyrest-report/1"},
-                       {"version", STEADYREST_VERSION},
-                       {"program", data.program},
-                       {"machine", data.machine},
-                       {"strategy", data.strategy},
-                       {"limit_um", rounded(data.limit_um, 1e6)},
-                       {"override_table", std::move(table)},
-                       {"without", to_object(data.without)},
-                       {"with", to_object(data.with)},
-                       {"worst_lines", std::move(worst)},
-                       {"motion", std::move(motion)},
-                       {"probes", std::move(probes)}};
-  return report.dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json page = page_head("steadyrest-report/1");
+  page.update({{"program", data.program},
+               {"machine", data.machine},
+               {"strategy", data.strategy},
+               {"limit_um", rounded(data.limit_um, 1e6)},
+               {"override_table", std::move(table)},
+               {"without", to_object(data.without)},
+               {"with", to_object(data.with)},
+               {"worst_lines", std::move(worst)},
+               {"motion", std::move(motion)},
+               {"probes", std::move(probes)}});
+  return page;
 }
 
 }  // namespace steadyrest::apps::report

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -101,12 +102,25 @@ struct Run {
   // NOLINTEND(readability-redundant-member-init)
 };
 
-/// One line of the program with the largest error on it (signed), NaN where a run has none.
+/// Why a feed would hold the limit on a line.
+enum class HeldBy : std::uint8_t {
+  closed_form,  ///< radius and servo, contour/offline/closed_form.hpp
+  record,       ///< the recorded error, taken as growing with the square of the feed
+  driven        ///< the line kept the limit at it
+};
+
+/// One line of the program with the largest error on it (signed) and what was driven there; NaN
+/// where a run has none.
 struct WorstLine {
   std::uint32_t line = 0;
   std::string text;
   double without_um = 0.0;
   double with_um = 0.0;
+  double feed_without_mm_min = std::numeric_limits<double>::quiet_NaN();
+  double feed_with_mm_min = std::numeric_limits<double>::quiet_NaN();
+  double radius_mm = std::numeric_limits<double>::quiet_NaN();         ///< NaN: straight
+  double hold_feed_mm_min = std::numeric_limits<double>::quiet_NaN();  ///< NaN: any feed holds
+  HeldBy held_by = HeldBy::driven;
 };
 
 struct OverrideStep {
@@ -114,8 +128,7 @@ struct OverrideStep {
   double percent = 100.0;
 };
 
-/// Everything in the report. No date and no path of this machine: the same cut gives the same
-/// bytes.
+/// Everything in the report but how it was made (provenance.hpp).
 struct ReportData {
   std::string program;
   std::string machine;
@@ -124,7 +137,7 @@ struct ReportData {
   std::vector<OverrideStep> override_table;
   Run without;
   Run with;
-  std::vector<WorstLine> worst_lines;  ///< worst first
+  std::vector<WorstLine> worst_lines;  ///< the worst with the layer and without it
   std::vector<MotionFigures> motion;   ///< of the run with the layer; axes with counts alone
   std::vector<ProbeFigures> probes;    ///< of the run with the layer
 };

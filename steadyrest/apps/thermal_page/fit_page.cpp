@@ -114,7 +114,7 @@ void put_course(Json& out, const std::vector<FittedPoint>& points) {
 
 }  // namespace
 
-std::string fit_page(const Json& answer, const Log& log, const std::vector<FittedAxis>& axes) {
+Json fit_page(const Json& answer, const Log& log, const std::vector<FittedAxis>& axes) {
   Json page = page_head("fit", log.file, answer);
   const std::vector<Regime> regimes = regimes_of(log);
   page["sensors"] = Json::array();
@@ -137,10 +137,10 @@ std::string fit_page(const Json& answer, const Log& log, const std::vector<Fitte
     put_course(one, axis.point);
     page["axes"].push_back(std::move(one));
   }
-  return text_of(page);
+  return page;
 }
 
-std::string replay_page(const Json& answer, const Log& log, const std::vector<FittedAxis>& axes) {
+Json replay_page(const Json& answer, const Log& log, const std::vector<FittedAxis>& axes) {
   Json page = page_head("replay", log.file, answer);
   page["speed"] = speed_json(log);
   page["axes"] = Json::array();
@@ -149,7 +149,7 @@ std::string replay_page(const Json& answer, const Log& log, const std::vector<Fi
     put_course(one, axis.point);
     page["axes"].push_back(std::move(one));
   }
-  return text_of(page);
+  return page;
 }
 
 }  // namespace steadyrest::apps::thermal_page

@@ -20,12 +20,12 @@ struct FittedAxis {
 
 /// The page of `thermal fit`: each displacement over each temperature of the log (the paper's
 /// figure 1), beside what the model makes of it, and what is left.
-[[nodiscard]] std::string fit_page(const Json& answer, const thermal::offline::Log& log,
-                                   const std::vector<FittedAxis>& axes);
+[[nodiscard]] Json fit_page(const Json& answer, const thermal::offline::Log& log,
+                            const std::vector<FittedAxis>& axes);
 
 /// The page of `thermal forecast --log`: measured beside forecast, and what is left. A point is
 /// `fitted` here where readings up to it have set the state; the channel is not used.
-[[nodiscard]] std::string replay_page(const Json& answer, const thermal::offline::Log& log,
-                                      const std::vector<FittedAxis>& axes);
+[[nodiscard]] Json replay_page(const Json& answer, const thermal::offline::Log& log,
+                               const std::vector<FittedAxis>& axes);
 
 }  // namespace steadyrest::apps::thermal_page

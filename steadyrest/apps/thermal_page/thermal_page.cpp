@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstddef>
-
-#include <steadyrest/apps/report/fill_page.hpp>
 #include <steadyrest/apps/report/json_numbers.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
-
-// template.S puts the page between these two.
-extern "C" {
-// NOLINTBEGIN(readability-identifier-naming): the symbols of template.S
-extern const char steadyrest_thermal_template_begin[];
-extern const char steadyrest_thermal_template_end[];
-// NOLINTEND(readability-identifier-naming)
-}
 
 namespace steadyrest::apps::thermal_page {
 namespace {
@@ -87,30 +76,24 @@ void put_corrections(Json& out, const Course& course, double share) {
 }  // namespace
 
 Json page_head(std::string_view kind, std::string_view title, const Json& answer) {
-  return {{"schema", "steadyrest-thermal/1"},
-          {"version", STEADYREST_VERSION},
-          {"kind", kind},
-          {"title", title},
-          {"answer", answer}};
+  Json page = report::page_head("steadyrest-thermal/1");
+  page.update({{"kind", kind}, {"title", title}, {"answer", answer}});
+  return page;
 }
 
-std::string text_of(const Json& page) {
-  return page.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::string forecast_page(const Json& answer, const Cyclogram& cyclogram,
-                          const std::vector<Course>& courses) {
+Json forecast_page(const Json& answer, const Cyclogram& cyclogram,
+                   const std::vector<Course>& courses) {
   Json page = page_head("forecast", cyclogram.file, answer);
   page["transitions"] = transitions_json(cyclogram);
   page["courses"] = Json::array();
   for (const Course& course : courses) {
     page["courses"].push_back(course_json(course));
   }
-  return text_of(page);
+  return page;
 }
 
-std::string plan_page(const Json& answer, const Cyclogram& cyclogram,
-                      const std::vector<Course>& courses, double share) {
+Json plan_page(const Json& answer, const Cyclogram& cyclogram, const std::vector<Course>& courses,
+               double share) {
   Json page = page_head("plan", cyclogram.file, answer);
   page["transitions"] = transitions_json(cyclogram);
   page["courses"] = Json::array();
@@ -119,10 +102,10 @@ std::string plan_page(const Json& answer, const Cyclogram& cyclogram,
     put_corrections(one, course, share);
     page["courses"].push_back(std::move(one));
   }
-  return text_of(page);
+  return page;
 }
 
-std::string batch_page(const Json& answer, std::string_view program, const batch::Batch& made) {
+Json batch_page(const Json& answer, std::string_view program, const batch::Batch& made) {
   using batch::Point;
   Json page = page_head("batch", program, answer);
   page["axis"] = made.axis.front();
@@ -135,13 +118,7 @@ std::string batch_page(const Json& answer, std::string_view program, const batch
       {"model_um", column(made.point, [](const Point& p) { return um_from_mm(p.model_mm); })},
       {"model_sd_um", column(made.point, [](const Point& p) { return um_from_mm(p.model_sd_mm); })},
       {"room_c", column(made.point, [](const Point& p) { return p.room_c; })}};
-  return text_of(page);
-}
-
-std::string to_html(std::string_view json) {
-  const char* const begin = static_cast<const char*>(steadyrest_thermal_template_begin);
-  const char* const end = static_cast<const char*>(steadyrest_thermal_template_end);
-  return report::fill_page({begin, static_cast<std::size_t>(end - begin)}, json);
+  return page;
 }
 
 }  // namespace steadyrest::apps::thermal_page

@@ -286,6 +286,15 @@ Data gather(std::span<const Frf> responses, const ModeFitConfig& config) {
 
 }  // namespace
 
+Complex response_mm_n(const ModeFit& fit, double frequency_hz) noexcept {
+  const double w = kTurn * frequency_hz;
+  Complex out = fit.upper_mm_n - fit.lower_mm_n_s2 / (w * w);
+  for (const FittedMode& mode : fit.modes) {
+    out += 1000.0 / mode.mass_kg * base(w, kTurn * mode.frequency_hz, mode.damping_ratio);
+  }
+  return out;
+}
+
 Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& config) {
   Data data = gather(responses, config);
   const std::size_t most = config.order > 0 ? config.order : config.most_modes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,9 @@ struct ModeFit {
   std::vector<double> criterion;  ///< of 1, 2, … modes, as far as tried
   std::size_t points = 0;
 };
+
+/// H of the fit at this frequency, > 0.
+[[nodiscard]] std::complex<double> response_mm_n(const ModeFit& fit, double frequency_hz) noexcept;
 
 /// Responses of the same point, measured once or several times. Refused: none, fewer points in the
 /// band than unknowns, no mode with positive mass.

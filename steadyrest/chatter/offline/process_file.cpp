@@ -29,6 +29,11 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kPitchSumDeg = 0.01;
 constexpr std::size_t kMostModes = 64;
 
+/// It counts from the process file's folder.
+std::filesystem::path response_path(const std::string& process, const std::string& response) {
+  return std::filesystem::path(process).parent_path() / response;
+}
+
 /// Reads the whole tree. Each section is read even when another is faulty, so that one run shows
 /// every fault.
 class FileReader {
@@ -198,7 +203,7 @@ class FileReader {
     if (faults_.list.size() != before) {
       return;
     }
-    const auto path = std::filesystem::path(faults_.file).parent_path() / keys.file;
+    const auto path = response_path(faults_.file, keys.file);
     const auto responses = read_frf(path.string());
     const auto fit = responses ? fit_modes(*responses, {}) : std::unexpected(responses.error());
     if (!fit) {
@@ -314,6 +319,26 @@ Result<Process> parse_process(std::string_view text, const std::string& file) {
 
 Result<Process> read_process(const std::string& path) {
   return first_fault(read_process_all_faults(path));
+}
+
+std::vector<std::string> response_files(const std::string& path) {
+  std::vector<std::string> out;
+  const auto text = kernel::machine::read_text(path);
+  if (!text || kernel::machine::unfit_text(*text)) {
+    return out;
+  }
+  try {
+    const toml::table root = toml::parse(*text);
+    const toml::array* const all = root["frf"].as_array();
+    for (std::size_t i = 0; all != nullptr && i < all->size(); ++i) {
+      if (const auto file = root["frf"][i]["file"].value<std::string>()) {
+        out.push_back(response_path(path, *file).string());
+      }
+    }
+  } catch (const toml::parse_error&) {
+    // read_process() says what is wrong.
+  }
+  return out;
 }
 
 }  // namespace steadyrest::chatter::offline

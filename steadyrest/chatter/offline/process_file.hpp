@@ -32,4 +32,8 @@ using ProcessOrFaults = std::expected<Process, std::vector<kernel::outcome::Refu
 [[nodiscard]] ProcessOrFaults parse_process_all_faults(std::string_view text,
                                                        const std::string& file);
 
+/// The files of the [[frf]] sections, as read_process() opens them; none where the file cannot be
+/// read.
+[[nodiscard]] std::vector<std::string> response_files(const std::string& path);
+
 }  // namespace steadyrest::chatter::offline

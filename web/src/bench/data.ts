@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page of `motion bench` holds; steadyrest/apps/motion_bench/bench_json.cpp is its source.
 
-export type Maybe = number | null;
+import type { Head, Maybe } from '../frame/data';
 
 export interface Figures {
   rms: Maybe;
@@ -66,9 +66,7 @@ export interface Curve {
   y: Maybe[];
 }
 
-export interface Bench {
-  schema: string;
-  version: string;
+export interface Bench extends Head {
   lags_s: number[];
   scenes: { name: string; what: string }[];
   rows: Row[];
@@ -78,23 +76,6 @@ export interface Bench {
   figure_3a: Curve[];
   figure_3b: Curve[];
   figure_5: Curve[];
-}
-
-const SCHEMA = 'steadyrest-motion-bench/1';
-
-/** The data in the page, or a sentence that says why there are none. */
-export function parseBench(text: string): Bench | string {
-  let value: unknown;
-  try {
-    value = JSON.parse(text);
-  } catch {
-    return 'The data in this page is not valid JSON; write the page again.';
-  }
-  if (typeof value !== 'object' || value === null) {
-    return 'This page holds no data yet; `steadyrest motion bench --page FILE` fills it.';
-  }
-  const bench = value as Bench;
-  return bench.schema === SCHEMA ? bench : `This page reads ${SCHEMA}; its data is ${String(bench.schema)}.`;
 }
 
 export function scenes(bench: Bench): string[] {

@@ -2,7 +2,7 @@
 // What the pages of the chatter verbs hold; steadyrest/apps/chatter_page is their source. `answer`
 // is what the verb prints with --json.
 
-export type Maybe = number | null;
+import type { Head as PageHead, Maybe } from '../frame/data';
 
 export interface LawAnswer {
   law: string;
@@ -35,9 +35,7 @@ export interface LobeColumns {
   steps: { percent: number; speed_rpm: number; limit_depth_mm: Maybe }[];
 }
 
-interface Head {
-  schema: string;
-  version: string;
+interface Head extends PageHead {
   process: string;
 }
 
@@ -86,6 +84,8 @@ export interface ChatterEvent {
   speed_rpm: number;
   advised_speed_rpm: Maybe;
   advised_override_percent: Maybe;
+  /** Of the planner; null where it was not asked. */
+  decision: 'keep' | 'constant' | 'law' | 'nothing' | null;
 }
 
 export interface DetectPage extends Head {
@@ -94,7 +94,7 @@ export interface DetectPage extends Head {
   teeth: number;
   bin_hz: number;
   start_s: number;
-  answer: { events: ChatterEvent[]; seconds: number; sample_rate_hz: number };
+  answer: { advice_by: string; events: ChatterEvent[]; seconds: number; sample_rate_hz: number };
   course: Record<'t_s' | 'low' | 'high' | 'speed_rpm', number[]>;
   spectrogram: {
     start_s: number;
@@ -129,27 +129,35 @@ export interface PlanPage extends Head, LobeColumns {
     chatter_frequency_hz: Maybe;
     notes: string[];
     alternatives: Alternative[];
+    /** Over the whole range of the spindle, the best first; null: no border down to the greatest depth. */
+    best_speeds: { speed_rpm: number; limit_depth_mm: Maybe; sure_depth_mm: Maybe }[];
   };
 }
 
-export type Page = LobesPage | GrowthPage | SimulatePage | DetectPage | PlanPage;
-
-const SCHEMA = 'steadyrest-chatter/1';
-
-/** The data in the page, or a sentence that says why there are none. */
-export function parsePage(text: string): Page | string {
-  let value: unknown;
-  try {
-    value = JSON.parse(text);
-  } catch {
-    return 'The data in this page is not valid JSON; write the page again.';
-  }
-  if (typeof value !== 'object' || value === null) {
-    return 'This page holds no data yet; `steadyrest chatter VERB … --report DIR` fills it.';
-  }
-  const page = value as Page;
-  return page.schema === SCHEMA ? page : `This page reads ${SCHEMA}; its data is ${String(page.schema)}.`;
+/** Displacement over force at the tool. */
+export interface Response {
+  frequency_hz: number[];
+  real_um_N: Maybe[];
+  imag_um_N: Maybe[];
 }
+
+export interface FitPage extends Head {
+  kind: 'fit';
+  answer: {
+    modes: { axis: string; frequency_hz: number; damping_ratio: number; mass_kg: number; stiffness_N_um: number }[];
+    residual: number;
+    noise_ratio: number;
+    noise_um_N: number;
+    points: number;
+  };
+  axis: string;
+  /** Of frequencies. */
+  band_hz: [number, number];
+  measured: (Response & { name: string; coherence?: Maybe[] })[];
+  fitted: Response;
+}
+
+export type Page = LobesPage | GrowthPage | SimulatePage | DetectPage | PlanPage | FitPage;
 
 /** The law in the words of the shop floor. */
 export function lawText(answer: LawAnswer): string {

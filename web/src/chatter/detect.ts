@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recorded signal: its spectrogram with the orders of spindle and teeth, and where it chatters.
-import { onChoice } from '../dom';
-import { fixed } from '../format';
-import { buttons, escapeHtml } from '../page';
-import type { Theme } from '../theme';
+import { onChoice } from '../frame/dom';
+import { buttons, escapeHtml, section } from '../frame/html';
+import { fixed, plain } from '../frame/numbers';
+import { table } from '../frame/table';
+import type { Theme } from '../frame/theme';
+import type { View } from '../frame/view';
+import { roomy } from '../plot/axes';
+import type { Dot, Layer } from '../plot/layers';
+import { type Plot, host, plot } from '../plot/plot';
 import type { ChatterEvent, DetectPage } from './data';
-import { type View, host, keyLine, plain, plot, section } from './frame';
-import { type Dot, type Layer, type Plot, roomy } from './plot';
-import { loudnessRaster, loudnessStrip } from './raster';
+import { loudnessRaster, loudnessScale } from './raster';
 
 export type Orders = 'teeth' | 'spindle' | 'none';
 
@@ -27,6 +30,8 @@ function extent(page: DetectPage): { x: [number, number]; top: number; bottom: n
   return { x: [page.start_s, page.start_s + page.answer.seconds], bottom, top: bottom + s.rows * s.row_hz };
 }
 
+const ORDER_NAMES = { teeth: 'tooth passing frequency and its multiples', spindle: 'spindle frequency and its multiples' };
+
 function orderLayers(page: DetectPage, orders: Orders, theme: Theme): Layer[] {
   if (orders === 'none') {
     return [];
@@ -43,7 +48,7 @@ function orderLayers(page: DetectPage, orders: Orders, theme: Theme): Layer[] {
   const every = Math.max(1, Math.ceil((22 * top) / 380 / spacing)); // a label needs 22 px of about 380
   for (let k = 1; k <= most; ++k) {
     const hz = speed_rpm.map((n) => (k * each * n) / 60);
-    layers.push({ kind: 'line', x: t_s, y: hz.map((f) => (f <= top ? f : null)), colour: `${colour}99`, width: 0.7, dashed: true });
+    layers.push({ kind: 'line', name: ORDER_NAMES[orders], x: t_s, y: hz.map((f) => (f <= top ? f : null)), colour: `${colour}99`, width: 0.7, dashed: true });
     const end = hz.at(-1) ?? 0;
     if (k % every === 0 && end < 0.98 * top) {
       labels.push({ x: x[1], y: end, label: `${k}×`, side: 'left' });
@@ -55,7 +60,7 @@ function orderLayers(page: DetectPage, orders: Orders, theme: Theme): Layer[] {
 
 function eventLayers(events: readonly ChatterEvent[], x: [number, number], theme: Theme): Layer[] {
   const colour = theme.run.without;
-  const layers: Layer[] = events.map((e) => ({ kind: 'line', x: [e.start_s, e.end_s], y: [e.frequency_hz, e.frequency_hz], colour, width: 2.4, halo: true }));
+  const layers: Layer[] = events.map((e) => ({ kind: 'line', name: 'chatter: from when it was told, at the frequency that was named', x: [e.start_s, e.end_s], y: [e.frequency_hz, e.frequency_hz], colour, width: 2.4, halo: true }));
   const labels = events.map((e): Dot => {
     const late = (e.start_s - x[0]) / (x[1] - x[0]) > 0.7;
     return { x: e.start_s, y: e.frequency_hz, label: `${fixed(e.frequency_hz, 1)} Hz, ${e.type}`, side: late ? 'left' : 'top' };
@@ -63,6 +68,17 @@ function eventLayers(events: readonly ChatterEvent[], x: [number, number], theme
   const shown = labels.length <= 6 ? labels : labels.map(({ x: at, y }) => ({ x: at, y }));
   layers.push({ kind: 'dots', dots: shown, colour, size: 8, bold: true });
   return layers;
+}
+
+/** Every cell in a row of its own. */
+function spectrogramColumns(page: DetectPage) {
+  const s = page.spectrogram;
+  const of = (value: (i: number) => number) => s.level_db.map((_, i) => value(i));
+  return [
+    { head: 'time in s', values: of((i) => s.start_s + (Math.floor(i / s.rows) + 0.5) * s.column_s) },
+    { head: 'frequency in Hz', values: of((i) => (i % s.rows) * s.row_hz) },
+    { head: 'power under the strongest cell in dB', values: s.level_db },
+  ];
 }
 
 function spectrogramPlot(page: DetectPage, orders: Orders, theme: Theme): Plot {
@@ -73,6 +89,10 @@ function spectrogramPlot(page: DetectPage, orders: Orders, theme: Theme): Plot {
     title: 'Spectrogram',
     x: { name: 'time in s', min: x[0], max: x[1] },
     y: { name: 'frequency in Hz', min: 0, max: top },
+    plane: true,
+    group: 'time',
+    scale: loudnessScale(quietLevel(s.level_db), theme.scheme),
+    columns: () => spectrogramColumns(page),
     layers: [
       { kind: 'raster', canvas, x: [s.start_s, s.start_s + s.columns * s.column_s], y: [bottom, top] },
       ...orderLayers(page, orders, theme),
@@ -97,9 +117,10 @@ function signalPlot(page: DetectPage, theme: Theme): Plot {
     title: 'Signal',
     x: { name: 'time in s', min: x[0], max: x[1] },
     y: { name: 'signal, unit of the file', min, max },
+    group: 'time',
     layers: [
-      { kind: 'spans', spans: page.answer.events.map((e) => [e.start_s, e.end_s]), colour: theme.run.without, opacity: 0.16 },
-      { kind: 'band', x: t_s, low, high, colour: theme.run.with, opacity: 0.85 },
+      { kind: 'spans', name: 'chatter', spans: page.answer.events.map((e) => [e.start_s, e.end_s]), colour: theme.run.without, opacity: 0.16 },
+      { kind: 'band', name: 'signal, lowest to highest', x: t_s, low, high, colour: theme.run.with, opacity: 0.85 },
     ],
   };
 }
@@ -112,20 +133,26 @@ function speedPlot(page: DetectPage, theme: Theme): Plot {
     title: 'Spindle speed',
     x: { name: 'time in s', min: x[0], max: x[1] },
     y: { name: 'spindle speed in rev/min', min, max },
-    layers: [{ kind: 'line', x: t_s, y: speed_rpm, colour: theme.text, width: 1.6 }],
+    group: 'time',
+    layers: [{ kind: 'line', name: 'spindle speed', x: t_s, y: speed_rpm, colour: theme.text, width: 1.6 }],
   };
 }
 
+/** Where no speed is advised: what the planner has decided. */
+const DECISIONS = { keep: 'keep this speed', constant: 'none', law: 'modulate the speed: see chatter plan', nothing: 'nothing helps at this depth' };
+
 function advice(e: ChatterEvent): string {
-  return e.advised_speed_rpm === null ? 'none' : `${fixed(e.advised_speed_rpm, 0)} rev/min (${plain(e.advised_override_percent)} %)`;
+  return e.advised_speed_rpm === null ? DECISIONS[e.decision ?? 'constant'] : `${fixed(e.advised_speed_rpm, 0)} rev/min (${plain(e.advised_override_percent)} %)`;
 }
 
-function eventsTable(events: readonly ChatterEvent[]): string {
-  const row = (e: ChatterEvent) =>
-    `<tr><td class="n">${fixed(e.start_s, 3)}</td><td class="n">${fixed(e.end_s, 3)}</td><td class="n">${fixed(e.frequency_hz, 1)}</td><td>${e.type}</td>
-    <td class="n">${fixed(e.speed_rpm, 0)}</td><td>${advice(e)}</td></tr>`;
-  return `<div class="wide"><table id="events"><thead><tr><th class="n">from, s</th><th class="n">to, s</th><th class="n">Hz</th><th>type</th>
-    <th class="n">at rev/min</th><th>better speed</th></tr></thead><tbody>${events.map(row).join('')}</tbody></table></div>`;
+function eventsTable({ events, advice_by }: DetectPage['answer']): string {
+  const number = (head: string) => ({ head, number: true });
+  return table({
+    id: 'events',
+    sortable: true,
+    columns: [number('from, s'), number('to, s'), number('Hz'), { head: 'type' }, number('at rev/min'), { head: `better, by the ${advice_by}` }],
+    rows: events.map((e) => [fixed(e.start_s, 3), fixed(e.end_s, 3), fixed(e.frequency_hz, 1), e.type, fixed(e.speed_rpm, 0), advice(e)]),
+  });
 }
 
 function verdict(page: DetectPage): string {
@@ -135,38 +162,31 @@ function verdict(page: DetectPage): string {
     return `No chatter in ${plain(seconds)} s.`;
   }
   const more = events.length > 1 ? `${events.length} stretches of chatter; the first` : 'Chatter';
-  const better = first.advised_speed_rpm === null ? 'No override step is better.' : `Better: ${advice(first)}.`;
+  const better = first.advised_speed_rpm === null && first.decision === null ? 'No override step is better.' : `Better, by the ${page.answer.advice_by}: ${advice(first)}.`;
   return `${more} from ${fixed(first.start_s, 3)} to ${fixed(first.end_s, 3)} s at ${fixed(first.frequency_hz, 1)} Hz (${first.type}). ${better}`;
 }
 
 export function detectView(page: DetectPage): View {
   let orders: Orders = 'teeth';
-  const choices: [string, string][] = [['teeth', 'Orders of the teeth'], ['spindle', 'of the spindle'], ['none', 'none']];
-  const head = `<div class="bar-head"><h2>Spectrogram</h2><div class="controls">${buttons('orders', 'Orders', choices, orders)}</div></div>`;
-  const events = page.answer.events.length > 0 ? section('Stretches of chatter', eventsTable(page.answer.events)) : '';
-  const loudness = `<div class="radius-legend"><span class="scale-title">Power under the strongest cell, dB</span><span class="strip"><i id="strip"></i><b id="strip-ends"></b></span></div>`;
+  const choices = buttons('orders', 'Orders', [['teeth', 'Orders of the teeth'], ['spindle', 'of the spindle'], ['none', 'none']], orders);
   return {
     product: 'Steadyrest chatter detect',
     title: page.process,
     facts: `<b>${plain(page.answer.seconds)} s</b> at <b>${fixed(page.answer.sample_rate_hz, 0)} Hz</b> · <b>${page.teeth}</b> ${page.teeth === 1 ? 'tooth' : 'teeth'} · ${escapeHtml(page.machine)}`,
     verdict: verdict(page),
-    body: `<section>${head}<div class="key-line" id="key-detect"></div>${host('spectrogram', 'tall')}${loudness}${host('signal', 'low')}${host('speed', 'low')}</section>${events}`,
+    body:
+      section('Spectrogram', host('spectrogram', 'tall') + host('signal', 'low') + host('speed', 'low'), '', choices) +
+      (page.answer.events.length > 0 ? section('Stretches of chatter', eventsTable(page.answer)) : ''),
+    explanation: [
+      ['Spectrogram', 'Power of the signal over time and frequency, in dB under its strongest cell. A forced vibration lies on the multiples of the tooth passing frequency; chatter lies between them.'],
+      ['Orders', 'Multiples of the tooth passing frequency (teeth × speed) or of the speed itself. With runout the forced vibration is on those of the spindle.'],
+      ['Hopf, flip', 'Hopf: the chatter frequency is free of the tooth passing frequency. Flip: it is an odd multiple of its half; each second tooth cuts deeper.'],
+      ['Better speed', 'By the rule of thumb: the override step at which whole waves of this frequency fit between two teeth; it knows neither the depth nor the border. By the deepest step: with a process file, the step with the deepest border. By the planner: with a process file and a depth, what <code>chatter plan</code> answers.'],
+    ],
     draw: (theme) => {
       plot('spectrogram', spectrogramPlot(page, orders, theme), theme);
       plot('signal', signalPlot(page, theme), theme);
       plot('speed', speedPlot(page, theme), theme);
-      const put = (id: string, change: (where: HTMLElement) => void) => {
-        const where = document.getElementById(id);
-        if (where) change(where);
-      };
-      put('strip', (e) => (e.style.background = loudnessStrip(theme.scheme)));
-      put('strip-ends', (e) => (e.innerHTML = `<span>${fixed(quietLevel(page.spectrogram.level_db), 0)}</span><span>0</span>`));
-      put('key-detect', (e) => {
-        e.innerHTML = keyLine([
-          { name: 'chatter: from when it was told, at the frequency that was named', colour: theme.run.without },
-          ...(orders === 'none' ? [] : [{ name: orders === 'teeth' ? 'tooth passing frequency and its multiples' : 'spindle frequency and its multiples', colour: theme.faint, kind: 'dashed' as const }]),
-        ]);
-      });
     },
     bind: (redraw) =>
       onChoice('orders', (value) => {

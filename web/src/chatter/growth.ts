@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a vibration grows on its way through a period, and the speed that makes it.
-import { fixed } from '../format';
-import type { Theme } from '../theme';
-import { type GrowthPage, type Maybe, lawText } from './data';
-import { type View, figures, host, keyLine, plain, plot, section } from './frame';
-import { type Dot, type Layer, type Plot, roomy } from './plot';
+import type { Maybe } from '../frame/data';
+import { section } from '../frame/html';
+import { fixed, plain } from '../frame/numbers';
+import { figures } from '../frame/table';
+import type { Theme } from '../frame/theme';
+import type { View } from '../frame/view';
+import { roomy } from '../plot/axes';
+import type { Dot, Layer } from '../plot/layers';
+import { type Plot, host, plot } from '../plot/plot';
+import { type GrowthPage, lawText } from './data';
 
 interface Peak {
   start_s: number;
@@ -54,14 +59,15 @@ function growthPlot(page: GrowthPage, theme: Theme): Plot {
   ];
   page.courses.forEach((c, i) => {
     if (i !== page.worst) {
-      layers.push({ kind: 'line', x: scaled(c.time_s, scale.times), y: c.log_growth, colour: theme.rapid, width: 1 });
+      layers.push({ kind: 'line', name: 'from other beginnings in the period', x: scaled(c.time_s, scale.times), y: c.log_growth, colour: theme.rapid, width: 1 });
     }
   });
-  layers.push({ kind: 'line', x: scaled(worst?.time_s ?? [], scale.times), y: worst?.log_growth ?? [], colour: theme.run.without, width: 2.4 });
+  layers.push({ kind: 'line', name: 'from the worst beginning', x: scaled(worst?.time_s ?? [], scale.times), y: worst?.log_growth ?? [], colour: theme.run.without, width: 2.4 });
   const share = (peak.time_s * scale.times) / scale.end;
   const side: Partial<Dot> = share < 0.15 ? { side: 'right' } : share > 0.85 ? { side: 'left', lift: 16 } : { side: 'top' };
   layers.push({
     kind: 'dots',
+    name: 'peak growth',
     colour: theme.run.without,
     size: 11,
     bold: true,
@@ -71,6 +77,7 @@ function growthPlot(page: GrowthPage, theme: Theme): Plot {
     title: 'Growth of a vibration',
     x: { name: `time in ${scale.unit}`, min: 0, max: scale.end },
     y: { name: 'ln of the largest growth', min, max },
+    group: 'period',
     layers,
     readout: (t) => {
       const times = worst?.time_s ?? [];
@@ -88,9 +95,10 @@ function speedPlot(page: GrowthPage, theme: Theme): Plot {
     title: 'Spindle speed',
     x: { name: `time in ${scale.unit}`, min: 0, max: scale.end },
     y: { name: 'spindle speed in rev/min', min, max },
+    group: 'period',
     layers: [
       { kind: 'rules', at: periods(page, scale), axis: 'x', colour: theme.rapid, dashed: true },
-      { kind: 'line', x: scaled(page.speed.time_s, scale.times), y: page.speed.speed_rpm, colour: theme.run.with, width: 2 },
+      { kind: 'line', name: 'spindle speed', x: scaled(page.speed.time_s, scale.times), y: page.speed.speed_rpm, colour: theme.run.with, width: 2 },
     ],
   };
 }
@@ -125,19 +133,16 @@ export function growthView(page: GrowthPage): View {
     facts: `<b>${fixed(a.speed_rpm, 0)} rev/min</b> · <b>${plain(a.depth_mm)} mm</b> deep · <b>${lawText(a)}</b>`,
     verdict: verdict(page),
     body:
-      section(constant ? 'Growth from pass to pass' : 'Growth over the period', `<div class="key-line" id="key-growth"></div>${host('growth', 'high')}${host('speed')}`) +
-      section('Figures', figures(rows), 'Growth: the largest later displacement over the largest within one pass before the beginning, of all vibrations the worst.'),
+      section(constant ? 'Growth from pass to pass' : 'Growth over the period', host('growth', 'high') + host('speed')) +
+      section('Figures', figures(rows)),
+    explanation: [
+      ['Spectral radius', 'What a tooth pass, or a whole period of the law, multiplies a vibration by in the long run. Below 1 it dies in the end, however much it has grown on its way.'],
+      ['Growth', 'The largest later displacement over the largest within one pass before the beginning, of all vibrations the worst. A cut that is stable in the long run may still leave its marks while a vibration passes through its peak.'],
+      ['Worst beginning', 'Under a law it matters in which moment of the period a vibration begins; the heavy curve is the worst of the beginnings that are drawn.'],
+    ],
     draw: (theme) => {
       plot('growth', growthPlot(page, theme), theme);
       plot('speed', speedPlot(page, theme), theme);
-      const where = document.getElementById('key-growth');
-      if (where) {
-        where.innerHTML = keyLine([
-          { name: 'from the worst beginning', colour: theme.run.without },
-          ...(page.courses.length > 1 ? [{ name: 'from other beginnings in the period', colour: theme.rapid }] : []),
-          { name: 'peak growth', colour: theme.run.without, kind: 'dot' as const },
-        ]);
-      }
     },
   };
 }

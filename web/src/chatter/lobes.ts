@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stability lobes: speed × depth, shaded by the spectral radius, with the border.
-import { fixed } from '../format';
-import type { Theme } from '../theme';
+import { section } from '../frame/html';
+import { fixed, plain } from '../frame/numbers';
+import { type Cell, table } from '../frame/table';
+import type { Theme } from '../frame/theme';
+import type { Term, View } from '../frame/view';
+import type { ColourScale } from '../plot/key';
+import type { Dot, Layer } from '../plot/layers';
+import { type Plot, host, plot } from '../plot/plot';
 import { type LobeColumns, type LobesPage, type Point, lawText } from './data';
-import { type Key, type View, host, keyLine, plain, plot, section } from './frame';
-import { type Dot, type Layer, type Plot } from './plot';
 import { type Grid, type Level, classRaster, radiusLevels, valueAt } from './raster';
 
 export interface Marked {
@@ -21,10 +25,11 @@ export interface LobeView {
   marked?: Marked | undefined;
   /** A line at the depth that is wanted. */
   wanted_mm?: number;
+  names: { border: string; marked: string };
 }
 
 export function otherColour(index: number, theme: Theme): string {
-  return [theme.run.with, theme.rapid === '#c3c9cf' ? '#8a5fb0' : '#b797dc'][index % 2] ?? theme.text;
+  return [theme.run.with, theme.other[4]][index % 2] ?? theme.text;
 }
 
 export function radiusText(log_radius: number, perPass: boolean): string {
@@ -42,7 +47,7 @@ function markLayer(view: LobeView, theme: Theme): Layer[] {
   const share = (at.speed_rpm - x0) / Math.max(x1 - x0, 1e-9);
   const side = share < 0.2 ? 'right' : share > 0.8 ? 'left' : at.depth_mm > 0.85 * top ? 'bottom' : 'top';
   const dot: Dot = { x: at.speed_rpm, y: at.depth_mm, label: at.label, side };
-  return [{ kind: 'dots', dots: [dot], colour: at.stable ? theme.run.with : theme.run.without, size: 13, bold: true }];
+  return [{ kind: 'dots', name: view.names.marked, dots: [dot], colour: at.stable ? theme.run.with : theme.run.without, size: 13, bold: true }];
 }
 
 function stepLayers(lobes: LobeColumns, theme: Theme): Layer[] {
@@ -54,27 +59,30 @@ function stepLayers(lobes: LobeColumns, theme: Theme): Layer[] {
   const dots = shown.flatMap((s) => (s.limit_depth_mm === null ? [] : [{ x: s.speed_rpm, y: s.limit_depth_mm }]));
   return [
     { kind: 'ticks', ticks, colour: theme.faint },
-    { kind: 'dots', dots, colour: theme.text, size: 7, hollow: true },
+    ...(dots.length === 0 ? [] : [{ kind: 'dots' as const, name: 'border at an override step', dots, colour: theme.text, size: 7, hollow: true }]),
   ];
 }
 
 export function lobePlot(view: LobeView, theme: Theme): Plot {
   const { map, border, others } = view.lobes;
   const grid: Grid = { x: map.speed_rpm, y: map.depth_mm, value: map.log_radius };
+  const levels = radiusLevels(map.log_radius, view.perPass, theme.scheme);
   const ends = (values: readonly number[]): [number, number] => [values[0] ?? 0, values.at(-1) ?? 1];
   const [x, y] = [ends(map.speed_rpm), ends(map.depth_mm)];
   const area = x[1] > x[0] && y[1] > y[0];
-  const layers: Layer[] = area ? [{ kind: 'raster', canvas: classRaster(grid, radiusLevels(map.log_radius, view.perPass, theme.scheme)), x, y }] : [];
-  others.forEach((o, i) => layers.push({ kind: 'line', x: o.speed_rpm, y: o.depth_mm, colour: otherColour(i, theme), width: 1.8, dashed: true }));
-  layers.push({ kind: 'line', x: border.speed_rpm, y: border.depth_mm, colour: theme.text, width: 2.2 });
+  const layers: Layer[] = area ? [{ kind: 'raster', canvas: classRaster(grid, levels, { x: border.speed_rpm, y: border.depth_mm }), x, y }] : [];
+  others.forEach((o, i) => layers.push({ kind: 'line', name: o.name, x: o.speed_rpm, y: o.depth_mm, colour: otherColour(i, theme), width: 1.8, dashed: true }));
+  layers.push({ kind: 'line', name: view.names.border, x: border.speed_rpm, y: border.depth_mm, colour: theme.text, width: 2.2 });
   if (view.wanted_mm !== undefined) {
-    layers.push({ kind: 'rules', at: [view.wanted_mm], axis: 'y', colour: theme.text, dashed: true });
+    layers.push({ kind: 'rules', name: 'the wanted depth', at: [view.wanted_mm], axis: 'y', colour: theme.text, dashed: true });
   }
   layers.push(...stepLayers(view.lobes, theme), ...markLayer(view, theme));
   return {
     title: 'Stability lobes',
     x: { name: 'spindle speed in rev/min', min: x[0], max: area ? x[1] : x[0] + 1 },
     y: { name: 'depth of cut in mm', min: y[0], max: y[1] },
+    plane: true,
+    scale: radiusScale(levels, view.perPass),
     layers,
     readout: (speed, depth) => {
       const log = valueAt(grid, speed, depth);
@@ -87,38 +95,15 @@ function edge(value: number, perPass: boolean): string {
   return Number.isFinite(value) ? plain(perPass ? Math.exp(value) : value, 3) : '';
 }
 
-/** Cells of the colours, the number under the edge between two. */
-export function radiusLegend(view: LobeView, theme: Theme): string {
-  const levels = radiusLevels(view.lobes.map.log_radius, view.perPass, theme.scheme);
-  const cell = (l: Level) => `<span><i style="background:${l.colour}"></i><em>${edge(l.to, view.perPass)}</em></span>`;
-  const what = view.perPass ? 'Spectral radius ρ of a tooth pass' : 'ln ρ of a modulation period';
-  return `<span class="scale-title">${what}: left stable, right unstable</span><span class="scale">${levels.map(cell).join('')}</span>`;
-}
-
-export function lobeKeys(view: LobeView, theme: Theme, names: { border: string; marked: string }): Key[] {
-  const keys: Key[] = [{ name: names.border, colour: theme.text }];
-  view.lobes.others.forEach((o, i) => keys.push({ name: o.name, colour: otherColour(i, theme), kind: 'dashed' }));
-  if (view.lobes.steps.some((s) => s.limit_depth_mm !== null)) {
-    keys.push({ name: 'border at an override step', colour: theme.text, kind: 'hoop' });
-  }
-  if (view.marked) {
-    keys.push({ name: names.marked, colour: view.marked.stable ? theme.run.with : theme.run.without, kind: 'dot' });
-  }
-  return keys;
-}
-
-export function lobeHosts(): string {
-  return `<div class="key-line" id="key-lobes"></div>${host('lobes', 'tall')}<div class="radius-legend" id="legend"></div>`;
-}
-
-export function drawLobes(view: LobeView, theme: Theme, names: { border: string; marked: string }): void {
-  plot('lobes', lobePlot(view, theme), theme);
-  const put = (id: string, html: string) => {
-    const where = document.getElementById(id);
-    if (where) where.innerHTML = html;
+function radiusScale(levels: readonly Level[], perPass: boolean): ColourScale {
+  return {
+    title: `${perPass ? 'Spectral radius ρ of a tooth pass' : 'ln ρ of a modulation period'}: left stable, right unstable`,
+    cells: levels.map((l, i) => ({ colour: l.colour, upTo: edge(l.to, perPass), marked: l.from === 0 && i > 0 })),
   };
-  put('key-lobes', keyLine(lobeKeys(view, theme, names)));
-  put('legend', radiusLegend(view, theme));
+}
+
+export function drawLobes(view: LobeView, theme: Theme): void {
+  plot('lobes', lobePlot(view, theme), theme);
 }
 
 export function frequencyText(frequency_hz: number | null): string {
@@ -136,16 +121,22 @@ function stepsTable(page: LobesPage): string {
   }
   const most = page.map.depth_mm.at(-1) ?? 0;
   const depth = page.answer.point?.depth_mm ?? 0;
-  const rows = page.steps
-    .map((s) => {
-      const carries = s.limit_depth_mm === null || s.limit_depth_mm > depth;
-      const limit = s.limit_depth_mm === null ? `over ${plain(most)}` : fixed(s.limit_depth_mm, 3);
-      return `<tr><td class="n">${plain(s.percent)} %</td><td class="n">${fixed(s.speed_rpm, 0)}</td><td class="n">${limit}</td><td>${carries ? 'carries it' : 'too deep'}</td></tr>`;
-    })
-    .join('');
-  const head = `<th class="n">override</th><th class="n">rev/min</th><th class="n">border, mm</th><th>${plain(depth)} mm</th>`;
-  return section('Override steps of the machine', `<div class="wide"><table id="steps"><thead><tr>${head}</tr></thead><tbody>${rows}</tbody></table></div>`);
+  const rows = page.steps.map((s): Cell[] => {
+    const carries = s.limit_depth_mm === null || s.limit_depth_mm > depth;
+    const limit = s.limit_depth_mm === null ? { html: `over ${plain(most)}`, sort: most } : fixed(s.limit_depth_mm, 3);
+    return [`${plain(s.percent)} %`, fixed(s.speed_rpm, 0), limit, carries ? 'carries it' : 'too deep'];
+  });
+  const number = (head: string) => ({ head, number: true });
+  const columns = [number('override'), number('rev/min'), number('border, mm'), { head: `${plain(depth)} mm` }];
+  return section('Override steps of the machine', table({ id: 'steps', columns, rows, sortable: true }));
 }
+
+export const LOBE_TERMS: readonly Term[] = [
+  ['Border', 'The depth at which the cut is just stable (ρ = 1), at each speed the lowest. Deeper than the border a vibration grows from tooth to tooth: chatter. The border is worked out exactly and is refined between the speeds of the map.'],
+  ['Spectral radius ρ', 'What one tooth pass multiplies a small vibration by in the long run. Below 1 the vibration dies, above 1 it grows. Under a speed law it is that of a whole period of the law, and its logarithm is shown.'],
+  ['Colours', 'The map between its points, by straight lines; beside the border they follow the border.'],
+  ['Override step', 'A step of the spindle override that the machine has: the speeds that can be set while the program runs.'],
+];
 
 function verdict(page: LobesPage, perPass: boolean): string {
   const point = page.answer.point;
@@ -170,13 +161,15 @@ export function lobesView(page: LobesPage): View {
     lobes: page,
     perPass,
     marked: point && { ...point, label: pointLabel(point, perPass) },
+    names: { border: perPass ? 'border, ρ = 1' : 'border under the law, ρ = 1', marked: 'the wanted cut' },
   };
   return {
     product: 'Steadyrest chatter lobes',
     title: page.process,
     facts: `<b>${lawText(page.answer)}</b> · map of <b>${page.answer.speeds} × ${page.answer.depths}</b> points`,
     verdict: verdict(page, perPass),
-    body: section('Stability lobes', lobeHosts()) + stepsTable(page),
-    draw: (theme) => drawLobes(view, theme, { border: perPass ? 'border, ρ = 1' : 'border under the law, ρ = 1', marked: 'the wanted cut' }),
+    body: section('Stability lobes', host('lobes', 'tall')) + stepsTable(page),
+    explanation: LOBE_TERMS,
+    draw: (theme) => drawLobes(view, theme),
   };
 }

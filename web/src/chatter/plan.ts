@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan: lobes, the alternatives in them, what was chosen and why the others were not.
-import { fixed } from '../format';
-import { escapeHtml } from '../page';
+import { escapeHtml, section } from '../frame/html';
+import { fixed, plain } from '../frame/numbers';
+import { type Cell, table } from '../frame/table';
+import type { View } from '../frame/view';
+import { host } from '../plot/plot';
 import { type Alternative, type PlanPage, lawText } from './data';
-import { type View, plain, section } from './frame';
-import { type LobeView, drawLobes, lobeHosts } from './lobes';
+import { LOBE_TERMS, type LobeView, drawLobes } from './lobes';
 
 function isLaw(a: Alternative): boolean {
   return a.law !== 'constant';
@@ -33,18 +35,45 @@ function limitText(a: Alternative, most: number): string {
   return a.limit_depth_mm === null ? (a.stable ? `over ${plain(most)}` : '–') : fixed(a.limit_depth_mm, 3);
 }
 
-function table(page: PlanPage): string {
+function alternatives(page: PlanPage): string {
   const most = page.answer.most_depth_mm;
   const chosen = choiceText(page.answer);
-  const row = (a: Alternative) => {
+  const isTaken = (a: Alternative) => page.answer.decision !== 'nothing' && choiceText(a) === chosen;
+  const rows = page.answer.alternatives.map((a): Cell[] => {
     const growth = a.peak_growth === null ? '–' : `${a.growth_is_lower_bound ? '≥ ' : ''}${plain(a.peak_growth, 3)}`;
-    const taken = page.answer.decision !== 'nothing' && choiceText(a) === chosen;
-    const why = a.reasons.length === 0 ? (taken ? 'chosen' : 'would do') : a.reasons.map(escapeHtml).join('<br>');
-    return `<tr${taken ? ' class="chosen"' : ''}><td class="n">${choiceText(a)}</td><td class="n">${limitText(a, most)}</td>
-      <td class="n">${a.probability === null ? '–' : fixed(100 * a.probability, 0)}</td><td class="n">${growth}</td><td>${why}</td></tr>`;
-  };
-  return `<div class="wide"><table id="alternatives"><thead><tr><th class="n">choice</th><th class="n">border, mm</th><th class="n">stable cuts, %</th>
-    <th class="n">growth</th><th>verdict</th></tr></thead><tbody>${page.answer.alternatives.map(row).join('')}</tbody></table></div>`;
+    const why = a.reasons.length === 0 ? (isTaken(a) ? 'chosen' : 'would do') : a.reasons.map(escapeHtml).join('<br>');
+    return [
+      choiceText(a), { html: limitText(a, most), sort: a.limit_depth_mm ?? (a.stable ? most : null) },
+      { html: a.probability === null ? '–' : fixed(100 * a.probability, 0), sort: a.probability }, { html: growth, sort: a.peak_growth }, { html: why },
+    ];
+  });
+  const number = (head: string) => ({ head, number: true });
+  return table({
+    id: 'alternatives',
+    sortable: true,
+    columns: [{ head: 'choice' }, number('border, mm'), number('stable cuts, %'), number('growth'), { head: 'verdict' }],
+    rows,
+    rowLook: (i) => (isTaken(page.answer.alternatives[i] as Alternative) ? 'chosen' : ''),
+  });
+}
+
+function bestSpeeds(page: PlanPage): string {
+  const { best_speeds, most_depth_mm } = page.answer;
+  if (best_speeds.length === 0) {
+    return '';
+  }
+  const number = (head: string) => ({ head, number: true });
+  const depth = (mm: number | null): Cell => (mm === null ? { html: `over ${plain(most_depth_mm)}`, sort: most_depth_mm } : fixed(mm, 3));
+  return section(
+    'Best speeds of the spindle',
+    table({
+      id: 'best-speeds',
+      sortable: true,
+      columns: [number('rev/min'), number('border, mm'), number('border of all likely cuts, mm')],
+      rows: best_speeds.map((b) => [fixed(b.speed_rpm, 0), depth(b.limit_depth_mm), depth(b.sure_depth_mm)]),
+    }),
+    'To be programmed, where the program may be changed: between the least and the greatest speed of the spindle, the best first.',
+  );
 }
 
 export function planView(page: PlanPage): View {
@@ -55,6 +84,7 @@ export function planView(page: PlanPage): View {
     lobes: page,
     perPass: true,
     wanted_mm: a.depth_mm,
+    names: { border: 'border at constant speed, ρ = 1', marked: chosen ? 'what was chosen, at the wanted depth' : 'the programmed speed' },
     marked: { speed_rpm: a.speed_rpm, depth_mm: a.depth_mm, label, stable: chosen },
   };
   const notes = a.notes.map((n) => `<p class="hint">${escapeHtml(n)}</p>`).join('');
@@ -63,7 +93,13 @@ export function planView(page: PlanPage): View {
     title: page.process,
     facts: `<b>${escapeHtml(page.machine)}</b> · wanted <b>${plain(a.depth_mm)} mm</b>`,
     verdict: headline(page),
-    body: section('The choice in the stability lobes', lobeHosts(), 'Ticks above: the override steps that may be written.') + section('Alternatives', table(page) + notes),
-    draw: (theme) => drawLobes(view, theme, { border: 'border at constant speed, ρ = 1', marked: chosen ? 'what was chosen, at the wanted depth' : 'the programmed speed' }),
+    body: section('The choice in the stability lobes', host('lobes', 'tall'), 'Ticks above: the override steps that may be written.') + section('Alternatives', alternatives(page) + notes) + bestSpeeds(page),
+    explanation: [
+      ...LOBE_TERMS,
+      ['Stable cuts', 'Of cuts whose modes and forces scatter as the process file says (or as tap tests usually do), the share that is stable there.'],
+      ['Best speeds', 'Ranked by the depth that is stable although the frequencies of the modes are known to some per cent only: a speed just under a cusp is deep on paper and not in the shop.'],
+      ['Growth', 'Under a law, what a vibration grows to on its way through a period before it dies. At constant speed there is none.'],
+    ],
+    draw: (theme) => drawLobes(view, theme),
   };
 }

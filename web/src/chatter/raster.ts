@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of a quantity over two axes, as a canvas that a plot stretches over its box.
-import type { Scheme } from '../scale';
-import type { Maybe } from './data';
-import { niceStep } from './plot';
+import type { Maybe } from '../frame/data';
+import { fixed } from '../frame/numbers';
+import type { Scheme } from '../frame/theme';
+import { niceStep } from '../plot/axes';
+import type { ColourScale } from '../plot/key';
+import { lowerBound } from '../plot/thin';
 
 export interface Level {
   from: number;
@@ -88,15 +91,53 @@ export function valueAt(grid: Grid, x: number, y: number): number {
   return mix(mix(at(i, j), at(i, j + 1), v), mix(at(i + 1, j), at(i + 1, j + 1), v), u);
 }
 
+/** The lowest depth at which ρ is 1, at points of rising speed; null: none. */
+export interface Border {
+  x: readonly Maybe[];
+  y: readonly Maybe[];
+}
+
+/** The border at x by straight lines; undefined: it is not known there. */
+export function borderAt(border: Border, x: number): number | undefined {
+  const at = lowerBound(border.x, x);
+  const [x1, y1] = [border.x[at], border.y[at]];
+  const [x0, y0] = [border.x[at - 1], border.y[at - 1]];
+  if (x1 === x) return y1 ?? undefined;
+  if (x0 == null || x1 == null || y0 == null || y1 == null) return undefined;
+  return y0 + ((y1 - y0) * (x - x0)) / (x1 - x0);
+}
+
+/** Is a point of the grid about (x, y) stable although it is above the border? Then islands are near. */
+function stableAbove(grid: Grid, border: Border, x: number, y: number): boolean {
+  const [i] = place(grid.x, x);
+  const [j] = place(grid.y, y);
+  return [i, i + 1].some((a) =>
+    [j, j + 1].some((b) => {
+      const [gx, gy] = [grid.x[a], grid.y[b]];
+      const limit = gx === undefined ? undefined : borderAt(border, gx);
+      return gx !== undefined && gy !== undefined && limit !== undefined && gy > limit && (grid.value[a * grid.y.length + b] ?? 0) < 0;
+    }),
+  );
+}
+
+/** Between points of the grid straight lines know less than the border does. */
+export function valueBeside(grid: Grid, border: Border, x: number, y: number): number {
+  const value = valueAt(grid, x, y);
+  const limit = borderAt(border, x);
+  if (limit === undefined) return value;
+  if (y <= limit) return Math.min(value, -Number.MIN_VALUE);
+  return value > 0 || stableAbove(grid, border, x, y) ? value : Number.MIN_VALUE;
+}
+
 const MAP_WIDTH = 1100;
 const MAP_HEIGHT = 560;
 
 /** The grid in the colours of its classes; borders between classes are sharp. */
-export function classRaster(grid: Grid, levels: readonly Level[]): HTMLCanvasElement {
+export function classRaster(grid: Grid, levels: readonly Level[], border: Border): HTMLCanvasElement {
   const colours = levels.map((l) => bytes(l.colour));
   const [x0 = 0, x1 = 0, y0 = 0, y1 = 0] = [grid.x[0], grid.x.at(-1), grid.y[0], grid.y.at(-1)];
   return paint(MAP_WIDTH, MAP_HEIGHT, (column, row) => {
-    const value = valueAt(grid, x0 + ((x1 - x0) * (column + 0.5)) / MAP_WIDTH, y1 - ((y1 - y0) * (row + 0.5)) / MAP_HEIGHT);
+    const value = valueBeside(grid, border, x0 + ((x1 - x0) * (column + 0.5)) / MAP_WIDTH, y1 - ((y1 - y0) * (row + 0.5)) / MAP_HEIGHT);
     const index = levels.findIndex((l) => value <= l.to);
     return colours[index < 0 ? colours.length - 1 : index] ?? [];
   });
@@ -121,6 +162,11 @@ export function loudnessRaster(levels_db: readonly number[], columns: number, ro
   return paint(columns, rows, (column, row) => between(stops, 1 - (levels_db[column * rows + (rows - 1 - row)] ?? low) / low));
 }
 
-export function loudnessStrip(scheme: Scheme): string {
-  return `linear-gradient(to right, ${LOUDNESS[scheme].join(', ')})`;
+/** The same colours with their levels. */
+export function loudnessScale(low_db: number, scheme: Scheme): ColourScale {
+  const stops = LOUDNESS[scheme];
+  return {
+    title: 'Power under the strongest cell up to, dB',
+    cells: stops.map((colour, i) => ({ colour, upTo: fixed((low_db * (stops.length - 1 - i)) / (stops.length - 1), 0) })),
+  };
 }

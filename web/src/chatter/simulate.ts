@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cut in time: displacement, force, and what the tool does once a revolution.
-import { fixed } from '../format';
-import type { Theme } from '../theme';
+import { section } from '../frame/html';
+import { fixed, plain } from '../frame/numbers';
+import { figures } from '../frame/table';
+import type { Theme } from '../frame/theme';
+import type { View } from '../frame/view';
+import { roomy } from '../plot/axes';
+import type { Layer } from '../plot/layers';
+import { type Plot, host, plot } from '../plot/plot';
 import { type SimulatePage, lawText } from './data';
-import { type Key, type Row, type View, figures, host, keyLine, plain, plot, section } from './frame';
-import { type Layer, type Plot, roomy } from './plot';
 
+const X = 'x, along the feed';
+const Y = 'y, across it';
 const BAND = 0.55;
 
-export function axisColours(theme: Theme): { x: string; y: string; force: string } {
+function axisColours(theme: Theme): { x: string; y: string; force: string } {
   return { x: theme.run.with, y: theme.run.without, force: theme.scheme === 'light' ? '#4f5b66' : '#a9b4be' };
 }
 
@@ -22,11 +28,11 @@ function motionPlot(page: SimulatePage, theme: Theme): Plot {
   const colours = axisColours(theme);
   const both = movesInY(page);
   const [min, max] = roomy([...x_low_um, ...x_high_um, ...(both ? [...y_low_um, ...y_high_um] : [])], true);
-  const layers: Layer[] = [{ kind: 'band', x: t_s, low: x_low_um, high: x_high_um, colour: colours.x, opacity: both ? BAND : 0.85 }];
+  const layers: Layer[] = [{ kind: 'band', name: X, x: t_s, low: x_low_um, high: x_high_um, colour: colours.x, opacity: both ? BAND : 0.85 }];
   if (both) {
-    layers.push({ kind: 'band', x: t_s, low: y_low_um, high: y_high_um, colour: colours.y, opacity: BAND });
+    layers.push({ kind: 'band', name: Y, x: t_s, low: y_low_um, high: y_high_um, colour: colours.y, opacity: BAND });
   }
-  return { title: 'Displacement', x: { name: 'time in s', min: 0, max: t_s.at(-1) ?? 1 }, y: { name: 'displacement in µm', min, max }, layers };
+  return { title: 'Displacement', x: { name: 'time in s', min: 0, max: t_s.at(-1) ?? 1 }, y: { name: 'displacement in µm', min, max }, group: 'time', layers };
 }
 
 function forcePlot(page: SimulatePage, theme: Theme): Plot {
@@ -36,7 +42,8 @@ function forcePlot(page: SimulatePage, theme: Theme): Plot {
     title: 'Force',
     x: { name: 'time in s', min: 0, max: t_s.at(-1) ?? 1 },
     y: { name: 'force on the tool in N', min, max },
-    layers: [{ kind: 'band', x: t_s, low: force_low_N, high: force_high_N, colour: axisColours(theme).force, opacity: 0.8 }],
+    group: 'time',
+    layers: [{ kind: 'band', name: 'force, all directions', x: t_s, low: force_low_N, high: force_high_N, colour: axisColours(theme).force, opacity: 0.8 }],
   };
 }
 
@@ -55,19 +62,20 @@ function lastPlots(page: SimulatePage, theme: Theme): [Plot, Plot] {
   const x = { name: 'revolutions of the spindle', min, max };
   const [m0, m1] = roomy([...x_um, ...(both ? y_um : [])], true);
   const [f0, f1] = roomy([...fx_N, ...fy_N], true);
-  const motion: Layer[] = [{ kind: 'line', x: turn, y: x_um, colour: colours.x, width: 1.6 }];
+  const motion: Layer[] = [{ kind: 'line', name: X, x: turn, y: x_um, colour: colours.x, width: 1.6 }];
   if (both) {
-    motion.push({ kind: 'line', x: turn, y: y_um, colour: colours.y, width: 1.6 });
+    motion.push({ kind: 'line', name: Y, x: turn, y: y_um, colour: colours.y, width: 1.6 });
   }
   return [
-    { title: 'Displacement, the last revolutions', x, y: { name: 'displacement in µm', min: m0, max: m1 }, layers: motion },
+    { title: 'Displacement, the last revolutions', group: 'last', x, y: { name: 'displacement in µm', min: m0, max: m1 }, layers: motion },
     {
       title: 'Force, the last revolutions',
+      group: 'last',
       x,
       y: { name: 'force on the tool in N', min: f0, max: f1 },
       layers: [
-        { kind: 'line', x: turn, y: fx_N, colour: colours.x, width: 1.4 },
-        { kind: 'line', x: turn, y: fy_N, colour: colours.y, width: 1.4 },
+        { kind: 'line', name: X, x: turn, y: fx_N, colour: colours.x, width: 1.4 },
+        { kind: 'line', name: Y, x: turn, y: fy_N, colour: colours.y, width: 1.4 },
       ],
     },
   ];
@@ -79,9 +87,9 @@ function turnsPlot(page: SimulatePage, theme: Theme): Plot {
   const both = movesInY(page);
   const [min, max] = roomy([...x_um, ...(both ? y_um : [])]);
   const dots = (values: readonly number[]) => t_s.map((t, i) => ({ x: t, y: values[i] ?? 0 }));
-  const layers: Layer[] = [{ kind: 'dots', dots: dots(x_um), colour: colours.x, size: 4, opacity: 0.8 }];
+  const layers: Layer[] = [{ kind: 'dots', name: X, dots: dots(x_um), colour: colours.x, size: 4, opacity: 0.8 }];
   if (both) {
-    layers.push({ kind: 'dots', dots: dots(y_um), colour: colours.y, size: 4, opacity: 0.8 });
+    layers.push({ kind: 'dots', name: Y, dots: dots(y_um), colour: colours.y, size: 4, opacity: 0.8 });
   }
   return { title: 'Once a revolution', x: { name: 'time in s', min: 0, max: page.envelope.t_s.at(-1) ?? 1 }, y: { name: 'displacement in µm', min, max }, layers };
 }
@@ -100,24 +108,16 @@ function returnPlot(page: SimulatePage, theme: Theme): Plot {
     title: 'Return map',
     x: { name: `${name} in µm, once a revolution`, min, max, ticks: 5 },
     y: { name: `${name} in µm, ${later}`, min, max, ticks: 6 },
+    plane: true,
     layers: [
       { kind: 'line', x: [min, max], y: [min, max], colour: theme.rule, width: 1 },
-      { kind: 'dots', dots: pairs.slice(0, half), colour: theme.rapid, size: 4 },
-      { kind: 'dots', dots: pairs.slice(half), colour, size: 5 },
+      { kind: 'dots', name: 'first half of the time', dots: pairs.slice(0, half), colour: theme.rapid, size: 4 },
+      { kind: 'dots', name: 'second half', dots: pairs.slice(half), colour, size: 5 },
     ],
   };
 }
 
-function axisKeys(page: SimulatePage, theme: Theme, kind: Key['kind'], names: [string, string], always = false): string {
-  const colours = axisColours(theme);
-  const keys: Key[] = [{ name: names[0], colour: colours.x, kind: kind ?? 'line' }];
-  if (always || movesInY(page)) {
-    keys.push({ name: names[1], colour: colours.y, kind: kind ?? 'line' });
-  }
-  return keyLine(keys);
-}
-
-function rowsOf(page: SimulatePage): Row[] {
+function rowsOf(page: SimulatePage): { label: string; value: string }[] {
   const a = page.answer;
   const um = (v: number | null) => (v === null ? [] : [`${fixed(v, 2)} µm`]);
   const optional = (label: string, value: number | null) => um(value).map((text) => ({ label, value: text }));
@@ -143,21 +143,22 @@ function verdict(page: SimulatePage): string {
 
 export function simulateView(page: SimulatePage): View {
   const a = page.answer;
-  const key = (id: string) => `<div class="key-line" id="${id}"></div>`;
   return {
     product: 'Steadyrest chatter simulate',
     title: page.process,
     facts: `<b>${fixed(a.speed_rpm, 0)} rev/min</b> · <b>${plain(a.depth_mm)} mm</b> deep · <b>${lawText(a)}</b>`,
     verdict: verdict(page),
     body:
-      section('Displacement and force', key('key-course') + host('motion') + host('force', 'low'), 'Bands reach from the lowest to the highest value within a stretch of time.') +
-      section('The last revolutions', `${key('key-last')}<div class="panels">${host('last-motion')}${host('last-force')}</div>`) +
-      section(
-        'Once a revolution',
-        `${key('key-turns')}<div class="panels">${host('turns', 'high')}${host('return', 'high')}</div>`,
-        'The displacement whenever the spindle has turned whole. A stable cut settles on one point, chatter with the period doubled on two, quasi-periodic chatter on a closed curve.',
-      ) +
+      section('Displacement and force', host('motion') + host('force', 'low'), 'Bands reach from the lowest to the highest value within a stretch of time.') +
+      section('The last revolutions', `<div class="panels">${host('last-motion')}${host('last-force')}</div>`) +
+      section('Once a revolution', `<div class="panels">${host('turns', 'high')}${host('return', 'high')}</div>`) +
       section('Figures', figures(rowsOf(page))),
+    explanation: [
+      ['Displacement', 'Of the tool from where it is without a force. A forced vibration repeats with every tooth; what does not repeat is chatter.'],
+      ['Once a revolution', 'The displacement whenever the spindle has turned whole. A stable cut settles on one point, chatter with the period doubled on two, quasi-periodic chatter on a closed curve. The return map draws each of these values over the one before.'],
+      ['Growth per tooth', 'What one tooth pass multiplies a small vibration by, before the tool leaves the cut.'],
+      ['Finished wall', 'What the last teeth leave: its mean place (above 0: too much is cut off) and the height from its lowest to its highest point.'],
+    ],
     draw: (theme) => {
       plot('motion', motionPlot(page, theme), theme);
       plot('force', forcePlot(page, theme), theme);
@@ -166,15 +167,6 @@ export function simulateView(page: SimulatePage): View {
       plot('last-force', force, theme);
       plot('turns', turnsPlot(page, theme), theme);
       plot('return', returnPlot(page, theme), theme);
-      const keys: [string, string][] = [
-        ['key-course', axisKeys(page, theme, 'area', ['x, along the feed', 'y, across it']) + keyLine([{ name: 'force, all directions', colour: axisColours(theme).force, kind: 'area' }])],
-        ['key-last', axisKeys(page, theme, 'line', ['x, along the feed', 'y, across it'], true)],
-        ['key-turns', axisKeys(page, theme, 'dot', ['x', 'y']) + keyLine([{ name: 'first half of the time (return map)', colour: theme.rapid, kind: 'dot' }])],
-      ];
-      for (const [id, html] of keys) {
-        const where = document.getElementById(id);
-        if (where) where.innerHTML = html;
-      }
     },
   };
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A displacement over the hours of a log: measured, modelled, and what is left.
-import type { Maybe } from '../chatter/data';
-import { plain } from '../chatter/frame';
-import { type Layer, type Plot, roomy, span } from '../chatter/plot';
-import { fixed } from '../format';
-import { escapeHtml } from '../page';
-import type { Theme } from '../theme';
+import type { Maybe } from '../frame/data';
+import { fixed, plain } from '../frame/numbers';
+import type { Theme } from '../frame/theme';
+import { roomy, span } from '../plot/axes';
+import type { Layer } from '../plot/layers';
+import type { Plot } from '../plot/plot';
+import { nearestIndex } from '../plot/thin';
 import type { MeasuredCourse, SpeedSteps } from './data';
 
 /** 95 % of what is measured lies within that many standard deviations. */
-const BAND = 1.96;
+export const BAND = 1.96;
 /** More time than so many usual steps is a gap. */
 const GAP_STEPS = 10;
 
@@ -46,12 +47,7 @@ export function goesOn(axis: MeasuredCourse): boolean {
 
 /** Shaded: where readings were used. Nothing where that is all. */
 function used(axis: MeasuredCourse, theme: Theme): Layer[] {
-  return !goesOn(axis) ? [] : [{ kind: 'spans', spans: [[axis.fitted_from_h, axis.fitted_to_h]], colour: theme.faint, opacity: 0.1 }];
-}
-
-function nearest(times: readonly number[], t: number): number {
-  const i = times.findIndex((v) => v >= t);
-  return i < 0 ? times.length - 1 : i;
+  return !goesOn(axis) ? [] : [{ kind: 'spans', name: 'readings were used', spans: [[axis.fitted_from_h, axis.fitted_to_h]], colour: theme.faint, opacity: 0.1 }];
 }
 
 /** `banded`: with the 95 % band about the model. */
@@ -66,15 +62,16 @@ export function coursePlot(axis: MeasuredCourse, theme: Theme, banded = false): 
     title: `${axis.channel}: measured and modelled`,
     x: time(axis),
     y: { name: `displacement ${axis.channel} in µm`, min, max },
+    group: 'time',
     layers: [
       ...used(axis, theme),
       { kind: 'rules', at: [0], axis: 'y', colour: theme.faint },
-      ...(banded ? [{ kind: 'band', x: axis.t_h, low: edge(-1), high: edge(1), colour: theme.run.with, opacity: 0.18 } as Layer] : []),
-      { kind: 'line', x: measured.t, y: measured.v, colour: theme.run.without, width: 4 },
-      { kind: 'line', x: modelled.t, y: modelled.v, colour: theme.run.with, width: 1.6 },
+      ...(banded ? [{ kind: 'band', name: '95 % of what is measured lies here', x: axis.t_h, low: edge(-1), high: edge(1), colour: theme.run.with, opacity: 0.18 } as Layer] : []),
+      { kind: 'line', name: 'measured', x: measured.t, y: measured.v, colour: theme.run.without, width: 4 },
+      { kind: 'line', name: banded ? 'forecast' : 'modelled', x: modelled.t, y: modelled.v, colour: theme.run.with, width: 1.6 },
     ],
     readout: (t) => {
-      const i = nearest(axis.t_h, t);
+      const i = nearestIndex(axis.t_h, t);
       return `<b>${plain(axis.t_h[i])} h</b><br>measured ${fixed(axis.measured_um[i], 1)} µm<br>modelled ${fixed(axis.modelled_um[i], 1)} µm<br>left ${fixed(rest[i], 1)} µm`;
     },
   };
@@ -90,14 +87,15 @@ export function residualPlot(axis: MeasuredCourse, theme: Theme): Plot {
     title: `${axis.channel}: what the model leaves`,
     x: time(axis),
     y: { name: `${axis.channel}: measured less modelled in µm`, min: -max, max },
+    group: 'time',
     layers: [
       ...used(axis, theme),
-      { kind: 'band', x: axis.t_h, low: half.map((v) => -v), high: half, colour: theme.run.with, opacity: 0.18 },
+      { kind: 'band', name: '95 % of what is left lies here', x: axis.t_h, low: half.map((v) => -v), high: half, colour: theme.run.with, opacity: 0.18 },
       { kind: 'rules', at: [0], axis: 'y', colour: theme.faint },
-      { kind: 'line', x: shown.t, y: shown.v, colour: theme.run.without, width: 1.6 },
+      { kind: 'line', name: 'measured less modelled', x: shown.t, y: shown.v, colour: theme.run.without, width: 1.6 },
     ],
     readout: (t) => {
-      const i = nearest(axis.t_h, t);
+      const i = nearestIndex(axis.t_h, t);
       return `<b>${plain(axis.t_h[i])} h</b><br>left ${fixed(rest[i], 1)} µm<br>95 % band ±${fixed(half[i], 1)} µm`;
     },
   };
@@ -112,14 +110,9 @@ export function speedPlot(speed: SpeedSteps, axis: MeasuredCourse, theme: Theme)
     title: 'Spindle speed',
     x: time(axis),
     y: { name: 'spindle speed in rev/min', min, max },
-    layers: [...used(axis, theme), { kind: 'line', x: at, y: rpm, colour: theme.faint, width: 2 }],
+    group: 'time',
+    layers: [...used(axis, theme), { kind: 'line', name: 'spindle speed', x: at, y: rpm, colour: theme.faint, width: 2 }],
   };
-}
-
-export function table(id: string, head: readonly string[], rows: readonly (readonly string[])[]): string {
-  const cell = (text: string, i: number) => (i === 0 ? `<th scope="row">${escapeHtml(text)}</th>` : `<td class="n">${escapeHtml(text)}</td>`);
-  return `<div class="wide"><table id="${id}"><thead><tr>${head.map((h, i) => `<th${i === 0 ? '' : ' class="n"'}>${escapeHtml(h)}</th>`).join('')}</tr></thead>
-    <tbody>${rows.map((r) => `<tr>${r.map(cell).join('')}</tr>`).join('')}</tbody></table></div>`;
 }
 
 export const um = (v: Maybe | undefined) => (v === null || v === undefined ? '–' : `${fixed(v, 2)}\u00a0µm`);

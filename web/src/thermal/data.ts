@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the pages of the thermal verbs hold; steadyrest/apps/thermal_page is their source. `answer`
 // is what the verb prints with --json.
-import type { Maybe } from '../chatter/data';
+import type { Head as PageHead, Maybe } from '../frame/data';
 
 export interface Transition {
   name: string;
@@ -30,9 +30,7 @@ export interface PlannedCourse extends Course {
   bands: { from_min: number; to_min: number; tolerance_um: number; band_um: number }[];
 }
 
-interface Head {
-  schema: string;
-  version: string;
+interface Head extends PageHead {
   title: string;
 }
 
@@ -157,23 +155,6 @@ export interface FitPage extends Head {
 }
 
 export type Page = ForecastPage | PlanPage | BatchPage | FitPage | ReplayPage;
-
-const SCHEMA = 'steadyrest-thermal/1';
-
-/** The data in the page, or a sentence that says why there are none. */
-export function parsePage(text: string): Page | string {
-  let value: unknown;
-  try {
-    value = JSON.parse(text);
-  } catch {
-    return 'The data in this page is not valid JSON; write the page again.';
-  }
-  if (typeof value !== 'object' || value === null) {
-    return 'This page holds no data yet; `steadyrest thermal VERB … --report DIR` fills it.';
-  }
-  const page = value as Page;
-  return page.schema === SCHEMA ? page : `This page reads ${SCHEMA}; its data is ${String(page.schema)}.`;
-}
 
 /** What is left of a displacement when corrections are taken off; both values where one is made. */
 export function residual(course: PlannedCourse): { t_min: number[]; um: number[] } {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fit: what temperatures alone tell of each displacement, what the model makes of it, and what is left.
-import { type View, host, keyLine, plain, plot, section } from '../chatter/frame';
-import { element } from '../dom';
-import { fixed } from '../format';
-import { escapeHtml } from '../page';
-import { coursePlot, goesOn, residualPlot, speedPlot, table, um } from './course';
+import { element } from '../frame/dom';
+import { escapeHtml, section } from '../frame/html';
+import { fixed, plain } from '../frame/numbers';
+import type { View } from '../frame/view';
+import { host, plot } from '../plot/plot';
+import { coursePlot, goesOn, residualPlot, speedPlot, um } from './course';
 import type { FitPage, FittedAxis } from './data';
-import { hysteresisPlot, speedKeys, told } from './hysteresis';
+import { hysteresisPlot, told } from './hysteresis';
+import { named } from './tables';
 
 /** Sensors by name, or, where there are many, how many with how many lags. */
 function inputs(ambient: readonly { readonly sensor: string; readonly tau_min: number }[]): string {
@@ -31,7 +33,7 @@ function modelTable(page: FitPage): string {
     um(a.left_out_probed_rms_um),
     a.coverage === null ? '–' : `${fixed(100 * a.coverage, 1)} %`,
   ]);
-  return table('figures', ['axis', 'τ in min', 'inputs', 'left of the fitted, RMS', 'of left-out hours', 'with an hourly probe', '95 % band holds'], rows);
+  return named('figures', ['axis', 'τ in min', 'inputs', 'left of the fitted, RMS', 'of left-out hours', 'with an hourly probe', '95 % band holds'], rows);
 }
 
 function overTable(page: FitPage): string {
@@ -39,7 +41,7 @@ function overTable(page: FitPage): string {
     const best = a.best_sensor === null ? undefined : a.over[a.best_sensor];
     return best === undefined ? [] : [[a.channel, page.sensors[a.best_sensor ?? 0] ?? '', fixed(best.correlation, 2), um(best.residual_rms_um), um(best.spread_um)]];
   });
-  return table('told', ['displacement', 'best temperature', 'correlation', 'a straight line leaves, RMS', 'apart at one temperature'], rows);
+  return named('told', ['displacement', 'best temperature', 'correlation', 'a straight line leaves, RMS', 'apart at one temperature'], rows);
 }
 
 function chooser(page: FitPage, axis: FittedAxis, i: number): string {
@@ -73,17 +75,24 @@ export function fitView(page: FitPage): View {
       (over
         ? section(
             'Displacement over temperature',
-            `<div class="key-line" id="key-speeds"></div>${page.axes.map((a, i) => (a.over.length > 0 ? chooser(page, a, i) + host(`over-${i}`, 'tall') : '')).join('')}${overTable(page)}`,
+            `${page.axes.map((a, i) => (a.over.length > 0 ? chooser(page, a, i) + host(`over-${i}`, 'tall') : '')).join('')}${overTable(page)}`,
             'One curve for each stretch of one spindle speed. Where a temperature told the displacement, all would lie on one line.',
           )
         : '') +
       section(
         'Measured and modelled',
-        `<div class="key-line" id="key-course"></div>${page.axes.map((_, i) => host(`course-${i}`, 'high') + host(`residual-${i}`)).join('')}${host('speed', 'low')}`,
+        `${page.axes.map((_, i) => host(`course-${i}`, 'high') + host(`residual-${i}`)).join('')}${host('speed', 'low')}`,
         `The model has the spindle's speed and its inputs alone, from the beginning on. The band is what it says of hours that it has not seen.${page.axes.some(goesOn) ? ' Shaded: what was fitted; the rest is a forecast.' : ''}`,
       ) +
       section('Figures', modelTable(page)) +
       notes,
+    explanation: [
+      ['Displacement over temperature', 'One curve for each stretch of one spindle speed. Where a temperature told the displacement, all would lie on one line; how far they lie apart at one temperature is what no correction by that temperature can take away.'],
+      ['Modelled', "What the fitted modes make of the spindle's speed and the temperatures alone, from the beginning of the log on; no reading of the gauge helps."],
+      ['Left out', 'Hours that the fit had not seen when it forecast them: what a forecast is worth. With an hourly probe: the same, but a reading of the gauge every hour corrects the state.'],
+      ['95 % band', 'What the model says of its own error. It holds when about 95 % of the readings lie within; far fewer: the model knows too little of this machine.'],
+      ['τ', 'Time constant of a mode: the time after which 63 % of a step of the speed has come.'],
+    ],
     draw: (theme) => {
       page.axes.forEach((a, i) => {
         if (a.over.length > 0) {
@@ -94,14 +103,6 @@ export function fitView(page: FitPage): View {
         plot(`residual-${i}`, residualPlot(a, theme), theme);
       });
       plot('speed', speedPlot(page.speed, page.axes[0] as FittedAxis, theme), theme);
-      if (over) {
-        element('key-speeds').innerHTML = keyLine(speedKeys(page.regimes, theme));
-      }
-      element('key-course').innerHTML = keyLine([
-        { name: 'measured', colour: theme.run.without },
-        { name: 'modelled', colour: theme.run.with },
-        { name: '95 % of what is left lies here', colour: theme.run.with, kind: 'area' },
-      ]);
     },
     bind: (redraw) =>
       page.axes.forEach((_, i) =>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Displacement over temperature, one curve for each regime of one spindle speed (the paper's figure 1).
-import type { Maybe } from '../chatter/data';
-import { type Key, plain } from '../chatter/frame';
-import { type Layer, type Plot, roomy, span } from '../chatter/plot';
-import { fixed } from '../format';
-import type { Theme } from '../theme';
+import type { Maybe } from '../frame/data';
+import { fixed, plain } from '../frame/numbers';
+import type { Theme } from '../frame/theme';
+import { roomy, span } from '../plot/axes';
+import type { Layer } from '../plot/layers';
+import type { Plot } from '../plot/plot';
 import type { FitPage, FittedAxis, Over, Regime } from './data';
 
 /** From slow to fast; the spindle that stands is grey. */
@@ -20,14 +21,7 @@ function colourOf(speed: number, all: readonly number[], theme: Theme): string {
   return at < 0 ? theme.faint : (RAMP[Math.round((at * (RAMP.length - 1)) / Math.max(turning.length - 1, 1))] as string);
 }
 
-export function speedKeys(regimes: readonly Regime[], theme: Theme): Key[] {
-  const all = speeds(regimes);
-  return [
-    ...all.map((s): Key => ({ name: s > 0 ? `${fixed(s, 0)} rev/min` : 'standing', colour: colourOf(s, all, theme), kind: s > 0 ? 'line' : 'dashed' })),
-    { name: 'begins here', colour: theme.text, kind: 'hoop' },
-    { name: 'the best straight line', colour: theme.text, kind: 'dashed' },
-  ];
-}
+const speedName = (speed: number) => (speed > 0 ? `${fixed(speed, 0)} rev/min` : 'standing');
 
 /** What one temperature tells, in one line. */
 export function told(over: Over): string {
@@ -55,6 +49,7 @@ export function hysteresisPlot(page: FitPage, axis: FittedAxis, sensor: number, 
   const curves = page.regimes.map(
     (r, k): Layer => ({
       kind: 'line',
+      name: speedName(r.speed_rpm),
       x: x[k] ?? [],
       y: axis.displacement_um[k] ?? [],
       colour: colourOf(r.speed_rpm, all, theme),
@@ -65,7 +60,7 @@ export function hysteresisPlot(page: FitPage, axis: FittedAxis, sensor: number, 
   const begins = page.regimes.flatMap((r, k): Layer[] => {
     const [c, um] = [x[k]?.[0], axis.displacement_um[k]?.[0]];
     const there = c !== undefined && c !== null && um !== undefined && um !== null && r.speed_rpm > 0;
-    return there ? [{ kind: 'dots', dots: [{ x: c, y: um }], colour: colourOf(r.speed_rpm, all, theme), size: 7, hollow: true }] : [];
+    return there ? [{ kind: 'dots', name: 'begins here', dots: [{ x: c, y: um }], colour: colourOf(r.speed_rpm, all, theme), size: 7, hollow: true }] : [];
   });
   const top = over.spread_from_um + over.spread_um;
   const nearest = (c: number, um: number): Near | undefined => {
@@ -85,8 +80,9 @@ export function hysteresisPlot(page: FitPage, axis: FittedAxis, sensor: number, 
     title: `${axis.channel} over ${name}`,
     x: { name: `temperature ${name} in °C`, min: left, max: right },
     y: { name: `displacement ${axis.channel} in µm`, min, max },
+    plane: true,
     layers: [
-      { kind: 'line', x: ends, y: ends.map(line), colour: theme.text, width: 1, dashed: true },
+      { kind: 'line', name: 'the best straight line', x: ends, y: ends.map(line), colour: theme.text, width: 1, dashed: true },
       ...curves,
       ...begins,
       { kind: 'line', x: [over.spread_at_c, over.spread_at_c], y: [over.spread_from_um, top], colour: theme.text, width: 2, halo: true },
@@ -107,8 +103,7 @@ export function hysteresisPlot(page: FitPage, axis: FittedAxis, sensor: number, 
         return undefined;
       }
       const k = page.regimes.indexOf(at.regime);
-      const speed = at.regime.speed_rpm > 0 ? `${fixed(at.regime.speed_rpm, 0)} rev/min` : 'standing';
-      return `<b>${speed}</b> after ${plain((at.regime.t_h[at.i] ?? 0) - at.regime.start_h, 2)} h<br>${fixed(x[k]?.[at.i], 1)} °C, ${fixed(axis.displacement_um[k]?.[at.i], 1)} µm`;
+      return `<b>${speedName(at.regime.speed_rpm)}</b> after ${plain((at.regime.t_h[at.i] ?? 0) - at.regime.start_h, 2)} h<br>${fixed(x[k]?.[at.i], 1)} °C, ${fixed(axis.displacement_um[k]?.[at.i], 1)} µm`;
     },
   };
 }

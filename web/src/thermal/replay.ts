@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A passport set against a log: measured and forecast.
-import { type View, host, keyLine, plain, plot, section } from '../chatter/frame';
-import { element } from '../dom';
-import { fixed } from '../format';
-import { escapeHtml } from '../page';
-import { coursePlot, goesOn, residualPlot, speedPlot, table, um } from './course';
+import { escapeHtml, section } from '../frame/html';
+import { fixed, plain } from '../frame/numbers';
+import type { View } from '../frame/view';
+import { host, plot } from '../plot/plot';
+import { BAND, coursePlot, goesOn, residualPlot, speedPlot, um } from './course';
 import type { MeasuredCourse, ReplayPage } from './data';
-
-const BAND = 1.96;
+import { named } from './tables';
 
 const measured = (axis: MeasuredCourse) => axis.measured_um.some((v) => v !== null);
 
@@ -31,9 +30,14 @@ export function replayView(page: ReplayPage): View {
     body:
       section(
         'Measured and forecast',
-        `<div class="key-line" id="key-course"></div>${page.axes.map((a, i) => host(`course-${i}`, 'high') + (measured(a) ? host(`residual-${i}`) : '')).join('')}${host('speed', 'low')}`,
+        `${page.axes.map((a, i) => host(`course-${i}`, 'high') + (measured(a) ? host(`residual-${i}`) : '')).join('')}${host('speed', 'low')}`,
         `The forecast has the recorded speed and temperatures.${page.axes.some(goesOn) ? ' Shaded: readings set the state; from there on it is a forecast.' : ''}`,
-      ) + section('Figures', table('figures', ['axis', 'at the end', '95 %', 'off, RMS', '95 % band holds'], rows)),
+      ) + section('Figures', named('figures', ['axis', 'at the end', '95 %', 'off, RMS', '95 % band holds'], rows)),
+    explanation: [
+      ['Forecast', 'What the passport makes of the recorded speed and temperatures. Where readings set the state first, that time is shaded; from there on nothing of the gauge is used.'],
+      ['95 % band', 'About the forecast: 95 % of the readings should lie within. Off, RMS: of measured less forecast, beyond the shaded time.'],
+      ['Left', 'Measured less forecast, with the band about nought.'],
+    ],
     draw: (theme) => {
       page.axes.forEach((a, i) => {
         plot(`course-${i}`, coursePlot(a, theme, true), theme);
@@ -42,11 +46,6 @@ export function replayView(page: ReplayPage): View {
         }
       });
       plot('speed', speedPlot(page.speed, page.axes[0] as MeasuredCourse, theme), theme);
-      element('key-course').innerHTML = keyLine([
-        { name: 'measured', colour: theme.run.without },
-        { name: 'forecast', colour: theme.run.with },
-        { name: '95 % of what is measured lies here', colour: theme.run.with, kind: 'area' },
-      ]);
     },
   };
 }

@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of the page for people: npm run screenshots -- FOLDER [report.html]
+// Pictures of pages for people: npm run screenshots -- FOLDER [report.html …]
 import { mkdirSync, readFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 import { makeReport } from '../fixture';
-import { fill, openFromDisk } from './browser';
+import { closeBrowser, fill, openFromDisk } from './browser';
 
-const folder = process.argv[2] ?? 'screenshots';
-const html = process.argv[3] ? readFileSync(process.argv[3], 'utf8') : fill(makeReport(16000));
+const [folder = 'screenshots', ...files] = process.argv.slice(2);
+const pages = files.length > 0 ? files.map((f) => ({ name: basename(dirname(f)), html: readFileSync(f, 'utf8') })) : [{ name: 'cut', html: fill(makeReport(16000)) }];
 mkdirSync(folder, { recursive: true });
-for (const colorScheme of ['light', 'dark'] as const) {
-  const { page, close, complaints } = await openFromDisk(html, { colorScheme });
-  await page.screenshot({ path: join(folder, `${colorScheme}.png`), fullPage: true });
-  if (colorScheme === 'light') {
-    await page.locator('#path-without').hover({ position: { x: 300, y: 200 } });
-    await page.locator('#course').hover({ position: { x: 400, y: 100 } });
-    await page.screenshot({ path: join(folder, 'course.png') });
-    await page.setViewportSize({ width: 480, height: 900 });
+for (const { name, html } of pages) {
+  const { page, close, complaints } = await openFromDisk(html);
+  for (const width of [1440, 1024, 390]) {
+    await page.setViewportSize({ width, height: 900 });
     await page.waitForTimeout(300);
-    await page.screenshot({ path: join(folder, 'narrow.png'), fullPage: true });
-    await page.setViewportSize({ width: 1280, height: 900 });
+    await page.screenshot({ path: join(folder, `${name}-${width}.png`), fullPage: true });
   }
-  // What the printer gets.
-  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
-  await page.emulateMedia({ media: 'print' });
-  await page.screenshot({ path: join(folder, `${colorScheme}-print.png`), fullPage: true });
-  console.log(colorScheme, complaints);
+  await page.setViewportSize({ width: 1280, height: 900 });
+  await page.pdf({ path: join(folder, `${name}.pdf`), format: 'A4', preferCSSPageSize: true });
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await page.waitForTimeout(300);
+  await page.screenshot({ path: join(folder, `${name}-dark.png`), fullPage: true });
+  console.log(name, complaints);
   await close();
 }
+await closeBrowser();

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import { type GrowthPage, lawText, parsePage } from '../../src/chatter/data';
+import { type GrowthPage, lawText } from '../../src/chatter/data';
 import { quietLevel } from '../../src/chatter/detect';
-import { plain } from '../../src/chatter/frame';
+import { phase } from '../../src/chatter/fit';
+import { plain } from '../../src/frame/numbers';
 import { peakOf } from '../../src/chatter/growth';
-import { niceStep, roomy } from '../../src/chatter/plot';
-import { radiusLevels, valueAt } from '../../src/chatter/raster';
+import { niceStep, roomy } from '../../src/plot/axes';
+import { borderAt, radiusLevels, valueAt, valueBeside } from '../../src/chatter/raster';
 
 describe('axes', () => {
   it('have steps of 1, 2 and 5', () => {
@@ -59,6 +60,40 @@ describe('the map', () => {
   });
 });
 
+describe('the map beside its border', () => {
+  // Two speeds 100 rev/min apart, the true border a cusp between them.
+  const grid = { x: [0, 100], y: [0, 1, 2], value: [-1, 1, 3, -1, 1, 3] };
+  const border = { x: [0, 49, 50, 51, 100], y: [0.5, 1.2, 1.9, 1.2, 0.5] };
+  it('has the colour of stable up to the border, of unstable above it', () => {
+    for (let x = 0; x <= 100; x += 1) {
+      const limit = borderAt(border, x) as number;
+      expect(valueBeside(grid, border, x, limit - 0.01)).toBeLessThan(0);
+      expect(valueBeside(grid, border, x, limit + 0.01)).toBeGreaterThan(0);
+    }
+  });
+  it('keeps islands of stability that the grid has found above the border', () => {
+    const island = { ...grid, value: [-1, 1, -1, -1, 1, -1] };
+    expect(valueBeside(island, border, 0, 1.9)).toBeLessThan(0);
+  });
+  it('is what the grid says where no border is known', () => {
+    const gap = { x: [0, 50, 100], y: [0.5, null, 0.5] };
+    expect(borderAt(gap, 20)).toBeUndefined();
+    expect(borderAt(gap, 200)).toBeUndefined();
+    expect(valueBeside(grid, gap, 20, 1)).toBe(valueAt(grid, 20, 1));
+  });
+});
+
+describe('the phase of a response', () => {
+  it('turns from 0 to −180 degrees and does not jump there', () => {
+    const of = (real: number, imag: number) => phase({ frequency_hz: [1], real_um_N: [real], imag_um_N: [imag] })[0];
+    expect(of(1, 0)).toBeCloseTo(0);
+    expect(of(0, -1)).toBeCloseTo(-90);
+    expect(of(-1, -0.01)).toBeCloseTo(-179.43, 1);
+    expect(of(-1, 0.01)).toBeCloseTo(-180.57, 1);
+    expect(phase({ frequency_hz: [1], real_um_N: [null], imag_um_N: [1] })).toEqual([null]);
+  });
+});
+
 describe('the growth', () => {
   it('has its peak in the worst course', () => {
     const courses = [
@@ -73,13 +108,5 @@ describe('the spectrogram', () => {
   it('shows what is quiet as paper, and at least 30 dB', () => {
     expect(quietLevel([0, -10, -10, -10])).toBe(-30);
     expect(quietLevel([0, -90, -80, -70])).toBe(-80);
-  });
-});
-
-describe('the data element', () => {
-  it('is refused with a sentence when it is empty, broken or of another kind', () => {
-    expect(parsePage('"@MARK@"')).toContain('no data');
-    expect(parsePage('{')).toContain('not valid JSON');
-    expect(parsePage('{"schema":"other/2"}')).toContain('other/2');
   });
 });

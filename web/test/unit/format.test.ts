@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import type { Figures } from '../../src/data';
-import { change, figureRows, fixed, motionRows, twoDigits, verdict } from '../../src/format';
+import type { Figures } from '../../src/cut/data';
+import { figureRows, motionRows, verdict } from '../../src/cut/figures';
+import { change, fixed, twoDigits } from '../../src/frame/numbers';
 
 const figures = (max_mm: number, cycle_s: number): Figures => ({
   cycle_time_s: cycle_s,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import { NOT_CUTTING, NearestSample, boundingBox, polylinesByClass, withEqualAspect } from '../../src/path';
-import { classOf, errorClasses, niceAbove } from '../../src/scale';
+import { NOT_CUTTING, NearestSample, boundingBox, polylinesByClass } from '../../src/cut/path';
+import { classOf, errorClasses, niceAbove } from '../../src/cut/scale';
+import { withEqualAspect } from '../../src/plot/equal_aspect';
 import { emptyReport, makeReport } from '../fixture';
 
 describe('the colour scale', () => {
@@ -28,14 +29,12 @@ describe('the colour scale', () => {
 
 describe('polylines by class', () => {
   it('split where the class changes, the worse class owns the stretch between', () => {
-    const lines = polylinesByClass([0, 1, 2, 3], [0, 0, 0, 0], [0, 0, 5, 0]);
-    expect(lines.get(0)).toEqual([2, 0, 0, 1, 0]);
-    expect(lines.get(5)).toEqual([3, 1, 0, 2, 0, 3, 0]);
+    const lines = polylinesByClass([0, 1, 2, 3, 4], [0, 0, 0, 0, 0], [0, 0, 5, 0, 0]);
+    expect(lines.get(0)).toEqual({ x: [0, 1, null, 3, 4], y: [0, 0, null, 0, 0] });
+    expect(lines.get(5)).toEqual({ x: [1, 2, 3], y: [0, 0, 0] });
   });
   it('break at values that are missing', () =>
-    expect(polylinesByClass([0, 1, null, 3, 4], [0, 0, null, 0, 0], [0, 0, 0, 0, 0]).get(0)).toEqual([
-      2, 0, 0, 1, 0, 2, 3, 0, 4, 0,
-    ]));
+    expect(polylinesByClass([0, 1, null, 3, 4], [0, 0, null, 0, 0], [0, 0, 0, 0, 0]).get(0)?.x).toEqual([0, 1, null, 3, 4]));
   it('draw what does not cut apart', () =>
     expect([...polylinesByClass([0, 1, 2], [0, 0, 0], [0, NOT_CUTTING, 0]).keys()]).toEqual([NOT_CUTTING]));
   it('keep a single bad sample among thousands when points are merged', () => {
@@ -44,10 +43,10 @@ describe('polylines by class', () => {
     const classes = x.map((_, i) => (i === 123_456 ? 8 : 0));
     const lines = polylinesByClass(x, x, classes, 0.5);
     expect(lines.get(8)).toBeDefined();
-    expect((lines.get(0) ?? []).length).toBeLessThan(1000);
+    expect(lines.get(0)?.x.length).toBeLessThan(1000);
   });
   it('end where the path ends although the last step is too short to see', () =>
-    expect(polylinesByClass([0, 1, 1.01], [0, 0, 0], [0, 0, 0], 0.5).get(0)).toEqual([2, 0, 0, 1.01, 0]));
+    expect(polylinesByClass([0, 1, 1.01], [0, 0, 0], [0, 0, 0], 0.5).get(0)?.x).toEqual([0, 1.01]));
 });
 
 describe('the view', () => {

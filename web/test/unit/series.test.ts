@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import { parseReport } from '../../src/data';
-import { lowerBound, thin } from '../../src/series';
+import { parsePage } from '../../src/frame/data';
+import { lowerBound, nearestIndex, thin } from '../../src/plot/thin';
 import { makeReport } from '../fixture';
 
 describe('thinning', () => {
@@ -39,10 +39,21 @@ describe('thinning', () => {
 });
 
 describe('the data element', () => {
-  it('gives the report', () => expect(parseReport(JSON.stringify(makeReport(50)))).toMatchObject({ limit_um: 10 }));
+  const parse = (text: string) => parsePage(text, ['steadyrest-report/1']);
+  it('gives the report', () => expect(parse(JSON.stringify(makeReport(50)))).toMatchObject({ limit_um: 10 }));
   it('is refused with a sentence when it is empty, broken or of another kind', () => {
-    expect(parseReport('"@MARK@"')).toContain('no data');
-    expect(parseReport('{')).toContain('not valid JSON');
-    expect(parseReport('{"schema":"other/2"}')).toContain('other/2');
+    expect(parse('"@MARK@"')).toContain('no data');
+    expect(parse('{')).toContain('not valid JSON');
+    expect(parse('{"schema":"other/2"}')).toContain('other/2');
+    expect(parse('{"schema":"<img src=x>"}')).not.toContain('<');
+  });
+});
+
+describe('the nearest sample of a column', () => {
+  it('is one of both neighbours, none beyond the end', () => {
+    const x = [0, 1, 3, 7];
+    expect([-1, 0.4, 0.6, 2.1, 6.9, 7].map((at) => nearestIndex(x, at))).toEqual([0, 0, 1, 2, 3, 3]);
+    expect(nearestIndex(x, 7.1)).toBe(-1);
+    expect(nearestIndex([], 0)).toBe(-1);
   });
 });

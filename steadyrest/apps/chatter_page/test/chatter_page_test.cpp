@@ -117,7 +117,7 @@ TEST(LobesPage, ThinsTheMapButNotTheBorder) {
   for (std::size_t i = 0; i < 1001 * 501; ++i) {
     lobes.map.log_radius.push_back(static_cast<double>(i));
   }
-  const Json page = Json::parse(lobes_page(Json::object(), {}, lobes));
+  const Json page = Json::parse(report::text_of(lobes_page(Json::object(), {}, lobes)));
   EXPECT_EQ(page["border"]["depth_mm"].size(), 1001U);
   EXPECT_TRUE(page["border"]["depth_mm"][7].is_null());
   EXPECT_EQ(page["map"]["speed_rpm"].size(), 400U);
@@ -129,7 +129,7 @@ TEST(LobesPage, ThinsTheMapButNotTheBorder) {
 
 TEST(ChatterPage, NoTextLeavesTheScriptElement) {
   const std::string html =
-      to_html(text_of(page_head("lobes", "</script><b>", {{"text", "\xff<!--"}})));
+      report::to_html(report::text_of(page_head("lobes", "</script><b>", {{"text", "\xff<!--"}})));
   EXPECT_THAT(html, StartsWith("<!doctype html>"));
   EXPECT_THAT(html, EndsWith("</html>\n"));
   EXPECT_THAT(html, HasSubstr("\\u003c/script>\\u003cb>"));

@@ -12,6 +12,7 @@
 
 #include <steadyrest/apps/report/report.hpp>
 #include <steadyrest/apps/report/test/sample.hpp>
+#include <steadyrest/apps/report/write_files.hpp>
 
 namespace steadyrest::apps::report {
 namespace {
@@ -39,6 +40,15 @@ class Report : public ::testing::Test {
   fs::path folder_;
 };
 
+std::string text(const ReportData& data) {
+  return text_of(to_page(data));
+}
+
+auto write(std::size_t points, const fs::path& folder) {
+  const std::string json = text(sample_report(points));
+  return write_files(to_html(json), json, folder);
+}
+
 std::string data_element(const std::string& html) {
   const std::string open = R"(id="report-data" type="application/json">)";
   const std::size_t begin = html.find(open) + open.size();
@@ -47,7 +57,7 @@ std::string data_element(const std::string& html) {
 
 TEST_F(Report, JsonSaysWhatTheDataSay) {
   const ReportData data = sample_report(50);
-  const auto json = nlohmann::json::parse(to_json(data));
+  const auto json = nlohmann::json::parse(text(data));
   EXPECT_EQ(json["schema"], "steadyrest-report/1");
   EXPECT_EQ(json["program"], data.program);
   EXPECT_EQ(json["limit_um"], 10.0);
@@ -55,6 +65,9 @@ TEST_F(Report, JsonSaysWhatTheDataSay) {
   EXPECT_EQ(json["with"]["figures"]["samples"], 50);
   EXPECT_EQ(json["with"]["reasons"][0]["reason"], "contour_within_limit");
   EXPECT_EQ(json["worst_lines"][0]["with_um"], 9.5);
+  EXPECT_EQ(json["worst_lines"][0]["feed_with_mm_min"], 1320.0);
+  EXPECT_EQ(json["worst_lines"][0]["hold_feed_mm_min"], 1354.2);
+  EXPECT_EQ(json["worst_lines"][0]["held_by"], "closed form");
   EXPECT_EQ(json["override_table"][2]["code"], 3);
   EXPECT_EQ(json["motion"][0]["axis"], "X");
   EXPECT_EQ(json["motion"][0]["velocity_rms_mm_s"], 0.0031);
@@ -66,7 +79,7 @@ TEST_F(Report, JsonSaysWhatTheDataSay) {
 }
 
 TEST_F(Report, ColumnsOfATraceAreEquallyLong) {
-  const auto json = nlohmann::json::parse(to_json(sample_report(37)));
+  const auto json = nlohmann::json::parse(text(sample_report(37)));
   for (const char* run : {"without", "with"}) {
     ASSERT_EQ(json[run]["trace"].size(), 11U);
     for (const auto& column : json[run]["trace"]) {
@@ -76,14 +89,14 @@ TEST_F(Report, ColumnsOfATraceAreEquallyLong) {
 }
 
 TEST_F(Report, TheSameDataGiveTheSameBytes) {
-  EXPECT_EQ(to_html(to_json(sample_report(50))), to_html(to_json(sample_report(50))));
+  EXPECT_EQ(to_html(text(sample_report(50))), to_html(text(sample_report(50))));
 }
 
 TEST_F(Report, ValuesThatAreNotFiniteBecomeNull) {
   ReportData data = sample_report(2);
   data.with.trace[1].contour_error_um = std::numeric_limits<double>::quiet_NaN();
   data.worst_lines[0].with_um = std::numeric_limits<double>::infinity();
-  const auto json = nlohmann::json::parse(to_json(data));
+  const auto json = nlohmann::json::parse(text(data));
   EXPECT_TRUE(json["with"]["trace"]["contour_error_um"][1].is_null());
   EXPECT_TRUE(json["worst_lines"][0]["with_um"].is_null());
 }
@@ -91,17 +104,17 @@ TEST_F(Report, ValuesThatAreNotFiniteBecomeNull) {
 TEST_F(Report, BytesThatAreNotUtf8AreReplaced) {
   ReportData data = sample_report(1);
   data.worst_lines[0].text = "( fr\xE4sen )";
-  const auto json = nlohmann::json::parse(to_json(data));
+  const auto json = nlohmann::json::parse(text(data));
   EXPECT_EQ(json["worst_lines"][0]["text"], "( fr\xEF\xBF\xBDsen )");
 }
 
 TEST_F(Report, NoTextLeavesTheScriptElement) {
-  const std::string html = to_html(to_json(sample_report(3)));
+  const std::string html = to_html(text(sample_report(3)));
   EXPECT_THAT(html, StartsWith("<!doctype html>"));
   EXPECT_THAT(html, EndsWith("</html>\n"));
   EXPECT_THAT(data_element(html), Not(HasSubstr("<")));
   EXPECT_EQ(nlohmann::json::parse(data_element(html)),
-            nlohmann::json::parse(to_json(sample_report(3))));
+            nlohmann::json::parse(text(sample_report(3))));
 }
 
 TEST_F(Report, ThePageNeedsNothingFromOutside) {
@@ -112,25 +125,25 @@ TEST_F(Report, ThePageNeedsNothingFromOutside) {
 }
 
 TEST_F(Report, WritesBothFilesAndLeavesNothingElse) {
-  const auto written = write_report(sample_report(20), folder_ / "a" / "b");
+  const auto written = write(20, folder_ / "a" / "b");
   ASSERT_TRUE(written.has_value());
-  EXPECT_EQ(read(written->json), to_json(sample_report(20)) + "\n");
-  EXPECT_EQ(read(written->html), to_html(to_json(sample_report(20))));
+  EXPECT_EQ(read(written->json), text(sample_report(20)) + "\n");
+  EXPECT_EQ(read(written->html), to_html(text(sample_report(20))));
   const auto count =
       std::distance(fs::directory_iterator(folder_ / "a" / "b"), fs::directory_iterator{});
   EXPECT_EQ(count, 2);
 }
 
 TEST_F(Report, ReplacesAnOlderReport) {
-  ASSERT_TRUE(write_report(sample_report(20), folder_).has_value());
-  ASSERT_TRUE(write_report(sample_report(3), folder_).has_value());
-  EXPECT_EQ(read(folder_ / "report.json"), to_json(sample_report(3)) + "\n");
+  ASSERT_TRUE(write(20, folder_).has_value());
+  ASSERT_TRUE(write(3, folder_).has_value());
+  EXPECT_EQ(read(folder_ / "report.json"), text(sample_report(3)) + "\n");
 }
 
 TEST_F(Report, RefusesAFileInPlaceOfTheDirectory) {
   std::ofstream(folder_ / "taken") << "x";
   for (const fs::path& directory : {folder_ / "taken", folder_ / "taken" / "below"}) {
-    const auto written = write_report(sample_report(2), directory);
+    const auto written = write(2, directory);
     ASSERT_FALSE(written.has_value());
     EXPECT_EQ(written.error().kind, kernel::outcome::Kind::bad_input);
     EXPECT_EQ(written.error().file, directory.string());
@@ -140,7 +153,7 @@ TEST_F(Report, RefusesAFileInPlaceOfTheDirectory) {
 
 TEST_F(Report, RefusesWhenAFileCannotBeReplacedAndLeavesNoPart) {
   fs::create_directories(folder_ / "report.json" / "in-the-way");
-  const auto written = write_report(sample_report(2), folder_);
+  const auto written = write(2, folder_);
   ASSERT_FALSE(written.has_value());
   EXPECT_EQ(written.error().kind, kernel::outcome::Kind::unavailable);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 1);

@@ -46,7 +46,15 @@ inline ReportData sample_report(std::size_t points) {
   };
   fill(data.without, 87.7, 100.0);
   fill(data.with, 9.5, 33.0);
-  data.worst_lines = {{12, "G3 X10 I-10 ; <!-- </script>", 87.7, 9.5}};
+  data.worst_lines = {{.line = 12,
+                       .text = "G3 X10 I-10 ; <!-- </script>",
+                       .without_um = 87.7,
+                       .with_um = 9.5,
+                       .feed_without_mm_min = 4000.0,
+                       .feed_with_mm_min = 1320.0,
+                       .radius_mm = 10.0,
+                       .hold_feed_mm_min = 1354.2,
+                       .held_by = HeldBy::closed_form}};
   data.motion = {{.axis = "X",
                   .velocity_rms_mm_s = 0.0031,
                   .acceleration_rms_mm_s2 = 4.3,

@@ -11,6 +11,11 @@
 namespace steadyrest::apps::thermal_page {
 namespace {
 
+/// What the page finds: not finite numbers are null.
+Json as_read(const Json& page) {
+  return Json::parse(report::text_of(page));
+}
+
 thermal::offline::Cyclogram two_hours() {
   thermal::offline::Cyclogram cyclogram;
   cyclogram.file = "work </script>.toml";
@@ -36,7 +41,7 @@ Course course() {
 }
 
 TEST(ThermalPage, CountsDisplacementsFromTheStartInTheUnitsOfTheShopFloor) {
-  const Json page = Json::parse(forecast_page({{"max_um", 20.0}}, two_hours(), {course()}));
+  const Json page = as_read(forecast_page({{"max_um", 20.0}}, two_hours(), {course()}));
   EXPECT_EQ(page["kind"], "forecast");
   EXPECT_EQ(page["answer"]["max_um"], 20.0);
   EXPECT_EQ(page["transitions"][1]["start_min"], 60.0);
@@ -47,7 +52,7 @@ TEST(ThermalPage, CountsDisplacementsFromTheStartInTheUnitsOfTheShopFloor) {
 }
 
 TEST(ThermalPage, AddsCorrectionsUpOverTheTransitions) {
-  const Json one = Json::parse(plan_page({}, two_hours(), {course()}, 0.5))["courses"][0];
+  const Json one = as_read(plan_page({}, two_hours(), {course()}, 0.5))["courses"][0];
   ASSERT_EQ(one["corrections"].size(), 2U);
   EXPECT_EQ(one["corrections"][0], Json({{"t_min", 30.0}, {"delta_um", 5.0}, {"total_um", 5.0}}));
   EXPECT_EQ(one["corrections"][1], Json({{"t_min", 60.0}, {"delta_um", 4.0}, {"total_um", 9.0}}));
@@ -75,7 +80,7 @@ TEST(ThermalPage, OfAFitHasEachDisplacementOverEachTemperatureAndItsCourse) {
                           .sd_mm = 0.003,
                           .fitted = i <= 4800});
   }
-  const Json page = Json::parse(fit_page({{"rms_um", 2.0}}, log, {axis}));
+  const Json page = as_read(fit_page({{"rms_um", 2.0}}, log, {axis}));
   EXPECT_EQ(page["kind"], "fit");
   EXPECT_EQ(page["sensors"], Json({"noise_c", "head_c"}));
   ASSERT_EQ(page["regimes"].size(), 2U);
@@ -110,7 +115,7 @@ TEST(ThermalPage, OfALogThatIsAllForecastSaysSo) {
                                    .modelled_mm = 0.002,
                                    .sd_mm = 0.001,
                                    .fitted = false}}};
-  const Json page = Json::parse(replay_page({}, log, {axis}));
+  const Json page = as_read(replay_page({}, log, {axis}));
   EXPECT_EQ(page["kind"], "replay");
   EXPECT_EQ(page["speed"]["speed_rpm"], Json({0.0, 1200.0}));
   const Json& one = page["axes"][0];
@@ -125,14 +130,15 @@ TEST(ThermalPage, OfAFitWithoutTemperaturesHasTheCourseAlone) {
   log.time_s = {0.0};
   log.speed_rev_s = {0.0};
   const FittedAxis axis{.axis = "Z", .channel = 0, .point = {}};
-  const Json one = Json::parse(fit_page({}, log, {axis}))["axes"][0];
+  const Json one = as_read(fit_page({}, log, {axis}))["axes"][0];
   EXPECT_TRUE(one["best_sensor"].is_null());
   EXPECT_TRUE(one["over"].empty());
   EXPECT_FALSE(one.contains("t_h"));
 }
 
 TEST(ThermalPage, NothingInTheDataLeavesItsScriptElement) {
-  const std::string html = to_html(forecast_page({}, two_hours(), {course()}));
+  const std::string html =
+      report::to_html(report::text_of(forecast_page({}, two_hours(), {course()})));
   EXPECT_EQ(html.find("work </script>"), std::string::npos);
   EXPECT_NE(html.find("steadyrest-thermal/1"), std::string::npos);
 }

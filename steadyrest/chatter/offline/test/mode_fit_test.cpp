@@ -102,6 +102,21 @@ TEST(ModeFit, TakesTheOrderThatIsAskedForAndTheBand) {
   EXPECT_NEAR(fit->modes[0].frequency_hz, 1400.0, 5.0);
 }
 
+TEST(ModeFit, ItsResponseLeavesWhatItSaysThatItLeaves) {
+  const Frf frf =
+      measured({{300.0, 0.03, 2.0, 0.0}, {922.0, 0.011, 0.04, 0.0}}, 0.03, Noise::proportional, 7);
+  const auto fit = fit_modes(std::span(&frf, 1), {});
+  ASSERT_TRUE(fit) << kernel::outcome::text(fit.error());
+  double left = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < frf.frequency_hz.size(); ++i) {
+    const Complex h = frf.compliance_mm_n[i];
+    left += std::norm(h - response_mm_n(*fit, frf.frequency_hz[i]));
+    all += std::norm(h);
+  }
+  EXPECT_NEAR(std::sqrt(left / all), fit->residual, 1e-9);
+}
+
 TEST(ModeFit, RefusesWhatNoModeExplains) {
   Frf frf = measured({{922.0, 0.011, 0.03993, 0.0}}, 0.01, Noise::proportional, 1);
   EXPECT_FALSE(fit_modes({}, {}));

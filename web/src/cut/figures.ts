@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables and sentences of the page of `cut`, as text.
+import { change, fixed, twoDigits } from '../frame/numbers';
+import type { Figures, MotionFigures, VibrationFigures } from './data';
+
+export function micrometres(mm: number): string {
+  return `${fixed(mm * 1000, 1)} µm`;
+}
+
+export function seconds(s: number): string {
+  return `${fixed(s, 2)} s`;
+}
+
+export function overLimitShare(figures: Figures): number {
+  return figures.samples > 0 ? figures.samples_over_limit / figures.samples : 0;
+}
+
+export interface FigureRow {
+  key: string;
+  label: string;
+  without: string;
+  with: string;
+  change: string;
+}
+
+/** The table of figures, as text. */
+export function figureRows(without: Figures, withLayer: Figures): FigureRow[] {
+  const row = (
+    key: string,
+    label: string,
+    value: (f: Figures) => number,
+    show: (v: number) => string,
+    compare = true,
+  ): FigureRow => ({
+    key,
+    label,
+    without: show(value(without)),
+    with: show(value(withLayer)),
+    change: compare ? change(value(without), value(withLayer)) : '',
+  });
+  const percent = (ratio: number) => `${fixed(ratio * 100, 2)} %`;
+  const count = (n: number) => fixed(n, 0);
+  return [
+    row('contour_error_max_mm', 'Contour error, largest', (f) => f.contour_error_max_mm, micrometres),
+    row('contour_error_rms_mm', 'Contour error, RMS', (f) => f.contour_error_rms_mm, micrometres),
+    row('over_limit_s', 'Time over the limit', (f) => f.over_limit_s, seconds),
+    row('over_limit_ratio', 'Samples over the limit', overLimitShare, percent),
+    row('tracking_error_max_mm', 'Tracking error, largest', (f) => f.tracking_error_max_mm, micrometres),
+    row('cycle_time_s', 'Cycle time', (f) => f.cycle_time_s, seconds),
+    row('cutting_time_s', 'of which in the cut', (f) => f.cutting_time_s, seconds),
+    row('override_changes', 'Changes of the feed override', (f) => f.override_changes, count, false),
+  ];
+}
+
+export interface MotionRow {
+  axis: string;
+  quantity: string;
+  difference: string;
+  estimate: string;
+  finer: string;
+  coverage: string;
+}
+
+const ROTARY = 'ABC';
+
+/** The table of the axes' motion, as text: velocity and acceleration of each axis. */
+export function motionRows(motion: readonly MotionFigures[]): MotionRow[] {
+  return motion.flatMap((m) => {
+    const length = ROTARY.includes(m.axis) ? 'rad' : 'mm';
+    const row = (quantity: string, unit: string, naive: number, ours: number, coverage: number | null): MotionRow => ({
+      axis: m.axis,
+      quantity,
+      difference: `${twoDigits(naive)} ${length}/${unit}`,
+      estimate: `${twoDigits(ours)} ${length}/${unit}`,
+      finer: ours > 0 ? `${twoDigits(naive / ours)} ×` : '–',
+      coverage: coverage === null ? 'no bound' : `${fixed(Math.floor(coverage * 10_000) / 100, 2)} %`,
+    });
+    return [
+      row('velocity', 's', m.difference_velocity_rms_mm_s, m.velocity_rms_mm_s, m.velocity_coverage_ratio),
+      row('acceleration', 's²', m.difference_acceleration_rms_mm_s2, m.acceleration_rms_mm_s2, m.acceleration_coverage_ratio),
+    ];
+  });
+}
+
+/** What the layer was worth, in one sentence. */
+export function verdict(without: Figures, withLayer: Figures, limit_um: number): string {
+  if (without.samples === 0 && withLayer.samples === 0) {
+    return 'The program does not cut: there is nothing to compare.';
+  }
+  const before = without.contour_error_max_mm;
+  const after = withLayer.contour_error_max_mm;
+  const time = change(without.cycle_time_s, withLayer.cycle_time_s);
+  const kept = after * 1000 <= limit_um;
+  const limit = kept
+    ? `stays within the limit of ${fixed(limit_um, 1)} µm`
+    : `is over the limit of ${fixed(limit_um, 1)} µm for ${seconds(withLayer.over_limit_s)}`;
+  const sameTime = time === '–' || time === '0.0 %';
+  return (
+    `With the layer the largest contour error is ${micrometres(after)} instead of ${micrometres(before)} ` +
+    `and ${limit}; the cycle takes ${seconds(withLayer.cycle_time_s)} instead of ` +
+    `${seconds(without.cycle_time_s)}${sameTime ? '' : ` (${time})`}.`
+  );
+}
+
+/** The table of the vibration, as text. */
+export function vibrationRows(without: VibrationFigures, withLayer: VibrationFigures): FigureRow[] {
+  const row = (key: keyof VibrationFigures, label: string, unit: string, decimals: number): FigureRow => {
+    const [a, b] = [without[key], withLayer[key]];
+    const show = (v: number | null) => (v === null ? '–' : `${fixed(v, decimals)} ${unit}`);
+    return { key, label, without: show(a), with: show(b), change: a === null || b === null ? '–' : change(a, b) };
+  };
+  return [
+    row('unforced_rms_um', 'Chatter: not from tooth to tooth, RMS', 'µm', 2),
+    row('vibration_rms_um', 'Vibration, RMS', 'µm', 1),
+    row('vibration_peak_um', 'Largest displacement', 'µm', 1),
+    row('surface_range_um', 'Finished wall, highest less lowest', 'µm', 1),
+    row('surface_error_um', 'Finished wall, mean place', 'µm', 1),
+    row('chip_peak_um', 'Thickest chip', 'µm', 0),
+    row('force_peak_n', 'Largest force on the tool', 'N', 1),
+    row('power_peak_w', 'Largest power at the spindle', 'W', 0),
+  ];
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one frame of all pages: head, verdict, body, how to read it, how it was made.
+import type { Head, Made } from './data';
+import { escapeHtml, section } from './html';
+import { table } from './table';
+import type { Theme } from './theme';
+
+/** A word of the page and what it means; HTML. */
+export type Term = readonly [string, string];
+
+/** A page: its text with hosts of plots in it, and what draws into them. */
+export interface View {
+  product: string;
+  title: string;
+  /** HTML, as are `verdict` and `body`. */
+  facts: string;
+  verdict: string;
+  body: string;
+  explanation: readonly Term[];
+  draw: (theme: Theme) => void;
+  bind?: (redraw: () => void) => void;
+}
+
+const PLOT_TERMS: Term = [
+  'Plots',
+  'Ctrl + wheel or + and − zoom, a drag moves, “Whole” goes back. PNG saves the picture as it is shown, CSV the values behind it.',
+];
+
+function explanation(terms: readonly Term[]): string {
+  return `<section class="explanation"><h2>How to read this</h2><dl>${[...terms, PLOT_TERMS].map(([term, text]) => `<dt>${term}</dt><dd>${text}</dd>`).join('')}</dl></section>`;
+}
+
+function provenance(made: Made | undefined): string {
+  if (!made) {
+    return '';
+  }
+  const date = made.date === null ? 'left out, so that the same command gives the same bytes' : `<time datetime="${escapeHtml(made.date)}">${escapeHtml(made.date)}</time>`;
+  const inputs = made.inputs.map((i) => [i.file, { html: i.sha256 === null ? 'not a file that can be read again' : `<code>${escapeHtml(i.sha256)}</code>`, look: 'hash' }]);
+  const list = inputs.length === 0 ? '' : table({ id: 'inputs', columns: [{ head: 'Input' }, { head: 'SHA-256' }], rows: inputs });
+  return section(
+    'How this was made',
+    `<dl class="made"><dt>Date</dt><dd id="made-date">${date}</dd><dt>Command</dt><dd><code id="made-command">${escapeHtml(made.command)}</code></dd></dl>${list}`,
+  );
+}
+
+export function show(where: HTMLElement, view: View, head: Head): void {
+  document.title = `${view.title} – ${view.product}`;
+  where.innerHTML = `
+  <header><p class="product">${view.product}</p><h1>${escapeHtml(view.title)}</h1><p class="facts">${view.facts}</p></header>
+  <section><p id="verdict">${view.verdict}</p></section>
+  ${view.body}
+  ${explanation(view.explanation)}
+  ${provenance(head.made)}
+  <footer>Steadyrest ${escapeHtml(head.version)}</footer>`;
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a plot's curves and colours mean: on the page and in the saved picture.
+import { escapeHtml } from '../frame/html';
+import type { Layer } from './layers';
+
+export type Mark = 'line' | 'dashed' | 'area' | 'dot' | 'hoop';
+
+export interface Key {
+  name: string;
+  colour: string;
+  mark: Mark;
+}
+
+/** Colours of a quantity, each up to the number beneath its right edge. */
+export interface ColourScale {
+  title: string;
+  cells: readonly { colour: string; upTo: string; /** An upright mark at its left edge. */ marked?: boolean }[];
+  /** A line that is not of the scale. */
+  beside?: Key;
+}
+
+function markOf(layer: Layer): Mark {
+  switch (layer.kind) {
+    case 'band':
+    case 'spans':
+      return 'area';
+    case 'dots':
+      return layer.hollow ? 'hoop' : 'dot';
+    case 'line':
+    case 'rules':
+      return layer.dashed ? 'dashed' : 'line';
+    default:
+      return 'line';
+  }
+}
+
+/** Each name once. */
+export function keysOf(layers: readonly Layer[]): Key[] {
+  const keys = new Map<string, Key>();
+  for (const layer of layers) {
+    if (layer.name !== undefined && !layer.quiet && layer.kind !== 'raster' && !keys.has(layer.name)) {
+      keys.set(layer.name, { name: layer.name, colour: layer.colour, mark: markOf(layer) });
+    }
+  }
+  return [...keys.values()];
+}
+
+export function keyLine(keys: readonly Key[]): string {
+  return keys.map((k) => `<span class="key"><i class="${k.mark}" style="--ink:${k.colour}"></i>${escapeHtml(k.name)}</span>`).join('');
+}
+
+export function scaleLine(scale: ColourScale): string {
+  const cells = scale.cells.map((c) => `<span${c.marked ? ' class="marked"' : ''}><i style="background:${c.colour}"></i><em>${escapeHtml(c.upTo)}</em></span>`).join('');
+  return `<span class="scale-title">${escapeHtml(scale.title)}</span><span class="scale">${cells}</span>${scale.beside ? keyLine([scale.beside]) : ''}`;
+}

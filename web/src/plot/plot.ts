@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one plot of all pages: a figure with its name, its key, zoom, PNG and CSV, and layers in it.
+import { element, put } from '../frame/dom';
+import { escapeHtml } from '../frame/html';
+import type { Theme } from '../frame/theme';
+import { axisOption } from './axes';
+import { type Plot, drawnIn, remember } from './drawn';
+import { FONT, echarts } from './echarts';
+import { type Box, withEqualAspect } from './equal_aspect';
+import { keyLine, keysOf, scaleLine } from './key';
+import { seriesOf } from './layers';
+import { follow, valuesAt } from './reading';
+import { TOOLS, bindTools } from './tools';
+import { type Window, inView, onZoom, zoomOption } from './zoom';
+
+export type { Plot };
+
+const MARGIN = { left: 62, right: 18, top: 12, bottom: 42 };
+const TICKS_PX = 24;
+
+/** The place of a plot; `kind`: low, high, tall, square. */
+export function host(id: string, kind = ''): string {
+  return `<figure class="frame" id="${id}-frame"><figcaption><span class="name" id="${id}-name"></span><span class="key-line" id="key-${id}"></span>${TOOLS}</figcaption>
+    <div class="plot ${kind}" id="${id}"></div><div class="scale-line" id="scale-${id}"></div></figure>`;
+}
+
+function margins(plot: Plot) {
+  return plot.layers.some((l) => l.kind === 'ticks') ? { ...MARGIN, top: MARGIN.top + TICKS_PX } : MARGIN;
+}
+
+/** Where both axes have one scale they are widened to the host. */
+function fitted(plot: Plot, width: number, height: number): Plot {
+  if (!plot.equal) {
+    return plot;
+  }
+  const box: Box = { left: plot.x.min ?? 0, right: plot.x.max ?? 1, bottom: plot.y.min ?? 0, top: plot.y.max ?? 1 };
+  const { left, right, bottom, top } = withEqualAspect(box, width, height);
+  return { ...plot, x: { ...plot.x, min: left, max: right }, y: { ...plot.y, min: bottom, max: top } };
+}
+
+/** All of the picture but the zoom; `shown`: what is in view of x and y. */
+function option(plot: Plot, theme: Theme, width: number, height: number, shown?: Window) {
+  const view = shown?.x ?? [plot.x.min ?? -Infinity, plot.x.max ?? Infinity];
+  return {
+    xAxis: { ...axisOption(plot.x, theme, width / 70, shown?.x), name: plot.x.name, nameLocation: 'middle', nameGap: 26, nameTextStyle: { color: theme.faint, fontSize: 12 } },
+    yAxis: axisOption(plot.y, theme, height / 48, shown?.y),
+    series: plot.layers.flatMap((layer, i) => seriesOf(layer, theme, 2 + i, view).map((s, k) => ({ id: `${i}.${k}`, ...s }))),
+  };
+}
+
+function size(chart: echarts.ECharts, plot: Plot): [number, number] {
+  const { left, right, top, bottom } = margins(plot);
+  return [Math.max(chart.getWidth() - left - right, 50), Math.max(chart.getHeight() - top - bottom, 50)];
+}
+
+/** On paper as vectors, on the screen as pixels: the first are sharp, the second quick. */
+function chartIn(where: HTMLElement, theme: Theme): echarts.ECharts {
+  const before = drawnIn(where);
+  if (before && before.theme.printing === theme.printing) {
+    before.chart.resize();
+    return before.chart;
+  }
+  before?.chart.dispose();
+  const chart = echarts.init(where, null, { renderer: theme.printing ? 'svg' : 'canvas' });
+  follow(where, chart, (x, y, reach) => {
+    const plot = drawnIn(where)?.plot;
+    return plot?.readout ? plot.readout(x, y, reach) : plot && valuesAt(plot, x);
+  });
+  chart.on('datazoom', () => onZoom(where, redrawZoomed));
+  if (!before) {
+    bindTools(where);
+  }
+  return chart;
+}
+
+function redrawZoomed(where: HTMLElement): void {
+  const now = drawnIn(where);
+  if (now) {
+    now.chart.setOption(option(now.plot, now.theme, ...size(now.chart, now.plot), inView(now.chart, now.plot)));
+  }
+}
+
+export function plot(id: string, given: Plot, theme: Theme): void {
+  const where = element(id);
+  const before = drawnIn(where);
+  const zoom = zoomOption(given, before);
+  const chart = chartIn(where, theme);
+  const [width, height] = size(chart, given);
+  const what = fitted(given, width, height);
+  remember(where, { chart, plot: what, theme });
+  chart.setOption(
+    {
+      animation: false,
+      aria: { enabled: true, label: { description: what.title } },
+      textStyle: { fontFamily: FONT, color: theme.faint },
+      grid: margins(what),
+      dataZoom: zoom,
+      ...option(what, theme, width, height),
+    },
+    { notMerge: true },
+  );
+  if (before) {
+    redrawZoomed(where);
+  }
+  put(`${id}-name`, escapeHtml(what.y.name));
+  put(`key-${id}`, keyLine(keysOf(what.layers)));
+  put(`scale-${id}`, what.scale ? scaleLine(what.scale) : '');
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The buttons of every plot.
+import { columnsOfPlot, csvOf } from './csv';
+import { picture } from './picture';
+import { drawnIn } from './drawn';
+import { showWhole, zoomBy } from './zoom';
+
+const FACTOR = 2;
+
+const button = (tool: string, text: string, title: string) => `<button type="button" data-tool="${tool}" title="${title}">${text}</button>`;
+export const TOOLS = `<span class="tools" role="group" aria-label="Plot">${[
+  button('in', '+', 'Zoom in'),
+  button('out', '−', 'Zoom out'),
+  button('whole', 'Whole', 'Show the whole plot'),
+  button('png', 'PNG', 'Save the picture'),
+  button('csv', 'CSV', 'Save the values'),
+].join('')}</span>`;
+
+function save(name: string, content: Blob): void {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(content);
+  link.download = name;
+  link.click();
+  window.setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+/** `rib-pocket.mpf`, `course-error` → `rib-pocket-mpf-course-error`. */
+function fileName(id: string): string {
+  return `${document.querySelector('h1')?.textContent ?? 'steadyrest'}-${id}`.replace(/[^\w]+/g, '-').replace(/^-|-$/g, '');
+}
+
+function use(tool: string, where: HTMLElement): void {
+  const now = drawnIn(where);
+  if (!now) {
+    return;
+  }
+  const { chart, plot, theme } = now;
+  switch (tool) {
+    case 'in':
+      return zoomBy(where, FACTOR);
+    case 'out':
+      return zoomBy(where, 1 / FACTOR);
+    case 'whole':
+      return showWhole(where);
+    case 'png':
+      return picture(chart, plot, theme).toBlob((blob) => blob && save(`${fileName(where.id)}.png`, blob));
+    case 'csv':
+      return save(`${fileName(where.id)}.csv`, new Blob([csvOf(plot.columns?.() ?? columnsOfPlot(plot))], { type: 'text/csv;charset=utf-8' }));
+  }
+}
+
+export function bindTools(where: HTMLElement): void {
+  where.closest('figure')?.querySelectorAll<HTMLElement>('[data-tool]').forEach((b) => b.addEventListener('click', () => use(b.dataset['tool'] ?? '', where)));
+}

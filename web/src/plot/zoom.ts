@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { echarts } from './echarts';
+import { type Drawn, type Plot, drawnIn } from './drawn';
+
+/** What is in view. */
+export interface Window {
+  x: [number, number];
+  y?: [number, number];
+}
+
+interface Range {
+  start: number;
+  end: number;
+}
+
+/** x alone, or x and y; in percent of the axes. A plot that is drawn again over the same axes keeps its view. */
+export function zoomOption(plot: Plot, before?: Drawn): object[] {
+  const kept = before && before.plot.x.name === plot.x.name && before.plot.y.name === plot.y.name ? ranges(before.chart) : [];
+  const inside = { type: 'inside', filterMode: 'none', zoomOnMouseWheel: 'ctrl', preventDefaultMouseMove: false };
+  return [{ ...inside, xAxisIndex: 0, ...kept[0] }, ...(plot.plane ? [{ ...inside, yAxisIndex: 0, ...kept[1] }] : [])];
+}
+
+function ranges(chart: echarts.ECharts): Range[] {
+  return ((chart.getOption() as { dataZoom?: Range[] }).dataZoom ?? []).map(({ start, end }) => ({ start, end }));
+}
+
+function set(chart: echarts.ECharts, all: readonly Range[]): void {
+  chart.dispatchAction({ type: 'dataZoom', batch: all.map((r, dataZoomIndex) => ({ dataZoomIndex, ...r })) });
+}
+
+export function inView(chart: echarts.ECharts, plot: Plot): Window {
+  const [x, y] = ranges(chart);
+  const part = (axis: Plot['x'], range: Range | undefined): [number, number] => {
+    const [min, max] = [axis.min ?? 0, axis.max ?? 1];
+    const at = (percent: number) => min + ((max - min) * percent) / 100;
+    return [at(range?.start ?? 0), at(range?.end ?? 100)];
+  };
+  return { x: part(plot.x, x), ...(plot.plane ? { y: part(plot.y, y) } : {}) };
+}
+
+/** `factor` > 1 shows less; about the middle of the view. */
+export function zoomBy(where: HTMLElement, factor: number): void {
+  const chart = drawnIn(where)?.chart;
+  if (chart) {
+    set(
+      chart,
+      ranges(chart).map(({ start, end }) => {
+        const half = Math.min((end - start) / 2 / factor, 50);
+        const middle = Math.min(Math.max((start + end) / 2, half), 100 - half);
+        return { start: middle - half, end: middle + half };
+      }),
+    );
+  }
+}
+
+export function showWhole(where: HTMLElement): void {
+  const chart = drawnIn(where)?.chart;
+  if (chart) {
+    set(chart, ranges(chart).map(() => ({ start: 0, end: 100 })));
+  }
+}
+
+const near = (a: readonly Range[], b: readonly Range[]) => a.every((r, i) => Math.abs(r.start - (b[i]?.start ?? 0)) < 1e-9 && Math.abs(r.end - (b[i]?.end ?? 0)) < 1e-9);
+
+/** A plot was zoomed: it and those of its group are drawn for what is in view now. */
+export function onZoom(where: HTMLElement, redraw: (where: HTMLElement) => void): void {
+  const source = drawnIn(where);
+  if (!source) {
+    return;
+  }
+  redraw(where);
+  const wanted = ranges(source.chart);
+  for (const other of document.querySelectorAll<HTMLElement>('.plot')) {
+    const drawn = drawnIn(other);
+    if (other !== where && drawn && source.plot.group !== undefined && drawn.plot.group === source.plot.group && !near(wanted, ranges(drawn.chart))) {
+      set(drawn.chart, wanted);
+    }
+  }
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// When to correct by how much: the source's figures 4 and 5, and its system R.
+import { section } from '../frame/html';
+import { fixed, plain } from '../frame/numbers';
+import { figures } from '../frame/table';
+import type { Theme } from '../frame/theme';
+import type { View } from '../frame/view';
+import { roomy } from '../plot/axes';
+import type { Layer } from '../plot/layers';
+import { type Plot, host, plot } from '../plot/plot';
+import { nearestIndex } from '../plot/thin';
+import { BAND } from './course';
+import { type PlanPage, type PlannedCourse, residual } from './data';
+import { band, borders, cyclogramPlot, end, largest, rule, um, withBand } from './over_time';
+import { named } from './tables';
+
+/** The paper's figure 4: curve 1 without, curve 2 with corrections, ±Δ_k. */
+function planPlot(page: PlanPage, course: PlannedCourse, theme: Theme): Plot {
+  const left = residual(course);
+  const [min, max] = roomy([...withBand(course), ...left.um, ...course.bands.flatMap((b) => [-b.band_um, b.band_um])], true);
+  const edge = (sign: number): Layer => ({
+    kind: 'line',
+    name: sign > 0 ? '±Δk' : '−Δk',
+    quiet: sign < 0,
+    x: course.bands.flatMap((b) => [b.from_min, b.to_min]),
+    y: course.bands.flatMap((b) => [sign * b.band_um, sign * b.band_um]),
+    colour: theme.limit,
+    width: 1,
+    dashed: true,
+  });
+  return {
+    title: `Displacement of ${course.axis} without and with correction`,
+    x: { name: 'time in min', min: 0, max: end(page.transitions) },
+    y: { name: `displacement of ${course.axis} in µm`, min, max },
+    group: 'time',
+    layers: [
+      rule(borders(page.transitions), 'x', theme.rapid, true),
+      ...band(course, theme.run.without),
+      { ...rule([course.displacement_um[largest(course.displacement_um)] ?? 0], 'y', theme.run.without, true), name: 'ΔT, the largest without correction' },
+      edge(1),
+      edge(-1),
+      { kind: 'line', name: '1 without correction', x: course.t_min, y: course.displacement_um, colour: theme.run.without, width: 2 },
+      { kind: 'line', name: '2 with correction', x: left.t_min, y: left.um, colour: theme.run.with, width: 2.2 },
+    ],
+    readout: (t) => {
+      const i = nearestIndex(left.t_min, t);
+      const j = nearestIndex(course.t_min, t);
+      return `<b>${plain(t)} min</b><br>without ${um(course.displacement_um[j])}<br>with ${um(left.um[i])}`;
+    },
+  };
+}
+
+/** The paper's figure 5: the field of tolerance about the work, and the broken line of corrections. */
+function linePlot(page: PlanPage, course: PlannedCourse, theme: Theme): Plot {
+  const x: number[] = [0];
+  const y: number[] = [0];
+  for (const c of course.corrections) {
+    x.push(c.t_min, c.t_min);
+    y.push(y.at(-1) as number, c.total_um);
+  }
+  x.push(end(page.transitions));
+  y.push(y.at(-1) as number);
+  const at = (sign: number, key: 'band_um' | 'tolerance_um') => {
+    const total = (t: number) => course.corrections.filter((c) => c.t_min <= t + 1e-9).at(-1)?.total_um ?? 0;
+    const half = (t: number) => course.bands.find((b) => t >= b.from_min - 1e-9 && t <= b.to_min + 1e-9)?.[key] ?? 0;
+    return x.map((t, i) => (i % 2 === 1 && i < x.length - 1 ? (y[i] ?? 0) : total(t)) + sign * half(t));
+  };
+  const fields = (['tolerance_um', 'band_um'] as const).map((key): Layer => ({ kind: 'band', name: key === 'tolerance_um' ? 'tolerance' : 'the share of it that heat may take', x, low: at(-1, key), high: at(1, key), colour: theme.run.with, opacity: 0.13 }));
+  const [min, max] = roomy([...at(-1, 'tolerance_um'), ...at(1, 'tolerance_um'), ...course.displacement_um], true);
+  return {
+    title: `Corrections of ${course.axis} and the field of tolerance`,
+    x: { name: 'time in min', min: 0, max: end(page.transitions) },
+    y: { name: `${course.axis}: displacement and sum of corrections in µm`, min, max },
+    group: 'time',
+    layers: [
+      rule(borders(page.transitions), 'x', theme.rapid, true),
+      ...fields,
+      { kind: 'line', name: 'sum of corrections', x, y, colour: theme.run.with, width: 2.2 },
+      { kind: 'line', name: 'displacement', x: course.t_min, y: course.displacement_um, colour: theme.run.without, width: 2 },
+      {
+        kind: 'dots',
+        colour: theme.run.with,
+        size: 7,
+        dots: course.corrections.length > 24 ? [] : course.corrections.map((c) => ({ x: c.t_min, y: c.total_um, label: `${plain(c.t_min)} min`, side: 'top' as const, lift: 2 })),
+      },
+    ],
+  };
+}
+
+/** So many transitions are shown whole; of more only those with corrections, and no more than so many. */
+const SHORT_R = 40;
+const MOST_R = 200;
+
+/** R = {n; {t}; {δ}} of each transition, as in the paper. */
+function systemR(page: PlanPage, axis: PlanPage['answer']['axes'][number]): string {
+  const all = axis.transitions.map((t, i) => ({ t, i }));
+  const chosen = all.length <= SHORT_R ? all : all.filter(({ t }) => t.delta_um.some((d) => d !== 0)).slice(0, MOST_R);
+  const rows = chosen.map(({ t, i }) => [
+    t.name || `${i + 1}`,
+    `${plain(page.transitions[i]?.minutes)} min`,
+    `${fixed(page.transitions[i]?.speed_rpm ?? 0, 0)} rev/min`,
+    `${t.t_min.length}`,
+    t.t_min.map((v) => plain(v)).join(', '),
+    t.delta_um.map((v) => plain(v)).join(', '),
+  ]);
+  const hint = chosen.length < all.length ? `<p class="hint">${chosen.length} of ${all.length} transitions: those with corrections${chosen.length === MOST_R ? ', the first of them' : ''}.</p>` : '';
+  return hint + named(`system-${axis.axis}`, [`transition, ${axis.axis}`, 'lasts', 'spindle', 'intervals n', 'their t in min', 'δ at their beginnings in µm'], rows);
+}
+
+export function planView(page: PlanPage): View {
+  const rows = page.answer.axes.flatMap((a) => [
+    { label: `${a.axis}: largest without correction`, value: um(a.max_um) },
+    { label: `${a.axis}: largest with correction`, value: um(a.residual_um) },
+    { label: `${a.axis}: corrections`, value: `${a.corrections}` },
+    { label: `${a.axis}: 95 % of the forecast's error within`, value: a.sd_um > 0 ? `±${um(BAND * a.sd_um)}` : 'not stated' },
+  ]);
+  const first = page.answer.axes[0];
+  return {
+    product: 'Steadyrest thermal plan',
+    title: page.title,
+    facts: `Δ <b>${plain(page.answer.tolerance_um)} µm</b> · level <b>${page.answer.level}</b> · k <b>${plain(page.answer.k)}</b>`,
+    verdict: first ? `${first.corrections} corrections keep ${first.axis} within ${um(first.residual_um)} instead of ${um(first.max_um)}: ${fixed(first.ratio, 1)} times less.` : '',
+    body:
+      section(
+        'Displacement without and with correction',
+        `${page.courses.map((_, i) => host(`course-${i}`, 'high')).join('')}`,
+        'A correction is made where what is left reaches its share of the tolerance.',
+      ) +
+      section('Field of tolerance', `${page.courses.map((_, i) => host(`line-${i}`, 'high')).join('')}`) +
+      section('Cyclogram', host('speed')) +
+      section('The system R', page.answer.axes.map((a) => systemR(page, a)).join(''), 'Of each transition: its intervals, and the correction that is made at the beginning of each.') +
+      section('Figures', figures(rows)),
+    explanation: [
+      ['Δ, k, ±Δk', 'Δ is the tolerance of the part, k the share of it that heat may take, Δk = k·Δ. A correction is made where what is left of the displacement reaches Δk.'],
+      ['Curve 1, curve 2', 'The displacement without correction, and what is left of it with the corrections taken off (the source’s figure 4).'],
+      ['Field of tolerance', 'The corrections carry the field of the tolerance with them as a broken line; the displacement stays within (the source’s figure 5).'],
+      ['System R', 'R = {n; {t}; {δ}}: of each transition the number of its intervals, how long each lasts and the correction at its beginning.'],
+    ],
+    draw: (theme) => {
+      page.courses.forEach((c, i) => {
+        plot(`course-${i}`, planPlot(page, c, theme), theme);
+        plot(`line-${i}`, linePlot(page, c, theme), theme);
+      });
+      plot('speed', cyclogramPlot(page.transitions, theme), theme);
+    },
+  };
+}

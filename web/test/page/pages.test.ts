@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// What holds of every page: as the program wrote them, in a real browser, opened from disk.
+import { readFile } from 'node:fs/promises';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { type OpenPage, closeBrowser, colours, haveWritten, openFromDisk, writtenHtml } from './browser';
+
+/** Where each is, and how many plots it has. */
+const PAGES: Record<string, number> = {
+  sample: 5, batch: 5, 'batch/batch': 4, vibration: 8,
+  lobes: 1, modulated: 1, growth: 2, simulate: 6, detect: 3, 'chatter-plan': 1, tap: 5,
+  forecast: 2, 'thermal-fit': 4, replay: 3, 'thermal-plan': 3, bench: 14, estimate: 3,
+};
+const WIDTHS = [1440, 1024, 390, 1280];
+
+interface Shown {
+  chart: { getOption(): { dataZoom: { start: number; end: number }[]; xAxis: { name: string }[] }; getWidth(): number };
+  plot: { group?: string; x: { name: string }; layers: { name?: string; kind: string }[] };
+}
+type WithPlots = { steadyrestPlot: (id: string) => Shown };
+
+const plotIds = (open: OpenPage) => open.page.locator('.plot').evaluateAll((all) => all.map((e) => e.id));
+const zoomOf = (open: OpenPage, id: string) => open.page.evaluate((i) => (window as unknown as WithPlots).steadyrestPlot(i).chart.getOption().dataZoom.map((z) => [Math.round(z.start), Math.round(z.end)]), id);
+
+/** Elements that reach beyond the window, by what they are. */
+const beyond = (open: OpenPage) =>
+  open.page.evaluate(() => {
+    const scroller = document.scrollingElement as Element;
+    const found = scroller.scrollWidth > window.innerWidth ? [`the page is ${scroller.scrollWidth} wide`] : [];
+    for (const e of document.querySelectorAll('main *')) {
+      const box = e.getBoundingClientRect();
+      if (box.width > 0 && (box.right > window.innerWidth + 0.5 || box.left < -0.5)) {
+        found.push(`${e.tagName} ${e.id} ${e.className} ${Math.round(box.left)}…${Math.round(box.right)}: ${(e.textContent ?? '').slice(0, 40)}`);
+      }
+    }
+    return found.slice(0, 5);
+  });
+
+async function saved(open: OpenPage, id: string, tool: string): Promise<{ name: string; content: Buffer }> {
+  const [download] = await Promise.all([open.page.waitForEvent('download'), open.page.click(`#${id}-frame [data-tool="${tool}"]`)]);
+  return { name: download.suggestedFilename(), content: await readFile(await download.path()) };
+}
+
+/** Rows of a CSV without quoted line ends. */
+function rowsOf(csv: string): string[][] {
+  return csv.trimEnd().split('\n').map((line) => [...`${line},`.matchAll(/("(?:[^"]|"")*"|[^,]*),/g)].map((m) => m[1] ?? ''));
+}
+
+afterAll(closeBrowser);
+
+describe.runIf(haveWritten).each(Object.entries(PAGES))('the page %s', (name, count) => {
+  let open: OpenPage;
+  beforeAll(async () => {
+    open = await openFromDisk(writtenHtml(name), { width: 390 });
+  });
+  afterAll(() => open.close());
+
+  it('draws every plot, explains itself and says how it was made', async () => {
+    const seen = Object.entries(await colours(open));
+    expect(seen.length).toBe(count);
+    seen.forEach(([id, number]) => expect(number, id).toBeGreaterThan(15));
+    expect(await open.page.locator('.explanation dt').count()).toBeGreaterThan(2);
+    expect(await open.page.textContent('#made-command')).toMatch(/^steadyrest \w+/);
+    expect(await open.page.textContent('#made-date')).toMatch(/^20\d\d-\d\d-\d\dT/);
+    expect(open.complaints).toEqual([]);
+  });
+
+  it('has nothing that runs over on a telephone, a tablet and a screen', async () => {
+    expect(await beyond(open), 'opened at 390').toEqual([]);
+    for (const width of WIDTHS) {
+      await open.page.setViewportSize({ width, height: 900 });
+      await open.page.waitForFunction((w) => (document.querySelector('.plot canvas')?.clientWidth ?? 1e9) <= w, width);
+      expect(await beyond(open), `at ${width}`).toEqual([]);
+    }
+  });
+
+  it('zooms each plot, those of a group together, and goes back', async () => {
+    for (const id of await plotIds(open)) {
+      const use = (tool: string) => open.page.click(`#${id}-frame [data-tool="${tool}"]`);
+      await use('in');
+      (await zoomOf(open, id)).forEach((z) => expect(z, id).toEqual([25, 75]));
+      const group = await open.page.evaluate((i) => {
+        const of = (k: string) => (window as unknown as WithPlots).steadyrestPlot(k).plot.group;
+        return of(i) === undefined ? [i] : [...document.querySelectorAll('.plot')].map((e) => e.id).filter((k) => of(k) === of(i));
+      }, id);
+      for (const other of group) expect((await zoomOf(open, other))[0], `${id} → ${other}`).toEqual([25, 75]);
+      await use('in');
+      await use('out');
+      (await zoomOf(open, id)).forEach((z) => expect(z, id).toEqual([25, 75]));
+      await use('whole');
+      for (const other of group) expect((await zoomOf(open, other))[0], other).toEqual([0, 100]);
+    }
+    expect(open.complaints).toEqual([]);
+  });
+
+  it('saves each plot as a picture and as values', async () => {
+    for (const id of await plotIds(open)) {
+      const png = await saved(open, id, 'png');
+      expect(png.name, id).toMatch(new RegExp(`${id}\\.png$`));
+      expect(png.content.subarray(1, 4).toString(), id).toBe('PNG');
+      const width = await open.page.evaluate((i) => (window as unknown as WithPlots).steadyrestPlot(i).chart.getWidth(), id);
+      expect(png.content.readUInt32BE(16), id).toBe(2 * width);
+      const csv = await saved(open, id, 'csv');
+      const [head = [], ...rows] = rowsOf(csv.content.toString());
+      expect(csv.name, id).toMatch(new RegExp(`${id}\\.csv$`));
+      expect(head.length, id).toBeGreaterThan(1);
+      expect(rows.length, id).toBeGreaterThan(0);
+      expect(rows.every((r) => r.length === head.length && r.every((v) => v === '' || Number.isFinite(Number(v)))), id).toBe(true);
+      expect(rows.flat().filter((v) => v !== '').length, id).toBeGreaterThan(rows.length);
+    }
+    expect(open.complaints).toEqual([]);
+  });
+
+  it('prints every plot as vectors and draws on the screen again afterwards', async () => {
+    const event = (type: string) => open.page.evaluate((t) => window.dispatchEvent(new Event(t)), type);
+    await event('beforeprint');
+    const drawn = await open.page.locator('.plot').evaluateAll((all) => all.map((e) => ({ id: e.id, svg: e.querySelectorAll('svg path, svg image, svg polygon').length, canvas: e.querySelectorAll('canvas').length })));
+    drawn.forEach((d) => expect(d.svg, d.id).toBeGreaterThan(4));
+    expect(drawn.every((d) => d.canvas === 0)).toBe(true);
+    await event('afterprint');
+    Object.entries(await colours(open)).forEach(([id, number]) => expect(number, id).toBeGreaterThan(15));
+    expect((await open.page.pdf({ format: 'A4', preferCSSPageSize: true })).length).toBeGreaterThan(10_000);
+    expect(open.complaints).toEqual([]);
+  });
+});
