@@ -94,7 +94,7 @@ const rewrite::AxisPlan* plan_of(const rewrite::Plan& plan, std::size_t axis) {
 
 /// Which correction of the plan a shift is: 0 none, k behind step k; −1 none that it knows.
 int step_of(const rewrite::AxisPlan* plan, double shift_mm) {
-  constexpr double kWritten_mm = 2e-4;  // fanuc in inches: half of 0.00001 inch
+  constexpr double kWritten_mm = 1.28e-3;  // half of the control's least input, 0.0001 inch
   if (near(shift_mm, 0.0)) {
     return 0;
   }
