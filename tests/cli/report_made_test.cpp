@@ -28,7 +28,7 @@ const std::string kTap = "examples/processes/tap-922hz.csv";
 
 /// As another program has it.
 std::string sha256sum(const std::string& file) {
-  FILE* const pipe = ::popen(("sha256sum '" + file + "'").c_str(), "r");
+  FILE* const pipe = ::popen(("sha256sum '" + project_file(file) + "'").c_str(), "r");
   std::array<char, 65> hash{};
   EXPECT_EQ(std::fread(hash.data(), 1, 64, pipe), 64U);
   ::pclose(pipe);

@@ -60,7 +60,8 @@ std::optional<Warning> idle_override(const PlannedPath& path,
   double acts = 0.0;  // for half of the cut
   for (const Part& part : parts) {
     acts = part.ratio;
-    if ((passed_s += part.seconds) >= 0.5 * all_s) {
+    passed_s += part.seconds;
+    if (passed_s >= 0.5 * all_s) {
       break;
     }
   }

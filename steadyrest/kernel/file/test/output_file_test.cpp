@@ -21,7 +21,6 @@ namespace steadyrest::kernel::file {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class Output : public testing::Test {
  public:
@@ -145,7 +144,7 @@ TEST_F(Output, AFullDiskLeavesTheOldFile) {
     out->write(std::string(5000, 'x'));
     const auto done = out->commit();
     _exit(!done && done.error().kind == outcome::Kind::unavailable &&
-                  done.error().what.find("cannot be written") == 0
+                  done.error().what.starts_with("cannot be written")
               ? 7
               : 8);
   });

@@ -31,13 +31,11 @@ std::set<std::uint32_t> words_between(std::uint32_t from, std::uint32_t to) {
 
 bool all_inside(const Table& table, std::size_t from, std::size_t to) {
   const auto [low, high] = std::minmax({table.ratio(from), table.ratio(to)});
-  for (const auto word : words_between(table.code(from), table.code(to))) {
+  const auto inside = [&table, low = low, high = high](auto word) {
     const auto step = table.step_of_code(word);
-    if (!step || table.ratio(*step) < low || table.ratio(*step) > high) {
-      return false;
-    }
-  }
-  return true;
+    return step && table.ratio(*step) >= low && table.ratio(*step) <= high;
+  };
+  return std::ranges::all_of(words_between(table.code(from), table.code(to)), inside);
 }
 
 class Published : public ::testing::TestWithParam<machine::OverrideTable> {};
