@@ -19,6 +19,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 
 MM_PER_INCH = 25.4
 HALF_DIGIT = 0.00005  # rs274 prints four decimals
@@ -100,16 +101,25 @@ class Oracle:
 
 def ours(steadyrest, program, dialect, oracle, extra=()):
     """(accepted, first refusal, rows)"""
-    table = oracle.path("ours.csv")
-    done = subprocess.run([steadyrest, "program", "moves", program, "--dialect", dialect, "--json", "-o", table,
-                           *([] if dialect == "sinumerik" else ["--tools", oracle.path("tool.tbl")]),  # tools by name
-                           "--data-units", "inch", *extra],
-                          capture_output=True, timeout=120)
+    # Through a pipe, which has the moves in front of a refusal too; a file is written when all is read.
+    end, entry = os.pipe()
+    moves = []
+    with open(end, encoding="utf-8") as source:
+        reader = threading.Thread(target=lambda: moves.extend(source.readlines()))
+        reader.start()
+        try:
+            done = subprocess.run([steadyrest, "program", "moves", program, "--dialect", dialect, "--json",
+                                   "-o", f"/dev/fd/{entry}",
+                                   *([] if dialect == "sinumerik" else ["--tools", oracle.path("tool.tbl")]),  # by name
+                                   "--data-units", "inch", *extra],
+                                  capture_output=True, timeout=120, pass_fds=[entry])
+        finally:
+            os.close(entry)
+            reader.join()
     answer = json.loads(done.stdout)
     if "blocks" not in answer:
         raise RuntimeError(str(answer))
-    with open(table) as source:
-        rows = list(csv.DictReader(source))
+    rows = list(csv.DictReader(moves))
     return done.returncode == 0, (answer["refused"] or [None])[0], rows, answer["blocks"]
 
 
