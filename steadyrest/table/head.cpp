@@ -90,7 +90,7 @@ std::string unit_of(std::string_view field) {
   if (bracketed(field)) {
     field = trimmed(field.substr(1, field.size() - 2));
   }
-  const std::string word = plain(field);
+  std::string word = plain(field);
   if (std::ranges::find(kUnits, word) != kUnits.end()) {
     return word;
   }

@@ -41,8 +41,9 @@ bool could_group(std::string_view field) noexcept {
 std::optional<double> plain_number(std::string_view field) noexcept {
   field = without_plus(field);
   double value = 0.0;
-  const char* const end = field.data() + field.size();
-  const auto parsed = std::from_chars(field.data(), end, value);
+  const char* const begin = field.data();
+  const char* const end = begin + field.size();
+  const auto parsed = std::from_chars(begin, end, value);
   return parsed.ec == std::errc{} && parsed.ptr == end ? std::optional(value) : std::nullopt;
 }
 

@@ -119,6 +119,7 @@ TEST(LogKind, ARowForEachEdgeIsNoLogOfCycles) {
 
 TEST(LogKind, AFewRowsDoNotTell) {
   std::vector<LogRow> rows;
+  rows.reserve(12);
   for (int k = 0; k < 12; ++k) {
     rows.push_back({k * kCycle_s, 5});
   }

@@ -15,7 +15,7 @@ class PlanMatch : public ::testing::Test {
  protected:
   PlanMatch() { settings_.window_s = 10.0; }
   void plan(std::vector<PlannedStep> steps) { axis_.steps = std::move(steps); }
-  std::string fault(std::vector<std::pair<double, double>> written) const {
+  std::string fault(const std::vector<std::pair<double, double>>& written) const {
     Changes changes;
     for (const auto& [time_s, um] : written) {
       changes.push_back({.line = 7, .stands_mm = um * 1e-3, .unit_mm = 1.0, .time_s = time_s});
