@@ -57,6 +57,7 @@ class FrfSink final : public table::Sink {
         "coherence may follow";
     const auto bad = [&](std::string what) { return Fault{0, std::move(what), std::string(kWay)}; };
     std::vector<Column> column;
+    column.reserve(head.name.size());
     for (const std::string& name : head.name) {
       column.push_back(column_of(name));
     }

@@ -336,7 +336,7 @@ std::vector<std::string> response_files(const std::string& path) {
       }
     }
   } catch (const toml::parse_error&) {
-    // read_process() says what is wrong.
+    out.clear();  // read_process() says what is wrong
   }
   return out;
 }
