@@ -139,6 +139,7 @@ std::vector<WorstLine> worst_lines(const std::filesystem::path& program, const M
                                    const Recorder& without, const Recorder& with) {
   const std::map<std::uint32_t, Pair> all = by_line(without, with);
   std::vector<std::uint32_t> order;
+  order.reserve(all.size());
   for (const auto& [line, pair] : all) {
     order.push_back(line);
   }

@@ -66,6 +66,7 @@ Json EstimateCourse::column(Range Stretch::* quantity) const {
 
 void EstimateCourse::put(Json& page) const {
   std::vector<double> t_s;
+  t_s.reserve(stretches_.size());
   for (const Stretch& stretch : stretches_) {
     t_s.push_back(stretch.t_s);
   }
