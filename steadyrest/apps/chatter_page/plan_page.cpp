@@ -15,7 +15,6 @@ using kernel::outcome::Result;
 constexpr std::size_t kSpeeds = 241;
 constexpr std::size_t kDepths = 101;
 constexpr std::size_t kLawSpeeds = 41;
-constexpr std::size_t kLawDepths = 31;
 constexpr double kBeyond = 0.05;  ///< of the programmed speed, on both sides of the steps
 
 std::vector<double> even(double from, double to, std::size_t count) {
