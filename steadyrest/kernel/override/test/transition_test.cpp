@@ -30,10 +30,10 @@ std::set<std::uint32_t> words_between(std::uint32_t from, std::uint32_t to) {
 }
 
 bool all_inside(const Table& table, std::size_t from, std::size_t to) {
-  const auto [low, high] = std::minmax({table.ratio(from), table.ratio(to)});
-  const auto inside = [&table, low = low, high = high](auto word) {
+  const auto ends = std::minmax({table.ratio(from), table.ratio(to)});
+  const auto inside = [&table, ends](auto word) {
     const auto step = table.step_of_code(word);
-    return step && table.ratio(*step) >= low && table.ratio(*step) <= high;
+    return step && table.ratio(*step) >= ends.first && table.ratio(*step) <= ends.second;
   };
   return std::ranges::all_of(words_between(table.code(from), table.code(to)), inside);
 }
