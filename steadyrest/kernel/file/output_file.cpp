@@ -89,8 +89,18 @@ OutputFile OutputFile::standard_output() {
 }
 
 Result<void> OutputFile::make_beside() {
-  beside_ = Temporary(name_beside(place_), Temporary::Kind::file);
-  descriptor_ = ::open(beside_.path().c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  // Without a name nothing is left behind even by SIGKILL and a power cut. Not every file system
+  // can do it, and the name that it gets at last is given through /proc.
+  descriptor_ = ::open(place_.path.parent_path().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  path_ = "/proc/self/fd/" + std::to_string(descriptor_);
+  if (descriptor_ >= 0 && ::access(path_.c_str(), F_OK) != 0) {
+    ::close(std::exchange(descriptor_, -1));
+  }
+  if (descriptor_ < 0) {
+    beside_ = Temporary(name_beside(place_), Temporary::Kind::file);
+    path_ = beside_.path();
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  }
   if (descriptor_ < 0) {
     return std::unexpected(refusal(errno));
   }
@@ -114,6 +124,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       error_(other.error_),
       name_(std::move(other.name_)),
       place_(std::move(other.place_)),
+      path_(std::move(other.path_)),
       beside_(std::move(other.beside_)),
       bytes_(other.bytes_),
       lines_(other.lines_) {}
@@ -160,7 +171,7 @@ Result<void> OutputFile::settle() {
   if (descriptor_ < 0) {
     return {};
   }
-  if (place_.kind == Place::Kind::file && ::fsync(descriptor_) != 0) {
+  if (place_.kind == Place::Kind::file && (::fsync(descriptor_) != 0 || !has_name())) {
     error_ = errno;
   }
   if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) {
@@ -169,11 +180,20 @@ Result<void> OutputFile::settle() {
   return flush();
 }
 
+bool OutputFile::has_name() {
+  if (beside_.path().empty()) {
+    beside_ = Temporary(name_beside(place_), Temporary::Kind::file);
+    const std::string unnamed = std::exchange(path_, beside_.path());
+    return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  }
+  return true;
+}
+
 Result<void> OutputFile::commit() {
   if (auto settled = settle(); !settled || place_.kind != Place::Kind::file) {
     return settled;
   }
-  if (::rename(beside_.path().c_str(), place_.path.c_str()) != 0) {
+  if (::rename(path_.c_str(), place_.path.c_str()) != 0) {
     return std::unexpected(refusal(errno));
   }
   beside_.keep();

@@ -38,12 +38,14 @@ class OutputFile {
   /// Everything that can fail before the rename has been done.
   [[nodiscard]] outcome::Result<void> settle();
   [[nodiscard]] outcome::Result<void> commit();
-  /// Where the text is until commit(): beside the target. Empty for a stream.
-  [[nodiscard]] const std::string& path() const noexcept { return beside_.path(); }
+  /// Where this process can read the text until commit(). Empty for a stream.
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
  private:
   OutputFile() = default;
   outcome::Result<void> make_beside();
+  /// Gives the file its temporary name; false: see errno.
+  [[nodiscard]] bool has_name();
   [[nodiscard]] outcome::Refusal refusal(int error) const;
   void put() noexcept;
 
@@ -53,7 +55,8 @@ class OutputFile {
   int error_ = 0;
   std::string name_;  ///< of the target, as the user gave it
   Place place_;
-  Temporary beside_;
+  std::string path_;
+  Temporary beside_;  ///< the file's temporary name, once it has one
   std::uintmax_t bytes_ = 0;
   std::uintmax_t lines_ = 0;
 };

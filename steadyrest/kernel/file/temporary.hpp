@@ -11,7 +11,7 @@ namespace steadyrest::kernel::file {
 /// signal ends the process (remove_temporaries_on_signals).
 ///
 /// The name is registered before anything of that name is made, so no instant is without cover.
-/// Only SIGKILL and a power cut can leave a temporary file behind.
+/// Only SIGKILL and a power cut can leave it behind.
 class Temporary {
  public:
   enum class Kind { file, folder };

@@ -346,6 +346,10 @@ const Block& ProgramRun::block() const noexcept {
 const Asked& ProgramRun::asked() const noexcept {
   return run_->asked();
 }
+std::vector<std::string> ProgramRun::subprogram_files() const {
+  return run_->files_.subprograms();
+}
+
 ProgramRun::Kept ProgramRun::kept() const {
   Kept kept{.tools = run_->interpreter_.tools().value_or(std::vector<Tool>{}), .variables = {}};
   if (run_->dialect_ == read::Dialect::linuxcnc) {

@@ -73,6 +73,8 @@ class ProgramRun {
   [[nodiscard]] const Asked& asked() const noexcept;
   [[nodiscard]] const State& state() const noexcept;  ///< as it stands now
   [[nodiscard]] Kept kept() const;                    ///< likewise
+  /// The subprograms' own files that have been opened so far.
+  [[nodiscard]] std::vector<std::string> subprogram_files() const;
 
  private:
   class Run;

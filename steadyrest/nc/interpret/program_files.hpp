@@ -29,6 +29,10 @@ class ProgramFiles {
   [[nodiscard]] bool in_main() const noexcept { return current_ == 0; }
   /// The path of the file being read; empty for the program itself.
   [[nodiscard]] const std::string& path() const noexcept { return paths_[current_]; }
+  /// Those that have been opened, in their order.
+  [[nodiscard]] std::vector<std::string> subprograms() const {
+    return {paths_.begin() + 1, paths_.end()};
+  }
 
   /// Before and behind the line that next() gave last.
   [[nodiscard]] Place line_begin() const noexcept { return line_begin_; }

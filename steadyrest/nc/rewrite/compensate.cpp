@@ -48,6 +48,9 @@ class Rewriter {
     if (done) {
       done = walk();
     }
+    if (done) {
+      done = spares_subprograms(output);
+    }
     for (std::size_t axis = 0; done && axis < plan_.axes.size(); ++axis) {
       done = place(axis);
     }
@@ -130,6 +133,18 @@ class Rewriter {
     return check_total(plan_, *total);
   }
 
+  Result<void> spares_subprograms(const std::string& output) const {
+    for (const Survey* one = &survey_; one != nullptr; one = one->other.get()) {
+      for (const std::string& file : one->subprogram_files) {
+        if (kernel::file::same_place(file, output)) {
+          return refuse(0, "calls " + file + ", which the output would replace",
+                        "give the output another name");
+        }
+      }
+    }
+    return {};
+  }
+
   void look(Walk& walk, Clock& clock) {
     constexpr std::uint32_t kEvery = 1U << 14U;
     if (walk.line() % kEvery == 0) {
@@ -206,6 +221,8 @@ class Rewriter {
         refusal.what +=
             fmt::format("; this line would be one, but the program has not said {}", unsaid.what);
         refusal.to_do = unsaid.to_do;
+      } else if (survey_.other != nullptr) {
+        refusal.what += "; a place must be one with block delete on and off";
       }
       return std::unexpected(std::move(refusal));
     }

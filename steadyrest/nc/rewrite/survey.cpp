@@ -46,7 +46,6 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
   while (run->step()) {
     ++steps;
     deletable = deletable || run->block().deleted();
-    found.leaves_file = found.leaves_file || !run->in_main();
     if (run->in_main()) {
       found.mark(run->line(), seen, !run->at_top());
     }
@@ -63,6 +62,7 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
     changes.changed = false;
   }
   found.end_line = run->line();
+  found.subprogram_files = run->subprogram_files();
   const interpret::Report report = run->take();
   if (!report.refused.empty()) {
     return std::unexpected(interpret::first_refusal(report, path));

@@ -19,8 +19,8 @@ struct Survey {
   /// From a tool change to the line that puts the tool's length on (G43, D), both included,
   /// counted in steps of the run.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> without_length;
-  std::uint32_t end_line = 0;  ///< the line that ends the program
-  bool leaves_file = false;    ///< lines of other files are executed: subprograms
+  std::uint32_t end_line = 0;                 ///< the line that ends the program
+  std::vector<std::string> subprogram_files;  ///< other files that it calls
   /// The same with block delete in its other position, where the program has lines with `/`.
   std::shared_ptr<const Survey> other;
 

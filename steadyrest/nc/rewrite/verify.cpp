@@ -195,7 +195,7 @@ class Prover {
 
   /// The same line in both: what stands, and every move.
   bool pair() {
-    if (head_before_ == walk_->line() && proof_.moves > 0) {
+    if (head_before_ == walk_->line() && walk_->run().in_main() && proof_.moves > 0) {
       return refuse("the head stands behind the first move");
     }
     if (changed_run_->executed() != walk_->run().executed()) {
@@ -352,7 +352,7 @@ class Prover {
         continue;
       }
       if (auto fault = over_travel(machine_, plan_, before[i], after[i]); !fault.empty()) {
-        return refuse_at(original_, walk_->line(), std::move(fault), std::string(kAgainstTravel));
+        return refuse_at(original_, walk_->top_line(), std::move(fault), std::string(kAgainstTravel));
       }
     }
     return true;

@@ -93,7 +93,7 @@ class Prover {
   /// The program, or a subprogram that is not looked into, may use the parameter itself.
   [[nodiscard]] Refusal uses_it_itself(const Survey& found) const {
     auto lines = SourceLines::open(original_);
-    bool uses = !lines || found.leaves_file;
+    bool uses = !lines || !found.subprogram_files.empty();
     while (!uses && lines->next()) {
       uses = !own_use(settings_, lines->line()).empty();
     }
@@ -101,7 +101,7 @@ class Prover {
       return {};
     }
     return {
-        Kind::bad_input, original_, lines && !found.leaves_file ? lines->number() : 0U,
+        Kind::bad_input, original_, lines && found.subprogram_files.empty() ? lines->number() : 0U,
         fmt::format("the program or a subprogram may use {} itself",
                     settings_.method == Method::r_parameter
                         ? fmt::format("R{}", settings_.r_parameter)

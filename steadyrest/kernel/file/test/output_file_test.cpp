@@ -172,6 +172,24 @@ TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
   }
 }
 
+TEST_F(Output, SigkillLeavesNothingWhereAFileMayHaveNoName) {
+  const int probe = open(folder_.c_str(), O_TMPFILE | O_RDWR, 0600);
+  if (probe < 0) {
+    GTEST_SKIP() << "this file system has no files without a name";
+  }
+  close(probe);
+  const std::string file = old("out.csv");
+  const int status = in_child([&] {
+    auto out = OutputFile::open(file);
+    out->write("new\n");
+    static_cast<void>(out->flush());
+    raise(SIGKILL);
+  });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(text_of(file), "old\n");
+  EXPECT_EQ(entries(), 1);
+}
+
 TEST_F(Output, AnIgnoredSignalStaysIgnored) {
   const int status = in_child([] {
     signal(SIGHUP, SIG_IGN);

@@ -270,6 +270,24 @@ TEST(Compensate, RefusesAnAxisOfWhichTheMachineHasNoRoomForANote) {
   EXPECT_THAT(refused.error().what, HasSubstr("XYZAC"));
 }
 
+TEST(Compensate, SparesTheSubprogramsThatItCalls) {
+  Workshop shop;
+  shop.config.subprogram_folders = {shop.folder()};
+  const std::string file = shop.folder() + "/coolant.ngc";
+  const std::string text = "o<coolant> sub\nM8\no<coolant> endsub\nM2\n";
+  test::write_file(file, text);
+  std::filesystem::create_symlink(file, shop.changed());
+  const std::string program =
+      replaced(kPasses, "G0 X0 Y0 Z20\n", "G0 X0 Y0 Z20\no<coolant> call\n");
+  const auto refused = shop.compensate(program, kGrowth);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("coolant.ngc"));
+  EXPECT_EQ(read_file(file), text);
+  std::filesystem::remove(shop.changed());
+  const auto done = shop.compensate(program, kGrowth);
+  EXPECT_TRUE(done) << done.error().what;
+}
+
 TEST(Compensate, EveryLineForLinuxcncIsShortEnough) {
   constexpr std::size_t kMost = 250;  // LinuxCNC reads 255
   Workshop shop;

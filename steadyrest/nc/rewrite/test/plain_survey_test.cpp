@@ -70,7 +70,7 @@ void expect_as_run(const std::string& path, const interpret::Config& config, int
   }
   ++compared;
   EXPECT_TRUE(by_run->repeated.empty()) << path;
-  EXPECT_FALSE(by_run->leaves_file) << path;
+  EXPECT_TRUE(by_run->subprogram_files.empty()) << path;
   EXPECT_GE(by_text->end_line, by_run->end_line) << path;
   for (std::uint64_t step = 0; step <= by_text->end_line; ++step) {
     const auto without = [step](const Survey& s) {
