@@ -352,7 +352,8 @@ class Prover {
         continue;
       }
       if (auto fault = over_travel(machine_, plan_, before[i], after[i]); !fault.empty()) {
-        return refuse_at(original_, walk_->top_line(), std::move(fault), std::string(kAgainstTravel));
+        return refuse_at(original_, walk_->top_line(), std::move(fault),
+                         std::string(kAgainstTravel));
       }
     }
     return true;
