@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -19,7 +18,6 @@
 #include <steadyrest/contour/online/feed_governor.hpp>
 #include <steadyrest/contour/online/test/closed_loop.hpp>
 #include <steadyrest/contour/online/test/paths.hpp>
-#include <steadyrest/kernel/machine/machine_file.hpp>
 
 namespace steadyrest::contour::online {
 namespace {
@@ -157,30 +155,6 @@ void Governor(benchmark::State& state) {
     benchmark::DoNotOptimize(governor.update(frame));
   });
 }
-/// The finest table of the example machines, 201 steps: work_share 20 % of its cycle of 1 ms, and
-/// no bound but the search itself.
-void FineTable(benchmark::State& state) {
-  const auto machine = kernel::machine::read(std::string(STEADYREST_SOURCE_DIR) +
-                                             "/examples/machines/linuxcnc-mill.toml");
-  Recording recording;
-  recording.machine = machine.value();
-  recording.machine.contour.enabled = true;
-  recording.path = make_path(static_cast<int>(state.range(0)));
-  ClosedLoop loop(recording.machine, recording.path);
-  loop.disturb = [&](kernel::signal::Frame& frame) { recording.frame.push_back(frame); };
-  loop.run(0.01, 0.0, 30.0);
-  FeedGovernor governor =
-      FeedGovernor::make(
-          {.machine = recording.machine, .work_share = 0.01 * static_cast<double>(state.range(1))})
-          .value();
-  time_calls(state, recording, [&](const kernel::signal::Frame& frame) {
-    benchmark::DoNotOptimize(governor.update(frame));
-  });
-}
-BENCHMARK(FineTable)
-    ->ArgsProduct({benchmark::CreateDenseRange(0, kPathKinds - 1, 1), {10, 100}})
-    ->Iterations(5);
-
 // Feed priority on all paths; all strategies on the pocket, at 1 and 4 ms.
 BENCHMARK(Governor)
     ->ArgsProduct({benchmark::CreateDenseRange(0, kPathKinds - 1, 1), {1}, {1}})

@@ -292,10 +292,11 @@ FeedGovernor::Output FeedGovernor::withdraw(Reason reason, Output output) noexce
   output.predicted_error_mm = 0.0;
   output.predicted_at_mm = 0.0;
   output.decided = false;
-  output.forecasts = 0;
+  output.forecasts = output.forecast_steps = 0;
   state_.engaged = false;
   state_.next_decision_s = state_.time_s;  // the first decision comes at once
   state_.next_objective_s = state_.time_s;
+  state_.objective = {};
   return output;
 }
 
@@ -325,7 +326,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame) noexcept {
 
   Output output = state_.last;
   output.decided = false;
-  output.forecasts = 0;
+  output.forecasts = output.forecast_steps = 0;
   const ContourError::Output error = contour_.update(frame);
   output.error_valid = error.valid;
   output.error_mm = error.error_mm;

@@ -11,6 +11,7 @@
 #include <steadyrest/contour/online/forecast.hpp>
 #include <steadyrest/contour/online/look_ahead.hpp>
 #include <steadyrest/contour/online/nominal_error.hpp>
+#include <steadyrest/contour/online/objective_search.hpp>
 #include <steadyrest/contour/online/servo_model.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -65,21 +66,24 @@ struct Candidate {
 /// limits; the kernel's envelope enforces them.
 ///
 /// Withdraws (ratio 1): input not finite or stale, threading and tapping, no cutting within reach
-/// ahead. Bounded: a decision stops looking once its forecasts have taken `work_share` of a control
-/// cycle, at kForecastStepCostS for each of their steps, and takes the largest step that it knows
-/// to be admissible; the next one goes on from there. See bench/contour_bench.
+/// ahead. Bounded: a search looks no further once its forecasts have taken `work_share` of a
+/// control cycle, at kForecastStepCostS for each of their steps. The search for the admissible step
+/// then takes the largest that it knows, the next decision goes on from there; the objective's
+/// search goes on with the next decision. One look, and the fall with one look along it, are always
+/// made: most_forecast_steps() has the bound. See bench/contour_decision_bench.
 ///
 /// Source: Jin, Zhang, Ding (strategies, exhaustive search). The admissibility rule is this
 /// project's.
 class FeedGovernor {
  public:
   struct Config {
-    kernel::machine::Machine machine;  ///< axes, feed_override, contour, envelope, control
-    double decision_s = 0.0;           ///< 0 = the override's scan period, 4…10 ms
-    double objective_s = 0.10;         ///< period of the full search of the other strategies
-    double pause_s = 0.5;              ///< after a fall, rises need more room
-    double work_share = 0.1;           ///< of a control cycle that one decision may take
-    double forecast_step_s = 0.0;      ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
+    kernel::machine::Machine machine;   ///< axes, feed_override, contour, envelope, control
+    double decision_s = 0.0;            ///< 0 = the override's scan period, 4…10 ms
+    double objective_s = 0.10;          ///< period of the full search of the other strategies
+    double pause_s = 0.5;               ///< after a fall, rises need more room
+    double work_share = 0.1;            ///< of a control cycle that one search may take
+    std::size_t exhaustive_steps = 32;  ///< up to so many are all looked at
+    double forecast_step_s = 0.0;       ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
     double (*objective)(const Candidate&) noexcept = combined_objective;
   };
 
@@ -93,8 +97,9 @@ class FeedGovernor {
     double limit_mm = 0.0;            ///< that the decision kept: ε_max·(1 − margin) − reserve
     std::size_t step = 0;             ///< index in the override table
     bool path_known = false;
-    bool decided = false;         ///< a decision was made in this cycle
-    std::uint32_t forecasts = 0;  ///< that it took
+    bool decided = false;              ///< a decision was made in this cycle
+    std::uint32_t forecasts = 0;       ///< that it took
+    std::uint32_t forecast_steps = 0;  ///< of all of them
   };
 
   struct State {
@@ -102,10 +107,11 @@ class FeedGovernor {
     double time_s = 0.0;
     double next_decision_s = 0.0;
     double next_objective_s = 0.0;
-    double envelope_ratio = 1.0;   ///< what the envelope is taken to have reached
-    double mismatch_s = 0.0;       ///< since when the control shows another ratio
-    double fallen_s = -1e9;        ///< time of the last fall
-    double wanted_ratio = 1.0;     ///< of the objective's last search
+    double envelope_ratio = 1.0;  ///< what the envelope is taken to have reached
+    double mismatch_s = 0.0;      ///< since when the control shows another ratio
+    double fallen_s = -1e9;       ///< time of the last fall
+    double wanted_ratio = 1.0;    ///< of the objective's last search
+    ObjectiveSearch objective;
     double unexplained_mm2 = 0.0;  ///< mean square of what the model leaves
     double idle_effect_s = 0.0;    ///< since when the speed does not follow the override
     bool engaged = false;
@@ -128,6 +134,9 @@ class FeedGovernor {
   [[nodiscard]] const ContourError& contour_error() const noexcept { return contour_; }
   [[nodiscard]] const ServoModel& servo_model() const noexcept { return servo_; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// No decision takes more: what the share allows, the look in hand (two forecasts), the fall and
+  /// one look along it; with an objective its share and the look in hand there.
+  [[nodiscard]] std::size_t most_forecast_steps() const noexcept;
   void reset() noexcept;
 
  private:
@@ -153,10 +162,8 @@ class FeedGovernor {
   [[nodiscard]] Outset outset(const kernel::signal::Frame& frame) const noexcept;
   [[nodiscard]] double limit_mm() const noexcept;
   [[nodiscard]] double stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept;
-  Choice largest_admissible(const Outset& outset, std::size_t top,
-                            std::uint32_t& forecasts) noexcept;
-  [[nodiscard]] std::size_t best_by_objective(const Outset& outset,
-                                              std::uint32_t& forecasts) noexcept;
+  Choice largest_admissible(const Outset& outset, std::size_t top, Output& output) noexcept;
+  void look_for_objective(const Outset& outset, Output& output) noexcept;
   void decide(const kernel::signal::Frame& frame, Output& output) noexcept;
   Output withdraw(kernel::outcome::Reason reason, Output output) noexcept;
 
@@ -177,7 +184,7 @@ class FeedGovernor {
   double softest_gain_1_s_ = 50.0;
   double unseen_mm_ = 0.0;  ///< half of the largest backlash: no encoder on a motor sees it
   double decision_s_ = 0.01;
-  std::size_t most_forecast_steps_ = 0;     ///< of one decision, by `work_share`
+  std::size_t search_steps_ = 0;            ///< of the forecasts of one search, by `work_share`
   double reach_s_ = 0.1;                    ///< how far ahead in time the path must be known
   std::array<double, kHistory> history_{};  ///< ratio let through, by cycle
   std::size_t history_at_ = 0;

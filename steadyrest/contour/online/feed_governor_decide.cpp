@@ -19,11 +19,17 @@ using kernel::signal::Point;
 constexpr double kRiseRoom = 0.98;  // share of the limit that a rise may use
 constexpr double kRiseRoomInPause = 0.85;
 constexpr double kTieMm = 1e-4;       // errors closer than this are equal
+constexpr double kTie = 1e-9;         // other objectives
 constexpr double kStretchTurn = 0.1;  // rad by which an even stretch may depart from its mean
-constexpr std::size_t kExhaustiveSteps = 32;  // up to so many all are looked at
-constexpr std::size_t kStride = 8;            // of the first look at a fine table
 constexpr double kTraceRoom = 1.02;
 constexpr double kTraceRoomMm = 2e-4;
+
+/// Adds a forecast to what the decision took; its steps.
+std::size_t count(const Forecast::Result& result, FeedGovernor::Output& output) noexcept {
+  ++output.forecasts;
+  output.forecast_steps += static_cast<std::uint32_t>(result.steps);
+  return result.steps;
+}
 
 }  // namespace
 
@@ -56,7 +62,7 @@ double FeedGovernor::stretch_end_mm(const LookAhead& path, const Outset& outset)
 }
 
 FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std::size_t top,
-                                                      std::uint32_t& forecasts) noexcept {
+                                                      Output& output) noexcept {
   const LookAhead& path = state_.last.path_known ? ahead_ : guess_;
   const double limit = limit_mm();
   const double in_force = forecast_.floor_ratio(state_.envelope_ratio);
@@ -68,11 +74,10 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
   plan.hold_s = decision_s_;
   Choice choice;
   std::size_t spent = 0;
-  const auto may_go_on = [&] { return spent < most_forecast_steps_; };
+  const auto may_go_on = [&] { return spent < search_steps_; };
   const auto forecast = [&](const RatioPlan& of, double most_mm, const Forecast::Trace* trace) {
     const Forecast::Result result = forecast_.run(path, outset, of, most_mm, true, trace, nullptr);
-    ++forecasts;
-    spent += result.steps;
+    spent += count(result, output);
     return result;
   };
   const auto search = [&](const Forecast::Trace* trace) {
@@ -100,7 +105,7 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
     const auto start =
         static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - candidate_.begin() - 1, 0));
     // What the fall alone gives is no bound that slower steps keep too: all of them must be tried.
-    const bool all = trace != nullptr || candidate_.size() <= kExhaustiveSteps;
+    const bool all = trace != nullptr || candidate_.size() <= config_.exhaustive_steps;
     const auto found = all ? first_admissible_below(top, admissible, may_go_on)
                            : largest_admissible_near(start, top, admissible, may_go_on);
     choice.candidate = found.value_or(0);
@@ -114,8 +119,7 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
   choice.candidate = 0;
   choice.floor = true;
   choice.forecast = forecast_.run(path, outset, plan, limit, false, nullptr, &trace_);
-  ++forecasts;
-  spent += choice.forecast.steps;
+  spent += count(choice.forecast, output);
   for (std::size_t i = 0; i < trace_.count; ++i) {
     double& error = trace_.error_mm[i];
     error = error * kTraceRoom + kTraceRoomMm;
@@ -124,48 +128,33 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
   return choice;
 }
 
-std::size_t FeedGovernor::best_by_objective(const Outset& outset,
-                                            std::uint32_t& forecasts) noexcept {
+/// Goes on with the objective's search as far as its share of the cycle goes.
+void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noexcept {
   const LookAhead& path = state_.last.path_known ? ahead_ : guess_;
   const auto& contour = config_.machine.contour;
   const bool by_contour = contour.strategy == ContourStrategy::contour_priority;
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](std::size_t c) {
+  ObjectiveSearch& search = state_.objective;
+  for (std::size_t spent = 0; !search.done() && spent < search_steps_;) {
+    const std::size_t c = search.next();
     RatioPlan plan;
     plan.start = plan.target = plan.floor = candidate_[c];
     const Forecast::Result result =
         forecast_.run(path, outset, plan, limit_mm(), false, nullptr, nullptr);
-    ++forecasts;
+    spent += count(result, output);
     const double error = std::abs(result.error_mm);
-    Candidate candidate{candidate_[c],      error,
-                        contour.limit_mm,   candidate_.front(),
-                        candidate_.back(),  contour.weight_contour,
-                        contour.weight_feed};
-    const double value =
-        by_contour ? std::max(error, contour.target_mm) : config_.objective(candidate);
-    const double tie = by_contour ? kTieMm : 1e-9;
-    // Among equals the fastest.
-    if (value < least - tie || (value <= least + tie && c >= best)) {
-      best = c;
-      least = std::min(least, value);
+    const Candidate candidate{candidate_[c],      error,
+                              contour.limit_mm,   candidate_.front(),
+                              candidate_.back(),  contour.weight_contour,
+                              contour.weight_feed};
+    if (by_contour) {
+      search.tell(std::max(error, contour.target_mm), kTieMm);
+    } else {
+      search.tell(config_.objective(candidate), kTie);
     }
-  };
-  // A fine table first in strides, then ever closer around the best.
-  std::size_t stride = candidate_.size() <= kExhaustiveSteps ? 1 : kStride;
-  for (std::size_t c = 0; c < candidate_.size(); c += stride) {
-    look(c);
-  }
-  for (stride /= 2; stride > 0; stride /= 2) {
-    const std::size_t around = best;
-    if (around >= stride) {
-      look(around - stride);
-    }
-    if (around + stride < candidate_.size()) {
-      look(around + stride);
+    if (search.done()) {
+      state_.wanted_ratio = candidate_[search.best()];
     }
   }
-  return best;
 }
 
 void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
@@ -182,10 +171,11 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   const Outset from = outset(frame);
   std::size_t wanted = candidate_.size() - 1;
   if (contour.strategy != ContourStrategy::feed_priority) {
-    if (state_.time_s >= state_.next_objective_s) {
-      state_.wanted_ratio = candidate_[best_by_objective(from, output.forecasts)];
+    if (state_.objective.done() && state_.time_s >= state_.next_objective_s) {
+      state_.objective.begin(candidate_.size(), config_.exhaustive_steps);
       state_.next_objective_s = state_.time_s + config_.objective_s;
     }
+    look_for_objective(from, output);
     while (wanted > 0 && candidate_[wanted] > state_.wanted_ratio + kSameRatio) {
       --wanted;
     }
@@ -197,7 +187,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
     ++top;
   }
   const bool no_effect = state_.idle_effect_s > 0.1;
-  Choice choice = largest_admissible(from, top, output.forecasts);
+  Choice choice = largest_admissible(from, top, output);
   const double before = state_.last.request.ratio;
   if (no_effect && !state_.last.path_known && candidate_[choice.candidate] > before) {
     // The error seen is not the override's doing; nothing may be concluded from it upwards.

@@ -179,7 +179,7 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   unseen_mm_ = unseen_by_encoders_mm(m);
   decision_s_ = config_.decision_s > 0.0 ? config_.decision_s
                                          : std::clamp(m.feed_override.scan_period_s, 0.004, 0.010);
-  most_forecast_steps_ = static_cast<std::size_t>(
+  search_steps_ = static_cast<std::size_t>(
       std::max(1.0, config_.work_share * m.control.interpolator_period_s / kForecastStepCostS));
   Forecast::Timing timing;
   timing.step_s = config_.forecast_step_s > 0.0 ? config_.forecast_step_s
@@ -197,6 +197,13 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
       timing.dead_s + timing.scan_s + decision_s_ + 0.1 + 1.0 / timing.fall_1_s + timing.settle_s;
   refresh_model(0.0);
   history_.fill(1.0);
+}
+
+std::size_t FeedGovernor::most_forecast_steps() const noexcept {
+  const bool by_objective =
+      config_.machine.contour.strategy != kernel::machine::ContourStrategy::feed_priority;
+  const std::size_t objective = by_objective ? search_steps_ + Forecast::kMaxSteps : 0;
+  return objective + search_steps_ + 4 * Forecast::kMaxSteps;
 }
 
 }  // namespace steadyrest::contour::online

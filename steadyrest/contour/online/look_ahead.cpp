@@ -45,9 +45,6 @@ LookAhead::~LookAhead() = default;
 LookAhead::LookAhead(LookAhead&&) noexcept = default;
 LookAhead& LookAhead::operator=(LookAhead&&) noexcept = default;
 
-const Cell& LookAhead::cell(std::size_t i) const noexcept {
-  return (*ring_)[i % kCells];
-}
 Cell& LookAhead::at(std::size_t i) noexcept {
   return (*ring_)[i % kCells];
 }

@@ -60,7 +60,7 @@ class LookAhead {
   [[nodiscard]] std::size_t begin() const noexcept { return first_; }
   [[nodiscard]] std::size_t end() const noexcept { return last_; }
   [[nodiscard]] bool empty() const noexcept { return first_ == last_; }
-  [[nodiscard]] const Cell& cell(std::size_t i) const noexcept;
+  [[nodiscard]] const Cell& cell(std::size_t i) const noexcept { return (*ring_)[i % kCells]; }
   /// The cell that holds s, sought forward from `hint` (or backward if it lies before).
   [[nodiscard]] std::size_t find(double s_mm, std::size_t hint) const noexcept;
   /// Path length up to which cells are known.

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+namespace steadyrest::contour::online {
+
+/// The step of a table with the least value, one look at a time, so that it can be left and taken
+/// up again.
+///
+/// Up to `exhaustive_steps` all are looked at; more in strides of kStride, then ever closer around
+/// the best: where the values have one valley the best is found. Values that differ by no
+/// more than `tie` are equal; among equals the highest step wins.
+class ObjectiveSearch {
+ public:
+  static constexpr std::size_t kStride = 8;
+
+  void begin(std::size_t steps, std::size_t exhaustive_steps) noexcept {
+    *this = {};
+    steps_ = steps;
+    stride_ = steps <= exhaustive_steps ? 1 : kStride;
+  }
+  [[nodiscard]] bool done() const noexcept { return stride_ == 0; }
+  /// The step to look at, unless done.
+  [[nodiscard]] std::size_t next() const noexcept { return next_; }
+  /// What that step is worth.
+  void tell(double value, double tie) noexcept {
+    if (value < least_ - tie || (value <= least_ + tie && next_ >= best_)) {
+      best_ = next_;
+      least_ = value < least_ ? value : least_;
+    }
+    advance();
+  }
+  [[nodiscard]] std::size_t best() const noexcept { return best_; }
+
+ private:
+  void advance() noexcept {
+    if (sweeps_ && next_ + stride_ < steps_) {
+      next_ += stride_;
+      return;
+    }
+    if (!sweeps_ && next_ < around_ && around_ + stride_ < steps_) {
+      next_ = around_ + stride_;
+      return;
+    }
+    sweeps_ = false;
+    around_ = best_;
+    for (stride_ /= 2; stride_ > 0; stride_ /= 2) {
+      if (around_ >= stride_ || around_ + stride_ < steps_) {
+        next_ = around_ >= stride_ ? around_ - stride_ : around_ + stride_;
+        return;
+      }
+    }
+  }
+
+  std::size_t steps_ = 0;
+  std::size_t stride_ = 0;
+  std::size_t next_ = 0;
+  std::size_t around_ = 0;
+  std::size_t best_ = 0;
+  bool sweeps_ = true;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace steadyrest::contour::online
