@@ -25,7 +25,7 @@ FrameClock::Tick FrameClock::begin(double stamp_s) noexcept {
             .shift_s = state_.started ? time_s - stamp_s : 0.0,
             .usual_s = state_.usual_s,
             .started = true};
-  return {.time_s = this->time_s(), .good = true, .set = true};
+  return {.time_s = this->time_s(), .stamped_s = this->time_s(), .good = true, .set = true};
 }
 
 FrameClock::Tick FrameClock::accept(double stamp_s, double step_s) noexcept {
@@ -36,7 +36,7 @@ FrameClock::Tick FrameClock::accept(double stamp_s, double step_s) noexcept {
   state_.doubts = 0;
   state_.run = 0;
   state_.in_doubt = false;
-  return {.time_s = time_s(), .step_s = step_s, .good = true};
+  return {.time_s = time_s(), .stamped_s = time_s(), .step_s = step_s, .good = true};
 }
 
 FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
@@ -58,6 +58,7 @@ FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
       }
       Tick tick = accept(stamp_s, credit_s);
       tick.set = earlier;
+      tick.jumped = !earlier;
       return tick;
     }
   } else if (!state_.in_doubt || stamp_s < state_.candidate_s) {
@@ -66,7 +67,9 @@ FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
   }
   state_.candidate_s = stamp_s;
   state_.in_doubt = true;
-  return {.time_s = time_s(), .fault = earlier ? Reason::input_out_of_range : Reason::none};
+  return {.time_s = time_s(),
+          .stamped_s = stamp_s + state_.shift_s,
+          .fault = earlier ? Reason::input_out_of_range : Reason::none};
 }
 
 FrameClock::Tick FrameClock::update(double stamp_s) noexcept {
@@ -74,6 +77,7 @@ FrameClock::Tick FrameClock::update(double stamp_s) noexcept {
     state_.doubts += state_.doubts < std::numeric_limits<std::uint32_t>::max() ? 1U : 0U;
     return {
         .time_s = time_s(),
+        .stamped_s = time_s(),
         .fault = std::isfinite(stamp_s) ? Reason::input_out_of_range : Reason::input_not_finite};
   }
   if (!state_.started) {

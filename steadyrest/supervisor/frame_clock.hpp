@@ -30,8 +30,11 @@ class FrameClock {
  public:
   struct Tick {
     double time_s = 0.0;  ///< good time, for the rooms
+    /// This stamp in good time, whether it counts or not; `time_s` where it is not finite.
+    double stamped_s = 0.0;
     double step_s = 0.0;  ///< credit of this cycle, ≥ 0
     bool good = false;    ///< the stamp counts
+    bool jumped = false;  ///< good again after doubt: `time_s` has taken in the time between
     bool set = false;     ///< the clock began or went back: what passed meanwhile is not known
     /// none; input_not_finite; input_out_of_range: the stamp is earlier than the last good one
     kernel::outcome::Reason fault = kernel::outcome::Reason::none;

@@ -311,10 +311,13 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   signal::Command command = panel_command(frame);
   if (state_.mode_in_force != Mode::observe && !state_.interrupted) {
     clamp(frame, tick.step_s, decisions, command);
+  } else {
+    see_panel(frame);
   }
   command.write = state_.mode_in_force == Mode::act && !state_.interrupted;
   if (command.write) {
     state_.delivered_s = tick.time_s;
+    state_.delivered_stamped_s = tick.stamped_s;
   }
   command.heartbeat = ++state_.heartbeat;
   return command;

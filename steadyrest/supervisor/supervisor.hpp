@@ -68,8 +68,9 @@ class Supervisor {
     kernel::machine::Mode mode_wanted = kernel::machine::Mode::observe;
     std::uint64_t heartbeat = 0;
     FrameClock::State clock;
-    double delivered_s = 0.0;  ///< good time of the last cycle that was written
-    double idle_s = 0.0;       ///< good time since the control is idle
+    double delivered_s = 0.0;          ///< good time of the last cycle that was written
+    double delivered_stamped_s = 0.0;  ///< the same by its stamp, which may have been in doubt
+    double idle_s = 0.0;               ///< good time since the control is idle
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
     bool interrupted = false;  ///< what is on the machine is not known until the time is
@@ -163,9 +164,11 @@ class Supervisor {
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
     double delivered_s = 0.0;
+    double delivered_stamped_s = 0.0;
   };
   [[nodiscard]] Written written() const noexcept;
   void put_back(const Written& written) noexcept;
+  void see_panel(const kernel::signal::Frame& frame) noexcept;
 
   FrameCheck check_;
   FrameClock clock_;

@@ -23,7 +23,20 @@ void Supervisor::begin_at_panel() noexcept {
   handed_back_ = true;
 }
 
+/// What the operator has set is known from every frame, also where nothing is written.
+void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
+  if (feed_) {
+    feed_->see_panel(frame.feed);
+  }
+  if (spindle_) {
+    spindle_->see_panel(frame.spindle);
+  }
+}
+
 void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
+  if (tick.jumped) {  // a stamp that was in doubt was right
+    state_.delivered_s = state_.delivered_stamped_s;
+  }
   if (!state_.interrupted || !tick.good) {
     return;
   }
@@ -37,22 +50,24 @@ Supervisor::Written Supervisor::written() const noexcept {
   return {.feed = feed_ ? feed_->state() : Channel::State{},
           .spindle = spindle_ ? spindle_->state() : Channel::State{},
           .offset = offset_.state(),
-          .delivered_s = state_.delivered_s};
+          .delivered_s = state_.delivered_s,
+          .delivered_stamped_s = state_.delivered_stamped_s};
 }
 
 void Supervisor::put_back(const Written& written) noexcept {
-  if (feed_) {
-    feed_->restore(written.feed);
-  }
-  if (spindle_) {
-    spindle_->restore(written.spindle);
-  }
   offset_.restore(written.offset);
   state_.delivered_s = written.delivered_s;
+  state_.delivered_stamped_s = written.delivered_stamped_s;
   handed_back_ = false;
 }
 
 void Supervisor::not_delivered() noexcept {
+  if (feed_) {
+    feed_->take_back(before_.feed);
+  }
+  if (spindle_) {
+    spindle_->take_back(before_.spindle);
+  }
   put_back(before_);
   if (thermal_) {
     thermal_->yield_to(before_.offset.offset_mm);
@@ -78,10 +93,17 @@ void Supervisor::restore(const State& state) noexcept {
   state_.interrupted = true;
   state_.idle_s = std::isfinite(state.idle_s) ? std::max(0.0, state.idle_s) : 0.0;
   clock_.restore(state.clock);
+  if (feed_) {
+    feed_->restore(state.feed);
+  }
+  if (spindle_) {
+    spindle_->restore(state.spindle);
+  }
   put_back({.feed = state.feed,
             .spindle = state.spindle,
             .offset = state.offset,
-            .delivered_s = state.delivered_s});
+            .delivered_s = state.delivered_s,
+            .delivered_stamped_s = state.delivered_stamped_s});
   motion_.reset();
   if (contour_) {
     contour_->reset();

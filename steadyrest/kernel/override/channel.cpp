@@ -63,6 +63,21 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
           .reason = stuck ? outcome::Reason::port_cannot_write : wanted.reason};
 }
 
+void Channel::see_panel(const signal::OverrideState& panel) noexcept {
+  static_cast<void>(envelope_.see_panel(panel));
+  if (!handover_.state().masked) {
+    envelope_.start_at_panel();
+  }
+}
+
+void Channel::take_back(const State& before) noexcept {
+  const RatioEnvelope::State now = envelope_.state();
+  restore(before);
+  if (now.panel_seen) {
+    see_panel({.panel_ratio = now.panel_ratio, .panel_code_known = true});
+  }
+}
+
 void Channel::reset() noexcept {
   envelope_.reset();
   handover_.reset();

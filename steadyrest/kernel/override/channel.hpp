@@ -43,6 +43,8 @@ class Channel {
   [[nodiscard]] static outcome::Result<Channel> make(const Config& config);
 
   Output update(const RatioEnvelope::Input& input) noexcept;
+  /// A cycle in which nothing is written shows the panel all the same.
+  void see_panel(const signal::OverrideState& panel) noexcept;
 
   [[nodiscard]] const Table& table() const noexcept { return handover_.table(); }
   /// What is on the machine is not known: begins at the panel, without a mask.
@@ -51,6 +53,8 @@ class Channel {
     return {.envelope = envelope_.state(), .handover = handover_.state()};
   }
   void restore(const State& state) noexcept;
+  /// The last word did not reach the machine: as before, but for what was seen of the panel.
+  void take_back(const State& before) noexcept;
 
  private:
   Channel(const RatioEnvelope& envelope, Handover handover)

@@ -59,7 +59,7 @@ outcome::Result<RatioEnvelope> RatioEnvelope::make(const Config& config) {
   return RatioEnvelope(config);
 }
 
-Reason RatioEnvelope::read_panel(const signal::OverrideState& panel) noexcept {
+Reason RatioEnvelope::see_panel(const signal::OverrideState& panel) noexcept {
   if (!panel.panel_code_known) {
     return Reason::unknown_override_code;
   }
@@ -114,7 +114,7 @@ Reason RatioEnvelope::explain(const Target& target, Reason asked) const noexcept
 RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
   // Nothing of the layer was in force before its first look at the panel.
   const double step_s = state_.panel_seen ? credit_s(input.step_s, config_.max_step_s) : 0.0;
-  const Reason panel_fault = read_panel(input.panel);
+  const Reason panel_fault = see_panel(input.panel);
   Reason unfit = std::isfinite(input.step_s) ? input.unfit : Reason::input_not_finite;
   for (const Reason fault : {panel_fault, fault_of(input.ratio)}) {
     unfit = unfit == Reason::none ? fault : unfit;

@@ -62,6 +62,9 @@ class RatioEnvelope {
   [[nodiscard]] static outcome::Result<RatioEnvelope> make(const Config& config);
 
   Output update(const Input& input) noexcept;
+  /// What update() knows of the panel is this from now on; none, or why it is not: then the last
+  /// that was good remains.
+  outcome::Reason see_panel(const signal::OverrideState& panel) noexcept;
 
   /// The panel is in force, whatever update() wanted: the next step starts there.
   void start_at_panel() noexcept { state_.ratio = state_.panel_ratio; }
@@ -91,7 +94,6 @@ class RatioEnvelope {
 
   [[nodiscard]] Target target(const Input& input, outcome::Reason unfit) const noexcept;
   [[nodiscard]] outcome::Reason explain(const Target& target, outcome::Reason asked) const noexcept;
-  outcome::Reason read_panel(const signal::OverrideState& panel) noexcept;
 
   Config config_;
   State state_;

@@ -277,6 +277,67 @@ TEST(Interruption, AWordThatThePortDidNotTakeWasNotWritten) {
   EXPECT_TRUE(port.written.back().feed_masks_panel);
 }
 
+TEST(Interruption, ThePanelThatAnUndeliveredCycleSawIsKnown) {
+  auto supervisor = Supervisor::make(mill(Mode::act), kAll);
+  ASSERT_TRUE(supervisor);
+  DeafPort port;
+  port.frame.motion = signal::Motion::feed;
+  const std::vector<signal::FeedRequest> wish = {{.ratio = 0.5, .reason = Reason::contour_limit}};
+  const auto cycles = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      static_cast<void>(supervisor->cycle(port, {.feed = wish, .spindle = {}, .offset = {}}));
+    }
+  };
+  cycles(1000);
+  ASSERT_TRUE(port.written.back().feed_masks_panel);
+  port.deaf = true;
+  port.frame.feed.panel_ratio = 0.0;  // the operator stops the machine
+  cycles(3);
+  port.deaf = false;
+  port.frame.feed.panel_code_known = false;
+  cycles(1);
+  EXPECT_FALSE(port.written.back().feed_masks_panel);
+}
+
+TEST(Interruption, ThePanelIsSeenWhileTimeIsNotKnown) {
+  Bench first;
+  first.wish_feed(0.5);
+  ASSERT_TRUE(first.cycles(1000).feed_masks_panel);
+  Bench second;
+  second.wish_feed(0.5);
+  second.frame = first.frame;
+  second.supervisor.restore(first.supervisor.state());
+  auto frame = second.frame;
+  frame.time_s = kNan;
+  frame.feed.panel_ratio = 0.0;
+  EXPECT_FALSE(second.supervisor.update(frame).write);
+  second.frame.feed.panel_code_known = false;
+  const auto command = second.cycle();
+  EXPECT_TRUE(command.write);
+  EXPECT_FALSE(command.feed_masks_panel);
+}
+
+TEST(Interruption, AfterAClockThatStoodNothingIsTakenForDropped) {
+  auto machine = mill(Mode::act);
+  machine.envelope.stale_after_s = 0.02;
+  Bench first(machine);
+  first.wish_feed(0.5);
+  ASSERT_TRUE(first.cycles(1000).feed_masks_panel);
+  for (int i = 0; i < 40; ++i) {
+    first.supervisor.update(first.frame, {.feed = first.feed, .spindle = {}, .offset = {}});
+  }
+  first.frame.time_s += 40.0 * kCycle_s;  // the clock goes on where it would be
+  ASSERT_TRUE(first.cycle().feed_masks_panel);
+  Bench second(machine);
+  second.wish_feed(0.5);
+  second.frame = first.frame;
+  second.supervisor.restore(first.supervisor.state());
+  const auto command = second.cycle();
+  EXPECT_TRUE(command.write);
+  EXPECT_TRUE(command.feed_masks_panel) << "the last word is a cycle old";
+  EXPECT_EQ(command.feed_ratio, 0.5);
+}
+
 TEST(Interruption, AfterALostLinkLongerThanTheWatchdogItBeginsAtThePanel) {
   for (const bool blind : {false, true}) {
     auto supervisor = Supervisor::make(wired(Mode::act), kAll);
