@@ -14,8 +14,7 @@ using simulate::Moment;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kUm = 1000.0;
-constexpr double kStretches = 700.0;
-constexpr double kLeastStretches = 200.0;
+constexpr double kStretches = 3000.0;
 constexpr double kWhole = 1e-6;  ///< short of a whole number counts as one
 constexpr double kMostTurns = 4000.0;
 constexpr double kLastTurns = 6.0;
@@ -53,10 +52,8 @@ Json columns_of(const std::vector<Moment>& moments) {
 
 }  // namespace
 
-CutRecorder::CutRecorder(double seconds, double mean_rev_s, std::size_t teeth)
-    : stretch_s_(std::max(
-          seconds / kStretches,
-          std::min(seconds / kLeastStretches, 1.0 / (mean_rev_s * static_cast<double>(teeth))))),
+CutRecorder::CutRecorder(double seconds, double mean_rev_s)
+    : stretch_s_(seconds / kStretches),
       last_stretch_(std::max(0.0, std::floor(seconds / stretch_s_ + kWhole) - 1.0)),
       stride_(
           static_cast<std::size_t>(std::max(1.0, std::ceil(seconds * mean_rev_s / kMostTurns)))) {}

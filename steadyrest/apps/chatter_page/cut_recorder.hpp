@@ -16,13 +16,13 @@ namespace steadyrest::apps::chatter_page {
 
 class CutRecorder {
  public:
-  /// `seconds` > 0, `mean_rev_s` > 0 and `teeth` ≥ 1 of the cut that is to come.
-  CutRecorder(double seconds, double mean_rev_s, std::size_t teeth);
+  /// `seconds` > 0 and `mean_rev_s` > 0 of the cut that is to come.
+  CutRecorder(double seconds, double mean_rev_s);
 
   void add(const simulate::Moment& now);
 
-  /// x, y in µm and |F| in N: the extremes within even stretches of the time, a tooth pass or more
-  /// each where there are enough of them; at most 700.
+  /// x, y in µm and |F| in N: the extremes within even stretches of the time, at most 3000: of a
+  /// short cut they show each vibration, of a long one its size.
   struct Envelope {
     std::vector<double> t_s;
     std::array<std::vector<double>, 3> low;

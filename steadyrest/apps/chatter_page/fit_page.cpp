@@ -4,6 +4,7 @@
 #include <complex>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <steadyrest/apps/chatter_page/fit_page.hpp>
@@ -18,7 +19,8 @@ using offline::ModeFit;
 using offline::ModeFitConfig;
 
 constexpr double kUmPerMm = 1e3;
-constexpr std::size_t kFitted = 1200;  ///< points of the fitted response, even in ln f
+constexpr std::size_t kFitted = 1200;  ///< points of the fitted response, even in ln f …
+constexpr int kOfCircle = 60;          ///< … and of each mode on each side of its peak
 
 /// Columns of a response.
 class Columns {
@@ -78,7 +80,8 @@ std::pair<double, double> band_of(const FitPage& page, const ModeFitConfig& conf
   return out;
 }
 
-/// Even in ln f, and each mode's frequency, where a narrow peak may be.
+/// Even in ln f, and even on the circle that each mode draws (f = f₀·(1 + ζ·tan φ)), where a narrow
+/// peak may be.
 Json fitted_json(const ModeFit& fit, const std::pair<double, double>& band) {
   std::vector<double> frequency_hz;
   for (std::size_t i = 0; i < kFitted; ++i) {
@@ -86,8 +89,9 @@ Json fitted_json(const ModeFit& fit, const std::pair<double, double>& band) {
     frequency_hz.push_back(band.first * std::pow(band.second / band.first, share));
   }
   for (const offline::FittedMode& mode : fit.modes) {
-    for (const double widths : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0}) {
-      const double f = mode.frequency_hz * (1.0 + widths * mode.damping_ratio);
+    for (int i = -kOfCircle; i <= kOfCircle; ++i) {
+      const double phase_rad = 0.5 * std::numbers::pi * i / (kOfCircle + 1);
+      const double f = mode.frequency_hz * (1.0 + mode.damping_ratio * std::tan(phase_rad));
       if (f >= band.first && f <= band.second) {
         frequency_hz.push_back(f);
       }

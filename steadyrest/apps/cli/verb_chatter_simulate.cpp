@@ -153,8 +153,7 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
   if (!steps) {
     return refused(steps.error());
   }
-  chatter_page::CutRecorder recorder(options.seconds, settings.speed_rev_s,
-                                     point.process.tool.teeth);
+  chatter_page::CutRecorder recorder(options.seconds, settings.speed_rev_s);
   simulate::VibrationSummary summary(options.seconds, repeat_of(point.process, settings));
   std::size_t done = 0;
   const auto sink = [&](const simulate::Moment& now) {

@@ -270,8 +270,11 @@ Outcome run(const Options& options, Progress& progress) {
     return refused(done.error());
   }
   if (!options.report.empty()) {
-    const auto data = cut::compare(options.program.file, *machine, *without, *with);
-    put_report(answer, options.report, report::to_page(data));
+    report::Json page =
+        report::to_page(cut::compare(options.program.file, *machine, *without, *with));
+    page["warnings"] = answer.json["warnings"];
+    page["warning_count"] = answer.json["warning_count"];
+    put_report(answer, options.report, std::move(page));
   }
   return answer;
 }

@@ -127,12 +127,17 @@ void add_texts(const std::filesystem::path& program, std::vector<WorstLine>& lin
 }  // namespace
 
 HeldFeed held_feed(const LineError& worst, const Machine& machine) {
-  if (steady(worst, machine)) {
-    return {closed_form_mm_s(worst.arc_radius_mm, machine), HeldBy::closed_form};
-  }
   const double share = machine.contour.limit_mm / std::abs(worst.contour_error_mm);
-  return share >= 1.0 ? HeldFeed{worst.path_speed_mm_s, HeldBy::driven}
-                      : HeldFeed{worst.path_speed_mm_s * std::sqrt(share), HeldBy::record};
+  const HeldFeed recorded =
+      share >= 1.0 ? HeldFeed{worst.path_speed_mm_s, HeldBy::driven}
+                   : HeldFeed{worst.path_speed_mm_s * std::sqrt(share), HeldBy::record};
+  if (!steady(worst, machine)) {
+    return recorded;
+  }
+  const HeldFeed closed{closed_form_mm_s(worst.arc_radius_mm, machine), HeldBy::closed_form};
+  // Over the limit at a feed that the radius would bear: the error is not the arc's.
+  return recorded.by == HeldBy::record && !(worst.path_speed_mm_s > closed.feed_mm_s) ? recorded
+                                                                                      : closed;
 }
 
 std::vector<WorstLine> worst_lines(const std::filesystem::path& program, const Machine& machine,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
 #include <steadyrest/apps/report/json_numbers.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -75,8 +77,9 @@ void put_corrections(Json& out, const Course& course, double share) {
 
 }  // namespace
 
-Json page_head(std::string_view kind, std::string_view title, const Json& answer) {
+Json page_head(std::string_view kind, std::string_view file, const Json& answer) {
   Json page = report::page_head("steadyrest-thermal/1");
+  const std::string title = std::filesystem::path(file).filename().string();
   page.update({{"kind", kind}, {"title", title}, {"answer", answer}});
   return page;
 }

@@ -19,8 +19,8 @@ namespace steadyrest::apps::thermal_page {
 
 using report::Json;
 
-/// What every page begins with.
-[[nodiscard]] Json page_head(std::string_view kind, std::string_view title, const Json& answer);
+/// What every page begins with; its title is the name of `file` without the folders.
+[[nodiscard]] Json page_head(std::string_view kind, std::string_view file, const Json& answer);
 
 /// One displacement over the cyclogram, and how it is corrected.
 struct Course {

@@ -6,7 +6,7 @@ import { digits, percent, short } from '../frame/numbers';
 import { type Cell, type Column, table } from '../frame/table';
 import type { Term, View } from '../frame/view';
 import { host, plot } from '../plot/plot';
-import { type Bench, type Figures, type Requirement, label, scenes } from './data';
+import { type Bench, type Figures, type Requirement, type Row, label, scenes } from './data';
 import { figurePlots, lagPlots, tracePlots } from './plots';
 
 type Judge = 'guaranteed' | 'typical';
@@ -104,12 +104,13 @@ const EXPLANATION: readonly Term[] = [
   ['In bound', 'Share of the ticks at which the error is within the bound that the estimator gave; bound ÷ RMS and efficiency are taken at over 1 mm/s. Efficiency is the smallest bound that anyone can prove (Landau–Kolmogorov) ÷ the bound given.'],
   ['Limits', '“+ limits”: the estimator knew the largest speed, acceleration, jerk and line error of the axis; without them it knows the count and the clock only.'],
   ['Forbidden', 'Guaranteed bound: two motions within the limits give the same edges and differ by more. RMS error: more than the requirement even for the best parabola when the jerk is at its limit all the time; calmer motion may be known better and is then “met”. Both floors are those of the worst case.'],
+  ['ns/tick, ns/edge', 'Time of computing for each cycle and each edge, on the computer that wrote this page.'],
   ['Flywheel', 'Its braking begins with a step of the acceleration, which the limit of the jerk does not permit: bounds may fail for the first ticks after it.'],
   ['Recorded', 'A servo axis; its counts are the truth (cubic of least squares over ± 4 samples), ÷ 64 the coarse encoder. Not scored: 15 samples on both sides of more than 500 mm/s² (errors of the counter) and of gaps over 50 ms.'],
 ];
 
 const TRACES: Record<string, [string, string]> = {
-  flywheel: ['Before and after: flywheel, −0.006 counts/tick² from 6 counts/tick', "Above: as the source's figures 1 and 2 have it, and what the same edges give with their times. Below: enlarged."],
+  flywheel: ['Before and after: flywheel, −0.006 counts/tick² from 6 counts/tick', "Above: as figures 1 and 2 of Kombarov’s paper have it, and what the same edges give with their times. Below: enlarged."],
   's-curve': ['Before and after: rest, 20 mm/s, stop, back at 2 mm/s', ''],
 };
 
@@ -121,7 +122,20 @@ function body(bench: Bench, choice: Choice, scene: string): string {
   ${section('Error against lag', `<p id="what"></p>${panels('lag', 2)}`, 'A dot is at the lag that suits the estimator best; at the left edge the estimate is there at once.', buttons('scene', 'Scene', scenes(bench).map((s) => [s, s] as const), scene))}
   ${bench.requirement.length > 0 ? requirement(bench, choice) : ''}
   ${section('All figures', `<div id="results-host"></div>${bench.notes.map((n) => `<p class="hint">${escapeHtml(n)}</p>`).join('')}`, '', buttons('results-of', 'Quantity', [['velocity', 'Velocity'], ['acceleration', 'Acceleration']], 'velocity'))}
-  ${section("The source's figures 3 and 5", panels('figures', 4))}`;
+  ${section('Figures 3 and 5 of Kombarov’s paper', panels('figures', 4))}`;
+}
+
+/** The first scene that has both: the best of ours beside the difference of counts. */
+function verdict(bench: Bench): string {
+  for (const scene of scenes(bench)) {
+    const of = (name: string) => bench.rows.find((r) => r.scene === scene && label(r) === name);
+    const [plain, ours] = [of('difference'), of('kalman + limits') ?? of('kalman')];
+    if (plain && ours) {
+      const off = (row: Row) => `${digits(row.velocity.rms)} mm/s and ${digits(row.acceleration.rms)} mm/s²`;
+      return `Scene ${escapeHtml(scene)}, without lag: ${escapeHtml(label(ours))} is off by ${off(ours)} (RMS), the difference of the counts by ${off(plain)}.`;
+    }
+  }
+  return `${bench.rows.length} rows of scenes and estimators.`;
 }
 
 export function benchView(bench: Bench): View {
@@ -137,7 +151,7 @@ export function benchView(bench: Bench): View {
     product: 'Steadyrest motion bench',
     title: 'Velocity and acceleration from an encoder',
     facts: 'count <b>0.001 mm</b> · cycle <b>1 kHz</b> · stamps <b>100 ns</b>, unless said',
-    verdict: 'Times per tick and edge are of the machine that wrote this.',
+    verdict: verdict(bench),
     body: body(bench, choice, scene),
     explanation: EXPLANATION,
     draw: (theme) => {

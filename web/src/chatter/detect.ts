@@ -11,6 +11,7 @@ import type { Dot, Layer } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
 import type { ChatterEvent, DetectPage } from './data';
 import { loudnessRaster, loudnessScale } from './raster';
+import { TYPES, typeName } from './words';
 
 export type Orders = 'teeth' | 'spindle' | 'none';
 
@@ -60,10 +61,10 @@ function orderLayers(page: DetectPage, orders: Orders, theme: Theme): Layer[] {
 
 function eventLayers(events: readonly ChatterEvent[], x: [number, number], theme: Theme): Layer[] {
   const colour = theme.run.without;
-  const layers: Layer[] = events.map((e) => ({ kind: 'line', name: 'chatter: from when it was told, at the frequency that was named', x: [e.start_s, e.end_s], y: [e.frequency_hz, e.frequency_hz], colour, width: 2.4, halo: true }));
+  const layers: Layer[] = events.map((e) => ({ kind: 'line', name: 'chatter, from when it was detected', x: [e.start_s, e.end_s], y: [e.frequency_hz, e.frequency_hz], colour, width: 2.4, halo: true }));
   const labels = events.map((e): Dot => {
     const late = (e.start_s - x[0]) / (x[1] - x[0]) > 0.7;
-    return { x: e.start_s, y: e.frequency_hz, label: `${fixed(e.frequency_hz, 1)} Hz, ${e.type}`, side: late ? 'left' : 'top' };
+    return { x: e.start_s, y: e.frequency_hz, label: `${fixed(e.frequency_hz, 1)} Hz, ${typeName(e.type)}`, side: late ? 'left' : 'top' };
   });
   const shown = labels.length <= 6 ? labels : labels.map(({ x: at, y }) => ({ x: at, y }));
   layers.push({ kind: 'dots', dots: shown, colour, size: 8, bold: true });
@@ -77,7 +78,7 @@ function spectrogramColumns(page: DetectPage) {
   return [
     { head: 'time in s', values: of((i) => s.start_s + (Math.floor(i / s.rows) + 0.5) * s.column_s) },
     { head: 'frequency in Hz', values: of((i) => (i % s.rows) * s.row_hz) },
-    { head: 'power under the strongest cell in dB', values: s.level_db },
+    { head: 'power against the strongest cell in dB', values: s.level_db },
   ];
 }
 
@@ -120,7 +121,7 @@ function signalPlot(page: DetectPage, theme: Theme): Plot {
     group: 'time',
     layers: [
       { kind: 'spans', name: 'chatter', spans: page.answer.events.map((e) => [e.start_s, e.end_s]), colour: theme.run.without, opacity: 0.16 },
-      { kind: 'band', name: 'signal, lowest to highest', x: t_s, low, high, colour: theme.run.with, opacity: 0.85 },
+      { kind: 'band', name: 'signal, lowest to highest', x: t_s, low, high, colour: theme.run.with, opacity: 0.85, outlined: true },
     ],
   };
 }
@@ -151,7 +152,7 @@ function eventsTable({ events, advice_by }: DetectPage['answer']): string {
     id: 'events',
     sortable: true,
     columns: [number('from, s'), number('to, s'), number('Hz'), { head: 'type' }, number('at rev/min'), { head: `better, by the ${advice_by}` }],
-    rows: events.map((e) => [fixed(e.start_s, 3), fixed(e.end_s, 3), fixed(e.frequency_hz, 1), e.type, fixed(e.speed_rpm, 0), advice(e)]),
+    rows: events.map((e) => [fixed(e.start_s, 3), fixed(e.end_s, 3), fixed(e.frequency_hz, 1), typeName(e.type), fixed(e.speed_rpm, 0), advice(e)]),
   });
 }
 
@@ -163,7 +164,7 @@ function verdict(page: DetectPage): string {
   }
   const more = events.length > 1 ? `${events.length} stretches of chatter; the first` : 'Chatter';
   const better = first.advised_speed_rpm === null && first.decision === null ? 'No override step is better.' : `Better, by the ${page.answer.advice_by}: ${advice(first)}.`;
-  return `${more} from ${fixed(first.start_s, 3)} to ${fixed(first.end_s, 3)} s at ${fixed(first.frequency_hz, 1)} Hz (${first.type}). ${better}`;
+  return `${more} from ${fixed(first.start_s, 3)} to ${fixed(first.end_s, 3)} s at ${fixed(first.frequency_hz, 1)} Hz (${typeName(first.type)}). ${better}`;
 }
 
 export function detectView(page: DetectPage): View {
@@ -178,9 +179,9 @@ export function detectView(page: DetectPage): View {
       section('Spectrogram', host('spectrogram', 'tall') + host('signal', 'low') + host('speed', 'low'), '', choices) +
       (page.answer.events.length > 0 ? section('Stretches of chatter', eventsTable(page.answer)) : ''),
     explanation: [
-      ['Spectrogram', 'Power of the signal over time and frequency, in dB under its strongest cell. A forced vibration lies on the multiples of the tooth passing frequency; chatter lies between them.'],
+      ['Spectrogram', 'Power of the signal over time and frequency, in dB against its strongest cell. A forced vibration lies on the multiples of the tooth passing frequency; chatter lies between them.'],
       ['Orders', 'Multiples of the tooth passing frequency (teeth × speed) or of the speed itself. With runout the forced vibration is on those of the spindle.'],
-      ['Hopf, flip', 'Hopf: the chatter frequency is free of the tooth passing frequency. Flip: it is an odd multiple of its half; each second tooth cuts deeper.'],
+      TYPES,
       ['Better speed', 'By the rule of thumb: the override step at which whole waves of this frequency fit between two teeth; it knows neither the depth nor the border. By the deepest step: with a process file, the step with the deepest border. By the planner: with a process file and a depth, what <code>chatter plan</code> answers.'],
     ],
     draw: (theme) => {

@@ -111,7 +111,7 @@ export function fitView(page: FitPage): View {
     ],
     draw: (theme) => {
       plot('magnitude', responsePlot(page, 'Magnitude', 'µm/N', magnitude, theme, true), theme);
-      plot('phase', { ...responsePlot(page, 'Phase', 'degrees', phase, theme), y: { name: 'phase in degrees', min: LEAST_PHASE, max: LEAST_PHASE + 360, ticks: 4 } }, theme);
+      plot('phase', { ...responsePlot(page, 'Phase', 'degrees', phase, theme), y: { name: 'phase in degrees', min: LEAST_PHASE, max: LEAST_PHASE + 360, step: 90 } }, theme);
       plot('real', responsePlot(page, 'Real part', 'µm/N', (r) => r.real_um_N, theme), theme);
       plot('imaginary', responsePlot(page, 'Imaginary part', 'µm/N', (r) => r.imag_um_N, theme), theme);
       plot('circle', circlePlot(page, theme), theme);

@@ -10,6 +10,7 @@ import { roomy } from '../plot/axes';
 import type { Dot, Layer } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
 import { type GrowthPage, lawText } from './data';
+import { TYPES, typeName } from './words';
 
 interface Peak {
   start_s: number;
@@ -107,13 +108,15 @@ function verdict(page: GrowthPage): string {
   const a = page.answer;
   const peak = peakOf(page);
   const [unit, times] = page.law_period_s !== null && page.law_period_s >= 2 ? ['s', 1] : ['ms', 1000];
+  const after = `${plain((peak.time_s - peak.start_s) * times, 3)} ${unit} after it begins`;
   const grows =
-    peak.log_growth > 0
-      ? `On its way a vibration grows ${plain(a.peak_growth, 3)}-fold at worst, ${plain((peak.time_s - peak.start_s) * times, 3)} ${unit} after its beginning`
-      : 'No vibration grows on its way';
-  const ends = a.stable ? (peak.log_growth > 0 ? ', and dies in the end' : '') : peak.log_growth > 0 ? ' within what is shown, and on without end' : '';
+    peak.log_growth <= 0
+      ? 'No vibration grows on its way'
+      : a.stable
+        ? `On its way a vibration grows ${plain(a.peak_growth, 3)}-fold at worst, ${after}, and dies in the end`
+        : `Within what is shown a vibration grows ${plain(a.peak_growth, 3)}-fold at worst, ${after}, and it grows on`;
   const period = a.law === 'constant' ? 'tooth pass' : 'period of the law';
-  return `The cut is ${a.stable ? 'stable' : `unstable${a.type === 'none' ? '' : ` (${a.type})`}`}: a ${period} multiplies a vibration by ${plain(a.spectral_radius)} in the long run. ${grows}${ends}.`;
+  return `The cut is ${a.stable ? 'stable' : `unstable${a.type === 'none' ? '' : ` (${typeName(a.type)})`}`}: a ${period} multiplies a vibration by ${plain(a.spectral_radius)} in the long run. ${grows}.`;
 }
 
 export function growthView(page: GrowthPage): View {
@@ -123,7 +126,7 @@ export function growthView(page: GrowthPage): View {
     { label: `spectral radius of a ${constant ? 'tooth pass' : 'period'}`, value: plain(a.spectral_radius, 6) },
     { label: 'its logarithm', value: plain(a.log_radius, 6) },
     { label: 'worst growth on the way', value: plain(a.peak_growth, 4) },
-    ...(a.frequency_hz === null ? [] : [{ label: 'strongest line', value: `${fixed(a.frequency_hz, 1)} Hz` }]),
+    ...(a.frequency_hz === null ? [] : [{ label: 'strongest frequency', value: `${fixed(a.frequency_hz, 1)} Hz` }]),
     { label: 'a tooth pass lasts', value: `${plain(page.pass_s * 1000, 4)} ms` },
     ...(page.law_period_s === null ? [] : [{ label: 'a period of the law lasts', value: `${plain(page.law_period_s * 1000, 4)} ms` }]),
   ];
@@ -137,8 +140,9 @@ export function growthView(page: GrowthPage): View {
       section('Figures', figures(rows)),
     explanation: [
       ['Spectral radius', 'What a tooth pass, or a whole period of the law, multiplies a vibration by in the long run. Below 1 it dies in the end, however much it has grown on its way.'],
-      ['Growth', 'The largest later displacement over the largest within one pass before the beginning, of all vibrations the worst. A cut that is stable in the long run may still leave its marks while a vibration passes through its peak.'],
-      ['Worst beginning', 'Under a law it matters in which moment of the period a vibration begins; the heavy curve is the worst of the beginnings that are drawn.'],
+      TYPES,
+      ['Growth', 'As a natural logarithm: 0 is as large as at the beginning, 2.3 ten times, 4.6 a hundred times. The largest later displacement over the largest within one pass before the beginning, of all vibrations the worst. A cut that is stable in the long run may still leave its marks while a vibration passes through its peak.'],
+      ...(constant ? [] : ([['Worst beginning', 'Under a law it matters at which moment of the period a vibration begins; the heavy curve is the worst of the beginnings that are drawn.']] as const)),
     ],
     draw: (theme) => {
       plot('growth', growthPlot(page, theme), theme);

@@ -10,6 +10,7 @@ import type { Dot, Layer } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
 import { type LobeColumns, type LobesPage, type Point, lawText } from './data';
 import { type Grid, type Level, classRaster, radiusLevels, valueAt } from './raster';
+import { TYPES, typeName } from './words';
 
 export interface Marked {
   speed_rpm: number;
@@ -120,14 +121,14 @@ function stepsTable(page: LobesPage): string {
     return '';
   }
   const most = page.map.depth_mm.at(-1) ?? 0;
-  const depth = page.answer.point?.depth_mm ?? 0;
+  const wanted = page.answer.point?.depth_mm;
   const rows = page.steps.map((s): Cell[] => {
-    const carries = s.limit_depth_mm === null || s.limit_depth_mm > depth;
     const limit = s.limit_depth_mm === null ? { html: `over ${plain(most)}`, sort: most } : fixed(s.limit_depth_mm, 3);
-    return [`${plain(s.percent)} %`, fixed(s.speed_rpm, 0), limit, carries ? 'carries it' : 'too deep'];
+    const stable = wanted !== undefined && (s.limit_depth_mm === null || s.limit_depth_mm > wanted);
+    return [`${plain(s.percent)} %`, fixed(s.speed_rpm, 0), limit, ...(wanted === undefined ? [] : [stable ? 'stable' : 'chatters'])];
   });
   const number = (head: string) => ({ head, number: true });
-  const columns = [number('override'), number('rev/min'), number('border, mm'), { head: `${plain(depth)} mm` }];
+  const columns = [number('override'), number('rev/min'), number('border, mm'), ...(wanted === undefined ? [] : [{ head: `at ${plain(wanted)} mm` }])];
   return section('Override steps of the machine', table({ id: 'steps', columns, rows, sortable: true }));
 }
 
@@ -135,8 +136,11 @@ export const LOBE_TERMS: readonly Term[] = [
   ['Border', 'The depth at which the cut is just stable (ρ = 1), at each speed the lowest. Deeper than the border a vibration grows from tooth to tooth: chatter. The border is worked out exactly and is refined between the speeds of the map.'],
   ['Spectral radius ρ', 'What one tooth pass multiplies a small vibration by in the long run. Below 1 the vibration dies, above 1 it grows. Under a speed law it is that of a whole period of the law, and its logarithm is shown.'],
   ['Colours', 'The map between its points, by straight lines; beside the border they follow the border.'],
+  TYPES,
   ['Override step', 'A step of the spindle override that the machine has: the speeds that can be set while the program runs.'],
 ];
+
+const SKETCH: Term = ['Zero-order sketch', 'The border from the mean of the cutting forces alone (after Altintas and Budak), as most programs draw it, for comparison. It has no lobes of the flip type.'];
 
 function verdict(page: LobesPage, perPass: boolean): string {
   const point = page.answer.point;
@@ -151,7 +155,7 @@ function verdict(page: LobesPage, perPass: boolean): string {
   const times = `${step} multiplies a vibration by ${plain(point.spectral_radius)}`;
   return point.stable
     ? `At ${where} the cut is stable. ${times}. ${lowest}`
-    : `At ${where} the cut chatters (${point.type}${frequencyText(point.frequency_hz)}). ${times}. ${lowest}`;
+    : `At ${where} the cut chatters (${typeName(point.type)}${frequencyText(point.frequency_hz)}). ${times}. ${lowest}`;
 }
 
 export function lobesView(page: LobesPage): View {
@@ -169,7 +173,7 @@ export function lobesView(page: LobesPage): View {
     facts: `<b>${lawText(page.answer)}</b> · map of <b>${page.answer.speeds} × ${page.answer.depths}</b> points`,
     verdict: verdict(page, perPass),
     body: section('Stability lobes', host('lobes', 'tall')) + stepsTable(page),
-    explanation: LOBE_TERMS,
+    explanation: [...LOBE_TERMS, ...(page.others.some((o) => o.name === SKETCH[0].toLowerCase()) ? [SKETCH] : [])],
     draw: (theme) => drawLobes(view, theme),
   };
 }

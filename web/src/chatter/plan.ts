@@ -3,7 +3,7 @@
 import { escapeHtml, section } from '../frame/html';
 import { fixed, plain } from '../frame/numbers';
 import { type Cell, table } from '../frame/table';
-import type { View } from '../frame/view';
+import { type View, said } from '../frame/view';
 import { host } from '../plot/plot';
 import { type Alternative, type PlanPage, lawText } from './data';
 import { LOBE_TERMS, type LobeView, drawLobes } from './lobes';
@@ -31,6 +31,21 @@ function headline(page: PlanPage): string {
   }
 }
 
+const LIKELY = 'of the likely cuts are stable';
+
+/** What the programmed speed would do, and what is gained. */
+function worth(page: PlanPage): string {
+  const a = page.answer;
+  const now = a.alternatives.find((o) => !isLaw(o) && Math.abs((o.override_percent[0] ?? 0) - 100) < 1e-9);
+  const limit = (o: Alternative) => (o.limit_depth_mm === null ? '' : `the border is at ${fixed(o.limit_depth_mm, 3)} mm`);
+  const share = (o: Alternative) => (o.probability === null ? '' : `${fixed(100 * o.probability, 0)} % ${LIKELY}`);
+  const hz = a.chatter_frequency_hz === null ? '' : ` at ${fixed(a.chatter_frequency_hz, 1)} Hz`;
+  const at = now ? `At ${fixed(now.speed_rpm, 0)} rev/min and ${plain(a.depth_mm)} mm the cut chatters${hz}` : '';
+  const chatters = now && a.decision !== 'keep' && !now.stable ? `${[at, limit(now)].filter(Boolean).join('; ')}.` : '';
+  const gained = a.decision === 'nothing' ? '' : [limit(a), share(a)].filter(Boolean).join(' and ');
+  return [chatters, gained === '' ? '' : `With ${choiceText(a)} ${gained}.`].filter(Boolean).join(' ');
+}
+
 function limitText(a: Alternative, most: number): string {
   return a.limit_depth_mm === null ? (a.stable ? `over ${plain(most)}` : '–') : fixed(a.limit_depth_mm, 3);
 }
@@ -51,7 +66,7 @@ function alternatives(page: PlanPage): string {
   return table({
     id: 'alternatives',
     sortable: true,
-    columns: [{ head: 'choice' }, number('border, mm'), number('stable cuts, %'), number('growth'), { head: 'verdict' }],
+    columns: [{ head: 'choice' }, number('border, mm'), number('stable cuts, %'), number('growth, times'), { head: 'verdict' }],
     rows,
     rowLook: (i) => (isTaken(page.answer.alternatives[i] as Alternative) ? 'chosen' : ''),
   });
@@ -87,18 +102,21 @@ export function planView(page: PlanPage): View {
     names: { border: 'border at constant speed, ρ = 1', marked: chosen ? 'what was chosen, at the wanted depth' : 'the programmed speed' },
     marked: { speed_rpm: a.speed_rpm, depth_mm: a.depth_mm, label, stable: chosen },
   };
-  const notes = a.notes.map((n) => `<p class="hint">${escapeHtml(n)}</p>`).join('');
   return {
     product: 'Steadyrest chatter plan',
     title: page.process,
     facts: `<b>${escapeHtml(page.machine)}</b> · wanted <b>${plain(a.depth_mm)} mm</b>`,
-    verdict: headline(page),
-    body: section('The choice in the stability lobes', host('lobes', 'tall'), 'Ticks above: the override steps that may be written.') + section('Alternatives', alternatives(page) + notes) + bestSpeeds(page),
+    verdict: `${headline(page)} ${worth(page)}`,
+    body:
+      said('notes', a.notes) +
+      section('The choice in the stability lobes', host('lobes', 'tall'), 'Ticks above: the override steps that may be written.') +
+      section('Alternatives', alternatives(page)) +
+      bestSpeeds(page),
     explanation: [
       ...LOBE_TERMS,
       ['Stable cuts', 'Of cuts whose modes and forces scatter as the process file says (or as tap tests usually do), the share that is stable there.'],
       ['Best speeds', 'Ranked by the depth that is stable although the frequencies of the modes are known to some per cent only: a speed just under a cusp is deep on paper and not in the shop.'],
-      ['Growth', 'Under a law, what a vibration grows to on its way through a period before it dies. At constant speed there is none.'],
+      ['Growth', 'How many times a vibration may grow on its way before it dies: under a law within a period, at constant speed within the first tooth passes. A dash: it is not asked of a cut that chatters.'],
     ],
     draw: (theme) => drawLobes(view, theme),
   };

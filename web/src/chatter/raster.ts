@@ -166,7 +166,7 @@ export function loudnessRaster(levels_db: readonly number[], columns: number, ro
 export function loudnessScale(low_db: number, scheme: Scheme): ColourScale {
   const stops = LOUDNESS[scheme];
   return {
-    title: 'Power under the strongest cell up to, dB',
+    title: 'Power against the strongest cell, dB',
     cells: stops.map((colour, i) => ({ colour, upTo: fixed((low_db * (stops.length - 1 - i)) / (stops.length - 1), 0) })),
   };
 }

@@ -28,9 +28,9 @@ function motionPlot(page: SimulatePage, theme: Theme): Plot {
   const colours = axisColours(theme);
   const both = movesInY(page);
   const [min, max] = roomy([...x_low_um, ...x_high_um, ...(both ? [...y_low_um, ...y_high_um] : [])], true);
-  const layers: Layer[] = [{ kind: 'band', name: X, x: t_s, low: x_low_um, high: x_high_um, colour: colours.x, opacity: both ? BAND : 0.85 }];
+  const layers: Layer[] = [{ kind: 'band', name: X, x: t_s, low: x_low_um, high: x_high_um, colour: colours.x, opacity: both ? BAND : 0.85, outlined: true }];
   if (both) {
-    layers.push({ kind: 'band', name: Y, x: t_s, low: y_low_um, high: y_high_um, colour: colours.y, opacity: BAND });
+    layers.push({ kind: 'band', name: Y, x: t_s, low: y_low_um, high: y_high_um, colour: colours.y, opacity: BAND, outlined: true });
   }
   return { title: 'Displacement', x: { name: 'time in s', min: 0, max: t_s.at(-1) ?? 1 }, y: { name: 'displacement in µm', min, max }, group: 'time', layers };
 }
@@ -43,7 +43,7 @@ function forcePlot(page: SimulatePage, theme: Theme): Plot {
     x: { name: 'time in s', min: 0, max: t_s.at(-1) ?? 1 },
     y: { name: 'force on the tool in N', min, max },
     group: 'time',
-    layers: [{ kind: 'band', name: 'force, all directions', x: t_s, low: force_low_N, high: force_high_N, colour: axisColours(theme).force, opacity: 0.8 }],
+    layers: [{ kind: 'band', name: 'force, all directions', x: t_s, low: force_low_N, high: force_high_N, colour: axisColours(theme).force, opacity: 0.8, outlined: true }],
   };
 }
 
@@ -129,8 +129,8 @@ function rowsOf(page: SimulatePage): { label: string; value: string }[] {
     ...(a.chatter_frequency_hz === null ? [] : [{ label: 'chatter frequency', value: `${fixed(a.chatter_frequency_hz, 1)} Hz` }]),
     { label: 'largest force', value: `${fixed(a.force_peak_N, 1)} N` },
     { label: 'largest power', value: `${fixed(a.power_peak_W, 0)} W` },
-    ...optional('finished wall: mean place', a.wall_error_um),
-    ...optional('finished wall: highest less lowest', a.wall_range_um),
+    // A tool that is stiff across the feed leaves the wall where it is.
+    ...(movesInY(page) ? [...optional('finished wall: mean place', a.wall_error_um), ...optional('finished wall: highest less lowest', a.wall_range_um)] : []),
   ];
 }
 
@@ -155,9 +155,9 @@ export function simulateView(page: SimulatePage): View {
       section('Figures', figures(rowsOf(page))),
     explanation: [
       ['Displacement', 'Of the tool from where it is without a force. A forced vibration repeats with every tooth; what does not repeat is chatter.'],
-      ['Once a revolution', 'The displacement whenever the spindle has turned whole. A stable cut settles on one point, chatter with the period doubled on two, quasi-periodic chatter on a closed curve. The return map draws each of these values over the one before.'],
+      ['Once a revolution', 'The displacement once in every turn of the spindle, always at the same angle. A stable cut settles on one point, chatter with the period doubled on two, quasi-periodic chatter on a closed curve. The return map draws each of these values over the one before.'],
       ['Growth per tooth', 'What one tooth pass multiplies a small vibration by, before the tool leaves the cut.'],
-      ['Finished wall', 'What the last teeth leave: its mean place (above 0: too much is cut off) and the height from its lowest to its highest point.'],
+      ...(!movesInY(page) || a.wall_error_um === null ? [] : [['Finished wall', 'What the last teeth leave: its mean place (above 0: too much is cut off) and the height from its lowest to its highest point.'] as const]),
     ],
     draw: (theme) => {
       plot('motion', motionPlot(page, theme), theme);

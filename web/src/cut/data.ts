@@ -110,6 +110,12 @@ export interface ProbeFigures {
   sentence: string;
 }
 
+/** Something about the program that the machine will not do as it is written. */
+export interface Warning {
+  line: number;
+  text: string;
+}
+
 export interface OverrideStep {
   code: number;
   percent: number;
@@ -127,6 +133,9 @@ export interface Report extends Head {
   worst_lines: WorstLine[];
   motion: MotionFigures[];
   probes: ProbeFigures[];
+  /** The first of them, and how many there are in all. */
+  warnings?: Warning[];
+  warning_count?: number;
 }
 
 export type RunName = 'without' | 'with';

@@ -72,7 +72,8 @@ export function motionRows(motion: readonly MotionFigures[]): MotionRow[] {
       quantity,
       difference: `${twoDigits(naive)} ${length}/${unit}`,
       estimate: `${twoDigits(ours)} ${length}/${unit}`,
-      finer: ours > 0 ? `${twoDigits(naive / ours)} ×` : '–',
+      // An axis that stands has nothing to be finer than.
+      finer: ours > 0 && naive > 0 ? `${twoDigits(naive / ours)} ×` : '–',
       coverage: coverage === null ? 'no bound' : `${fixed(Math.floor(coverage * 10_000) / 100, 2)} %`,
     });
     return [
@@ -102,6 +103,14 @@ export function verdict(without: Figures, withLayer: Figures, limit_um: number):
   );
 }
 
+/** What became of the tool's vibration, in one sentence; empty where the machine cut air. */
+export function vibrationVerdict(without: VibrationFigures | undefined, withLayer: VibrationFigures | undefined): string {
+  if (!without || !withLayer) {
+    return '';
+  }
+  return `The tool vibrates by up to ${fixed(withLayer.vibration_peak_um, 1)} µm instead of ${fixed(without.vibration_peak_um, 1)} µm.`;
+}
+
 /** The table of the vibration, as text. */
 export function vibrationRows(without: VibrationFigures, withLayer: VibrationFigures): FigureRow[] {
   const row = (key: keyof VibrationFigures, label: string, unit: string, decimals: number): FigureRow => {
@@ -109,12 +118,13 @@ export function vibrationRows(without: VibrationFigures, withLayer: VibrationFig
     const show = (v: number | null) => (v === null ? '–' : `${fixed(v, decimals)} ${unit}`);
     return { key, label, without: show(a), with: show(b), change: a === null || b === null ? '–' : change(a, b) };
   };
+  // A tool that is stiff across the feed leaves the wall where it is.
+  const moved = [without, withLayer].some((v) => v.surface_range_um !== null && v.surface_range_um > 0);
   return [
-    row('unforced_rms_um', 'Chatter: not from tooth to tooth, RMS', 'µm', 2),
+    row('unforced_rms_um', 'Chatter: what does not repeat, RMS', 'µm', 2),
     row('vibration_rms_um', 'Vibration, RMS', 'µm', 1),
     row('vibration_peak_um', 'Largest displacement', 'µm', 1),
-    row('surface_range_um', 'Finished wall, highest less lowest', 'µm', 1),
-    row('surface_error_um', 'Finished wall, mean place', 'µm', 1),
+    ...(moved ? [row('surface_range_um', 'Finished wall, highest less lowest', 'µm', 1), row('surface_error_um', 'Finished wall, mean place', 'µm', 1)] : []),
     row('chip_peak_um', 'Thickest chip', 'µm', 0),
     row('force_peak_n', 'Largest force on the tool', 'N', 1),
     row('power_peak_w', 'Largest power at the spindle', 'W', 0),

@@ -51,7 +51,7 @@ export function pathPlot(report: Report, run: RunName, plane: Plane, classes: re
   return {
     title: `Path ${NAMES[run]}, coloured by contour error`,
     x: { name: `${horizontal} in mm`, min: box.left, max: box.right },
-    y: { name: `${vertical} in mm, ${NAMES[run]}`, min: box.bottom, max: box.top },
+    y: { name: `${NAMES[run]}, ${vertical} in mm`, min: box.bottom, max: box.top },
     equal: true,
     plane: true,
     group: 'paths',
@@ -161,7 +161,7 @@ export function pathAt(trace: Trace, times: readonly Maybe[]): Maybe[] {
 
 export const VIBRATIONS = [
   { id: 'vibration-peak', name: 'largest displacement of the tool in µm', key: 'peak_um' },
-  { id: 'vibration-chatter', name: 'not from tooth to tooth: chatter, RMS in µm', key: 'unforced_um' },
+  { id: 'vibration-chatter', name: 'chatter: what does not repeat from tooth to tooth, RMS in µm', key: 'unforced_um' },
   { id: 'vibration-speed', name: 'spindle speed in rev/min', key: 'speed_rpm' },
 ] as const;
 

@@ -4,10 +4,10 @@ import { onChoice } from '../frame/dom';
 import { buttons, escapeHtml, section } from '../frame/html';
 import { change, fixed } from '../frame/numbers';
 import { type Cell, table } from '../frame/table';
-import type { Term, View } from '../frame/view';
+import { type Term, type View, said } from '../frame/view';
 import { host, plot } from '../plot/plot';
 import { RUNS, type ReasonTime, type Report, type WorstLine } from './data';
-import { type FigureRow, figureRows, micrometres, motionRows, seconds, verdict, vibrationRows } from './figures';
+import { type FigureRow, figureRows, micrometres, motionRows, seconds, verdict, vibrationRows, vibrationVerdict } from './figures';
 import type { Plane } from './path';
 import { type Abscissa, COURSES, VIBRATIONS, coursePlot, pathPlot, vibrationPlot } from './plots';
 import { errorClasses } from './scale';
@@ -26,7 +26,7 @@ function comparison(id: string, rows: readonly FigureRow[]): string {
   });
 }
 
-const HELD: Record<WorstLine['held_by'], string> = { 'closed form': 'closed form', record: 'record', driven: 'driven feed holds' };
+const HELD: Record<WorstLine['held_by'], string> = { 'closed form': 'closed form', record: 'record', driven: 'driven feed' };
 
 export function worstTable(report: Report): string {
   if (report.worst_lines.length === 0) {
@@ -41,7 +41,7 @@ export function worstTable(report: Report): string {
     sorted: 3,
     columns: [
       { head: 'Line', number: true }, { head: 'Block' }, { head: 'without, µm', number: true }, { head: 'with, µm', number: true },
-      { head: 'radius, mm', number: true }, { head: 'driven, mm/min', number: true }, { head: 'would hold, mm/min', number: true }, { head: 'from' },
+      { head: 'radius, mm', number: true }, { head: 'driven, mm/min', number: true }, { head: 'would hold, mm/min', number: true }, { head: 'known from' },
     ],
     rows: byWith.map((w) => [
       String(w.line), { html: escapeHtml(w.text), look: 'code' }, um(w.without_um), um(w.with_um),
@@ -115,18 +115,31 @@ const EXPLANATION: readonly Term[] = [
   ['Limit', 'The contour error that the layer has to keep, from the machine file. Figures of error count cutting motion (G1 to G3) only; rapids are drawn thin and grey, leave a gap in the error and run off the top of the feed.'],
   [
     'Worst lines',
-    'The largest error on each line. Driven: the path feed where it was largest with the layer. Would hold: the feed at which the line keeps the limit. “closed form” takes it from the radius of the arc there and the servo (gain, feed-forward, lag); “record” from the error that was recorded, which grows with the square of the feed on a curve; “driven feed holds” means that the line kept the limit at the feed that was driven and nothing says how much more it would bear.',
+    'The largest error on each line. Driven: the path feed where it was largest with the layer. Would hold: the feed at which the line keeps the limit. “closed form” takes it from the radius of the arc there and the servo (gain, feed-forward, lag); “record” from the error that was recorded, which grows with the square of the feed on a curve; “driven feed” means that the line kept the limit at the feed that was driven and nothing says how much more it would bear.',
   ],
   [
     'Motion of the axes',
     "RMS error of velocity and acceleration against what the simulated machine really did, over every control cycle of the cut with the layer: as a control takes them from the differences of the encoder's counts, and as estimated from the edges and their times. Bound held: the share of cycles in which the error was within the bound that the estimate gave.",
   ],
-  [
-    'Vibration of the tool',
-    "Where the cut of a process was simulated: forced vibration repeats from tooth to tooth, chatter does not; what does not repeat is shown by itself. While the spindle's speed is modulated forced vibration repeats only roughly. Vibration is not part of the contour error, which is that of the axes.",
-  ],
   ['Thinning', 'The figures are taken from every control cycle. The curves show a thinned trace in which each thinned group keeps its largest contour error.'],
 ];
+
+const VIBRATION: Term = [
+  'Vibration of the tool',
+  "Forced vibration repeats from tooth to tooth, chatter does not; what does not repeat is shown by itself. While the spindle's speed is modulated forced vibration repeats only roughly. Vibration is not part of the contour error, which is that of the axes.",
+];
+
+const PROBE: Term = ['Readings of the probe', 'What each reading found, how much of it the thermal model had not foreseen, and the band within which a reading is taken; beyond it a chip or a wrong touch is more likely than heat.'];
+
+function explanation(report: Report): readonly Term[] {
+  return [...EXPLANATION, ...(report.with.vibration ? [VIBRATION] : []), ...(report.probes.length > 0 ? [PROBE] : [])];
+}
+
+/** What the program asks for and the machine will not do. */
+function warnings({ warnings: all = [], warning_count: count = 0 }: Report): string {
+  const list = said('warnings', [...all.map((w) => `line ${w.line}: ${w.text}`), ...(count > all.length ? [`${count - all.length} more warnings`] : [])]);
+  return list === '' ? '' : section('Warnings about the program', list);
+}
 
 function largestError(report: Report): number {
   const inCut = RUNS.flatMap((run) => report[run].trace.contour_error_um.filter((_, i) => report[run].trace.cutting[i] === 1));
@@ -139,6 +152,7 @@ function body(report: Report): string {
   return `<div class="worths">${headline('contour_error_max_mm', 'Contour error, largest', a.contour_error_max_mm, b.contour_error_max_mm, micrometres)}
       ${headline('contour_error_rms_mm', 'Contour error, RMS', a.contour_error_rms_mm, b.contour_error_rms_mm, micrometres)}
       ${headline('cycle_time_s', 'Cycle time', a.cycle_time_s, b.cycle_time_s, seconds)}</div>
+    ${warnings(report)}
     ${section('Path, coloured by contour error', `<div class="panels">${host('path-without', 'square')}${host('path-with', 'square')}</div>`, 'Point at the path for line and value.', buttons('plane', 'View', [['xy', 'XY'], ['xz', 'XZ'], ['yz', 'YZ']], 'xy'))}
     ${section('Along the program', `${host('course-error')}${host('course-override', 'low')}${host('course-feed', 'low')}`, '', buttons('abscissa', 'Horizontal axis', [['path_mm', 'Path length'], ['time_s', 'Time']], 'path_mm'))}
     ${section('Worst lines of the program', worstTable(report), 'Press a head to sort.')}
@@ -153,9 +167,9 @@ export function cutView(report: Report): View {
     product: 'Steadyrest report',
     title: report.program,
     facts: `Machine <b>${escapeHtml(report.machine)}</b> · strategy <b>${escapeHtml(report.strategy)}</b> · contour limit <b>${fixed(report.limit_um, 1)} µm</b>`,
-    verdict: verdict(report.without.figures, report.with.figures, report.limit_um),
+    verdict: [verdict(report.without.figures, report.with.figures, report.limit_um), vibrationVerdict(report.without.vibration?.figures, report.with.vibration?.figures)].filter(Boolean).join(' '),
     body: body(report),
-    explanation: EXPLANATION,
+    explanation: explanation(report),
     draw: (theme) => {
       const classes = errorClasses(report.limit_um, largest_um, theme.scheme);
       RUNS.forEach((run) => plot(`path-${run}`, pathPlot(report, run, state.plane, classes, theme), theme));

@@ -59,11 +59,16 @@ function cell(table: Table, value: Cell, i: number): string {
   return i === 0 ? `<th scope="row"${attributes}><span>${html}</span></th>` : `<td${attributes}><span>${html}</span></td>`;
 }
 
+/** More columns than that are set closer, */
+const MANY = 9;
+/** and so few have room on a telephone. */
+const FEW = 4;
+
 export function table(what: Table): string {
   const rows = what.rows.map((r, k) => `<tr${look([what.rowLook?.(k)])}>${r.map((c, i) => cell(what, c, i)).join('')}</tr>`);
   const caption = what.caption === undefined ? '' : `<caption>${what.caption}</caption>`;
-  const many = what.columns.length > 9 ? ' many' : '';
-  return `<table id="${what.id}" class="data${many}">${caption}${head(what)}<tbody>${rows.join('')}</tbody></table>`;
+  const width = what.columns.length > MANY ? ' many' : what.columns.length <= FEW ? ' few' : '';
+  return `<table id="${what.id}" class="data${width}">${caption}${head(what)}<tbody>${rows.join('')}</tbody></table>`;
 }
 
 /** Two columns: what, and how much; the value is HTML. */

@@ -21,13 +21,18 @@ export interface View {
   bind?: (redraw: () => void) => void;
 }
 
-const PLOT_TERMS: Term = [
-  'Plots',
-  'Ctrl + wheel or + and − zoom, a drag moves, “Whole” goes back. PNG saves the picture as it is shown, CSV the values behind it.',
-];
+/** Of no use on paper. */
+const PLOTS =
+  '<dt class="on-screen">Plots</dt><dd class="on-screen">Ctrl + wheel or + and − zoom, Shift + wheel stretches the height, a drag moves, “Whole” goes back. PNG saves the picture as it is shown, CSV the values behind it.</dd>';
 
 function explanation(terms: readonly Term[]): string {
-  return `<section class="explanation"><h2>How to read this</h2><dl>${[...terms, PLOT_TERMS].map(([term, text]) => `<dt>${term}</dt><dd>${text}</dd>`).join('')}</dl></section>`;
+  return `<section class="explanation"><h2>How to read this</h2><dl>${terms.map(([term, text]) => `<dt>${term}</dt><dd>${text}</dd>`).join('')}${PLOTS}</dl></section>`;
+}
+
+/** Sentences that the verb said, each in a line; empty where there are none. HTML. */
+export function said(id: string, sentences: readonly string[]): string {
+  const whole = (text: string) => `${text.charAt(0).toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
+  return sentences.length === 0 ? '' : `<ul class="notes" id="${id}">${sentences.map((s) => `<li>${escapeHtml(whole(s))}</li>`).join('')}</ul>`;
 }
 
 function provenance(made: Made | undefined): string {

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Maybe } from '../frame/data';
-import { fixed, short } from '../frame/numbers';
+import { fixed, plain, short } from '../frame/numbers';
 import type { Theme } from '../frame/theme';
 
 export interface Axis {
   name: string;
   min?: number;
   max?: number;
-  /** Wanted count of ticks. */
+  /** Wanted count of ticks, */
   ticks?: number;
+  /** or what lies between two of them when all is shown. */
+  step?: number;
+  /** Logarithmic; of y alone. */
   log?: boolean;
 }
 
@@ -49,21 +52,36 @@ function decimalsOf(interval: number): number {
   return Math.max(0, -Math.floor(Math.log10(interval) + 1e-9));
 }
 
+const MOST_DECIMALS = 5;
+const WIDE = 1e6;
+
+/** As wide as the margin has room for: `largest` of the values that are to be written. */
+function labelOf(v: number, interval: number | undefined, largest: number): string {
+  if (interval === undefined) {
+    return short(v);
+  }
+  const decimals = decimalsOf(interval);
+  return decimals > MOST_DECIMALS || largest >= WIDE ? plain(Math.abs(v) < 1e-6 * interval ? 0 : v, 3) : fixed(v, decimals);
+}
+
 /** `count`: of ticks that have room; `shown`: the part of the axis that is in view. */
 export function axisOption(axis: Axis, theme: Theme, count: number, shown?: [number, number]) {
-  const known = !axis.log && axis.min !== undefined && axis.max !== undefined;
+  const known = axis.min !== undefined && axis.max !== undefined;
   const range = known ? (axis.max as number) - (axis.min as number) : undefined;
   const view = shown ? shown[1] - shown[0] : range;
   const wanted = axis.ticks ?? count;
-  const interval = view === undefined || !(view > 0) ? undefined : niceStep(view, wanted);
+  const step = view === range ? axis.step : undefined;
+  const nice = view === undefined || !(view > 0) ? undefined : niceStep(view, wanted);
+  const interval = step ?? (nice !== undefined && axis.log ? Math.max(1, Math.ceil(nice)) : nice);
   const isTick = (v: number | undefined) => interval === undefined || v === undefined || Math.abs(v / interval - Math.round(v / interval)) < 1e-6;
   const [low, high] = shown ?? [axis.min, axis.max];
   return {
-    type: axis.log ? 'log' : 'value',
-    // A logarithmic axis shows whole decades about its data.
-    ...(axis.min === undefined || axis.log ? { scale: true } : { min: axis.min }),
-    ...(axis.max === undefined || axis.log ? {} : { max: axis.max }),
-    // Not `interval`, which would count from `min`: so the ticks are multiples.
+    type: 'value',
+    ...(axis.min === undefined ? { scale: true } : { min: axis.min }),
+    ...(axis.max === undefined ? {} : { max: axis.max }),
+    ...(axis.log ? { minInterval: 1 } : {}),
+    // Not `interval`, which would count from `min`: so the ticks are multiples. A given step begins at the axis's end.
+    interval: step ?? null,
     ...(interval === undefined || view === undefined ? {} : { splitNumber: view / interval }),
     axisLine: { show: true, onZero: false, lineStyle: { color: theme.faint } },
     axisTick: { show: true, lineStyle: { color: theme.faint } },
@@ -72,9 +90,9 @@ export function axisOption(axis: Axis, theme: Theme, count: number, shown?: [num
       color: theme.faint,
       fontSize: 11,
       hideOverlap: true,
-      showMinLabel: axis.log || isTick(low),
-      showMaxLabel: axis.log || isTick(high),
-      formatter: (v: number) => (interval === undefined ? short(v) : fixed(v, decimalsOf(interval))),
+      showMinLabel: isTick(low),
+      showMaxLabel: isTick(high),
+      formatter: (v: number) => (axis.log ? short(10 ** v) : labelOf(v, interval, Math.max(Math.abs(low ?? 0), Math.abs(high ?? 0)))),
     },
   };
 }

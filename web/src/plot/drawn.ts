@@ -12,11 +12,11 @@ export interface Plot {
   x: Axis;
   y: Axis;
   layers: Layer[];
-  /** Zoom acts on both axes; else on x alone. */
+  /** Zoom acts on both axes at once; else on x, and on y by itself. */
   plane?: boolean;
   /** One unit is as long across as up; x and y are the least that is shown. */
   equal?: boolean;
-  /** Plots of one group are zoomed together. */
+  /** Plots of one group are zoomed together: along x, planes along both. */
   group?: string;
   scale?: ColourScale;
   /** What the pointer reads; without it the values of the named layers. `reach`: 14 px in units of x. */
@@ -27,7 +27,10 @@ export interface Plot {
 
 export interface Drawn {
   chart: echarts.ECharts;
+  /** With its true values, */
   plot: Plot;
+  /** and as it is drawn: a logarithmic axis as logarithms. */
+  shown: Plot;
   theme: Theme;
 }
 

@@ -9,6 +9,8 @@ export interface Key {
   name: string;
   colour: string;
   mark: Mark;
+  /** Of an area, as in the plot. */
+  opacity?: number;
 }
 
 /** Colours of a quantity, each up to the number beneath its right edge. */
@@ -34,19 +36,23 @@ function markOf(layer: Layer): Mark {
   }
 }
 
+/** Fainter than that a swatch is not seen. */
+const LEAST_OPACITY = 0.15;
+
 /** Each name once. */
 export function keysOf(layers: readonly Layer[]): Key[] {
   const keys = new Map<string, Key>();
   for (const layer of layers) {
     if (layer.name !== undefined && !layer.quiet && layer.kind !== 'raster' && !keys.has(layer.name)) {
-      keys.set(layer.name, { name: layer.name, colour: layer.colour, mark: markOf(layer) });
+      const area = layer.kind === 'band' || layer.kind === 'spans';
+      keys.set(layer.name, { name: layer.name, colour: layer.colour, mark: markOf(layer), ...(area ? { opacity: Math.max(layer.opacity, LEAST_OPACITY) } : {}) });
     }
   }
   return [...keys.values()];
 }
 
 export function keyLine(keys: readonly Key[]): string {
-  return keys.map((k) => `<span class="key"><i class="${k.mark}" style="--ink:${k.colour}"></i>${escapeHtml(k.name)}</span>`).join('');
+  return keys.map((k) => `<span class="key"><i class="${k.mark}" style="--ink:${k.colour}${k.opacity === undefined ? '' : `;opacity:${k.opacity}`}"></i>${escapeHtml(k.name)}</span>`).join('');
 }
 
 export function scaleLine(scale: ColourScale): string {

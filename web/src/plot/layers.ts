@@ -33,6 +33,8 @@ interface Band {
   high: readonly Maybe[];
   colour: string;
   opacity: number;
+  /** So that it is seen where it has no height. */
+  outlined?: boolean;
 }
 interface Dots {
   kind: 'dots';
@@ -60,6 +62,7 @@ interface Rules {
   at: readonly number[];
   axis: 'x' | 'y';
   colour: string;
+  width?: number;
   dashed?: boolean;
 }
 /** Ticks above the picture, at values of x. */
@@ -127,7 +130,7 @@ function bandSeries(band: LayerOf<'band'>, z: number) {
     ...band.x.map((x, i) => [x ?? 0, band.high[i] ?? FAR]),
     ...band.x.map((x, i) => [x ?? 0, band.low[i] ?? -FAR]).reverse(),
   ];
-  return custom(z, (_, api) => ({ type: 'polygon', shape: { points: points.map((p) => api.coord(p)) }, style: { fill: band.colour, opacity: band.opacity } }));
+  return custom(z, (_, api) => ({ type: 'polygon', shape: { points: points.map((p) => api.coord(p)) }, style: { fill: band.colour, opacity: band.opacity, ...(band.outlined ? { stroke: band.colour, lineWidth: 1 } : {}) } }));
 }
 
 function dotSeries(layer: LayerOf<'dots'>, theme: Theme, z: number) {
@@ -165,7 +168,7 @@ function dotSeries(layer: LayerOf<'dots'>, theme: Theme, z: number) {
 function ticksSeries(layer: LayerOf<'ticks'>, theme: Theme, z: number) {
   const drawn = custom(z, (box, api) => {
     let last = -Infinity;
-    const places = layer.ticks.map((t) => ({ ...t, px: api.coord([t.x, 1])[0] ?? 0 }));
+    const places = layer.ticks.map((t) => ({ ...t, px: api.coord([t.x, 0])[0] ?? 0 }));
     const strong = places.find((p) => p.strong)?.px ?? -Infinity;
     const children = places
       .filter((p) => p.px >= box.x - 1 && p.px <= box.x + box.width + 1)
@@ -189,11 +192,24 @@ function ticksSeries(layer: LayerOf<'ticks'>, theme: Theme, z: number) {
   return { ...drawn, clip: false };
 }
 
-function rasterSeries(layer: LayerOf<'raster'>, z: number) {
+const MOST_RASTER_PX = 4096;
+
+/** In the shape that it is drawn in: an image among vectors keeps its own. */
+function shaped(canvas: HTMLCanvasElement, width: number, height: number): HTMLCanvasElement {
+  const sharpness = Math.min(2, MOST_RASTER_PX / Math.max(width, height));
+  const out = document.createElement('canvas');
+  [out.width, out.height] = [Math.round(sharpness * width), Math.round(sharpness * height)];
+  out.getContext('2d')?.drawImage(canvas, 0, 0, out.width, out.height);
+  return out;
+}
+
+function rasterSeries(layer: LayerOf<'raster'>, theme: Theme, z: number) {
   return custom(z, (_, api) => {
     const [left = 0, top = 0] = api.coord([layer.x[0], layer.y[1]]);
     const [right = 0, bottom = 0] = api.coord([layer.x[1], layer.y[0]]);
-    return { type: 'image', style: { image: layer.canvas, x: left, y: top, width: right - left, height: bottom - top } };
+    const [width, height] = [right - left, bottom - top];
+    const image = theme.printing ? shaped(layer.canvas, width, height) : layer.canvas;
+    return { type: 'image', style: { image, x: left, y: top, width, height } };
   });
 }
 
@@ -201,8 +217,8 @@ function spansSeries(layer: LayerOf<'spans'>, z: number) {
   return custom(z, (box, api) => ({
     type: 'group',
     children: layer.spans.map(([from, to]) => {
-      const x = api.coord([from, 1])[0] ?? 0;
-      const width = Math.max((api.coord([to, 1])[0] ?? 0) - x, 1);
+      const x = api.coord([from, 0])[0] ?? 0;
+      const width = Math.max((api.coord([to, 0])[0] ?? 0) - x, 1);
       return { type: 'rect', shape: { x, y: box.y, width, height: box.height }, style: { fill: layer.colour, opacity: layer.opacity } };
     }),
   }));
@@ -213,9 +229,9 @@ function rulesSeries(layer: LayerOf<'rules'>, z: number) {
     type: 'group',
     children: layer.at.map((value) => {
       const across = layer.axis === 'x';
-      const at = api.coord(across ? [value, 1] : [1, value])[across ? 0 : 1] ?? 0; // 1 is on every axis, a logarithmic one too
+      const at = api.coord(across ? [value, 0] : [0, value])[across ? 0 : 1] ?? 0;
       const shape = across ? { x1: at, x2: at, y1: box.y, y2: box.y + box.height } : { x1: box.x, x2: box.x + box.width, y1: at, y2: at };
-      return { type: 'line', shape, style: { stroke: layer.colour, lineWidth: 1, lineDash: layer.dashed ? [5, 4] : null } };
+      return { type: 'line', shape, style: { stroke: layer.colour, lineWidth: layer.width ?? 1, lineDash: layer.dashed ? [5, 4] : null } };
     }),
   }));
 }
@@ -231,7 +247,7 @@ export function seriesOf(layer: Layer, theme: Theme, z: number, view: [number, n
     case 'ticks':
       return [ticksSeries(layer, theme, z)];
     case 'raster':
-      return [rasterSeries(layer, z)];
+      return [rasterSeries(layer, theme, z)];
     case 'spans':
       return [spansSeries(layer, z)];
     case 'rules':

@@ -16,6 +16,7 @@ function mark(pen: Pen, key: Key, x: number, y: number): void {
   pen.lineWidth = 2.5;
   pen.setLineDash(key.mark === 'dashed' ? [6, 3] : []);
   pen.beginPath();
+  pen.globalAlpha = key.opacity ?? 1;
   if (key.mark === 'area') pen.fillRect(x, y - 5, 18, 10);
   else if (key.mark === 'dot' || key.mark === 'hoop') pen.arc(x + 9, y, 4.5, 0, 7);
   else {
@@ -24,6 +25,7 @@ function mark(pen: Pen, key: Key, x: number, y: number): void {
   }
   if (key.mark === 'dot') pen.fill();
   else if (key.mark !== 'area') pen.stroke();
+  pen.globalAlpha = 1;
   pen.setLineDash([]);
 }
 

@@ -9,9 +9,10 @@ import { FONT, echarts } from './echarts';
 import { type Box, withEqualAspect } from './equal_aspect';
 import { keyLine, keysOf, scaleLine } from './key';
 import { seriesOf } from './layers';
-import { follow, valuesAt } from './reading';
+import { withDecades } from './logarithmic';
+import { follow } from './reading';
 import { TOOLS, bindTools } from './tools';
-import { type Window, inView, onZoom, zoomOption } from './zoom';
+import { type Window, inView, letPageScroll, onZoom, zoomOption } from './zoom';
 
 export type { Plot };
 
@@ -62,13 +63,11 @@ function chartIn(where: HTMLElement, theme: Theme): echarts.ECharts {
   }
   before?.chart.dispose();
   const chart = echarts.init(where, null, { renderer: theme.printing ? 'svg' : 'canvas' });
-  follow(where, chart, (x, y, reach) => {
-    const plot = drawnIn(where)?.plot;
-    return plot?.readout ? plot.readout(x, y, reach) : plot && valuesAt(plot, x);
-  });
+  follow(where, chart, () => drawnIn(where)?.plot);
   chart.on('datazoom', () => onZoom(where, redrawZoomed));
   if (!before) {
     bindTools(where);
+    letPageScroll(where);
   }
   return chart;
 }
@@ -76,7 +75,7 @@ function chartIn(where: HTMLElement, theme: Theme): echarts.ECharts {
 function redrawZoomed(where: HTMLElement): void {
   const now = drawnIn(where);
   if (now) {
-    now.chart.setOption(option(now.plot, now.theme, ...size(now.chart, now.plot), inView(now.chart, now.plot)));
+    now.chart.setOption(option(now.shown, now.theme, ...size(now.chart, now.plot), inView(now.chart, now.shown)));
   }
 }
 
@@ -87,7 +86,8 @@ export function plot(id: string, given: Plot, theme: Theme): void {
   const chart = chartIn(where, theme);
   const [width, height] = size(chart, given);
   const what = fitted(given, width, height);
-  remember(where, { chart, plot: what, theme });
+  const shown = withDecades(what, theme);
+  remember(where, { chart, plot: what, shown, theme });
   chart.setOption(
     {
       animation: false,
@@ -95,7 +95,7 @@ export function plot(id: string, given: Plot, theme: Theme): void {
       textStyle: { fontFamily: FONT, color: theme.faint },
       grid: margins(what),
       dataZoom: zoom,
-      ...option(what, theme, width, height),
+      ...option(shown, theme, width, height),
     },
     { notMerge: true },
   );

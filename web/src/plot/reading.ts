@@ -6,6 +6,7 @@ import { plain } from '../frame/numbers';
 import type { echarts } from './echarts';
 import { rising } from './layers';
 import type { Plot } from './drawn';
+import { heightOf, valueAtHeight } from './logarithmic';
 import { nearestIndex } from './thin';
 
 /** HTML, and the point that it speaks of. */
@@ -34,7 +35,7 @@ export function valuesAt(plot: Plot, x: number): string | undefined {
 }
 
 /** A box beside the pointer and a ring about what it speaks of. */
-export function follow(host: HTMLElement, chart: echarts.ECharts, read: (x: number, y: number, reach: number) => Reading | string | undefined): void {
+export function follow(host: HTMLElement, chart: echarts.ECharts, plotted: () => Plot | undefined): void {
   const made = (name: string) => {
     const found = host.appendChild(document.createElement('div'));
     found.className = name;
@@ -44,28 +45,29 @@ export function follow(host: HTMLElement, chart: echarts.ECharts, read: (x: numb
   const hide = () => {
     tip.style.display = ring.style.display = 'none';
   };
-  const show = (px: number, py: number, reading: Reading) => {
+  const show = (px: number, py: number, plot: Plot, reading: Reading) => {
     tip.innerHTML = reading.html;
     tip.style.display = 'block';
     const right = px + 16 + tip.offsetWidth < host.clientWidth;
     tip.style.left = `${right ? px + 16 : Math.max(0, px - 16 - tip.offsetWidth)}px`;
     tip.style.top = `${Math.max(0, py - tip.offsetHeight - 8)}px`;
-    const [x, y] = reading.at ? (chart.convertToPixel({ gridIndex: 0 }, reading.at) as number[]) : [];
+    const [x, y] = reading.at ? (chart.convertToPixel({ gridIndex: 0 }, [reading.at[0], heightOf(plot.y, reading.at[1])]) as number[]) : [];
     ring.style.cssText = x === undefined ? 'display:none' : `display:block;left:${x}px;top:${y}px`;
   };
   chart.getZr().on('mousemove', (e: { offsetX: number; offsetY: number }) => {
     const at = [e.offsetX, e.offsetY];
-    if (!chart.containPixel({ gridIndex: 0 }, at)) {
+    const plot = plotted();
+    if (!plot || !chart.containPixel({ gridIndex: 0 }, at)) {
       hide();
       return;
     }
     const [x = 0, y = 0] = chart.convertFromPixel({ gridIndex: 0 }, at) as number[];
     const [beside = 0] = chart.convertFromPixel({ gridIndex: 0 }, [e.offsetX + REACH_PX, e.offsetY]) as number[];
-    const reading = read(x, y, Math.abs(beside - x));
+    const reading = plot.readout ? plot.readout(x, valueAtHeight(plot.y, y), Math.abs(beside - x)) : valuesAt(plot, x);
     if (reading === undefined) {
       hide();
     } else {
-      show(e.offsetX, e.offsetY, typeof reading === 'string' ? { html: reading } : reading);
+      show(e.offsetX, e.offsetY, plot, typeof reading === 'string' ? { html: reading } : reading);
     }
   });
   chart.getZr().on('globalout', hide);

@@ -2,10 +2,10 @@
 import type { echarts } from './echarts';
 import { type Drawn, type Plot, drawnIn } from './drawn';
 
-/** What is in view. */
+/** What is in view; undefined where the axis finds its own ends. */
 export interface Window {
-  x: [number, number];
-  y?: [number, number];
+  x?: [number, number] | undefined;
+  y?: [number, number] | undefined;
 }
 
 interface Range {
@@ -13,11 +13,22 @@ interface Range {
   end: number;
 }
 
-/** x alone, or x and y; in percent of the axes. A plot that is drawn again over the same axes keeps its view. */
+/** Both axes, or each by its own key; in percent of the axes. A plot that is drawn again over the same axes keeps its view. */
 export function zoomOption(plot: Plot, before?: Drawn): object[] {
   const kept = before && before.plot.x.name === plot.x.name && before.plot.y.name === plot.y.name ? ranges(before.chart) : [];
-  const inside = { type: 'inside', filterMode: 'none', zoomOnMouseWheel: 'ctrl', preventDefaultMouseMove: false };
-  return [{ ...inside, xAxisIndex: 0, ...kept[0] }, ...(plot.plane ? [{ ...inside, yAxisIndex: 0, ...kept[1] }] : [])];
+  const inside = { type: 'inside', filterMode: 'none', preventDefaultMouseMove: false };
+  return [
+    { ...inside, xAxisIndex: 0, zoomOnMouseWheel: 'ctrl', ...kept[0] },
+    { ...inside, yAxisIndex: 0, zoomOnMouseWheel: plot.plane ? 'ctrl' : 'shift', ...kept[1] },
+  ];
+}
+
+/** A wheel without a key scrolls the page; the chart would keep it. */
+export function letPageScroll(where: HTMLElement): void {
+  for (const type of ['wheel', 'mousewheel']) {
+    const keep = (event: Event) => (event as WheelEvent).ctrlKey || (event as WheelEvent).shiftKey || event.stopPropagation();
+    where.addEventListener(type, keep, { capture: true, passive: true });
+  }
 }
 
 function ranges(chart: echarts.ECharts): Range[] {
@@ -30,21 +41,26 @@ function set(chart: echarts.ECharts, all: readonly Range[]): void {
 
 export function inView(chart: echarts.ECharts, plot: Plot): Window {
   const [x, y] = ranges(chart);
-  const part = (axis: Plot['x'], range: Range | undefined): [number, number] => {
-    const [min, max] = [axis.min ?? 0, axis.max ?? 1];
+  const part = ({ min, max }: Plot['x'], range: Range | undefined): [number, number] | undefined => {
+    if (min === undefined || max === undefined) {
+      return undefined;
+    }
     const at = (percent: number) => min + ((max - min) * percent) / 100;
     return [at(range?.start ?? 0), at(range?.end ?? 100)];
   };
-  return { x: part(plot.x, x), ...(plot.plane ? { y: part(plot.y, y) } : {}) };
+  return { x: part(plot.x, x), y: part(plot.y, y) };
 }
 
-/** `factor` > 1 shows less; about the middle of the view. */
+/** `factor` > 1 shows less; about the middle of the view. Of a plane both axes, else x alone. */
 export function zoomBy(where: HTMLElement, factor: number): void {
-  const chart = drawnIn(where)?.chart;
-  if (chart) {
+  const drawn = drawnIn(where);
+  if (drawn) {
     set(
-      chart,
-      ranges(chart).map(({ start, end }) => {
+      drawn.chart,
+      ranges(drawn.chart).map(({ start, end }, axis) => {
+        if (axis > 0 && !drawn.plot.plane) {
+          return { start, end };
+        }
         const half = Math.min((end - start) / 2 / factor, 50);
         const middle = Math.min(Math.max((start + end) / 2, half), 100 - half);
         return { start: middle - half, end: middle + half };
@@ -62,14 +78,15 @@ export function showWhole(where: HTMLElement): void {
 
 const near = (a: readonly Range[], b: readonly Range[]) => a.every((r, i) => Math.abs(r.start - (b[i]?.start ?? 0)) < 1e-9 && Math.abs(r.end - (b[i]?.end ?? 0)) < 1e-9);
 
-/** A plot was zoomed: it and those of its group are drawn for what is in view now. */
+/** A plot was zoomed: it and those of its group are drawn for what is in view now; heights are shared by planes alone. */
 export function onZoom(where: HTMLElement, redraw: (where: HTMLElement) => void): void {
   const source = drawnIn(where);
   if (!source) {
     return;
   }
   redraw(where);
-  const wanted = ranges(source.chart);
+  const all = ranges(source.chart);
+  const wanted = source.plot.plane ? all : all.slice(0, 1);
   for (const other of document.querySelectorAll<HTMLElement>('.plot')) {
     const drawn = drawnIn(other);
     if (other !== where && drawn && source.plot.group !== undefined && drawn.plot.group === source.plot.group && !near(wanted, ranges(drawn.chart))) {

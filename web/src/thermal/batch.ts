@@ -106,15 +106,15 @@ export function batchView(page: BatchPage): View {
     product: 'Steadyrest cut, a batch',
     title: page.title,
     facts: `<b>${a.parts.length}</b> parts · <b>${plain(a.total_s / 3600, 3)} h</b> from cold · axis <b>${page.axis}</b>`,
-    verdict: `Corrected in the program's text the largest error is ${fixed(a.text.improvement, 1)} times smaller, on line ${fixed(a.online.improvement, 1)} times; ${worse === 0 ? 'no part is worse for it' : `${worse} parts are worse for it`}.`,
+    verdict: `Heat displaces ${page.axis} by up to ${um(a.without.largest_um)}. Corrected in the program's text the largest error is ${um(a.text.largest_um)}, ${fixed(a.text.improvement, 1)} times smaller, on line ${um(a.online.largest_um)}, ${fixed(a.online.improvement, 1)} times; ${worse === 0 ? 'no part is worse for it' : `${worse} parts are worse for it`}.`,
     body:
-      section('The day', host('day', 'high'), 'Shaded: a part is being cut. The model is wrong as the machine file says; the probe reads before each part.') +
+      section('Over the batch', host('day', 'high'), 'Shaded: a part is being cut. The model is wrong as the machine file says; the probe reads before each part.') +
       section('The parts', host('parts')) +
       section('What the model believed', host('belief') + host('room', 'low'), 'Steps: a reading of the probe.') +
       section('Figures', figures([...row('without correction', a.without), ...row('in the text', a.text), ...row('on line', a.online)])),
     explanation: [
       ['Without correction', 'How far heat displaces the axis: what the parts get.'],
-      ["In the program's text", 'The corrections that were planned before the day began are written into the program; each part is cut by the same text.'],
+      ["In the program's text", 'The corrections that were planned beforehand are written into the program; each part is cut by the same text.'],
       ['On line', 'The layer works the displacement out while it arises, from speed, temperatures and the probe, and takes it off through an axis offset.'],
       ['±Δk', 'The share of the tolerance that heat may take.'],
       ['What the model believed', 'The displacement as the layer estimated it, with its 95 % band, beside what the simulated machine really did. A step is a reading of the probe.'],

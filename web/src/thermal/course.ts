@@ -30,6 +30,9 @@ export function broken(t: readonly number[], values: readonly Maybe[]): { t: num
   return out;
 }
 
+/** An axis, and the column of the log that it is taken from. */
+export const nameOf = (axis: MeasuredCourse) => (axis.channel === axis.axis ? axis.axis : `${axis.axis} (${axis.channel})`);
+
 function left(axis: MeasuredCourse): Maybe[] {
   return axis.measured_um.map((v, i) => {
     const model = axis.modelled_um[i];
@@ -50,8 +53,12 @@ function used(axis: MeasuredCourse, theme: Theme): Layer[] {
   return !goesOn(axis) ? [] : [{ kind: 'spans', name: 'readings were used', spans: [[axis.fitted_from_h, axis.fitted_to_h]], colour: theme.faint, opacity: 0.1 }];
 }
 
-/** `banded`: with the 95 % band about the model. */
-export function coursePlot(axis: MeasuredCourse, theme: Theme, banded = false): Plot {
+/** Is the model fitted to what was measured, or does it forecast it? */
+export type Model = 'modelled' | 'forecast';
+
+/** A forecast has its 95 % band about it. */
+export function coursePlot(axis: MeasuredCourse, model: Model, theme: Theme): Plot {
+  const banded = model === 'forecast';
   const half = wide(axis);
   const edge = (sign: number) => axis.modelled_um.map((v, i) => (v === null ? null : v + sign * (half[i] ?? 0)));
   const [min, max] = roomy([...axis.measured_um, ...axis.modelled_um, ...(banded ? [...edge(-1), ...edge(1)] : [])], true);
@@ -59,40 +66,40 @@ export function coursePlot(axis: MeasuredCourse, theme: Theme, banded = false): 
   const modelled = broken(axis.t_h, axis.modelled_um);
   const rest = left(axis);
   return {
-    title: `${axis.channel}: measured and modelled`,
+    title: `${nameOf(axis)}: measured and ${model}`,
     x: time(axis),
-    y: { name: `displacement ${axis.channel} in µm`, min, max },
+    y: { name: `displacement ${nameOf(axis)} in µm`, min, max },
     group: 'time',
     layers: [
       ...used(axis, theme),
       { kind: 'rules', at: [0], axis: 'y', colour: theme.faint },
-      ...(banded ? [{ kind: 'band', name: '95 % of what is measured lies here', x: axis.t_h, low: edge(-1), high: edge(1), colour: theme.run.with, opacity: 0.18 } as Layer] : []),
+      ...(banded ? [{ kind: 'band', name: 'the 95 % band of the model', x: axis.t_h, low: edge(-1), high: edge(1), colour: theme.run.with, opacity: 0.18 } as Layer] : []),
       { kind: 'line', name: 'measured', x: measured.t, y: measured.v, colour: theme.run.without, width: 4 },
-      { kind: 'line', name: banded ? 'forecast' : 'modelled', x: modelled.t, y: modelled.v, colour: theme.run.with, width: 1.6 },
+      { kind: 'line', name: model, x: modelled.t, y: modelled.v, colour: theme.run.with, width: 1.6 },
     ],
     readout: (t) => {
       const i = nearestIndex(axis.t_h, t);
-      return `<b>${plain(axis.t_h[i])} h</b><br>measured ${fixed(axis.measured_um[i], 1)} µm<br>modelled ${fixed(axis.modelled_um[i], 1)} µm<br>left ${fixed(rest[i], 1)} µm`;
+      return `<b>${plain(axis.t_h[i])} h</b><br>measured ${fixed(axis.measured_um[i], 1)} µm<br>${model} ${fixed(axis.modelled_um[i], 1)} µm<br>left ${fixed(rest[i], 1)} µm`;
     },
   };
 }
 
-export function residualPlot(axis: MeasuredCourse, theme: Theme): Plot {
+export function residualPlot(axis: MeasuredCourse, model: Model, theme: Theme): Plot {
   const rest = left(axis);
   const half = wide(axis);
   const shown = broken(axis.t_h, rest);
   const [low, high] = span([...rest, ...half, ...half.map((v) => -v)]);
   const [, max] = roomy([0, Math.max(-low, high)], true);
   return {
-    title: `${axis.channel}: what the model leaves`,
+    title: `${nameOf(axis)}: measured less ${model}`,
     x: time(axis),
-    y: { name: `${axis.channel}: measured less modelled in µm`, min: -max, max },
+    y: { name: `${nameOf(axis)}: measured less ${model} in µm`, min: -max, max },
     group: 'time',
     layers: [
       ...used(axis, theme),
-      { kind: 'band', name: '95 % of what is left lies here', x: axis.t_h, low: half.map((v) => -v), high: half, colour: theme.run.with, opacity: 0.18 },
+      { kind: 'band', name: 'the 95 % band of the model', x: axis.t_h, low: half.map((v) => -v), high: half, colour: theme.run.with, opacity: 0.18 },
       { kind: 'rules', at: [0], axis: 'y', colour: theme.faint },
-      { kind: 'line', name: 'measured less modelled', x: shown.t, y: shown.v, colour: theme.run.without, width: 1.6 },
+      { kind: 'line', name: `measured less ${model}`, x: shown.t, y: shown.v, colour: theme.run.without, width: 1.6 },
     ],
     readout: (t) => {
       const i = nearestIndex(axis.t_h, t);

@@ -146,6 +146,8 @@ export interface FitPage extends Head {
     }[];
     modes: { axis: string; tau_min: number; rest_tau_min: number }[];
     notes: string[];
+    /** Where the bands do not hold what they promise. */
+    warnings?: string[];
   };
   sensors: string[];
   regimes: Regime[];

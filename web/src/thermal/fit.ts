@@ -3,9 +3,9 @@
 import { element } from '../frame/dom';
 import { escapeHtml, section } from '../frame/html';
 import { fixed, plain } from '../frame/numbers';
-import type { View } from '../frame/view';
+import { type View, said } from '../frame/view';
 import { host, plot } from '../plot/plot';
-import { coursePlot, goesOn, residualPlot, speedPlot, um } from './course';
+import { coursePlot, goesOn, nameOf, residualPlot, speedPlot, um } from './course';
 import type { FitPage, FittedAxis } from './data';
 import { hysteresisPlot, told } from './hysteresis';
 import { named } from './tables';
@@ -33,20 +33,20 @@ function modelTable(page: FitPage): string {
     um(a.left_out_probed_rms_um),
     a.coverage === null ? '–' : `${fixed(100 * a.coverage, 1)} %`,
   ]);
-  return named('figures', ['axis', 'τ in min', 'inputs', 'left of the fitted, RMS', 'of left-out hours', 'with an hourly probe', '95 % band holds'], rows);
+  return named('figures', ['axis', 'τ in min', 'inputs', 'left of the hours fitted, RMS', 'of hours left out', 'the same with an hourly probe', '95 % band holds'], rows);
 }
 
 function overTable(page: FitPage): string {
   const rows = page.axes.flatMap((a) => {
     const best = a.best_sensor === null ? undefined : a.over[a.best_sensor];
-    return best === undefined ? [] : [[a.channel, page.sensors[a.best_sensor ?? 0] ?? '', fixed(best.correlation, 2), um(best.residual_rms_um), um(best.spread_um)]];
+    return best === undefined ? [] : [[nameOf(a), page.sensors[a.best_sensor ?? 0] ?? '', fixed(best.correlation, 2), um(best.residual_rms_um), um(best.spread_um)]];
   });
   return named('told', ['displacement', 'best temperature', 'correlation', 'a straight line leaves, RMS', 'apart at one temperature'], rows);
 }
 
 function chooser(page: FitPage, axis: FittedAxis, i: number): string {
   const options = page.sensors.map((name, s) => `<option value="${s}"${s === axis.best_sensor ? ' selected' : ''}>${escapeHtml(name)}${s === axis.best_sensor && page.sensors.length > 1 ? ', which it follows best' : ''}</option>`);
-  return `<h3 class="of">${escapeHtml(axis.channel)} over <select id="sensor-${i}" aria-label="temperature for ${escapeHtml(axis.channel)}">${options.join('')}</select></h3><p class="hint" id="told-${i}"></p>`;
+  return `<h3 class="of">${escapeHtml(nameOf(axis))} over <select id="sensor-${i}" aria-label="temperature for ${escapeHtml(nameOf(axis))}">${options.join('')}</select></h3><p class="hint" id="told-${i}"></p>`;
 }
 
 function verdict(page: FitPage): string {
@@ -65,13 +65,14 @@ function verdict(page: FitPage): string {
 export function fitView(page: FitPage): View {
   const sensor = page.axes.map((a) => a.best_sensor ?? 0);
   const over = page.axes.some((a) => a.over.length > 0);
-  const notes = page.answer.notes.length === 0 ? '' : section('What was left out of the log', `<ul class="notes">${page.answer.notes.map((n) => `<li>${escapeHtml(n)}</li>`).join('')}</ul>`);
+  const notes = said('notes', page.answer.notes);
   return {
     product: 'Steadyrest thermal fit',
     title: page.title,
     facts: `<b>${page.axes.length}</b> ${page.axes.length === 1 ? 'displacement' : 'displacements'} · <b>${page.sensors.length}</b> ${page.sensors.length === 1 ? 'temperature' : 'temperatures'} · <b>${plain(page.answer.hours, 3)} h</b>`,
     verdict: verdict(page),
     body:
+      said('warnings', page.answer.warnings ?? []) +
       (over
         ? section(
             'Displacement over temperature',
@@ -85,7 +86,7 @@ export function fitView(page: FitPage): View {
         `The model has the spindle's speed and its inputs alone, from the beginning on. The band is what it says of hours that it has not seen.${page.axes.some(goesOn) ? ' Shaded: what was fitted; the rest is a forecast.' : ''}`,
       ) +
       section('Figures', modelTable(page)) +
-      notes,
+      (notes === '' ? '' : section('What was left out of the log', notes)),
     explanation: [
       ['Displacement over temperature', 'One curve for each stretch of one spindle speed. Where a temperature told the displacement, all would lie on one line; how far they lie apart at one temperature is what no correction by that temperature can take away.'],
       ['Modelled', "What the fitted modes make of the spindle's speed and the temperatures alone, from the beginning of the log on; no reading of the gauge helps."],
@@ -99,8 +100,8 @@ export function fitView(page: FitPage): View {
           plot(`over-${i}`, hysteresisPlot(page, a, sensor[i] as number, theme), theme);
           element(`told-${i}`).innerHTML = told(a.over[sensor[i] as number] as FittedAxis['over'][number]);
         }
-        plot(`course-${i}`, coursePlot(a, theme), theme);
-        plot(`residual-${i}`, residualPlot(a, theme), theme);
+        plot(`course-${i}`, coursePlot(a, 'modelled', theme), theme);
+        plot(`residual-${i}`, residualPlot(a, 'modelled', theme), theme);
       });
       plot('speed', speedPlot(page.speed, page.axes[0] as FittedAxis, theme), theme);
     },

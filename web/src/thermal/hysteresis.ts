@@ -6,6 +6,7 @@ import type { Theme } from '../frame/theme';
 import { roomy, span } from '../plot/axes';
 import type { Layer } from '../plot/layers';
 import type { Plot } from '../plot/plot';
+import { nameOf } from './course';
 import type { FitPage, FittedAxis, Over, Regime } from './data';
 
 /** From slow to fast; the spindle that stands is grey. */
@@ -46,17 +47,17 @@ export function hysteresisPlot(page: FitPage, axis: FittedAxis, sensor: number, 
   const [min, max] = roomy(axis.displacement_um.flat());
   const ends = span(x.flat());
   const line = (c: number) => over.mean_um + over.slope_um_k * (c - over.mean_c);
-  const curves = page.regimes.map(
-    (r, k): Layer => ({
-      kind: 'line',
-      name: speedName(r.speed_rpm),
-      x: x[k] ?? [],
-      y: axis.displacement_um[k] ?? [],
-      colour: colourOf(r.speed_rpm, all, theme),
-      width: r.speed_rpm > 0 ? 2 : 1.2,
-      dashed: r.speed_rpm === 0,
-    }),
-  );
+  const curve = (r: Regime, k: number): Layer => ({
+    kind: 'line',
+    name: speedName(r.speed_rpm),
+    x: x[k] ?? [],
+    y: axis.displacement_um[k] ?? [],
+    colour: colourOf(r.speed_rpm, all, theme),
+    width: r.speed_rpm > 0 ? 2 : 1.2,
+    dashed: r.speed_rpm === 0,
+  });
+  // By speed, so that the key is too.
+  const curves = page.regimes.map((r, k) => ({ r, k })).sort((p, q) => p.r.speed_rpm - q.r.speed_rpm || p.k - q.k).map(({ r, k }) => curve(r, k));
   const begins = page.regimes.flatMap((r, k): Layer[] => {
     const [c, um] = [x[k]?.[0], axis.displacement_um[k]?.[0]];
     const there = c !== undefined && c !== null && um !== undefined && um !== null && r.speed_rpm > 0;
@@ -77,12 +78,12 @@ export function hysteresisPlot(page: FitPage, axis: FittedAxis, sensor: number, 
     return best;
   };
   return {
-    title: `${axis.channel} over ${name}`,
+    title: `${nameOf(axis)} over ${name}`,
     x: { name: `temperature ${name} in °C`, min: left, max: right },
-    y: { name: `displacement ${axis.channel} in µm`, min, max },
+    y: { name: `displacement ${nameOf(axis)} in µm`, min, max },
     plane: true,
     layers: [
-      { kind: 'line', name: 'the best straight line', x: ends, y: ends.map(line), colour: theme.text, width: 1, dashed: true },
+      { kind: 'line', name: 'the best straight line', x: ends, y: ends.map(line), colour: theme.text, width: 1 },
       ...curves,
       ...begins,
       { kind: 'line', x: [over.spread_at_c, over.spread_at_c], y: [over.spread_from_um, top], colour: theme.text, width: 2, halo: true },

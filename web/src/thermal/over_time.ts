@@ -24,7 +24,7 @@ export function band(course: Course, colour: string): Layer[] {
     return [];
   }
   const at = (sign: number) => course.displacement_um.map((v, i) => (v === null ? null : v + sign * BAND * (course.sd_um[i] ?? 0)));
-  return [{ kind: 'band', name: '95 % of what is measured lies here', x: course.t_min, low: at(-1), high: at(1), colour, opacity: 0.18 }];
+  return [{ kind: 'band', name: 'the 95 % band of the forecast', x: course.t_min, low: at(-1), high: at(1), colour, opacity: 0.18 }];
 }
 
 export function withBand(course: Course): Maybe[] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // When to correct by how much: the source's figures 4 and 5, and its system R.
-import { section } from '../frame/html';
+import { escapeHtml, section } from '../frame/html';
 import { fixed, plain } from '../frame/numbers';
 import { figures } from '../frame/table';
 import type { Theme } from '../frame/theme';
@@ -81,10 +81,26 @@ function linePlot(page: PlanPage, course: PlannedCourse, theme: Theme): Plot {
         kind: 'dots',
         colour: theme.run.with,
         size: 7,
-        dots: course.corrections.length > 24 ? [] : course.corrections.map((c) => ({ x: c.t_min, y: c.total_um, label: `${plain(c.t_min)} min`, side: 'top' as const, lift: 2 })),
+        dots: course.corrections.length > 24 ? [] : course.corrections.map((c) => ({ x: c.t_min, y: c.total_um, label: duration(c.t_min), side: 'top' as const, lift: 2 })),
       },
     ],
   };
+}
+
+/** Each axis in a sentence: what the corrections leave by the forecast, and what the forecast itself leaves open. */
+function verdict(page: PlanPage): string {
+  return page.answer.axes
+    .map((a) => {
+      const count = `${a.corrections} ${a.corrections === 1 ? 'correction keeps' : 'corrections keep'}`;
+      const less = a.corrections === 0 ? `${escapeHtml(a.axis)} needs no correction: it stays within ${um(a.max_um)}` : `${count} ${escapeHtml(a.axis)} within ${um(a.residual_um)} instead of ${um(a.max_um)}: ${fixed(a.ratio, 1)} times less`;
+      return `${less}${a.sd_um > 0 ? `, by a forecast that is itself uncertain by ±${um(BAND * a.sd_um)}` : ''}.`;
+    })
+    .join('<br>');
+}
+
+/** Of a stretch of the work. */
+export function duration(min: number | undefined): string {
+  return min !== undefined && min < 1 ? `${plain(60 * min, 2)} s` : `${plain(min, 3)} min`;
 }
 
 /** So many transitions are shown whole; of more only those with corrections, and no more than so many. */
@@ -97,10 +113,10 @@ function systemR(page: PlanPage, axis: PlanPage['answer']['axes'][number]): stri
   const chosen = all.length <= SHORT_R ? all : all.filter(({ t }) => t.delta_um.some((d) => d !== 0)).slice(0, MOST_R);
   const rows = chosen.map(({ t, i }) => [
     t.name || `${i + 1}`,
-    `${plain(page.transitions[i]?.minutes)} min`,
+    duration(page.transitions[i]?.minutes),
     `${fixed(page.transitions[i]?.speed_rpm ?? 0, 0)} rev/min`,
     `${t.t_min.length}`,
-    t.t_min.map((v) => plain(v)).join(', '),
+    t.t_min.map((v) => plain(v, 3)).join(', '),
     t.delta_um.map((v) => plain(v)).join(', '),
   ]);
   const hint = chosen.length < all.length ? `<p class="hint">${chosen.length} of ${all.length} transitions: those with corrections${chosen.length === MOST_R ? ', the first of them' : ''}.</p>` : '';
@@ -114,12 +130,11 @@ export function planView(page: PlanPage): View {
     { label: `${a.axis}: corrections`, value: `${a.corrections}` },
     { label: `${a.axis}: 95 % of the forecast's error within`, value: a.sd_um > 0 ? `±${um(BAND * a.sd_um)}` : 'not stated' },
   ]);
-  const first = page.answer.axes[0];
   return {
     product: 'Steadyrest thermal plan',
     title: page.title,
     facts: `Δ <b>${plain(page.answer.tolerance_um)} µm</b> · level <b>${page.answer.level}</b> · k <b>${plain(page.answer.k)}</b>`,
-    verdict: first ? `${first.corrections} corrections keep ${first.axis} within ${um(first.residual_um)} instead of ${um(first.max_um)}: ${fixed(first.ratio, 1)} times less.` : '',
+    verdict: verdict(page),
     body:
       section(
         'Displacement without and with correction',
@@ -132,8 +147,8 @@ export function planView(page: PlanPage): View {
       section('Figures', figures(rows)),
     explanation: [
       ['Δ, k, ±Δk', 'Δ is the tolerance of the part, k the share of it that heat may take, Δk = k·Δ. A correction is made where what is left of the displacement reaches Δk.'],
-      ['Curve 1, curve 2', 'The displacement without correction, and what is left of it with the corrections taken off (the source’s figure 4).'],
-      ['Field of tolerance', 'The corrections carry the field of the tolerance with them as a broken line; the displacement stays within (the source’s figure 5).'],
+      ['Curve 1, curve 2', 'The displacement without correction, and what the forecast leaves of it with the corrections taken off (figure 4 of Marusich’s paper).'],
+      ['Field of tolerance', 'The corrections carry the field of the tolerance with them as a broken line; the displacement stays within (figure 5 of the paper).'],
       ['System R', 'R = {n; {t}; {δ}}: of each transition the number of its intervals, how long each lasts and the correction at its beginning.'],
     ],
     draw: (theme) => {

@@ -36,13 +36,13 @@ export function replayView(page: ReplayPage): View {
     explanation: [
       ['Forecast', 'What the passport makes of the recorded speed and temperatures. Where readings set the state first, that time is shaded; from there on nothing of the gauge is used.'],
       ['95 % band', 'About the forecast: 95 % of the readings should lie within. Off, RMS: of measured less forecast, beyond the shaded time.'],
-      ['Left', 'Measured less forecast, with the band about nought.'],
+      ['Measured less forecast', 'What the forecast would have left in the part, with its band about zero.'],
     ],
     draw: (theme) => {
       page.axes.forEach((a, i) => {
-        plot(`course-${i}`, coursePlot(a, theme, true), theme);
+        plot(`course-${i}`, coursePlot(a, 'forecast', theme), theme);
         if (measured(a)) {
-          plot(`residual-${i}`, residualPlot(a, theme), theme);
+          plot(`residual-${i}`, residualPlot(a, 'forecast', theme), theme);
         }
       });
       plot('speed', speedPlot(page.speed, page.axes[0] as MeasuredCourse, theme), theme);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages that the chatter verbs wrote, in a real browser, opened from disk.
+import { readFile } from 'node:fs/promises';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { DetectPage, FitPage, GrowthPage, LobesPage, Page, PlanPage, SimulatePage } from '../../src/chatter/data';
 import { choiceText } from '../../src/chatter/plan';
@@ -33,7 +34,7 @@ describe.runIf(haveWritten)('the pages of the chatter verbs', () => {
     expect(verdict).toContain(`${fixed(page.answer.point?.frequency_hz, 1)} Hz`);
     const rows = await open.page.locator('#steps tbody tr').allTextContents();
     expect(rows.length).toBe(page.steps.length);
-    expect(rows.filter((r) => r.includes('too deep')).length).toBe(page.steps.filter((s) => s.limit_depth_mm !== null && s.limit_depth_mm <= 1).length);
+    expect(rows.filter((r) => r.includes('chatters')).length).toBe(page.steps.filter((s) => s.limit_depth_mm !== null && s.limit_depth_mm <= 1).length);
     expect(await open.page.textContent('#key-lobes')).toContain('zero-order sketch');
     // Both sides of the border have their colours.
     expect(await share(open, 'lobes', '#b0d2e7')).toBeGreaterThan(0.003);
@@ -79,7 +80,12 @@ describe.runIf(haveWritten)('the pages of the chatter verbs', () => {
     const { open, page } = at<PlanPage>('chatter-plan');
     expect(await open.page.locator('#alternatives tbody tr').count()).toBe(page.answer.alternatives.length);
     expect(await open.page.locator('#alternatives tr.chosen th:first-child').allTextContents()).toEqual([choiceText(page.answer)]);
-    expect(await open.page.textContent('#verdict')).toContain('110 % = 5500 rev/min');
+    const verdict = (await open.page.textContent('#verdict')) ?? '';
+    expect(verdict).toContain('110 % = 5500 rev/min');
+    // What the programmed speed would do, and what is gained.
+    expect(verdict).toContain(`the cut chatters at ${fixed(page.answer.chatter_frequency_hz, 1)} Hz`);
+    expect(verdict).toContain(`${fixed(page.answer.limit_depth_mm, 3)} mm`);
+    expect(await open.page.locator('#notes li').count()).toBe(page.answer.notes.length);
     expect(await open.page.locator('#best-speeds tbody tr').count()).toBe(page.answer.best_speeds.length);
   });
 
@@ -112,6 +118,25 @@ describe.runIf(haveWritten)('the pages of the chatter verbs', () => {
       expect(await share(open, id, '#1b6aa5'), id).toBeGreaterThan(0.0005);
     }
     expect(await open.page.locator('#modes tbody tr').count()).toBe(page.answer.modes.length);
+    // The magnitude is on whole decades; pointer, zoom and CSV keep the true values.
+    const { low, high, names } = await open.page.evaluate(() => {
+      type Plotted = { steadyrestPlot: (id: string) => { chart: { getModel(): { getComponent(name: string): { axis: { scale: { getExtent(): [number, number] } } } } }; plot: { layers: { name?: string }[] } } };
+      const { chart, plot } = (window as unknown as Plotted).steadyrestPlot('magnitude');
+      const [from, to] = chart.getModel().getComponent('yAxis').axis.scale.getExtent();
+      return { low: from, high: to, names: plot.layers.map((l) => l.name ?? '') };
+    });
+    const magnitudes = page.measured.flatMap((m) => m.real_um_N.map((v, i) => Math.hypot(v ?? 0, m.imag_um_N[i] ?? 0)));
+    expect([low, high]).toEqual([Math.floor(Math.log10(Math.min(...magnitudes))), Math.ceil(Math.log10(Math.max(...magnitudes)))]);
+    expect(names).toContain('fitted');
+    const box = await open.page.locator('#magnitude').boundingBox();
+    await open.page.locator('#magnitude').hover({ position: { x: (box?.width ?? 0) / 2, y: 100 } });
+    const tip = (await open.page.locator('#magnitude .tip').innerText()).split('\n');
+    const pointed = Number(/[\d.]+$/.exec(tip[0] ?? '')?.[0]);
+    const nearest = page.measured[0]?.frequency_hz.reduce((best, f, i, all) => (Math.abs(f - pointed) < Math.abs((all[best] ?? 0) - pointed) ? i : best), 0) ?? 0;
+    expect(tip.find((line) => line.startsWith('tap-922hz'))).toContain(plain(magnitudes[nearest]));
+    const [download] = await Promise.all([open.page.waitForEvent('download'), open.page.click('#magnitude-frame [data-tool="csv"]')]);
+    const csv = (await readFile(await download.path(), 'utf8')).split('\n');
+    expect(Number(csv[1]?.split(',')[1])).toBeCloseTo(magnitudes[0] ?? NaN, 9);
     // What is fitted lies on what was measured, within a few per cent of the peak.
     const peak = Math.max(...page.measured.flatMap((m) => m.real_um_N.map((v, i) => Math.hypot(v ?? 0, m.imag_um_N[i] ?? 0))));
     const fitted = Math.max(...page.fitted.real_um_N.map((v, i) => Math.hypot(v ?? 0, page.fitted.imag_um_N[i] ?? 0)));

@@ -14,7 +14,7 @@ const WIDTHS = [1440, 1024, 390, 1280];
 
 interface Shown {
   chart: { getOption(): { dataZoom: { start: number; end: number }[]; xAxis: { name: string }[] }; getWidth(): number };
-  plot: { group?: string; x: { name: string }; layers: { name?: string; kind: string }[] };
+  plot: { group?: string; plane?: boolean; x: { name: string }; layers: { name?: string; kind: string }[] };
 }
 type WithPlots = { steadyrestPlot: (id: string) => Shown };
 
@@ -33,6 +33,38 @@ const beyond = (open: OpenPage) =>
       }
     }
     return found.slice(0, 5);
+  });
+
+/** A4 between its margins. */
+const A4_PX = 688;
+
+/** What is not shown whole of plots as vectors: pictures higher than their place, labels that reach out of them, rasters out of shape. */
+const cut = (open: OpenPage) =>
+  open.page.evaluate(async () => {
+    const found: string[] = [];
+    for (const plot of document.querySelectorAll<HTMLElement>('.plot')) {
+      const svg = plot.querySelector('svg');
+      const place = plot.getBoundingClientRect();
+      if (!svg || svg.clientHeight > place.height + 1 || svg.clientWidth > place.width + 1) {
+        found.push(`${plot.id}: ${svg?.clientWidth} × ${svg?.clientHeight} in ${place.width} × ${place.height}`);
+      }
+      for (const text of plot.querySelectorAll('svg text')) {
+        const box = text.getBoundingClientRect();
+        if (box.width > 0 && (box.left < place.left - 1 || box.right > place.right + 1 || box.top < place.top - 1 || box.bottom > place.bottom + 1)) {
+          found.push(`${plot.id}: label ${text.textContent}`);
+        }
+      }
+      for (const image of plot.querySelectorAll('svg image')) {
+        const source = new Image();
+        source.src = image.getAttribute('href') ?? image.getAttribute('xlink:href') ?? '';
+        await source.decode();
+        const drawn = Number(image.getAttribute('width')) / Number(image.getAttribute('height'));
+        if (Math.abs(source.naturalWidth / source.naturalHeight / drawn - 1) > 0.01) {
+          found.push(`${plot.id}: raster ${source.naturalWidth} × ${source.naturalHeight} drawn ${drawn}`);
+        }
+      }
+    }
+    return found;
   });
 
 async function saved(open: OpenPage, id: string, tool: string): Promise<{ name: string; content: Buffer }> {
@@ -76,8 +108,10 @@ describe.runIf(haveWritten).each(Object.entries(PAGES))('the page %s', (name, co
   it('zooms each plot, those of a group together, and goes back', async () => {
     for (const id of await plotIds(open)) {
       const use = (tool: string) => open.page.click(`#${id}-frame [data-tool="${tool}"]`);
+      const plane = await open.page.evaluate((i) => (window as unknown as WithPlots).steadyrestPlot(i).plot.plane === true, id);
+      const half = [[25, 75], plane ? [25, 75] : [0, 100]];
       await use('in');
-      (await zoomOf(open, id)).forEach((z) => expect(z, id).toEqual([25, 75]));
+      expect(await zoomOf(open, id), id).toEqual(half);
       const group = await open.page.evaluate((i) => {
         const of = (k: string) => (window as unknown as WithPlots).steadyrestPlot(k).plot.group;
         return of(i) === undefined ? [i] : [...document.querySelectorAll('.plot')].map((e) => e.id).filter((k) => of(k) === of(i));
@@ -85,10 +119,34 @@ describe.runIf(haveWritten).each(Object.entries(PAGES))('the page %s', (name, co
       for (const other of group) expect((await zoomOf(open, other))[0], `${id} → ${other}`).toEqual([25, 75]);
       await use('in');
       await use('out');
-      (await zoomOf(open, id)).forEach((z) => expect(z, id).toEqual([25, 75]));
+      expect(await zoomOf(open, id), id).toEqual(half);
       await use('whole');
       for (const other of group) expect((await zoomOf(open, other))[0], other).toEqual([0, 100]);
     }
+    expect(open.complaints).toEqual([]);
+  });
+
+  it('zooms by the wheel with a key and scrolls without', async () => {
+    const id = (await plotIds(open))[0] ?? '';
+    const plane = await open.page.evaluate((i) => (window as unknown as WithPlots).steadyrestPlot(i).plot.plane === true, id);
+    const zoomed = async () => (await zoomOf(open, id)).map(([from = 0, to = 0]) => to - from < 100);
+    const wheel = async (key: string, by: number) => {
+      await open.page.keyboard.down(key);
+      await open.page.mouse.wheel(0, by);
+      await open.page.keyboard.up(key);
+    };
+    await open.page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    await open.page.locator(`#${id}`).hover();
+    const from = await open.page.evaluate(() => window.scrollY);
+    await open.page.mouse.wheel(0, 60);
+    await open.page.waitForFunction((y) => window.scrollY > y, from);
+    expect(await zoomed()).toEqual([false, false]);
+    await wheel('Control', -120);
+    await expect.poll(zoomed).toEqual([true, plane]);
+    await wheel('Shift', -120);
+    await expect.poll(zoomed).toEqual([true, true]);
+    await open.page.click(`#${id}-frame [data-tool="whole"]`);
+    expect(await zoomOf(open, id)).toEqual([[0, 100], [0, 100]]);
     expect(open.complaints).toEqual([]);
   });
 
@@ -110,13 +168,18 @@ describe.runIf(haveWritten).each(Object.entries(PAGES))('the page %s', (name, co
     expect(open.complaints).toEqual([]);
   });
 
-  it('prints every plot as vectors and draws on the screen again afterwards', async () => {
+  it('prints every plot as vectors, whole and in shape, and draws on the screen again afterwards', async () => {
     const event = (type: string) => open.page.evaluate((t) => window.dispatchEvent(new Event(t)), type);
+    await open.page.setViewportSize({ width: A4_PX, height: 900 });
+    await open.page.emulateMedia({ media: 'print' });
     await event('beforeprint');
+    expect(await cut(open)).toEqual([]);
+    expect(await beyond(open)).toEqual([]);
     const drawn = await open.page.locator('.plot').evaluateAll((all) => all.map((e) => ({ id: e.id, svg: e.querySelectorAll('svg path, svg image, svg polygon').length, canvas: e.querySelectorAll('canvas').length })));
     drawn.forEach((d) => expect(d.svg, d.id).toBeGreaterThan(4));
     expect(drawn.every((d) => d.canvas === 0)).toBe(true);
     await event('afterprint');
+    await open.page.emulateMedia({ media: null });
     Object.entries(await colours(open)).forEach(([id, number]) => expect(number, id).toBeGreaterThan(15));
     expect((await open.page.pdf({ format: 'A4', preferCSSPageSize: true })).length).toBeGreaterThan(10_000);
     expect(open.complaints).toEqual([]);

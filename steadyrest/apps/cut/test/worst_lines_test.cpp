@@ -63,6 +63,21 @@ TEST(HeldFeed, OfAnArcTooShortForTheSteadyStateIsFromTheRecord) {
   EXPECT_DOUBLE_EQ(held.feed_mm_s, 15.0);  // a quarter of the error: half the feed
 }
 
+TEST(HeldFeed, OfAnArcThatLeftTheLimitAtAFeedThatItsRadiusBearsIsFromTheRecord) {
+  // Line 213 of the rib pocket: 29.6 µm at 240 mm/min behind a corner; the radius would bear 1041.
+  const LineError entry{.contour_error_mm = 0.0296,
+                        .path_speed_mm_s = 4.0,
+                        .arc_radius_mm = 6.0,
+                        .arc_length_mm = 37.7};
+  const HeldFeed held = held_feed(entry, machine_of(50.0, 50.0));
+  EXPECT_EQ(held.by, HeldBy::record);
+  EXPECT_NEAR(held.feed_mm_s, 4.0 * std::sqrt(0.010 / 0.0296), 1e-12);
+  // Within the limit the radius says more than what was driven.
+  LineError kept = entry;
+  kept.contour_error_mm = 0.002;
+  EXPECT_EQ(held_feed(kept, machine_of(50.0, 50.0)).by, HeldBy::closed_form);
+}
+
 TEST(HeldFeed, OfALineThatKeptTheLimitIsWhatWasDriven) {
   const HeldFeed held =
       held_feed({.contour_error_mm = 0.0099, .path_speed_mm_s = 30.0}, machine_of(50.0, 50.0));
