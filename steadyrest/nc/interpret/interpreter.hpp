@@ -191,7 +191,7 @@ class Interpreter {
   bool back_bore(const Step& step, const Hole& hole);
   bool has_feed(const Step& step);
   bool end_point(const Step& step, Axes& end);
-  void machine_end(const Step& step, Axes& end) const;
+  void machine_end(const Step& step, Axes& end);
   [[nodiscard]] bool tool_stays(std::size_t axis) const noexcept;
   double component(const Step& step, std::size_t axis) const noexcept;
 

@@ -74,12 +74,13 @@ bool Interpreter::tool_stays(std::size_t axis) const noexcept {
 
 // G53: the named axes go to machine coordinates, the machine's others stay. The tool's length stays
 // in force on SINUMERIK, on the others it is suppressed as well.
-void Interpreter::machine_end(const Step& step, Axes& end) const {
+void Interpreter::machine_end(const Step& step, Axes& end) {
   const bool keeps_tool = config_.dialect == read::Dialect::sinumerik;
   Axes machine = to_machine(end);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (step.has(kAxisLetters[i])) {
       machine[i] = component(step, i) + (keeps_tool || tool_stays(i) ? state_.tool_offset[i] : 0.0);
+      move_.machine_axes |= 1U << i;
     }
   }
   const Axes work = to_work(machine);
@@ -367,6 +368,7 @@ void Interpreter::emit(MoveKind kind, const Axes& end) {
   }
   state_.position = end;
   sink_->on_move(move_);
+  move_.machine_axes = 0;
 }
 
 void Interpreter::emit_dwell(double seconds) {

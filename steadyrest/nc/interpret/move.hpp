@@ -40,6 +40,8 @@ struct Move {
   Axes end{};
   Axes offset{};  ///< work offsets, G92/G52, tool length; machine = work + offset without rotation
   double rotation_deg = 0.0;  ///< of the work coordinates about Z, from machine to work
+  unsigned machine_axes = 0;  ///< bit i: the program gave the end of axis i in machine coordinates
+                              ///< (G53, SUPA)
   double feed_mm_s = 0.0;  ///< path feed; degrees/s where only rotary axes move. For inverse_time:
                            ///< moves/s; for per_revolution: mm/rev; 0 for
                            /// rapids and dwells

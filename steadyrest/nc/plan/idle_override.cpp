@@ -66,7 +66,7 @@ std::optional<Warning> idle_override(const PlannedPath& path,
     }
   }
   return Warning{line,
-                 fmt::format("the feed override's next step, {:.0f} %, changes nothing for {:.0f} "
+                 fmt::format("the feed override's next step, {:.3g} %, changes nothing for {:.0f} "
                              "% of the cut: the programmed feed is far above what the axes do. "
                              "It begins to act at about {:.0f} %; program a feed that the axes "
                              "reach",

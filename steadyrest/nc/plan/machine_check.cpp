@@ -9,6 +9,7 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/plan/machine_check.hpp>
 #include <steadyrest/nc/plan/reach.hpp>
+#include <steadyrest/nc/plan/spline_lines.hpp>
 
 namespace steadyrest::nc::plan {
 namespace {
@@ -30,13 +31,24 @@ bool feeds(const Move& move) {
          move.kind == MoveKind::spline;
 }
 
-/// Where the axis goes; of a line only its end, since where the first one begins nobody knows.
+constexpr double kChord_mm = 1e-3;
+
+/// Where the axis goes; of a line only its end, since where the first one begins nobody knows. Of a
+/// spline the curve counts, not its control points.
 Reach goes_to(const Move& move, std::size_t axis) {
-  if (move.kind == MoveKind::arc || move.kind == MoveKind::spline) {
+  if (move.kind == MoveKind::arc) {
     return reach_of(move, axis);
   }
   const double end_mm = interpret::machine_of(move, move.end)[axis];
-  return {.low_mm = end_mm, .high_mm = end_mm};
+  Reach reach{.low_mm = end_mm, .high_mm = end_mm};
+  if (move.kind == MoveKind::spline) {
+    spline_lines(move, kChord_mm, [&](const Move& chord) {
+      const double at_mm = interpret::machine_of(chord, chord.end)[axis];
+      reach.low_mm = std::min(reach.low_mm, at_mm);
+      reach.high_mm = std::max(reach.high_mm, at_mm);
+    });
+  }
+  return reach;
 }
 
 }  // namespace
@@ -58,9 +70,13 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
   }
 }
 
-bool MachineCheck::placed(std::size_t axis) const noexcept {
+bool MachineCheck::placed(const Move& move, std::size_t axis) const noexcept {
   const bool by_tool = axis == 2 || (axis == 0 && lathe_);
-  return known_.offsets && (known_.tools || !tool_came_ || !by_tool);
+  const bool length = known_.tools || !tool_came_ || !by_tool;
+  if ((move.machine_axes >> axis & 1U) != 0) {  // SUPA keeps the tool's length
+    return length || machine_.control.dialect != kernel::machine::Dialect::sinumerik;
+  }
+  return known_.offsets && length;
 }
 
 void MachineCheck::on_move(const Move& move) {
@@ -87,7 +103,7 @@ void MachineCheck::check_travel(const Move& move, std::size_t axis) {
   }
   const bool over =
       reach.high_mm > limits.max_mm + kRounding_mm || reach.low_mm < limits.min_mm - kRounding_mm;
-  if (placed(axis)) {
+  if (placed(move, axis)) {
     if (over) {
       const double to_mm =
           reach.high_mm > limits.max_mm + kRounding_mm ? reach.high_mm : reach.low_mm;

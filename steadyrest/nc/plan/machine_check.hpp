@@ -31,9 +31,9 @@ struct Known {
 /// Holds a program against its machine, move by move:
 /// - travel: each end and each bulge of an arc within [min, max] of a linear axis (machine
 ///   coordinates). Where the work offset is not known, and for Z (on a lathe also X) where a tool
-///   of unknown length has come, what the program covers against the travel's length: all feed
-///   moves, and rapids that end outside of the travel. A rapid within it may be one in machine
-///   coordinates (G53, G28);
+///   of unknown length has come, only ends in machine coordinates (G53, SUPA) are, and what the
+///   rest covers counts against the travel's length: all feed moves, and rapids that end outside of
+///   the travel. A rapid within it may go to a reference point (G28);
 /// - feed: F against the axes' speeds along the move and the control's largest feed, at each new F;
 /// - spindle: S outside of its range; a cut (line, arc, spline) while it stands.
 /// A line is named once for each of these and for each axis.
@@ -66,7 +66,8 @@ class MachineCheck final : public interpret::Sink {
   void check_feed(const interpret::Move& move);
   void check_standing(const interpret::Move& move);
   void warn(std::uint32_t line, What what, std::size_t axis, std::string text);
-  [[nodiscard]] bool placed(std::size_t axis) const noexcept;
+  /// Whether the machine coordinates of the move's end are known.
+  [[nodiscard]] bool placed(const interpret::Move& move, std::size_t axis) const noexcept;
 
   const kernel::machine::Machine& machine_;
   Known known_;

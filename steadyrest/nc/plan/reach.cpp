@@ -14,45 +14,51 @@ using interpret::MoveKind;
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
-/// What is added to the ends of an arc: where it passes the axis' direction from its centre.
+/// What is added to the ends of an arc: where it passes the axis' direction from its centre. The
+/// work coordinates may be turned out of the arc's plane.
 void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
+  if (axis >= move.normal.size()) {
+    return;
+  }
   const auto* const largest =
       std::ranges::max_element(move.normal, {}, [](double part) { return std::abs(part); });
   const auto normal = static_cast<std::size_t>(largest - move.normal.begin());
-  if (axis >= move.normal.size() || axis == normal) {
-    return;
-  }
   const std::size_t first = (normal + 1) % 3;
   const std::size_t second = (normal + 2) % 3;
   Axes centre = move.start;
   std::ranges::copy(move.centre_mm, centre.begin());
-  centre = machine_of(move, centre);
-  const Axes start = machine_of(move, move.start);
-  const Axes end = machine_of(move, move.end);
+  const double centre_mm = machine_of(move, centre)[axis];
+  const auto along = [&](std::size_t direction) {  // of the work coordinates, on the machine's axis
+    Axes at = centre;
+    at[direction] += 1.0;
+    return machine_of(move, at)[axis] - centre_mm;
+  };
+  const double share = std::hypot(along(first), along(second));
+  if (share < 1e-9) {
+    return;
+  }
   const auto angle = [&](const Axes& at) {
     return std::atan2(at[second] - centre[second], at[first] - centre[first]);
   };
   const auto behind_start = [&](double at) {  // in the direction of travel, 0 … 2π
-    const double ahead = (move.turns < 0 ? -1.0 : 1.0) * (at - angle(start));
+    const double ahead = (move.turns < 0 ? -1.0 : 1.0) * (at - angle(move.start));
     return ahead - kFullTurn * std::floor(ahead / kFullTurn);
   };
-  const double radius_mm =
-      std::max(std::hypot(start[first] - centre[first], start[second] - centre[second]),
-               std::hypot(end[first] - centre[first], end[second] - centre[second]));
-  double swept = behind_start(angle(end));
+  const auto from_centre_mm = [&](const Axes& at) {
+    return std::hypot(at[first] - centre[first], at[second] - centre[second]);
+  };
+  double swept = behind_start(angle(move.end));
   if (std::abs(move.turns) > 1 || swept < 1e-9) {
     swept = kFullTurn;
   }
-  // Where the work coordinates are turned out of the arc's plane, all of the circle counts.
-  if (move.rotation_deg != 0.0 && normal != 2) {
-    swept = kFullTurn;
-  }
-  const double high_at = axis == first ? 0.0 : 0.5 * std::numbers::pi;
+  const double bulge_mm = share * std::max(from_centre_mm(move.start), from_centre_mm(move.end));
+  const double helix_mm = (move.end[normal] - move.start[normal]) * along(normal);
+  const double high_at = std::atan2(along(second), along(first));
   if (behind_start(high_at) <= swept) {
-    reach.high_mm = std::max(reach.high_mm, centre[axis] + radius_mm);
+    reach.high_mm = std::max(reach.high_mm, centre_mm + bulge_mm + std::max(helix_mm, 0.0));
   }
   if (behind_start(high_at + std::numbers::pi) <= swept) {
-    reach.low_mm = std::min(reach.low_mm, centre[axis] - radius_mm);
+    reach.low_mm = std::min(reach.low_mm, centre_mm - bulge_mm + std::min(helix_mm, 0.0));
   }
 }
 

@@ -78,6 +78,47 @@ TEST(MachineCheck, NamesTheLineThatLeavesTheTravel) {
               ElementsAre(HasSubstr("4: a rapid takes X")));
 }
 
+TEST(MachineCheck, TurnsWithTheWorkCoordinates) {
+  // G54 at X500 Y100, turned by 30°: X100 lies at 586.6 mm, X120 at 603.9.
+  const std::string head =
+      "G21 G90 G17 G94 G54\nG10 L2 P1 X500 Y100 Z-100 R30\nS1000 M3\nG0 X10 Y10 Z-10\n";
+  EXPECT_THAT(warned(head + "G1 X100 Y0 F1000\nX120\nG0 X0 Y-110\nM2\n", kAll),
+              ElementsAre(HasSubstr("6: the move takes X to 603.923 mm"),
+                          HasSubstr("7: a rapid takes Y to 4.737 mm") /* −110 turned */));
+}
+
+TEST(MachineCheck, ArcsReachAsFarAsTheyDoWhereTheWorkCoordinatesTurn) {
+  // G18, radius 50 about X40 Z-20, first by X-10, then by X90: 77.9 mm of the machine's X and 45 of
+  // its Y from the zero.
+  const std::string head =
+      "G21 G90 G17 G94 G54\nG10 L2 P1 X{} Y{} Z-100 R30\nS1000 M3\nG0 X40 Y0 Z30\nG18 ";
+  const auto half = [&](double x_mm, double y_mm) {
+    return warned(fmt::format(fmt::runtime(head), x_mm, y_mm) +
+                      "G2 X40 Z-70 I0 K-50 F1000\nG2 X40 Z30 I0 K50\nM2\n",
+                  kAll);
+  };
+  EXPECT_THAT(half(522.0, 100.0), IsEmpty());
+  EXPECT_THAT(half(522.2, 100.0), ElementsAre(HasSubstr("6: the move takes X to 600.142 mm")));
+  EXPECT_THAT(half(100.0, 354.9), IsEmpty());
+  EXPECT_THAT(half(100.0, 355.1), ElementsAre(HasSubstr("6: the move takes Y to 400.100 mm")));
+}
+
+TEST(MachineCheck, OfASplineTheCurveCounts) {
+  // Control points at X612, the curve at X599: 590 + 0.75·12.
+  const std::string curve = "G5 I{0} J5 P{0} Q-5 X590 Y40 F500\nM2\n";
+  const std::string head = kHead + "G1 X590 F1000\n";
+  EXPECT_THAT(warned(head + fmt::format(fmt::runtime(curve), 12), kAll), IsEmpty());
+  EXPECT_THAT(warned(head + fmt::format(fmt::runtime(curve), 14), kAll),
+              ElementsAre(HasSubstr("5: the move takes X to 600.500 mm")));
+}
+
+TEST(MachineCheck, ReadsInches) {
+  EXPECT_THAT(
+      warned("G20 G90 G17 G94\nS1000 M3\nG0 X1 Y1 Z-1\nG1 X23.6 F472\nX23.63 F473\nM2\n", kAll),
+      ElementsAre(HasSubstr("5: the move takes X to 600.202 mm"),
+                  HasSubstr("5: the feed of 12014.2 mm/min")));
+}
+
 TEST(MachineCheck, KnowsByTheExtentWhatNoOffsetCanMend) {
   EXPECT_THAT(warned(kHead + "G1 X-300 F1000\nX290\nM2\n"), IsEmpty()) << "590 mm fit somewhere";
   EXPECT_THAT(
@@ -86,7 +127,9 @@ TEST(MachineCheck, KnowsByTheExtentWhatNoOffsetCanMend) {
                             "its travel is 600 mm")));
   EXPECT_THAT(warned(kHead + "G1 X20 F1000\nG0 X900\nM2\n"),
               ElementsAre(HasSubstr("5: the program covers 880.000 mm of X")));
-  // A rapid in machine coordinates says nothing of the work offset.
+  // A rapid in machine coordinates says nothing of the work offset, and needs none.
+  EXPECT_THAT(warned(kHead + "G1 X20 F1000\nG53 G0 X601 Z0\nX10\nM2\n"),
+              ElementsAre(HasSubstr("5: a rapid takes X to 601.000 mm")));
   EXPECT_THAT(warned(kHead + "G1 X-300 F1000\nG53 G0 X600 Z0\nM2\n"), IsEmpty());
 }
 
