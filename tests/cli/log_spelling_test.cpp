@@ -189,32 +189,116 @@ TEST(LogSpelling, ChatterDetectReadsEachAlike) {
   EXPECT_EQ(without(answer_of("chatter detect " + log + how), {"signal"}), plain);
 }
 
-TEST(LogSpelling, ThermalFitReadsEachAlike) {
-  const std::string file = "examples/thermal/spindle-test.csv";
-  const Scratch scratch;
-  const json plain = answer_of("thermal fit " + file);
-  const std::string log = scratch.file("log.csv", continental(file));
-  EXPECT_EQ(answer_of("thermal fit " + log), plain);
-  // The same hours by the clock on the wall.
-  const std::string by_clock = changed(file, [](const std::string& line) {
+/// The same hours by the clock on the wall, over midnight.
+std::string by_the_wall(const std::string& file) {
+  return changed(file, [](const std::string& line) {
     std::string out = line + "\n";
     if (is_comment(line)) {
       return out;
     }
     const std::string rest = line.substr(line.find(','));
     if (line.find("time_s") == 0) {
-      out = "timestamp" + rest + "\n";
-      return out;
+      return "timestamp" + rest + "\n";
     }
-    const int t_s = std::stoi(line) + 20 * 3600;  // over midnight
+    const int t_s = std::stoi(line) + 20 * 3600;
     out = fmt::format("2026-11-{:02}T{:02}:{:02}:{:02}+01:00{}\n", 22 + t_s / 86400,
                       t_s / 3600 % 24, t_s / 60 % 60, t_s % 60, rest);
     return out;
   });
+}
+
+TEST(LogSpelling, ThermalFitReadsEachAlike) {
+  const std::string file = "examples/thermal/spindle-test.csv";
+  const Scratch scratch;
+  const json plain = answer_of("thermal fit " + file);
+  const std::string log = scratch.file("log.csv", continental(file));
+  EXPECT_EQ(answer_of("thermal fit " + log), plain);
+  const std::string by_clock = by_the_wall(file);
   const std::string stamped = scratch.file("stamped.csv", by_clock);
   const json by_wall = answer_of("thermal fit " + stamped);
   EXPECT_EQ(by_wall["axes"][0]["ambient"], plain["axes"][0]["ambient"]);
   EXPECT_NEAR(by_wall["rms_um"], plain["rms_um"], 1e-6);
+  const std::string window = " --from-min 10 --to-min 400";
+  const json part = answer_of("thermal fit " + file + window);
+  EXPECT_NEAR(answer_of("thermal fit " + stamped + window)["rms_um"], part["rms_um"], 1e-6);
+}
+
+TEST(LogSpelling, ThermalForecastReadsEachAlike) {
+  const std::string file = "examples/thermal/spindle-test.csv";
+  const Scratch scratch;
+  const std::string passport = scratch.at("passport.toml");
+  answer_of("thermal fit " + file + " --to-min 300 -o " + passport);
+  const auto forecast = [&](const std::string& log, const std::string& more = "") {
+    json answer = answer_of("thermal forecast --machine " + passport + " --from-min 300 --log " +
+                            log + more + " -o " + scratch.at("out.csv"));
+    return without(answer, {"written", "notes"});
+  };
+  const json plain = forecast(file);
+  EXPECT_EQ(forecast(scratch.file("semicolons.csv", continental(file))), plain);
+  EXPECT_EQ(forecast(scratch.file("rows.csv", rows_alone(file, ',', "\n")),
+                     " --columns time_s,spindle_rpm,z_um,room_c"),
+            plain);
+  const json by_wall = forecast(scratch.file("stamped.csv", by_the_wall(file)));
+  EXPECT_EQ(by_wall["axes"][0]["points"], plain["axes"][0]["points"]);
+  EXPECT_EQ(by_wall["minutes"], plain["minutes"]) << "the passport's clock is another";
+}
+
+TEST(LogSpelling, ThermalForecastOfOneWrongTimeIsRefused) {
+  const std::string file = "examples/thermal/spindle-test.csv";
+  const Scratch scratch;
+  const std::string passport = scratch.at("passport.toml");
+  answer_of("thermal fit " + file + " -o " + passport);
+  std::string text = text_of_file(project_file(file));
+  text.insert(text.rfind('\n', text.size() - 2) + 1, "770");
+  const std::string log = scratch.file("log.csv", text);
+  for (const std::string& verb :
+       {"thermal forecast --machine " + passport + " -o " + scratch.at("out.csv") + " --log " + log,
+        "thermal fit " + log}) {
+    expect_refused(verb, "log.csv:931: time_s = 77027870 is");
+  }
+}
+
+TEST(LogSpelling, ThermalAdaptReadsEachAlike) {
+  const std::string file = "examples/paper-thermal/measured.csv";
+  const Scratch scratch;
+  const auto adapt = [](const std::string& csv, const std::string& more = "") {
+    return answer_of("thermal adapt examples/paper-thermal/plan.json --measured " + csv + more);
+  };
+  const json plain = adapt(file);
+  EXPECT_EQ(adapt(scratch.file("semicolons.csv", continental(file))), plain);
+  const std::string rows = changed(file, [](const std::string& line) {
+    return is_comment(line) || line.find("part") == 0 ? "" : line + "\n";
+  });
+  EXPECT_EQ(adapt(scratch.file("rows.csv", rows), " --columns part,time_min,deviation_um"), plain);
+  const std::string gauged = changed(file, [](const std::string& line) -> std::string {
+    int part = 0;
+    int minute = 0;
+    double um = 0.0;
+    if (std::sscanf(line.c_str(), "%d,%d,%lf", &part, &minute, &um) != 3) {
+      return line.find("part") == 0 ? "Teil;Zeit;deviation [µm]\n" : "";
+    }
+    std::string out =
+        fmt::format("{};2026-11-22 {:02}:{:02}:30;{}\n", part, 8 + minute / 60, minute % 60, um);
+    std::ranges::replace(out, '.', ',');
+    return out;
+  });
+  const std::string stamps = scratch.file("gauged.csv", gauged);
+  const std::string columns = " --columns -,Zeit,deviation_um";
+  json by_wall = adapt(stamps, columns + " --started 2026-11-22T08:00:30");
+  EXPECT_EQ(by_wall["axes"], plain["axes"]);
+  expect_refused("thermal adapt examples/paper-thermal/plan.json --measured " + stamps + columns,
+                 "--started");
+}
+
+TEST(LogSpelling, MotionCalibrateReadsEachAlike) {
+  const std::string file = "examples/logs/sine-edges.csv";
+  const Scratch scratch;
+  const auto answer_to = [&](const std::string& log) {
+    return without(
+        answer_of("motion calibrate " + log + " --count-mm 0.001 -o " + scratch.at("out.toml")),
+        {"written"});
+  };
+  EXPECT_EQ(answer_to(scratch.file("log.csv", continental(file))), answer_to(file));
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
     request.state_s = passport->state_s;
     request.rezero_s = 60.0 * options.rezero_min;
     if (options.from_min) {
-      request.from_s = 60.0 * *options.from_min;
+      request.from_s = log->origin_s + 60.0 * *options.from_min;
     }
     if (request.rezero_s > 0.0 && !request.channel) {
       return refused(refusal(options.log, fmt::format("{} is not measured in the log", axis.name),
@@ -196,8 +196,8 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
     answer.text += note + "\n";
   }
   if (!options.report.empty()) {
-    const double from_s =
-        options.from_min ? 60.0 * *options.from_min : -std::numeric_limits<double>::infinity();
+    const double from_s = options.from_min ? log->origin_s + 60.0 * *options.from_min
+                                           : -std::numeric_limits<double>::infinity();
     put_report(answer, options.report, page_of(answer, *log, axes, from_s));
   }
   return answer;

@@ -43,6 +43,7 @@ struct Options {
   double tolerance_um = 0.0;
   double noise_um = 0.0;
   LogOptions format;
+  std::string started;
 };
 
 std::unexpected<Refusal> refuse(std::string file, std::size_t line, std::string what,
@@ -282,7 +283,8 @@ Outcome run(Options options) {
     return refused(passport.error());
   }
   const auto level = level_of(*plan, *passport);
-  const auto rows = thermal::offline::read_measured(options.measured, format_of(options.format));
+  const auto rows = thermal::offline::read_measured(
+      options.measured, {format_of(options.format), table::stamp_of(options.started)});
   if (!level || !rows) {
     return refused(level ? rows.error() : level.error());
   }
@@ -348,10 +350,17 @@ void add_verb_thermal_adapt(Session& session) {
   auto options = std::make_shared<Options>();
   verb.reads("plan", options->plan, "PLAN.json that the parts were made with")->required();
   verb.reads("--measured", options->measured,
-             "CSV: part; transition or time_min; deviation_um (the tool's place less the right "
+             "CSV: part; transition, time_min or stamps; deviation_um (the tool's place less the "
+             "right "
              "one); if wanted tolerance_um, axis")
       ->required();
   add_log_options(verb, options->format, false);
+  verb.add_option("--started", options->started,
+                  "When the plan's work began, as 2026-11-22T23:47:06, for parts with stamps")
+      ->check([](const std::string& given) {
+        return table::stamp_of(given) ? std::string{}
+                                      : "is no date with a time; write 2026-11-22T23:47:06";
+      });
   verb.reads("--machine", options->thermal.machine,
              "Machine file or thermal passport; without it the one that the plan names");
   verb.reads("--cyclogram", options->thermal.cyclogram,

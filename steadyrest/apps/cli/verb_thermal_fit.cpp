@@ -273,8 +273,8 @@ Result<Job> job_of(const Options& options) {
   job.request.ambient = !options.no_ambient;
   job.request.table = options.levels == "table";
   job.request.horizon_s = 60.0 * options.horizon_min;
-  job.request.from_s = 60.0 * options.from_min;
-  job.request.to_s = 60.0 * options.to_min;
+  job.request.from_s = job.log.origin_s + 60.0 * options.from_min;
+  job.request.to_s = job.log.origin_s + 60.0 * options.to_min;
   if (options.modes > 0) {
     job.request.modes = options.modes;
   }
@@ -389,8 +389,10 @@ void add_verb_thermal_fit(Session& session) {
   verb.add_option("--horizon-min", options->horizon_min,
                   "Minutes ahead that the passport shall forecast")
       ->check(CLI::Range(1.0, 1e5));
-  verb.add_option("--from-min", options->from_min, "Leave out what is earlier in the log");
-  verb.add_option("--to-min", options->to_min, "Leave out what is later in the log");
+  verb.add_option(
+      "--from-min", options->from_min,
+      "Leave out what is earlier in the log; of a log with stamps, minutes since its first row");
+  verb.add_option("--to-min", options->to_min, "Leave out what is later in the log, likewise");
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -175,8 +175,8 @@ void add_verb_thermal_forecast(Session& session) {
                                 "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
   add_log_options(verb, options->replay.format);
   verb.add_option("--from-min", options->replay.from_min,
-                  "Of the log's clock: readings before it set the state, after it is forecast; "
-                  "without it from the passport's end on")
+                  "Minute of the log's clock, or since its first stamp: readings before it set the "
+                  "state, after it is forecast; without it from the passport's end on")
       ->needs(log);
   verb.add_option("--rezero-min", options->replay.rezero_min,
                   "A reading of the log each so many minutes sets the forecast right; 0 = none")

@@ -23,8 +23,14 @@ double hours(double seconds) {
   return seconds / 3600.0;
 }
 
+/// Turns a log's time into hours since its origin.
+auto clock_h(const Log& log) {
+  return [origin_s = log.origin_s](double time_s) { return hours(time_s - origin_s); };
+}
+
+template <class Convert>
 Json picked(const std::vector<double>& from, const std::vector<std::size_t>& rows,
-            double (*convert)(double)) {
+            Convert convert) {
   std::vector<double> out;
   out.reserve(rows.size());
   for (const std::size_t row : rows) {
@@ -45,9 +51,9 @@ Json regimes_json(const Log& log, const std::vector<Regime>& regimes) {
       temperatures.push_back(picked(sensor.value, regime.row, as_it_is));
     }
     out.push_back({{"speed_rpm", std::round(rpm_from_rev_s(regime.speed_rev_s))},
-                   {"start_h", short_number(hours(regime.start_s))},
+                   {"start_h", short_number(clock_h(log)(regime.start_s))},
                    {"hours", short_number(hours(regime.seconds))},
-                   {"t_h", picked(log.time_s, regime.row, hours)},
+                   {"t_h", picked(log.time_s, regime.row, clock_h(log))},
                    {"temperature_c", std::move(temperatures)}});
   }
   return out;
@@ -60,7 +66,7 @@ Json speed_json(const Log& log) {
   for (std::size_t row = 0; row < log.rows(); ++row) {
     const double now = rpm_from_rev_s(log.speed_rev_s[row]);
     if (rpm.empty() || std::abs(now - rpm.back()) > kSpeedStep_rpm) {
-      t_h.push_back(hours(log.time_s[row]));
+      t_h.push_back(clock_h(log)(log.time_s[row]));
       rpm.push_back(now);
     }
   }
@@ -95,16 +101,16 @@ Json column(const std::vector<FittedPoint>& points, Value value) {
   return report::short_numbers(out);
 }
 
-void put_course(Json& out, const std::vector<FittedPoint>& points) {
+void put_course(Json& out, const Log& log, const std::vector<FittedPoint>& points) {
   if (points.empty()) {
     return;
   }
   const auto first_free =
       std::ranges::find_if(points, [](const FittedPoint& p) { return !p.fitted; });
   const auto last = first_free == points.begin() ? first_free : first_free - 1;
-  out["fitted_from_h"] = short_number(hours(points.front().time_s));
-  out["fitted_to_h"] = short_number(hours(last->time_s));
-  out["t_h"] = column(points, [](const FittedPoint& p) { return hours(p.time_s); });
+  out["fitted_from_h"] = short_number(clock_h(log)(points.front().time_s));
+  out["fitted_to_h"] = short_number(clock_h(log)(last->time_s));
+  out["t_h"] = column(points, [&](const FittedPoint& p) { return clock_h(log)(p.time_s); });
   out["measured_um"] =
       column(points, [](const FittedPoint& p) { return um_from_mm(p.measured_mm); });
   out["modelled_um"] =
@@ -134,7 +140,7 @@ Json fit_page(const Json& answer, const Log& log, const std::vector<FittedAxis>&
     for (const Regime& regime : regimes) {
       one["displacement_um"].push_back(picked(channel.value, regime.row, um_from_mm));
     }
-    put_course(one, axis.point);
+    put_course(one, log, axis.point);
     page["axes"].push_back(std::move(one));
   }
   return page;
@@ -146,7 +152,7 @@ Json replay_page(const Json& answer, const Log& log, const std::vector<FittedAxi
   page["axes"] = Json::array();
   for (const FittedAxis& axis : axes) {
     Json one = {{"axis", axis.axis}, {"channel", axis.axis}};
-    put_course(one, axis.point);
+    put_course(one, log, axis.point);
     page["axes"].push_back(std::move(one));
   }
   return page;

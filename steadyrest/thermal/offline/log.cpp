@@ -9,6 +9,7 @@
 
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/log.hpp>
+#include <steadyrest/thermal/offline/log_clock.hpp>
 #include <steadyrest/thermal/offline/log_table.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
@@ -23,8 +24,6 @@ constexpr double kMostSpeed_rpm = 200'000.0;
 constexpr double kMostDisplacement_mm = 2.0;
 constexpr double kColdest_c = -50.0;
 constexpr double kHottest_c = 150.0;
-constexpr double kMostTime_s = 1e11;  ///< 3000 years: a clock since 1970 is far below
-constexpr double kMostStep_s = 600.0;
 constexpr double kLeastRange_mm = 0.5e-3;
 constexpr double kAbsentShare = 0.5;  ///< a sensor that is silent for more than this is absent
 constexpr double kWild_share = 0.01;  ///< single readings that cannot be are left out up to this
@@ -71,81 +70,21 @@ class LogMaker {
   [[nodiscard]] const LogColumn& only(Quantity quantity) const {
     return *std::ranges::find(table_.column, quantity, &LogColumn::quantity);
   }
-  /// The same numbers in all columns but the clock.
-  [[nodiscard]] bool same(std::size_t a, std::size_t b) const {
-    return std::ranges::all_of(table_.column, [&](const LogColumn& c) {
-      return c.value[a] == c.value[b] || (std::isnan(c.value[a]) && std::isnan(c.value[b]));
-    });
-  }
   [[nodiscard]] std::size_t line_of_row(std::size_t kept) const { return table_.line[row_[kept]]; }
 
   Done take_clock() {
-    const LogColumn& clock = only(Quantity::time);
-    std::size_t twice = 0;
-    std::size_t first_twice = 0;
-    for (std::size_t i = 0; i < clock.value.size(); ++i) {
-      const double t = clock.value[i];
-      const std::size_t line = table_.line[i];
-      if (std::isnan(t)) {
-        return refuse(line, fmt::format("{} is empty", clock.name), "give each row its time");
-      }
-      if (!(std::abs(t) <= kMostTime_s)) {
-        return refuse(line, fmt::format("{} = {:.10g} is no time", clock.name, t / clock.factor),
-                      "correct the row's time, or leave out the row");
-      }
-      if (row_.empty() || t > log_.time_s.back()) {
-        row_.push_back(i);
-        log_.time_s.push_back(t);
-      } else if (t == log_.time_s.back() && same(i, row_.back())) {
-        ++twice;
-        first_twice = first_twice == 0 ? line : first_twice;
-      } else if (t == log_.time_s.back()) {
-        return refuse(line,
-                      fmt::format("{} = {:.10g} stands twice, with different values", clock.name,
-                                  t / clock.factor),
-                      "give each row its own time, with enough digits");
-      } else {
-        return refuse(line,
-                      fmt::format("the clock runs back: {} = {:.10g} after {:.10g}", clock.name,
-                                  t / clock.factor, log_.time_s.back() / clock.factor),
-                      "sort the rows, or cut the log where the clock was set");
-      }
+    auto clock = clock_of(table_);
+    if (!clock) {
+      table::Fault& fault = clock.error();
+      return refuse(fault.line, std::move(fault.what), std::move(fault.to_do));
     }
-    if (twice > 0) {
-      note(first_twice, fmt::format("{} rows stand twice", twice), "each was taken once");
+    for (const table::Fault& passed : clock->notes) {
+      note(passed.line, passed.what, passed.to_do);
     }
-    if (log_.rows() < kLeastRows) {
-      return refuse(0, fmt::format("holds {} rows; {} are needed", log_.rows(), kLeastRows),
-                    "log the whole test");
-    }
-    return find_gaps();
-  }
-
-  Done find_gaps() {
-    std::vector<double> step;
-    for (std::size_t i = 1; i < log_.rows(); ++i) {
-      step.push_back(log_.time_s[i] - log_.time_s[i - 1]);
-    }
-    std::vector<double> sorted = step;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
-    if (*middle > kMostStep_s) {
-      return refuse(
-          table_.head_line,
-          fmt::format("the rows are {:.1f} min apart in {} (median); {:.0f} min are allowed",
-                      *middle / 60.0, only(Quantity::time).name, kMostStep_s / 60.0),
-          "give the clock the unit that its name says: time_s, time_ms, time_min, time_h");
-    }
-    const double most = std::max(kGap_s, 10.0 * *middle);
-    for (std::size_t i = 0; i < step.size(); ++i) {
-      if (step[i] > most) {
-        log_.gap.push_back(i + 1);
-        note(line_of_row(i + 1),
-             fmt::format("{:.1f} min are missing before this row", step[i] / 60.0),
-             "what the machine did there is not known: a fit takes its state anew from this row, a "
-             "forecast lets it stand until then");
-      }
-    }
+    row_ = std::move(clock->row);
+    log_.time_s = std::move(clock->time_s);
+    log_.origin_s = clock->origin_s;
+    log_.gap = std::move(clock->gap);
     return {};
   }
 

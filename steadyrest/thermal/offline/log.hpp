@@ -25,7 +25,9 @@ struct LogChannel {
 
 struct Log {
   std::string file;
-  std::vector<double> time_s;       ///< rising
+  std::vector<double> time_s;  ///< rising
+  /// Where people count a log's minutes from: its first row if it has stamps, else the clock's 0.
+  double origin_s = 0.0;
   std::vector<double> speed_rev_s;  ///< ≥ 0
   std::vector<LogChannel> displacement;
   std::vector<LogChannel> temperature;
@@ -42,8 +44,9 @@ struct Log {
 };
 
 /// Refused, by line: columns that are missing or stand twice, words where numbers should be, a
-/// clock that runs back, gives two rows one time or has rows more than 10 min apart, values that
-/// cannot be (their unit is wrong). Noted, and left out: rows that stand twice, sensors that are
+/// clock that runs back, leaps ahead for a row, gives two rows one time or has rows more than 10
+/// min apart, one or two rows alone at an end of the log, values that cannot be (their unit is
+/// wrong). Noted, and left out: rows that stand twice, sensors that are
 /// absent, stuck or wild for a while (temperatures by the rules of online::SensorWatch). Noted: a
 /// displacement that hardly moves.
 [[nodiscard]] kernel::outcome::Result<Log> read_log(const std::string& path,

@@ -176,6 +176,7 @@ class TableReader final : public table::Sink {
       all_.back().name = "row";
     }
     time_ = clock_->column().value_or(all_.size() - 1);
+    out_.stamped = head.stamped && clock_->column() == head.stamped;
     all_[time_].quantity = Quantity::time;
     return std::nullopt;
   }

@@ -28,6 +28,7 @@ struct LogTable {
   std::vector<std::size_t> line;  ///< of each row
   std::vector<std::string> passed_over;
   std::size_t head_line = 0;
+  bool stamped = false;             ///< the clock shows dates
   std::vector<table::Fault> notes;  ///< what was passed over
 };
 

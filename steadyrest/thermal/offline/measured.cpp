@@ -19,7 +19,16 @@ using kernel::outcome::Result;
 using table::Fault;
 using table::shown;
 
-enum class Field : std::uint8_t { part, axis, transition, time, deviation, tolerance };
+enum class Field : std::uint8_t {
+  part,
+  axis,
+  transition,
+  time,
+  stamp,
+  deviation,
+  tolerance,
+  passed_over
+};
 
 struct Known {
   std::string_view name;
@@ -41,8 +50,15 @@ constexpr std::array kKnown = {
 
 class Reader final : public table::Sink {
  public:
+  explicit Reader(const std::optional<table::Stamp>& started) : started_(started) {}
+
   std::optional<Fault> head(const table::Head& head) override {
     for (const std::string& name : head.name) {
+      const bool stamp = head.stamped == column_.size();
+      if (name.empty() || stamp) {
+        column_.push_back({"time", stamp ? Field::stamp : Field::passed_over, 1.0});
+        continue;
+      }
       const auto* known = std::ranges::find(kKnown, name, &Known::name);
       if (known == kKnown.end()) {
         return Fault{0, fmt::format("the column {} is not known", shown(name)),
@@ -58,9 +74,20 @@ class Reader final : public table::Sink {
     if (!has(Field::deviation)) {
       return Fault{0, "there is no column deviation_um", "give the measured deviations in µm"};
     }
-    if (has(Field::transition) == has(Field::time)) {
-      return Fault{0, "there must be a column transition or time_min, one of them",
+    if (has(Field::transition) || has(Field::time)) {  // stamps say when it was gauged
+      for (Known& column : column_) {
+        column.field = column.field == Field::stamp ? Field::passed_over : column.field;
+      }
+    }
+    if (static_cast<int>(has(Field::transition)) + static_cast<int>(has(Field::time)) +
+            static_cast<int>(has(Field::stamp)) !=
+        1) {
+      return Fault{0, "give exactly one of the columns transition, time_min or stamps",
                    "say in which transition, or how many minutes after the start, it was cut"};
+    }
+    if (has(Field::stamp) && !started_) {
+      return Fault{head.line + 1, "the parts have stamps, but not when the plan's work began",
+                   "give --started 2026-11-22T23:47:06, or time_min since then"};
     }
     return std::nullopt;
   }
@@ -102,12 +129,33 @@ class Reader final : public table::Sink {
         return field.empty() ? std::optional(Fault{row.line(), "the transition is empty",
                                                    "write its number, from 1, or its name"})
                              : std::nullopt;
+      case Field::passed_over:
+        return std::nullopt;
+      case Field::stamp:
+        return since_start(row, i, part.time_s);
       case Field::time:
         return number(row, i, 0.0, 1e8, part.time_s);
       case Field::deviation:
         return number(row, i, -kLargestDeviation_mm, kLargestDeviation_mm, part.deviation_mm);
       case Field::tolerance:
         return number(row, i, 1e-5, 100.0, part.tolerance_mm);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Fault> since_start(const table::Row& row, std::size_t i, double& to_s) const {
+    const auto stamp = table::stamp_of(row.field(i));
+    if (!stamp || stamp->zoned != started_->zoned) {
+      return Fault{row.line(),
+                   fmt::format("\"{}\" is no date with a time {} a zone", shown(row.field(i)),
+                               started_->zoned ? "and" : "without"),
+                   "write each stamp as --started, 2026-11-22T23:47:06"};
+    }
+    to_s = static_cast<double>(stamp->whole_s - started_->whole_s) + stamp->fraction_s -
+           started_->fraction_s;
+    if (!(to_s >= 0.0)) {
+      return Fault{row.line(), fmt::format("{} is before --started", shown(row.field(i))),
+                   "give the stamp when the plan's work began"};
     }
     return std::nullopt;
   }
@@ -129,6 +177,7 @@ class Reader final : public table::Sink {
     return std::nullopt;
   }
 
+  const std::optional<table::Stamp>& started_;
   std::vector<Known> column_;
   std::vector<Measured> out_;
 };
@@ -136,9 +185,9 @@ class Reader final : public table::Sink {
 }  // namespace
 
 Result<std::vector<Measured>> parse_measured(std::string_view text, const std::string& file,
-                                             const table::Format& format) {
-  Reader reader;
-  table::RowReader rows(format, reader);
+                                             const MeasuredFormat& format) {
+  Reader reader(format.started);
+  table::RowReader rows(format.table, reader);
   auto fault = table::read_rows(text, rows);
   std::vector<Measured> out = reader.take();
   if (!fault && out.empty()) {
@@ -151,7 +200,7 @@ Result<std::vector<Measured>> parse_measured(std::string_view text, const std::s
   return out;
 }
 
-Result<std::vector<Measured>> read_measured(const std::string& path, const table::Format& format) {
+Result<std::vector<Measured>> read_measured(const std::string& path, const MeasuredFormat& format) {
   auto text = read_packed(path);
   if (!text) {
     text.error().to_do =

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/table/row_reader.hpp>
+#include <steadyrest/table/stamp.hpp>
 
 /// What was measured of the parts (the paper's eighth block): CSV with a head.
 namespace steadyrest::thermal::offline {
@@ -27,13 +29,19 @@ inline constexpr std::size_t kMostMeasured = 100'000;
 /// More than that is no thermal deviation: the unit must be wrong.
 inline constexpr double kLargestDeviation_mm = 1.0;
 
-/// Columns: `part`; `transition` or `time_min` (`time_s`, `time_h`); `deviation_um` (`_mm`);
-/// if wanted `tolerance_um` (`_mm`) and `axis`. Others are refused, so that none is misread; so are
-/// an empty file, words where numbers should be, and values that no heat can give. Rows are read by
-/// table::RowReader.
+/// How the file was written, and when the plan's work began: needed where parts have stamps.
+struct MeasuredFormat {
+  table::Format table;
+  std::optional<table::Stamp> started;
+};
+
+/// Columns: `part`; `transition`, `time_min` (`time_s`, `time_h`) or stamps under any name;
+/// `deviation_um` (`_mm`); optional `tolerance_um` (`_mm`) and `axis`. Other columns are refused,
+/// so that none is misread; so are an empty file, words where numbers should be, and values that no
+/// heat can give. Rows are read by table::RowReader.
 [[nodiscard]] kernel::outcome::Result<std::vector<Measured>> read_measured(
-    const std::string& path, const table::Format& format = {});
+    const std::string& path, const MeasuredFormat& format = {});
 [[nodiscard]] kernel::outcome::Result<std::vector<Measured>> parse_measured(
-    std::string_view text, const std::string& file, const table::Format& format = {});
+    std::string_view text, const std::string& file, const MeasuredFormat& format = {});
 
 }  // namespace steadyrest::thermal::offline

@@ -138,6 +138,25 @@ TEST(ThermalLog, AGapIsFoundAndSaid) {
   EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:52: 31.0 min are missing")));
 }
 
+TEST(ThermalLog, ThreeRowsBehindAGapVouchForTheirTimes) {
+  const auto behind = [](int rows) {
+    return parse_log(
+        log_text([rows](int i, Row& row) { row.time_s += i < kRows - rows ? 0.0 : 3e5; }), "d.csv");
+  };
+  ASSERT_TRUE(behind(3).has_value());
+  ASSERT_FALSE(behind(2).has_value());
+  EXPECT_EQ(behind(2).error().line, 400U);
+}
+
+TEST(ThermalLog, MinutesCountFromTheFirstStamp) {
+  EXPECT_EQ(parsed(log_text({}, "time_s,spindle_rpm,z_um,t1_c")).origin_s, 0.0);
+  std::string text = "when,spindle_rpm,z_um\n";
+  for (int i = 0; i < 60; ++i) {
+    text += fmt::format("1970-01-02T10:{:02}:00Z,0,{}\n", i, 3 * i);
+  }
+  EXPECT_EQ(parsed(text).origin_s, 34.0 * 3600.0);
+}
+
 TEST(ThermalLog, RowsThatStandTwiceAreTakenOnce) {
   std::string text = log_text();
   const std::size_t at = text.find("\n600,") + 1;
