@@ -17,7 +17,8 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMostLimitPasses = 128;  ///< of a law whose limit depth is sought
+constexpr std::size_t kMostLimitPasses = 128;   ///< of a law whose limit depth is sought
+constexpr std::size_t kMostLimitWork = 12'000;  ///< likewise, of one that is rejected anyway
 
 std::optional<DelayCycle> cycle_at(const Process& process, double speed_rev_s,
                                    const Modulation& modulation, double depth_mm) {
@@ -213,7 +214,8 @@ void AlternativeCheck::limit(Alternative& law) const {
   auto line = DepthLine::make(*process_, speed(law), law.modulation, most_depth_mm_);
   const double passes =
       static_cast<double>(process_->even_pitch() ? process_->tool.teeth : 1) / law.modulation.rvf;
-  if (!line || passes > static_cast<double>(kMostLimitPasses)) {
+  if (!line || passes > static_cast<double>(kMostLimitPasses) ||
+      (!law.accepted() && line->work() > kMostLimitWork)) {
     return;
   }
   law.limit_depth_mm = limit_depth_mm(*line, most_depth_mm_).value_or(kInfinity);

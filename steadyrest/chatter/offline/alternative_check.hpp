@@ -21,7 +21,8 @@ class AlternativeCheck {
   [[nodiscard]] double log_radius(Alternative& law) const;
   /// A law that is stable: growth and probability, the cheapest reason to reject it first.
   void judge(Alternative& law) const;
-  /// Fills limit_depth_mm of a law, unless its period is too long for that.
+  /// Fills limit_depth_mm of a law, unless its period is too long for that; of a rejected one also
+  /// unless many waves between two teeth make it too dear.
   void limit(Alternative& law) const;
   /// The greatest depth up to the wanted one, to 1 %, at which the probability is reached.
   [[nodiscard]] double likely_depth_mm(const Alternative& a) const;

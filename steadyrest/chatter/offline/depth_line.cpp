@@ -79,6 +79,7 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
     return std::unexpected(cycle.error());
   }
   out.free_log_radius_ = -decay * cycle->period_s() / static_cast<double>(cycle->law_periods());
+  out.work_ = static_cast<std::size_t>(cycle->state_size()) * cycle->passes();
   if (straight) {
     out.cycle_ = std::make_unique<DelayCycle>(std::move(*cycle));
   }

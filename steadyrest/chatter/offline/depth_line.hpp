@@ -33,6 +33,8 @@ class DepthLine {
 
   /// DepthTracker's way: a depth costs some tens of microseconds.
   [[nodiscard]] bool quick() const noexcept { return tracker_ != nullptr; }
+  /// What a depth costs where it is not quick: numbers of the state times passes of the period.
+  [[nodiscard]] std::size_t work() const noexcept { return work_; }
 
   /// The crossing of ρ = 1 between a stable and an unstable depth, to 1e-10 of the depth.
   [[nodiscard]] double crossing_mm(double stable_mm, double log_stable, double unstable_mm,
@@ -44,6 +46,7 @@ class DepthLine {
   Process process_;
   DelayCycle::Config config_;
   double free_log_radius_ = 0.0;  ///< at depth 0
+  std::size_t work_ = 0;
   std::unique_ptr<DepthTracker> tracker_;
   std::unique_ptr<DelayCycle> cycle_;  ///< empty with helix
 };

@@ -4,8 +4,6 @@
 #include <limits>
 #include <set>
 
-#include <Eigen/QR>
-
 #include <steadyrest/chatter/offline/growth_course.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -15,19 +13,9 @@ using Eigen::Index;
 
 constexpr std::size_t kMostStarts = 16;
 constexpr std::size_t kLeastWindow = 20;  ///< passes
-constexpr double kForget = 1e-8;          ///< what a map loses in rank is less than this share
 constexpr Index kMostRows = 200;          ///< that are followed one by one
 constexpr double kBeyondLog = 700.0;      ///< as far as peak() tells
 constexpr double kDied = 1e-4;            ///< of its peak, then it is followed no longer
-
-/// ‖X·Y‖_∞ without more memory than one row.
-double row_sum_norm(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
-  double out = 0.0;
-  for (Index i = 0; i < x.rows(); ++i) {
-    out = std::max(out, (x.row(i) * y).cwiseAbs().sum());
-  }
-  return out;
-}
 
 /// Ends the course where it has died.
 bool died(const std::vector<double>& log_growth, double peak) {
@@ -109,40 +97,28 @@ class EvenPasses {
   std::vector<Index> worst_row_;
 };
 
-/// The map from the pass `begin` on as X·Y with few columns in X: all but a handful of directions
-/// die within a pass or two.
+/// The map from the pass `begin` on, all of its columns: advance() costs so little that whatever
+/// would leave columns out costs more.
 GrowthCourse course_from(DelayCycle& cycle, std::size_t begin, std::size_t window) {
-  const Index size = cycle.state_size();
-  Eigen::MatrixXd x = Eigen::MatrixXd::Identity(size, size);
-  Eigen::MatrixXd y = x;
+  Eigen::MatrixXd map = Eigen::MatrixXd::Identity(cycle.state_size(), cycle.state_size());
   double log_scale = 0.0;
   double peak = 0.0;
   GrowthCourse out{.start_pass = begin, .log_growth = {0.0}};
   for (std::size_t k = 0; k < window; ++k) {
-    const std::size_t pass = (begin + k) % cycle.passes();
-    for (Index i = 0; i < x.cols(); ++i) {
-      cycle.advance(pass, x.col(i));
+    for (Index i = 0; i < map.cols(); ++i) {
+      cycle.advance((begin + k) % cycle.passes(), map.col(i));
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
-    const double largest = std::abs(qr.matrixQR()(0, 0));
-    if (!(largest > 0.0)) {
+    const double norm = map.cwiseAbs().rowwise().sum().maxCoeff();
+    if (!(norm > 0.0) || !std::isfinite(norm)) {
       break;
     }
-    Index rank = 0;
-    while (rank < x.cols() && std::abs(qr.matrixQR()(rank, rank)) > kForget * largest) {
-      ++rank;
-    }
-    Eigen::MatrixXd r = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
-    r = r * qr.colsPermutation().transpose();
-    y = (r * y).eval() / largest;
-    x = qr.householderQ() * Eigen::MatrixXd::Identity(size, rank);
-    log_scale += std::log(largest);
-    const double now = log_scale + std::log(row_sum_norm(x, y));
-    out.log_growth.push_back(now);
+    map /= norm;
+    log_scale += std::log(norm);
+    out.log_growth.push_back(log_scale);
     if (died(out.log_growth, peak)) {
       break;
     }
-    peak = std::max(peak, now);
+    peak = std::max(peak, log_scale);
   }
   return out;
 }

@@ -10,6 +10,7 @@ namespace steadyrest::chatter::offline {
 namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kMostSteps = 80;
+constexpr double kRounding = 4e-16;  ///< of a phase: closer than this the steps only wander
 constexpr std::size_t kMostCorners = 64;
 }  // namespace
 
@@ -75,17 +76,18 @@ double SpeedProfile::phase(double angle_rad) const noexcept {
   double low = 0.0;
   double high = 1.0;
   double u = want;
-  for (int i = 0; i < kMostSteps && high - low > 1e-16; ++i) {
+  for (int i = 0; i < kMostSteps && high - low > kRounding; ++i) {
     const double off = u + rva_ * law_.integral(u) - want;
     (off > 0.0 ? high : low) = u;
     double next = u - off / (1.0 + rva_ * law_.at(u));
     if (!(next > low && next < high)) {
       next = 0.5 * (low + high);
     }
-    if (std::abs(next - u) < 1e-16) {
+    const double step = std::abs(next - u);
+    u = next;
+    if (step < kRounding) {
       break;
     }
-    u = next;
   }
   return u;
 }
