@@ -227,9 +227,9 @@ TEST(LogSpelling, ThermalForecastReadsEachAlike) {
   const std::string file = "examples/thermal/spindle-test.csv";
   const Scratch scratch;
   const std::string passport = scratch.at("passport.toml");
-  answer_of("thermal fit " + file + " --to-min 300 -o " + passport);
+  answer_of("thermal fit " + file + " --to-min 400 -o " + passport);
   const auto forecast = [&](const std::string& log, const std::string& more = "") {
-    json answer = answer_of("thermal forecast --machine " + passport + " --from-min 300 --log " +
+    json answer = answer_of("thermal forecast --machine " + passport + " --from-min 400 --log " +
                             log + more + " -o " + scratch.at("out.csv"));
     return without(answer, {"written", "notes"});
   };

@@ -79,12 +79,12 @@ TEST(MachineCheck, NamesTheLineThatLeavesTheTravel) {
 }
 
 TEST(MachineCheck, TurnsWithTheWorkCoordinates) {
-  // G54 at X500 Y100, turned by 30°: X100 lies at 586.6 mm, X120 at 603.9.
+  // G54 at X500 Y100, turned by 30°: X100 is at 586.6 mm, X120 at 603.9; X0 Y-120 at 560, −3.9.
   const std::string head =
       "G21 G90 G17 G94 G54\nG10 L2 P1 X500 Y100 Z-100 R30\nS1000 M3\nG0 X10 Y10 Z-10\n";
-  EXPECT_THAT(warned(head + "G1 X100 Y0 F1000\nX120\nG0 X0 Y-110\nM2\n", kAll),
+  EXPECT_THAT(warned(head + "G1 X100 Y0 F1000\nX120\nG0 X0 Y-120\nM2\n", kAll),
               ElementsAre(HasSubstr("6: the move takes X to 603.923 mm"),
-                          HasSubstr("7: a rapid takes Y to 4.737 mm") /* −110 turned */));
+                          HasSubstr("7: a rapid takes Y to -3.923 mm")));
 }
 
 TEST(MachineCheck, ArcsReachAsFarAsTheyDoWhereTheWorkCoordinatesTurn) {
