@@ -139,9 +139,23 @@ TEST(Cut, TwiceTheSameIsTheSameToTheByte) {
   EXPECT_TRUE(first == both());
 }
 
-TEST(Cut, ShowsTheWorstLinesWithTheFeedThatWouldHold) {
+TEST(Cut, NamesNoFeedAsHoldingThatIsFasterThanOneThatLeftTheLimit) {
   const Scratch scratch;
   answer_of(kCut + " --report " + scratch.at("out"));
+  const json page = json::parse(text_of_file(scratch.at("out/report.json")));
+  bool left = false;
+  for (const json& line : page["worst_lines"]) {
+    if (std::abs(line["with_um"].get<double>()) > page["limit_um"]) {
+      left = true;
+      EXPECT_LT(line["hold_feed_mm_min"], line["feed_with_mm_min"]);
+    }
+  }
+  EXPECT_TRUE(left) << "10.08 µm at 1200 mm/min, at the circle's entry";
+}
+
+TEST(Cut, ShowsTheWorstLinesWithTheFeedThatWouldHold) {
+  const Scratch scratch;
+  answer_of(kCut + " --strategy contour_priority --report " + scratch.at("out"));
   const json lines = json::parse(text_of_file(scratch.at("out/report.json")))["worst_lines"];
   ASSERT_FALSE(lines.empty());
   double last_um = 1e9;

@@ -116,6 +116,8 @@ Json simulate_page(const Json& answer, const chatter::offline::Process& process,
                    const CutRecorder& cut) {
   Json page = page_head("simulate", process.name, answer);
   page["teeth"] = process.tool.teeth;
+  page["operation"] =
+      process.cut.operation == chatter::offline::Operation::turning ? "turning" : "milling";
   page["envelope"] = columns_of(cut.envelope());
   page["last"] = columns_of(cut.last());
   page["turns"] = {{"between", cut.turns_between()},

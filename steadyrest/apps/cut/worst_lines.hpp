@@ -20,7 +20,7 @@ struct HeldFeed {
 ///
 /// On an arc that is long enough for the steady state (3/k at the speed that was driven, k the
 /// servo gain): the closed form of contour/offline/closed_form.hpp for the slowest of the linear
-/// axes, unless the arc left the limit at a slower feed than that (a corner at its entry, say).
+/// axes, unless the arc left the limit at a slower feed than that (at its entry, say).
 /// Elsewhere from the record: a line that kept the limit keeps it at the feed that was
 /// driven; one that did not would at v·√(limit/ε), because the error of a lagging servo grows with
 /// the square of the speed on every curve. Where the error has other causes (friction at a

@@ -56,6 +56,7 @@ export interface GrowthPage extends Head {
 
 export interface SimulatePage extends Head {
   kind: 'simulate';
+  operation: 'milling' | 'turning';
   teeth: number;
   answer: LawAnswer & {
     speed_rpm: number;
@@ -126,6 +127,8 @@ export interface PlanPage extends Head, LobeColumns {
     depth_mm: number;
     most_depth_mm: number;
     likely_depth_mm: Maybe;
+    /** A constant override that helps where laws alone were asked for. */
+    helping_override_percent: Maybe;
     chatter_frequency_hz: Maybe;
     notes: string[];
     alternatives: Alternative[];
@@ -164,7 +167,7 @@ export function lawText(answer: LawAnswer): string {
   if (answer.law === 'constant') {
     return 'constant speed';
   }
-  const percent = `±${(100 * (answer.rva ?? 0)).toPrecision(3).replace(/\.?0+$/, '')} %`;
-  const period = answer.period_s ? ` every ${Number(answer.period_s.toPrecision(3))} s` : `, RVF ${Number((answer.rvf ?? 0).toPrecision(4))}`;
+  const percent = `±${(100 * (answer.rva ?? 0)).toPrecision(3).replace(/\.?0+$/, '')}\u00a0%`;
+  const period = answer.period_s ? ` every ${Number(answer.period_s.toPrecision(3))}\u00a0s` : `, RVF ${Number((answer.rvf ?? 0).toPrecision(4))}`;
   return `${answer.law} ${percent}${period}`;
 }

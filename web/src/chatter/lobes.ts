@@ -5,6 +5,7 @@ import { fixed, plain } from '../frame/numbers';
 import { type Cell, table } from '../frame/table';
 import type { Theme } from '../frame/theme';
 import type { Term, View } from '../frame/view';
+import { roomy } from '../plot/axes';
 import type { ColourScale } from '../plot/key';
 import type { Dot, Layer } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
@@ -42,9 +43,9 @@ function markLayer(view: LobeView, theme: Theme): Layer[] {
   if (!at) {
     return [];
   }
-  const { speed_rpm, depth_mm } = view.lobes.map;
+  const { speed_rpm } = view.lobes.map;
   const [x0 = 0, x1 = 1] = [speed_rpm[0], speed_rpm.at(-1)];
-  const top = depth_mm.at(-1) ?? 1;
+  const top = shownDepth(view);
   const share = (at.speed_rpm - x0) / Math.max(x1 - x0, 1e-9);
   const side = share < 0.2 ? 'right' : share > 0.8 ? 'left' : at.depth_mm > 0.85 * top ? 'bottom' : 'top';
   const dot: Dot = { x: at.speed_rpm, y: at.depth_mm, label: at.label, side };
@@ -64,6 +65,16 @@ function stepLayers(lobes: LobeColumns, theme: Theme): Layer[] {
   ];
 }
 
+/** Around the border and the wanted depth: a plan is worked out far deeper than it is read. */
+function shownDepth({ lobes, wanted_mm }: LobeView): number {
+  const whole = lobes.map.depth_mm.at(-1) ?? 1;
+  if (wanted_mm === undefined || lobes.border.depth_mm.some((d) => d === null)) {
+    return whole;
+  }
+  const used = lobes.border.depth_mm.reduce<number>((most, d) => Math.max(most, d ?? 0), wanted_mm);
+  return Math.min(whole, roomy([0, 1.1 * used], true)[1]);
+}
+
 export function lobePlot(view: LobeView, theme: Theme): Plot {
   const { map, border, others } = view.lobes;
   const grid: Grid = { x: map.speed_rpm, y: map.depth_mm, value: map.log_radius };
@@ -81,7 +92,7 @@ export function lobePlot(view: LobeView, theme: Theme): Plot {
   return {
     title: 'Stability lobes',
     x: { name: 'spindle speed in rev/min', min: x[0], max: area ? x[1] : x[0] + 1 },
-    y: { name: 'depth of cut in mm', min: y[0], max: y[1] },
+    y: { name: 'depth of cut in mm', min: y[0], max: area ? shownDepth(view) : y[1] },
     plane: true,
     scale: radiusScale(levels, view.perPass),
     layers,
@@ -137,9 +148,9 @@ export const LOBE_TERMS: readonly Term[] = [
   ['Spectral radius ρ', 'What one tooth pass multiplies a small vibration by in the long run. Below 1 the vibration dies, above 1 it grows. Under a speed law it is that of a whole period of the law, and its logarithm is shown.'],
   ['Colours', 'The map between its points, by straight lines; beside the border they follow the border.'],
   TYPES,
-  ['Override step', 'A step of the spindle override that the machine has: the speeds that can be set while the program runs.'],
 ];
 
+export const STEP_TERM: Term = ['Override step', 'A step of the spindle override that the machine has: the speeds that can be set while the program runs.'];
 const SKETCH: Term = ['Zero-order sketch', 'The border from the mean of the cutting forces alone (after Altintas and Budak), as most programs draw it, for comparison. It has no lobes of the flip type.'];
 
 function verdict(page: LobesPage, perPass: boolean): string {
@@ -173,7 +184,7 @@ export function lobesView(page: LobesPage): View {
     facts: `<b>${lawText(page.answer)}</b> · map of <b>${page.answer.speeds} × ${page.answer.depths}</b> points`,
     verdict: verdict(page, perPass),
     body: section('Stability lobes', host('lobes', 'tall')) + stepsTable(page),
-    explanation: [...LOBE_TERMS, ...(page.others.some((o) => o.name === SKETCH[0].toLowerCase()) ? [SKETCH] : [])],
+    explanation: [...LOBE_TERMS, ...(page.steps.length > 0 ? [STEP_TERM] : []), ...(page.others.some((o) => o.name === SKETCH[0].toLowerCase()) ? [SKETCH] : [])],
     draw: (theme) => drawLobes(view, theme),
   };
 }

@@ -6,7 +6,7 @@ import { type Cell, table } from '../frame/table';
 import { type View, said } from '../frame/view';
 import { host } from '../plot/plot';
 import { type Alternative, type PlanPage, lawText } from './data';
-import { LOBE_TERMS, type LobeView, drawLobes } from './lobes';
+import { LOBE_TERMS, type LobeView, STEP_TERM, drawLobes } from './lobes';
 
 function isLaw(a: Alternative): boolean {
   return a.law !== 'constant';
@@ -14,6 +14,16 @@ function isLaw(a: Alternative): boolean {
 
 export function choiceText(a: Alternative): string {
   return isLaw(a) ? lawText(a) : `${plain(a.override_percent[0] ?? 100)} % = ${fixed(a.speed_rpm, 0)} rev/min`;
+}
+
+/** With laws alone asked for a step may help all the same. */
+export function nothing(a: PlanPage['answer']): string {
+  const mm = `${plain(a.depth_mm)} mm`;
+  if (a.helping_override_percent !== null) {
+    return `No speed law keeps ${mm} stable; a constant override of ${plain(a.helping_override_percent)} % would.`;
+  }
+  const likely = a.likely_depth_mm !== null && a.likely_depth_mm > 0 ? ` Up to ${plain(a.likely_depth_mm, 3)} mm is likely to be.` : '';
+  return `No override step and no speed law keeps ${mm} stable.${likely}`;
 }
 
 function headline(page: PlanPage): string {
@@ -27,7 +37,7 @@ function headline(page: PlanPage): string {
     case 'law':
       return `Modulate the spindle speed: ${choice}.`;
     case 'nothing':
-      return `Nothing helps at ${plain(a.depth_mm)} mm${a.likely_depth_mm === null ? '' : `; ${plain(a.likely_depth_mm, 3)} mm would be likely enough`}.`;
+      return nothing(a);
   }
 }
 
@@ -114,6 +124,7 @@ export function planView(page: PlanPage): View {
       bestSpeeds(page),
     explanation: [
       ...LOBE_TERMS,
+      STEP_TERM,
       ['Stable cuts', 'Of cuts whose modes and forces scatter as the process file says (or as tap tests usually do), the share that is stable there.'],
       ['Best speeds', 'Ranked by the depth that is stable although the frequencies of the modes are known to some per cent only: a speed just under a cusp is deep on paper and not in the shop.'],
       ['Growth', 'How many times a vibration may grow on its way before it dies: under a law within a period, at constant speed within the first tooth passes. A dash: it is not asked of a cut that chatters.'],

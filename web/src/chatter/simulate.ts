@@ -10,8 +10,11 @@ import type { Layer } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
 import { type SimulatePage, lawText } from './data';
 
-const X = 'x, along the feed';
-const Y = 'y, across it';
+/** What x and y are. */
+const AXES = {
+  milling: { x: 'x, along the feed', y: 'y, across it' },
+  turning: { x: 'x, into the work', y: 'y, along the cutting speed' },
+};
 const BAND = 0.55;
 
 function axisColours(theme: Theme): { x: string; y: string; force: string } {
@@ -28,9 +31,9 @@ function motionPlot(page: SimulatePage, theme: Theme): Plot {
   const colours = axisColours(theme);
   const both = movesInY(page);
   const [min, max] = roomy([...x_low_um, ...x_high_um, ...(both ? [...y_low_um, ...y_high_um] : [])], true);
-  const layers: Layer[] = [{ kind: 'band', name: X, x: t_s, low: x_low_um, high: x_high_um, colour: colours.x, opacity: both ? BAND : 0.85, outlined: true }];
+  const layers: Layer[] = [{ kind: 'band', name: AXES[page.operation].x, x: t_s, low: x_low_um, high: x_high_um, colour: colours.x, opacity: both ? BAND : 0.85, outlined: true }];
   if (both) {
-    layers.push({ kind: 'band', name: Y, x: t_s, low: y_low_um, high: y_high_um, colour: colours.y, opacity: BAND, outlined: true });
+    layers.push({ kind: 'band', name: AXES[page.operation].y, x: t_s, low: y_low_um, high: y_high_um, colour: colours.y, opacity: BAND, outlined: true });
   }
   return { title: 'Displacement', x: { name: 'time in s', min: 0, max: t_s.at(-1) ?? 1 }, y: { name: 'displacement in µm', min, max }, group: 'time', layers };
 }
@@ -62,9 +65,9 @@ function lastPlots(page: SimulatePage, theme: Theme): [Plot, Plot] {
   const x = { name: 'revolutions of the spindle', min, max };
   const [m0, m1] = roomy([...x_um, ...(both ? y_um : [])], true);
   const [f0, f1] = roomy([...fx_N, ...fy_N], true);
-  const motion: Layer[] = [{ kind: 'line', name: X, x: turn, y: x_um, colour: colours.x, width: 1.6 }];
+  const motion: Layer[] = [{ kind: 'line', name: AXES[page.operation].x, x: turn, y: x_um, colour: colours.x, width: 1.6 }];
   if (both) {
-    motion.push({ kind: 'line', name: Y, x: turn, y: y_um, colour: colours.y, width: 1.6 });
+    motion.push({ kind: 'line', name: AXES[page.operation].y, x: turn, y: y_um, colour: colours.y, width: 1.6 });
   }
   return [
     { title: 'Displacement, the last revolutions', group: 'last', x, y: { name: 'displacement in µm', min: m0, max: m1 }, layers: motion },
@@ -74,8 +77,8 @@ function lastPlots(page: SimulatePage, theme: Theme): [Plot, Plot] {
       x,
       y: { name: 'force on the tool in N', min: f0, max: f1 },
       layers: [
-        { kind: 'line', name: X, x: turn, y: fx_N, colour: colours.x, width: 1.4 },
-        { kind: 'line', name: Y, x: turn, y: fy_N, colour: colours.y, width: 1.4 },
+        { kind: 'line', name: AXES[page.operation].x, x: turn, y: fx_N, colour: colours.x, width: 1.4 },
+        { kind: 'line', name: AXES[page.operation].y, x: turn, y: fy_N, colour: colours.y, width: 1.4 },
       ],
     },
   ];
@@ -87,9 +90,9 @@ function turnsPlot(page: SimulatePage, theme: Theme): Plot {
   const both = movesInY(page);
   const [min, max] = roomy([...x_um, ...(both ? y_um : [])]);
   const dots = (values: readonly number[]) => t_s.map((t, i) => ({ x: t, y: values[i] ?? 0 }));
-  const layers: Layer[] = [{ kind: 'dots', name: X, dots: dots(x_um), colour: colours.x, size: 4, opacity: 0.8 }];
+  const layers: Layer[] = [{ kind: 'dots', name: AXES[page.operation].x, dots: dots(x_um), colour: colours.x, size: 4, opacity: 0.8 }];
   if (both) {
-    layers.push({ kind: 'dots', name: Y, dots: dots(y_um), colour: colours.y, size: 4, opacity: 0.8 });
+    layers.push({ kind: 'dots', name: AXES[page.operation].y, dots: dots(y_um), colour: colours.y, size: 4, opacity: 0.8 });
   }
   return { title: 'Once a revolution', x: { name: 'time in s', min: 0, max: page.envelope.t_s.at(-1) ?? 1 }, y: { name: 'displacement in µm', min, max }, layers };
 }
@@ -122,7 +125,7 @@ function rowsOf(page: SimulatePage): { label: string; value: string }[] {
   const um = (v: number | null) => (v === null ? [] : [`${fixed(v, 2)} µm`]);
   const optional = (label: string, value: number | null) => um(value).map((text) => ({ label, value: text }));
   return [
-    { label: 'growth of a small vibration per tooth', value: plain(a.growth_per_tooth, 5) },
+    { label: `growth of a small vibration per ${page.operation === 'turning' ? 'revolution' : 'tooth'}`, value: plain(a.growth_per_tooth, 5) },
     { label: 'largest displacement', value: `${fixed(a.peak_um, 2)} µm` },
     ...optional('forced amplitude', a.forced_um),
     ...optional('RMS of what does not repeat', a.chatter_rms_um),
@@ -138,7 +141,7 @@ function verdict(page: SimulatePage): string {
   const a = page.answer;
   const at = a.chatter_frequency_hz === null ? '' : ` at ${fixed(a.chatter_frequency_hz, 1)} Hz`;
   const sense = a.stable ? 'The cut is stable' : `The cut chatters${at}`;
-  return `${sense}: each tooth multiplies a small vibration by ${plain(a.growth_per_tooth)}. The tool moves by up to ${fixed(a.peak_um, 1)} µm, the force reaches ${fixed(a.force_peak_N, 0)} N.`;
+  return `${sense}: each ${page.operation === 'turning' ? 'revolution' : 'tooth'} multiplies a small vibration by ${plain(a.growth_per_tooth)}. The tool moves by up to ${fixed(a.peak_um, 1)} µm, the force reaches ${fixed(a.force_peak_N, 0)} N.`;
 }
 
 export function simulateView(page: SimulatePage): View {
@@ -154,9 +157,9 @@ export function simulateView(page: SimulatePage): View {
       section('Once a revolution', `<div class="panels">${host('turns', 'high')}${host('return', 'high')}</div>`) +
       section('Figures', figures(rowsOf(page))),
     explanation: [
-      ['Displacement', 'Of the tool from where it is without a force. A forced vibration repeats with every tooth; what does not repeat is chatter.'],
+      ['Displacement', 'Of the tool from where it is without a force. A forced vibration repeats with every pass; what does not repeat is chatter.'],
       ['Once a revolution', 'The displacement once in every turn of the spindle, always at the same angle. A stable cut settles on one point, chatter with the period doubled on two, quasi-periodic chatter on a closed curve. The return map draws each of these values over the one before.'],
-      ['Growth per tooth', 'What one tooth pass multiplies a small vibration by, before the tool leaves the cut.'],
+      [page.operation === 'turning' ? 'Growth per revolution' : 'Growth per tooth', 'What one pass multiplies a small vibration by, before the tool leaves the cut.'],
       ...(!movesInY(page) || a.wall_error_um === null ? [] : [['Finished wall', 'What the last teeth leave: its mean place (above 0: too much is cut off) and the height from its lowest to its highest point.'] as const]),
     ],
     draw: (theme) => {

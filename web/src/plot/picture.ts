@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plot as a picture by itself: its name, its key and its colours above it.
+// A plot as a picture by itself: its name, what is drawn upwards in which unit, its key and its colours above it.
 import type { Theme } from '../frame/theme';
 import { FONT, type echarts } from './echarts';
 import { type ColourScale, type Key, keysOf } from './key';
@@ -76,7 +76,8 @@ export function picture(chart: echarts.ECharts, plot: Plot, theme: Theme): HTMLC
   const all = [...keysOf(plot.layers), ...(plot.scale?.beside ? [plot.scale.beside] : [])];
   const keyHeight = keys(pen, all, theme, width, 0, false);
   const scaleHeight = plot.scale ? 3 * LINE_PX : 0;
-  const top = PAD_PX + LINE_PX + keyHeight + scaleHeight;
+  const head = PAD_PX + 2 * LINE_PX;
+  const top = head + keyHeight + scaleHeight;
   out.width = width * SHARPNESS;
   out.height = (top + chart.getHeight()) * SHARPNESS;
   pen.scale(SHARPNESS, SHARPNESS);
@@ -87,9 +88,11 @@ export function picture(chart: echarts.ECharts, plot: Plot, theme: Theme): HTMLC
   pen.font = `600 13px ${FONT}`;
   pen.fillText(plot.title, PAD_PX, PAD_PX + LINE_PX / 2);
   prepare();
-  keys(pen, all, theme, width, PAD_PX + LINE_PX, true);
+  pen.fillStyle = theme.faint;
+  pen.fillText(`${plot.y.name.charAt(0).toUpperCase()}${plot.y.name.slice(1)}`, PAD_PX, PAD_PX + 1.5 * LINE_PX);
+  keys(pen, all, theme, width, head, true);
   if (plot.scale) {
-    scale(pen, plot.scale, theme, width, PAD_PX + LINE_PX + keyHeight);
+    scale(pen, plot.scale, theme, width, head + keyHeight);
   }
   pen.drawImage(body, 0, top, width, chart.getHeight());
   return out;

@@ -65,7 +65,7 @@ function linePlot(page: PlanPage, course: PlannedCourse, theme: Theme): Plot {
     const half = (t: number) => course.bands.find((b) => t >= b.from_min - 1e-9 && t <= b.to_min + 1e-9)?.[key] ?? 0;
     return x.map((t, i) => (i % 2 === 1 && i < x.length - 1 ? (y[i] ?? 0) : total(t)) + sign * half(t));
   };
-  const fields = (['tolerance_um', 'band_um'] as const).map((key): Layer => ({ kind: 'band', name: key === 'tolerance_um' ? 'tolerance' : 'the share of it that heat may take', x, low: at(-1, key), high: at(1, key), colour: theme.run.with, opacity: 0.13 }));
+  const fields = (['tolerance_um', 'band_um'] as const).map((key): Layer => ({ kind: 'band', name: key === 'tolerance_um' ? 'tolerance' : 'the share of it that heat may take', x, low: at(-1, key), high: at(1, key), colour: theme.run.with, opacity: key === 'tolerance_um' ? 0.13 : 0.26 }));
   const [min, max] = roomy([...at(-1, 'tolerance_um'), ...at(1, 'tolerance_um'), ...course.displacement_um], true);
   return {
     title: `Corrections of ${course.axis} and the field of tolerance`,

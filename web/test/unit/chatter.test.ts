@@ -35,8 +35,8 @@ describe('numbers', () => {
   });
   it('say the law in the words of the shop floor', () => {
     expect(lawText({ law: 'constant' })).toBe('constant speed');
-    expect(lawText({ law: 'sine', rva: 0.2, rvf: 0.1, period_s: 0.12 })).toBe('sine ±20 % every 0.12 s');
-    expect(lawText({ law: 'triangle', rva: 0.125, rvf: 0.1 })).toBe('triangle ±12.5 %, RVF 0.1');
+    expect(lawText({ law: 'sine', rva: 0.2, rvf: 0.1, period_s: 0.12 })).toBe('sine ±20\u00a0% every 0.12\u00a0s');
+    expect(lawText({ law: 'triangle', rva: 0.125, rvf: 0.1 })).toBe('triangle ±12.5\u00a0%, RVF 0.1');
   });
 });
 

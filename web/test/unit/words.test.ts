@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the pages say in sentences.
 import { describe, expect, it } from 'vitest';
+import type { PlanPage } from '../../src/chatter/data';
+import { nothing } from '../../src/chatter/plan';
 import type { VibrationFigures } from '../../src/cut/data';
 import { motionRows, vibrationRows, vibrationVerdict } from '../../src/cut/figures';
 import { said } from '../../src/frame/view';
@@ -39,6 +41,17 @@ describe('an axis that stands', () => {
   it('is not finer nought times', () => {
     const stands = { axis: 'Y', velocity_rms_mm_s: 2e-6, acceleration_rms_mm_s2: 1e-5, difference_velocity_rms_mm_s: 0, difference_acceleration_rms_mm_s2: 0, velocity_coverage_ratio: 1, acceleration_coverage_ratio: 1 };
     expect(motionRows([stands]).map((r) => r.finer)).toEqual(['–', '–']);
+  });
+});
+
+describe('a plan without a choice', () => {
+  const of = (more: Partial<PlanPage['answer']>) => nothing({ depth_mm: 4, likely_depth_mm: null, helping_override_percent: null, ...more } as PlanPage['answer']);
+  it('says what would be stable, but never that 0 mm is', () => {
+    expect(of({ likely_depth_mm: 1.5625 })).toBe('No override step and no speed law keeps 4 mm stable. Up to 1.56 mm is likely to be.');
+    expect(of({ likely_depth_mm: 0 })).toBe('No override step and no speed law keeps 4 mm stable.');
+  });
+  it('names the step that helps where laws alone were asked for', () => {
+    expect(of({ helping_override_percent: 105, likely_depth_mm: 0 })).toBe('No speed law keeps 4 mm stable; a constant override of 105 % would.');
   });
 });
 
