@@ -50,7 +50,7 @@ double end_mm(const nc::plan::PlannedPath& path) {
 void cut(const char* machine_file, const char* program) {
   const auto machine = kernel::machine::read(machine_file).value();
   const auto path = plan(program, machine);
-  // for the real machine, change this line
+  // the only port so far; a real machine's would be made here instead
   std::unique_ptr<kernel::port::Port> port = sim::SimulatedMachine::make({machine, path}).value();
   auto layer = supervisor::Supervisor::make(machine, port->capability()).value();
   layer.set_mode(kernel::machine::Mode::act);

@@ -183,6 +183,29 @@ TEST(Doctor, FindsAGoodMachineWell) {
   EXPECT_EQ(answer["ok"], true);
   EXPECT_EQ(answer["port"], "sim");
   EXPECT_TRUE(answer["findings"].is_array());
+  const json& timing = answer["timing"];
+  EXPECT_EQ(timing["cycle_us"], 4000.0);
+  EXPECT_EQ(timing["most_share"], 0.5);
+  EXPECT_EQ(timing["decisions"], 2000);
+  EXPECT_GE(timing["cycles"], timing["decisions"]);
+  EXPECT_GT(timing["work_p50_us"], 0.0);
+  EXPECT_LE(timing["decision_p50_us"], timing["decision_p999_us"]);
+  EXPECT_LE(timing["decision_p999_us"], timing["decision_worst_us"]);
+  EXPECT_LE(timing["decision_p999_us"], timing["cycle_us"]);
+}
+
+TEST(Doctor, FindsThatTheLayerRefusesAMachine) {
+  const Scratch scratch;
+  std::string text = text_of_file(project_file("examples/machines/linuxcnc-mill.toml"));
+  text.replace(text.find("servo_gain_1_s = 20"), 19, "servo_gain_1_s = 0.5");
+  const Finished finished =
+      run({"doctor", "--machine", scratch.file("machine.toml", text), "--json"});
+  EXPECT_EQ(finished.code, 1);
+  const json answer = json::parse(finished.out);
+  EXPECT_EQ(answer["ok"], false);
+  EXPECT_TRUE(answer["timing"].is_null());
+  EXPECT_EQ(answer["findings"][0]["severity"], "error");
+  EXPECT_EQ(answer["findings"][0]["check"], "layer");
 }
 
 TEST(Doctor, RefusesAFaultyFileByFileAndLine) {

@@ -3,12 +3,17 @@
 #include <ctime>
 #include <iterator>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
-#include <sys/resource.h>
 
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/verb_doctor.hpp>
+#include <steadyrest/apps/timing/judgement.hpp>
+#include <steadyrest/apps/timing/layer_timing.hpp>
 #include <steadyrest/kernel/machine/consistency.hpp>
 #include <steadyrest/kernel/machine/schema.hpp>
 
@@ -17,18 +22,11 @@ namespace {
 
 using kernel::machine::Finding;
 using kernel::machine::Machine;
-using kernel::machine::PortKind;
 using kernel::machine::Severity;
+using timing::LayerTiming;
 
-/// Is the machine there?
-std::vector<Finding> check_port(const Machine& machine) {
-  if (machine.port == PortKind::sim) {
-    return {};
-  }
-  return {{Severity::error, "port",
-           fmt::format("port = \"{}\": this build has no adapter for it",
-                       kernel::machine::word(machine.port)),
-           "set port = \"sim\" to work with the simulated machine"}};
+double us(double seconds) {
+  return 1e6 * seconds;
 }
 
 /// The monotonic clock must be far finer than a cycle.
@@ -49,44 +47,80 @@ std::vector<Finding> check_clock(const Machine& machine) {
   return {};
 }
 
-/// The simulated machine has its own time; a real one needs a real-time priority.
-std::vector<Finding> check_real_time(const Machine& machine) {
-  rlimit limit{};
-  if (machine.port == PortKind::sim || getrlimit(RLIMIT_RTPRIO, &limit) != 0 ||
-      limit.rlim_cur > 0) {
-    return {};
+/// What the layer takes of a cycle, or why it does not run on this machine.
+struct Measured {
+  std::optional<LayerTiming> timing;
+  std::vector<Finding> findings;
+};
+
+Measured measure(const Machine& machine, Progress& progress) {
+  auto timing = timing::time_layer(
+      machine, {}, [&](double share) { progress.update(share, "measuring the layer"); });
+  progress.clear();
+  if (!timing) {
+    return {std::nullopt,
+            {{Severity::error, "layer", std::move(timing.error().what),
+              std::move(timing.error().to_do)}}};
   }
-  return {{Severity::warning, "real_time", "this user may not ask for a real-time priority",
-           "raise rtprio for the user in /etc/security/limits.d"}};
+  return {*timing, timing::judge(*timing, machine)};
 }
 
 /// All findings, the worst first.
-std::vector<Finding> examine(const Machine& machine) {
+std::vector<Finding> examine(const Machine& machine, std::vector<Finding> measured) {
   std::vector<Finding> all = kernel::machine::findings(machine);
-  for (auto* check : {check_port, check_clock, check_real_time}) {
-    std::vector<Finding> more = check(machine);
+  for (const auto& more : {check_clock(machine), std::move(measured)}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   std::vector<Finding> sorted;
   for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
-    std::copy_if(all.begin(), all.end(), std::back_inserter(sorted),
-                 [severity](const Finding& finding) { return finding.severity == severity; });
+    std::ranges::copy_if(all, std::back_inserter(sorted), [severity](const Finding& finding) {
+      return finding.severity == severity;
+    });
   }
   return sorted;
 }
 
-Answer report(const Machine& machine, const std::vector<Finding>& findings) {
-  const bool ok = std::none_of(findings.begin(), findings.end(),
-                               [](const Finding& f) { return f.severity == Severity::error; });
+Json json_of(const LayerTiming& timing) {
+  return {{"cycle_us", us(timing.cycle_s)},
+          {"most_share", timing::kMostShare},
+          {"rounds", timing.rounds},
+          {"cycles", timing.cycles},
+          {"work_p50_us", us(timing.work_s.p50)},
+          {"work_p999_us", us(timing.work_s.p999)},
+          {"decisions", timing.decisions},
+          {"decision_p50_us", us(timing.decision_s.p50)},
+          {"decision_p999_us", us(timing.decision_s.p999)},
+          {"decision_worst_us", us(timing.decision_s.worst)}};
+}
+
+std::string text_of(const LayerTiming& timing) {
+  std::string text = fmt::format(
+      "  measured here, of a control cycle of {:.0f} µs the layer takes {:.1f} µs (median)",
+      us(timing.cycle_s), us(timing.work_s.p50));
+  if (timing.decisions > 0) {
+    text += fmt::format(", with a decision {:.0f} µs, {:.0f} µs at p99.9 of {}",
+                        us(timing.decision_s.p50), us(timing.decision_s.p999), timing.decisions);
+  }
+  return text + "\n";
+}
+
+Answer report(const Machine& machine, const Measured& measured,
+              const std::vector<Finding>& findings) {
+  const bool ok = std::ranges::none_of(
+      findings, [](const Finding& f) { return f.severity == Severity::error; });
   Answer answer;
   answer.exit_code = ok ? kDone : kFailed;
   answer.json["ok"] = ok;
   answer.json["machine"] = machine.name;
   answer.json["file"] = machine.file;
   answer.json["port"] = kernel::machine::word(machine.port);
+  answer.json["timing"] = measured.timing ? json_of(*measured.timing) : Json();
   answer.json["findings"] = Json::array();
   answer.text = fmt::format("{} ({}), port {}\n", machine.name, machine.file,
                             kernel::machine::word(machine.port));
+  if (measured.timing) {
+    answer.text += text_of(*measured.timing);
+  }
   for (const Finding& finding : findings) {
     const std::string_view severity = kernel::machine::word(finding.severity);
     answer.json["findings"].push_back({{"severity", severity},
@@ -120,17 +154,20 @@ Answer report_refused(Refusals refusals) {
 }  // namespace
 
 void add_verb_doctor(Session& session) {
-  Verb& verb = session.verb(session.root(), "doctor",
-                            "Check a machine file, its port, the clock and real-time settings",
-                            "doctor --machine examples/machines/vmc-840d.toml");
+  Verb& verb =
+      session.verb(session.root(), "doctor",
+                   "Check a machine file and this computer's clock, and measure whether the "
+                   "layer's work fits into the control cycle",
+                   "doctor --machine examples/machines/vmc-840d.toml");
   auto path = std::make_shared<std::string>();
   add_machine_option(verb, *path);
-  session.on(verb, [path](Progress& /*progress*/) -> Outcome {
+  session.on(verb, [path](Progress& progress) -> Outcome {
     auto machine = read_machine(*path);
     if (!machine) {
       return report_refused(std::move(machine.error()));
     }
-    return report(*machine, examine(*machine));
+    const Measured measured = measure(*machine, progress);
+    return report(*machine, measured, examine(*machine, measured.findings));
   });
 }
 
