@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 #include <fmt/core.h>
 
@@ -21,14 +22,14 @@ double fall_s(const Machine& machine) {
 }
 
 std::string remedy(const LayerTiming& timing, const Machine& machine) {
-  const std::string always = "lengthen interpolator_period_ms or take a faster computer";
+  constexpr std::string_view kAlways = "lengthen interpolator_period_ms or take a faster computer";
   if (timing.decisions == 0 || fall_s(machine) <= kLongFall_s) {
-    return always;
+    return std::string(kAlways);
   }
   return fmt::format(
       "raise feed_fall_percent_s or contour.min_percent, so that forecasts are shorter (the fall "
       "takes {:.2g} s), {}",
-      fall_s(machine), always);
+      fall_s(machine), kAlways);
 }
 
 }  // namespace
