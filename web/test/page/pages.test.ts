@@ -35,6 +35,9 @@ const beyond = (open: OpenPage) =>
     return found.slice(0, 5);
   });
 
+/** A busy computer takes long to lay a page out and to make a picture. */
+const PATIENCE_MS = 60_000;
+
 /** A4 between its margins. */
 const A4_PX = 688;
 
@@ -68,7 +71,7 @@ const cut = (open: OpenPage) =>
   });
 
 async function saved(open: OpenPage, id: string, tool: string): Promise<{ name: string; content: Buffer }> {
-  const [download] = await Promise.all([open.page.waitForEvent('download'), open.page.click(`#${id}-frame [data-tool="${tool}"]`)]);
+  const [download] = await Promise.all([open.page.waitForEvent('download', { timeout: PATIENCE_MS }), open.page.click(`#${id}-frame [data-tool="${tool}"]`)]);
   return { name: download.suggestedFilename(), content: await readFile(await download.path()) };
 }
 
@@ -97,11 +100,12 @@ describe.runIf(haveWritten).each(Object.entries(PAGES))('the page %s', (name, co
   });
 
   it('has nothing that runs over on a telephone, a tablet and a screen', async () => {
-    expect(await beyond(open), 'opened at 390').toEqual([]);
+    await expect.poll(() => beyond(open), { message: 'opened at 390', timeout: PATIENCE_MS }).toEqual([]);
     for (const width of WIDTHS) {
       await open.page.setViewportSize({ width, height: 900 });
       await open.page.waitForFunction((w) => (document.querySelector('.plot canvas')?.clientWidth ?? 1e9) <= w, width);
-      expect(await beyond(open), `at ${width}`).toEqual([]);
+      // Plots take their new width one after another.
+      await expect.poll(() => beyond(open), { message: `at ${width}`, timeout: PATIENCE_MS }).toEqual([]);
     }
   });
 
