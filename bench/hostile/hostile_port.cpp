@@ -147,7 +147,8 @@ kernel::outcome::Result<signal::Frame> HostilePort::read() noexcept {
   }
   frame.time_s = stamp();
   const double late_s = std::abs(frame.time_s - (real_s_ + offset_s_));
-  clean = late_s == 0.0 && !set_;
+  true_stamp_ = late_s == 0.0;
+  clean = true_stamp_ && !set_;
   set_ = false;
   last_stamp_s_ = std::isfinite(frame.time_s) ? frame.time_s : last_stamp_s_;
   frame.age_s = 0.0;

@@ -22,9 +22,10 @@ class HostilePort final : public kernel::port::Port {
   /// Real time passes; nobody reads.
   void pass(double real_s) { real_s_ += real_s; }
 
-  /// Few enough stamps are wrong that two in a row will not be.
+  /// Few enough stamps are wrong that two in a row will not be, and the last was true: a process
+  /// that begins again behind a clock that stood has nothing to tell it how long it was away.
   [[nodiscard]] bool keeps_time() const noexcept {
-    return !set_ && stands_ == 0 && (glitch_ == 0 || glitch_ >= 200);
+    return true_stamp_ && !set_ && stands_ == 0 && (glitch_ == 0 || glitch_ >= 200);
   }
   [[nodiscard]] bool keeps_time_well() const noexcept { return keeps_time() && glitch_ == 0; }
 
@@ -63,6 +64,7 @@ class HostilePort final : public kernel::port::Port {
   std::uint64_t turns_ = 0;   ///< the panel is turned one cycle in so many
   int lasting_ = 0;           ///< a fault that holds for the whole act
   std::uint32_t stands_ = 0;
+  bool true_stamp_ = false;
   bool set_ = false;  ///< the next stamp is the first of a clock that was set
 };
 
