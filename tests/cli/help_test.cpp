@@ -38,6 +38,19 @@ TEST(Help, EveryVerbTakesJson) {
   }
 }
 
+TEST(Help, EveryVerbWithAReportShowsHowToGetIt) {
+  std::size_t reports = 0;
+  for (const Words& verb : verbs()) {
+    const std::string help = help_of(verb);
+    if (help.find("--report DIR") == std::string::npos) {
+      continue;
+    }
+    ++reports;
+    EXPECT_THAT(examples(help), testing::Contains(testing::HasSubstr(" --report "))) << verb.back();
+  }
+  EXPECT_EQ(reports, 11U);
+}
+
 TEST(Help, EveryVerbEndsWithAnExampleThatWorks) {
   for (const Words& verb : verbs()) {
     const Words commands = examples(help_of(verb));

@@ -87,6 +87,7 @@ class FileCheck {
 
   std::vector<Violation> run() {
     check_spdx();
+    check_shared_data();
     const auto folder = folder_under_root(rules_, file_.path);
     if (!folder || !is_cpp(file_.path)) {
       return std::move(found_);
@@ -119,6 +120,15 @@ class FileCheck {
       }
     }
     report("spdx", 1, "the first line must be the SPDX line of Apache-2.0");
+  }
+
+  /// The variable may move the shared data; a test that knows no other place is skipped for ever.
+  void check_shared_data() {
+    const std::size_t at = file_.text.find("getenv(\"STEADYREST_SHARED_DATA\")");
+    if (at != std::string::npos && file_.text.find("shared/data") == std::string::npos) {
+      report("shared-data", line_of(file_.text, at),
+             "read the data in ../shared/data where the variable is not set");
+    }
   }
 
   void check_includes(const std::string& folder) {

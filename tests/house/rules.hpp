@@ -32,7 +32,8 @@ struct Rules {
 [[nodiscard]] std::expected<Rules, std::string> read_rules(std::string_view toml_text);
 
 struct Violation {
-  std::string rule;  ///< floor, half, in-cycle, namespace, spdx, quoted-include, place, unbuilt
+  std::string rule;  ///< floor, half, in-cycle, namespace, spdx, quoted-include, place,
+                     ///< shared-data, unbuilt
   std::string path;
   std::size_t line = 0;
   std::string what;

@@ -224,6 +224,14 @@ TEST(Spdx, OpensEveryFile) {
   EXPECT_THAT(found({"steadyrest/x/CMakeLists.txt", ""}), ElementsAre("spdx:1"));
 }
 
+TEST(SharedData, AreFoundWithoutAVariable) {
+  const std::string text =
+      std::string(kSpdx) + "const char* set = std::getenv(\"STEADYREST_SHARED_DATA\");\n";
+  EXPECT_THAT(found({"tests/x.cpp", text}), ElementsAre("shared-data:2"));
+  EXPECT_THAT(found({"tests/x.cpp", text + "std::string other = \"/../shared/data\";\n"}),
+              IsEmpty());
+}
+
 TEST(Built, ASourceThatNoListNamesIsFound) {
   const SourceFile source = file("steadyrest/nc/read/x.cpp", "");
   const SourceFile list{"steadyrest/nc/CMakeLists.txt", "# SPDX…\n  read/x.cpp\n"};

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs what README.md shows.
+"""Runs what README.md and the pages beside it show.
 
-run_snippets.py ROOT BIN
-    Every fenced `sh` block runs as it stands, in ROOT, with BIN first on the path; it must exit 0.
+run_snippets.py ROOT BIN FILE...
+    Of each FILE, in order, every fenced `sh` block runs as it stands, in ROOT, with BIN first on the path; it must exit 0.
     Every fenced `cpp` block must stand, line for line, in a file under examples/ (which the build
     compiles and ctest runs); fences of any other language are text.
 """
@@ -44,7 +44,14 @@ def stands_in_examples(code, root):
 
 def main():
     root, programs = pathlib.Path(sys.argv[1]), sys.argv[2]
-    text = (root / "README.md").read_text(encoding="utf-8")
+    failures = 0
+    for name in sys.argv[3:]:
+        failures += faults_of(name, root, programs)
+    return 1 if failures or not sys.argv[3:] else 0
+
+
+def faults_of(name, root, programs):
+    text = (root / name).read_text(encoding="utf-8")
     failures = checked = 0
     for line, language, code in snippets(text):
         if language == "sh":
@@ -54,11 +61,11 @@ def main():
         else:
             continue
         checked += 1
-        print(f"README.md:{line}: {language}: {'ok' if fault is None else fault}")
+        print(f"{name}:{line}: {language}: {'ok' if fault is None else fault}")
         failures += fault is not None
     if checked == 0:
-        print("README.md shows no snippet")
-    return 1 if failures or checked == 0 else 0
+        print(f"{name} shows no snippet")
+    return failures + (checked == 0)
 
 
 if __name__ == "__main__":

@@ -153,9 +153,9 @@ Outcome run(const Options& options) {
 
 void add_verb_chatter_fit(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  Verb& verb = session.verb(group, "fit",
-                            "Modes out of measured frequency responses of the tool tip (tap test)",
-                            "chatter fit examples/processes/tap-922hz.csv --axis x -o modes.toml");
+  Verb& verb = session.verb(
+      group, "fit", "Modes out of measured frequency responses of the tool tip (tap test)",
+      "chatter fit examples/processes/tap-922hz.csv --axis x -o modes.toml --report out/tap");
   auto options = std::make_shared<Options>();
   verb.reads("frf", options->files,
              "Responses of one point and direction: CSV (frequency_hz, real and imag or "

@@ -282,7 +282,7 @@ void add_verb_motion_estimate(Session& session) {
   Verb& verb = session.verb(
       group, "estimate", "Velocity and acceleration out of a log of counts (CSV: t_s,count)",
       "motion estimate examples/logs/sine-edges.csv --input edges --count-mm 0.001 "
-      "--cycle-hz 1000 --max-acceleration 25 --max-jerk 300 -o out.csv");
+      "--cycle-hz 1000 --max-acceleration 25 --max-jerk 300 -o out.csv --report out/motion");
   auto options = std::make_shared<Options>();
   verb.reads("log", options->log, "Log with the columns t_s and count; - is stdin")->required();
   verb.add_option("--input", options->input,

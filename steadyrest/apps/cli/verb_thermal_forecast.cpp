@@ -162,9 +162,10 @@ Outcome run(const Options& options) {
 
 void add_verb_thermal_forecast(Session& session) {
   CLI::App& group = session.group("thermal", "Drift by heat");
-  Verb& verb = session.verb(group, "forecast", "How far heat will displace the axes",
-                            "thermal forecast --machine examples/paper-thermal/machine.toml "
-                            "--cyclogram examples/paper-thermal/cyclogram.toml");
+  Verb& verb =
+      session.verb(group, "forecast", "How far heat will displace the axes",
+                   "thermal forecast --machine examples/paper-thermal/machine.toml "
+                   "--cyclogram examples/paper-thermal/cyclogram.toml --report out/forecast");
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
   verb.writes("-o,--output", options->output, "Write the curve to this CSV", curve_content());

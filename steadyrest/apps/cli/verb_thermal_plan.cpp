@@ -265,7 +265,7 @@ void add_verb_thermal_plan(Session& session) {
   Verb& verb = session.verb(group, "plan", "When which axis must be corrected by how much",
                             "thermal plan --machine examples/paper-thermal/machine.toml "
                             "--cyclogram examples/paper-thermal/cyclogram.toml "
-                            "--tolerance-um 10 --level 0");
+                            "--tolerance-um 10 --level 0 --report out/plan");
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
   verb.add_option("--tolerance-um", options->tolerance_um,

@@ -153,9 +153,9 @@ function body(report: Report): string {
       ${headline('contour_error_rms_mm', 'Contour error, RMS', a.contour_error_rms_mm, b.contour_error_rms_mm, micrometres)}
       ${headline('cycle_time_s', 'Cycle time', a.cycle_time_s, b.cycle_time_s, seconds)}</div>
     ${warnings(report)}
-    ${section('Path, coloured by contour error', `<div class="panels">${host('path-without', 'square')}${host('path-with', 'square')}</div>`, 'Point at the path for line and value.', buttons('plane', 'View', [['xy', 'XY'], ['xz', 'XZ'], ['yz', 'YZ']], 'xy'))}
+    ${section('Path, coloured by contour error', `<div class="panels">${host('path-without', 'square')}${host('path-with', 'square')}</div>`, '<span class="on-screen">Point at the path for line and value.</span>', buttons('plane', 'View', [['xy', 'XY'], ['xz', 'XZ'], ['yz', 'YZ']], 'xy'))}
     ${section('Along the program', `${host('course-error')}${host('course-override', 'low')}${host('course-feed', 'low')}`, '', buttons('abscissa', 'Horizontal axis', [['path_mm', 'Path length'], ['time_s', 'Time']], 'path_mm'))}
-    ${section('Worst lines of the program', worstTable(report), 'Press a head to sort.')}
+    ${section('Worst lines of the program', worstTable(report), '<span class="on-screen">Press a head to sort.</span>')}
     <div class="two">${section('Figures', comparison('figures', figureRows(a, b)))}${section('Reasons', reasonsTable(layer.reasons) + steps(report))}</div>
     ${vibrationSection(report)}${probeSection(report)}${section('Motion of the axes', motionTable(report))}`;
 }

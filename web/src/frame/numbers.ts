@@ -22,8 +22,8 @@ export function change(before: number, after: number): string {
   if (!Number.isFinite(before) || !Number.isFinite(after) || before === 0) {
     return '–';
   }
-  const percent = (100 * (after - before)) / before;
-  return `${percent > 0 ? '+' : ''}${fixed(percent, 1)} %`;
+  const percent = fixed((100 * (after - before)) / before, 1);
+  return `${after > before && percent !== '0.0' ? '+' : ''}${percent} %`;
 }
 
 /** Two digits that count, from 0.0012 to 1200. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What holds of every page: as the program wrote them, in a real browser, opened from disk.
 import { readFile } from 'node:fs/promises';
+import type { Download } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { type OpenPage, closeBrowser, colours, haveWritten, openFromDisk, writtenHtml } from './browser';
 
@@ -10,7 +11,7 @@ const PAGES: Record<string, number> = {
   lobes: 1, modulated: 1, growth: 2, simulate: 6, detect: 3, 'chatter-plan': 1, tap: 5,
   forecast: 2, 'thermal-fit': 4, replay: 3, 'thermal-plan': 3, bench: 14, estimate: 3,
 };
-const WIDTHS = [1440, 1024, 390, 1280];
+const WIDTHS = [1440, 1024, 390];
 
 interface Shown {
   chart: { getOption(): { dataZoom: { start: number; end: number }[]; xAxis: { name: string }[] }; getWidth(): number };
@@ -70,9 +71,17 @@ const cut = (open: OpenPage) =>
     return found;
   });
 
-async function saved(open: OpenPage, id: string, tool: string): Promise<{ name: string; content: Buffer }> {
-  const [download] = await Promise.all([open.page.waitForEvent('download', { timeout: PATIENCE_MS }), open.page.click(`#${id}-frame [data-tool="${tool}"]`)]);
-  return { name: download.suggestedFilename(), content: await readFile(await download.path()) };
+/** What the buttons PNG and CSV of these plots save, by the name of the file. */
+async function saved(open: OpenPage, ids: readonly string[]): Promise<Map<string, Buffer>> {
+  const downloads: Download[] = [];
+  const keep = (d: Download) => downloads.push(d);
+  open.page.on('download', keep);
+  await open.page.evaluate((all) => {
+    for (const id of all) document.querySelectorAll<HTMLElement>(`#${id}-frame [data-tool="png"], #${id}-frame [data-tool="csv"]`).forEach((b) => b.click());
+  }, ids);
+  await expect.poll(() => downloads.length, { timeout: PATIENCE_MS }).toBe(2 * ids.length);
+  open.page.off('download', keep);
+  return new Map(await Promise.all(downloads.map(async (d): Promise<[string, Buffer]> => [d.suggestedFilename(), await readFile(await d.path())])));
 }
 
 /** Rows of a CSV without quoted line ends. */
@@ -96,6 +105,11 @@ describe.runIf(haveWritten).each(Object.entries(PAGES))('the page %s', (name, co
     expect(await open.page.locator('.explanation dt').count()).toBeGreaterThan(2);
     expect(await open.page.textContent('#made-command')).toMatch(/^steadyrest \w+/);
     expect(await open.page.textContent('#made-date')).toMatch(/^20\d\d-\d\d-\d\dT/);
+    if (name !== 'bench') {
+      const hashes = await open.page.locator('#inputs td').allTextContents(); // the bench reads no file
+      expect(hashes.length).toBeGreaterThan(0);
+      hashes.forEach((h) => expect(h).toMatch(/^[\da-f]{64}$/));
+    }
     expect(open.complaints).toEqual([]);
   });
 
@@ -110,22 +124,28 @@ describe.runIf(haveWritten).each(Object.entries(PAGES))('the page %s', (name, co
   });
 
   it('zooms each plot, those of a group together, and goes back', async () => {
-    for (const id of await plotIds(open)) {
-      const use = (tool: string) => open.page.click(`#${id}-frame [data-tool="${tool}"]`);
-      const plane = await open.page.evaluate((i) => (window as unknown as WithPlots).steadyrestPlot(i).plot.plane === true, id);
+    const steps = await open.page.evaluate(() => {
+      const shown = (id: string) => (window as unknown as WithPlots).steadyrestPlot(id);
+      const all = [...document.querySelectorAll('.plot')].map((e) => e.id);
+      const zoomed = (id: string) => shown(id).chart.getOption().dataZoom.map((z) => [Math.round(z.start), Math.round(z.end)]);
+      return all.map((id) => {
+        const { group, plane } = shown(id).plot;
+        const others = group === undefined ? [id] : all.filter((k) => shown(k).plot.group === group);
+        const use = (tool: string) => {
+          document.querySelector<HTMLElement>(`#${id}-frame [data-tool="${tool}"]`)?.click();
+          return { own: zoomed(id), group: others.map((k) => zoomed(k)[0]) };
+        };
+        return { id, plane: plane === true, near: use('in'), back: [use('in'), use('out')][1], whole: use('whole') };
+      });
+    });
+    expect(steps.length).toBe(count);
+    for (const { id, plane, near, back, whole } of steps) {
       const half = [[25, 75], plane ? [25, 75] : [0, 100]];
-      await use('in');
-      expect(await zoomOf(open, id), id).toEqual(half);
-      const group = await open.page.evaluate((i) => {
-        const of = (k: string) => (window as unknown as WithPlots).steadyrestPlot(k).plot.group;
-        return of(i) === undefined ? [i] : [...document.querySelectorAll('.plot')].map((e) => e.id).filter((k) => of(k) === of(i));
-      }, id);
-      for (const other of group) expect((await zoomOf(open, other))[0], `${id} → ${other}`).toEqual([25, 75]);
-      await use('in');
-      await use('out');
-      expect(await zoomOf(open, id), id).toEqual(half);
-      await use('whole');
-      for (const other of group) expect((await zoomOf(open, other))[0], other).toEqual([0, 100]);
+      expect(near.own, id).toEqual(half);
+      near.group.forEach((x) => expect(x, id).toEqual([25, 75]));
+      expect(back?.own, id).toEqual(half);
+      expect(whole.own, id).toEqual([[0, 100], [0, 100]]);
+      whole.group.forEach((x) => expect(x, id).toEqual([0, 100]));
     }
     expect(open.complaints).toEqual([]);
   });
@@ -155,15 +175,16 @@ describe.runIf(haveWritten).each(Object.entries(PAGES))('the page %s', (name, co
   });
 
   it('saves each plot as a picture and as values', async () => {
-    for (const id of await plotIds(open)) {
-      const png = await saved(open, id, 'png');
-      expect(png.name, id).toMatch(new RegExp(`${id}\\.png$`));
-      expect(png.content.subarray(1, 4).toString(), id).toBe('PNG');
+    const ids = await plotIds(open);
+    const files = await saved(open, ids);
+    expect(files.size).toBe(2 * ids.length);
+    for (const id of ids) {
+      const of = (kind: string) => [...files].find(([name]) => name.endsWith(`-${id}.${kind}`))?.[1] ?? Buffer.alloc(0);
+      const png = of('png');
+      expect(png.subarray(1, 4).toString(), id).toBe('PNG');
       const width = await open.page.evaluate((i) => (window as unknown as WithPlots).steadyrestPlot(i).chart.getWidth(), id);
-      expect(png.content.readUInt32BE(16), id).toBe(2 * width);
-      const csv = await saved(open, id, 'csv');
-      const [head = [], ...rows] = rowsOf(csv.content.toString());
-      expect(csv.name, id).toMatch(new RegExp(`${id}\\.csv$`));
+      expect(png.readUInt32BE(16), id).toBe(2 * width);
+      const [head = [], ...rows] = rowsOf(of('csv').toString());
       expect(head.length, id).toBeGreaterThan(1);
       expect(rows.length, id).toBeGreaterThan(0);
       expect(rows.every((r) => r.length === head.length && r.every((v) => v === '' || Number.isFinite(Number(v)))), id).toBe(true);

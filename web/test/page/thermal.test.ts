@@ -3,7 +3,7 @@
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { fixed } from '../../src/frame/numbers';
 import { broken } from '../../src/thermal/course';
-import { type BatchPage, type FitPage, type Page, type PlanPage, type ReplayPage, residual } from '../../src/thermal/data';
+import { type BatchPage, type FitPage, type ForecastPage, type Page, type PlanPage, type ReplayPage, residual } from '../../src/thermal/data';
 import { type OpenPage, closeBrowser, haveWritten, openFromDisk, share, written } from './browser';
 
 afterAll(closeBrowser);
@@ -70,6 +70,20 @@ describe.runIf(haveWritten)('the pages of the thermal verbs', () => {
     expect(await open.page.textContent('#figures')).toContain('not stated');
   });
 
+  it('say of a forecast whether its uncertainty is known', async () => {
+    const { open, page } = at<ForecastPage>('forecast');
+    // The paper's passport has no covariance.
+    expect(await open.page.textContent('#verdict')).toContain('The passport states no uncertainty.');
+    expect(await open.page.textContent('#key-course-0')).not.toContain('95 %');
+    const known = structuredClone(page);
+    known.courses.forEach((c) => (c.sd_um = c.t_min.map((t) => t / 100)));
+    const html = written('forecast').html.replace(/(<script id="report-data"[^>]*>)[^<]*/, (_, head: string) => head + JSON.stringify(known));
+    const other = await openFromDisk(html);
+    expect(await other.page.textContent('#verdict')).toMatch(/95 % of the errors at the end are within ±5.9 µm/);
+    expect(await other.page.textContent('#key-course-0')).toContain('95 %');
+    await other.close();
+  });
+
   it('show each displacement over a temperature, and beside what the model makes of it', async () => {
     const { open, page } = at<FitPage>('fit');
     const axis = page.axes[0] as FitPage['axes'][number];
@@ -86,6 +100,11 @@ describe.runIf(haveWritten)('the pages of the thermal verbs', () => {
     for (const colour of ['#3b6fb5', '#9c2c6d']) {
       expect(await share(open, 'over-0', colour)).toBeGreaterThan(0.0005);
     }
+    // On paper it is said over which temperature, and what that tells.
+    const event = (type: string) => open.page.evaluate((t) => window.dispatchEvent(new Event(t)), type);
+    await event('beforeprint');
+    for (const id of ['sensor-0', 'told-0']) expect(await open.page.locator(`#${id}`).isVisible(), id).toBe(true);
+    await event('afterprint');
   });
 
   it('show the displacement over another temperature when it is chosen', async () => {

@@ -31,6 +31,7 @@ describe('numbers', () => {
   it('give changes their sign', () => {
     expect(change(100, 110)).toBe('+10.0 %');
     expect(change(0.0877, 0.0098)).toBe('−88.8 %');
+    expect(change(100, 100.001)).toBe('0.0 %');
     expect(change(0, 1)).toBe('–');
   });
 });
