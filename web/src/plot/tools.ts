@@ -16,12 +16,17 @@ export const TOOLS = `<span class="tools" role="group" aria-label="Plot">${[
   button('csv', 'CSV', 'Save the values'),
 ].join('')}</span>`;
 
-function save(name: string, content: Blob): void {
+function save(name: string, url: string): void {
   const link = document.createElement('a');
-  link.href = URL.createObjectURL(content);
+  link.href = url;
   link.download = name;
   link.click();
-  window.setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+function saveText(name: string, text: string): void {
+  const url = URL.createObjectURL(new Blob([text], { type: 'text/csv;charset=utf-8' }));
+  save(name, url);
+  window.setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }
 
 /** `rib-pocket.mpf`, `course-error` → `rib-pocket-mpf-course-error`. */
@@ -43,9 +48,10 @@ function use(tool: string, where: HTMLElement): void {
     case 'whole':
       return showWhole(where);
     case 'png':
-      return picture(chart, plot, theme).toBlob((blob) => blob && save(`${fileName(where.id)}.png`, blob));
+      // Not `toBlob`, which waits until the browser is idle: the file belongs to the press of the button.
+      return save(`${fileName(where.id)}.png`, picture(chart, plot, theme).toDataURL());
     case 'csv':
-      return save(`${fileName(where.id)}.csv`, new Blob([csvOf(plot.columns?.() ?? columnsOfPlot(plot))], { type: 'text/csv;charset=utf-8' }));
+      return saveText(`${fileName(where.id)}.csv`, csvOf(plot.columns?.() ?? columnsOfPlot(plot)));
   }
 }
 

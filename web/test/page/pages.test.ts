@@ -2,7 +2,7 @@
 // What holds of every page: as the program wrote them, in a real browser, opened from disk.
 import { readFile } from 'node:fs/promises';
 import type { Download } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, beforeAll, describe, expect, it, vi } from 'vitest';
 import { type OpenPage, closeBrowser, colours, haveWritten, openFromDisk, writtenHtml } from './browser';
 
 /** Where each is, and how many plots it has. */
@@ -73,17 +73,21 @@ const cut = (open: OpenPage) =>
 
 /** What the buttons PNG and CSV of these plots save, by the name of the file. */
 async function saved(open: OpenPage, ids: readonly string[]): Promise<Map<string, Buffer>> {
-  const downloads: Download[] = [];
-  const keep = (d: Download) => downloads.push(d);
+  const downloads = new Map<string, Download>();
+  const keep = (d: Download) => downloads.set(d.suggestedFilename(), d);
   open.page.on('download', keep);
-  for (const [i, id] of ids.entries()) {
-    await open.page.click(`#${id}-frame [data-tool="png"]`);
-    await open.page.click(`#${id}-frame [data-tool="csv"]`);
-    // A browser drops downloads that come too fast.
-    await expect.poll(() => downloads.length, { timeout: PATIENCE_MS, interval: 10 }).toBe(2 * (i + 1));
+  let wanted = 0;
+  for (const [id, tool] of ids.flatMap((i) => [[i, 'png'], [i, 'csv']])) {
+    ++wanted;
+    // A busy browser may drop a download; who saves by hand presses again.
+    for (let presses = 0; presses < 3 && downloads.size < wanted; ++presses) {
+      await open.page.click(`#${id}-frame [data-tool="${tool}"]`);
+      await vi.waitUntil(() => downloads.size === wanted, { timeout: PATIENCE_MS / 3, interval: 10 }).catch(() => undefined);
+    }
+    expect(downloads.size, `${id}.${tool}`).toBe(wanted);
   }
   open.page.off('download', keep);
-  return new Map(await Promise.all(downloads.map(async (d): Promise<[string, Buffer]> => [d.suggestedFilename(), await readFile(await d.path())])));
+  return new Map(await Promise.all([...downloads].map(async ([name, d]): Promise<[string, Buffer]> => [name, await readFile(await d.path())])));
 }
 
 /** Rows of a CSV without quoted line ends. */
