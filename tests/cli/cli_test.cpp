@@ -176,6 +176,39 @@ TEST(Cli, NoOptionTakesANumberThatIsNotFinite) {
   }
 }
 
+TEST(Cli, SaysWhatWasWrittenAndWhyItIsNoValue) {
+  const std::string units = "motion units --count-mm 0.001 --cycle-hz ";
+  const std::string radius =
+      "chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 1 --law "
+      "random "
+      "--rva 0.1 --rvf 0.1 --seed ";
+  const std::string fit = "chatter fit examples/processes/tap-922hz.csv --axis ";
+  expect_refused(units + "x", "--cycle-hz x is not a number; see steadyrest motion units --help");
+  expect_refused(units + "1,5", "--cycle-hz 1,5 is not a number, which has a decimal point;");
+  expect_refused(units + "0x10", "--cycle-hz 0x10 is not a number;");
+  expect_refused(units + "1e999", "--cycle-hz 1e999 is not a finite number;");
+  expect_refused(units + "0", "--cycle-hz 0 not in range 1e-09 to 1e+12;");
+  expect_refused(units + "1000 --feed-mm-min -1", "--feed-mm-min -1 not in range");
+  expect_refused(units, "--cycle-hz has no value;");
+  expect_refused(radius + "-1", "--seed -1 is below 0;");
+  expect_refused(radius + "1.5", "--seed 1.5 is not a whole number;");
+  expect_refused(radius + "18446744073709551616", "--seed 18446744073709551616 is too large;");
+  expect_refused(radius + "010", "--seed 010 begins with 0;");
+  expect_refused(fit + "z", "--axis z is none of x,y;");
+  expect_refused(fit + "x --axis y", "--axis is given more than once;");
+  expect_refused(fit + "x --modes 99999999999", "--modes 99999999999");
+  const Finished empty = run({"contour", "limit", "--radius-mm", "10", "--kv-1-s", "50",
+                              "--max-error-mm", "0.01", "--feed-mm-min", ""});
+  EXPECT_EQ(empty.code, 2);
+  EXPECT_THAT(empty.err, HasSubstr("--feed-mm-min is empty;"));
+}
+
+TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
+  expect_refused(kCircle + "--feed-mm-min -1", "--feed-mm-min -1 not in range 0 to 1e+09;");
+  expect_refused("contour limit --radius-mm 10 --kv-1-s 1e-300 --max-error-mm 0.01",
+                 "--kv-1-s 1e-300 not in range");
+}
+
 TEST(Doctor, FindsAGoodMachineWell) {
   const Finished finished = run_line("doctor --machine examples/machines/vmc-840d.toml --json");
   ASSERT_EQ(finished.code, 0) << finished.err;

@@ -147,6 +147,20 @@ TEST_P(Outputs, StayAsTheyWereWhenTheDiskIsFull) {
   EXPECT_THAT(folder_.results(), IsEmpty());
 }
 
+/// The last output is the first that does not fit.
+TEST_P(Outputs, TakeTheirPlacesTogetherOrNot) {
+  const Texts results = made();
+  const Texts old = older(results);
+  std::size_t largest = 0;
+  for (const auto& [name, text] : results) {
+    largest = std::max(largest, text.size());
+  }
+  folder_.place(old);
+  EXPECT_EQ(run(folder_.command(), {.largest_file = static_cast<long>(largest / 2)}), 1);
+  EXPECT_THAT(err_, HasSubstr("cannot be written: File too large"));
+  EXPECT_EQ(folder_.results(), old);
+}
+
 TEST_P(Outputs, AreKeptWhenStdoutIsClosed) {
   EXPECT_EQ(run(folder_.command(), {.out = Process::Stdout::closed_pipe}), 1);
   EXPECT_THAT(err_, HasSubstr("the answer cannot be written to stdout"));

@@ -23,6 +23,7 @@ class Drawn {
   void update(std::chrono::milliseconds after, double share) {
     progress_.update_at(start_ + after, share, "cutting");
   }
+  void tick(std::chrono::milliseconds after) { progress_.tick_at(start_ + after); }
   void clear() { progress_.clear(); }
   [[nodiscard]] std::string text() {
     std::string out(static_cast<std::size_t>(std::ftell(file_.get())), '\0');
@@ -67,9 +68,26 @@ TEST(Progress, DrawsAtMostTenTimesASecond) {
   EXPECT_GE(std::count(text.begin(), text.end(), '%'), 9);
 }
 
+TEST(Progress, CountsTheSecondsOfWorkThatMakesNoCall) {
+  Drawn drawn(true);
+  drawn.tick(900ms);
+  EXPECT_EQ(drawn.text(), "");
+  drawn.tick(2000ms);
+  EXPECT_THAT(drawn.text(), testing::HasSubstr("  0 %  working, 2 s"));
+  drawn.update(2500ms, 0.5);
+  drawn.tick(3100ms);
+  EXPECT_THAT(drawn.text(), testing::EndsWith(" 50 %  cutting, 2 s"));
+  drawn.tick(4000ms);
+  EXPECT_THAT(drawn.text(), testing::EndsWith(" 50 %  cutting, 4 s"));
+  drawn.clear();
+  drawn.tick(9000ms);
+  EXPECT_TRUE(drawn.text().ends_with("\r\x1b[K"));
+}
+
 TEST(Progress, IsSilentWhereThereIsNoTerminal) {
   Drawn drawn(false);
   drawn.update(5000ms, 0.5);
+  drawn.tick(9000ms);
   drawn.clear();
   EXPECT_EQ(drawn.text(), "");
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <iostream>
 
@@ -59,25 +57,6 @@ bool print_json(const Json& json) {
   return print_out(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-/// CLI::Range lets NaN pass, and an option without a range lets infinity pass: no option of any
-/// verb means either.
-void demand_finite(CLI::App& app) {
-  for (const CLI::Option* option : app.get_options()) {
-    if (!option->get_type_name().starts_with("FLOAT")) {
-      continue;
-    }
-    for (const std::string& given : option->results()) {
-      if (!std::isfinite(std::strtod(given.c_str(), nullptr))) {
-        throw CLI::ValidationError(
-            fmt::format("{} {} is not a finite number", option->get_name(), given));
-      }
-    }
-  }
-  for (CLI::App* below : app.get_subcommands({})) {
-    demand_finite(*below);
-  }
-}
-
 int unwritten() {
   fmt::print(stderr, "{}: the answer cannot be written to stdout; check disk space and pipe\n",
              kName);
@@ -131,6 +110,7 @@ void Session::on(Verb& verb, Run run) {
 int Session::main(int argc, const char* const* argv) noexcept {
   try {
     kernel::file::remove_temporaries_on_signals();
+    kernel::file::hold_back();
     return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "steadyrest: internal error: %s; please report it\n", error.what());
@@ -144,7 +124,6 @@ int Session::parse_and_run(int argc, const char* const* argv) {
   command_ = report::command_of(argc, argv);
   try {
     app_.parse(argc, argv);
-    demand_finite(app_);
   } catch (const CLI::ParseError& error) {
     return usage(error);
   }
@@ -191,7 +170,11 @@ Outcome Session::work() const {
   Outcome outcome = run_(progress);
   progress.clear();
   if (outcome) {
-    if (auto done = write_pages(outcome->pages, provenance); !done) {
+    auto done = write_pages(outcome->pages, provenance);
+    if (done) {
+      done = kernel::file::put_held_in_place();
+    }
+    if (!done) {
       return refused(std::move(done.error()));
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -73,6 +74,29 @@ std::pair<const CLI::App*, std::string> reached(const CLI::App& root) {
   return {at, path};
 }
 
+/// CLI11's sentence about an option or its value, in ours; what is unknown stays as it is.
+std::string plain(const std::string& sentence) {
+  static const std::regex kConvert(R"(Could not convert: (\S+) = (.*))");
+  static const std::regex kMissing(R"((\S+): \d+ required .* missing)");
+  static const std::regex kTwice(R"((\S+): At Most 1 required but received \d+)");
+  static const std::regex kValue(R"((\S+): (?:Value )?(.*))");
+  static const std::regex kNotAmong(R"((\S+ \S+) not in \{(.*)\})");
+  const auto put = [&sentence](const std::regex& from, const char* to) {
+    return std::regex_replace(sentence, from, to, std::regex_constants::format_first_only);
+  };
+  if (std::regex_match(sentence, kConvert)) {
+    return put(kConvert, "$1 $2 is too large");
+  }
+  if (std::regex_match(sentence, kMissing)) {
+    return put(kMissing, "$1 has no value");
+  }
+  if (std::regex_match(sentence, kTwice)) {
+    return put(kTwice, "$1 is given more than once");
+  }
+  const std::string named = put(kValue, "$1 $2");
+  return std::regex_replace(named, kNotAmong, "$1 is none of $2");
+}
+
 }  // namespace
 
 Refusal usage_refusal(const CLI::App& root, const CLI::ParseError& error) {
@@ -100,7 +124,7 @@ Refusal usage_refusal(const CLI::App& root, const CLI::ParseError& error) {
   if (!words.empty()) {
     return refusal(fmt::format("one argument too many: '{}'", words.front()), help);
   }
-  return refusal(error.what(), help);
+  return refusal(plain(error.what()), help);
 }
 
 }  // namespace steadyrest::apps::cli

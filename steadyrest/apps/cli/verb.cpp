@@ -119,7 +119,7 @@ std::vector<PlannedFile> report_files(const std::string& folder) {
 CLI::Option* Verb::add_output(const std::string& flags, std::string& path,
                               const std::string& description, Files files, bool folder) {
   CLI::Option* const option =
-      add_option(flags, path, description)->type_name(folder ? "DIR" : "OUT");
+      CLI::App::add_option(flags, path, description)->type_name(folder ? "DIR" : "OUT");
   if (outputs_.empty()) {
     add_flag("--force", force_, "Replace an input, or a file of another kind, by an output");
   }

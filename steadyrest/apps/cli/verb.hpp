@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <steadyrest/apps/cli/content.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/report/provenance.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/place.hpp>
@@ -46,10 +47,19 @@ class Verb : public CLI::App {
   Verb(std::string description, std::string name, CLI::App& parent)
       : CLI::App(std::move(description), std::move(name), &parent) {}
 
-  /// An option or argument that names a file to read (`-` is stdin), a folder, or several.
+  /// An option or argument with a value; see check_value().
+  template <class Value>
+  CLI::Option* add_option(const std::string& flags, Value& value, const std::string& description) {
+    CLI::Option* const option = CLI::App::add_option(flags, value, description);
+    check_value(*option);
+    return option;
+  }
+
+  /// An option or argument that names a file to read (`-` is stdin), a folder, or several. An empty
+  /// name is refused by ready().
   template <class Path>
   CLI::Option* reads(const std::string& flags, Path& path, const std::string& description) {
-    CLI::Option* const option = add_option(flags, path, description);
+    CLI::Option* const option = CLI::App::add_option(flags, path, description);
     inputs_.push_back(option->type_name("FILE"));
     return option;
   }

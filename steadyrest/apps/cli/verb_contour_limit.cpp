@@ -110,16 +110,23 @@ void add_verb_contour_limit(Session& session) {
                             "Contour error of an arc and the feed that keeps it, in closed form",
                             "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 0.010");
   auto options = std::make_shared<Options>();
-  verb.add_option("--radius-mm", options->radius_mm, "Radius of the arc")->required();
+  verb.add_option("--radius-mm", options->radius_mm, "Radius of the arc")
+      ->required()
+      ->check(CLI::Range(1e-6, 1e9));
   verb.add_option("--kv-1-s", options->gain_1_s, "Servo gain in 1/s; 1 (m/min)/mm = 16.667 1/s")
-      ->required();
+      ->required()
+      ->check(CLI::Range(1e-3, 1e6));
   verb.add_option("--max-error-mm", options->max_error_mm,
-                  "Largest contour error: gives the largest feed");
-  verb.add_option("--feed-mm-min", options->feed_mm_min, "Path feed: gives the errors");
+                  "Largest contour error: gives the largest feed")
+      ->check(CLI::Range(1e-9, 1e9));
+  verb.add_option("--feed-mm-min", options->feed_mm_min, "Path feed: gives the errors")
+      ->check(CLI::Range(0.0, 1e9));
   verb.add_option("--feed-forward", options->feed_forward,
-                  "Weight of the velocity feed-forward, 0 none, 1 full");
+                  "Weight of the velocity feed-forward, 0 none, 1 full")
+      ->check(CLI::Range(0.0, 1.5));
   verb.add_option("--velocity-lag-ms", options->velocity_lag_ms,
-                  "First-order lag of the velocity loop in ms");
+                  "First-order lag of the velocity loop in ms")
+      ->check(CLI::Range(0.0, 1e4));
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

@@ -167,6 +167,7 @@ void add_verb_motion_encoder(Session& session) {
                                 "Lines of a known encoder: gives its largest feed and speed");
   verb.add_option("--count-mm", options->count_mm, "Count that is wanted: gives the lines")
       ->excludes(lines);
+  check_size(verb);
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

@@ -129,6 +129,7 @@ void add_verb_motion_units(Session& session) {
                   "Acceleration in counts per cycle²: gives overload and mm/s²")
       ->excludes(overload)
       ->excludes(acceleration);
+  check_size(verb);
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

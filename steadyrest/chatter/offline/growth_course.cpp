@@ -4,6 +4,8 @@
 #include <limits>
 #include <set>
 
+#include <tbb/parallel_for.h>
+
 #include <steadyrest/chatter/offline/growth_course.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -140,10 +142,11 @@ std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {
   }
   const std::size_t starts = std::min(passes, kMostStarts);
   std::vector<GrowthCourse> out;
-  out.reserve(starts);
-  for (std::size_t k = 0; k < starts; ++k) {
-    out.push_back(course_from(cycle, k * passes / starts, std::max(2 * passes, kLeastWindow)));
-  }
+  out.resize(starts);
+  tbb::parallel_for(std::size_t{0}, starts, [&](std::size_t k) {
+    DelayCycle own = cycle;  // advance() leaves the last pass in it
+    out[k] = course_from(own, k * passes / starts, std::max(2 * passes, kLeastWindow));
+  });
   return out;
 }
 

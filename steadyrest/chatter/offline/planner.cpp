@@ -7,73 +7,23 @@
 #include <tbb/parallel_for.h>
 
 #include <steadyrest/chatter/offline/alternative_check.hpp>
+#include <steadyrest/chatter/offline/plan_request.hpp>
 #include <steadyrest/chatter/offline/planner.hpp>
-#include <steadyrest/chatter/offline/reach.hpp>
 #include <steadyrest/chatter/offline/stability.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using online::Law;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSame = 1e-9;
 constexpr std::size_t kMostAmplitudes = 12;
 constexpr std::size_t kMostJudged = 3;  ///< frequencies of one law and amplitude
-constexpr double kFastest = 0.5;        ///< RVF
-constexpr double kSlowest = 5e-4;       ///< likewise, near what the solver takes
 constexpr double kNextFrequency = 1.45;
-constexpr double kDepthsOver = 5.0;  ///< limit depths up to so many times the wanted one
 constexpr double kStepsShare = 0.2;  ///< of the progress
 constexpr double kTie = 1.5;         ///< samples
-
-std::optional<Refusal> fault(const Process& process, double speed, double depth,
-                             const PlanOptions& o) {
-  const auto bad = [](std::string what, std::string to_do) {
-    return Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)};
-  };
-  if (process.modes.empty()) {
-    return bad("the process has no mode", "give at least one [[mode]]");
-  }
-  if (!(speed > 0.0) || !std::isfinite(speed) || !(depth > 0.0) || !std::isfinite(depth)) {
-    return bad(
-        fmt::format("speed {} rpm and depth {} mm; both must be above 0", 60.0 * speed, depth),
-        "give the programmed speed and the wanted depth");
-  }
-  const double most_depth = o.most_depth_mm > 0.0 ? o.most_depth_mm : kDepthsOver * depth;
-  if (auto refused = beyond_reach(process, speed, most_depth)) {
-    refused->to_do +=
-        "; --most-depth-mm is how deep borders are sought, five times the wanted "
-        "depth without it";
-    return refused;
-  }
-  const Uncertainty& u = o.uncertainty;
-  if (!(o.least_probability >= 0.0 && o.least_probability <= 1.0) || !(o.most_growth >= 1.0) ||
-      !(o.least_rvf >= kSlowest && o.least_rvf <= kFastest) ||
-      (o.most_depth_mm != 0.0 && !(o.most_depth_mm >= depth)) || u.samples < 1 ||
-      u.samples > 4096 || !(u.frequency >= 0.0 && u.frequency <= 0.1) ||
-      !(u.damping >= 0.0 && u.damping <= 1.0) ||
-      !(u.coefficients >= 0.0 && u.coefficients <= 1.0)) {
-    return bad("an option of the plan is out of its range",
-               "probability 0 … 1, growth at least 1, slowest RVF 0.0005 … 0.5, greatest depth "
-               "not below the wanted one, 1 … 4096 samples, σ of frequency 0 … 0.1, of damping and "
-               "coefficients 0 … 1");
-  }
-  for (const double rva : o.rva) {
-    if (!(rva > 0.0 && rva < 1.0)) {
-      return bad(fmt::format("RVA {} is not between 0 and 1", rva), "give e.g. 0.1");
-    }
-  }
-  for (const double rvf : o.rvf) {
-    if (!(rvf > 0.0 && rvf <= 1.0)) {
-      return bad(fmt::format("RVF {} is not above 0 and at most 1", rvf), "give e.g. 0.1");
-    }
-  }
-  return std::nullopt;
-}
 
 class Planner {
  public:
@@ -85,7 +35,7 @@ class Planner {
         depth_(depth),
         options_(options),
         limits_(machine, process, depth, options.drive) {
-    out_.most_depth_mm = options.most_depth_mm > 0.0 ? options.most_depth_mm : kDepthsOver * depth;
+    out_.most_depth_mm = most_depth_mm(depth, options);
   }
 
   Plan run();
@@ -206,7 +156,7 @@ std::vector<double> Planner::frequencies(Modulation law) const {
   const double per_rev = process_.even_pitch() ? static_cast<double>(process_.tool.teeth) : 1.0;
   std::vector<double> wanted = options_.rvf;
   if (wanted.empty()) {
-    const auto most = limits_.most_rvf(speed_, law, options_.least_rvf, kFastest);
+    const auto most = limits_.most_rvf(speed_, law, options_.least_rvf, kFastestPlanRvf);
     if (!most) {
       return {};
     }
@@ -343,6 +293,9 @@ void Planner::explain_nothing(const AlternativeCheck& check) {
 
 /// What a number cannot say.
 void Planner::explain(const AlternativeCheck& check) {
+  if (auto ignored = process_damping_ignored(process_, speed_)) {
+    note(std::move(*ignored));
+  }
   if (out_.decision == PlanDecision::keep) {
     return;
   }
@@ -379,7 +332,7 @@ void Planner::explain(const AlternativeCheck& check) {
 kernel::outcome::Result<Plan> plan(const Process& process, const Machine& machine,
                                    double programmed_rev_s, double depth_mm,
                                    const PlanOptions& options) {
-  if (auto refusal = fault(process, programmed_rev_s, depth_mm, options)) {
+  if (auto refusal = fault_of_request(process, programmed_rev_s, depth_mm, options)) {
     return std::unexpected(std::move(*refusal));
   }
   return Planner(process, machine, programmed_rev_s, depth_mm, options).run();

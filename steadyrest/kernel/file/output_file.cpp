@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,10 +22,12 @@ using outcome::Kind;
 using outcome::Refusal;
 using outcome::Result;
 
-/// What the process has written, for the one answer at its end.
+/// What the process has written, for the one answer at its end, and what waits for it.
 struct Ledger {
   std::mutex mutex;
   std::vector<Written> files;
+  std::vector<OutputFile> held;
+  std::atomic<bool> holds = false;
 };
 
 Ledger& ledger() {
@@ -92,7 +96,7 @@ Result<void> OutputFile::make_beside() {
   // Without a name nothing is left behind even by SIGKILL and a power cut. Not every file system
   // can do it, and the name that it gets at last is given through /proc.
   descriptor_ = ::open(place_.path.parent_path().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  path_ = "/proc/self/fd/" + std::to_string(descriptor_);
+  path_ = fmt::format("/proc/{}/fd/{}", ::getpid(), descriptor_);
   if (descriptor_ >= 0 && ::access(path_.c_str(), F_OK) != 0) {
     ::close(std::exchange(descriptor_, -1));
   }
@@ -168,11 +172,22 @@ Result<void> OutputFile::settle() {
   if (auto flushed = flush(); !flushed) {
     return flushed;
   }
+  if (place_.kind == Place::Kind::file && descriptor_ >= 0 && ::fsync(descriptor_) != 0) {
+    error_ = errno;
+  }
+  return flush();
+}
+
+Result<void> OutputFile::take_name() {
   if (descriptor_ < 0) {
     return {};
   }
-  if (place_.kind == Place::Kind::file && (::fsync(descriptor_) != 0 || !has_name())) {
-    error_ = errno;
+  if (place_.kind == Place::Kind::file && beside_.path().empty()) {
+    beside_ = Temporary(name_beside(place_), Temporary::Kind::file);
+    const std::string unnamed = std::exchange(path_, beside_.path());
+    if (::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
+      error_ = errno;
+    }
   }
   if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) {
     error_ = errno;
@@ -180,18 +195,9 @@ Result<void> OutputFile::settle() {
   return flush();
 }
 
-bool OutputFile::has_name() {
-  if (beside_.path().empty()) {
-    beside_ = Temporary(name_beside(place_), Temporary::Kind::file);
-    const std::string unnamed = std::exchange(path_, beside_.path());
-    return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) == 0;
-  }
-  return true;
-}
-
-Result<void> OutputFile::commit() {
-  if (auto settled = settle(); !settled || place_.kind != Place::Kind::file) {
-    return settled;
+Result<void> OutputFile::rename() {
+  if (place_.kind != Place::Kind::file) {
+    return {};
   }
   if (::rename(path_.c_str(), place_.path.c_str()) != 0) {
     return std::unexpected(refusal(errno));
@@ -203,11 +209,43 @@ Result<void> OutputFile::commit() {
   return {};
 }
 
+Result<void> OutputFile::commit() {
+  if (place_.kind != Place::Kind::file || !ledger().holds) {
+    return put_in_place({this, 1});
+  }
+  auto settled = settle();
+  if (settled) {
+    const std::scoped_lock lock(ledger().mutex);
+    ledger().held.push_back(std::move(*this));
+  }
+  return settled;
+}
+
 Refusal OutputFile::refusal(int error) const {
   return {Kind::unavailable, name_, 0, std::string{"cannot be written: "} + std::strerror(error),
           place_.kind == Place::Kind::file
               ? "check the folder, the rights and the disk space; what was there is untouched"
               : "check who reads it and the disk space"};
+}
+
+Result<void> put_in_place(std::span<OutputFile> files) {
+  for (const auto step : {&OutputFile::settle, &OutputFile::take_name, &OutputFile::rename}) {
+    for (OutputFile& file : files) {
+      if (auto done = (file.*step)(); !done) {
+        return done;
+      }
+    }
+  }
+  return {};
+}
+
+void hold_back() {
+  ledger().holds = true;
+}
+
+Result<void> put_held_in_place() {
+  auto held = std::exchange(ledger().held, {});
+  return put_in_place(held);
 }
 
 Result<void> write_files(std::span<const FileText> files) {
@@ -223,6 +261,9 @@ Result<void> write_files(std::span<const FileText> files) {
     if (auto settled = out.back().settle(); !settled) {
       return settled;
     }
+  }
+  if (!ledger().holds) {
+    return put_in_place(out);
   }
   for (OutputFile& file : out) {
     if (auto committed = file.commit(); !committed) {

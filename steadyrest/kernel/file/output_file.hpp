@@ -35,17 +35,20 @@ class OutputFile {
   void write(std::string_view bytes) noexcept;
   /// What has been written can now be read at path().
   [[nodiscard]] outcome::Result<void> flush();
-  /// Everything that can fail before the rename has been done.
+  /// All of it is on the disk.
   [[nodiscard]] outcome::Result<void> settle();
+  /// Puts the file in its place; see hold_back().
   [[nodiscard]] outcome::Result<void> commit();
-  /// Where this process can read the text until commit(). Empty for a stream.
+  /// Where this process and its children can read the text until commit(). Empty for a stream.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
  private:
   OutputFile() = default;
   outcome::Result<void> make_beside();
-  /// Gives the file its temporary name; false: see errno.
-  [[nodiscard]] bool has_name();
+  /// The last that can fail before the rename: the file has its temporary name.
+  [[nodiscard]] outcome::Result<void> take_name();
+  [[nodiscard]] outcome::Result<void> rename();
+  friend outcome::Result<void> put_in_place(std::span<OutputFile> files);
   [[nodiscard]] outcome::Refusal refusal(int error) const;
   void put() noexcept;
 
@@ -65,6 +68,14 @@ struct FileText {
   std::string file;
   std::string text;
 };
+
+/// Renames these; none before all are on the disk and have their names.
+[[nodiscard]] outcome::Result<void> put_in_place(std::span<OutputFile> files);
+
+/// From now on commit() leaves the file to put_held_in_place(), so that all outputs of a program
+/// take their places together or none does.
+void hold_back();
+[[nodiscard]] outcome::Result<void> put_held_in_place();
 
 /// Writes whole files; none is renamed before all are on the disk.
 [[nodiscard]] outcome::Result<void> write_files(std::span<const FileText> files);

@@ -15,7 +15,9 @@ namespace {
 
 using kernel::machine::Machine;
 using online::Law;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 const Process kSlot = benchmark_cut(1.0, Direction::up);
 
@@ -216,6 +218,39 @@ TEST(Planner, RefusesWhatIsOutOfRange) {
   options = {};
   options.rva = {1.0};
   EXPECT_FALSE(plan(kSlot, m, 80.0, 1.0, options).has_value());
+}
+
+TEST(Planner, SaysWhichOptionIsOutOfRange) {
+  const Machine m = all_steps();
+  const auto what = [&m](const PlanOptions& options) {
+    const auto made = plan(kSlot, m, 80.0, 1.0, options);
+    return made ? std::string{} : made.error().what;
+  };
+  PlanOptions options;
+  options.least_probability = 1.1;
+  EXPECT_EQ(what(options), "probability in % = 110; allowed is from 0 to 100");
+  options = {};
+  options.uncertainty.samples = 5000;
+  EXPECT_EQ(what(options), "number of possible cuts = 5000; allowed is from 1 to 4096");
+  options = {};
+  options.most_depth_mm = 0.5;
+  EXPECT_EQ(what(options), "borders are to be sought up to 0.5 mm, the wanted depth is 1");
+}
+
+/// 922 Hz, two teeth: 31 waves at 900 rpm, 5.5 at 5000.
+TEST(Planner, SaysThatProcessDampingIsLeftOutAtLowSpeeds) {
+  PlanOptions options;
+  options.laws = {};
+  const auto notes = [&](const Process& process, double rpm) {
+    const auto made = plan(process, all_steps(), rpm / 60.0, 0.2, options);
+    return made ? made->notes : std::vector<std::string>{};
+  };
+  EXPECT_THAT(notes(kSlot, 900.0), Contains(HasSubstr("31 waves between two teeth")));
+  EXPECT_THAT(notes(kSlot, 900.0), Contains(HasSubstr("process_damping_N_mm")));
+  EXPECT_THAT(notes(kSlot, 5000.0), Not(Contains(HasSubstr("process_damping_N_mm"))));
+  Process damped = kSlot;
+  damped.cut.process_damping_n_mm = 10.0;
+  EXPECT_THAT(notes(damped, 900.0), Not(Contains(HasSubstr("process_damping_N_mm"))));
 }
 
 /// Each n-th part of a normal distribution once: the mean and variance of 64 samples are near to

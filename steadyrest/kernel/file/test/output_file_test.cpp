@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -46,6 +47,21 @@ class Output : public testing::Test {
 
   fs::path folder_;
 };
+
+/// Runs `work` in a child, so that limits and signals are its own; gives the status.
+template <class Work>
+int in_child(Work work) {
+  std::fflush(stdout);  // or both would write what is held back
+  const pid_t child = fork();
+  if (child == 0) {
+    remove_temporaries_on_signals();
+    work();
+    _exit(0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return status;
+}
 
 TEST_F(Output, ReplacesAtTheEndAndNotBefore) {
   const std::string file = old("out.csv");
@@ -110,6 +126,38 @@ TEST_F(Output, TakesTheLongestName) {
   EXPECT_EQ(text_of(file), "new\n");
 }
 
+TEST_F(Output, CanBeReadByAChildBeforeItHasAName) {
+  auto out = OutputFile::open(at("out.csv"));
+  ASSERT_TRUE(out.has_value());
+  out->write("new\n");
+  ASSERT_TRUE(out->flush().has_value());
+  EXPECT_EQ(std::system(("cp " + out->path() + " " + at("copy")).c_str()), 0);
+  EXPECT_EQ(text_of(at("copy")), "new\n");
+}
+
+TEST_F(Output, ThatIsHeldBackTakesItsPlaceWithTheOthers) {
+  const std::string first = old("a.csv");
+  const auto ends_with = [&](bool placed) {
+    return in_child([&] {
+      hold_back();
+      if (!write_file(first, "new\n") || !write_file(at("b.csv"), "new\n") ||
+          text_of(first) != "old\n" || entries() != 1 || !written_files().empty()) {
+        _exit(1);
+      }
+      if (placed && (!put_held_in_place() || written_files().size() != 2)) {
+        _exit(1);
+      }
+    });
+  };
+  EXPECT_EQ(ends_with(false), 0);
+  EXPECT_EQ(text_of(first), "old\n");
+  EXPECT_EQ(entries(), 1);
+  EXPECT_EQ(ends_with(true), 0);
+  EXPECT_EQ(text_of(first), "new\n");
+  EXPECT_EQ(text_of(at("b.csv")), "new\n");
+  EXPECT_EQ(entries(), 2);
+}
+
 TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
   const std::string first = old("a.csv");
   const std::vector<FileText> files = {{first, "new\n"}, {at("missing/b.csv"), "new\n"}};
@@ -118,21 +166,6 @@ TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
   EXPECT_EQ(written.error().file, at("missing/b.csv"));
   EXPECT_EQ(text_of(first), "old\n");
   EXPECT_EQ(entries(), 1);
-}
-
-/// Runs `work` in a child, so that limits and signals are its own; gives the status.
-template <class Work>
-int in_child(Work work) {
-  std::fflush(stdout);  // or both would write what is held back
-  const pid_t child = fork();
-  if (child == 0) {
-    remove_temporaries_on_signals();
-    work();
-    _exit(0);
-  }
-  int status = -1;
-  waitpid(child, &status, 0);
-  return status;
 }
 
 TEST_F(Output, AFullDiskLeavesTheOldFile) {
