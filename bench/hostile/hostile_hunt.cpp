@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hunts for a cycle after which a rule of safety does not hold:
-//   steadyrest_hostile_hunt [CYCLES [SEED [MACHINE…]]]
-// By default 10⁶ cycles on each machine of examples/machines, run in the project's root.
+// by default 10⁶ cycles on each machine of examples/machines, run in the project's root.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <bench/hostile/hunt.hpp>
 #include <fmt/core.h>
 
@@ -16,9 +15,16 @@
 int main(int argc, char** argv) {
   using steadyrest::bench::hostile::Tally;
   constexpr std::uint64_t kPart = 500'000;
-  const std::uint64_t cycles = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1'000'000ULL;
-  const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
-  std::vector<std::string> files(argv + std::min(argc, 3), argv + argc);
+  CLI::App app{"Hunts for a cycle after which a rule of safety does not hold"};
+  std::uint64_t cycles = 1'000'000;
+  std::uint64_t seed = 1;
+  std::vector<std::string> files;
+  app.add_option("cycles", cycles, "on each machine")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("seed", seed)->capture_default_str();
+  app.add_option("machines", files, "machine files; without them those of examples/machines");
+  CLI11_PARSE(app, argc, argv)
   if (files.empty()) {
     for (const char* name :
          {"ideal-k50", "lathe-16k20f3", "linuxcnc-mill", "mill-802d", "vmc-840d"}) {

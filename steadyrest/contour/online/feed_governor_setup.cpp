@@ -148,9 +148,9 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
   }
   FeedGovernor governor(config, *contour, *servo);
   if (governor.candidate_.empty()) {
-    return std::unexpected(
-        refuse("no step of the override table lies within contour.min_ratio…max_ratio",
-               "widen the permitted ratios"));
+    return std::unexpected(refuse(
+        "no step of the override table lies between min_percent and max_percent of [contour]",
+        "widen that range"));
   }
   return governor;
 }

@@ -103,9 +103,9 @@ std::span<const Key<Control>> control_keys() noexcept {
 std::span<const Key<Axis>> axis_keys() noexcept {
   static const std::array kKeys = {
       Key<Axis>{"name", &Axis::name, 1, 1, "One of X Y Z U V W (linear) or A B C (rotary).", kMust},
-      Key<Axis>{"servo_gain_1_s", &Axis::servo_gain_1_s, 0.1, 1000,
+      Key<Axis>{"servo_gain_1_s", &Axis::servo_gain_1_s, 1, 1000,
                 "Gain of the position loop: speed over following error.", kMust},
-      Key<Axis>{"servo_gain_m_min_mm", &Axis::servo_gain_1_s, 0.006, 60,
+      Key<Axis>{"servo_gain_m_min_mm", &Axis::servo_gain_1_s, 0.06, 60,
                 "The same in the unit of SINUMERIK MD32200: 1 (m/min)/mm = 16.667 1/s.", kMust},
       Key<Axis>{"feed_forward", &Axis::feed_forward, 0, 1.5,
                 "Weight of the velocity feed-forward: 0 none, 1 full."},
