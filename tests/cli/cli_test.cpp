@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
-#include <algorithm>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -188,8 +189,8 @@ TEST(Cli, SaysWhatWasWrittenAndWhyItIsNoValue) {
   expect_refused(units + "1,5", "--cycle-hz 1,5 is not a number, which has a decimal point;");
   expect_refused(units + "0x10", "--cycle-hz 0x10 is not a number;");
   expect_refused(units + "1e999", "--cycle-hz 1e999 is not a finite number;");
-  expect_refused(units + "0", "--cycle-hz 0 not in range 1e-09 to 1e+12;");
-  expect_refused(units + "1000 --feed-mm-min -1", "--feed-mm-min -1 not in range");
+  expect_refused(units + "0", "--cycle-hz 0 is outside 1e-09 to 1e+12;");
+  expect_refused(units + "1000 --feed-mm-min -1", "--feed-mm-min -1 is outside 1e-09");
   expect_refused(units, "--cycle-hz has no value;");
   expect_refused(radius + "-1", "--seed -1 is below 0;");
   expect_refused(radius + "1.5", "--seed 1.5 is not a whole number;");
@@ -205,9 +206,9 @@ TEST(Cli, SaysWhatWasWrittenAndWhyItIsNoValue) {
 }
 
 TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
-  expect_refused(kCircle + "--feed-mm-min -1", "--feed-mm-min -1 not in range 0 to 1e+09;");
+  expect_refused(kCircle + "--feed-mm-min -1", "--feed-mm-min -1 is outside 0 to 1e+09;");
   expect_refused("contour limit --radius-mm 10 --kv-1-s 1e-300 --max-error-mm 0.01",
-                 "--kv-1-s 1e-300 not in range");
+                 "--kv-1-s 1e-300 is outside 0.001 to");
 }
 
 TEST(Doctor, FindsAGoodMachineWell) {

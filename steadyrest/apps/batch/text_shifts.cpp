@@ -4,13 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <system_error>
 #include <utility>
 
 #include <fmt/core.h>
 #include <unistd.h>
 
 #include <steadyrest/apps/batch/text_shifts.hpp>
+#include <steadyrest/kernel/file/temporary.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/segment_timer.hpp>
 #include <steadyrest/nc/rewrite/compensate.hpp>
@@ -79,26 +79,15 @@ class Tracer final : public nc::interpret::Sink {
   std::vector<double> start_s_;
 };
 
-/// A file of its own, gone with the object.
-class ScratchFile {
- public:
-  explicit ScratchFile(const std::string& like) {
-    static std::atomic<unsigned> count{0};
-    const std::filesystem::path from(like);
-    path_ = std::filesystem::temp_directory_path() /
-            fmt::format("steadyrest-{}-{}{}", ::getpid(), ++count, from.extension().string());
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  ~ScratchFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  [[nodiscard]] std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
-};
+/// The name of a file of its own, gone with the object.
+kernel::file::Temporary scratch_file(const std::string& like) {
+  static std::atomic<unsigned> count{0};
+  const std::filesystem::path from(like);
+  return {(std::filesystem::temp_directory_path() /
+           fmt::format("steadyrest-{}-{}{}", ::getpid(), ++count, from.extension().string()))
+              .string(),
+          kernel::file::Temporary::Kind::file};
+}
 
 bool same(const Axes& a, const Axes& b) noexcept {
   return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) < kSame_mm; });
@@ -162,7 +151,7 @@ Result<ShiftedProgram> shifted_program(const std::string& program, const Trace& 
                                        const nc::interpret::Config& config,
                                        const kernel::machine::Machine& machine,
                                        const nc::rewrite::Settings& settings) {
-  const ScratchFile text(program);
+  const kernel::file::Temporary text = scratch_file(program);
   const auto done = nc::rewrite::compensate(program, text.path(), plan, config, machine, settings);
   if (!done) {
     return std::unexpected(done.error());

@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/rewrite_options.hpp>
 #include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
@@ -106,21 +107,21 @@ void add_cut_batch_options(Verb& verb, CutBatchOptions& options) {
   auto* parts = verb.add_option("--batch", options.parts,
                                 "Besides, a batch of that many parts by the thermal passport, from "
                                 "cold: without correction, corrected in the text and on line")
-                    ->check(CLI::Range(1, 10000));
+                    ->check(within(1, 10000));
   verb.add_option("--pause-min", options.pause_min, "Pause after each part of the batch")
-      ->check(CLI::Range(0.0, 1440.0))
+      ->check(within(0.0, 1440.0))
       ->needs(parts);
   auto* break_min = verb.add_option("--break-min", options.break_min,
                                     "A longer pause besides, after every --break-after parts")
-                        ->check(CLI::Range(0.0, 10000.0))
+                        ->check(within(0.0, 10000.0))
                         ->needs(parts);
   break_min->needs(
       verb.add_option("--break-after", options.break_after, "Parts between two of these pauses")
-          ->check(CLI::Range(1, 10000))
+          ->check(within(1, 10000))
           ->needs(parts));
   verb.add_option("--tolerance-um", options.tolerance_um,
                   "Tolerance of the batch's parts; heat may take the machine's share k of it")
-      ->check(CLI::Range(0.01, 1e5))
+      ->check(within(0.01, 1e5))
       ->needs(parts);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <steadyrest/apps/cli/log_options.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 
 namespace steadyrest::apps::cli {
 
@@ -15,7 +16,7 @@ void add_log_options(CLI::App& verb, LogOptions& options, bool over_time) {
     verb.add_option("--sample-hz", options.sample_hz,
                     "Samples per second of a log that has no time: of the column sample, or of its "
                     "rows")
-        ->check(CLI::Range(1e-3, 1e9));
+        ->check(within(1e-3, 1e9));
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include <steadyrest/apps/cli/machine_option.hpp>
 #include <steadyrest/apps/cli/rewrite_options.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/kernel/machine/schema.hpp>
 
 namespace steadyrest::apps::cli {
@@ -269,10 +270,10 @@ void add_rewrite_options(Verb& verb, RewriteOptions& options) {
   verb.add_option("--r-parameter", options.r_parameter,
                   "sinumerik: number of the R-parameter that holds the correction in mm. Without "
                   "it what [compensation] of the machine file says")
-      ->check(CLI::Range(0, 32535));
+      ->check(within(0, 32535));
   verb.add_option("--window-s", options.window_s,
                   "How far from its planned instant a correction may be placed, in s")
-      ->check(CLI::Range(0.0, 86400.0));
+      ->check(within(0.0, 86400.0));
 }
 
 std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,

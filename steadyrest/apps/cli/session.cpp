@@ -110,7 +110,6 @@ void Session::on(Verb& verb, Run run) {
 int Session::main(int argc, const char* const* argv) noexcept {
   try {
     kernel::file::remove_temporaries_on_signals();
-    kernel::file::hold_back();
     return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "steadyrest: internal error: %s; please report it\n", error.what());
@@ -165,6 +164,7 @@ Outcome Session::work() const {
   if (!ready) {
     return std::unexpected(ready.error());
   }
+  kernel::file::declare_outputs(ready->outputs);
   const report::Provenance provenance = chosen_->provenance(command_);  // before the work
   Progress progress;
   Outcome outcome = run_(progress);
@@ -172,7 +172,7 @@ Outcome Session::work() const {
   if (outcome) {
     auto done = write_pages(outcome->pages, provenance);
     if (done) {
-      done = kernel::file::put_held_in_place();
+      done = kernel::file::put_outputs_in_place();
     }
     if (!done) {
       return refused(std::move(done.error()));

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <system_error>
 
+#include <fmt/core.h>
+
 #include <steadyrest/apps/cli/value_check.hpp>
 
 namespace steadyrest::apps::cli {
@@ -67,10 +69,20 @@ void check_value(CLI::Option& option) {
       [type = option.get_type_name()](const std::string& given) { return fault_of(type, given); });
 }
 
+CLI::Validator within(double least, double most) {
+  return {[least, most](const std::string& given) {
+            double value = 0.0;
+            return read(given, value) == std::errc{} && value >= least && value <= most
+                       ? std::string{}
+                       : fmt::format("{} is outside {:g} to {:g}", given, least, most);
+          },
+          fmt::format("in [{:g} - {:g}]", least, most)};
+}
+
 void check_size(CLI::App& verb) {
   for (CLI::Option* option :
        verb.get_options([](const CLI::Option* one) { return one->get_type_name() == "FLOAT"; })) {
-    option->check(CLI::Range(1e-9, 1e12).description(""));
+    option->check(within(1e-9, 1e12).description(""));
   }
 }
 

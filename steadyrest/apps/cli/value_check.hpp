@@ -11,6 +11,9 @@ namespace steadyrest::apps::cli {
 /// one (`0x10`, `010` and `1,5` are none), finite, and not below 0 where it counts.
 void check_value(CLI::Option& option);
 
+/// The range of a number, ends included; the help shows it.
+[[nodiscard]] CLI::Validator within(double least, double most);
+
 /// For a verb that only calculates: each number of its options lies between 1e-9 and 1e12, so that
 /// no result leaves what a number holds.
 void check_size(CLI::App& verb);

@@ -250,6 +250,7 @@ std::expected<Ready, Refusals> Verb::ready(bool json) const {
       refusals.push_back(std::move(*fault));
     }
     const auto place = kernel::file::place_of(file->file);
+    out.outputs.push_back(file->file);
     out.takes_stdout |= place && place->kind == Place::Kind::standard_output;
   }
   if (out.takes_stdout && json) {

@@ -31,6 +31,7 @@ struct Input {
 
 /// What is known before the work.
 struct Ready {
+  std::vector<std::string> outputs;
   std::vector<kernel::file::MadeFolders> folders;  ///< of reports; an empty one goes again
   bool takes_stdout = false;                       ///< an output is where stdout leads
 };

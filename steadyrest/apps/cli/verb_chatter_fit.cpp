@@ -13,6 +13,7 @@
 #include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/cli/verb_chatter_fit.hpp>
 #include <steadyrest/chatter/offline/frf.hpp>
 #include <steadyrest/chatter/offline/mode_fit.hpp>
@@ -167,7 +168,7 @@ void add_verb_chatter_fit(Session& session) {
       ->check(CLI::IsMember({"x", "y"}));
   verb.add_option("--modes", options->fit.order,
                   "Number of modes, 1 … 16; without it by the criterion")
-      ->check(CLI::Range(1, 16));
+      ->check(within(1, 16));
   add_log_options(verb, options->format, false);
   verb.add_option("--from-hz", options->fit.least_frequency_hz, "Leave out what lies below");
   verb.add_option("--to-hz", options->fit.most_frequency_hz, "Leave out what lies above");

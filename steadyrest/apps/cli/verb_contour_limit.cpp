@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/cli/verb_contour_limit.hpp>
 #include <steadyrest/contour/offline/closed_form.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -112,21 +113,21 @@ void add_verb_contour_limit(Session& session) {
   auto options = std::make_shared<Options>();
   verb.add_option("--radius-mm", options->radius_mm, "Radius of the arc")
       ->required()
-      ->check(CLI::Range(1e-6, 1e9));
+      ->check(within(1e-6, 1e9));
   verb.add_option("--kv-1-s", options->gain_1_s, "Servo gain in 1/s; 1 (m/min)/mm = 16.667 1/s")
       ->required()
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(within(1e-3, 1e6));
   verb.add_option("--max-error-mm", options->max_error_mm,
                   "Largest contour error: gives the largest feed")
-      ->check(CLI::Range(1e-9, 1e9));
+      ->check(within(1e-9, 1e9));
   verb.add_option("--feed-mm-min", options->feed_mm_min, "Path feed: gives the errors")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(within(0.0, 1e9));
   verb.add_option("--feed-forward", options->feed_forward,
                   "Weight of the velocity feed-forward, 0 none, 1 full")
-      ->check(CLI::Range(0.0, 1.5));
+      ->check(within(0.0, 1.5));
   verb.add_option("--velocity-lag-ms", options->velocity_lag_ms,
                   "First-order lag of the velocity loop in ms")
-      ->check(CLI::Range(0.0, 1e4));
+      ->check(within(0.0, 1e4));
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }
 

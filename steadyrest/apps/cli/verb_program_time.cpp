@@ -10,6 +10,7 @@
 #include <steadyrest/apps/cli/program_options.hpp>
 #include <steadyrest/apps/cli/program_warnings.hpp>
 #include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/cli/verb_program_time.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -172,7 +173,7 @@ void add_verb_program_time(Session& session) {
   add_machine_option(verb, options->machine);
   verb.add_flag("--lines", options->lines, "With --json: also the seconds of each line");
   const auto percent = [&verb](const char* flag, double& value, const char* text) {
-    verb.add_option(flag, value, text)->check(CLI::Range(1.0, 200.0));
+    verb.add_option(flag, value, text)->check(within(1.0, 200.0));
   };
   percent("--feed-percent", options->feed_percent, "Feed override in force, %");
   percent("--rapid-percent", options->rapid_percent, "Rapid override in force, %");

@@ -13,6 +13,7 @@
 #include <steadyrest/apps/cli/thermal_options.hpp>
 #include <steadyrest/apps/cli/thermal_parts.hpp>
 #include <steadyrest/apps/cli/thermal_plan_file.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/cli/verb_thermal_adapt.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/machine/text_file.hpp>
@@ -372,10 +373,10 @@ void add_verb_thermal_adapt(Session& session) {
   verb.reads("--after", options->thermal.after,
              "Cyclogram of what the machine had done before, as for the plan");
   verb.add_option("--tolerance-um", options->tolerance_um, "Tolerance Δ, µm; without it the plan's")
-      ->check(CLI::Range(0.01, 1e5));
+      ->check(within(0.01, 1e5));
   verb.add_option("--noise-um", options->noise_um,
                   "Standard deviation of a measured part, µm; without it the passport's noise")
-      ->check(CLI::Range(0.001, 1e3));
+      ->check(within(0.001, 1e3));
   verb.writes("-o,--output", options->output,
               "Write the machine file (or passport) with the new level and gains",
               machine_content());

@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/cli/verb_thermal_fit.hpp>
 #include <steadyrest/apps/thermal_page/fit_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
@@ -377,7 +378,7 @@ void add_verb_thermal_fit(Session& session) {
   verb.add_flag("--own-tau", options->own_tau,
                 "Each axis keeps its own time constants, also where several could have the same");
   verb.add_option("--modes", options->modes, "Number of modes; without it by the left-out hours")
-      ->check(CLI::Range(1, 3));
+      ->check(within(1, 3));
   CLI::Option* known =
       verb.reads("--tau-from", options->tau_from,
                  "Passport of a longer test: its time constants stand, its levels are a prior");
@@ -388,7 +389,7 @@ void add_verb_thermal_fit(Session& session) {
       ->excludes(known);
   verb.add_option("--horizon-min", options->horizon_min,
                   "Minutes ahead that the passport shall forecast")
-      ->check(CLI::Range(1.0, 1e5));
+      ->check(within(1.0, 1e5));
   verb.add_option(
       "--from-min", options->from_min,
       "Leave out what is earlier in the log; of a log with stamps, minutes since its first row");

@@ -10,6 +10,7 @@
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
 #include <steadyrest/apps/cli/thermal_replay.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/cli/verb_thermal_forecast.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
@@ -171,7 +172,7 @@ void add_verb_thermal_forecast(Session& session) {
   verb.writes("-o,--output", options->output, "Write the curve to this CSV", curve_content());
   verb.reports(options->report);
   verb.add_option("--step-s", options->step_s, "Seconds from row to row")
-      ->check(CLI::Range(0.1, 86400.0));
+      ->check(within(0.1, 86400.0));
   CLI::Option* log = verb.reads("--log", options->replay.log,
                                 "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
   add_log_options(verb, options->replay.format);
@@ -181,7 +182,7 @@ void add_verb_thermal_forecast(Session& session) {
       ->needs(log);
   verb.add_option("--rezero-min", options->replay.rezero_min,
                   "A reading of the log each so many minutes sets the forecast right; 0 = none")
-      ->check(CLI::Range(0.0, 1e5))
+      ->check(within(0.0, 1e5))
       ->needs(log);
   verb.add_option("--channel", options->replay.channels,
                   "Column of the log that measures an axis, as z_um=Z; may be given again")

@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
 #include <steadyrest/apps/cli/thermal_options.hpp>
+#include <steadyrest/apps/cli/value_check.hpp>
 #include <steadyrest/apps/cli/verb_thermal_plan.hpp>
 #include <steadyrest/apps/thermal_page/thermal_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
@@ -270,15 +271,15 @@ void add_verb_thermal_plan(Session& session) {
   add_thermal_options(verb, options->thermal);
   verb.add_option("--tolerance-um", options->tolerance_um,
                   "Tolerance Δ, µm, where a transition has none of its own")
-      ->check(CLI::Range(0.01, 1e5));
+      ->check(within(0.01, 1e5));
   verb.add_option(
           "--level", options->level,
           "Level of exactness: which of the machine's shares k; without it the one in force")
-      ->check(CLI::Range(0, 7));
+      ->check(within(0, 7));
   verb.add_flag("--whole-band", options->whole_band, "Corrections of 2·k·Δ in half as many places");
   verb.add_option("--resolution-min", options->resolution_min,
                   "Round the instants to whole multiples, min; 0 = not")
-      ->check(CLI::Range(0.0, 60.0));
+      ->check(within(0.0, 60.0));
   verb.reports(options->report);
   verb.writes("-o,--output", options->output, "Write PLAN.json, which `program compensate` reads",
               plan_content());

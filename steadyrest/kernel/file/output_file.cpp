@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -26,8 +26,12 @@ using outcome::Result;
 struct Ledger {
   std::mutex mutex;
   std::vector<Written> files;
+  std::optional<std::vector<std::filesystem::path>> outputs;  ///< without a value: all
   std::vector<OutputFile> held;
-  std::atomic<bool> holds = false;
+
+  [[nodiscard]] bool is_output(const Place& place) const {
+    return !outputs || std::ranges::find(*outputs, place.path) != outputs->end();
+  }
 };
 
 Ledger& ledger() {
@@ -205,20 +209,24 @@ Result<void> OutputFile::rename() {
   beside_.keep();
   sync_folder(place_.path.parent_path());
   const std::scoped_lock lock(ledger().mutex);
-  ledger().files.push_back({name_, bytes_, lines_});
+  if (ledger().is_output(place_)) {
+    ledger().files.push_back({name_, bytes_, lines_});
+  }
   return {};
 }
 
 Result<void> OutputFile::commit() {
-  if (place_.kind != Place::Kind::file || !ledger().holds) {
-    return put_in_place({this, 1});
+  if (auto settled = settle(); !settled) {
+    return settled;
   }
-  auto settled = settle();
-  if (settled) {
+  {
     const std::scoped_lock lock(ledger().mutex);
-    ledger().held.push_back(std::move(*this));
+    if (ledger().outputs && ledger().is_output(place_)) {
+      ledger().held.push_back(std::move(*this));
+      return {};
+    }
   }
-  return settled;
+  return put_in_place({this, 1});
 }
 
 Refusal OutputFile::refusal(int error) const {
@@ -228,9 +236,9 @@ Refusal OutputFile::refusal(int error) const {
               : "check who reads it and the disk space"};
 }
 
-Result<void> put_in_place(std::span<OutputFile> files) {
-  for (const auto step : {&OutputFile::settle, &OutputFile::take_name, &OutputFile::rename}) {
-    for (OutputFile& file : files) {
+Result<void> put_in_place(std::span<OutputFile> settled) {
+  for (const auto step : {&OutputFile::take_name, &OutputFile::rename}) {
+    for (OutputFile& file : settled) {
       if (auto done = (file.*step)(); !done) {
         return done;
       }
@@ -239,11 +247,17 @@ Result<void> put_in_place(std::span<OutputFile> files) {
   return {};
 }
 
-void hold_back() {
-  ledger().holds = true;
+void declare_outputs(std::span<const std::string> files) {
+  const std::scoped_lock lock(ledger().mutex);
+  ledger().outputs.emplace();
+  for (const std::string& file : files) {
+    if (auto place = place_of(file); place && place->kind == Place::Kind::file) {
+      ledger().outputs->push_back(std::move(place->path));
+    }
+  }
 }
 
-Result<void> put_held_in_place() {
+Result<void> put_outputs_in_place() {
   auto held = std::exchange(ledger().held, {});
   return put_in_place(held);
 }
@@ -262,7 +276,7 @@ Result<void> write_files(std::span<const FileText> files) {
       return settled;
     }
   }
-  if (!ledger().holds) {
+  if (!ledger().outputs) {
     return put_in_place(out);
   }
   for (OutputFile& file : out) {

@@ -37,7 +37,7 @@ class OutputFile {
   [[nodiscard]] outcome::Result<void> flush();
   /// All of it is on the disk.
   [[nodiscard]] outcome::Result<void> settle();
-  /// Puts the file in its place; see hold_back().
+  /// Puts the file in its place; see declare_outputs().
   [[nodiscard]] outcome::Result<void> commit();
   /// Where this process and its children can read the text until commit(). Empty for a stream.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -48,7 +48,7 @@ class OutputFile {
   /// The last that can fail before the rename: the file has its temporary name.
   [[nodiscard]] outcome::Result<void> take_name();
   [[nodiscard]] outcome::Result<void> rename();
-  friend outcome::Result<void> put_in_place(std::span<OutputFile> files);
+  friend outcome::Result<void> put_in_place(std::span<OutputFile> settled);
   [[nodiscard]] outcome::Refusal refusal(int error) const;
   void put() noexcept;
 
@@ -69,13 +69,13 @@ struct FileText {
   std::string text;
 };
 
-/// Renames these; none before all are on the disk and have their names.
-[[nodiscard]] outcome::Result<void> put_in_place(std::span<OutputFile> files);
+/// Renames these, which have been settled; none before all have their temporary names.
+[[nodiscard]] outcome::Result<void> put_in_place(std::span<OutputFile> settled);
 
-/// From now on commit() leaves the file to put_held_in_place(), so that all outputs of a program
-/// take their places together or none does.
-void hold_back();
-[[nodiscard]] outcome::Result<void> put_held_in_place();
+/// The outputs of a program: from now on commit() leaves these files to put_outputs_in_place(), so
+/// that all of them take their places together or none does, and written_files() tells these alone.
+void declare_outputs(std::span<const std::string> files);
+[[nodiscard]] outcome::Result<void> put_outputs_in_place();
 
 /// Writes whole files; none is renamed before all are on the disk.
 [[nodiscard]] outcome::Result<void> write_files(std::span<const FileText> files);

@@ -135,16 +135,21 @@ TEST_F(Output, CanBeReadByAChildBeforeItHasAName) {
   EXPECT_EQ(text_of(at("copy")), "new\n");
 }
 
-TEST_F(Output, ThatIsHeldBackTakesItsPlaceWithTheOthers) {
+TEST_F(Output, OfAProgramTakesItsPlaceWithTheOthers) {
   const std::string first = old("a.csv");
   const auto ends_with = [&](bool placed) {
     return in_child([&] {
-      hold_back();
+      const std::vector<std::string> outputs = {first, at("b.csv")};
+      declare_outputs(outputs);
+      if (!write_file(at("scratch"), "read back\n") || text_of(at("scratch")) != "read back\n") {
+        _exit(1);
+      }
+      fs::remove(at("scratch"));
       if (!write_file(first, "new\n") || !write_file(at("b.csv"), "new\n") ||
           text_of(first) != "old\n" || entries() != 1 || !written_files().empty()) {
         _exit(1);
       }
-      if (placed && (!put_held_in_place() || written_files().size() != 2)) {
+      if (placed && (!put_outputs_in_place() || written_files().size() != 2)) {
         _exit(1);
       }
     });
