@@ -221,6 +221,12 @@ def contour(r):
     return lines
 
 
+def spaced(r, text):
+    """Blanks mean nothing, wherever they stand, within a number or a name too."""
+    often = r.choice([.03, .2, .6])
+    return "".join(c + (r.choice([" ", "\t", "  "]) if c != "\n" and r.random() < often else "") for c in text)
+
+
 def variables():
     return "".join(f"{number}\t{OFFSETS.get(number, 0):.6f}\n" for number in range(5161, 5401))
 
@@ -252,6 +258,8 @@ def main():
             continue  # rs274 keeps the tool's length as a number when the unit changes
         if re.search(r"G91[\s\S]*G5\.2", text):
             continue  # not interpreted
+        if r.random() < .3:
+            text = spaced(r, text)
         with open(program, "w") as out:
             out.write(text)
         result = rs274_table.judge(os.path.abspath(arguments.steadyrest), oracle, program,

@@ -177,7 +177,7 @@ def judge(steadyrest, oracle, program, dialect="linuxcnc", equivalent=None, extr
     oracle.fresh()
     ours_ok, refusal, rows, blocks = ours(steadyrest, program, dialect, oracle, extra)
     text = open(program, errors="replace").read()
-    per_revolution = "1" if re.search(r"[gG]\s*0*95(?!\d)", text) else "0"
+    per_revolution = "1" if re.search(r"[gG]0*95(?!\d)", re.sub(r"[ \t]", "", text)) else "0"
     for row in rows:
         row["per_rev"] = per_revolution
     verdict = ""

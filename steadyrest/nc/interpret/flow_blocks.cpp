@@ -21,19 +21,17 @@ bool FlowControl::define(const Block& block) {
                     std::to_string(known->second.line + 1));
 }
 
-bool FlowControl::open(const Block& block, const Place& head, double left) {
+bool FlowControl::open(const Block& block, const Place& head) {
   if (!define(block)) {
     return false;
   }
-  frames_.back().open.push_back({.kind = block.flow().kind,
-                                 .label = std::string{block.flow().label.view()},
-                                 .head = head,
-                                 .left = left});
+  frames_.back().open.push_back(
+      {.kind = block.flow().kind, .label = std::string{block.flow().label.view()}, .head = head});
   return true;
 }
 
 bool FlowControl::condition(const Block& block) {
-  if (!open(block, files_.line_begin(), 0.0)) {
+  if (!open(block, files_.line_begin())) {
     return false;
   }
   if (block.flow().values[0] == 0.0) {
@@ -82,7 +80,7 @@ bool FlowControl::head_of_while(const Block& block) {
     pass(Passing::to_endwhile, block.flow().label.view());
     return true;
   }
-  return open(block, files_.line_begin(), 0.0);
+  return open(block, files_.line_begin());
 }
 
 bool FlowControl::end_of_while(const Block& block) {
@@ -96,30 +94,33 @@ bool FlowControl::end_of_while(const Block& block) {
   return go(block.line(), head);
 }
 
+// LinuxCNC forgets the count at the end of the last turn alone: after a return, break or continue
+// out of the loop, and in a call within it, the next turns are those that were left.
 bool FlowControl::head_of_repeat(const Block& block) {
-  const double count = std::round(block.flow().values[0]);
-  if (!(count >= 1.0)) {
-    if (!define(block)) {
-      return false;
-    }
-    pass(Passing::to_endrepeat, block.flow().label.view());
-    return true;
+  const Place head = files_.line_begin();
+  const auto left =
+      turns_left_.try_emplace({head.file, head.line}, std::round(block.flow().values[0])).first;
+  if (left->second >= 1.0) {
+    left->second -= 1.0;
+    return open(block, head);
   }
-  return open(block, files_.line_end(), count);
+  turns_left_.erase(left);
+  if (!define(block)) {
+    return false;
+  }
+  pass(Passing::to_endrepeat, block.flow().label.view());
+  return true;
 }
 
 bool FlowControl::end_of_repeat(const Block& block) {
-  Open* const found = find(block, false);
+  const Open* const found = find(block, false);
   if (found == nullptr || found->kind != FlowKind::repeat) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                   "endrepeat without its repeat");
   }
-  found->left -= 1.0;
-  if (found->left > 0.5) {
-    return go(block.line(), found->head);
-  }
+  const Place head = found->head;
   drop_to(*found);
-  return true;
+  return go(block.line(), head);
 }
 
 bool FlowControl::leave_loop(const Block& block) {

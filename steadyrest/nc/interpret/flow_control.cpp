@@ -77,7 +77,7 @@ bool FlowControl::act(const Block& block) {
     case FlowKind::endwhile:
       return end_of_while(block);
     case FlowKind::loop_do:
-      return open(block, files_.line_end(), 0.0);
+      return open(block, files_.line_end());
     case FlowKind::repeat:
       return head_of_repeat(block);
     case FlowKind::endrepeat:

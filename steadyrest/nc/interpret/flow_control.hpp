@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <steadyrest/nc/interpret/parameters.hpp>
@@ -73,7 +74,6 @@ class FlowControl {
     read::FlowKind kind = read::FlowKind::none;
     std::string label;
     Place head;
-    double left = 0.0;
   };
   struct Frame {
     std::string sub;
@@ -104,7 +104,7 @@ class FlowControl {
   bool arrived(read::Block& block);
   bool evaluate(read::Block& block);
 
-  bool open(const read::Block& block, const Place& head, double left);
+  bool open(const read::Block& block, const Place& head);
   Open* find(const read::Block& block, bool loops_only);
   void drop_to(const Open& open);
   bool define(const read::Block& block);
@@ -122,6 +122,7 @@ class FlowControl {
   std::map<std::string, Place> subs_;      ///< label → behind the line of its `sub`
   std::map<std::string, Place> programs_;  ///< number → behind the line of its O
   std::map<std::string, Place> heads_;     ///< labels that head a block
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> turns_left_;  ///< repeats by file, line
   bool programs_noted_ = false;
   Passing passing_ = Passing::nothing;
   std::string passing_label_;

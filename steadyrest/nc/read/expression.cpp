@@ -141,7 +141,7 @@ bool Expression::bracket(double& out) {
 bool Expression::apply(Operator op, double& left, double right) {
   const double a = left;
   const auto truth = [](bool yes) { return yes ? 1.0 : 0.0; };
-  const bool equal = std::abs(a - right) < kEqual;
+  const double apart = std::abs(a - right);  // NaN behind 4 MOD 0: neither EQ nor NE
   switch (op) {
     case Operator::power:
       if (a < 0.0 && right != std::floor(right)) {
@@ -169,10 +169,10 @@ bool Expression::apply(Operator op, double& left, double right) {
       left = a - right;
       break;
     case Operator::eq:
-      left = truth(equal);
+      left = truth(apart < kEqual);
       break;
     case Operator::ne:
-      left = truth(!equal);
+      left = truth(apart >= kEqual);
       break;
     case Operator::gt:
       left = truth(a > right);

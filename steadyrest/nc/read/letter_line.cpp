@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -17,6 +18,12 @@ constexpr bool continues_number(char c) noexcept {
   return is_digit(c) || c == '.';
 }
 
+const char* behind_blanks(const char* at, const char* end) noexcept {
+  return std::find_if_not(at, end, is_blank);
+}
+
+constexpr std::string_view kBadNumberText =
+    "not a number; write one sign at most, digits and one point, within the range of a double";
 constexpr std::string_view kStatementText =
     "an assignment stands in a block of its own in this dialect";
 constexpr std::string_view kControlText =
@@ -142,10 +149,7 @@ bool LetterLine::word() {
     if (!block_.words().empty()) {
       return refuse(word.text, "misplaced_n", "a line number behind other words; it comes first");
     }
-    const char* rest = at_;
-    while (rest != end_ && is_blank(*rest)) {
-      ++rest;
-    }
+    const char* const rest = behind_blanks(at_, end_);
     if (rest != end_ && upper(*rest) == 'N') {
       return refuse(word.text, "misplaced_n", "a second line number in one line");
     }
@@ -160,6 +164,9 @@ bool LetterLine::word() {
 bool LetterLine::value(const char* word_begin, Word& word) {
   skip_blanks();
   const Number number = read_number({at_, static_cast<std::size_t>(end_ - at_)});
+  if (number.length == 0 && digits_stand_apart()) {
+    return spaced_number(word_begin, word);
+  }
   if (number.length == 0) {
     reader_.numbers_alone_ = false;
     return reader_.values_ != nullptr ? expression(word_begin, word) : refuse_value(word_begin);
@@ -170,11 +177,18 @@ bool LetterLine::value(const char* word_begin, Word& word) {
   if (at_ == end_ || (!is_blank(*at_) && *at_ != '.')) {
     return true;
   }
-  const char* look = at_;
-  while (look != end_ && is_blank(*look)) {
-    ++look;
-  }
+  const char* const look = behind_blanks(at_, end_);
   return look == end_ || !continues_number(*look) || spaced_number(word_begin, word);
+}
+
+/// `Z- 1`, `Z. 5`, `Z-. 5`: blanks behind a sign or a point that begins a number.
+bool LetterLine::digits_stand_apart() const noexcept {
+  const bool sign = at_ != end_ && (*at_ == '-' || *at_ == '+');
+  const char* digits = sign ? behind_blanks(at_ + 1, end_) : at_;
+  if (digits != end_ && *digits == '.') {
+    digits = behind_blanks(digits + 1, end_);
+  }
+  return digits != end_ && is_digit(*digits);
 }
 
 bool LetterLine::spaced_number(const char* word_begin, Word& word) {
@@ -190,7 +204,7 @@ bool LetterLine::spaced_number(const char* word_begin, Word& word) {
   }
   const Number number = read_number({packed.data(), length});
   if (number.length == 0 || number.length != length) {
-    return refuse(since(word_begin), "bad_number", "not a number; write digits and one point");
+    return refuse(since(word_begin), "bad_number", kBadNumberText);
   }
   word.value = number.value;
   word.decimal_point = number.decimal_point;
@@ -334,9 +348,7 @@ bool LetterLine::refuse_value(const char* word_begin) {
     return refuse(text, "missing_value", "a letter without its number");
   }
   if (c == '+' || c == '-' || is_digit(c) || c == '.') {
-    return refuse(text, "bad_number",
-                  "not a number; write one sign at most, digits and one point, within the range "
-                  "of a double");
+    return refuse(text, "bad_number", kBadNumberText);
   }
   if (is_control(c)) {
     return refuse({word_begin, 1}, "control_character", kControlText);

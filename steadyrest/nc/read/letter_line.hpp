@@ -37,6 +37,7 @@ class LetterLine {
   bool delete_mark();
   bool word();
   bool value(const char* word_begin, Word& word);
+  [[nodiscard]] bool digits_stand_apart() const noexcept;
   bool spaced_number(const char* word_begin, Word& word);
   bool o_word(const char* word_begin);
   bool program_number(const char* word_begin);

@@ -51,6 +51,22 @@ TEST(Flow, RepeatRoundsItsCountAndPassesOverWhatIsNotPositive) {
       ElementsAre(1, 2, 3));
 }
 
+// As rs274 does.
+TEST(Flow, ARepeatThatIsLeftKeepsTheTurnsThatWereLeft) {
+  EXPECT_THAT(
+      x_of("o1 sub\no2 repeat [3]\nG91 G0 X1\no3 if [#1 GT 0]\no1 return\no3 endif\n"
+           "o2 endrepeat\no1 endsub\no1 call [1]\no1 call [0]\nG90 G0 X0\no1 call [0]\nM2\n"),
+      ElementsAre(1, 2, 3, 0, 1, 2, 3));
+  for (const char* word : {"break", "continue"}) {
+    const std::string out = std::string{"o1 "} + word;
+    EXPECT_THAT(x_of("#2=0\no4 while [#2 LT 2]\n#2=[#2+1]\n#1=0\no1 while [#1 LT 1]\n#1=[#1+1]\n"
+                     "o2 repeat [2]\nG91 G0 X1\no3 if [#2 LT 2]\n" +
+                     out + "\no3 endif\no2 endrepeat\no1 endwhile\no4 endwhile\nM2\n"),
+                ElementsAre(1, 2))
+        << word;
+  }
+}
+
 TEST(Flow, BreakAndContinueNameTheirLoop) {
   EXPECT_THAT(x_of("#1=0\no1 while [#1 LT 5]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\n"
                    "o3 if [#1 EQ 4]\no1 break\no3 endif\nG0 X#1\no1 endwhile\nM2\n"),

@@ -51,6 +51,7 @@ TEST(Expression, OperatorsBindAsOnTheControl) {
       {"[1 LT 1.00001]", 1}, {"[1 GE 1.00001]", 0},  {"[0.0 OR 0.00000001]", 1},
       {"[2 XOR 1]", 0},      {"[1--1]", 2},          {"[- -1]", 1},
       {"[1 2]", 12},         {"-[1+1]", -2},         {"[1 * * 2]", 1},
+      {"[5 MOD 0 NE 2]", 0}, {"[5 MOD 0 EQ 2]", 0},
   };
   for (const auto& [text, expected] : cases) {
     EXPECT_DOUBLE_EQ(value_of(text), expected) << text;
