@@ -7,7 +7,7 @@ correction may stay when they are over.
 
 Programs have lines with `/`, M1, work offsets, G10, G28.1, G92, parameters, subprograms, probes, tool data. Original and changed
 program run through LinuxCNC's interpreter `rs274` with and without block delete. They begin with units, work offsets, rotations,
-G92, reference points and parameters that the compensation knows (--variables) or does not. Machine positions, move by move, the
+G92, reference points and parameters that the compensation knows (--variables) or does not, and with tool lengths that it never knows. Machine positions, move by move, the
 whole variable file and the tool table afterwards are compared. Exit code 1 when a program deviates, 77 without rs274.
 """
 import argparse
@@ -25,6 +25,8 @@ from rs274_compensate import calls, disagreement, machine_moves, run, totals_of,
 from rs274_table import Oracle
 
 WINDOWS_S = (2.0, 6.0, 60.0, 60.0)
+LEFT_OVER = ("G43.1 Z.4", "T4 M6\nG43", "G18", "G8", "G61", "G99", "G95", "M73", "G90.1")  # tells no file
+SHIFTED = ("G92 Z.3", "G92 X1 Y2 Z-.2", "G52 Z.1", "G92 Z1\nG92.2")
 PLAN_S = 35.0  # programs of 5 to 65 s fit it
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEVER_SWITCHED = re.compile(r"(?i)o\d+ (?!call)")  # an O-word that is skipped leaves its pair alone
@@ -80,7 +82,7 @@ def spice(r, scale):
         lambda: [f"G0 X{n()}", f"G0 Y{n()}"], lambda: [f"G0 Z{n(10, 40)}"], lambda: [f"G0 Z{n(2, 9)}"],
         lambda: [f"T{r.randint(1, 5)} M6", f"G43 H{r.randint(1, 5)}", f"G0 Z{n(10, 30)}"], lambda: ["G49"], lambda: [f"G43.1 Z{n()}"],
         lambda: ["M70", r.choice(["G91", "G20", "G55"]), f"G0 X{n()}", "M72"],
-        lambda: [f"o{r.randint(200, 900)} repeat [2]", f"G1 X{n()} F300", "endrepeat"],
+        lambda: [f"o{r.randint(200, 900)} repeat [2]", f"G1 X{n()} F300", "endrepeat"], lambda: ["G92.3"], lambda: ["G43"], lambda: ["G49"],
         lambda: ["o101 call"], lambda: ["o101 call"], lambda: ["if"], lambda: ["M2"],
         lambda: [f"G81 X{n()} Y{n()} Z{n(-3, 0)} R{n(1, 5)} F200", "G80"], lambda: [f"G41.1 D{n(0.2, 1)} G1 X{n(15, 30)} F200", "G40"],
     ])()
@@ -145,6 +147,8 @@ def plan(r, axes):
 def start_of(r, found, known):
     """The state of a run and the lines that the operator gave before it: what is known stays, units are never known."""
     before = [r.choice(["G20", "G21"])]
+    if r.random() < 0.3:
+        before.append(r.choice(LEFT_OVER if known else LEFT_OVER + SHIFTED + SHIFTED))
     if not known and r.random() < 0.3:
         before.append("G91")
     return variables(found if known else state(r)), "".join(line + "\n" for line in before)

@@ -63,8 +63,9 @@ TEST(ProgramVerify, KnowsFromTheMarkWhatTheProgramWasMadeWith) {
   const std::string files = kProgram + " " + changed + kPlan;
   answer_of("program compensate " + kProgram + kPlan + " -o " + changed +
             " --window-s 45 --data-units mm");
-  EXPECT_THAT(text_of_file(changed),
-              HasSubstr("(STEADYREST head told --dialect linuxcnc --window-s 45 --data-units mm)"));
+  EXPECT_THAT(
+      text_of_file(changed),
+      HasSubstr("(STEADYREST head told --dialect linuxcnc --window-s 45 --data-units mm --sum "));
   EXPECT_TRUE(answer_of("program verify " + files)["proved"].get<bool>());
   EXPECT_TRUE(answer_of("program verify " + files + " --window-s 45.0")["proved"].get<bool>());
   expect_refused("program verify " + files + " --window-s 60",

@@ -109,13 +109,17 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
                   "write [compensation] into the machine file (method = \"r_parameter\", "
                   "\"setting_data\" or \"frame_fine\"), or give --r-parameter N");
   }
+  const auto r_parameter = options.r_parameter == kNoParameter
+                               ? compensation.r_parameter
+                               : static_cast<std::uint32_t>(options.r_parameter);
+  // What the machine file says of its own method is not said of another.
+  const bool as_in_file = method == compensation.method && r_parameter == compensation.r_parameter;
   return Way{.method = written(method, own),
-             .r_parameter = options.r_parameter == kNoParameter
-                                ? compensation.r_parameter
-                                : static_cast<std::uint32_t>(options.r_parameter),
+             .r_parameter = r_parameter,
              .sign = compensation.sign < 0 ? -1 : 1,
              .external_offset_free =
                  compensation.external_offset_free && written(method, own) == Method::fanuc,
+             .cleared_after_abort = compensation.cleared_after_abort && as_in_file,
              .increment_mm = compensation.least_increment_mm};
 }
 
@@ -210,7 +214,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   if (!mark) {
     return std::unexpected(Refusals{mark.error()});
   }
-  if (mark->empty()) {  // of an earlier version, or no change at all
+  if (mark->empty()) {  // nothing is inserted
     auto task = read_rewrite_task(options, progress);
     if (task) {
       task->settings.told.clear();

@@ -38,6 +38,12 @@ std::span<const Key<Compensation>> compensation_keys() noexcept {
                         "`fanuc`: nobody else uses the external offset, so it is 0 whenever a "
                         "program starts. The head of a program then sets it to 0, and so takes off "
                         "what an aborted run has left."},
+      Key<Compensation>{"cleared_after_abort", &Compensation::cleared_after_abort, 0, 0,
+                        "`r_parameter`, `setting_data`, and `fanuc` with `external_offset_free`: "
+                        "when a program is aborted, the PLC or the operator takes the correction "
+                        "off before anything is touched off. The head of a program then asks "
+                        "nobody. Without it every program stops at its head (M0) and asks, since a "
+                        "touch-off through what an aborted run has left shows in no number."},
       Key<Compensation>{"least_increment_um", &Compensation::least_increment_mm, 0.01, 10,
                         "fanuc, haas, sinumerik: the control's least input increment. Every "
                         "correction is a whole number of them; in programs in inches the increment "

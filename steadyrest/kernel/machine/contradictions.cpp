@@ -162,6 +162,11 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
   if (compensation.external_offset_free && method != Method::fanuc) {
     needs(false, "external_offset_free", true);
   }
+  const bool own_place = method == Method::r_parameter || method == Method::setting_data ||
+                         (method == Method::fanuc && compensation.external_offset_free);
+  if (compensation.cleared_after_abort && !own_place) {
+    needs(false, "cleared_after_abort", true);
+  }
   if (method == Method::linuxcnc) {
     needs(false, "least_increment_um", given.has("least_increment_um"));
   }

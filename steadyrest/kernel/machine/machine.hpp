@@ -170,7 +170,9 @@ struct Compensation {
   std::int64_t sign = 0;  ///< +1: a positive value moves the axis to larger positions; −1: to
                           ///< smaller ones; 0: not known
   bool external_offset_free = false;  ///< fanuc: 0 whenever a program starts
-  double least_increment_mm = 1e-3;   ///< what the control takes of a correction, mm programs
+  /// Nobody touches off while a correction of an aborted run stands: it is taken off before.
+  bool cleared_after_abort = false;
+  double least_increment_mm = 1e-3;  ///< what the control takes of a correction, mm programs
 };
 
 /// The last step before any write; the layer cannot switch it off.

@@ -27,6 +27,9 @@ struct Asked {
   std::uint32_t positions = 0;  ///< axes whose work position was asked for, a mask
   ModeMask modes = 0;
   std::string value;  ///< the first value that the program has certainly not set, as it is written
+  /// Work offsets whose numbers (#5221 …) it has set, a mask; kShift: those of G92.
+  std::uint32_t offsets_set = 0;
+  static constexpr std::uint32_t kShift = std::uint32_t{1} << 31U;
 
   void about(std::string_view name) {
     if (value.empty()) {
@@ -40,6 +43,10 @@ struct Asked {
   }
   void about_mode(ModeMask mode) noexcept {
     modes |= mode;
+    any = true;
+  }
+  void about_offset(std::uint32_t mask) noexcept {
+    offsets_set |= mask;
     any = true;
   }
   void clear() {

@@ -45,7 +45,9 @@ struct Config {
   std::array<Axes, kWorkOffsets> work_offset{};
   std::array<double, kWorkOffsets> rotation_deg{};  ///< of the work offsets about Z
   std::size_t active_offset = 0;  ///< index into work_offset that is in force at the start
-  Axes g92{};                     ///< G92 offset in force at the start
+  Axes g92{};                     ///< G92 offset at the start
+  bool g92_on = false;            ///< it is in force; false: only stored, for G92.3
+  Axes tool_offset{};             ///< tool length in force at the start
   std::array<Axes, 2> home{};     ///< G28 and G30, machine coordinates
   /// linuxcnc: other numbered parameters that the control keeps, with their values at the start.
   std::vector<std::pair<int, double>> numbers;

@@ -39,7 +39,7 @@ kernel::outcome::Result<Interpreter> Interpreter::make(Config config) {
     return std::ranges::all_of(axes, [](double value) { return std::isfinite(value); });
   };
   if (!finite(config.start) || !finite(config.g92) || !finite(config.external) ||
-      !std::ranges::all_of(config.work_offset, finite) ||
+      !finite(config.tool_offset) || !std::ranges::all_of(config.work_offset, finite) ||
       !std::ranges::all_of(config.home, finite)) {
     return refuse("an offset or start position that is not finite", "give finite numbers");
   }
@@ -55,9 +55,10 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
   state_.active_offset = config_.active_offset;
   state_.work_in_force = state_.work_offset[state_.active_offset];
   state_.external = config_.external;
-  state_.g92 = config_.g92;
+  state_.g92 = config_.g92_on ? config_.g92 : Axes{};
   state_.g92_stored = config_.g92;
-  state_.g92_on = config_.g92 != Axes{};
+  state_.g92_on = config_.g92_on;
+  state_.tool_offset = config_.tool_offset;
   state_.home = config_.home;
   state_.unit_mm = config_.inch ? kMmPerInch : 1.0;
   state_.feed_unit_mm = state_.unit_mm;

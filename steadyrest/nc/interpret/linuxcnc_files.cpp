@@ -151,7 +151,6 @@ Result<void> read_variables(const std::string& path, double unit_mm, Config& con
   if (!source) {
     return std::unexpected(source.error());
   }
-  bool g92_on = false;
   for (;;) {
     const auto status = source->next();
     if (status == LineSource::Status::end) {
@@ -174,14 +173,11 @@ Result<void> read_variables(const std::string& path, double unit_mm, Config& con
       continue;
     }
     const int index = static_cast<int>(number.value);
-    g92_on = g92_on || (index == 5210 && value.value != 0.0);
+    config.g92_on = config.g92_on || (index == 5210 && value.value != 0.0);
     if (!put_variable(config, index, value.value, unit_mm)) {
       return refuse(path, source->number(), "an active coordinate system that does not exist",
                     "set number 5220 to 1–9");
     }
-  }
-  if (!g92_on) {
-    config.g92 = {};
   }
   config.start_known = true;
   return {};

@@ -295,6 +295,12 @@ void Parameters::assign(int index, double value) {
   bool rotary = false;
   if (double* const place = index >= kHome ? stored(index, rotary) : nullptr; place != nullptr) {
     *place = rotary ? value : value * config_->data_unit_mm;
+    if (index >= kOffsets) {
+      asked_.about_offset(std::uint32_t{1}
+                          << static_cast<unsigned>((index - kOffsets) / kOffsetStride));
+    } else if (within(index, kG92)) {
+      asked_.about_offset(Asked::kShift);
+    }
     return;
   }
   if (index < kChangerFault) {

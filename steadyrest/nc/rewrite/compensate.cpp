@@ -150,6 +150,9 @@ class Rewriter {
     if (walk.line() % kEvery == 0) {
       progress(0.5 * walk.line() / std::max(survey_.end_line, 1U), "timing");
     }
+    if (assigns_line_ == 0 && walk.run().asked().offsets_set != 0) {
+      assigns_line_ = walk.top_line();
+    }
     for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) {
       const auto& [letter, index, steps] = plan_.axes[axis];
       const Site site = walk.site(letter, index);
@@ -175,9 +178,8 @@ class Rewriter {
         unsaid_[axis] = {walk.line(), *unsaid};
       }
       const Frame frame = walk.frame(letter);
-      const bool sets_offset = settings_.method == Method::linuxcnc && offset_was_set(walk, index);
-      if (sets_offset || walk.ends() ||
-          (frame != Frame::kept && in_work_offset(settings_.method))) {
+      const bool noted = settings_.method == Method::linuxcnc && walk.sets_offset(letter);
+      if (noted || walk.ends() || (frame != Frame::kept && in_work_offset(settings_.method))) {
         const auto& now = walk.run().state();
         frames_[axis].push_back({.line = walk.line(),
                                  .top_line = walk.top_line(),
@@ -194,17 +196,6 @@ class Rewriter {
       }
     }
     clock.feed(walk);
-  }
-
-  /// The program itself gives the axis' work offset, or its G92, another value.
-  bool offset_was_set(const Walk& walk, std::size_t index) {
-    const interpret::State& now = walk.run().state();
-    if (walk.run().moved_alone()) {
-      return false;
-    }
-    const double value_mm =
-        now.work_offset[now.active_offset][index] + (now.g92_on ? now.g92_stored[index] : 0.0);
-    return std::exchange(offset_mm_[index], value_mm) != value_mm;
   }
 
   Result<void> place(std::size_t axis) {
@@ -278,15 +269,38 @@ class Rewriter {
     }
     auto proof = verify(program_, writer->path(), plan_, config_, machine_, settings_, &known);
     if (!proof) {
-      Refusal refusal = proof.error();
-      if (refusal.file != program_) {
-        refusal.what = "the changed program would not do what is planned: " + refusal.what;
-      }
-      refusal.file = refusal.file == writer->path() ? output : refusal.file;
-      return std::unexpected(std::move(refusal));
+      return std::unexpected(of_original(proof.error(), writer->path()));
     }
     result_.proof = *proof;
     return writer->commit();
+  }
+
+  /// The changed program is not there for the user: its refusal names the line of his own.
+  Refusal of_original(Refusal refusal, const std::string& changed) const {
+    if (refusal.file != changed) {
+      return refusal;
+    }
+    refusal.file = program_;
+    if (assigns_line_ != 0) {
+      refusal.line = assigns_line_;
+      refusal.what =
+          "sets a work offset by its numbers (#5221 ...), which act when it is next chosen: a "
+          "correction would bring them into force";
+      refusal.to_do = "set it by G10 L2";
+      return refusal;
+    }
+    std::size_t inserted = 0;
+    for (const auto& [line, text] : texts_) {
+      if (refusal.line < line + inserted) {
+        break;
+      }
+      const auto here = static_cast<std::size_t>(std::ranges::count(text.before_line, '\n'));
+      inserted += std::min(here, refusal.line - line - inserted);
+    }
+    refusal.line -= inserted;
+    refusal.what = "with the corrections written in: " + refusal.what;
+    refusal.to_do = "change what the program does here, or leave the axis out of the plan";
+    return refusal;
   }
 
   void copy(SourceLines& lines, OutputFile& writer) {
@@ -328,9 +342,9 @@ class Rewriter {
   std::vector<std::pair<std::uint32_t, Walk::Unsaid>> unsaid_;
   std::vector<std::vector<FrameLine>> frames_;  ///< by axis, in the order of execution
   std::deque<std::pair<std::size_t, Place>> waiting_;
+  std::uint32_t assigns_line_ = 0;  ///< the first that sets numbers of work offsets
   Texts texts_;
   PlaceOfHead head_;
-  interpret::Axes offset_mm_{};  ///< of the axes, before the line
   Compensated result_;
   Placing placing_{program_, settings_, texts_, result_.insertions};
 };

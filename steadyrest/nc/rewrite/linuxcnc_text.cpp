@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -13,6 +14,7 @@ namespace {
 constexpr std::string_view kServed = "ZYXWVU";
 constexpr std::string_view kNotes = "WVUCBA";
 constexpr int kWorkOffset = 5201;  // + 20 · n + axis
+constexpr int kRotation = 5210;    // + 20 · n
 constexpr int kG92 = 5211;         // + axis
 constexpr int kWorkOffsets = 9;
 // The variable file keeps six digits; mm or inches, as the machine has them.
@@ -30,6 +32,12 @@ char lower(char letter) noexcept {
 /// The parameter of the work offset in force.
 std::string in_force(int base) {
   return fmt::format("#[{}+20*#5220]", base);
+}
+/// Not 0 where G10 L20 would set more or less than this axis: in a work offset that is turned about
+/// Z, and where X is a diameter (LinuxCNC's #<_x> is a radius all the same). Empty for other axes.
+std::string when_crooked(char letter) {
+  const std::string turned = fmt::format("ABS[{}]", in_force(kRotation));
+  return letter == 'X' ? turned + "+#<_lathe_diameter_mode>" : letter == 'Y' ? turned : "";
 }
 std::string offset_of(char letter) {
   return fmt::format("{}+#5210*#{}", in_force(kWorkOffset + axis_of(letter)),
@@ -61,15 +69,47 @@ std::optional<OffsetNote> offset_note(const Way& way, char letter) {
   return {};
 }
 
+bool names_note(const Way& way, std::string_view line) {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
+    int number = 0;
+    for (const char c : line.substr(at + 1)) {
+      if (c >= '0' && c <= '9' && number < kWorkOffset + 20 * (kWorkOffsets + 1)) {
+        number = 10 * number + (c - '0');
+      } else if (c != ' ' && c != '\t') {
+        break;
+      }
+    }
+    const auto is = [number](int first) {
+      const int behind = number - first;
+      return behind > 0 && behind <= 20 * kWorkOffsets && behind % 20 == 0;
+    };
+    const bool noted = std::ranges::any_of(kServed, [&](char letter) {
+      const auto note =
+          way.axes.find(letter) == std::string::npos ? std::nullopt : offset_note(way, letter);
+      return note && (is(note->sum) || is(note->offset));
+    });
+    if (noted) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // Who starts a program from a line may start it at any. So a line that builds on the one before
 // divides by 0 where that has not been executed just now.
 std::string linuxcnc_check(const Way& way, char letter, std::string_view ending) {
   const OffsetNote note = offset_note(way, letter).value_or(OffsetNote{});
-  return fmt::format(
-      "#<_steadyrest_{}>=[1/[[{} EQ 0] OR [ABS[{}-{}] LT {}]]] (STEADYREST {} check: divides by 0 "
-      "if the work offset was set since){}",
-      lower(letter), in_force(note.sum), offset_of(letter), in_force(note.offset), kSame, letter,
-      ending);
+  const std::string holds = fmt::format("[{} EQ 0] OR [ABS[{}-{}] LT {}]", in_force(note.sum),
+                                        offset_of(letter), in_force(note.offset), kSame);
+  const std::string crooked = when_crooked(letter);
+  const std::string all =
+      crooked.empty() ? holds : fmt::format("[{}] AND [[{}] EQ 0]", holds, crooked);
+  return fmt::format("#<_steadyrest_{}>=[1/[{}]] (STEADYREST {} check: divides by 0 if {}){}",
+                     lower(letter), all, letter,
+                     letter == 'X'   ? "set or turned since, or in G7"
+                     : letter == 'Y' ? "set or turned since"
+                                     : "the work offset was set since",
+                     ending);
 }
 
 std::string linuxcnc_renote(const Way& way, char letter, std::string_view ending) {
@@ -103,10 +143,22 @@ std::string linuxcnc_change(const Way& way, const Change& change, std::string_vi
 
 namespace {
 
+/// Of a program that corrects X where nobody says G8.
+std::string diameter_head(std::string_view ending) {
+  const std::string mark = fmt::format(" (STEADYREST head X){}", ending);
+  return "o<steadyrest_x3> if [#<_lathe_diameter_mode> NE 0]" + mark +
+         fmt::format(
+             "(ABORT,STEADYREST X is corrected, and G7 is in force: X would be a diameter. "
+             "Give G8, then start again){}",
+             ending) +
+         "o<steadyrest_x3> endif" + mark;
+}
+
 std::string axis_head(const OffsetNote& note, char letter, std::string_view ending) {
   const char axis = lower(letter);
   const std::string sum = in_force(note.sum);
   const std::string noted = in_force(note.offset);
+  const std::string crooked = when_crooked(letter);
   std::string all;
   std::string listed;
   for (int n = 1; n <= kWorkOffsets; ++n) {
@@ -118,13 +170,19 @@ std::string axis_head(const OffsetNote& note, char letter, std::string_view endi
          fmt::format("o<steadyrest_{0}1> if [#<_steadyrest_{0}> NE 0]{1}", axis, mark) +
          fmt::format(
              "o<steadyrest_{0}2> if [[#<_steadyrest_{0}>-ABS[{1}] NE 0] OR [ABS[{2}-{3}] GE "
-             "{4}]]{5}",
-             axis, sum, offset_of(letter), noted, kSame, mark) +
+             "{4}]{5}]{6}",
+             axis, sum, offset_of(letter), noted, kSame,
+             crooked.empty() ? "" : fmt::format(" OR [{} NE 0]", crooked), mark) +
+         // LinuxCNC shows 255 characters: what to do comes first.
          fmt::format(
-             "(ABORT,STEADYREST an aborted run corrected {0} in G54..G59.3 by{1} mm; since "
-             "then {0} was set or another offset chosen. Touch off {0} there, then set "
-             "parameter {2} for G54, {3} for G55, ... to 0){4}",
-             letter, listed, note.sum + 20, note.sum + 40, ending) +
+             "(ABORT,STEADYREST after an aborted run {0} was set{1} or another offset chosen. Undo "
+             "that, or touch off {0} and set parameter {2} for G54, {3} for G55, ... to 0. "
+             "Left, mm:{4}){5}",
+             letter,
+             letter == 'X'   ? " or turned, G7 given,"
+             : letter == 'Y' ? " or turned,"
+                             : "",
+             note.sum + 20, note.sum + 40, listed, ending) +
          fmt::format("o<steadyrest_{}2> endif{}", axis, mark) +
          fmt::format(
              "(MSG,STEADYREST an aborted run has left a correction in {0}. Cycle start takes it "
@@ -138,17 +196,17 @@ std::string axis_head(const OffsetNote& note, char letter, std::string_view endi
 
 }  // namespace
 
-std::string linuxcnc_head(const Way& way, std::string_view ending) {
+std::string linuxcnc_head(const Way& way, std::string_view letters, std::string_view ending) {
+  const auto has = [&way](char axis) { return way.axes.find(axis) != std::string::npos; };
   std::string head;
   for (const char letter : kServed) {
-    if (way.axes.find(letter) == std::string::npos) {
-      continue;
-    }
-    if (const auto note = offset_note(way, letter)) {
+    const auto note = has(letter) ? offset_note(way, letter) : std::nullopt;
+    if (note) {
       head += axis_head(*note, letter, ending);
     }
   }
-  return head;
+  const bool unsaid = has('Y') && letters.find('X') != std::string_view::npos;
+  return unsaid ? head + diameter_head(ending) : head;
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -29,7 +29,11 @@ struct OffsetNote {
 /// then Y, X, W, V, U.
 [[nodiscard]] std::optional<OffsetNote> offset_note(const Way& way, char letter);
 
-/// Stops when there is an s, and the offset is not v.
+/// The line names a parameter that may hold a note of one of the machine's axes: `#5229`.
+[[nodiscard]] bool names_note(const Way& way, std::string_view line);
+
+/// Stops when there is an s, and the offset is not v; in X and Y also where they are turned, in X
+/// where it is a diameter.
 [[nodiscard]] std::string linuxcnc_check(const Way& way, char letter, std::string_view ending);
 /// Checks; corrects from s, whatever it is, to `to_mm`; notes.
 [[nodiscard]] std::string linuxcnc_change(const Way& way, const Change& change,
@@ -37,6 +41,8 @@ struct OffsetNote {
 /// v, behind a check and a line that has set the offset.
 [[nodiscard]] std::string linuxcnc_renote(const Way& way, char letter, std::string_view ending);
 /// For every axis that may have a note: takes off what an aborted run has left, or stops.
-[[nodiscard]] std::string linuxcnc_head(const Way& way, std::string_view ending);
+/// `letters`: the axes that the program corrects.
+[[nodiscard]] std::string linuxcnc_head(const Way& way, std::string_view letters,
+                                        std::string_view ending);
 
 }  // namespace steadyrest::nc::rewrite

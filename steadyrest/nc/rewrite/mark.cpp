@@ -5,12 +5,15 @@
 #include <fmt/core.h>
 
 #include <steadyrest/nc/rewrite/mark.hpp>
+#include <steadyrest/nc/rewrite/settings.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
+#include <steadyrest/nc/rewrite/tag.hpp>
 
 namespace steadyrest::nc::rewrite {
 namespace {
 
 constexpr std::string_view kBegin = "STEADYREST head told ";
+constexpr std::string_view kSum = "sum";
 constexpr std::string_view kPlain = "-_./+,:";
 
 bool is_plain(char c) noexcept {
@@ -31,6 +34,19 @@ std::string decoded(std::string_view text) {
     }
   }
   return out;
+}
+
+/// FNV-1a over the words as they are written.
+std::string sum_of(const std::vector<Told>& told) {
+  constexpr std::uint32_t kBasis = 2166136261U;
+  constexpr std::uint32_t kPrime = 16777619U;
+  std::uint32_t sum = kBasis;
+  for (const Told& one : told) {
+    for (const char c : told_as_text(one) + " ") {
+      sum = (sum ^ static_cast<unsigned char>(c)) * kPrime;
+    }
+  }
+  return fmt::format("{:08x}", sum);
 }
 
 void read_line(std::string_view text, std::vector<Told>& told) {
@@ -57,7 +73,11 @@ std::string told_as_text(const Told& one) {
   return text;
 }
 
-std::string mark_text(const Way& way, const std::vector<Told>& told, std::string_view ending) {
+std::string mark_text(const Way& way, std::vector<Told> told, std::string_view ending) {
+  if (told.empty()) {
+    return {};
+  }
+  told.push_back({.name = std::string{kSum}, .value = sum_of(told)});
   const bool sinumerik = of_sinumerik(way.method);
   std::string text;
   std::string line;
@@ -85,6 +105,7 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
     return std::unexpected(lines.error());
   }
   std::vector<Told> told;
+  bool inserted = false;
   while (lines->next()) {
     std::string_view line = lines->line();
     const bool round = line.starts_with('(') && line.ends_with(')');
@@ -96,6 +117,18 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
     } else if (!told.empty()) {
       break;  // it is in one piece
     }
+    inserted = inserted || is_mark || is_inserted(lines->line());
+  }
+  Told sum;
+  if (!told.empty()) {
+    sum = std::move(told.back());
+    told.pop_back();
+  }
+  if (inserted && (sum.name != kSum || sum.value != sum_of(told))) {
+    return std::unexpected(
+        kernel::outcome::Refusal{kernel::outcome::Kind::bad_input, changed, 0,
+                                 "what its head tells of how it was made is missing or was changed",
+                                 std::string(kAgainstOtherLines)});
   }
   return told;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/nc/rewrite/linuxcnc_text.hpp>
 #include <steadyrest/nc/rewrite/place_of_head.hpp>
 #include <steadyrest/nc/rewrite/tag.hpp>
 
@@ -72,7 +73,10 @@ std::string own_use(const Way& way, std::string_view line) {
   constexpr std::string_view kFrames = "$P_";
   switch (way.method) {
     case Method::linuxcnc:
-      return uses_own_names(line) ? "uses the parameters of the corrections, #<_steadyrest…>" : "";
+      return uses_own_names(line)    ? "uses the parameters of the corrections, #<_steadyrest…>"
+             : names_note(way, line) ? "uses a parameter in which a correction is noted: a work "
+                                       "offset of an axis that the machine does not have"
+                                     : "";
     case Method::r_parameter:
       return uses_parameter(line, way.r_parameter)
                  ? fmt::format("may use R{} itself", way.r_parameter)
@@ -87,7 +91,7 @@ std::string own_use(const Way& way, std::string_view line) {
 }
 
 std::string_view against_own_use(const Way& way) noexcept {
-  return way.method == Method::linuxcnc      ? "give the program's parameter another name"
+  return way.method == Method::linuxcnc      ? "take another parameter in the program"
          : way.method == Method::r_parameter ? "give the correction another R-parameter"
                                              : "write the corrections by another method";
 }

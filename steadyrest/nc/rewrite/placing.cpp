@@ -74,9 +74,7 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
   std::string& text = texts_[place.line].before_line;
   text += change_text(settings_, change, "\n");
   if (place.site == Site::clearance && !beside_program(settings_.method)) {
-    text += place.units_said ? restate_text(settings_.method, plan.letter, place.position_mm,
-                                            place.unit_mm, "\n")
-                             : restate_text(change, "\n");
+    text += restate_text(settings_.method, change, place.units_said, place.position_mm, "\n");
   }
   return {};
 }

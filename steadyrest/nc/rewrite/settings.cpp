@@ -75,9 +75,7 @@ std::string whole_head(const Plan& plan, const Settings& settings) {
   for (const AxisPlan& axis : plan.axes) {
     letters += axis.steps.empty() ? std::string{} : std::string(1, axis.letter);
   }
-  return letters.empty()
-             ? std::string{}
-             : mark_text(settings, settings.told, "\n") + head_text(settings, letters, "\n");
+  return mark_text(settings, settings.told, "\n") + head_text(settings, letters, "\n");
 }
 
 interpret::Config with_unknown_offsets(interpret::Config config, const Way& way) {
@@ -90,12 +88,18 @@ interpret::Config with_unknown_offsets(interpret::Config config, const Way& way)
       !way.external_offset_free) {
     std::fill_n(config.external.begin(), 3, kOwn_mm);
   }
+  double own_mm = 0.0;
+  const auto fill = [&own_mm](interpret::Axes& axes) {
+    own_mm += kOwn_mm;
+    std::fill_n(axes.begin(), 3, own_mm);
+  };
   if (std::ranges::all_of(config.work_offset, none)) {
-    double own_mm = 0.0;
-    for (interpret::Axes& axes : config.work_offset) {
-      own_mm += kOwn_mm;
-      std::fill_n(axes.begin(), 3, own_mm);
-    }
+    std::ranges::for_each(config.work_offset, fill);
+  }
+  fill(config.tool_offset);
+  if (config.dialect != read::Dialect::sinumerik) {
+    fill(config.g92);
+    config.g92_on = true;
   }
   return config;
 }

@@ -25,6 +25,9 @@ struct Settings : Way {
   std::function<void(double share, std::string_view what)> progress;
 };
 
+/// What to do about inserted lines that are others than this version writes.
+inline constexpr std::string_view kAgainstOtherLines =
+    "strip the program and compensate it again: another version may have written it";
 /// By this a correction may be beyond the clamp: what a rounded number may show.
 inline constexpr double kHalfDigit_mm = 5e-7;
 /// A plan fits a program when their total times differ by at most this share, or this time.
@@ -37,7 +40,7 @@ inline constexpr double kFit_s = 30.0;
 /// Refused with both figures: a plan for another time than the program takes.
 [[nodiscard]] kernel::outcome::Result<void> check_total(const Plan& plan, double program_s);
 
-/// What a program with this plan begins with; empty when the plan corrects nothing.
+/// What a program with this plan begins with; the mark alone when the plan corrects nothing.
 [[nodiscard]] std::string whole_head(const Plan& plan, const Settings& settings);
 
 /// Where the control's own offsets are not known (start_known), some that no program knows: a

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+#include <utility>
+
+#include <steadyrest/nc/rewrite/place_of_head.hpp>
 #include <steadyrest/nc/rewrite/source_lines.hpp>
 #include <steadyrest/nc/rewrite/tag.hpp>
 #include <steadyrest/nc/rewrite/text_pair.hpp>
@@ -9,57 +13,118 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+namespace {
+
+class TextPair {
+ public:
+  TextPair(SourceLines before, SourceLines after, const std::string& original,
+           const std::string& changed, const Way& way)
+      : before_(std::move(before)),
+        after_(std::move(after)),
+        original_(original),
+        changed_(changed),
+        head_(way) {}
+
+  Result<Inserted> compare(PlainSurvey& plain) {
+    while (!fault_ && before_.next()) {
+      const bool bare = plain.look(before_.line());
+      head_.look(before_.line(), before_.number());
+      if (!bare && is_inserted(before_.line())) {
+        refuse(original_, before_.number(), "the original carries the mark of a correction");
+      }
+      pair();
+      if (!before_.ending().empty()) {
+        crlf_ = before_.ending().size() > 1;
+        ended_ = true;
+      }
+    }
+    while (!fault_ && after_.next()) {
+      if (!is_inserted(after_.line())) {
+        refuse(changed_, after_.number(), "goes on where the original has ended");
+      }
+      take();
+    }
+    if (fault_) {
+      return std::unexpected(*fault_);
+    }
+    for (const SourceLines* lines : {&before_, &after_}) {
+      if (auto whole = lines->whole(); !whole) {
+        return std::unexpected(whole.error());
+      }
+    }
+    return std::move(inserted_);
+  }
+
+ private:
+  void refuse(const std::string& file, std::uint32_t line, std::string what,
+              std::string_view to_do = "make the changed program anew from this original") {
+    if (!fault_) {
+      fault_ = Refusal{Kind::bad_input, file, line, std::move(what), std::string(to_do)};
+    }
+  }
+
+  /// Up to the line of the changed program that pairs with the original's in hand.
+  void pair() {
+    // The original's line is no inserted one: what is the same is none either.
+    if (after_.skip(before_.line(), before_.ending())) {
+      return;
+    }
+    bool more = after_.next();
+    while (more && after_.line() != before_.line() && is_inserted(after_.line())) {
+      take();
+      more = after_.next();
+    }
+    if (!more || after_.line() != before_.line() || after_.ending() != before_.ending()) {
+      refuse(changed_, after_.number(), "differs from the original outside of the inserted lines");
+    }
+  }
+
+  void take() {
+    inserted_.lines.push_back(after_.number());
+    const bool crlf = ended_ ? crlf_ : before_.ending().size() > 1;
+    if (after_.ending().size() != (crlf ? 2 : 1)) {
+      refuse(changed_, after_.number(), "an inserted line ends otherwise than the lines around it");
+    }
+    if (!is_head(after_.line())) {
+      inserted_.groups[before_.number()].append(after_.line()).append("\n");
+      return;
+    }
+    inserted_.head.append(after_.line()).append("\n");
+    ++inserted_.head_lines;
+    if (head_.line() != before_.number()) {
+      refuse(changed_, after_.number(),
+             "the head stands elsewhere than before the first block that does something",
+             kAgainstOtherLines);
+    }
+  }
+
+  SourceLines before_;
+  SourceLines after_;
+  const std::string& original_;
+  const std::string& changed_;
+  PlaceOfHead head_;
+  bool ended_ = false;  ///< a line of the original has had an end
+  bool crlf_ = false;   ///< the last of these was CR LF
+  Inserted inserted_;
+  std::optional<Refusal> fault_;
+};
+
+}  // namespace
+
 Result<Inserted> compare_text(const std::string& original, const std::string& changed,
-                              PlainSurvey& plain, bool with_groups) {
+                              PlainSurvey& plain, const Plan& plan, const Settings& settings) {
   auto before = SourceLines::open(original);
   auto after = SourceLines::open(changed);
   if (!before || !after) {
     return std::unexpected(before ? after.error() : before.error());
   }
-  const auto refuse = [](const std::string& file, std::uint32_t line, std::string what) {
-    return std::unexpected(Refusal{Kind::bad_input, file, line, std::move(what),
-                                   "make the changed program anew from this original"});
-  };
-  Inserted inserted;
-  const auto take = [&] {
-    inserted.lines.push_back(after->number());
-    if (is_head(after->line())) {
-      inserted.head.append(after->line()).append("\n");
-      ++inserted.head_lines;
-      inserted.head_before = before->number();
-    } else if (with_groups) {
-      inserted.groups[before->number()].append(after->line()).append("\n");
-    }
-  };
-  while (before->next()) {
-    const bool bare = plain.look(before->line());
-    if (!bare && is_inserted(before->line())) {
-      return refuse(original, before->number(), "the original carries the mark of a correction");
-    }
-    // The original's line is no inserted one: what is the same is none either.
-    if (after->skip(before->line(), before->ending())) {
-      continue;
-    }
-    bool more = after->next();
-    while (more && after->line() != before->line() && is_inserted(after->line())) {
-      take();
-      more = after->next();
-    }
-    if (!more || after->line() != before->line() || after->ending() != before->ending()) {
-      return refuse(changed, after->number(),
-                    "differs from the original outside of the inserted lines");
-    }
-  }
-  while (after->next()) {
-    if (!is_inserted(after->line())) {
-      return refuse(changed, after->number(), "goes on where the original has ended");
-    }
-    take();
-  }
-  for (const auto* lines : {&*before, &*after}) {
-    if (auto whole = lines->whole(); !whole) {
-      return std::unexpected(whole.error());
-    }
+  TextPair pair(std::move(*before), std::move(*after), original, changed, settings);
+  auto inserted = pair.compare(plain);
+  if (inserted && inserted->head != whole_head(plan, settings)) {
+    return std::unexpected(
+        Refusal{Kind::bad_input, changed, 0,
+                "the head is not the one that belongs to this plan, machine and way of writing",
+                std::string(kAgainstOtherLines)});
   }
   return inserted;
 }

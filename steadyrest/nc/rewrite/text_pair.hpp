@@ -8,6 +8,8 @@
 
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/rewrite/plain_survey.hpp>
+#include <steadyrest/nc/rewrite/plan_file.hpp>
+#include <steadyrest/nc/rewrite/settings.hpp>
 
 namespace steadyrest::nc::rewrite {
 
@@ -16,16 +18,17 @@ struct Inserted {
   std::vector<std::uint32_t> lines;  ///< their numbers
   std::string head;                  ///< the text of those of the head, one under the other
   std::size_t head_lines = 0;
-  std::uint32_t head_before = 0;  ///< line of the original before which it ends
   /// The others, by the line of the original before which they stand, one under the other.
   std::map<std::uint32_t, std::string> groups;
 };
 
 /// Compares two programs byte by byte, inserted lines of `changed` left out. Refused at the first
-/// line that differs otherwise. `plain` looks at the original's lines on the way.
+/// line that differs otherwise, where an inserted one ends otherwise than the lines around it, and
+/// where the head is not that of the plan or stands elsewhere than it belongs: it changes nothing
+/// in a run from the beginning to the end. `plain` looks at the original's lines on the way.
 [[nodiscard]] kernel::outcome::Result<Inserted> compare_text(const std::string& original,
                                                              const std::string& changed,
-                                                             PlainSurvey& plain,
-                                                             bool with_groups = false);
+                                                             PlainSurvey& plain, const Plan& plan,
+                                                             const Settings& settings);
 
 }  // namespace steadyrest::nc::rewrite

@@ -10,6 +10,7 @@
 
 #include <steadyrest/nc/interpret/step.hpp>
 #include <steadyrest/nc/rewrite/compare.hpp>
+#include <steadyrest/nc/rewrite/group_text.hpp>
 #include <steadyrest/nc/rewrite/inserted_lines.hpp>
 #include <steadyrest/nc/rewrite/shifts.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
@@ -42,30 +43,21 @@ class Prover {
         settings_(settings),
         known_(known),
         timed_(timed),
-        shifts_(plan) {}
+        shifts_(plan),
+        belongs_here_(plan, settings) {}
 
   Result<Proved> run() {
     PlainSurvey plain(config_.dialect);
-    auto text = compare_text(original_, changed_, plain, true);
-    if (!text) {
-      return std::unexpected(text.error());
-    }
-    inserted_ = InsertedLines(std::move(text->lines));
-    groups_ = std::move(text->groups);
-    head_lines_ = text->head_lines;
-    head_before_ = text->head_before;
-    proof_.inserted_lines = inserted_.size();
-    // The head changes nothing in this run: its text is compared.
-    if (text->head != whole_head(plan_, settings_)) {
-      refuse("the head is not the one that belongs to this plan, machine and way of writing",
-             "strip the program and compensate it again: another version may have written it");
-      return std::unexpected(refusal_);
-    }
-    auto surveyed = survey(original_, config_, plain);
+    auto text = compare_text(original_, changed_, plain, plan_, settings_);
+    auto surveyed = text ? survey(original_, config_, plain) : std::unexpected(text.error());
     if (!surveyed) {
       return std::unexpected(surveyed.error());
     }
     survey_ = std::move(*surveyed);
+    inserted_ = InsertedLines(std::move(text->lines));
+    groups_ = std::move(text->groups);
+    head_lines_ = text->head_lines;
+    proof_.inserted_lines = inserted_.size();
     if (!open() || !walk()) {
       return std::unexpected(refusal_);
     }
@@ -148,6 +140,7 @@ class Prover {
     for (const AxisPlan& axis : plan_.axes) {
       shift_before_[axis.index] = shifts_.now(axis.index);
     }
+    passed_inserted_ = false;
     for (bool as_it_was = true;;) {
       changed_moves_.clear();
       if (!changed_run_->step()) {
@@ -159,11 +152,12 @@ class Prover {
       const bool main = changed_run_->in_main();
       if (!main || !inserted_.has(changed_run_->line())) {
         const std::uint32_t before = main ? inserted_.before() : 0U;
-        if (!as_it_was) {
-          return refuse("the inserted lines before this one change more than an offset");
-        }
-        return changed_run_->line() - before == walk_->line() || refuse("another line is executed");
+        return (as_it_was ||
+                refuse("the inserted lines before this one change more than an offset")) &&
+               (changed_run_->line() - before == walk_->line() ||
+                refuse("another line is executed"));
       }
+      passed_inserted_ = true;
       // The head acts after an abort alone, or does here what is done already.
       executed_inserted_ += changed_run_->executed() && inserted_.before() >= head_lines_ ? 1U : 0U;
       if (!added_moves()) {
@@ -195,17 +189,14 @@ class Prover {
 
   /// The same line in both: what stands, and every move.
   bool pair() {
-    if (head_before_ == walk_->line() && walk_->run().in_main() && proof_.moves > 0) {
-      return refuse("the head stands behind the first move");
-    }
     if (changed_run_->executed() != walk_->run().executed()) {
       return refuse("executes another line than the original");
     }
-    const Walk::Before& before = walk_->before();
     acts_at_once_ = 0;
+    belongs_here_.begin(*walk_);
     for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
       const AxisPlan& axis = plan_.axes[i];
-      if (!what_stands(i, offset_before_[axis.index] - before.offset[axis.index])) {
+      if (!what_stands(i, offset_before_[axis.index] - walk_->before().offset[axis.index])) {
         return false;
       }
     }
@@ -218,15 +209,34 @@ class Prover {
     }
     restated_ = false;
     offset_before_ = changed_run_->state().offset;
-    return compare_moves() && (!walk_->stores() || keeps_the_same());
+    return belongs() && compare_moves() && (!walk_->stores() || keeps_the_same());
+  }
+
+  /// The lines before this one are those that belong here, character for character. Where none do,
+  /// what others do shows further down; if nothing, they are refused at the end.
+  bool belongs() {
+    const std::string& wanted = belongs_here_.text();
+    const auto group = passed_inserted_ ? groups_.find(walk_->line()) : groups_.end();
+    if (!walk_->run().in_main() || wanted == (group == groups_.end() ? "" : group->second)) {
+      return true;
+    }
+    other_lines_ = other_lines_ == 0 ? changed_run_->line() : other_lines_;
+    return wanted.empty() || refuse_other_lines();
+  }
+
+  bool refuse_other_lines() {
+    return refuse_at(changed_, other_lines_,
+                     "other lines are inserted before this one than belong here",
+                     std::string(kAgainstOtherLines));
   }
 
   /// What outlives the program holds no correction, at this line already.
   bool keeps_the_same() {
     const std::string kept = kept_difference(walk_->run(), *changed_run_);
-    return kept.empty() || refuse("a correction would stay in " + kept + " after the program",
-                                  "do this before the first correction, or leave the axis out of "
-                                  "the plan");
+    return kept.empty() ||
+           refuse_at(original_, walk_->top_line(),
+                     "a correction would stay in " + kept + " after the program",
+                     "do this before the first correction, or leave the axis out of the plan");
   }
 
   /// Before the paired line: the correction that stands is the last one, or changes here.
@@ -234,16 +244,12 @@ class Prover {
     const AxisPlan& axis = plan_.axes[index];
     double& wanted_mm = shifts_.wanted[axis.index];
     if (same(stands_mm, wanted_mm)) {
-      const bool back = (framed_ & (1U << index)) != 0;
-      framed_ &= ~(1U << index);
-      return !back || is_written(axis, 0.0, wanted_mm);
+      belongs_here_.stays(index, wanted_mm);
+      return true;
     }
     const bool frame = walk_->frame(axis.letter) == Frame::changed;
     if (same(stands_mm, 0.0) && walk_->may_write(axis.index) && (walk_->ends() || frame)) {
-      framed_ |= walk_->ends() ? 0U : 1U << index;
-      if (!is_written(axis, wanted_mm, 0.0)) {
-        return false;
-      }
+      belongs_here_.goes_off(index, wanted_mm);
       if (walk_->ends()) {
         wanted_mm = 0.0;
         ++proof_.changes;
@@ -255,62 +261,35 @@ class Prover {
     return changes(index, stands_mm);
   }
 
-  /// The lines before this one hold, character for character, what makes this change: its checks
-  /// and notes change nothing here, and would be missed after an abort.
-  bool is_written(const AxisPlan& axis, double from_mm, double to_mm) {
-    const Walk::Before& before = walk_->before();
-    const std::string text = change_text(settings_,
-                                         {.letter = axis.letter,
-                                          .from_mm = from_mm,
-                                          .to_mm = to_mm,
-                                          .unit_mm = before.unit_mm,
-                                          .active_offset = before.active_offset,
-                                          .incremental = before.incremental},
-                                         "\n");
-    const auto group = groups_.find(walk_->line());
-    return (group != groups_.end() && group->second.find(text) != std::string::npos) ||
-           refuse(fmt::format("{} is corrected here by other lines than those that belong here",
-                              axis.letter),
-                  "strip the program and compensate it again: another version may have written it");
-  }
-
   bool changes(std::size_t index, double stands_mm) {
     const AxisPlan& axis = plan_.axes[index];
     double& wanted_mm = shifts_.wanted[axis.index];
     const double unit_mm = walk_->before().unit_mm;
-    if (std::ranges::none_of(axis.steps, [&](const PlannedStep& step) {
-          return same(correction_mm(settings_, unit_mm, step.displacement_um), stands_mm);
-        })) {
+    const auto step = std::ranges::find_if(axis.steps, [&](const PlannedStep& one) {
+      return same(correction_mm(settings_, unit_mm, one.displacement_um), stands_mm);
+    });
+    if (step == axis.steps.end()) {
       return refuse(fmt::format(
           "{} stands corrected by {:.6f} mm here; the plan wants {:.6f} mm, or a later correction",
           axis.letter, stands_mm, wanted_mm));
     }
+    stands_mm = correction_mm(settings_, unit_mm, step->displacement_um);  // without rounding
     if (std::abs(stands_mm) > settings_.clamp_mm + kHalfDigit_mm) {
-      return refuse(
-          fmt::format("{} stands corrected by {:g} um here; the machine file allows {:g} um",
-                      axis.letter, stands_mm * 1e3, settings_.clamp_mm * 1e3));
+      return refuse(fmt::format("{} stands corrected by {:g} um; the machine file allows {:g} um",
+                                axis.letter, stands_mm * 1e3, settings_.clamp_mm * 1e3));
     }
     if (!unit_free(settings_.method) && !walk_->units_said()) {
       return refuse("a correction begins where the program has not said its units");
     }
     const Site site = walk_->site(axis.letter, axis.index);
     if (site == Site::none) {
-      return refuse(
-          fmt::format("a correction of {} begins before a line that is no safe place for "
-                      "it",
-                      axis.letter));
+      return refuse(fmt::format("{} is corrected where there is no safe place", axis.letter));
     }
-    const double shift_mm = shifts_.now(axis.index);
-    if (site == Site::clearance && !(restated_ && same(shift_mm, stands_mm))) {
-      return refuse(
-          fmt::format("a correction of {} does not act: the axis is not programmed "
-                      "here",
-                      axis.letter));
+    if (site == Site::clearance && !(restated_ && same(shifts_.now(axis.index), stands_mm))) {
+      return refuse(fmt::format("a correction does not act: {} is not programmed", axis.letter));
     }
     acts_at_once_ |= site == Site::clearance ? 0U : std::uint32_t{1} << axis.index;
-    if (!is_written(axis, wanted_mm, stands_mm)) {
-      return false;
-    }
+    belongs_here_.changes(index, wanted_mm, stands_mm, site);
     if (window_ != nullptr) {
       window_->ask(index, {.line = changed_run_->line(),
                            .stands_mm = stands_mm,
@@ -345,8 +324,9 @@ class Prover {
       }
       proof_.corrected += shifts_.any() ? 1U : 0U;
       if (before[i].kind == interpret::MoveKind::probe && shifts_.any()) {
-        return refuse("probes while a correction stands: what it finds would hold it",
-                      "probe before the first correction");
+        return refuse_at(original_, walk_->top_line(),
+                         "probes while a correction stands: what it finds would hold it",
+                         "probe before the first correction");
       }
       if (!config_.start_known) {
         continue;
@@ -360,13 +340,11 @@ class Prover {
   }
 
   bool at_end() {
-    if (window_ != nullptr && !in_time()) {
-      return false;
-    }
     const std::string_view left = state_difference(walk_->run().state(), changed_run_->state());
-    return (left.empty() ||
+    return (window_ == nullptr || in_time()) &&
+           (left.empty() ||
             refuse(fmt::format("leaves another {} behind than the original", left))) &&
-           keeps_the_same();
+           keeps_the_same() && (other_lines_ == 0 || refuse_other_lines());
   }
 
   bool in_time() {
@@ -390,7 +368,6 @@ class Prover {
   Survey survey_;
   InsertedLines inserted_;
   std::size_t head_lines_ = 0;
-  std::uint32_t head_before_ = 0;  ///< line of the original
   std::size_t executed_inserted_ = 0;
   Modes modes_;
   std::optional<read::LineSource> changed_source_;
@@ -400,7 +377,9 @@ class Prover {
   std::unique_ptr<Window> window_;
   Shifts shifts_;
   std::map<std::uint32_t, std::string> groups_;  ///< inserted lines by the original's line
-  std::uint32_t framed_ = 0;  ///< axes of the plan, taken off for a line that changes the frame
+  GroupText belongs_here_;
+  bool passed_inserted_ = false;   ///< lines were inserted before the pair in hand
+  std::uint32_t other_lines_ = 0;  ///< the first line before which others stand than belong there
   Axes offset_before_{};
   Axes shift_before_{};  ///< before the inserted lines in hand
   bool restated_ = false;

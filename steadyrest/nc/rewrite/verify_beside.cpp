@@ -33,12 +33,11 @@ class Prover {
         machine_(machine),
         settings_(settings) {}
 
-  Result<Proved> run(const Plan& plan, const interpret::Config& config, const KnownTimes* known,
-                     bool timed) {
+  Result<Proved> run(const interpret::Config& config, const KnownTimes* known, bool timed) {
     timed_ = timed;
     start_known_ = config.start_known;
     PlainSurvey plain(config.dialect);
-    auto text = compare_text(original_, changed_, plain, true);
+    auto text = compare_text(original_, changed_, plain, plan_, settings_);
     auto surveyed = survey(original_, config, plain);
     if (!text || !surveyed) {
       return std::unexpected(text ? surveyed.error() : text.error());
@@ -48,7 +47,7 @@ class Prover {
       return std::unexpected(std::move(own));
     }
     auto walk = Walk::make(original_, config, *surveyed, settings_.method);
-    auto window = Window::make(known, machine_, plan, settings_, original_);
+    auto window = Window::make(known, machine_, plan_, settings_, original_);
     if (!walk || !window) {
       return std::unexpected(walk ? window.error() : walk.error());
     }
@@ -121,9 +120,6 @@ class Prover {
   }
 
   void line(const Walk& walk, Window& window) {
-    if (text_.head_before == walk.line() && proof_.moves > 0) {
-      refuse(walk.line(), "the head stands behind the first move");
-    }
     if (const auto group = text_.groups.find(walk.line()); group != text_.groups.end()) {
       change(walk, window, group->second);
       text_.groups.erase(group);
@@ -180,9 +176,6 @@ class Prover {
     if (timed_ && !text_.groups.empty()) {
       refuse(text_.groups.begin()->first, "inserted lines that are never executed");
     }
-    if (text_.head != whole_head(plan_, settings_)) {
-      refuse(0, "the head is not the one that belongs to this plan");
-    }
     if (stands_mm_ != 0.0) {
       refuse(0, fmt::format("a correction of {} is left at the end", axis_.letter));
     }
@@ -223,7 +216,7 @@ Result<Proved> verify_beside(const std::string& original, const std::string& cha
                              const Plan& plan, const interpret::Config& config,
                              const kernel::machine::Machine& machine, const Settings& settings,
                              const KnownTimes* known, bool timed) {
-  return Prover(original, changed, plan, machine, settings).run(plan, config, known, timed);
+  return Prover(original, changed, plan, machine, settings).run(config, known, timed);
 }
 
 }  // namespace steadyrest::nc::rewrite

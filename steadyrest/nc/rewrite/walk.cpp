@@ -19,15 +19,15 @@ namespace {
 
 constexpr std::array kPlainG = {0.0, 1.0, 17.0, 18.0, 19.0, 40.0, 61.0, 64.0, 80.0, 90.0, 94.0};
 constexpr std::array kPlainM = {3.0, 4.0, 5.0, 7.0, 8.0, 9.0};
+constexpr std::array<std::string_view, 4> kFrameWords = {"TRANS", "ATRANS", "ROT", "AROT"};
 
 bool straight(MoveKind kind) noexcept {
   return kind == MoveKind::rapid || kind == MoveKind::linear || kind == MoveKind::dwell;
 }
 
-bool is_supa(std::string_view name) noexcept {
+bool is(std::string_view name, std::string_view upper_name) noexcept {
   return std::ranges::equal(
-      name, std::string_view{"SUPA"}, {},
-      [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; },
+      name, upper_name, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; },
       [](char c) { return static_cast<int>(c); });
 }
 
@@ -53,7 +53,6 @@ Walk::Walk(read::LineSource source, const interpret::Config& config, const Surve
       survey_(survey),
       said_(config),
       sinumerik_(config.dialect == read::Dialect::sinumerik),
-      tools_known_(config.tools.has_value()),
       start_known_(config.start_known),
       mill_(config.axes.find('Y') != std::string::npos),
       method_(method) {}
@@ -119,7 +118,7 @@ void Walk::remember() {
     return out;
   };
   constexpr std::uint32_t kInPlane = 0b11;
-  std::uint32_t lost = facts_.loses ? ~0U : differing(state.offset, offset);
+  std::uint32_t lost = facts_.loses || facts_.shifts ? ~0U : differing(state.offset, offset);
   lost |= turned ? kInPlane : 0U;
   const bool kept = start_known_ && !facts_.loses;
   before_.known &= kept ? ~0U : ~lost;
@@ -213,7 +212,8 @@ void Walk::look_at_g(const read::Word& word) {
   facts_.data = facts_.data || code == 10.0;
   facts_.reference = facts_.reference || code == 28.1 || code == 30.1;
   facts_.loses = facts_.loses || facts_.machine_frame || (code > 38.0 && code < 39.0) ||
-                 (!tools_known_ && (code == 49.0 || (code >= 43.0 && code < 44.0)));
+                 code == 49.0 || (code >= 43.0 && code < 44.0);
+  facts_.shifts = facts_.shifts || code == 52.0 || (code >= 92.0 && code < 93.0);
   facts_.settable =
       facts_.settable ||
       (sinumerik_ && ((code >= 54.0 && code <= 57.0) || (code >= 500.0 && code < 600.0)));
@@ -253,7 +253,7 @@ void Walk::look_at(const read::Word& word) {
     case 'M':
       says_ ? said_.look(word) : void();
       facts_.plain = facts_.plain && std::ranges::find(kPlainM, word.value) != kPlainM.end();
-      facts_.loses = facts_.loses || (!tools_known_ && (word.value == 6.0 || word.value == 61.0));
+      facts_.loses = facts_.loses || word.value == 6.0 || word.value == 61.0;
       return;
     case 'L':
       facts_.data_form = word.value;
@@ -262,9 +262,12 @@ void Walk::look_at(const read::Word& word) {
       facts_.data_set = word.value;
       break;
     default:
-      facts_.machine_frame = facts_.machine_frame || is_supa(word.name);
+      facts_.machine_frame = facts_.machine_frame || is(word.name, "SUPA");
       facts_.loses = facts_.loses || facts_.machine_frame ||
-                     (!tools_known_ && sinumerik_ && (word.letter == 'D' || word.letter == 'T'));
+                     (sinumerik_ && (word.letter == 'D' || word.letter == 'T'));
+      facts_.shifts = facts_.shifts || std::ranges::any_of(kFrameWords, [&](std::string_view name) {
+                        return is(word.name, name);
+                      });
       break;
   }
   facts_.plain = false;
@@ -275,13 +278,14 @@ bool Walk::may_write(std::size_t index) const noexcept {
          (other_ == nullptr || (together() && other_->may_write_alone(index)));
 }
 
-// A rotation is about Z: what stands on another axis than X and Y knows nothing of it.
+// A rotation is about Z: what stands on another axis than X and Y knows nothing of it. A diameter
+// is X's.
 bool Walk::may_write_alone(std::size_t index) const noexcept {
   const interpret::State& now = run_->state();
   const bool turned = before_.rotation_deg != 0.0 || now.rotation_in_force_deg != 0.0;
   return run_->at_top() && run_->executed() && !run_->block().deleted() &&
          !survey_.is_repeated(run_->line()) && !before_.cutter && now.cutter_side == 0 &&
-         (!turned || index > 1);
+         (!turned || index > 1) && (index != 0 || (!before_.diameter && !now.diameter));
 }
 
 // No mode in force, before and behind the line, in which a shift would bend something.
@@ -360,31 +364,6 @@ bool Walk::moves_axis(std::size_t index) const noexcept {
   return std::ranges::any_of(moves(), [index](const interpret::Move& move) {
     return move.kind != MoveKind::dwell && move.start[index] != move.end[index];
   });
-}
-
-Frame Walk::frame(char letter) const {
-  const Frame own = frame_alone(letter);
-  return other_ == nullptr || !together() ? own : std::max(own, other_->frame_alone(letter));
-}
-
-Frame Walk::frame_alone(char letter) const {
-  if (facts_.reference) {
-    return Frame::stored;
-  }
-  const interpret::State& now = run_->state();
-  if (now.active_offset != before_.active_offset || now.work_offset_on != before_.work_offset_on ||
-      facts_.settable) {
-    return Frame::changed;
-  }
-  if (!facts_.data || (facts_.axes & Step::bit(letter)) == 0) {
-    return Frame::kept;
-  }
-  const bool of_active =
-      facts_.data_set <= 0.0 || facts_.data_set == static_cast<double>(now.active_offset) + 1.0;
-  if (facts_.data_form == 20.0) {
-    return of_active ? Frame::kept : Frame::measured;
-  }
-  return of_active ? Frame::changed : Frame::kept;
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -34,7 +34,8 @@ enum class Frame : std::uint8_t {
   kept,
   changed,   ///< another work offset is active, or the active one gets a new value (G10 L2)
   measured,  ///< G10 L20 for a work offset that is not active: it would take the shift with it
-  stored     ///< G28.1, G30.1: the place at which the machine is, the shift with it
+  stored,    ///< G28.1, G30.1: the place at which the machine is, the shift with it
+  assigned   ///< #5221 = …: a number of the offset in force, or of G92
 };
 
 /// Goes through a program line by line and judges the place before each line. The law of a safe
@@ -71,6 +72,9 @@ class Walk {
     constexpr auto kUnits = mode(interpret::GGroup::units);
     return said_.has(kUnits) && (other_ == nullptr || other_->said_.has(kUnits));
   }
+  /// The line gives the work offset or the shift in force (G92, G52) another value of this axis,
+  /// whatever value it had.
+  [[nodiscard]] bool sets_offset(char letter) const noexcept;
   /// The line writes to what the control keeps: G10, G28.1, G30.1.
   [[nodiscard]] bool stores() const noexcept { return facts_.data || facts_.reference; }
   [[nodiscard]] bool moves_axis(std::size_t index) const noexcept;
@@ -118,7 +122,8 @@ class Walk {
     bool settable = false;   ///< sinumerik G54 …, G500: takes the stored frame anew
     bool data = false;       ///< G10
     bool reference = false;  ///< G28.1, G30.1
-    bool loses = false;      ///< positions are others by what only the control knows
+    bool loses = false;      ///< positions are others by what only the control knows: the tool
+    bool shifts = false;     ///< and by what the variable file has: G52, G92, a programmed frame
     double data_form = -1.0;
     double data_set = -1.0;
   };
@@ -142,6 +147,8 @@ class Walk {
   [[nodiscard]] bool calm(std::size_t index) const noexcept;
   [[nodiscard]] Site site_if_said(char letter, std::size_t index) const;
   [[nodiscard]] Frame frame_alone(char letter) const;
+  [[nodiscard]] bool sets_offset_alone(char letter) const noexcept;
+  [[nodiscard]] bool of_active() const noexcept;
 
   read::LineSource source_;
   const Survey& survey_;
@@ -156,7 +163,6 @@ class Walk {
   bool any_move_ = false;
   bool ends_ = false;
   bool sinumerik_ = false;
-  bool tools_known_ = false;
   bool start_known_ = false;
   bool mill_ = false;  ///< it has a Y: no diameters
   Method method_;

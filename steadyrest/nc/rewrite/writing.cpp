@@ -118,7 +118,11 @@ std::string restate_text(Method method, char letter, double position_mm, double 
                      ending);
 }
 
-std::string restate_text(const Change& change, std::string_view ending) {
+std::string restate_text(Method method, const Change& change, bool units_said, double position_mm,
+                         std::string_view ending) {
+  if (units_said) {
+    return restate_text(method, change.letter, position_mm, change.unit_mm, ending);
+  }
   const double back_mm = change.to_mm - change.from_mm;
   const char axis = static_cast<char>(change.letter - 'A' + 'a');
   return fmt::format("G0 {}[#<_{}>{}{}*[#<_metric>+#<_imperial>/25.4]] (STEADYREST restated){}",
@@ -135,6 +139,23 @@ std::string renote_text(const Way& way, char letter, std::string_view ending) {
 }
 
 namespace {
+
+/// Whether somebody has touched off through what an aborted run has left shows in no number.
+std::string question(const Way& way, std::string_view letters, std::string_view ending) {
+  if (way.method == Method::fanuc) {
+    return fmt::format(
+        "M0 (STEADYREST head {}: IF TOUCHED OFF AFTER AN ABORTED RUN STOP, TOUCH OFF AGAIN "
+        "WITH THE EXTERNAL OFFSET AT 0){}",
+        letters, ending);
+  }
+  const std::string place = way.method == Method::r_parameter
+                                ? fmt::format("R{}", way.r_parameter)
+                                : std::string{"the temperature compensation"};
+  return fmt::format(
+      "MSG(\"{0}: touched off after an aborted run? Stop, set {1} to 0, touch off again\") "
+      ";STEADYREST head {0}{2}M0 ;STEADYREST head {0}{2}MSG() ;STEADYREST head {0}{2}",
+      letters, place, ending);
+}
 
 std::string axis_head(const Way& way, char letter, std::string_view ending) {
   switch (way.method) {
@@ -157,7 +178,7 @@ std::string head_text(const Way& way, std::string_view letters, std::string_view
     return {};
   }
   if (way.method == Method::linuxcnc) {
-    return linuxcnc_head(way, ending);
+    return linuxcnc_head(way, letters, ending);
   }
   const bool forgets =
       way.method == Method::haas || (way.method == Method::fanuc && !way.external_offset_free);
@@ -167,6 +188,9 @@ std::string head_text(const Way& way, std::string_view letters, std::string_view
         letters, ending);
   }
   std::string head;
+  if (way.method != Method::frame_fine && !way.cleared_after_abort) {
+    head = question(way, letters, ending);
+  }
   for (const char letter : letters) {
     head += axis_head(way, letter, ending);
   }

@@ -23,7 +23,9 @@ struct Way {
   std::uint32_t r_parameter = 0;  ///< its number
   int sign = 1;  ///< setting_data: −1 where a positive value moves the axis to smaller positions
   bool external_offset_free = false;  ///< fanuc: 0 whenever a program starts
-  std::string axes = "XYZ";           ///< linuxcnc: those of the machine
+  /// Nobody touches off while a correction of an aborted run stands: it is taken off before.
+  bool cleared_after_abort = false;
+  std::string axes = "XYZ";    ///< linuxcnc: those of the machine
   double increment_mm = 1e-3;  ///< the control's least input; a tenth of the number in inches
 };
 
@@ -73,8 +75,10 @@ struct Change {
 /// `G0 Z…` with its tag. Empty when the position cannot be written exactly.
 [[nodiscard]] std::string restate_text(Method method, char letter, double position_mm,
                                        double unit_mm, std::string_view ending);
-/// The same behind a change, in whatever units the control is in.
-[[nodiscard]] std::string restate_text(const Change& change, std::string_view ending);
+/// What restates the axis behind a change: by its position where the program has said its units,
+/// else in whatever units the control is in.
+[[nodiscard]] std::string restate_text(Method method, const Change& change, bool units_said,
+                                       double position_mm, std::string_view ending);
 /// What stands at the head of a program that corrects these axes: takes off what an aborted run has
 /// left, or stops.
 [[nodiscard]] std::string head_text(const Way& way, std::string_view letters,

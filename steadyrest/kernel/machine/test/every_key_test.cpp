@@ -362,10 +362,13 @@ TEST(EveryKey, Compensation) {
   const auto data = with(kSinumerik, "method = \"setting_data\"\nsign = -1");
   EXPECT_EQ(data.method, Method::setting_data);
   EXPECT_EQ(data.sign, -1);
+  EXPECT_FALSE(data.cleared_after_abort);
+  EXPECT_TRUE(with(kSinumerik, "method = \"setting_data\"\nsign = 1\ncleared_after_abort = true")
+                  .cleared_after_abort);
   EXPECT_EQ(with(kSinumerik, "method = \"frame_fine\"").method, Method::frame_fine);
   EXPECT_EQ(fanuc.least_increment_mm, 1e-3);
   EXPECT_EQ(with("dialect = \"fanuc\"", "least_increment_um = 0.1").least_increment_mm, 1e-4);
-  EXPECT_EQ(compensation_keys().size(), 5U) << "a key is not tried here";
+  EXPECT_EQ(compensation_keys().size(), 6U) << "a key is not tried here";
 }
 
 template <class S>

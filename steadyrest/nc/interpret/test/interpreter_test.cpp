@@ -17,6 +17,29 @@ TEST(Interpreter, KeepsUnnamedAxesAndAddsIncrements) {
   EXPECT_EQ(moves[2].start[0], 3.0);
 }
 
+TEST(Interpreter, ReadsNumbersAcrossBlanks) {
+  const auto moves = moves_of("G 0 X- 1 Y + 2 . 5 Z-\t. 5 A. 5 B-.\t5\nM 2\n");
+  ASSERT_EQ(moves.size(), 1U);
+  EXPECT_EQ(moves[0].end[0], -1.0);
+  EXPECT_EQ(moves[0].end[1], 2.5);
+  EXPECT_EQ(moves[0].end[2], -0.5);
+  EXPECT_EQ(moves[0].end[3], 0.5);
+  EXPECT_EQ(moves[0].end[4], -0.5);
+  EXPECT_EQ(reason_of("G0 X- - 1\nM2\n"), "bad_number");
+}
+
+TEST(Interpreter, KeepsAShiftThatIsNotInForceForG92Point3) {
+  Config config;
+  config.g92[2] = 1.5;
+  for (const bool on : {false, true}) {
+    config.g92_on = on;
+    const auto moves = moves_of("G0 Z1\nG92.3\nG0 Z1\nG92.2\nG0 Z1\nM2\n", config);
+    EXPECT_EQ(moves.at(0).end[2] + moves.at(0).offset[2], on ? 2.5 : 1.0);
+    EXPECT_EQ(moves.at(1).end[2] + moves.at(1).offset[2], 2.5);
+    EXPECT_EQ(moves.at(2).end[2] + moves.at(2).offset[2], 1.0);
+  }
+}
+
 TEST(Interpreter, GivesMillimetresInInchPrograms) {
   const auto moves = moves_of("G20\nF10\nG1 X1 A90\nM2\n");
   ASSERT_EQ(moves.size(), 1U);

@@ -270,6 +270,29 @@ TEST(Compensate, RefusesAnAxisOfWhichTheMachineHasNoRoomForANote) {
   EXPECT_THAT(refused.error().what, HasSubstr("XYZAC"));
 }
 
+// Offsets of the control leave a rounding in what is found to stand.
+TEST(Compensate, ProvesCorrectionsThatCancelWhateverTheOffsetsAre) {
+  Workshop shop;
+  shop.settings.window_s = 30.0;
+  shop.config.start_known = true;
+  shop.config.work_offset[0] = {0.1, -7.3, 1.0514 * 25.4};
+  const std::string plan = R"({"transitions": [{"n": 2, "t_min": [1, 1], "delta_um": [0, 74.1]},)"
+                           R"( {"n": 2, "t_min": [1, 1.2], "delta_um": [-74.1, 0.3]}]})";
+  const auto done = shop.compensate(kPasses, plan);
+  ASSERT_TRUE(done) << done.error().what;
+  EXPECT_EQ(done->proof.changes, 4U);
+}
+
+TEST(Compensate, APlanWithoutCorrectionsLeavesItsMark) {
+  Workshop shop;
+  shop.settings.told = {{.name = "window-s", .value = "60"}};
+  const std::string plan = R"({"transitions": [{"n": 2, "t_min": [2, 2.2], "delta_um": [0, 0]}]})";
+  ASSERT_TRUE(shop.compensate(kPasses, plan));
+  EXPECT_EQ(read_file(shop.changed()),
+            replaced(kPasses, "%\n", "%\n" + mark_text(Way{}, shop.settings.told, "\n")));
+  EXPECT_TRUE(shop.verify(plan));
+}
+
 TEST(Compensate, SparesTheSubprogramsThatItCalls) {
   Workshop shop;
   shop.config.subprogram_folders = {shop.folder()};

@@ -166,6 +166,7 @@ TEST_F(Fanuc, StopsAtTheHeadWhereNothingTellsWhatAnAbortedRunHasLeft) {
 
 TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffset) {
   shop_.settings.external_offset_free = true;
+  shop_.settings.cleared_after_abort = true;
   const auto done = shop_.compensate(kFanuc, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
   const std::string text = read_file(shop_.changed());
@@ -183,11 +184,22 @@ TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffse
   EXPECT_EQ(read_file(shop_.changed()), kFanuc);
 }
 
+// 0 takes it off by value, but a touch-off through it shows in no number.
+TEST_F(Fanuc, AsksBeforeItTakesOffWhereSomebodyMayHaveTouchedOff) {
+  shop_.settings.external_offset_free = true;
+  ASSERT_TRUE(shop_.compensate(kFanuc, kGrowth));
+  const std::string text = read_file(shop_.changed());
+  EXPECT_THAT(text, HasSubstr("\nM0 (STEADYREST head Z: IF TOUCHED OFF AFTER AN ABORTED RUN STOP"));
+  EXPECT_THAT(text, HasSubstr(")\nG90 G10 L2 P0 Z0.0000 (STEADYREST head Z)\nG21 G90"));
+  EXPECT_TRUE(shop_.verify(kGrowth));
+}
+
 class Sinumerik : public Fanuc {
  protected:
   Sinumerik() : Fanuc(Method::r_parameter) {
     shop_.config.dialect = read::Dialect::sinumerik;
     shop_.settings.r_parameter = 50;
+    shop_.settings.cleared_after_abort = true;
   }
   void SetUp() override {
     const auto done = shop_.compensate(kProgram, kGrowth);
@@ -207,6 +219,21 @@ TEST_F(Sinumerik, WritesTheParameterWhenTheMachineGetsThere) {
   EXPECT_EQ(read_file(shop_.changed()), kProgram);
 }
 
+TEST_F(Sinumerik, AsksBeforeItTakesOffWhereSomebodyMayHaveTouchedOff) {
+  shop_.settings.cleared_after_abort = false;
+  ASSERT_TRUE(shop_.compensate(kProgram, kGrowth));
+  const std::string text = read_file(shop_.changed());
+  EXPECT_EQ(text.substr(0, text.find("G71")),
+            "MSG(\"Z: touched off after an aborted run? Stop, set R50 to 0, touch off again\") "
+            ";STEADYREST head Z\nM0 ;STEADYREST head Z\nMSG() ;STEADYREST head Z\n"
+            "R50=0.0000 ;STEADYREST head Z\n");
+  EXPECT_TRUE(shop_.verify(kGrowth));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text, "M0 ;STEADYREST head Z\n", "")),
+              HasSubstr("head"));
+  ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
+  EXPECT_EQ(read_file(shop_.changed()), kProgram);
+}
+
 TEST_F(Sinumerik, TheHeadStandsBehindTheNameOfTheProgram) {
   const std::string names = "%_N_PASSES_MPF\n;$PATH=/_N_WKS_DIR/_N_A_WPD\n";
   const auto done = shop_.compensate(names + kProgram, kGrowth);
@@ -214,7 +241,8 @@ TEST_F(Sinumerik, TheHeadStandsBehindTheNameOfTheProgram) {
   const std::string head = "R50=0.0000 ;STEADYREST head Z\n";
   const std::string text = read_file(shop_.changed());
   EXPECT_EQ(text.substr(0, names.size() + head.size()), names + head);
-  EXPECT_THAT(shop_.fault(kGrowth, head + replaced(text, head, "")), HasSubstr("%"));
+  EXPECT_THAT(shop_.fault(kGrowth, head + replaced(text, head, "")),
+              HasSubstr("the head stands elsewhere"));
 }
 
 TEST_F(Sinumerik, VerifyCatchesEachFault) {

@@ -36,7 +36,8 @@ TEST(Mark, IsProvedWithTheHead) {
   shop.settings.told = {{"window-s", "60"}};
   ASSERT_TRUE(shop.compensate(test::kPasses, test::kGrowth));
   const std::string text = test::read_file(shop.changed());
-  const std::string mark = "(STEADYREST head told --window-s 60)\n";
+  const std::string mark = mark_text(Way{}, shop.settings.told, "\n");
+  EXPECT_THAT(mark, HasSubstr("(STEADYREST head told --window-s 60 --sum "));
   EXPECT_THAT(text, HasSubstr("%\n" + mark + "#<_steadyrest_z>="));
   EXPECT_TRUE(shop.verify(test::kGrowth));
   EXPECT_THAT(shop.fault(test::kGrowth, test::replaced(text, mark, "")), HasSubstr("head"));
@@ -44,9 +45,25 @@ TEST(Mark, IsProvedWithTheHead) {
   EXPECT_EQ(test::read_file(shop.changed()), test::kPasses);
 }
 
-TEST(Mark, NoneInAProgramOfAnEarlierVersion) {
+TEST(Mark, IsRefusedWhereItWasChanged) {
+  const test::Workshop shop;
+  const std::string mark = mark_text(Way{}, {{"dialect", "fanuc"}, {"window-s", "60"}}, "\n");
+  for (const std::string& text :
+       {test::replaced(mark, "60", "61"), test::replaced(mark, " --window-s 60", ""),
+        test::replaced(mark, "--sum", "--some"), test::replaced(mark, "told", "tells"),
+        std::string{"(STEADYREST head told )\n"}}) {
+    test::write_file(shop.changed(), text + "G21\nM2\n");
+    const auto read = read_mark(shop.changed());
+    ASSERT_FALSE(read) << text;
+    EXPECT_THAT(read.error().to_do, HasSubstr("compensate it again"));
+  }
+}
+
+TEST(Mark, IsMissingInAProgramOfAnEarlierVersion) {
   const test::Workshop shop;
   test::write_file(shop.changed(), "R50=0.0000 ;STEADYREST head Z\nG71\nM30\n");
+  EXPECT_FALSE(read_mark(shop.changed()));
+  test::write_file(shop.changed(), test::kPasses);
   EXPECT_TRUE(read_mark(shop.changed()).value().empty());
 }
 

@@ -168,6 +168,21 @@ TEST_F(Start, AStoredRotationIsKnownForWhatIsTurnedByIt) {
   EXPECT_EQ(fault(shop_, pockets(""), kThreeSteps), "") << "Z does not turn";
 }
 
+// Beside the file: whoever has turned the offset since, or stands in G7, is stopped.
+TEST_F(Start, XAndYAreCorrectedAlongTheMachinesAxesAlone) {
+  shop_.config.start_known = true;
+  const std::string in_x = replaced(kThreeSteps, R"({"tr)", R"({"axis": "X", "tr)");
+  ASSERT_EQ(fault(shop_, pockets(""), in_x), "");
+  const std::string text = read_file(shop_.changed());
+  EXPECT_THAT(text, HasSubstr("AND [[ABS[#[5210+20*#5220]]+#<_lathe_diameter_mode>] EQ 0]"));
+  EXPECT_THAT(text, HasSubstr("o<steadyrest_x3> if [#<_lathe_diameter_mode> NE 0] (STEADYREST"));
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+    end = text.find('\n', at);
+    EXPECT_LE(end - at, 250U) << "too long for LinuxCNC: " << text.substr(at, end - at);
+  }
+  EXPECT_THAT(fault(shop_, pockets("N121 G7\n"), in_x), HasSubstr("diameters"));
+}
+
 TEST_F(Start, ALatheSaysWhetherXIsARadius) {
   shop_.config.axes = "XZ";
   shop_.config.start_known = true;
@@ -187,6 +202,37 @@ TEST_F(Start, RestatesNothingBehindATool) {
       kHead + "G0 X0 Y0 Z10\nG1 X50 F100\nG43 H2\nG0 X0 Y1\nG0 X1\nG1 X50\nG0 Z20\nM2\n";
   EXPECT_THAT(fault(shop_, program, plan), HasSubstr("no safe place"));
   EXPECT_EQ(fault(shop_, replaced(program, "G43 H2\n", ""), plan), "");
+  // The length and the shift that were in force at the start are not known, whatever files are.
+  shop_.config.tools.emplace(2);
+  shop_.config.tools->front().number = 1;
+  shop_.config.tools->back().number = 2;
+  for (const bool known : {false, true}) {
+    shop_.config.start_known = known;
+    for (const char* line :
+         {"G43 H2", "G43.1 Z0", "G49", "M61 Q2", "G92.1", "G92.2", "G92.3", "G52 Z0", "G92 X0"}) {
+      EXPECT_THAT(fault(shop_, replaced(program, "G43 H2", line), plan), HasSubstr("no safe place"))
+          << line;
+    }
+  }
+}
+
+// A note holds as long as work offset plus G92 are what they were.
+TEST_F(Start, AShiftOfTheProgramIsNotedWhateverItWasBefore) {
+  for (const char* line : {"G92.1", "G92.2", "G92.3", "G92 X0", "G52 Z0", "G52 X1"}) {
+    ASSERT_EQ(fault_of(pockets("N121 " + std::string{line} + "\n")), "") << line;
+    EXPECT_THAT(read_file(shop_.changed()),
+                HasSubstr("set since)\nN121 " + std::string{line} + "\n#[5208"));
+  }
+}
+
+// A note that is not renewed stops the program at its next change.
+TEST_F(Start, TheProofSimulatesAShiftThatNoProgramKnows) {
+  ASSERT_EQ(fault_of(pockets("N121 G92.1\n")), "");
+  const std::string text = read_file(shop_.changed());
+  const auto line = text.find("N121");
+  const auto note = text.find('\n', line) + 1;
+  EXPECT_NE(shop_.fault(kThreeSteps, text.substr(0, note) + text.substr(text.find('\n', note) + 1)),
+            "");
 }
 
 TEST_F(Start, RefusesValuesThatAreTheControlsOwn) {
@@ -258,6 +304,47 @@ TEST_F(Kept, WhatHoldsNoCorrectionMayBeKept) {
   // Before the first correction everything may be stored.
   const std::string head = kHead + "G0 X0 Y0 Z40\nG28.1\nG30.1\nG10 L11 P5 Z0\n#100=#<_abs_z>\n";
   EXPECT_EQ(fault(shop_, pockets("", head)), "");
+}
+
+// By its numbers the control would take it up later, together with the next correction.
+TEST_F(Kept, AWorkOffsetThatIsSetByItsNumbersIsRefusedByItsLine) {
+  const struct {
+    const char* line;
+    bool refused;
+  } cases[] = {{"N121 #5223=[#5223+1]", true}, {"N121 #5221=1", true},  {"N121 #5213=0", true},
+               {"N121 #5230=0", true},         {"N121 #5243=1", false}, {"N121 #5161=1", false}};
+  for (const auto& one : cases) {
+    const auto done = shop_.compensate(pockets(std::string{one.line} + "\n"), kThreeSteps);
+    EXPECT_EQ(!done, one.refused) << one.line;
+    if (!done) {
+      EXPECT_THAT(done.error().what, HasSubstr("by its numbers")) << one.line;
+      EXPECT_EQ(done.error().line, 13U) << one.line;
+    }
+  }
+  const auto early = shop_.compensate("#5221=1\n" + pockets(""), kThreeSteps);
+  ASSERT_FALSE(early);
+  EXPECT_EQ(early.error().line, 1U);
+  EXPECT_THAT(early.error().what, HasSubstr("by its numbers"));
+}
+
+TEST_F(Kept, TheNotesAreNotTheProgramsToUse) {
+  for (const char* line : {"#5229=0", "#1=# 52 48", "(DEBUG,#5388)"}) {
+    EXPECT_THAT(fault(shop_, pockets(std::string{line} + "\n")), HasSubstr("noted")) << line;
+  }
+  EXPECT_EQ(fault(shop_, pockets("#1=#5222\n#2=#5400\n")), "") << "of nothing";
+}
+
+// A refusal of the proof names the user's own program and line.
+TEST_F(Kept, WhatTheProofRefusesIsNamedByTheLineOfTheOriginal) {
+  for (const char* lines :
+       {"G38.2 Z0 F50\n", "G10 L11 P5 Z0\n", "o1 if [#<_abs_z> GT 15.45]\nG4 P1\no1 endif\n"}) {
+    const auto done = shop_.compensate(pockets(lines), kThreeSteps);
+    ASSERT_FALSE(done) << lines;
+    EXPECT_EQ(done.error().file, shop_.original()) << lines;
+    EXPECT_GE(done.error().line, 13U) << done.error().what;
+    EXPECT_LE(done.error().line, 14U) << done.error().what;
+    EXPECT_THAT(done.error().to_do, Not(HasSubstr("anew"))) << lines;
+  }
 }
 
 TEST_F(Kept, FanucVariablesHoldNoCorrection) {

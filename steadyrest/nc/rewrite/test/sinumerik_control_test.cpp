@@ -46,7 +46,7 @@ class OfSinumerik : public ::testing::Test {
 
 class SettingData : public OfSinumerik {
  protected:
-  SettingData() : OfSinumerik(Method::setting_data) {}
+  SettingData() : OfSinumerik(Method::setting_data) { shop_.settings.cleared_after_abort = true; }
 };
 
 TEST_F(SettingData, IsWrittenWithTheSignThatTheMachineHas) {
@@ -62,6 +62,14 @@ TEST_F(SettingData, IsWrittenWithTheSignThatTheMachineHas) {
   text = write();
   EXPECT_THAT(text, HasSubstr("$SA_TEMP_COMP_ABS_VALUE[Z]=0.0100 ;STEADYREST Z-0.0100 mm\n"));
   EXPECT_THAT(text, HasSubstr("$SA_TEMP_COMP_ABS_VALUE[Z]=0.0000 ;STEADYREST Z0.0000 mm\nM30"));
+  expect_stripped(kProgram);
+}
+
+TEST_F(SettingData, AsksBeforeItIsTakenOffWhereSomebodyMayHaveTouchedOff) {
+  shop_.settings.cleared_after_abort = false;
+  EXPECT_THAT(write(), HasSubstr("set the temperature compensation to 0, touch off again\") "
+                                 ";STEADYREST head Z\nM0 ;STEADYREST head Z\n"));
+  EXPECT_TRUE(shop_.verify(kGrowth));
   expect_stripped(kProgram);
 }
 

@@ -131,6 +131,33 @@ TEST_F(Verify, CatchesAMissingCheckAndAMissingNote) {
               HasSubstr("other lines"));
 }
 
+// They would do nothing, or nothing today.
+TEST_F(Verify, CatchesLinesThatDoNotBelongHere) {
+  const std::string check = kFirst.substr(0, kFirst.find('\n') + 1);
+  for (const std::string& line :
+       {check, std::string{"(STEADYREST x)\n"}, std::string{"M70 (STEADYREST x)\n"},
+        std::string{"M66 P0 L0 (STEADYREST x)\n"}, std::string{"#<mine>=1 (STEADYREST x)\n"},
+        std::string{"#<_steadyrest_z>=1 (STEADYREST Z check)\n"}}) {
+    EXPECT_THAT(fault(replaced(text_, kFirst, line + kFirst)), HasSubstr("other lines"));
+    EXPECT_THAT(fault(replaced(text_, kFirst, kFirst + line)), HasSubstr("other lines"));
+    EXPECT_THAT(fault(replaced(text_, "G0 X0 Y10\n", line + "G0 X0 Y10\n")),
+                HasSubstr("other lines"));
+  }
+  EXPECT_THAT(fault(replaced(text_, kFirst, replaced(kFirst, "\n", "\r\n"))), HasSubstr("ends"));
+}
+
+TEST_F(Verify, CatchesAHeadElsewhereThanBeforeTheFirstBlock) {
+  const auto first = text_.find("#<");
+  const auto block = text_.find("G21 G90");
+  const auto next = text_.find('\n', block) + 1;
+  EXPECT_THAT(fault(text_.substr(0, first) + text_.substr(block, next - block) +
+                    text_.substr(first, block - first) + text_.substr(next)),
+              HasSubstr("the head stands elsewhere"));
+  EXPECT_THAT(
+      fault(text_.substr(first, block - first) + text_.substr(0, first) + text_.substr(block)),
+      HasSubstr("the head stands elsewhere"));
+}
+
 TEST_F(Verify, SaysWhatToDoWithAProgramOfAnEarlierVersion) {
   const std::string old_head =
       "o<steadyrest_z1> if [EXISTS[#<_steadyrest_z>]] (STEADYREST head Z)\n";

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <steadyrest/nc/interpret/step.hpp>
+#include <steadyrest/nc/rewrite/walk.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using interpret::Step;
+
+Frame Walk::frame(char letter) const {
+  const Frame own = frame_alone(letter);
+  return other_ == nullptr || !together() ? own : std::max(own, other_->frame_alone(letter));
+}
+
+Frame Walk::frame_alone(char letter) const {
+  if (facts_.reference) {
+    return Frame::stored;
+  }
+  const interpret::State& now = run_->state();
+  constexpr std::uint32_t kFirst = 1;
+  if ((run_->asked().offsets_set & (kFirst << now.active_offset | interpret::Asked::kShift)) != 0) {
+    return Frame::assigned;
+  }
+  if (now.active_offset != before_.active_offset || now.work_offset_on != before_.work_offset_on ||
+      facts_.settable) {
+    return Frame::changed;
+  }
+  if (!facts_.data || (facts_.axes & Step::bit(letter)) == 0) {
+    return Frame::kept;
+  }
+  if (facts_.data_form == 20.0) {
+    return of_active() ? Frame::kept : Frame::measured;
+  }
+  return of_active() ? Frame::changed : Frame::kept;
+}
+
+/// Of a G10: it is about the work offset in force.
+bool Walk::of_active() const noexcept {
+  return facts_.data_set <= 0.0 ||
+         facts_.data_set == static_cast<double>(run_->state().active_offset) + 1.0;
+}
+
+bool Walk::sets_offset(char letter) const noexcept {
+  return sets_offset_alone(letter) ||
+         (other_ != nullptr && together() && other_->sets_offset_alone(letter));
+}
+
+bool Walk::sets_offset_alone(char letter) const noexcept {
+  const bool measures = facts_.data && facts_.data_form == 20.0 && of_active() &&
+                        (facts_.axes & Step::bit(letter)) != 0;
+  return facts_.shifts || measures;
+}
+
+}  // namespace steadyrest::nc::rewrite
