@@ -112,6 +112,13 @@ TEST(ThermalFit, TwoProbesOfOneBodyAreToldToShareItsTimeConstants) {
   EXPECT_TRUE(answer_of("thermal fit " + log + " --no-ambient --own-tau")["shared_tau"].empty());
 }
 
+TEST(ThermalFit, WarnsThatABandWithoutTemperaturesKnowsTheseDaysAlone) {
+  EXPECT_TRUE(answer_of("thermal fit " + kLog)["warnings"].empty());
+  const auto warnings = answer_of("thermal fit " + kLog + " --no-ambient")["warnings"];
+  ASSERT_EQ(warnings.size(), 1U) << warnings;
+  EXPECT_TRUE(warnings[0].get<std::string>().starts_with("Z: no temperature is an input, so"));
+}
+
 // The example's levels are in proportion to the speed: 6.5 µm for each 1000 rpm.
 TEST(ThermalFit, GivesLevelsAsATableThatForecastTakes) {
   const Scratch scratch;

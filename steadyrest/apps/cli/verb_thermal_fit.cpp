@@ -174,7 +174,8 @@ std::string inputs_of(const ThermalAxis& axis) {
 /// Places of axes that have the same time constants.
 using Groups = std::vector<std::vector<std::size_t>>;
 
-/// Of bands that did not hold when they were made without the hours that they were tried on.
+/// Of bands that did not hold when they were made without the hours that they were tried on, or
+/// that cannot know what other days bring.
 void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
   constexpr double kLow = 0.9;
   answer.json["warnings"] = Json::array();
@@ -188,6 +189,12 @@ void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
             "was widened for that. Log more runs, or the temperature that is missing",
             fit.axis.name, how, 100.0 * coverage));
       }
+    }
+    if (fit.axis.ambient.empty()) {
+      answer.json["warnings"].push_back(
+          fmt::format("{}: no temperature is an input, so the band knows the surroundings of these "
+                      "hours alone; on other days the displacement may leave it",
+                      fit.axis.name));
     }
   }
   for (const Json& warning : answer.json["warnings"]) {
