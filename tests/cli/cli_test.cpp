@@ -205,6 +205,17 @@ TEST(Cli, SaysWhatWasWrittenAndWhyItIsNoValue) {
   EXPECT_THAT(empty.err, HasSubstr("--feed-mm-min is empty;"));
 }
 
+TEST(Cli, RangesTakeDecimalNumbers) {
+  const std::string lobes = "chatter lobes examples/processes/slot-922hz.toml --depths-mm 0:1:2 ";
+  for (const char* given : {"0x1388", "5000:0x2710:3", "inf", "nan", "5000:", "1:2:3:4"}) {
+    expect_refused(lobes + "-o /dev/null --speeds-rpm " + given, "one finite number is needed");
+  }
+}
+
+TEST(Cli, AnOutputIsNotCalledMinus) {
+  expect_refused("thermal fit examples/thermal/spindle-test.csv -o -", "write /dev/stdout");
+}
+
 TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
   expect_refused(kCircle + "--feed-mm-min -1", "--feed-mm-min -1 is outside 0 to 1e+09;");
   expect_refused("contour limit --radius-mm 10 --kv-1-s 1e-300 --max-error-mm 0.01",

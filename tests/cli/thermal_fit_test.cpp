@@ -112,6 +112,15 @@ TEST(ThermalFit, TwoProbesOfOneBodyAreToldToShareItsTimeConstants) {
   EXPECT_TRUE(answer_of("thermal fit " + log + " --no-ambient --own-tau")["shared_tau"].empty());
 }
 
+TEST(ThermalFit, TakesNoNameOfAnAxisThatAPassportCannotHave) {
+  for (const char* axis : {"", "Z=X", "a\"b", "Q\n[x]", "123456789012345678901234567890123"}) {
+    const Finished finished =
+        run({"thermal", "fit", kLog, "--channel", std::string{"z_um="} + axis});
+    EXPECT_EQ(finished.code, 2) << axis;
+    EXPECT_NE(finished.err.find("names no axis"), std::string::npos) << finished.err;
+  }
+}
+
 TEST(ThermalFit, WarnsThatABandWithoutTemperaturesKnowsTheseDaysAlone) {
   EXPECT_TRUE(answer_of("thermal fit " + kLog)["warnings"].empty());
   const auto warnings = answer_of("thermal fit " + kLog + " --no-ambient")["warnings"];

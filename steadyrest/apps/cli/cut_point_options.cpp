@@ -34,6 +34,15 @@ Result<CutPoint> cut_point(const CutPointOptions& options) {
   if (!(options.depth_mm > 0.0 && std::isfinite(options.depth_mm))) {
     return std::unexpected(not_allowed("--depth-mm", options.depth_mm, "above 0"));
   }
+  constexpr double kLeast_rpm = 0.06;
+  constexpr double kMost_rpm = 6e6;
+  constexpr double kMost_mm = 1e4;
+  if (options.speed_rpm < kLeast_rpm || options.speed_rpm > kMost_rpm) {
+    return std::unexpected(not_allowed("--speed-rpm", options.speed_rpm, "within 0.06 … 6000000"));
+  }
+  if (options.depth_mm > kMost_mm) {
+    return std::unexpected(not_allowed("--depth-mm", options.depth_mm, "at most 10000"));
+  }
   auto process = chatter::offline::read_process(options.process);
   if (!process) {
     return std::unexpected(process.error());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <system_error>
 
 #include <fmt/core.h>
 
@@ -17,18 +18,18 @@ constexpr std::size_t kMostSteps = 100'000;
 /// The numbers between the colons; empty when one is none.
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> out;
-  const char* at = text.c_str();
-  while (true) {
-    char* end = nullptr;
-    const double value = std::strtod(at, &end);
-    if (end == at || !std::isfinite(value) || (*end != ':' && *end != '\0')) {
+  const char* const last = text.data() + text.size();
+  for (const char* at = text.data();; ++at) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(at, last, value);
+    if (error != std::errc{} || !std::isfinite(value) || (end != last && *end != ':')) {
       return {};
     }
     out.push_back(value);
-    if (*end == '\0') {
+    if (end == last) {
       return out;
     }
-    at = end + 1;
+    at = end;
   }
 }
 
@@ -43,7 +44,7 @@ kernel::outcome::Result<std::vector<double>> grid(std::string_view option, const
   };
   const std::vector<double> given = numbers(text);
   if (given.size() != 1 && given.size() != 3) {
-    return bad("three numbers with colons are needed");
+    return bad("one finite number is needed, or three with colons between them");
   }
   const double from = given[0];
   const double to = given.size() == 3 ? given[1] : from;

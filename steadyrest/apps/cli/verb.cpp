@@ -93,6 +93,10 @@ std::optional<Refusal> unfit(const PlannedFile& planned, std::span<const Planned
   if (!place) {
     return place.error();
   }
+  if (planned.file == "-") {
+    return refusal(planned.file, "would be a file called -",
+                   "write /dev/stdout for stdout, or ./- for that file");
+  }
   if (force) {
     return std::nullopt;
   }

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/fit_channels.hpp>
 #include <steadyrest/apps/cli/log_options.hpp>
 #include <steadyrest/apps/cli/report_option.hpp>
 #include <steadyrest/apps/cli/table.hpp>
@@ -52,46 +53,6 @@ struct Options {
 
 Refusal refusal(std::string file, std::string what, std::string to_do) {
   return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
-}
-
-/// What the column of an axis is called without its unit: Z for z_um, ch1 for ch1_um.
-std::string axis_of(const std::string& column) {
-  const bool unit = column.size() > 3 && (column.ends_with("_um") || column.ends_with("_mm"));
-  std::string name = unit ? column.substr(0, column.size() - 3) : column;
-  if (name.size() == 1 && name.front() >= 'a' && name.front() <= 'z') {
-    name.front() = static_cast<char>(name.front() - 'a' + 'A');
-  }
-  return name;
-}
-
-/// Places of the displacements in the log, and the axes that they are called.
-using Channels = std::vector<std::pair<std::size_t, std::string>>;
-
-Result<Channels> channels_of(const Options& options, const offline::Log& log) {
-  Channels out;
-  for (const std::string& given : options.channels) {
-    const std::size_t at = given.find('=');
-    const std::string name = given.substr(0, at);
-    const auto found = std::ranges::find(log.displacement, name, &offline::LogChannel::name);
-    if (found == log.displacement.end()) {
-      return std::unexpected(refusal(log.file, fmt::format("there is no displacement {}", name),
-                                     "name a column of the log, as --channel z_um=Z"));
-    }
-    out.emplace_back(found - log.displacement.begin(),
-                     at == std::string::npos ? axis_of(name) : given.substr(at + 1));
-  }
-  for (std::size_t i = 0; i < log.displacement.size() && options.channels.empty(); ++i) {
-    out.emplace_back(i, axis_of(log.displacement[i].name));
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (out[i].second == out[j].second || out[i].second.empty()) {
-        return std::unexpected(refusal({}, fmt::format("two channels are called {}", out[i].second),
-                                       "give each its own name"));
-      }
-    }
-  }
-  return out;
 }
 
 Json number_or_null(double value) {
@@ -246,7 +207,7 @@ Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared
 /// Everything about the files and names, before the work.
 struct Job {
   offline::Log log;
-  Channels channels;
+  FitChannels channels;
   Thermal known;
   offline::FitRequest request;
 };
@@ -258,7 +219,7 @@ Result<Job> job_of(const Options& options) {
     return std::unexpected(log.error());
   }
   job.log = std::move(*log);
-  auto channels = channels_of(options, job.log);
+  auto channels = fit_channels(options.channels, job.log);
   if (!channels) {
     return std::unexpected(channels.error());
   }

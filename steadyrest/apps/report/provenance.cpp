@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <cstddef>
 #include <ctime>
@@ -61,7 +62,18 @@ bool is_iso_date(std::string_view text) {
   static const std::regex kDate(
       R"(\d{4}-(0[1-9]|1[0-2])-(0[1-9]|[12]\d|3[01]))"
       R"((T([01]\d|2[0-3]):[0-5]\d(:([0-5]\d|60))?(Z|[+-]\d{2}:\d{2})?)?)");
-  return std::regex_match(text.begin(), text.end(), kDate);
+  if (!std::regex_match(text.begin(), text.end(), kDate)) {
+    return false;
+  }
+  const auto number = [text](std::size_t at, std::size_t length) {
+    unsigned out = 0;
+    std::from_chars(text.data() + at, text.data() + at + length, out);
+    return out;
+  };
+  return std::chrono::year_month_day(std::chrono::year(static_cast<int>(number(0, 4))),
+                                     std::chrono::month(number(5, 2)),
+                                     std::chrono::day(number(8, 2)))
+      .ok();
 }
 
 std::optional<std::string> sha256_of_file(const std::string& file) {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <random>
+#include <set>
 #include <utility>
 
 #include <fcntl.h>
@@ -134,6 +135,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       place_(std::move(other.place_)),
       path_(std::move(other.path_)),
       beside_(std::move(other.beside_)),
+      exchanged_(other.exchanged_),
       bytes_(other.bytes_),
       lines_(other.lines_) {}
 
@@ -203,16 +205,34 @@ Result<void> OutputFile::rename() {
   if (place_.kind != Place::Kind::file) {
     return {};
   }
-  if (::rename(path_.c_str(), place_.path.c_str()) != 0) {
+  exchanged_ = place_.exists && ::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, place_.path.c_str(),
+                                            RENAME_EXCHANGE) == 0;
+  if (!exchanged_ && ::rename(path_.c_str(), place_.path.c_str()) != 0) {
     return std::unexpected(refusal(errno));
   }
-  beside_.keep();
-  sync_folder(place_.path.parent_path());
+  return {};
+}
+
+void OutputFile::take_back() noexcept {
+  if (exchanged_) {
+    ::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, place_.path.c_str(), RENAME_EXCHANGE);
+  } else if (place_.kind == Place::Kind::file && !place_.exists) {
+    ::rename(place_.path.c_str(), path_.c_str());
+  }
+}
+
+void OutputFile::let_stay() {
+  if (place_.kind != Place::Kind::file) {
+    return;
+  }
+  if (!exchanged_) {
+    beside_.keep();
+  }
+  beside_ = {};
   const std::scoped_lock lock(ledger().mutex);
   if (ledger().is_output(place_)) {
     ledger().files.push_back({name_, bytes_, lines_});
   }
-  return {};
 }
 
 Result<void> OutputFile::commit() {
@@ -237,13 +257,24 @@ Refusal OutputFile::refusal(int error) const {
 }
 
 Result<void> put_in_place(std::span<OutputFile> settled) {
-  for (const auto step : {&OutputFile::take_name, &OutputFile::rename}) {
-    for (OutputFile& file : settled) {
-      if (auto done = (file.*step)(); !done) {
-        return done;
-      }
+  const SignalsHeldBack all_or_none;
+  for (OutputFile& file : settled) {
+    if (auto named = file.take_name(); !named) {
+      return named;
     }
   }
+  for (auto file = settled.begin(); file != settled.end(); ++file) {
+    if (auto renamed = file->rename(); !renamed) {
+      std::for_each(settled.begin(), file, [](OutputFile& before) { before.take_back(); });
+      return renamed;
+    }
+  }
+  std::set<std::filesystem::path> folders;
+  for (OutputFile& file : settled) {
+    file.let_stay();
+    folders.insert(file.place_.path.parent_path());
+  }
+  std::ranges::for_each(folders, sync_folder);
   return {};
 }
 

@@ -47,7 +47,12 @@ class OutputFile {
   outcome::Result<void> make_beside();
   /// The last that can fail before the rename: the file has its temporary name.
   [[nodiscard]] outcome::Result<void> take_name();
+  /// The old file, if there is one, then has the temporary name, where the file system can do that.
   [[nodiscard]] outcome::Result<void> rename();
+  /// What rename() has done is undone.
+  void take_back() noexcept;
+  /// It stays: the old file goes.
+  void let_stay();
   friend outcome::Result<void> put_in_place(std::span<OutputFile> settled);
   [[nodiscard]] outcome::Refusal refusal(int error) const;
   void put() noexcept;
@@ -60,6 +65,7 @@ class OutputFile {
   Place place_;
   std::string path_;
   Temporary beside_;  ///< the file's temporary name, once it has one
+  bool exchanged_ = false;
   std::uintmax_t bytes_ = 0;
   std::uintmax_t lines_ = 0;
 };
@@ -69,7 +75,8 @@ struct FileText {
   std::string text;
 };
 
-/// Renames these, which have been settled; none before all have their temporary names.
+/// Renames these, which have been settled: all or none, whatever fails and whatever signal comes.
+/// Where the file system cannot exchange two names, a rename that fails leaves those before it.
 [[nodiscard]] outcome::Result<void> put_in_place(std::span<OutputFile> settled);
 
 /// The outputs of a program: from now on commit() leaves these files to put_outputs_in_place(), so

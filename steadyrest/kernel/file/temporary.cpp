@@ -36,7 +36,18 @@ std::optional<std::size_t> occupy(const std::string& path, Temporary::Kind kind)
   return std::nullopt;
 }
 
+// A signal comes to any thread, so that none can block it for the process. Each side first says
+// what it is about to do and then asks the other: of the two at least one gives way.
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
+std::atomic<int> held_back = 0;  ///< objects of SignalsHeldBack
+std::atomic<int> ending = 0;     ///< the signal that came
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+
 extern "C" void remove_and_end(int signal) {
+  ending = signal;
+  if (held_back > 0) {
+    return;
+  }
   for (Slot& slot : slots) {
     if (slot.use == Use::file) {
       ::unlink(slot.path.data());
@@ -106,6 +117,20 @@ void remove_temporaries_on_signals() {
   }
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
+}
+
+SignalsHeldBack::SignalsHeldBack() noexcept {
+  ++held_back;
+  if (ending != 0) {
+    --held_back;
+    remove_and_end(ending);
+  }
+}
+
+SignalsHeldBack::~SignalsHeldBack() {
+  if (--held_back == 0 && ending != 0) {
+    remove_and_end(ending);
+  }
 }
 
 }  // namespace steadyrest::kernel::file

@@ -41,4 +41,13 @@ class Temporary {
 /// above the permitted size become errors of write() instead of signals.
 void remove_temporaries_on_signals();
 
+/// Holds those signals back while it lives: the process ends with the object, not before.
+class SignalsHeldBack {
+ public:
+  SignalsHeldBack() noexcept;
+  ~SignalsHeldBack();
+  SignalsHeldBack(const SignalsHeldBack&) = delete;
+  SignalsHeldBack& operator=(const SignalsHeldBack&) = delete;
+};
+
 }  // namespace steadyrest::kernel::file

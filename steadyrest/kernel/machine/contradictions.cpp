@@ -165,7 +165,11 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
   const bool own_place = method == Method::r_parameter || method == Method::setting_data ||
                          (method == Method::fanuc && compensation.external_offset_free);
   if (compensation.cleared_after_abort && !own_place) {
-    needs(false, "cleared_after_abort", true);
+    faults.add(
+        given.at({"cleared_after_abort"}),
+        fmt::format("{} has method = \"{}\" and cleared_after_abort", given.section, word(method)),
+        method == Method::fanuc ? "remove it, or write external_offset_free = true if so"
+                                : "remove it");
   }
   if (method == Method::linuxcnc) {
     needs(false, "least_increment_um", given.has("least_increment_um"));

@@ -11,7 +11,10 @@ namespace {
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
-    out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+    const auto code = static_cast<unsigned char>(c);
+    out += code < 0x20 || code == 0x7F ? fmt::format("\\u{:04X}", code)
+           : c == '"' || c == '\\'     ? std::string{'\\', c}
+                                       : std::string{c};
   }
   return out + '"';
 }

@@ -55,12 +55,12 @@ TEST(Provenance, TheCommandCanBePastedIntoAShell) {
 }
 
 TEST(Provenance, TakesDatesOfIso8601Alone) {
-  for (const char* good :
-       {"2026-01-02", "2026-01-02T03:04", "2026-12-31T23:59:60Z", "2026-01-02T03:04:05+01:00"}) {
+  for (const char* good : {"2026-01-02", "2028-02-29", "2026-01-02T03:04", "2026-12-31T23:59:60Z",
+                           "2026-01-02T03:04:05+01:00"}) {
     EXPECT_TRUE(is_iso_date(good)) << good;
   }
-  for (const char* bad : {"", "today", "2026-13-01", "2026-01-32", "02.01.2026", "2026-01-02 03:04",
-                          "2026-01-02T25:00Z", "2026-01-02<b>"}) {
+  for (const char* bad : {"", "today", "2026-13-01", "2026-01-32", "2026-02-29", "2026-04-31",
+                          "02.01.2026", "2026-01-02 03:04", "2026-01-02T25:00Z", "2026-01-02<b>"}) {
     EXPECT_FALSE(is_iso_date(bad)) << bad;
   }
   EXPECT_TRUE(is_iso_date(now_utc())) << now_utc();

@@ -140,16 +140,17 @@ TEST_F(Output, OfAProgramTakesItsPlaceWithTheOthers) {
   const auto ends_with = [&](bool placed) {
     return in_child([&] {
       const std::vector<std::string> outputs = {first, at("b.csv")};
+      const std::size_t before = written_files().size();
       declare_outputs(outputs);
       if (!write_file(at("scratch"), "read back\n") || text_of(at("scratch")) != "read back\n") {
         _exit(1);
       }
       fs::remove(at("scratch"));
       if (!write_file(first, "new\n") || !write_file(at("b.csv"), "new\n") ||
-          text_of(first) != "old\n" || entries() != 1 || !written_files().empty()) {
+          text_of(first) != "old\n" || entries() != 1 || written_files().size() != before) {
         _exit(1);
       }
-      if (placed && (!put_outputs_in_place() || written_files().size() != 2)) {
+      if (placed && (!put_outputs_in_place() || written_files().size() != before + 2)) {
         _exit(1);
       }
     });
@@ -161,6 +162,35 @@ TEST_F(Output, OfAProgramTakesItsPlaceWithTheOthers) {
   EXPECT_EQ(text_of(first), "new\n");
   EXPECT_EQ(text_of(at("b.csv")), "new\n");
   EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(Output, IsTakenBackWhereAnotherCannotTakeItsPlace) {
+  const std::string first = old("a.csv");
+  std::vector<OutputFile> out;
+  for (const std::string& file : {first, at("new.csv"), at("folder")}) {
+    out.push_back(std::move(OutputFile::open(file).value()));
+    out.back().write("new\n");
+    ASSERT_TRUE(out.back().settle().has_value());
+  }
+  fs::create_directory(at("folder"));
+  const auto put = put_in_place(out);
+  ASSERT_FALSE(put.has_value());
+  EXPECT_EQ(put.error().file, at("folder"));
+  out.clear();
+  EXPECT_EQ(text_of(first), "old\n");
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(Output, SignalsWaitUntilAllHaveTheirPlaces) {
+  const int status = in_child([&] {
+    const SignalsHeldBack wait;
+    raise(SIGINT);
+    static_cast<void>(write_file(at("out.csv"), "new\n"));
+  });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGINT);
+  EXPECT_EQ(text_of(at("out.csv")), "new\n");
+  EXPECT_EQ(entries(), 1);
 }
 
 TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
