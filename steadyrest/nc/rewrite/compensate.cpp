@@ -105,7 +105,7 @@ class Rewriter {
       return std::unexpected(surveyed.error());
     }
     survey_ = std::move(*surveyed);
-    auto walk = Walk::make(program_, config_, survey_, settings_.method);
+    auto walk = Walk::make(program_, config_, survey_, settings_);
     auto clock = Clock::make(machine_, [this](std::uint64_t /*ticket*/, double time_s) {
       waiting_.front().second.time_s = time_s;
       schedules_[waiting_.front().first].offer(waiting_.front().second);
@@ -121,7 +121,7 @@ class Rewriter {
       return std::unexpected(interpret::first_refusal(report, program_));
     }
     if (const auto& taken = (*walk)->taken(); taken && corrects(plan_)) {
-      return refuse(taken->line, taken->what, std::string(kAgainstTaken));
+      return refuse(taken->line, taken->what, taken->to_do);
     }
     const auto total = (*clock)->finish();
     if (!total) {
@@ -149,9 +149,6 @@ class Rewriter {
     constexpr std::uint32_t kEvery = 1U << 14U;
     if (walk.line() % kEvery == 0) {
       progress(0.5 * walk.line() / std::max(survey_.end_line, 1U), "timing");
-    }
-    if (assigns_line_ == 0 && walk.run().asked().offsets_set != 0) {
-      assigns_line_ = walk.top_line();
     }
     for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) {
       const auto& [letter, index, steps] = plan_.axes[axis];
@@ -281,14 +278,6 @@ class Rewriter {
       return refusal;
     }
     refusal.file = program_;
-    if (assigns_line_ != 0) {
-      refusal.line = assigns_line_;
-      refusal.what =
-          "sets a work offset by its numbers (#5221 ...), which act when it is next chosen: a "
-          "correction would bring them into force";
-      refusal.to_do = "set it by G10 L2";
-      return refusal;
-    }
     std::size_t inserted = 0;
     for (const auto& [line, text] : texts_) {
       if (refusal.line < line + inserted) {
@@ -342,7 +331,6 @@ class Rewriter {
   std::vector<std::pair<std::uint32_t, Walk::Unsaid>> unsaid_;
   std::vector<std::vector<FrameLine>> frames_;  ///< by axis, in the order of execution
   std::deque<std::pair<std::size_t, Place>> waiting_;
-  std::uint32_t assigns_line_ = 0;  ///< the first that sets numbers of work offsets
   Texts texts_;
   PlaceOfHead head_;
   Compensated result_;

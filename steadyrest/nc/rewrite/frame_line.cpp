@@ -26,12 +26,6 @@ std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char le
                               letter),
                   "store it before the first correction, or leave this axis out of the plan");
   }
-  if (frame.frame == Frame::assigned) {
-    return refuse(fmt::format("sets the work offset in force by its numbers (#5221 ...) while a "
-                              "correction of {} stands in it",
-                              letter),
-                  "set it by G10 L2, or before the first correction");
-  }
   if (!frame.may_write) {
     constexpr std::string_view kWhere =
         "in a subprogram, a loop, cutter compensation, a rotated frame, in diameters (G7) or as "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -70,23 +71,42 @@ void Said::look(const read::Word& word) {
   }
 }
 
-void Said::look(const interpret::Asked& asked, std::uint32_t known, std::uint32_t line) {
+void Said::take(Taken taken) {
+  if (!taken_) {
+    taken_ = std::move(taken);
+  }
+}
+
+void Said::look(const interpret::Asked& asked, std::uint32_t known, std::uint32_t active,
+                std::uint32_t line) {
   if (taken_ || !asked.any) {
     return;
   }
+  if (!has(mode(GGroup::work_offset))) {
+    active = ~interpret::Asked::kShift;
+  }
   if (!asked.value.empty()) {
-    taken_ = Taken{
-        .line = line,
-        .what = fmt::format("uses {}, whose value at the start is the control's own", asked.value)};
+    take({.line = line,
+          .what =
+              fmt::format("uses {}, whose value at the start is the control's own", asked.value)});
   } else if (const std::uint32_t unknown = asked.positions & ~known; unknown != 0) {
     const char axis = interpret::kAxisLetters[static_cast<std::size_t>(std::countr_zero(unknown))];
-    taken_ = Taken{.line = line,
-                   .what = fmt::format("uses the position of {}, which the program has not sent "
-                                       "to a place in the work offset yet",
-                                       axis)};
+    take({.line = line,
+          .what = fmt::format("uses the position of {}, which the program has not sent to a place "
+                              "in the work offset yet",
+                              axis)});
   } else if (!has(asked.modes)) {
-    taken_ = Taken{.line = line,
-                   .what = "uses a mode of the control that the program has not set itself"};
+    take({.line = line, .what = "uses a mode of the control that the program has not set itself"});
+  } else if ((asked.offsets_set & interpret::Asked::kShift) != 0) {
+    take({.line = line,
+          .what = "sets the shift of G92 by its numbers (#5211 ...): a correction would bring them "
+                  "into force",
+          .to_do = "set the shift by G92"});
+  } else if ((asked.offsets_set & active) != 0) {
+    take({.line = line,
+          .what = "sets the work offset in force by its numbers (#5221 ...): a correction would "
+                  "bring them into force",
+          .to_do = "set it by G10 L2"});
   }
 }
 

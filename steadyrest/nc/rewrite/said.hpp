@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <steadyrest/nc/interpret/asked.hpp>
 #include <steadyrest/nc/interpret/config.hpp>
@@ -11,10 +12,15 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// A value that a program takes from the state in which it happens to be started.
+inline constexpr std::string_view kAgainstTaken =
+    "set it in the program first, or give the control's variable file with --variables";
+
+/// Why a program cannot be corrected: what it takes from the state in which it happens to be
+/// started, or does with what the corrections are written to.
 struct Taken {
   std::uint32_t line = 0;
   std::string what;
+  std::string to_do = std::string(kAgainstTaken);
 };
 
 /// What a program has said itself by now, line by line: the modes that hold whatever the control
@@ -40,9 +46,12 @@ class Said {
   }
 
   /// What the expressions of a line have asked for. `known`: axes whose work position follows from
-  /// the program, a mask.
-  void look(const interpret::Asked& asked, std::uint32_t known, std::uint32_t line);
-  /// The first that the program has not said and the control has not been asked for.
+  /// the program, `active`: work offsets in force before the line and behind it; masks.
+  void look(const interpret::Asked& asked, std::uint32_t known, std::uint32_t active,
+            std::uint32_t line);
+  /// The first is kept.
+  void take(Taken taken);
+  /// The first that keeps the program from being corrected.
   [[nodiscard]] const std::optional<Taken>& taken() const noexcept { return taken_; }
 
  private:
@@ -51,8 +60,5 @@ class Said {
   interpret::ModeMask lost_ = 0;
   std::optional<Taken> taken_;
 };
-
-inline constexpr std::string_view kAgainstTaken =
-    "set it in the program first, or give the control's variable file with --variables";
 
 }  // namespace steadyrest::nc::rewrite

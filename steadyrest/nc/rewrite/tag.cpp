@@ -6,6 +6,19 @@
 #include <steadyrest/nc/rewrite/tag.hpp>
 
 namespace steadyrest::nc::rewrite {
+namespace {
+
+/// A SINUMERIK line without its comment: `;` within quotation marks begins none.
+std::string_view code_of(std::string_view line) noexcept {
+  bool quoted = false;
+  const auto* const end = std::ranges::find_if(line, [&quoted](char c) {
+    quoted = quoted != (c == '"');
+    return c == ';' && !quoted;
+  });
+  return line.substr(0, static_cast<std::size_t>(end - line.begin()));
+}
+
+}  // namespace
 
 bool is_inserted(std::string_view line) noexcept {
   for (std::size_t at = line.find(kTag); at != std::string_view::npos;
@@ -27,7 +40,7 @@ bool is_head(std::string_view inserted_line) noexcept {
 }
 
 bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
-  line = line.substr(0, line.find(';'));
+  line = code_of(line);
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto in_name = [](char c) {
     return c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
@@ -75,7 +88,7 @@ bool uses_own_names(std::string_view line) noexcept {
 }
 
 bool names_variable(std::string_view line, std::string_view upper_begin) noexcept {
-  const std::string_view code = line.substr(0, line.find(';'));
+  const std::string_view code = code_of(line);
   return !std::ranges::search(code, upper_begin, {}, [](char c) {
             return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
           }).empty();

@@ -23,6 +23,7 @@ class TextPair {
         after_(std::move(after)),
         original_(original),
         changed_(changed),
+        way_(way),
         head_(way) {}
 
   Result<Inserted> compare(PlainSurvey& plain) {
@@ -31,6 +32,9 @@ class TextPair {
       head_.look(before_.line(), before_.number());
       if (!bare && is_inserted(before_.line())) {
         refuse(original_, before_.number(), "the original carries the mark of a correction");
+      }
+      if (std::string use = bare ? "" : own_use(way_, before_.line()); !use.empty()) {
+        refuse(original_, before_.number(), std::move(use), against_own_use(way_));
       }
       pair();
       if (!before_.ending().empty()) {
@@ -102,6 +106,7 @@ class TextPair {
   SourceLines after_;
   const std::string& original_;
   const std::string& changed_;
+  const Way& way_;
   PlaceOfHead head_;
   bool ended_ = false;  ///< a line of the original has had an end
   bool crlf_ = false;   ///< the last of these was CR LF

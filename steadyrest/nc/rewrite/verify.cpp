@@ -92,7 +92,7 @@ class Prover {
     }
     changed_run_.emplace(std::move(*run));
     offset_before_ = changed_run_->state().offset;
-    auto walk = Walk::make(original_, config_, survey_, settings_.method);
+    auto walk = Walk::make(original_, config_, survey_, settings_);
     if (!walk) {
       return refuse(walk.error(), original_);
     }
@@ -126,7 +126,7 @@ class Prover {
       return refuse(interpret::first_refusal(report, original_), original_);
     }
     if (const auto& taken = walk_->taken(); taken && corrects(plan_)) {
-      return refuse_at(original_, taken->line, taken->what, std::string(kAgainstTaken));
+      return refuse_at(original_, taken->line, taken->what, taken->to_do);
     }
     if (changed_run_->step()) {
       return refuse("goes on where the original has ended");

@@ -6,7 +6,6 @@
 
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/place_of_head.hpp>
-#include <steadyrest/nc/rewrite/source_lines.hpp>
 #include <steadyrest/nc/rewrite/survey.hpp>
 #include <steadyrest/nc/rewrite/tag.hpp>
 #include <steadyrest/nc/rewrite/text_pair.hpp>
@@ -43,10 +42,10 @@ class Prover {
       return std::unexpected(text ? surveyed.error() : text.error());
     }
     text_ = std::move(*text);
-    if (auto own = uses_it_itself(*surveyed); !own.what.empty()) {
-      return std::unexpected(std::move(own));
+    if (!surveyed->subprogram_files.empty()) {
+      return std::unexpected(subprogram_may_use_it());
     }
-    auto walk = Walk::make(original_, config, *surveyed, settings_.method);
+    auto walk = Walk::make(original_, config, *surveyed, settings_);
     auto window = Window::make(known, machine_, plan_, settings_, original_);
     if (!walk || !window) {
       return std::unexpected(walk ? window.error() : walk.error());
@@ -89,19 +88,11 @@ class Prover {
     }
   }
 
-  /// The program, or a subprogram that is not looked into, may use the parameter itself.
-  [[nodiscard]] Refusal uses_it_itself(const Survey& found) const {
-    auto lines = SourceLines::open(original_);
-    bool uses = !lines || !found.subprogram_files.empty();
-    while (!uses && lines->next()) {
-      uses = !own_use(settings_, lines->line()).empty();
-    }
-    if (!uses) {
-      return {};
-    }
+  /// A subprogram that is not looked into may use the parameter itself.
+  [[nodiscard]] Refusal subprogram_may_use_it() const {
     return {
-        Kind::bad_input, original_, lines && found.subprogram_files.empty() ? lines->number() : 0U,
-        fmt::format("the program or a subprogram may use {} itself",
+        Kind::bad_input, original_, 0U,
+        fmt::format("a subprogram may use {} itself",
                     settings_.method == Method::r_parameter
                         ? fmt::format("R{}", settings_.r_parameter)
                         : "the temperature compensation"),

@@ -48,22 +48,23 @@ std::string_view name(Site site) noexcept {
 }
 
 Walk::Walk(read::LineSource source, const interpret::Config& config, const Survey& survey,
-           Method method)
+           const Way& way)
     : source_(std::move(source)),
       survey_(survey),
       said_(config),
       sinumerik_(config.dialect == read::Dialect::sinumerik),
       start_known_(config.start_known),
       mill_(config.axes.find('Y') != std::string::npos),
-      method_(method) {}
+      method_(way.method),
+      external_free_(way.method == Method::fanuc && way.external_offset_free) {}
 
 Result<std::unique_ptr<Walk>> Walk::open(const std::string& path, const interpret::Config& config,
-                                         const Survey& survey, Method method) {
+                                         const Survey& survey, const Way& way) {
   auto source = read::LineSource::open(path);
   if (!source) {
     return std::unexpected(source.error());
   }
-  std::unique_ptr<Walk> made(new Walk(std::move(*source), config, survey, method));
+  std::unique_ptr<Walk> made(new Walk(std::move(*source), config, survey, way));
   auto run = interpret::ProgramRun::make(made->source_, config, made->kept_);
   if (!run) {
     return std::unexpected(run.error());
@@ -73,10 +74,10 @@ Result<std::unique_ptr<Walk>> Walk::open(const std::string& path, const interpre
 }
 
 Result<std::unique_ptr<Walk>> Walk::make(const std::string& path, const interpret::Config& config,
-                                         const Survey& survey, Method method) {
-  auto made = open(path, config, survey, method);
+                                         const Survey& survey, const Way& way) {
+  auto made = open(path, config, survey, way);
   if (made && survey.other) {
-    auto other = open(path, switched(config), *survey.other, method);
+    auto other = open(path, switched(config), *survey.other, way);
     if (!other) {
       return std::unexpected(other.error());
     }
@@ -193,9 +194,13 @@ bool Walk::step_alone() {
   if (run_->at_top()) {
     top_line_ = run_->line();
   }
-  said_.look(run_->asked(), before_.known, run_->line());
+  constexpr std::uint32_t kFirst = 1;
+  const std::uint32_t line = run_->in_main() ? run_->line() : top_line_;
+  said_.look(run_->asked(), before_.known,
+             kFirst << before_.active_offset | kFirst << run_->state().active_offset, line);
   if (run_->executed()) {
     look(run_->block());
+    external_free_ ? look_for_external(line) : void();
   }
   return more;
 }

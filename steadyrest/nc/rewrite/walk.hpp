@@ -34,8 +34,7 @@ enum class Frame : std::uint8_t {
   kept,
   changed,   ///< another work offset is active, or the active one gets a new value (G10 L2)
   measured,  ///< G10 L20 for a work offset that is not active: it would take the shift with it
-  stored,    ///< G28.1, G30.1: the place at which the machine is, the shift with it
-  assigned   ///< #5221 = …: a number of the offset in force, or of G92
+  stored     ///< G28.1, G30.1: the place at which the machine is, the shift with it
 };
 
 /// Goes through a program line by line and judges the place before each line. The law of a safe
@@ -46,7 +45,7 @@ class Walk {
   /// The survey must be of the same program and configuration.
   static kernel::outcome::Result<std::unique_ptr<Walk>> make(const std::string& path,
                                                              const interpret::Config& config,
-                                                             const Survey& survey, Method method);
+                                                             const Survey& survey, const Way& way);
 
   bool step();
   [[nodiscard]] interpret::Report take() { return run_->take(); }
@@ -65,8 +64,10 @@ class Walk {
   };
   /// Nothing where the line is a place, or is none for other reasons.
   [[nodiscard]] const Unsaid* unsaid(char letter, std::size_t index) const;
-  /// The first value that the program takes from the state in which it is started.
-  [[nodiscard]] const std::optional<Taken>& taken() const noexcept { return said_.taken(); }
+  /// The first that keeps the program from being corrected, in either position of the switch.
+  [[nodiscard]] const std::optional<Taken>& taken() const noexcept {
+    return said_.taken() || other_ == nullptr ? said_.taken() : other_->said_.taken();
+  }
   /// The program has said by now whether it is in mm or in inches, in both positions of the switch.
   [[nodiscard]] bool units_said() const noexcept {
     constexpr auto kUnits = mode(interpret::GGroup::units);
@@ -129,10 +130,10 @@ class Walk {
   };
 
   Walk(read::LineSource source, const interpret::Config& config, const Survey& survey,
-       Method method);
+       const Way& way);
   static kernel::outcome::Result<std::unique_ptr<Walk>> open(const std::string& path,
                                                              const interpret::Config& config,
-                                                             const Survey& survey, Method method);
+                                                             const Survey& survey, const Way& way);
   bool step_alone();
   void follow();
   [[nodiscard]] bool together() const noexcept;
@@ -142,6 +143,7 @@ class Walk {
   void look(const read::Block& block);
   void look_at(const read::Word& word);
   void look_at_g(const read::Word& word);
+  void look_for_external(std::uint32_t line);
   [[nodiscard]] const Unsaid* missing(std::size_t index) const noexcept;
   [[nodiscard]] bool may_write_alone(std::size_t index) const noexcept;
   [[nodiscard]] bool calm(std::size_t index) const noexcept;
@@ -166,6 +168,7 @@ class Walk {
   bool start_known_ = false;
   bool mill_ = false;  ///< it has a Y: no diameters
   Method method_;
+  bool external_free_;  ///< the head sets the external offset to 0, in G90
   std::uint64_t steps_ = 0;
   std::size_t interval_ = 0;
   std::uint32_t top_line_ = 0;

@@ -18,10 +18,6 @@ Frame Walk::frame_alone(char letter) const {
     return Frame::stored;
   }
   const interpret::State& now = run_->state();
-  constexpr std::uint32_t kFirst = 1;
-  if ((run_->asked().offsets_set & (kFirst << now.active_offset | interpret::Asked::kShift)) != 0) {
-    return Frame::assigned;
-  }
   if (now.active_offset != before_.active_offset || now.work_offset_on != before_.work_offset_on ||
       facts_.settable) {
     return Frame::changed;
@@ -39,6 +35,21 @@ Frame Walk::frame_alone(char letter) const {
 bool Walk::of_active() const noexcept {
   return facts_.data_set <= 0.0 ||
          facts_.data_set == static_cast<double>(run_->state().active_offset) + 1.0;
+}
+
+/// What the program may not do where the head sets the external offset to 0, in G90.
+void Walk::look_for_external(std::uint32_t line) {
+  if ((facts_.axes | facts_.incremental) != 0 && !said_.has(mode(interpret::GGroup::distance))) {
+    said_.take({.line = line,
+                .what = "programs an axis before the program has said G90 or G91: the head, which "
+                        "takes the external offset off in G90, would change what this does",
+                .to_do = "say G90 (or G91) before it"});
+  }
+  if (facts_.data && facts_.data_set == 0.0) {
+    said_.take({.line = line,
+                .what = "sets the external offset itself: external_offset_free is not so",
+                .to_do = "use a work offset (G10 L2 P1 ...), or set external_offset_free = false"});
+  }
 }
 
 bool Walk::sets_offset(char letter) const noexcept {

@@ -194,6 +194,54 @@ TEST_F(Fanuc, AsksBeforeItTakesOffWhereSomebodyMayHaveTouchedOff) {
   EXPECT_TRUE(shop_.verify(kGrowth));
 }
 
+// The head takes the external offset off in G90: the mode must be the program's own before it
+// matters.
+TEST_F(Fanuc, ItsHeadChangesNoModeThatTheProgramDoesNotSay) {
+  const auto expect_refused = [&](const std::string& program, std::uint32_t line) {
+    const auto refused = shop_.compensate(program, kGrowth);
+    ASSERT_FALSE(refused) << program;
+    EXPECT_THAT(refused.error().what, HasSubstr("G90")) << program;
+    EXPECT_EQ(refused.error().to_do, "say G90 (or G91) before it");
+    EXPECT_EQ(refused.error().line, line) << program;
+  };
+  const auto after = [](const std::string& lines) {
+    return replaced(kFanuc, "G21 G90", lines + "G21 G90");
+  };
+  EXPECT_TRUE(shop_.compensate(after("G21 G54\nG0 X5\n"), kGrowth)) << "another head";
+  shop_.settings.external_offset_free = true;
+  expect_refused(after("G21 G54\nG0 X5\n"), 4U);
+  expect_refused(after("/G90\nG0 X5\n"), 4U);
+  expect_refused(after("/G0 X5\n"), 3U);
+  expect_refused(after("G28 Z0\n"), 3U);
+  expect_refused(after("G10 L2 P1 X5\n"), 3U);
+  for (const char* lines : {"G91 G28 Z0\n", "G0 X5 G90\n", "M5\nT1 M6\n"}) {
+    const auto done = shop_.compensate(after(lines), kGrowth);
+    EXPECT_TRUE(done) << lines << done.error().what;
+  }
+}
+
+TEST_F(Fanuc, TheExternalOffsetIsNotFreeWhereTheProgramSetsIt) {
+  shop_.settings.external_offset_free = true;
+  const auto refusal = [&](const std::string& line) {
+    const auto done =
+        shop_.compensate(replaced(kFanuc, "G0 X0 Y10\n", line + "\nG90\nG0 X0 Y10\n"), kGrowth);
+    EXPECT_EQ(done ? 0U : done.error().line, done ? 0U : 9U) << line;
+    return done ? "" : done.error().what + ": " + done.error().to_do;
+  };
+  for (const char* line : {"G10 L2 P0 Z0", "P0 L2 G10 Z0", "G91 G10 L2 P0 Z0.1", "G10 L2 P0 X0",
+                           "N8 G10 P0 L2 Y1", "G10 L2 P[1-1] Z0", "/G10 L2 P0 Z0"}) {
+    EXPECT_THAT(refusal(line), HasSubstr("external_offset_free")) << line;
+  }
+  for (const char* line : {"#5203=0", "#[5200+3]=0", "#2500=0", "[#_WZCMN[3]]=0"}) {
+    EXPECT_NE(refusal(line), "") << line;
+  }
+  EXPECT_EQ(refusal("G10 L2 P2 Z0"), "");
+  const std::string text = read_file(shop_.changed());
+  test::write_file(shop_.original(), replaced(read_file(shop_.original()), "P2 Z0", "P0 X0"));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text, "P2 Z0", "P0 X0")),
+              HasSubstr("external offset itself"));
+}
+
 class Sinumerik : public Fanuc {
  protected:
   Sinumerik() : Fanuc(Method::r_parameter) {
@@ -274,10 +322,11 @@ TEST_F(Sinumerik, VerifyCatchesEachFault) {
 
 TEST_F(Sinumerik, RefusesAProgramThatUsesTheParameterItself) {
   for (const char* line : {"R50=1", "R050=1", "X=R50", "N10 G0 X=R1+R50", "r 50=2", "N10R50=1",
-                           "R[R1]=3", "X=$R[1]", "Y=-R50*2"}) {
+                           "R[R1]=3", "X=$R[1]", "Y=-R50*2", "MSG(\"a;b\") R50=2"}) {
     EXPECT_TRUE(uses_parameter(line, 50)) << line;
   }
-  for (const char* line : {"R5=1", "R500=1", "CR=50", "X=R51 ;R50", "TR50=1", "G0 X50"}) {
+  for (const char* line :
+       {"R5=1", "R500=1", "CR=50", "X=R51 ;R50", "TR50=1", "G0 X50", "MSG(\"a;b\") ;R50"}) {
     EXPECT_FALSE(uses_parameter(line, 50)) << line;
   }
   const auto refused =

@@ -306,25 +306,50 @@ TEST_F(Kept, WhatHoldsNoCorrectionMayBeKept) {
   EXPECT_EQ(fault(shop_, pockets("", head)), "");
 }
 
-// By its numbers the control would take it up later, together with the next correction.
-TEST_F(Kept, AWorkOffsetThatIsSetByItsNumbersIsRefusedByItsLine) {
-  const struct {
-    const char* line;
-    bool refused;
-  } cases[] = {{"N121 #5223=[#5223+1]", true}, {"N121 #5221=1", true},  {"N121 #5213=0", true},
-               {"N121 #5230=0", true},         {"N121 #5243=1", false}, {"N121 #5161=1", false}};
-  for (const auto& one : cases) {
-    const auto done = shop_.compensate(pockets(std::string{one.line} + "\n"), kThreeSteps);
-    EXPECT_EQ(!done, one.refused) << one.line;
-    if (!done) {
-      EXPECT_THAT(done.error().what, HasSubstr("by its numbers")) << one.line;
-      EXPECT_EQ(done.error().line, 13U) << one.line;
-    }
+// By numbers alone they wait until the control takes them up, together with the next correction.
+TEST_F(Kept, OffsetsInForceThatAreSetByTheirNumbersAreRefusedByTheLine) {
+  const auto expect_refused = [&](const std::string& program, std::uint32_t line) {
+    const auto done = shop_.compensate(program, kThreeSteps);
+    ASSERT_FALSE(done) << program;
+    EXPECT_THAT(done.error().what, HasSubstr("by its numbers")) << program;
+    EXPECT_EQ(done.error().line, line) << program;
+  };
+  for (const char* lines :
+       {"N121 #5223=[#5223+1]\n", "N121 #5221=1\n", "#5213=0\n", "#[5200+13]=1\n", "/#5213=1\n",
+        "#5230=0\n", "#5230=30\nG54\n", "G54 #5230=30\n", "/#5230=30\n/G54\n", "G55 #5223=1\nG54\n",
+        "G55 #5243=1\nG54\n", "#5211=0\nG92.1\n", "#5219=1\nG92.3\n"}) {
+    expect_refused(pockets(lines), 13U);
   }
-  const auto early = shop_.compensate("#5221=1\n" + pockets(""), kThreeSteps);
-  ASSERT_FALSE(early);
-  EXPECT_EQ(early.error().line, 1U);
-  EXPECT_THAT(early.error().what, HasSubstr("by its numbers"));
+  for (const char* lines : {"#1=5213\n##1=1\n", "G92 Z5\n#5213=1\n", "G55\n#5250=30\nG55\nG54\n",
+                            "G92 Z5\n#5213=1\nG92.1\n"}) {
+    expect_refused(pockets(lines), 14U);
+  }
+  expect_refused("#5221=1\n" + pockets(""), 1U);
+  expect_refused("#5213=1\n" + pockets(""), 1U);
+  expect_refused("o1 sub\n#5213=1\no1 endsub\n" + pockets("o1 call\n"), 2U);
+  for (const char* lines : {"N121 #5243=1\n", "N121 #5161=1\n", "#5250=30\nG55\nG54\n"}) {
+    EXPECT_EQ(fault(shop_, pockets(lines)), "") << lines;
+  }
+  shop_.config.g92_on = true;
+  shop_.config.g92[2] = 0.7;
+  expect_refused(pockets("#5213=1\n"), 13U);
+}
+
+// G55 does nothing in a control that stands in it already.
+TEST_F(Start, AnyWorkOffsetMayBeInForceUntilTheProgramSaysWhich) {
+  EXPECT_THAT(fault_of("#5250=30\nG55\n" + pockets("")), HasSubstr("by its numbers"));
+  EXPECT_EQ(fault_of("G54\n#5250=30\nG55\n" + pockets("")), "");
+}
+
+TEST_F(Kept, VerifyRefusesWhatIsSetByItsNumbersToo) {
+  ASSERT_EQ(fault(shop_, pockets("(HERE)\n")), "");
+  const std::string text = read_file(shop_.changed());
+  for (const char* line : {"#5213=0\n", "#5230=0\n", "/#5213=0\n"}) {
+    test::write_file(shop_.original(), pockets(line));
+    EXPECT_THAT(shop_.fault(kThreeSteps, replaced(text, "(HERE)\n", line)),
+                HasSubstr("by its numbers"))
+        << line;
+  }
 }
 
 TEST_F(Kept, TheNotesAreNotTheProgramsToUse) {

@@ -95,6 +95,11 @@ TEST_F(SettingData, RefusesAProgramThatWritesItItself) {
   EXPECT_THAT(
       refusal(replaced(kProgram, "G0 X0 Y30\n", "$SA_TEMP_COMP_ABS_VALUE[X]=0\nG0 X0 Y30\n")),
       HasSubstr("uses the temperature compensation itself"));
+  for (const char* line : {"$sa_temp_comp_abs_value[Z]=0", "$MA_TEMP_COMP_TYPE[Z]=0",
+                           "MSG(\"a;b\") $SA_TEMP_COMP_SLOPE[Z]=0"}) {
+    EXPECT_NE(refusal(replaced(kProgram, "G0 X0 Y30\n", line + std::string{"\nG0 X0 Y30\n"})), "")
+        << line;
+  }
   EXPECT_EQ(refusal(replaced(kProgram, "G0 X0 Y30\n", "G0 X0 Y30 ;$SA_TEMP_COMP_ABS_VALUE\n")), "");
 }
 
@@ -161,9 +166,20 @@ TEST_F(FrameFine, VerifyCatchesEachFault) {
               HasSubstr("head"));
 }
 
+TEST_F(FrameFine, VerifyRefusesAProgramThatWritesItItself) {
+  const std::string text = write();
+  const std::string own = "$P_IFRAME[Y,FI]=0\nG71";
+  test::write_file(shop_.original(), replaced(kProgram, "G71", own));
+  EXPECT_THAT(shop_.fault(kGrowth, replaced(text, "G71", own)),
+              HasSubstr("uses the frames' variables itself"));
+}
+
 TEST_F(FrameFine, RefusesInchesAndProgramsWithFramesOfTheirOwn) {
   EXPECT_THAT(refusal(replaced(kProgram, "G0 X0 Y30\n", "$P_UIFR[1,X,TR]=0\nG0 X0 Y30\n")),
               HasSubstr("uses the frames' variables itself"));
+  EXPECT_THAT(
+      refusal(replaced(kProgram, "G0 X0 Y30\n", "MSG(\";\") $P_UIFR[1,Z,FI]=0\nG0 X0 Y30\n")),
+      HasSubstr("uses the frames' variables itself"));
   const auto done = shop_.compensate(
       "G700 G90 G94 G54\nG0 Z1.\nG1 X4. F4.\nG0 Z1.\nG0 X0\nG0 Z.5\nG1 X4. F4.\nG0 Z1.\nM30\n",
       R"({"transitions": [{"n": 2, "t_min": [1, 1.05], "delta_um": [0, 10]}]})");
