@@ -194,13 +194,15 @@ bool Walk::step_alone() {
   if (run_->at_top()) {
     top_line_ = run_->line();
   }
-  constexpr std::uint32_t kFirst = 1;
-  const std::uint32_t line = run_->in_main() ? run_->line() : top_line_;
-  said_.look(run_->asked(), before_.known,
-             kFirst << before_.active_offset | kFirst << run_->state().active_offset, line);
+  if (const interpret::Asked& asked = run_->asked(); asked.any) {
+    constexpr std::uint32_t kFirst = 1;
+    said_.look(asked, before_.known,
+               kFirst << before_.active_offset | kFirst << run_->state().active_offset,
+               line_or_call());
+  }
   if (run_->executed()) {
     look(run_->block());
-    external_free_ ? look_for_external(line) : void();
+    external_free_ ? look_for_external() : void();
   }
   return more;
 }

@@ -143,7 +143,11 @@ class Walk {
   void look(const read::Block& block);
   void look_at(const read::Word& word);
   void look_at_g(const read::Word& word);
-  void look_for_external(std::uint32_t line);
+  void look_for_external();
+  /// The line in hand; of a subprogram in another file, the one that calls it.
+  [[nodiscard]] std::uint32_t line_or_call() const noexcept {
+    return run_->in_main() ? run_->line() : top_line_;
+  }
   [[nodiscard]] const Unsaid* missing(std::size_t index) const noexcept;
   [[nodiscard]] bool may_write_alone(std::size_t index) const noexcept;
   [[nodiscard]] bool calm(std::size_t index) const noexcept;
