@@ -75,6 +75,7 @@ def spice(r, scale):
         lambda: [f"G92 {r.choice('XYZZ')}{n()}"], lambda: [f"G52 {r.choice('XYZZ')}{n()}"], lambda: ["G92.1"], lambda: ["G92.2"],
         lambda: [f"#{r.choice([100, 101, 102])}=#<_abs_z>"], lambda: ["#100=#<_z>"], lambda: ["#102=#5422"],
         lambda: [f"#{r.choice([5223, 5243, 5221, 5161])}={n()}"], lambda: ["#5223=[#5223+1]"],
+        lambda: [f"#{r.choice([5211, 5213, 5230, 5250])}={n()}", *r.choice([[], ["G92.3"], ["G55", "G54"], ["G54"]])], lambda: ["#5210=1"],
         lambda: ["#<_keep>=#<_abs_x>", "#101=#<_keep>"], lambda: ["#101=#3000"], lambda: [f"#1={n()}", "G0 Z[#1+20]"],
         lambda: [f"#100={n(10, 30)}", "G0 Z#100"], lambda: ["#100=#5063"], lambda: ["G0 Z[#<_z>+1]"],
         lambda: [f"G38.3 Z{n(-3, 0)} F90"], lambda: [r.choice(["G20", "G21"])],

@@ -197,14 +197,14 @@ TEST(ChatterLobes, RefusesBadUsage) {
   const Scratch scratch;
   const std::string out = " -o " + scratch.at("map.csv");
   expect_refused(speeds + " --depths-mm 0:1:3");
-  expect_refused(speeds + " --depths-mm 0:1" + out, "three numbers");
-  expect_refused(speeds + " --depths-mm 0:1:2:3" + out, "three numbers");
-  expect_refused(speeds + " --depths-mm 0:x:2" + out, "three numbers");
+  expect_refused(speeds + " --depths-mm 0:1" + out, "three with colons");
+  expect_refused(speeds + " --depths-mm 0:1:2:3" + out, "three with colons");
+  expect_refused(speeds + " --depths-mm 0:x:2" + out, "three with colons");
   expect_refused(speeds + " --depths-mm 0:1:0" + out, "STEPS");
   expect_refused(speeds + " --depths-mm 0:1:2.5" + out, "STEPS");
   expect_refused(speeds + " --depths-mm 1:0:5" + out, "TO is not above FROM");
   expect_refused(speeds + " --depths-mm -1:1:5" + out, "least value allowed is 0");
-  expect_refused(speeds + " --depths-mm 0:inf:5" + out, "three numbers");
+  expect_refused(speeds + " --depths-mm 0:inf:5" + out, "three with colons");
   expect_refused(speeds + " --depths-mm 0" + out, "depths");
   expect_refused(kLobes + " --speeds-rpm 0:1000:3 --depths-mm 0:1:3" + out, "least value");
   expect_refused(speeds + " --depths-mm 0:1:3 --law sine --rva 0.1 --period-s 1" + out,

@@ -37,7 +37,8 @@ std::span<const Key<Compensation>> compensation_keys() noexcept {
       Key<Compensation>{"external_offset_free", &Compensation::external_offset_free, 0, 0,
                         "`fanuc`: nobody else uses the external offset, so it is 0 whenever a "
                         "program starts. The head of a program then sets it to 0, and so takes off "
-                        "what an aborted run has left."},
+                        "what an aborted run has left. A program that sets it itself, or names an "
+                        "axis before it has said G90 or G91, is refused."},
       Key<Compensation>{"cleared_after_abort", &Compensation::cleared_after_abort, 0, 0,
                         "`r_parameter`, `setting_data`, and `fanuc` with `external_offset_free`: "
                         "when a program is aborted, the PLC or the operator takes the correction "

@@ -202,7 +202,9 @@ bool Walk::step_alone() {
   }
   if (run_->executed()) {
     look(run_->block());
-    external_free_ ? look_for_external() : void();
+    if (external_free_) {
+      look_for_external();
+    }
   }
   return more;
 }
