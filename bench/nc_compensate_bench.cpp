@@ -5,7 +5,8 @@
 //   steadyrest_nc_compensate_bench [REPEATS]
 //
 // The programs are two of the shared data, REPEATS times one after the other; what no control
-// reads (E words, M82, M84) is left out of the second.
+// reads (E words, M82, M84) is left out of the second. The first line says the modes that these
+// programs leave to the control, without which no correction would be certain.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -77,11 +78,12 @@ std::size_t make_program(const std::string& from, const std::string& path, int r
     }
   }
   std::ofstream out(path);
+  out << "G17 G21 G40 G49 G54 G80 G90 G94\n";
   for (int i = 0; i < repeats; ++i) {
     out << body;
   }
   out << "M2\n";
-  return lines == 0 ? 0 : lines * static_cast<std::size_t>(repeats) + 1;
+  return lines == 0 ? 0 : lines * static_cast<std::size_t>(repeats) + 2;
 }
 
 /// Corrections of Z at a quarter, a half and three quarters of the time.
