@@ -18,21 +18,21 @@
 
 #include <benchmark/benchmark.h>
 
-#include <steadyrest/apps/timing/demanding_path.hpp>
-#include <steadyrest/apps/timing/quantiles.hpp>
 #include <steadyrest/contour/online/feed_governor.hpp>
-#include <steadyrest/kernel/machine/machine_file.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path_builder.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/trial/timing/demanding_path.hpp>
+#include <steadyrest/trial/timing/quantiles.hpp>
 
 namespace steadyrest {
 namespace {
 
-using apps::timing::Quantiles;
 using contour::online::FeedGovernor;
 using kernel::machine::Machine;
+using trial::timing::Quantiles;
 using Path = std::shared_ptr<const nc::plan::PlannedPath>;
 using Clock = std::chrono::steady_clock;
 
@@ -70,8 +70,8 @@ class Timed {
     least_s_[next_] = std::min(least_s_[next_], took_s);
     ++next_;
   }
-  [[nodiscard]] Quantiles times_s() const { return apps::timing::quantiles(least_s_); }
-  [[nodiscard]] Quantiles forecasts() const { return apps::timing::quantiles(forecasts_); }
+  [[nodiscard]] Quantiles times_s() const { return trial::timing::quantiles(least_s_); }
+  [[nodiscard]] Quantiles forecasts() const { return trial::timing::quantiles(forecasts_); }
 
  private:
   FeedGovernor::Config config_;
@@ -96,10 +96,10 @@ void cut(const Machine& machine, const Path& path, Timed& bounded, Timed& exhaus
 }
 
 void Decision201Steps(benchmark::State& state) {
-  const Machine machine = kernel::machine::read(kExamples + "machines/linuxcnc-mill.toml").value();
+  const Machine machine = passport::read(kExamples + "machines/linuxcnc-mill.toml").value();
   const bool pocket = state.range(0) == 0;
   const Path path =
-      pocket ? rib_pocket(machine) : apps::timing::demanding_path(machine, kDemanding_s).value();
+      pocket ? rib_pocket(machine) : trial::timing::demanding_path(machine, kDemanding_s).value();
   Timed bounded({.machine = machine});
   Timed exhaustive({.machine = machine,
                     .work_share = 1.0,

@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <steadyrest/sim/cutting_process.hpp>
+#include <steadyrest/sim/cut/cutting_process.hpp>
 
 namespace {
 

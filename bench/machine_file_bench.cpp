@@ -6,14 +6,14 @@
 
 #include <benchmark/benchmark.h>
 
-#include <steadyrest/kernel/machine/calibration_text.hpp>
-#include <steadyrest/kernel/machine/machine_file.hpp>
+#include <steadyrest/passport/edit/calibration_text.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 
-namespace steadyrest::kernel::machine {
+namespace steadyrest::passport {
 namespace {
 
 std::string file_with(std::int64_t lines) {
-  Encoder encoder;
+  kernel::machine::Encoder encoder;
   encoder.phase_error_mm = {3e-5, -5e-5, 4e-5, -2e-5};
   for (std::int64_t i = 0; i < lines; ++i) {
     encoder.line_table_mm.push_back(2e-5 * std::sin(static_cast<double>(i * i)));
@@ -41,4 +41,4 @@ void ReadWithLines(benchmark::State& state) {
 BENCHMARK(ReadWithLines)->Arg(0)->Arg(1'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace steadyrest::kernel::machine
+}  // namespace steadyrest::passport

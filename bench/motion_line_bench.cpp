@@ -3,8 +3,8 @@
 // `Lookup` is the baseline. Time is per edge (see items_per_second).
 #include <benchmark/benchmark.h>
 
-#include <steadyrest/motion/offline/scene.hpp>
-#include <steadyrest/motion/online/line_table.hpp>
+#include <steadyrest/motion/offline/scene/scene.hpp>
+#include <steadyrest/motion/online/line/line_table.hpp>
 
 namespace steadyrest::motion::online {
 namespace {

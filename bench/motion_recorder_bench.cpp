@@ -9,10 +9,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include <steadyrest/motion/online/cycle_monitor.hpp>
-#include <steadyrest/motion/online/edge_inputs.hpp>
-#include <steadyrest/motion/online/edge_ring.hpp>
-#include <steadyrest/motion/online/edge_stream.hpp>
+#include <steadyrest/motion/online/edges/cycle_monitor.hpp>
+#include <steadyrest/motion/online/edges/edge_inputs.hpp>
+#include <steadyrest/motion/online/edges/edge_ring.hpp>
+#include <steadyrest/motion/online/edges/edge_stream.hpp>
 
 namespace steadyrest::motion::online {
 namespace {

@@ -21,8 +21,8 @@
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/segment_timer.hpp>
-#include <steadyrest/nc/rewrite/compensate.hpp>
+#include <steadyrest/nc/plan/time/segment_timer.hpp>
+#include <steadyrest/nc/rewrite/correct/compensate.hpp>
 
 namespace {
 

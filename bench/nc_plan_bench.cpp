@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <steadyrest/nc/plan/interpolator.hpp>
-#include <steadyrest/nc/plan/path_builder.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/time/interpolator.hpp>
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <benchmark/benchmark.h>
 
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/read/line_source.hpp>
 #include <steadyrest/nc/read/reader.hpp>
+#include <steadyrest/nc/read/text/line_source.hpp>
 
 // Lines per second of reading alone and of reading and interpreting, one core. The program is held
 // in memory; `generated` is ours, the others are real programs of the shared data.

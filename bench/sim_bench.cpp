@@ -12,7 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include <steadyrest/kernel/override/gray.hpp>
-#include <steadyrest/nc/plan/path_builder.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 

@@ -8,14 +8,15 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/kernel/machine/machine_file.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path_builder.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
 namespace kernel = steadyrest::kernel;
 namespace nc = steadyrest::nc;
+namespace passport = steadyrest::passport;
 namespace sim = steadyrest::sim;
 namespace supervisor = steadyrest::supervisor;
 
@@ -48,7 +49,7 @@ double end_mm(const nc::plan::PlannedPath& path) {
 }
 
 void cut(const char* machine_file, const char* program) {
-  const auto machine = kernel::machine::read(machine_file).value();
+  const auto machine = passport::read(machine_file).value();
   const auto path = plan(program, machine);
   // the only port so far; a real machine's would be made here instead
   std::unique_ptr<kernel::port::Port> port = sim::SimulatedMachine::make({machine, path}).value();

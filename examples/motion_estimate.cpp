@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/motion/online/motion_estimator.hpp>
+#include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 namespace {
 

@@ -2,9 +2,9 @@
 // Stability maps beside first-order semi-discretization as the literature writes it, in one run.
 #include <benchmark/benchmark.h>
 
-#include <steadyrest/chatter/offline/limit_depth.hpp>
-#include <steadyrest/chatter/offline/lobe_map.hpp>
-#include <steadyrest/chatter/offline/multipliers.hpp>
+#include <steadyrest/chatter/offline/cycle/multipliers.hpp>
+#include <steadyrest/chatter/offline/depth/limit_depth.hpp>
+#include <steadyrest/chatter/offline/depth/lobe_map.hpp>
 #include <steadyrest/chatter/offline/test/cuts.hpp>
 #include <steadyrest/chatter/offline/test/semi_discretization.hpp>
 

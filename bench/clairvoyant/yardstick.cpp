@@ -12,22 +12,22 @@
 #include <bench/clairvoyant/clairvoyant.hpp>
 #include <fmt/core.h>
 
-#include <steadyrest/apps/cut/cut_job.hpp>
-#include <steadyrest/kernel/machine/machine_file.hpp>
 #include <steadyrest/kernel/override/table.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path_builder.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/trial/cut/cut_job.hpp>
 
 namespace steadyrest::bench::clairvoyant {
 namespace {
 
-using apps::cut::Figures;
-using apps::cut::Job;
-using apps::cut::Recorder;
-using apps::cut::Sample;
 using kernel::machine::Machine;
 using kernel::signal::Command;
 using kernel::signal::Frame;
+using trial::cut::Figures;
+using trial::cut::Job;
+using trial::cut::Recorder;
+using trial::cut::Sample;
 
 constexpr double kStation_mm = 0.25;
 
@@ -108,7 +108,7 @@ class Stations {
 void run_at_constant_step(const Job& job, std::size_t step, Stations& stations) {
   FixedStep fixed(job.machine.feed_override);
   std::optional<Sample> before;
-  const auto done = apps::cut::run(
+  const auto done = trial::cut::run(
       job, [&](const Frame&) { return fixed.command(step); },
       [&](const Sample& sample) {
         if (before) {
@@ -128,7 +128,7 @@ Figures run_schedule(const Job& job, const Schedule& schedule, const Stations& s
   FixedStep fixed(table);
   Recorder record({.limit_mm = job.machine.contour.limit_mm,
                    .cycle_s = job.machine.control.interpolator_period_s});
-  const auto done = apps::cut::run(
+  const auto done = trial::cut::run(
       job,
       [&](const Frame& frame) {
         const double at_mm = frame.path_position_mm + frame.path_speed_mm_s * ahead_s;
@@ -212,7 +212,7 @@ Config dp_config(const Machine& machine) {
 }
 
 int main_with(const std::string& program, const std::string& machine_file) {
-  const Machine machine = take(kernel::machine::read(machine_file));
+  const Machine machine = take(passport::read(machine_file));
   Job job{.machine = machine, .path = read_program(program, machine)};
   const auto& last = job.path->segments.back();
   const Config config = dp_config(machine);
@@ -227,9 +227,9 @@ int main_with(const std::string& program, const std::string& machine_file) {
   }
   const Schedule bound = best_schedule(stations.all(), config);
   const Figures clairvoyant = best_that_keeps_the_limit(job, stations, config);
-  const Figures without = take(apps::cut::run(job)).figures();
+  const Figures without = take(trial::cut::run(job)).figures();
   job.with_layer = true;
-  const Figures with = take(apps::cut::run(job)).figures();
+  const Figures with = take(trial::cut::run(job)).figures();
   fmt::print("{:<28} {:>9.2f} s (lower bound, {:.3f} s of it over the limit)\n",
              "dynamic programming", bound.time_s, bound.over_limit_s);
   print_row("clairvoyant, simulated", clairvoyant, clairvoyant.cycle_time_s);

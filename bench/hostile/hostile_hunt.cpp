@@ -10,7 +10,7 @@
 #include <bench/hostile/hunt.hpp>
 #include <fmt/core.h>
 
-#include <steadyrest/kernel/machine/machine_file.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 
 int main(int argc, char** argv) {
   using steadyrest::bench::hostile::Tally;
@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   }
   std::uint64_t broken = 0;
   for (const std::string& file : files) {
-    const auto machine = steadyrest::kernel::machine::read(file);
+    const auto machine = steadyrest::passport::read(file);
     if (!machine) {
       fmt::print(stderr, "{} cannot be read\n", file);
       return 2;

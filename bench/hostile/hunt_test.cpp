@@ -5,7 +5,7 @@
 #include <bench/hostile/hunt.hpp>
 #include <gtest/gtest.h>
 
-#include <steadyrest/kernel/machine/machine_file.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 
 namespace steadyrest::bench::hostile {
 namespace {
@@ -13,8 +13,8 @@ namespace {
 class HostileHunt : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(HostileHunt, NoCycleBreaksARuleOfSafety) {
-  const auto machine = kernel::machine::read(std::string(STEADYREST_SOURCE_DIR) +
-                                             "/examples/machines/" + GetParam() + ".toml");
+  const auto machine = passport::read(std::string(STEADYREST_SOURCE_DIR) + "/examples/machines/" +
+                                      GetParam() + ".toml");
   ASSERT_TRUE(machine);
   const Tally seen = hunt(*machine, 1, 250'000);
   EXPECT_EQ(seen.broken, 0U) << seen.first;

@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/motion/offline/bound_hunt.hpp>
+#include <steadyrest/motion/offline/bench/bound_hunt.hpp>
 
 int main(int argc, char** argv) {
   const std::uint64_t ticks = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 100'000'000ULL;

@@ -15,8 +15,8 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/motion/offline/scene.hpp>
-#include <steadyrest/motion/online/motion_estimator.hpp>
+#include <steadyrest/motion/offline/scene/scene.hpp>
+#include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 namespace {
 

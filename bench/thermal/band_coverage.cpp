@@ -23,9 +23,9 @@
 #include <bench/thermal/random_machine.hpp>
 #include <fmt/format.h>
 
-#include <steadyrest/thermal/offline/forecast.hpp>
-#include <steadyrest/thermal/offline/identify.hpp>
-#include <steadyrest/thermal/offline/replay.hpp>
+#include <steadyrest/thermal/offline/fit/identify.hpp>
+#include <steadyrest/thermal/offline/plan/forecast.hpp>
+#include <steadyrest/thermal/offline/plan/replay.hpp>
 #include <steadyrest/thermal/offline/test/shop_log.hpp>
 
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include <steadyrest/thermal/offline/log.hpp>
+#include <steadyrest/thermal/offline/log/log.hpp>
 
 /// A thermal test of a machine drawn at random: two modes (8 … 40 and 60 … 240 min) of 1 … 4 and
 /// 1 … 8 µm per 1000 rpm, a room with its day and its weather that moves the machine with a lag,

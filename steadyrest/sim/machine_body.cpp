@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/machine_body.hpp>
-#include <steadyrest/sim/range.hpp>
 
 namespace steadyrest::sim {
 namespace {

@@ -10,14 +10,14 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/command.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
-#include <steadyrest/nc/plan/setpoint.hpp>
-#include <steadyrest/sim/axis_offset.hpp>
-#include <steadyrest/sim/axis_servo.hpp>
-#include <steadyrest/sim/noise.hpp>
-#include <steadyrest/sim/operator_panel.hpp>
-#include <steadyrest/sim/override_input.hpp>
-#include <steadyrest/sim/spindle_drive.hpp>
-#include <steadyrest/sim/thermal_growth.hpp>
+#include <steadyrest/nc/plan/time/setpoint.hpp>
+#include <steadyrest/sim/axis/axis_offset.hpp>
+#include <steadyrest/sim/axis/axis_servo.hpp>
+#include <steadyrest/sim/base/noise.hpp>
+#include <steadyrest/sim/heat/thermal_growth.hpp>
+#include <steadyrest/sim/panel/operator_panel.hpp>
+#include <steadyrest/sim/panel/override_input.hpp>
+#include <steadyrest/sim/panel/spindle_drive.hpp>
 
 namespace steadyrest::sim {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include <steadyrest/sim/range.hpp>
+#include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
 namespace steadyrest::sim {

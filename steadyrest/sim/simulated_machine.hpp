@@ -9,9 +9,9 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/port/port.hpp>
-#include <steadyrest/nc/plan/interpolator.hpp>
-#include <steadyrest/nc/plan/planned_path.hpp>
-#include <steadyrest/sim/cutting_vibration.hpp>
+#include <steadyrest/nc/plan/path/planned_path.hpp>
+#include <steadyrest/nc/plan/time/interpolator.hpp>
+#include <steadyrest/sim/cut/cutting_vibration.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 
 namespace steadyrest::sim {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include <steadyrest/motion/online/stored_lines.hpp>
+#include <steadyrest/motion/online/line/stored_lines.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
 
 namespace steadyrest::supervisor {

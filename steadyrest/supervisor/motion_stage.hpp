@@ -8,8 +8,8 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
-#include <steadyrest/motion/online/line_table.hpp>
-#include <steadyrest/motion/online/motion_estimator.hpp>
+#include <steadyrest/motion/online/bounded/motion_estimator.hpp>
+#include <steadyrest/motion/online/line/line_table.hpp>
 
 namespace steadyrest::supervisor {
 

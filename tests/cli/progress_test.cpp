@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <steadyrest/apps/cli/progress.hpp>
+#include <steadyrest/apps/cli/shared/progress.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include <steadyrest/motion/offline/log_record.hpp>
+#include <steadyrest/motion/offline/log/log_record.hpp>
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include <steadyrest/chatter/offline/frf.hpp>
-#include <steadyrest/chatter/offline/uff58.hpp>
+#include <steadyrest/chatter/offline/response/frf.hpp>
+#include <steadyrest/chatter/offline/response/uff58.hpp>
 
 namespace {
 

@@ -5,11 +5,12 @@
 #include <cstdlib>
 #include <string_view>
 
-#include <steadyrest/kernel/machine/consistency.hpp>
-#include <steadyrest/kernel/machine/machine_file.hpp>
+#include <steadyrest/passport/file/consistency.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 
 namespace {
 
+namespace passport = steadyrest::passport;
 using namespace steadyrest::kernel;
 
 void must(bool holds) {
@@ -39,10 +40,10 @@ void must_be_fit(const machine::Machine& machine) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const auto result = machine::parse_all_faults(text, "fuzz.toml");
+  const auto result = passport::parse_all_faults(text, "fuzz.toml");
   if (result) {
     must_be_fit(*result);
-    static_cast<void>(machine::findings(*result));
+    static_cast<void>(passport::findings(*result));
   } else {
     must(!result.error().empty());
     for (const outcome::Refusal& refusal : result.error()) {

@@ -11,9 +11,9 @@
 #include "nc_mutator.hpp"
 
 #include <steadyrest/kernel/machine/machine.hpp>
-#include <steadyrest/nc/interpret/config.hpp>
-#include <steadyrest/nc/rewrite/plan_file.hpp>
-#include <steadyrest/nc/rewrite/settings.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/rewrite/text/plan_file.hpp>
+#include <steadyrest/nc/rewrite/text/settings.hpp>
 
 /// What the targets of the rewriter have in common: an input is a byte that chooses the control, a
 /// byte that chooses the plan, and a program.

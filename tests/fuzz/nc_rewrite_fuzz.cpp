@@ -6,8 +6,8 @@
 
 #include "nc_corrected.hpp"
 
-#include <steadyrest/nc/rewrite/compensate.hpp>
-#include <steadyrest/nc/rewrite/tag.hpp>
+#include <steadyrest/nc/rewrite/correct/compensate.hpp>
+#include <steadyrest/nc/rewrite/text/tag.hpp>
 
 namespace {
 

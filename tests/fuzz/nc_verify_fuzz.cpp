@@ -12,10 +12,10 @@
 #include "nc_corrected.hpp"
 
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/read/line_source.hpp>
-#include <steadyrest/nc/rewrite/compensate.hpp>
-#include <steadyrest/nc/rewrite/tag.hpp>
-#include <steadyrest/nc/rewrite/verify.hpp>
+#include <steadyrest/nc/read/text/line_source.hpp>
+#include <steadyrest/nc/rewrite/correct/compensate.hpp>
+#include <steadyrest/nc/rewrite/prove/verify.hpp>
+#include <steadyrest/nc/rewrite/text/tag.hpp>
 
 // A corrected program is changed at random and given to verify. What it accepts is judged by a
 // second way: the moves of both programs, run from work offsets that verify has not seen.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
+#include <set>
 #include <utility>
 
 #include <toml++/toml.h>
@@ -44,6 +46,30 @@ std::optional<Location> locate(const Rules& rules, std::string_view folder) {
     }
   }
   return best;
+}
+
+/// The shelf that a folder lies on, or is.
+std::optional<std::size_t> shelf_of(const Location& at, std::string_view folder) {
+  for (std::size_t i = 0; i < at.place->shelves.size(); ++i) {
+    if (is_within(folder, at.folder + "/" + at.place->shelves[i])) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+std::size_t shelf_rank(const Location& at, std::string_view folder) {
+  return shelf_of(at, folder).value_or(at.place->shelves.size());
+}
+
+/// The folder whose name is the namespace: the place for what lies on a shelf of it.
+std::string home_of(const Rules& rules, const std::string& folder) {
+  std::string home = folder;
+  if (home.ends_with("/test")) {
+    home.resize(home.size() - 5);
+  }
+  const auto at = locate(rules, folder);
+  return at && shelf_of(*at, home) ? at->folder : home;
 }
 
 /// `contour/online` for `steadyrest/contour/online/x.hpp`; nothing for what is not ours.
@@ -162,6 +188,7 @@ class FileCheck {
       return;
     }
     if (is_within(target, here.folder)) {
+      check_shelf(here, target, include);
       return;
     }
     const bool higher = there->place->floor > here.place->floor;
@@ -169,6 +196,19 @@ class FileCheck {
       report("floor", include.line,
              here.folder + " (F" + std::to_string(here.place->floor) + ") must not include " +
                  include.target + " (F" + std::to_string(there->place->floor) + ")");
+    }
+  }
+
+  /// Within a place with shelves: only what lies lower. Tests may use the helpers of other tests.
+  void check_shelf(const Location& here, const std::string& target, const Include& include) {
+    if (has_folder(file_.path, "test") || has_folder(include.target, "test")) {
+      return;
+    }
+    const auto folder = folder_under_root(rules_, file_.path);
+    if (shelf_rank(here, target) > shelf_rank(here, *folder)) {
+      report(
+          "shelf", include.line,
+          *folder + " must not include " + include.target + ", a higher shelf of " + here.folder);
     }
   }
 
@@ -255,10 +295,8 @@ class FileCheck {
   }
 
   void check_namespaces() {
-    std::string expected(folder_of(file_.path));
-    if (expected.ends_with("/test")) {
-      expected.resize(expected.size() - 5);
-    }
+    std::string expected =
+        rules_.root + "/" + home_of(rules_, *folder_under_root(rules_, file_.path));
     for (std::size_t at = expected.find('/'); at != std::string::npos; at = expected.find('/')) {
       expected.replace(at, 1, "::");
     }
@@ -313,7 +351,8 @@ std::expected<Rules, std::string> read_rules(std::string_view toml_text) {
       for (const toml::node& node : *places) {
         const toml::table& entry = *node.as_table();
         rules.places.push_back({entry["folder"].value_or<std::string>(""),
-                                entry["floor"].value_or(0), strings(entry["includes"])});
+                                entry["floor"].value_or(0), strings(entry["includes"]),
+                                strings(entry["shelves"])});
       }
     }
     rules.in_cycle_folders = strings(table["in_cycle"]["folders"]);
@@ -351,8 +390,28 @@ std::vector<Violation> check_built(const std::vector<SourceFile>& tree, const Ru
   return found;
 }
 
+std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree) {
+  constexpr std::size_t kMostFiles = 15;
+  std::map<std::string, std::set<std::string>> folders;
+  for (const SourceFile& file : tree) {
+    if (is_cpp(file.path)) {
+      folders[std::string(folder_of(file.path))].insert(file.path.substr(0, file.path.rfind('.')));
+    }
+  }
+  std::vector<Violation> found;
+  for (const auto& [folder, files] : folders) {
+    if (files.size() > kMostFiles) {
+      found.push_back({"crowded", folder, 1,
+                       std::to_string(files.size()) + " files (a pair counts once), at most " +
+                           std::to_string(kMostFiles) + ": make shelves"});
+    }
+  }
+  return found;
+}
+
 std::vector<Violation> check_tree(const std::vector<SourceFile>& tree, const Rules& rules) {
   std::vector<Violation> found = check_built(tree, rules);
+  std::ranges::move(check_crowded(tree), std::back_inserter(found));
   for (const SourceFile& file : tree) {
     std::ranges::move(check_file(file, rules), std::back_inserter(found));
   }

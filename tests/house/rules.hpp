@@ -17,6 +17,7 @@ struct Place {
   std::string folder;
   int floor = 0;
   std::vector<std::string> includes;
+  std::vector<std::string> shelves;  ///< its folders, lowest first; what lies beside them is above
 };
 
 /// floors.toml as values.
@@ -32,8 +33,8 @@ struct Rules {
 [[nodiscard]] std::expected<Rules, std::string> read_rules(std::string_view toml_text);
 
 struct Violation {
-  std::string rule;  ///< floor, half, in-cycle, namespace, spdx, quoted-include, place,
-                     ///< shared-data, unbuilt
+  std::string rule;  ///< floor, half, shelf, crowded, in-cycle, namespace, spdx, quoted-include,
+                     ///< place, shared-data, unbuilt
   std::string path;
   std::size_t line = 0;
   std::string what;
@@ -45,6 +46,9 @@ struct Violation {
 /// Sources under the root that no CMakeLists.txt above them names: code that nobody builds.
 [[nodiscard]] std::vector<Violation> check_built(const std::vector<SourceFile>& tree,
                                                  const Rules& rules);
+
+/// Folders with more files than one can look through; `x.hpp` and `x.cpp` count as one.
+[[nodiscard]] std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree);
 
 /// All rules over all files.
 [[nodiscard]] std::vector<Violation> check_tree(const std::vector<SourceFile>& tree,

@@ -60,8 +60,9 @@ TEST(Floors, ALowerFloorMayBeIncluded) {
   EXPECT_THAT(
       found("steadyrest/contour/online/x.hpp", "#include <steadyrest/kernel/port/port.hpp>"),
       IsEmpty());
-  EXPECT_THAT(found("steadyrest/nc/read/x.hpp", "#include <steadyrest/nc/interpret/move.hpp>"),
-              IsEmpty());
+  EXPECT_THAT(
+      found("steadyrest/nc/read/x.hpp", "#include <steadyrest/nc/interpret/state/move.hpp>"),
+      IsEmpty());
   EXPECT_THAT(found("steadyrest/apps/cli/x.cpp", "#include <steadyrest/adapters/replay/x.hpp>"),
               IsEmpty());
 }
@@ -78,7 +79,7 @@ TEST(Floors, AHigherFloorMustNotBeIncluded) {
 TEST(Floors, MathDoesNotKnowPrograms) {
   EXPECT_THAT(found("steadyrest/nc/plan/x.hpp", "#include <steadyrest/math/geometry/segment.hpp>"),
               IsEmpty());
-  EXPECT_THAT(found("steadyrest/math/x.hpp", "#include <steadyrest/nc/interpret/move.hpp>"),
+  EXPECT_THAT(found("steadyrest/math/x.hpp", "#include <steadyrest/nc/interpret/state/move.hpp>"),
               ElementsAre("floor:2"));
 }
 
@@ -111,7 +112,7 @@ TEST(Floors, AnAdapterKnowsTheKernelAlone) {
 
 TEST(Floors, TheSimulatedMachineDoesNotKnowTheLayer) {
   const std::string path = "steadyrest/sim/axis.hpp";
-  EXPECT_THAT(found(path, "#include <steadyrest/nc/plan/setpoint.hpp>"), IsEmpty());
+  EXPECT_THAT(found(path, "#include <steadyrest/nc/plan/time/setpoint.hpp>"), IsEmpty());
   EXPECT_THAT(found(path, "#include <steadyrest/contour/online/x.hpp>"), ElementsAre("floor:2"));
   EXPECT_THAT(found(path, "#include <steadyrest/supervisor/x.hpp>"), ElementsAre("floor:2"));
 }

@@ -16,8 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <steadyrest/motion/offline/scene.hpp>
-#include <steadyrest/motion/online/m_over_t.hpp>
+#include <steadyrest/motion/offline/scene/scene.hpp>
+#include <steadyrest/motion/online/estimator/m_over_t.hpp>
 
 namespace steadyrest {
 namespace {

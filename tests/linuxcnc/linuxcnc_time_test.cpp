@@ -15,9 +15,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <steadyrest/kernel/machine/machine_file.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/program_timer.hpp>
+#include <steadyrest/nc/plan/time/program_timer.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 
 namespace steadyrest {
 namespace {
@@ -51,7 +51,7 @@ const std::vector<Case>& own_programs() {
 
 kernel::machine::Machine mill() {
   auto machine =
-      kernel::machine::read(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml").value();
+      passport::read(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml").value();
   machine.control.tool_change_s = 0.0;        // the harness loops the tool changer back
   machine.spindle.acceleration_rev_s2 = 1e9;  // and holds at-speed true
   return machine;

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <steadyrest/kernel/machine/schema.hpp>
-#include <steadyrest/kernel/machine/section_reader.hpp>
+#include <cstdint>
+#include <vector>
 
-/// From an override section of the machine file to the table of steps. Internal to the reader.
 namespace steadyrest::kernel::machine {
 
-/// False (and a fault) when steps and codes contradict each other.
-bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
-                   OverrideTable& out);
+enum class Coding : std::uint8_t { gray, binary };
 
-/// A machine file without [override.rapid]: the feed switch acts on rapids, never above 100 %.
-[[nodiscard]] OverrideTable rapid_from_feed(const OverrideTable& feed);
-
-/// A machine file without [override.spindle]: one step, 100 %.
-[[nodiscard]] OverrideTable without_override();
+/// An override switch as machine data: step i has ratio[i] and code[i].
+struct OverrideTable {
+  Coding coding = Coding::gray;
+  std::vector<double> ratio;        ///< by step, not decreasing; 1.0 = 100 %
+  std::vector<std::uint32_t> code;  ///< as long as `ratio`; distinct
+  double scan_period_s = 0.01;      ///< the PLC looks at the word this often
+  double dead_time_s = 0.0;         ///< from the scan until the interpolator acts
+  bool latched_word = true;  ///< the word takes effect as a whole; else neighbours are walked
+  bool layer_may_exceed_panel = false;
+  double max_ratio = 2.0;  ///< the control clips here
+};
 
 }  // namespace steadyrest::kernel::machine

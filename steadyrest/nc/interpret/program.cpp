@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <utility>
 
-#include <steadyrest/nc/interpret/flow_control.hpp>
-#include <steadyrest/nc/interpret/interpreter.hpp>
-#include <steadyrest/nc/interpret/macro_variables.hpp>
+#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/flow/flow_control.hpp>
+#include <steadyrest/nc/interpret/flow/program_files.hpp>
+#include <steadyrest/nc/interpret/parameters/macro_variables.hpp>
+#include <steadyrest/nc/interpret/parameters/sinumerik_variables.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/interpret/program_files.hpp>
-#include <steadyrest/nc/interpret/sinumerik_variables.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 
 namespace steadyrest::nc::interpret {

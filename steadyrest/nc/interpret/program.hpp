@@ -10,13 +10,13 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/nc/interpret/asked.hpp>
-#include <steadyrest/nc/interpret/config.hpp>
-#include <steadyrest/nc/interpret/move.hpp>
-#include <steadyrest/nc/interpret/state.hpp>
-#include <steadyrest/nc/read/block.hpp>
-#include <steadyrest/nc/read/line_source.hpp>
-#include <steadyrest/nc/read/refused.hpp>
+#include <steadyrest/nc/interpret/state/asked.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/interpret/state/state.hpp>
+#include <steadyrest/nc/read/text/block.hpp>
+#include <steadyrest/nc/read/text/line_source.hpp>
+#include <steadyrest/nc/read/text/refused.hpp>
 
 namespace steadyrest::nc::interpret {
 

@@ -2,22 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
-#include <steadyrest/nc/read/block.hpp>
-#include <steadyrest/nc/read/refused.hpp>
-#include <steadyrest/nc/read/typed_values.hpp>
-#include <steadyrest/nc/read/values.hpp>
+#include <steadyrest/nc/read/text/block.hpp>
+#include <steadyrest/nc/read/text/reading.hpp>
 
 namespace steadyrest::nc::read {
-
-/// The families of controls whose programs are read.
-enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
-
-/// `linuxcnc`, `fanuc`, `sinumerik`; nothing for any other name.
-[[nodiscard]] std::optional<Dialect> dialect_from_name(std::string_view name) noexcept;
-[[nodiscard]] std::string_view name(Dialect dialect) noexcept;
 
 /// Splits the lines of one program into words. Knows characters, comments and numbers; what a word
 /// means is the interpreter's business.
@@ -26,7 +16,7 @@ enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
 /// usable for the next one.
 class Reader {
  public:
-  explicit Reader(Dialect dialect) noexcept : dialect_(dialect) {}
+  explicit Reader(Dialect dialect) noexcept : reading_{.dialect = dialect} {}
 
   /// Reads one line (without its end) into `block`. False when it is refused: see `refused()`.
   /// The block refers to the line's characters: keep them while it is in use.
@@ -35,13 +25,13 @@ class Reader {
   /// Takes the words of the same line, which `other` has just read of a text of its own. False when
   /// it must be read: only numbers are the same whatever the program has done before.
   bool take(const Reader& other, const Block& read, std::uint32_t number, Block& block) noexcept {
-    if (!other.numbers_alone_ || dialect_ != other.dialect_) {
+    if (!other.reading_.numbers_alone || reading_.dialect != other.reading_.dialect) {
       return false;
     }
     block.reset(number);
     block.take_words(read);
     seen_line_ = true;
-    numbers_alone_ = true;
+    reading_.numbers_alone = true;
     return true;
   }
 
@@ -55,34 +45,28 @@ class Reader {
 
   /// What expressions ask and assignments set; nullptr: expressions are refused. Must outlive the
   /// reading.
-  void set_values(Values* values) noexcept { values_ = values; }
+  void set_values(Values* values) noexcept { reading_.values = values; }
 
   /// The same for sinumerik, whose variables have types.
-  void set_typed_values(TypedValues* values) noexcept { values_ = typed_values_ = values; }
+  void set_typed_values(TypedValues* values) noexcept {
+    reading_.values = reading_.typed_values = values;
+  }
   /// Lines that begin with / are left out: what they assign is forgotten.
   void set_block_delete(bool on) noexcept { block_delete_ = on; }
 
-  [[nodiscard]] const Refused& refused() const noexcept { return refused_; }
+  [[nodiscard]] const Refused& refused() const noexcept { return reading_.refused; }
   /// The last line was read, and no value was asked for or set.
-  [[nodiscard]] bool numbers_alone() const noexcept { return numbers_alone_; }
+  [[nodiscard]] bool numbers_alone() const noexcept { return reading_.numbers_alone; }
   /// The program began with `%`: it must end with one (or with its end word).
   [[nodiscard]] bool percent_opened() const noexcept { return percent_opened_; }
 
  private:
-  friend class LetterLine;
-  friend class SinumerikLine;
-  bool refuse(std::uint32_t line, std::string_view word, std::string_view reason,
-              std::string_view text);
   bool percent(std::string_view line, std::uint32_t number, Block& block);
 
-  Dialect dialect_;
-  Values* values_ = nullptr;
-  TypedValues* typed_values_ = nullptr;
+  Reading reading_;
   bool block_delete_ = false;
   bool seen_line_ = false;
   bool percent_opened_ = false;
-  bool numbers_alone_ = false;
-  Refused refused_;
 };
 
 }  // namespace steadyrest::nc::read

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/kernel/machine/machine_file.hpp>
 #include <steadyrest/kernel/override/gray.hpp>
-#include <steadyrest/nc/plan/path_builder.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
 namespace steadyrest::sim {
@@ -273,7 +273,7 @@ TEST(SimulatedMachine, EveryExampleMachineArrivesAndComesToRest) {
       continue;
     }
     ++machines;
-    const auto machine = kernel::machine::read(file.path().string());
+    const auto machine = passport::read(file.path().string());
     ASSERT_TRUE(machine) << machine.error().what;
     Move move = line(0.0, 0.0, 20.0, 0.0);
     move.end[2] = -15.0;

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/motion/online/line_table.hpp>
-#include <steadyrest/motion/online/stored_lines.hpp>
+#include <steadyrest/motion/online/line/line_table.hpp>
+#include <steadyrest/motion/online/line/stored_lines.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
 
 namespace steadyrest::supervisor {

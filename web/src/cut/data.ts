@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page of `cut` holds; steadyrest/apps/report/report_data.hpp is its source.
+// What the page of `cut` holds; steadyrest/trial/cut/report_data.hpp is its source.
 import type { Head, Maybe } from '../frame/data';
 
 export interface Figures {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every report.json begins with; steadyrest/apps/report/provenance.hpp is the source of `made`.
+// What every report.json begins with; steadyrest/apps/page/shared/provenance.hpp is the source of `made`.
 
 export type Maybe = number | null;
 

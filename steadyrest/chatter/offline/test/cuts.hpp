@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <steadyrest/chatter/offline/process.hpp>
+#include <steadyrest/chatter/offline/process/process.hpp>
 
 /// Cuts that the literature gives figures for.
 namespace steadyrest::chatter::offline::test {

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include <steadyrest/chatter/offline/cutting_coefficients.hpp>
-#include <steadyrest/chatter/offline/process.hpp>
-#include <steadyrest/chatter/offline/speed_profile.hpp>
+#include <steadyrest/chatter/offline/process/cutting_coefficients.hpp>
+#include <steadyrest/chatter/offline/process/process.hpp>
+#include <steadyrest/chatter/offline/process/speed_profile.hpp>
 
 /// A second opinion that shares nothing with the collocation: the delay equation of one mode along
 /// x stepped by Runge and Kutta's rule of fourth order over the spindle's angle, the delayed

@@ -7,8 +7,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <steadyrest/chatter/offline/cutting_coefficients.hpp>
-#include <steadyrest/chatter/offline/process.hpp>
+#include <steadyrest/chatter/offline/process/cutting_coefficients.hpp>
+#include <steadyrest/chatter/offline/process/process.hpp>
 
 /// First-order semi-discretization as the literature writes it, for one mode along x, straight
 /// teeth of even pitch and constant speed (Insperger, Stépán, Turi 2008), with the teeth's angles

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/motion/offline/test/scenes.hpp>
-#include <steadyrest/motion/online/backward_difference.hpp>
+#include <steadyrest/motion/online/estimator/backward_difference.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

@@ -10,12 +10,12 @@
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 #include <steadyrest/motion/offline/test/scenes.hpp>
-#include <steadyrest/motion/online/backward_difference.hpp>
-#include <steadyrest/motion/online/event_fit.hpp>
-#include <steadyrest/motion/online/m_over_t.hpp>
-#include <steadyrest/motion/online/pll.hpp>
-#include <steadyrest/motion/online/savitzky_golay.hpp>
-#include <steadyrest/motion/online/worst_case_difference.hpp>
+#include <steadyrest/motion/online/estimator/backward_difference.hpp>
+#include <steadyrest/motion/online/estimator/event_fit.hpp>
+#include <steadyrest/motion/online/estimator/m_over_t.hpp>
+#include <steadyrest/motion/online/estimator/pll.hpp>
+#include <steadyrest/motion/online/estimator/savitzky_golay.hpp>
+#include <steadyrest/motion/online/estimator/worst_case_difference.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

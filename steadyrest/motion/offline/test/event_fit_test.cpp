@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/motion/offline/test/scenes.hpp>
-#include <steadyrest/motion/online/event_fit.hpp>
-#include <steadyrest/motion/online/savitzky_golay.hpp>
+#include <steadyrest/motion/online/estimator/event_fit.hpp>
+#include <steadyrest/motion/online/estimator/savitzky_golay.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/motion/online/line_fit.hpp>
+#include <steadyrest/motion/online/line/line_fit.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

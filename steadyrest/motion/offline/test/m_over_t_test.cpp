@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/motion/offline/test/scenes.hpp>
-#include <steadyrest/motion/online/m_over_t.hpp>
+#include <steadyrest/motion/online/estimator/m_over_t.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/motion/offline/test/scenes.hpp>
-#include <steadyrest/motion/online/line_table.hpp>
-#include <steadyrest/motion/online/motion_estimator.hpp>
+#include <steadyrest/motion/online/bounded/motion_estimator.hpp>
+#include <steadyrest/motion/online/line/line_table.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/motion/offline/test/scenes.hpp>
-#include <steadyrest/motion/online/pll.hpp>
+#include <steadyrest/motion/online/estimator/pll.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

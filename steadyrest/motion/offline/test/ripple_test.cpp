@@ -7,7 +7,7 @@
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 #include <steadyrest/motion/offline/test/scenes.hpp>
-#include <steadyrest/motion/online/ripple_estimator.hpp>
+#include <steadyrest/motion/online/bounded/ripple_estimator.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include <steadyrest/motion/offline/scene.hpp>
-#include <steadyrest/motion/offline/score.hpp>
+#include <steadyrest/motion/offline/scene/scene.hpp>
+#include <steadyrest/motion/offline/scene/score.hpp>
 
 /// The scenes of reference/motion.md §4c and §4d: count 0.001 mm, 1 kHz, stamps of 100 ns.
 namespace steadyrest::motion::offline::test {

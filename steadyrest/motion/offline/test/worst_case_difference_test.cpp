@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/motion/offline/test/scenes.hpp>
-#include <steadyrest/motion/online/worst_case_difference.hpp>
+#include <steadyrest/motion/online/estimator/worst_case_difference.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {

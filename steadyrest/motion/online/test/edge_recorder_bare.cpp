@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The recorder as a microcontroller would build it: see edge_recorder_bare.sh.
-#include <steadyrest/motion/online/edge_inputs.hpp>
-#include <steadyrest/motion/online/edge_ring.hpp>
+#include <steadyrest/motion/online/edges/edge_inputs.hpp>
+#include <steadyrest/motion/online/edges/edge_ring.hpp>
 
 namespace motion = steadyrest::motion::online;
 

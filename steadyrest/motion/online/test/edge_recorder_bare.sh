@@ -9,7 +9,7 @@ shift
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-allowed='<cstddef>|<cstdint>|<steadyrest/motion/online/edge_recorder.hpp>'
+allowed='<cstddef>|<cstdint>|<steadyrest/motion/online/edges/edge_recorder.hpp>'
 if grep -hE '^#include' "$here/edge_recorder.hpp" "$here/edge_inputs.hpp" "$here/edge_ring.hpp" | grep -vE "$allowed"; then
   echo 'the recorder includes more than <cstddef> and <cstdint>' >&2
   exit 1

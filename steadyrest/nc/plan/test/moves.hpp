@@ -5,9 +5,9 @@
 #include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
-#include <steadyrest/nc/interpret/move.hpp>
-#include <steadyrest/nc/plan/interpolator.hpp>
-#include <steadyrest/nc/plan/path_builder.hpp>
+#include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/time/interpolator.hpp>
 
 /// Hand-made programs and a run of the interpolator over them.
 namespace steadyrest::nc::plan::test {

@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include <steadyrest/kernel/machine/machine.hpp>
-#include <steadyrest/nc/rewrite/compensate.hpp>
-#include <steadyrest/nc/rewrite/tag.hpp>
-#include <steadyrest/nc/rewrite/verify.hpp>
+#include <steadyrest/nc/rewrite/correct/compensate.hpp>
+#include <steadyrest/nc/rewrite/prove/verify.hpp>
+#include <steadyrest/nc/rewrite/text/tag.hpp>
 
 namespace steadyrest::nc::rewrite::test {
 

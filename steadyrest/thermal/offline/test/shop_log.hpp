@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include <steadyrest/thermal/offline/log.hpp>
+#include <steadyrest/thermal/offline/log/log.hpp>
 
 /// A machine that is known: its bed, 90 min behind the room, moves it by 3 µm/K. The room is noisy,
 /// and the third sensor has nothing to do with it.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <steadyrest/thermal/offline/log.hpp>
+#include <steadyrest/thermal/offline/log/log.hpp>
 
 /// Logs of a machine that is known, by a recursion of their own.
 namespace steadyrest::thermal::offline::test {

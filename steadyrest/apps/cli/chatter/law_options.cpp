@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string_view>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/chatter/law_options.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using chatter::offline::Modulation;
+using chatter::offline::Process;
+using chatter::online::Law;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+constexpr double kMostPasses = 4096.0;  ///< of the solver, in the principal period
+constexpr int kMostLawPeriods = 64;
+constexpr double kSame = 1e-10;
+constexpr double kNear = 0.005;
+
+std::unexpected<Refusal> bad(std::string what, std::string to_do) {
+  return std::unexpected(Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)});
+}
+
+Result<double> amplitude(const LawOptions& o, double speed_rpm) {
+  if (!o.rva && !o.amplitude_rpm && !o.amplitude_percent) {
+    return bad(fmt::format("--law {} without an amplitude", o.law),
+               "give --rva, --amplitude-percent or --amplitude-rpm");
+  }
+  const double rva = o.rva             ? *o.rva
+                     : o.amplitude_rpm ? *o.amplitude_rpm / speed_rpm
+                                       : kernel::units::ratio_from_percent(*o.amplitude_percent);
+  if (!(rva > 0.0 && rva < 1.0)) {
+    return bad(
+        fmt::format("the amplitude is {:.6g} of the mean speed; it must lie between 0 and 1", rva),
+        "the spindle may neither stand nor turn back; 0.1 … 0.3 is usual");
+  }
+  return rva;
+}
+
+Result<double> frequency(const LawOptions& o, double speed_rpm) {
+  if (!o.rvf && !o.period_s) {
+    return bad(fmt::format("--law {} without a period", o.law), "give --rvf or --period-s");
+  }
+  if (o.rvf && !(*o.rvf > 0.0 && std::isfinite(*o.rvf))) {
+    return bad(fmt::format("--rvf {}", *o.rvf), "give a ratio above 0, 0.01 … 0.5 is usual");
+  }
+  if (o.period_s && !(*o.period_s > 0.0 && std::isfinite(*o.period_s))) {
+    return bad(fmt::format("--period-s {}", *o.period_s), "give a period above 0");
+  }
+  return o.rvf ? *o.rvf : 1.0 / (*o.period_s * kernel::units::rev_s_from_rpm(speed_rpm));
+}
+
+/// The RVF nearest by whose law has r periods in a whole number of passes.
+Result<double> rational(double rvf, double passes_per_rev) {
+  const double q = passes_per_rev / rvf;
+  for (const double near : {kSame, kNear, 0.5}) {
+    for (int r = 1; r <= kMostLawPeriods; ++r) {
+      const double passes = std::round(q * r);
+      if (passes >= 1.0 && passes <= kMostPasses && std::abs(q * r - passes) <= near * passes) {
+        return near == kSame ? rvf : passes_per_rev * r / passes;
+      }
+    }
+  }
+  return bad(fmt::format("a modulation period of {:.6g} tooth passes; allowed are {:.3g} … {}", q,
+                         1.0 / kMostLawPeriods, kMostPasses),
+             "give a shorter period or a larger RVF");
+}
+
+}  // namespace
+
+void add_law_options(Verb& verb, LawOptions& options) {
+  verb.add_option(
+          "--law", options.law,
+          "Modulation of the spindle speed: constant, square, pulse, triangle, sine, random "
+          "or stop")
+      ->check([](const std::string& word) {
+        return chatter::online::law_of(word) ? std::string{} : word + " is no law";
+      });
+  auto* rva = verb.add_option("--rva", options.rva, "Amplitude over the mean speed, 0 … 1");
+  auto* rpm = verb.add_option("--amplitude-rpm", options.amplitude_rpm,
+                              "In its place: the amplitude in rev/min")
+                  ->excludes(rva);
+  verb.add_option("--amplitude-percent", options.amplitude_percent,
+                  "In its place: the amplitude in % of the mean speed")
+      ->excludes(rva)
+      ->excludes(rpm);
+  auto* rvf = verb.add_option("--rvf", options.rvf,
+                              "Frequency of the modulation over that of the rotation");
+  verb.add_option("--period-s", options.period_s, "In its place: the period in s")->excludes(rvf);
+  verb.add_option("--seed", options.seed, "Seed of the random law")->capture_default_str();
+}
+
+Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, double speed_rpm) {
+  ChosenLaw out;
+  const bool numbers = options.rva || options.rvf || options.amplitude_rpm ||
+                       options.amplitude_percent || options.period_s;
+  if (options.law.empty() && numbers) {
+    return bad("a modulation without its law", "give --law, for example --law sine");
+  }
+  if (!options.modulated()) {
+    return out;
+  }
+  const auto rva = amplitude(options, speed_rpm);
+  const auto wanted = rva ? frequency(options, speed_rpm) : rva;
+  if (!wanted) {
+    return std::unexpected(wanted.error());
+  }
+  const bool even = process.even_pitch();
+  const auto rvf = rational(*wanted, even ? static_cast<double>(process.tool.teeth) : 1.0);
+  if (!rvf) {
+    return std::unexpected(rvf.error());
+  }
+  out.modulation.law = *chatter::online::law_of(options.law);
+  out.modulation.rva = *rva;
+  out.modulation.rvf = *rvf;
+  out.modulation.seed = options.seed;
+  if (*rvf != *wanted) {
+    out.wanted_rvf = *wanted;
+  }
+  return out;
+}
+
+void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm) {
+  const Modulation& m = chosen.modulation;
+  json["law"] = chatter::online::name(m.law);
+  if (m.law == Law::constant) {
+    return;
+  }
+  json["rva"] = m.rva;
+  json["rvf"] = m.rvf;
+  if (speed_rpm > 0.0) {
+    json["amplitude_rpm"] = m.rva * speed_rpm;
+    json["period_s"] = 1.0 / (m.rvf * kernel::units::rev_s_from_rpm(speed_rpm));
+  }
+  if (m.law == Law::random) {
+    json["seed"] = m.seed;
+  }
+  if (chosen.wanted_rvf) {
+    json["wanted_rvf"] = *chosen.wanted_rvf;
+  }
+}
+
+std::string law_text(const ChosenLaw& chosen, double speed_rpm) {
+  const Modulation& m = chosen.modulation;
+  const std::string_view name = chatter::online::name(m.law);
+  if (m.law == Law::constant) {
+    return std::string(name);
+  }
+  std::string out = fmt::format(
+      "{} ±{:.4g} % ({:.4g} rpm) every {:.4g} s (RVA {:.4g}, RVF {:.6g})", name, 100.0 * m.rva,
+      m.rva * speed_rpm, 1.0 / (m.rvf * kernel::units::rev_s_from_rpm(speed_rpm)), m.rva, m.rvf);
+  if (chosen.wanted_rvf) {
+    out += fmt::format("; RVF moved from {:.6g} to a whole number of tooth passes",
+                       *chosen.wanted_rvf);
+  }
+  return out;
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/chatter/verb_chatter_detect.hpp>
+#include <steadyrest/apps/cli/shared/log_options.hpp>
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/apps/cli/shared/report_option.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/page/chatter/detect_page.hpp>
+#include <steadyrest/chatter/offline/plan/planner.hpp>
+#include <steadyrest/chatter/offline/plan/speed_table_of.hpp>
+#include <steadyrest/chatter/offline/process/process_file.hpp>
+#include <steadyrest/chatter/offline/signal/signal_file.hpp>
+#include <steadyrest/chatter/online/detector.hpp>
+#include <steadyrest/chatter/online/speed_table.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace offline = chatter::offline;
+namespace online = chatter::online;
+using kernel::machine::Machine;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::units::rpm_from_rev_s;
+
+constexpr double kMostDepthMm = 10.0;  // of the table, where the cut's depth is not given
+
+struct Options {
+  std::string signal;
+  std::string machine;
+  std::string process;
+  std::optional<std::size_t> teeth;
+  std::optional<double> speed_rpm;
+  std::optional<double> programmed_rpm;
+  std::optional<double> depth_mm;
+  std::string report;
+  LogOptions format;
+};
+
+/// One stretch of chatter.
+struct Event {
+  double start_s = 0.0;
+  double end_s = 0.0;
+  double frequency_hz = 0.0;  ///< median over the stretch
+  double speed_rev_s = 0.0;   ///< mean over the stretch
+  bool flip = false;          ///< what most spectra said
+  online::SpeedTable::Advice advice;
+  std::optional<offline::Plan> plan;  ///< where process and depth are known
+};
+
+Refusal bad(std::string what, std::string to_do, const std::string& file = {}) {
+  return {Kind::bad_input, file, 0, std::move(what), std::move(to_do)};
+}
+
+std::optional<Refusal> unfit(const Options& options) {
+  struct Given {
+    const char* option;
+    const std::optional<double>& value;
+  };
+  for (const Given& given :
+       {Given{"--speed-rpm", options.speed_rpm}, Given{"--programmed-rpm", options.programmed_rpm},
+        Given{"--depth-mm", options.depth_mm}}) {
+    if (given.value && !(*given.value > 0.0 && std::isfinite(*given.value))) {
+      return bad(fmt::format("{} {} is not above 0", given.option, *given.value),
+                 "give a number above 0");
+    }
+  }
+  if (options.teeth && (*options.teeth < 1 || *options.teeth > 64)) {
+    return bad(fmt::format("--teeth {}; allowed are 1 … 64", *options.teeth),
+               "give the number of teeth, 1 in turning");
+  }
+  if (!options.teeth && options.process.empty()) {
+    return bad("the number of teeth is not known", "give --teeth N or --process FILE");
+  }
+  if (options.depth_mm && options.process.empty()) {
+    return bad("--depth-mm without --process", "give the process file, or leave the depth out");
+  }
+  return std::nullopt;
+}
+
+/// Speeds into the signal where it brought none.
+std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
+                                 offline::RecordedSignal& signal) {
+  std::vector<double>& speed = signal.speed_rev_s;
+  if (!speed.empty() && options.speed_rpm) {
+    return bad("has a column speed_rpm, and --speed-rpm is given", "leave --speed-rpm out",
+               options.signal);
+  }
+  if (speed.empty() && !options.speed_rpm) {
+    return bad("has no speed of the spindle", "give --speed-rpm N, or CSV with a column speed_rpm",
+               options.signal);
+  }
+  if (options.speed_rpm) {
+    const double most_rpm = rpm_from_rev_s(machine.spindle.max_rev_s);
+    if (*options.speed_rpm > most_rpm * (1.0 + 1e-9)) {
+      return bad(fmt::format("--speed-rpm {:.6g} is above the spindle's {:.6g}", *options.speed_rpm,
+                             most_rpm),
+                 "give the speed in rev/min, or the right machine file");
+    }
+    speed.assign(signal.value.size(), kernel::units::rev_s_from_rpm(*options.speed_rpm));
+  }
+  if (std::ranges::none_of(speed, [](double s) { return s > 0.0; })) {
+    return bad("speed_rpm is 0 throughout", "give a recording with the spindle running",
+               options.signal);
+  }
+  return std::nullopt;
+}
+
+/// Gathers what the spectra of one stretch say.
+class Stretch {
+ public:
+  explicit Stretch(double start_s) : start_s_(start_s) {}
+
+  void add(const online::Detector::Output& heard, double speed_rev_s) {
+    frequency_hz_.push_back(heard.frequency_hz);
+    flips_ += heard.kind == online::Detector::Kind::flip ? 1 : 0;
+    speeds_rev_s_ += speed_rev_s;
+  }
+
+  [[nodiscard]] Event finished(double end_s) {
+    const auto half = static_cast<std::ptrdiff_t>(frequency_hz_.size() / 2);
+    std::ranges::nth_element(frequency_hz_, frequency_hz_.begin() + half);
+    Event event;
+    event.start_s = start_s_;
+    event.end_s = end_s;
+    event.frequency_hz = frequency_hz_[static_cast<std::size_t>(half)];
+    event.speed_rev_s = speeds_rev_s_ / static_cast<double>(frequency_hz_.size());
+    event.flip = 2 * flips_ > frequency_hz_.size();
+    return event;
+  }
+
+ private:
+  double start_s_;
+  std::vector<double> frequency_hz_;
+  std::size_t flips_ = 0;
+  double speeds_rev_s_ = 0.0;
+};
+
+std::vector<Event> events_of(const offline::RecordedSignal& signal, online::Detector& detector,
+                             Progress& progress) {
+  constexpr std::size_t kBetweenUpdates = 65536;
+  const std::size_t samples = signal.value.size();
+  std::vector<Event> out;
+  std::optional<Stretch> open;
+  double t_s = signal.start_s;
+  for (std::size_t i = 0; i < samples; ++i) {
+    t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
+    const auto& heard =
+        detector.update({.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i]});
+    if (heard.fresh && heard.chatter) {
+      if (!open) {
+        open.emplace(t_s);
+      }
+      open->add(heard, signal.speed_rev_s[i]);
+    } else if (heard.fresh && open) {
+      out.push_back(open->finished(t_s));
+      open.reset();
+    }
+    if (i % kBetweenUpdates == 0) {
+      progress.update(static_cast<double>(i) / static_cast<double>(samples), "listening");
+    }
+  }
+  if (open) {
+    out.push_back(open->finished(t_s));
+  }
+  return out;
+}
+
+/// What `chatter plan` says of the cut, asked once for speeds that are nearly the same.
+class AskedPlans {
+ public:
+  AskedPlans(const offline::Process& process, const Machine& machine, double depth_mm)
+      : process_(process), machine_(machine), depth_mm_(depth_mm) {}
+
+  Result<offline::Plan> at(double programmed_rev_s) {
+    constexpr double kSame = 0.005;
+    for (const auto& [speed, plan] : asked_) {
+      if (std::abs(speed - programmed_rev_s) <= kSame * speed) {
+        return plan;
+      }
+    }
+    auto plan = offline::plan(process_, machine_, programmed_rev_s, depth_mm_, {});
+    if (plan) {
+      asked_.emplace_back(programmed_rev_s, *plan);
+    }
+    return plan;
+  }
+
+ private:
+  const offline::Process& process_;
+  const Machine& machine_;
+  double depth_mm_;
+  std::vector<std::pair<double, offline::Plan>> asked_;
+};
+
+/// The planner's constant step as advice; a law is told beside it.
+online::SpeedTable::Advice advice_of(const offline::Plan& plan, double programmed_rev_s,
+                                     double present_rev_s) {
+  constexpr double kSame = 1e-6;
+  online::SpeedTable::Advice out;
+  const double speed = plan.chosen.ratio * programmed_rev_s;
+  const bool step = plan.decision == offline::PlanDecision::constant ||
+                    (plan.decision == offline::PlanDecision::keep &&
+                     std::abs(speed - present_rev_s) > kSame * speed);
+  if (step) {
+    out.request.ratio = plan.chosen.ratio;
+    out.speed_rev_s = speed;
+    out.limit_depth_mm = plan.chosen.limit_depth_mm.value_or(0.0);
+  }
+  return out;
+}
+
+std::optional<Refusal> advise(const Options& options, const Machine& machine, std::size_t teeth,
+                              const std::optional<offline::Process>& process,
+                              std::optional<AskedPlans>& plans, Event& event) {
+  online::SpeedTable::Config config = offline::steps_of(machine);
+  config.teeth = teeth;
+  const double programmed = options.programmed_rpm
+                                ? kernel::units::rev_s_from_rpm(*options.programmed_rpm)
+                                : event.speed_rev_s;
+  if (plans) {
+    auto plan = plans->at(programmed);
+    if (!plan) {
+      return plan.error();
+    }
+    event.advice = advice_of(*plan, programmed, event.speed_rev_s);
+    event.plan = std::move(*plan);
+    return std::nullopt;
+  }
+  if (process) {
+    if (auto added = offline::add_depths(*process, {programmed}, kMostDepthMm, config); !added) {
+      return added.error();
+    }
+  }
+  const auto table = online::SpeedTable::make(std::move(config));
+  if (!table) {
+    return table.error();
+  }
+  event.advice = table->ask({.programmed_rev_s = programmed,
+                             .ratio = event.speed_rev_s / programmed,
+                             .depth_mm = 0.0,
+                             .frequency_hz = event.frequency_hz});
+  return std::nullopt;
+}
+
+/// Who advises: the planner, its borders, or the rule.
+const char* adviser(const Options& options) {
+  return options.process.empty() ? "rule of thumb" : options.depth_mm ? "planner" : "deepest step";
+}
+
+std::string better_words(const Event& event) {
+  const auto& advice = event.advice;
+  if (advice.speed_rev_s > 0.0) {
+    return fmt::format("{:.0f} rpm ({:.4g} %)", rpm_from_rev_s(advice.speed_rev_s),
+                       100.0 * advice.request.ratio);
+  }
+  if (event.plan && event.plan->decision == offline::PlanDecision::law) {
+    const auto& law = event.plan->chosen.modulation;
+    return fmt::format("{} law of ±{:.4g} %, RVF {:.4g}", online::name(law.law), 100.0 * law.rva,
+                       law.rvf);
+  }
+  if (event.plan && event.plan->decision == offline::PlanDecision::keep) {
+    return "none: the process file says that it is stable";
+  }
+  return "none";
+}
+
+Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>& events,
+                 const Options& options) {
+  Answer answer;
+  answer.json["advice_by"] = adviser(options);
+  answer.json["events"] = Json::array();
+  Table table({"from", "to", "frequency", "type", "at",
+               fmt::format("better, by the {}", adviser(options))});
+  for (const Event& event : events) {
+    const auto& advice = event.advice;
+    const bool better = advice.speed_rev_s > 0.0;
+    const double percent = 100.0 * advice.request.ratio;
+    const char* type = event.flip ? "flip" : "hopf";
+    answer.json["events"].push_back(
+        {{"start_s", event.start_s},
+         {"end_s", event.end_s},
+         {"frequency_hz", event.frequency_hz},
+         {"type", type},
+         {"speed_rpm", rpm_from_rev_s(event.speed_rev_s)},
+         {"advised_speed_rpm", better ? Json(rpm_from_rev_s(advice.speed_rev_s)) : Json(nullptr)},
+         {"advised_override_percent", better ? Json(percent) : Json(nullptr)},
+         {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}});
+    table.row({fmt::format("{:.3f} s", event.start_s), fmt::format("{:.3f} s", event.end_s),
+               fmt::format("{:.1f} Hz", event.frequency_hz), type,
+               fmt::format("{:.0f} rpm", rpm_from_rev_s(event.speed_rev_s)), better_words(event)});
+  }
+  const double length_s = static_cast<double>(signal.value.size()) / signal.rate_hz;
+  answer.json["seconds"] = length_s;
+  answer.json["sample_rate_hz"] = signal.rate_hz;
+  answer.text = events.empty() ? fmt::format("no chatter in {:.3f} s\n", length_s) : table.text();
+  return answer;
+}
+
+Json page_of(const Json& answer, const Options& options, const Machine& machine,
+             const offline::RecordedSignal& signal, std::size_t teeth, std::size_t window) {
+  double chatter_hz = 0.0;
+  for (const Json& event : answer["events"]) {
+    chatter_hz = std::max(chatter_hz, event["frequency_hz"].get<double>());
+  }
+  return page::detect_page(
+      answer,
+      {.signal_name = std::filesystem::path(options.signal).filename().string(),
+       .machine = machine.name,
+       .teeth = teeth,
+       .window = window,
+       .chatter_hz = chatter_hz},
+      signal);
+}
+
+Outcome detect(const Options& options, const Machine& machine, std::size_t teeth,
+               const std::optional<offline::Process>& process, Progress& progress) {
+  auto signal = offline::read_signal(options.signal, format_of(options.format));
+  if (!signal) {
+    return refused(signal.error());
+  }
+  if (auto refusal = set_speed(options, machine, *signal)) {
+    return refused(*refusal);
+  }
+  auto detector = online::Detector::make({.sample_rate_hz = signal->rate_hz, .teeth = teeth});
+  if (!detector) {
+    return refused(detector.error());
+  }
+  if (signal->value.size() < detector->window()) {
+    return refused(bad(fmt::format("has {} samples; one spectrum takes {}", signal->value.size(),
+                                   detector->window()),
+                       "give a longer recording, some tenths of a second", options.signal));
+  }
+  auto events = events_of(*signal, *detector, progress);
+  std::optional<AskedPlans> plans;
+  if (process && options.depth_mm) {
+    plans.emplace(*process, machine, *options.depth_mm);
+  }
+  for (Event& event : events) {
+    progress.update(1.0, "the better speed");
+    if (auto refusal = advise(options, machine, teeth, process, plans, event)) {
+      return refused(*refusal);
+    }
+  }
+  Answer answer = answer_of(*signal, events, options);
+  if (!options.report.empty()) {
+    put_report(answer, options.report,
+               page_of(answer.json, options, machine, *signal, teeth, detector->window()));
+  }
+  return answer;
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  if (auto refusal = unfit(options)) {
+    return refused(*refusal);
+  }
+  const auto machine = read_machine(options.machine);
+  if (!machine) {
+    return std::unexpected(machine.error());
+  }
+  std::optional<offline::Process> process;
+  if (!options.process.empty()) {
+    auto read = offline::read_process(options.process);
+    if (!read) {
+      return refused(read.error());
+    }
+    process = std::move(*read);
+  }
+  const std::size_t teeth = process ? process->tool.teeth : *options.teeth;
+  return detect(options, *machine, teeth, process, progress);
+}
+
+}  // namespace
+
+void add_verb_chatter_detect(Session& session) {
+  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
+  Verb& verb = session.verb(
+      group, "detect", "Where a recorded vibration or sound chatters, and the better speed",
+      "chatter detect examples/logs/slot-chatter.csv --machine examples/machines/vmc-840d.toml "
+      "--teeth 2\n"
+      "  steadyrest chatter detect examples/logs/slot-chatter.csv --machine "
+      "examples/machines/vmc-840d.toml --process examples/processes/slot-922hz.toml "
+      "--report out/heard");
+  auto options = std::make_shared<Options>();
+  verb.reads("signal", options->signal, "CSV (t_s, value, optional speed_rpm) or WAV, 1 … 50 kHz")
+      ->required();
+  add_machine_option(verb, options->machine);
+  CLI::Option* const teeth =
+      verb.add_option("--teeth", options->teeth, "Teeth of the tool, 1 in turning");
+  add_log_options(verb, options->format);
+  verb.reads("--process", options->process,
+             "Process file (TOML): with --depth-mm the better speed is what chatter plan "
+             "says, without it the deepest override step; without a process it is a rule of "
+             "thumb, whole waves between two teeth")
+      ->excludes(teeth);
+  verb.also_reads([options] { return offline::response_files(options->process); });
+  verb.add_option("--speed-rpm", options->speed_rpm,
+                  "Spindle speed in rev/min of a signal without the column");
+  verb.add_option("--programmed-rpm", options->programmed_rpm,
+                  "Spindle speed at override 100 %; without it that of the signal");
+  verb.add_option("--depth-mm", options->depth_mm,
+                  "Axial depth of the cut, for --process; without it the deepest step is advised");
+  verb.reports(options->report);
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

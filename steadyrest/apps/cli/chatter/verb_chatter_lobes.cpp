@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <steadyrest/apps/cli/chatter/cut_point_options.hpp>
+#include <steadyrest/apps/cli/chatter/law_options.hpp>
+#include <steadyrest/apps/cli/chatter/stability_answer.hpp>
+#include <steadyrest/apps/cli/chatter/verb_chatter_lobes.hpp>
+#include <steadyrest/apps/cli/shared/grid.hpp>
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/apps/cli/shared/report_option.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/page/chatter/lobes_page.hpp>
+#include <steadyrest/chatter/offline/cycle/stability.hpp>
+#include <steadyrest/chatter/offline/depth/border_line.hpp>
+#include <steadyrest/chatter/offline/depth/lobe_map.hpp>
+#include <steadyrest/chatter/offline/process/process_file.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace fs = std::filesystem;
+namespace offline = chatter::offline;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::units::rpm_from_rev_s;
+
+constexpr double kLeastSpeed_rpm = 1e-3;
+constexpr const char* kBorderHead = "speed_rpm,depth_mm\n";
+
+struct Options {
+  std::string process;
+  std::string speeds_rpm;
+  std::string depths_mm;
+  std::optional<double> speed_rpm;
+  std::optional<double> depth_mm;
+  std::string machine;
+  LawOptions law;
+  std::string output;
+  std::string report;
+};
+
+/// What was made and how long it took.
+struct Made {
+  offline::LobeMap map;
+  offline::BorderLine border;
+  double seconds = 0.0;
+};
+
+fs::path border_path(const fs::path& csv) {
+  return csv.extension() == ".csv" ? fs::path(csv).replace_extension(".border.csv")
+                                   : fs::path(csv.string() + ".border.csv");
+}
+
+std::string map_csv(const offline::LobeMap& map) {
+  std::string out = "speed_rpm,depth_mm,spectral_radius\n";
+  const std::size_t depths = map.depth_mm.size();
+  for (std::size_t s = 0; s < map.speed_rev_s.size(); ++s) {
+    for (std::size_t d = 0; d < depths; ++d) {
+      fmt::format_to(std::back_inserter(out), "{:.10g},{:.10g},{:.12g}\n",
+                     rpm_from_rev_s(map.speed_rev_s[s]), map.depth_mm[d],
+                     std::exp(map.log_radius[s * depths + d]));
+    }
+  }
+  return out;
+}
+
+/// Speeds that are stable at all depths have no row.
+std::string border_csv(const offline::BorderLine& border) {
+  std::string out = kBorderHead;
+  for (std::size_t i = 0; i < border.speed_rev_s.size(); ++i) {
+    if (border.depth_mm[i]) {
+      fmt::format_to(std::back_inserter(out), "{:.10g},{:.10g}\n",
+                     rpm_from_rev_s(border.speed_rev_s[i]), *border.depth_mm[i]);
+    }
+  }
+  return out;
+}
+
+Result<Made> make(const offline::Process& process, const offline::LobeMapConfig& config,
+                  Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  auto map = offline::lobe_map(
+      process, config, [&progress](double share) { progress.update(0.5 * share, "the map"); });
+  if (!map) {
+    return std::unexpected(map.error());
+  }
+  auto border = offline::border_line(
+      process,
+      {.speed_rev_s = config.speed_rev_s,
+       .most_depth_mm = config.depth_mm.back(),
+       .modulation = config.modulation},
+      [&progress](double share) { progress.update(0.5 + 0.5 * share, "its border"); });
+  if (!border) {
+    return std::unexpected(border.error());
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  return Made{std::move(*map), std::move(*border), taken.count()};
+}
+
+/// RVF is a ratio: with a period in s the law would differ from speed to speed.
+Result<ChosenLaw> law_of(const Options& options, const offline::Process& process,
+                         const std::vector<double>& speeds_rpm) {
+  if (speeds_rpm.size() > 1 && (options.law.period_s || options.law.amplitude_rpm)) {
+    return std::unexpected(
+        Refusal{Kind::bad_input, "", 0, "--period-s or --amplitude-rpm over several speeds",
+                "give --rvf and --rva or --amplitude-percent, which hold at each of them"});
+  }
+  return chosen_law(options.law, process, speeds_rpm.front());
+}
+
+Answer answer_of(const Made& made, const ChosenLaw& law, const Options& options) {
+  const offline::LobeMap& map = made.map;
+  const offline::BorderLine& line = made.border;
+  std::size_t points = 0;
+  std::optional<std::size_t> deepest;
+  std::optional<std::size_t> lowest;
+  for (std::size_t s = 0; s < line.speed_rev_s.size(); ++s) {
+    const auto& border = line.depth_mm[s];
+    points += border ? 1U : 0U;
+    if (border && (!deepest || *border > *line.depth_mm[*deepest])) {
+      deepest = s;
+    }
+    if (border && (!lowest || *border < *line.depth_mm[*lowest])) {
+      lowest = s;
+    }
+  }
+  Answer answer;
+  answer.json = {
+      {"seconds", made.seconds},          {"points", map.log_radius.size()},
+      {"speeds", map.speed_rev_s.size()}, {"depths", map.depth_mm.size()},
+      {"border_points", points},          {"border_settled", line.settled},
+      {"output", options.output},         {"border_output", border_path(options.output).string()}};
+  put_law(answer.json, law, map.speed_rev_s.size() == 1 ? rpm_from_rev_s(map.speed_rev_s[0]) : 0.0);
+  Table table;
+  table.row({"points", fmt::format("{}", map.log_radius.size())})
+      .row({"time", fmt::format("{:.3g} s", made.seconds)})
+      .row({"points of the border",
+            fmt::format("{}{}", points,
+                        line.settled ? "" : ", not smooth everywhere: give more speeds")});
+  if (lowest) {
+    table.row({"lowest border", fmt::format("{:.4g} mm at {:.6g} rpm", *line.depth_mm[*lowest],
+                                            rpm_from_rev_s(line.speed_rev_s[*lowest]))});
+    table.row({"highest border", fmt::format("{:.4g} mm at {:.6g} rpm", *line.depth_mm[*deepest],
+                                             rpm_from_rev_s(line.speed_rev_s[*deepest]))});
+  }
+  answer.text = table.text();
+  return answer;
+}
+
+/// The cut that is wanted, in the map.
+Result<Json> point_json(const Options& options, const offline::Process& process,
+                        const ChosenLaw& law) {
+  const auto found =
+      offline::stability_at(process,
+                            {.speed_rev_s = kernel::units::rev_s_from_rpm(*options.speed_rpm),
+                             .modulation = law.modulation,
+                             .course = {},
+                             .most_depth_mm = *options.depth_mm},
+                            {.frequency = true});
+  if (!found) {
+    return std::unexpected(found.error());
+  }
+  Json out = {{"speed_rpm", *options.speed_rpm}, {"depth_mm", *options.depth_mm}};
+  put_stability(out, *found);
+  return out;
+}
+
+std::string point_text(const Json& point) {
+  const bool stable = point["stable"].get<bool>();
+  std::string out =
+      fmt::format("{:.4g} mm at {:.6g} rpm: {}, spectral radius {:.6g}",
+                  point["depth_mm"].get<double>(), point["speed_rpm"].get<double>(),
+                  stable ? "stable" : "unstable", point["spectral_radius"].get<double>());
+  if (!point["frequency_hz"].is_null() && !stable) {
+    out += fmt::format(", chatter at {:.1f} Hz", point["frequency_hz"].get<double>());
+  }
+  return out + "\n";
+}
+
+/// What --speed-rpm, --depth-mm and --machine may be together.
+std::optional<Refusal> unfit(const Options& options) {
+  if (options.speed_rpm.has_value() != options.depth_mm.has_value()) {
+    return Refusal{Kind::bad_input, "", 0, "--speed-rpm and --depth-mm belong together",
+                   "give both, the cut that is wanted, or neither"};
+  }
+  if (!options.speed_rpm && !options.machine.empty()) {
+    return Refusal{Kind::bad_input, "", 0, "--machine without --speed-rpm and --depth-mm",
+                   "give the programmed speed, of which the override steps are shares"};
+  }
+  if (options.speed_rpm && !(*options.speed_rpm > 0.0 && std::isfinite(*options.speed_rpm))) {
+    return not_allowed("--speed-rpm", *options.speed_rpm, "above 0");
+  }
+  if (options.depth_mm && !(*options.depth_mm > 0.0 && std::isfinite(*options.depth_mm))) {
+    return not_allowed("--depth-mm", *options.depth_mm, "above 0");
+  }
+  return std::nullopt;
+}
+
+/// What the verb works on.
+struct Task {
+  offline::Process process;
+  std::optional<kernel::machine::Machine> machine;
+  ChosenLaw law;
+  offline::LobeMapConfig map;
+};
+
+std::expected<Task, Refusals> task_of(const Options& options) {
+  const auto no = [](Refusal refusal) { return std::unexpected(Refusals{std::move(refusal)}); };
+  if (auto refusal = unfit(options)) {
+    return no(std::move(*refusal));
+  }
+  Task out;
+  auto process = offline::read_process(options.process);
+  if (!process) {
+    return no(process.error());
+  }
+  out.process = std::move(*process);
+  const auto speeds = grid("--speeds-rpm", options.speeds_rpm, kLeastSpeed_rpm);
+  auto depths = grid("--depths-mm", options.depths_mm, 0.0);
+  if (!speeds || !depths) {
+    return no(speeds ? depths.error() : speeds.error());
+  }
+  auto law = law_of(options, out.process, *speeds);
+  if (!law) {
+    return no(law.error());
+  }
+  out.law = *law;
+  if (!options.machine.empty()) {
+    auto machine = read_machine(options.machine);
+    if (!machine) {
+      return std::unexpected(machine.error());
+    }
+    out.machine = std::move(*machine);
+  }
+  for (const double speed_rpm : *speeds) {
+    out.map.speed_rev_s.push_back(kernel::units::rev_s_from_rpm(speed_rpm));
+  }
+  out.map.depth_mm = std::move(*depths);
+  out.map.modulation = out.law.modulation;
+  return out;
+}
+
+Result<Json> page_of(const Json& answer, const Task& task, const Options& options, Made made) {
+  offline::LobeMap& map = made.map;
+  auto others = page::other_borders(task.process, map, made.border, task.law.modulation);
+  if (!others) {
+    return std::unexpected(others.error());
+  }
+  std::vector<page::Step> steps;
+  if (task.machine) {
+    steps = page::override_steps(task.process, *task.machine,
+                                 kernel::units::rev_s_from_rpm(*options.speed_rpm),
+                                 map.depth_mm.back(), task.law.modulation);
+  }
+  return page::lobes_page(
+      answer, task.process,
+      {std::move(map), std::move(made.border), std::move(*others), std::move(steps)});
+}
+
+Result<void> write_map(const Options& options, const Made& made) {
+  const std::array files = {
+      kernel::file::FileText{.file = options.output, .text = map_csv(made.map)},
+      kernel::file::FileText{.file = border_path(options.output).string(),
+                             .text = border_csv(made.border)}};
+  return kernel::file::write_files(files);
+}
+
+/// The map and its border.
+std::vector<PlannedFile> map_files(const std::string& output) {
+  return {{output, csv_content("a stability map (CSV)", {"speed_rpm,depth_mm,spectral_radius"})},
+          {border_path(output).string(), csv_content("the border of a map (CSV)", {kBorderHead})}};
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  const auto task = task_of(options);
+  if (!task) {
+    return std::unexpected(task.error());
+  }
+  auto made = make(task->process, task->map, progress);
+  if (!made) {
+    return refused(made.error());
+  }
+  if (const auto done = write_map(options, *made); !done) {
+    return refused(done.error());
+  }
+  Answer answer = answer_of(*made, task->law, options);
+  if (options.speed_rpm) {
+    const auto point = point_json(options, task->process, task->law);
+    if (!point) {
+      return refused(point.error());
+    }
+    answer.json["point"] = *point;
+    answer.text += point_text(*point);
+  }
+  if (!options.report.empty()) {
+    const auto page = page_of(answer.json, *task, options, std::move(*made));
+    if (!page) {
+      return refused(page.error());
+    }
+    put_report(answer, options.report, *page);
+  }
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_chatter_lobes(Session& session) {
+  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
+  Verb& verb =
+      session.verb(group, "lobes", "Stability over speed and depth, and the border of each speed",
+                   "chatter lobes examples/processes/slot-922hz.toml --speeds-rpm 5000:15000:101 "
+                   "--depths-mm 0:5:51 -o lobes.csv --speed-rpm 5000 --depth-mm 1 "
+                   "--machine examples/machines/vmc-840d.toml --report out/lobes");
+  auto options = std::make_shared<Options>();
+  verb.reads("process", options->process, "Process file (TOML): tool, cut and modes")->required();
+  verb.also_reads([options] { return offline::response_files(options->process); });
+  verb.add_option("--speeds-rpm", options->speeds_rpm,
+                  "Mean spindle speeds in rev/min as FROM:TO:STEPS")
+      ->required();
+  verb.add_option("--depths-mm", options->depths_mm, "Axial depths of cut as FROM:TO:STEPS")
+      ->required();
+  verb.add_option("--speed-rpm", options->speed_rpm,
+                  "Spindle speed of the wanted cut; with --depth-mm the answer says how stable it "
+                  "is");
+  verb.add_option("--depth-mm", options->depth_mm, "Axial depth of the wanted cut");
+  verb.reads("--machine", options->machine,
+             "Machine file (TOML), for the override steps in the report");
+  add_law_options(verb, options->law);
+  verb.writes("-o,--output", options->output,
+              "The map (CSV: speed_rpm,depth_mm,spectral_radius); the border, refined between "
+              "these speeds until it is smooth, goes to OUT.border.csv (speed_rpm,depth_mm; no "
+              "row where all depths of the map are stable)",
+              map_files)
+      ->required();
+  verb.reports(options->report);
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

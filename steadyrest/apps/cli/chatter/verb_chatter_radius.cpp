@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <memory>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/chatter/cut_point_options.hpp>
+#include <steadyrest/apps/cli/chatter/stability_answer.hpp>
+#include <steadyrest/apps/cli/chatter/verb_chatter_radius.hpp>
+#include <steadyrest/apps/cli/shared/report_option.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/page/chatter/growth_page.hpp>
+#include <steadyrest/chatter/offline/cycle/growth_course.hpp>
+#include <steadyrest/chatter/offline/cycle/stability.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace offline = chatter::offline;
+
+struct Options {
+  CutPointOptions cut;
+  std::string report;
+};
+
+Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
+                 const offline::Stability& found) {
+  Answer answer;
+  Json& json = answer.json;
+  put_stability(json, found);
+  json["log_radius_per_pass"] = found.log_radius_per_pass;
+  json["peak_growth"] = found.peak_growth;
+  json["frequency_step_hz"] = found.frequency_step_hz;
+  json["passes"] = found.passes;
+  json["law_periods"] = found.law_periods;
+  json["speed_rpm"] = options.speed_rpm;
+  json["depth_mm"] = options.depth_mm;
+  put_law(json, law, options.speed_rpm);
+
+  Table table;
+  table.row({"cut", found.stable ? std::string("stable")
+                                 : fmt::format("unstable ({})", offline::name(found.type))});
+  const bool constant = law.modulation.law == chatter::online::Law::constant;
+  table.row({constant ? "spectral radius of a pass" : "spectral radius of a modulation period",
+             fmt::format("{:.6g}", std::exp(found.log_radius))});
+  table.row({"its logarithm", fmt::format("{:.6g}", found.log_radius)});
+  table.row({"worst growth on the way", fmt::format("{:.4g}", found.peak_growth)});
+  if (found.frequency_hz) {
+    table.row({"frequency", constant ? fmt::format("{:.1f} Hz", *found.frequency_hz)
+                                     : fmt::format("{:.1f} Hz, and lines {:.3g} Hz apart about it",
+                                                   *found.frequency_hz, found.frequency_step_hz)});
+  }
+  answer.text = table.text() + "speed: " + law_text(law, options.speed_rpm) + "\n";
+  return answer;
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  const auto cut = cut_point(options.cut);
+  if (!cut) {
+    return refused(cut.error());
+  }
+  progress.update(0.0, "one point");
+  auto cycle = offline::DelayCycle::make(cut->process, {.speed_rev_s = cut->speed_rev_s,
+                                                        .modulation = cut->law.modulation,
+                                                        .course = {},
+                                                        .most_depth_mm = cut->depth_mm});
+  if (!cycle) {
+    return refused(cycle.error());
+  }
+  cycle->set_depth(cut->depth_mm);
+  auto found = offline::stability(*cycle, {.frequency = true});
+  const auto courses = offline::growth_courses(*cycle);
+  found.peak_growth = offline::worst(courses).peak();
+  Answer answer = answer_of(options.cut, cut->law, found);
+  if (!options.report.empty()) {
+    const offline::SpeedProfile speed(cut->speed_rev_s, cut->law.modulation);
+    put_report(answer, options.report,
+               page::growth_page(answer.json, cut->process, *cycle, speed, courses));
+  }
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_chatter_radius(Session& session) {
+  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
+  Verb& verb = session.verb(
+      group, "radius", "Is a cut stable at this speed and depth, constant or modulated",
+      "chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5\n"
+      "  steadyrest chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm "
+      "1 --law sine --rva 0.2 --rvf 0.1 --report out/growth");
+  auto options = std::make_shared<Options>();
+  add_cut_point_options(verb, options->cut);
+  verb.reports(options->report);
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

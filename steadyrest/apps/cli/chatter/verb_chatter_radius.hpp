@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// `steadyrest chatter radius`: is a cut stable at one speed and depth.
+void add_verb_chatter_radius(Session& session);
+
+}  // namespace steadyrest::apps::cli

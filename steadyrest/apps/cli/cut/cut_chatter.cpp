@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <steadyrest/apps/cli/cut/cut_chatter.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/page/cut/report.hpp>
+#include <steadyrest/chatter/offline/process/process_file.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/trial/vibration/cut_simulation.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace units = kernel::units;
+using chatter::offline::PlanDecision;
+using chatter::online::Law;
+using chatter::online::Modulation;
+using kernel::machine::Machine;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using trial::cut::ChatterChoice;
+
+constexpr const char* kPlan = "plan";
+constexpr const char* kDetect = "detect";
+constexpr const char* kMachine = "machine";
+
+std::unexpected<Refusals> one(Refusal refusal) {
+  return std::unexpected(Refusals{std::move(refusal)});
+}
+
+/// Lowest programmed speed of a cut, G96 included; 0: the spindle stands.
+double slowest_cut_rev_s(const nc::plan::PlannedPath& path) {
+  const std::vector<double> speeds = trial::cut::cutting_speeds(path);
+  double slowest = speeds.empty() ? 0.0 : speeds.front();
+  for (const nc::plan::SegmentPlan& plan : path.plans) {
+    const double speed = std::abs(plan.spindle_rev_s);
+    if (speed > 0.0 && !plan.rapid) {
+      slowest = slowest > 0.0 ? std::min(slowest, speed) : speed;
+    }
+  }
+  return slowest;
+}
+
+double lowest_ratio(const Modulation& m) {
+  return m.law == Law::constant ? m.mean_ratio : m.mean_ratio * (1.0 - m.amplitude_ratio);
+}
+
+double lowest_ratio(const CutChatter& chatter, const Machine& machine) {
+  double lowest = chatter.listener ? machine.envelope.min_spindle_ratio : 1.0;
+  for (const ChatterChoice& choice : chatter.choices) {
+    lowest = std::min(lowest, lowest_ratio(choice.modulation));
+  }
+  const kernel::machine::Chatter& c = machine.chatter;
+  if (!chatter.by_plan && c.enabled) {
+    lowest = c.amplitude_rev_s > 0.0 ? machine.envelope.min_spindle_ratio
+                                     : c.mean_ratio * (1.0 - c.amplitude_ratio);
+  }
+  return std::clamp(lowest, 0.5, 1.0);
+}
+
+std::string choice_words(const ChatterChoice& choice) {
+  const Modulation& m = choice.modulation;
+  switch (choice.decision) {
+    case PlanDecision::keep:
+      return "the programmed speed is stable";
+    case PlanDecision::constant:
+      return fmt::format("override {:.4g} %", units::percent_from_ratio(m.mean_ratio));
+    case PlanDecision::law:
+      return fmt::format("{} ±{:.4g} % every {:.3g} s", chatter::online::name(m.law),
+                         units::percent_from_ratio(m.amplitude_ratio), m.period_s);
+    case PlanDecision::nothing:
+      return "nothing helps";
+  }
+  return {};
+}
+
+std::string switch_words(const ChatterChoice& choice) {
+  return choice.switch_ratio > 1.0
+             ? fmt::format("; the operator's spindle switch stands at {:.4g} % for it",
+                           units::percent_from_ratio(choice.switch_ratio))
+             : "";
+}
+
+Json json_of(const ChatterChoice& choice) {
+  const Modulation& m = choice.modulation;
+  const bool law = m.law != Law::constant;
+  return {{"speed_rpm", units::rpm_from_rev_s(choice.speed_rev_s)},
+          {"decision", chatter::offline::name(choice.decision)},
+          {"mean_percent", units::percent_from_ratio(m.mean_ratio)},
+          {"law", chatter::online::name(m.law)},
+          {"rva", law ? m.amplitude_ratio : 0.0},
+          {"period_s", law ? Json(m.period_s) : Json(nullptr)},
+          {"spindle_switch_percent", units::percent_from_ratio(choice.switch_ratio)},
+          {"notes", choice.notes}};
+}
+
+std::string vibration_text(const trial::cut::VibrationFigures& without,
+                           const trial::cut::VibrationFigures& with) {
+  Table table({"the tool in the cut", "without the layer", "with the layer"});
+  const auto row = [&](const char* name, const char* unit, double a, double b) {
+    table.row({name, fmt::format("{:.3g} {}", a, unit), fmt::format("{:.3g} {}", b, unit)});
+  };
+  row("vibration, RMS", "µm", without.rms_um, with.rms_um);
+  row("largest displacement", "µm", without.peak_um, with.peak_um);
+  row("chatter: not from tooth to tooth, RMS", "µm", without.unforced_rms_um, with.unforced_rms_um);
+  row("largest force", "N", without.force_peak_n, with.force_peak_n);
+  if (without.surface_range_um && with.surface_range_um) {
+    row("finished wall, highest less lowest", "µm", *without.surface_range_um,
+        *with.surface_range_um);
+  }
+  return "\n" + table.text();
+}
+
+}  // namespace
+
+void add_cut_chatter_options(Verb& verb, CutChatterOptions& options) {
+  CLI::Option* process =
+      verb.reads("--process", options.process,
+                 "Process file (TOML): what the tool cuts in G1–G3, its vibration with it");
+  verb.also_reads([&options] { return chatter::offline::response_files(options.process); });
+  verb.add_option("--depth-mm", options.depth_mm, "Depth of cut of that process")->needs(process);
+  verb.add_option("--chatter", options.source,
+                  "What the layer does against chatter: plan (ask the planner for each spindle "
+                  "speed), detect (hear it, then take the better step of the planner's table), "
+                  "machine ([chatter] of the machine file as it stands)")
+      ->check(CLI::IsMember({kPlan, kDetect, kMachine}))
+      ->capture_default_str()
+      ->needs(process);
+}
+
+std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options,
+                                                const nc::plan::PlannedPath& path, Machine& machine,
+                                                Progress& progress) {
+  CutChatter out;
+  if (options.process.empty()) {
+    return out;
+  }
+  if (!options.depth_mm || !(*options.depth_mm > 0.0)) {
+    return one({Kind::bad_input, "", 0,
+                options.depth_mm ? fmt::format("--depth-mm {} is not above 0", *options.depth_mm)
+                                 : "--process without --depth-mm",
+                "give the depth of the cut above 0, as in --depth-mm 1.5"});
+  }
+  const auto process = chatter::offline::read_process_all_faults(options.process);
+  if (!process) {
+    return std::unexpected(process.error());
+  }
+  const double slowest = slowest_cut_rev_s(path);
+  if (!(slowest > 0.0)) {
+    return one({Kind::bad_input, "", 0, "the program cuts with a spindle that stands still",
+                "program S and M3 before the first G1, or leave --process away"});
+  }
+  if (options.source == kPlan) {
+    auto choices = trial::cut::choose(
+        *process, machine, trial::cut::cutting_speeds(path), *options.depth_mm,
+        [&](double share, std::string_view what) { progress.update(share, what); });
+    if (!choices) {
+      return one(choices.error());
+    }
+    out.choices = std::move(*choices);
+    out.by_plan = true;
+    const bool acts = std::ranges::any_of(out.choices, [](const ChatterChoice& choice) {
+      return choice.decision == PlanDecision::constant || choice.decision == PlanDecision::law;
+    });
+    machine.chatter.enabled = false;
+    if (acts) {
+      machine = trial::cut::with_modulator(std::move(machine));
+    }
+  }
+  if (options.source == kDetect) {
+    const sim::CuttingVibration::Config sensor;
+    auto listener = trial::cut::listener_for(*process, machine, trial::cut::cutting_speeds(path),
+                                             *options.depth_mm, sensor.sensor_rate_hz);
+    if (!listener) {
+      return one(listener.error());
+    }
+    out.listener = std::move(*listener);
+    machine = trial::cut::with_modulator(std::move(machine));
+  }
+  out.cutting = {.cut = trial::vibration::cutting_of(*process, *options.depth_mm),
+                 .slowest_rev_s = slowest * lowest_ratio(out, machine)};
+  return out;
+}
+
+void put_vibration(Answer& answer, const CutChatter& chatter, const trial::cut::Recorder& without,
+                   const trial::cut::Recorder& with) {
+  if (!chatter.cutting) {
+    return;
+  }
+  const auto before = without.vibration() ? without.vibration()->figures() : std::nullopt;
+  const auto after = with.vibration() ? with.vibration()->figures() : std::nullopt;
+  if (before && after) {
+    answer.json["without"].update(Json::parse(page::to_json(*before)));
+    answer.json["with"].update(Json::parse(page::to_json(*after)));
+    answer.text += vibration_text(*before, *after);
+  }
+  if (chatter.listener) {
+    answer.json["heard"] = Json::array();
+    for (const trial::cut::HeardChatter& heard : with.heard()) {
+      answer.json["heard"].push_back(
+          {{"time_s", heard.time_s},
+           {"frequency_hz", heard.frequency_hz},
+           {"spindle_percent", units::percent_from_ratio(heard.spindle_ratio)}});
+      answer.text +=
+          fmt::format("{:.3f} s: chatter at {:.0f} Hz; spindle override {:.4g} %\n", heard.time_s,
+                      heard.frequency_hz, units::percent_from_ratio(heard.spindle_ratio));
+    }
+    answer.text += with.heard().empty() ? "no chatter was heard, or no step is better\n" : "";
+  }
+  if (!chatter.by_plan) {
+    return;
+  }
+  answer.json["chatter"] = Json::array();
+  for (const ChatterChoice& choice : chatter.choices) {
+    answer.json["chatter"].push_back(json_of(choice));
+    answer.text += fmt::format("S{:.0f}: {}{}\n", units::rpm_from_rev_s(choice.speed_rev_s),
+                               choice_words(choice), switch_words(choice));
+  }
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/cut/cut_batch.hpp>
+#include <steadyrest/apps/cli/cut/cut_chatter.hpp>
+#include <steadyrest/apps/cli/cut/verb_cut.hpp>
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/apps/cli/shared/program_warnings.hpp>
+#include <steadyrest/apps/cli/shared/report_option.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/page/cut/report.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/nc/plan/check/idle_override.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/trial/cut/comparison.hpp>
+#include <steadyrest/trial/cut/cut_job.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::machine::ContourStrategy;
+using kernel::machine::Machine;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using nc::plan::PlannedPath;
+using trial::cut::Figures;
+using trial::cut::Recorder;
+using PathPointer = std::shared_ptr<const PlannedPath>;
+
+struct Options {
+  ProgramOptions program;
+  std::string machine;
+  std::string report;
+  std::optional<double> limit_um;
+  std::optional<std::string> strategy;
+  CutChatterOptions chatter;
+  CutBatchOptions batch;
+};
+
+const std::map<std::string, ContourStrategy> kStrategies = {
+    {"contour_priority", ContourStrategy::contour_priority},
+    {"feed_priority", ContourStrategy::feed_priority},
+    {"combined", ContourStrategy::combined}};
+
+/// The options that stand above the machine file.
+std::optional<Refusal> apply(const Options& options, Machine& machine) {
+  if (options.limit_um) {
+    if (!(*options.limit_um >= 0.1 && *options.limit_um <= 10'000.0)) {
+      return Refusal{Kind::bad_input, "", 0,
+                     fmt::format("--limit-um {} is outside of 0.1 … 10000", *options.limit_um),
+                     "give the largest contour error that the part may have"};
+    }
+    machine.contour.limit_mm = kernel::units::mm_from_um(*options.limit_um);
+  }
+  if (options.strategy) {
+    machine.contour.strategy = kStrategies.at(*options.strategy);
+  }
+  return std::nullopt;
+}
+
+/// The program as the machine's control would plan it, and what of it the machine cannot do.
+struct Planned {
+  PathPointer path;
+  std::vector<nc::plan::Warning> warnings;
+  std::size_t warning_count = 0;
+};
+
+std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine& machine) {
+  Answer answer;
+  const auto config = program_config(options, machine);
+  if (!config) {
+    answer.refusals.push_back(config.error());
+    answer.exit_code = kRefused;
+    return std::unexpected(std::move(answer));
+  }
+  nc::plan::PathBuilder builder(machine);
+  nc::plan::MachineCheck check(machine, known_of(options));
+  nc::plan::Both both(builder, check);
+  const auto report = nc::interpret::run_file(options.file, *config, both);
+  if (!report) {
+    answer.refusals.push_back(report.error());
+    answer.exit_code = report.error().kind == Kind::bad_input ? kRefused : kFailed;
+    return std::unexpected(std::move(answer));
+  }
+  if (!report->refused.empty()) {
+    put_report(answer, *report, options.file);
+    return std::unexpected(std::move(answer));
+  }
+  auto path = builder.take();
+  if (!path) {
+    Refusal refusal = path.error();
+    refusal.file = options.file;
+    answer.refusals.push_back(std::move(refusal));
+    answer.exit_code = kRefused;
+    return std::unexpected(std::move(answer));
+  }
+  if (path->segments.empty()) {
+    answer.refusals.push_back({Kind::bad_input, options.file, 0, "the program moves no axis",
+                               "give a program with at least one motion"});
+    answer.exit_code = kRefused;
+    return std::unexpected(std::move(answer));
+  }
+  Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
+              check.count()};
+  if (auto idle = nc::plan::idle_override(*out.path, machine.feed_override)) {
+    out.warnings.insert(out.warnings.begin(), std::move(*idle));
+    ++out.warning_count;
+  }
+  return out;
+}
+
+Json json_of(const Figures& figures) {
+  return {{"cycle_time_s", figures.cycle_time_s},
+          {"contour_error_max_mm", figures.contour_error_max_mm},
+          {"contour_error_rms_mm", figures.contour_error_rms_mm},
+          {"tracking_error_max_mm", figures.tracking_error_max_mm},
+          {"over_limit_s", figures.over_limit_s},
+          {"override_changes", figures.override_changes},
+          {"cutting_time_s", figures.cutting_time_s},
+          {"samples", figures.samples},
+          {"samples_over_limit", figures.samples_over_limit}};
+}
+
+Json json_of(const std::vector<trial::cut::MotionFigures>& motion) {
+  Json axes = Json::array();
+  for (const trial::cut::MotionFigures& m : motion) {
+    axes.push_back({{"axis", m.axis},
+                    {"velocity_rms_mm_s", m.velocity_rms_mm_s},
+                    {"acceleration_rms_mm_s2", m.acceleration_rms_mm_s2},
+                    {"difference_velocity_rms_mm_s", m.difference_velocity_rms_mm_s},
+                    {"difference_acceleration_rms_mm_s2", m.difference_acceleration_rms_mm_s2},
+                    {"velocity_coverage_ratio", m.velocity_coverage_ratio},
+                    {"acceleration_coverage_ratio", m.acceleration_coverage_ratio}});
+  }
+  return axes;
+}
+
+Json json_of(const std::vector<trial::cut::ProbeFigures>& probes) {
+  Json out = Json::array();
+  for (const trial::cut::ProbeFigures& p : probes) {
+    out.push_back({{"time_s", p.time_s},
+                   {"line", p.line},
+                   {"axis", p.axis},
+                   {"displacement_um", p.displacement_um},
+                   {"innovation_um", p.innovation_um},
+                   {"band_um", p.band_um},
+                   {"reason", kernel::outcome::name(p.reason)}});
+  }
+  return out;
+}
+
+std::string text_of(const Figures& without, const Figures& with, double limit_mm) {
+  using kernel::units::um_from_mm;
+  const auto um = [](double mm) { return fmt::format("{:.1f} µm", um_from_mm(mm)); };
+  const auto seconds = [](double s) { return fmt::format("{:.2f} s", s); };
+  return Table({"", "without the layer", "with the layer"})
+      .row({"cycle time", seconds(without.cycle_time_s), seconds(with.cycle_time_s)})
+      .row({"contour error, largest", um(without.contour_error_max_mm),
+            um(with.contour_error_max_mm)})
+      .row({"contour error, RMS", um(without.contour_error_rms_mm), um(with.contour_error_rms_mm)})
+      .row({"tracking error, largest", um(without.tracking_error_max_mm),
+            um(with.tracking_error_max_mm)})
+      .row({fmt::format("over the limit of {}", um(limit_mm)), seconds(without.over_limit_s),
+            seconds(with.over_limit_s)})
+      .row({"override changes", fmt::format("{}", without.override_changes),
+            fmt::format("{}", with.override_changes)})
+      .text();
+}
+
+/// What the estimates of each axis's motion were worth in the cut with the layer.
+std::string text_of(const std::vector<trial::cut::MotionFigures>& motion, const Machine& machine) {
+  if (motion.empty()) {
+    return {};
+  }
+  Table table({"error of the motion seen, RMS", "estimate", "difference of the counts"});
+  for (const trial::cut::MotionFigures& m : motion) {
+    const bool rotary = std::ranges::any_of(
+        machine.axes, [&](const auto& axis) { return axis.rotary && axis.name == m.axis; });
+    const auto both = [rotary](double velocity, double acceleration) {
+      using kernel::units::deg_from_rad;
+      return rotary ? fmt::format("{:.3g} °/s, {:.3g} °/s²", deg_from_rad(velocity),
+                                  deg_from_rad(acceleration))
+                    : fmt::format("{:.3g} mm/s, {:.3g} mm/s²", velocity, acceleration);
+    };
+    table.row({m.axis, both(m.velocity_rms_mm_s, m.acceleration_rms_mm_s2),
+               both(m.difference_velocity_rms_mm_s, m.difference_acceleration_rms_mm_s2)});
+  }
+  return "\n" + table.text();
+}
+
+/// What became of the probe's readings.
+std::string text_of(const std::vector<trial::cut::ProbeFigures>& probes) {
+  if (probes.empty()) {
+    return {};
+  }
+  Table table({"probe", "line", "finds", "not foreseen", "taken within", ""});
+  for (const trial::cut::ProbeFigures& p : probes) {
+    table.row({fmt::format("{} at {:.1f} s", p.axis, p.time_s), fmt::format("{}", p.line),
+               fmt::format("{:.2f} µm", p.displacement_um),
+               fmt::format("{:.2f} µm", p.innovation_um), fmt::format("±{:.2f} µm", p.band_um),
+               std::string{kernel::outcome::name(p.reason)}});
+  }
+  return "\n" + table.text();
+}
+
+Result<Recorder> cut_once(const Machine& machine, const PathPointer& path,
+                          const CutChatter& chatter, bool with_layer, Progress& progress) {
+  const double from = with_layer ? 0.5 : 0.0;
+  const char* what = with_layer ? "cutting with the layer" : "cutting without the layer";
+  return trial::cut::run(
+      {.machine = machine,
+       .path = path,
+       .with_layer = with_layer,
+       .cutting = chatter.cutting,
+       .choices = chatter.choices,
+       .listener = chatter.listener,
+       .progress = [&](double share) { progress.update(from + share / 2, what); }});
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  auto machine = read_machine(options.machine);
+  if (!machine) {
+    return std::unexpected(machine.error());
+  }
+  if (auto fault = apply(options, *machine)) {
+    return refused(std::move(*fault));
+  }
+  auto planned = plan(options.program, *machine);
+  if (!planned) {
+    return std::move(planned.error());
+  }
+  const PathPointer& path = planned->path;
+  const auto chatter = cut_chatter(options.chatter, *path, *machine, progress);
+  if (!chatter) {
+    return std::unexpected(chatter.error());
+  }
+  const auto without = cut_once(*machine, path, *chatter, false, progress);
+  if (!without) {
+    return refused(without.error());
+  }
+  const auto with = cut_once(*machine, path, *chatter, true, progress);
+  if (!with) {
+    return refused(with.error());
+  }
+  progress.clear();
+  Answer answer;
+  answer.json["program"] = options.program.file;
+  answer.json["machine"] = machine->name;
+  answer.json["limit_um"] = kernel::units::um_from_mm(machine->contour.limit_mm);
+  answer.json["without"] = json_of(without->figures());
+  answer.json["with"] = json_of(with->figures());
+  answer.json["motion"] = json_of(with->motion());
+  answer.json["probes"] = json_of(with->probes());
+  answer.text = text_of(without->figures(), with->figures(), machine->contour.limit_mm) +
+                text_of(with->motion(), *machine) + text_of(with->probes()) +
+                put_warnings(answer, planned->warnings, planned->warning_count);
+  put_vibration(answer, *chatter, *without, *with);
+  if (auto done =
+          put_batch(answer, options.batch, options.program, *machine, options.report, progress);
+      !done) {
+    return refused(done.error());
+  }
+  if (!options.report.empty()) {
+    page::Json page =
+        page::to_page(trial::cut::compare(options.program.file, *machine, *without, *with));
+    page["warnings"] = answer.json["warnings"];
+    page["warning_count"] = answer.json["warning_count"];
+    put_report(answer, options.report, std::move(page));
+  }
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_cut(Session& session) {
+  Verb& verb = session.verb(
+      session.root(), "cut",
+      "Cuts a part twice on the simulated machine, without and with the layer, and compares",
+      "cut examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml "
+      "--report out/rib-pocket");
+  auto options = std::make_shared<Options>();
+  add_machine_program_options(verb, options->program);
+  add_machine_option(verb, options->machine);
+  verb.reports(options->report, [options](const std::string& folder) {
+    std::vector<PlannedFile> files = report_files(folder);
+    if (options->batch.parts > 0) {
+      for (PlannedFile& file : report_files(batch_folder(folder))) {
+        files.push_back(std::move(file));
+      }
+    }
+    return files;
+  });
+  verb.add_option("--limit-um", options->limit_um,
+                  "Contour error limit instead of the machine file's");
+  verb.add_option("--strategy", options->strategy, "Strategy instead of the machine file's")
+      ->check(CLI::IsMember(kStrategies));
+  add_cut_chatter_options(verb, options->chatter);
+  add_cut_batch_options(verb, options->batch);
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <ctime>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/machine/verb_doctor.hpp>
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/passport/file/consistency.hpp>
+#include <steadyrest/passport/keys/schema.hpp>
+#include <steadyrest/trial/timing/judgement.hpp>
+#include <steadyrest/trial/timing/layer_timing.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::machine::Machine;
+using passport::Finding;
+using passport::Severity;
+using trial::timing::LayerTiming;
+
+double us(double seconds) {
+  return 1e6 * seconds;
+}
+
+/// The monotonic clock must be far finer than a cycle.
+std::vector<Finding> check_clock(const Machine& machine) {
+  timespec resolution{};
+  if (clock_getres(CLOCK_MONOTONIC, &resolution) != 0) {
+    return {{Severity::error, "clock", "this system has no monotonic clock",
+             "run on a system with CLOCK_MONOTONIC"}};
+  }
+  const double resolution_s =
+      static_cast<double>(resolution.tv_sec) + 1e-9 * static_cast<double>(resolution.tv_nsec);
+  if (resolution_s > 0.01 * machine.control.interpolator_period_s) {
+    return {{Severity::warning, "clock",
+             fmt::format("the clock's resolution is {:.3g} ms, more than 1 % of a cycle",
+                         resolution_s * 1e3),
+             "use a kernel with high-resolution timers"}};
+  }
+  return {};
+}
+
+/// What the layer takes of a cycle, or why it does not run on this machine.
+struct Measured {
+  std::optional<LayerTiming> timing;
+  std::vector<Finding> findings;
+};
+
+Measured measure(const Machine& machine, Progress& progress) {
+  auto timing = trial::timing::time_layer(
+      machine, {}, [&](double share) { progress.update(share, "measuring the layer"); });
+  progress.clear();
+  if (!timing) {
+    return {std::nullopt,
+            {{Severity::error, "layer", std::move(timing.error().what),
+              std::move(timing.error().to_do)}}};
+  }
+  return {*timing, trial::timing::judge(*timing, machine)};
+}
+
+/// All findings, the worst first.
+std::vector<Finding> examine(const Machine& machine, std::vector<Finding> measured) {
+  std::vector<Finding> all = passport::findings(machine);
+  for (const auto& more : {check_clock(machine), std::move(measured)}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  std::vector<Finding> sorted;
+  for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
+    std::ranges::copy_if(all, std::back_inserter(sorted), [severity](const Finding& finding) {
+      return finding.severity == severity;
+    });
+  }
+  return sorted;
+}
+
+Json json_of(const LayerTiming& timing) {
+  return {{"cycle_us", us(timing.cycle_s)},
+          {"most_share", trial::timing::kMostShare},
+          {"rounds", timing.rounds},
+          {"cycles", timing.cycles},
+          {"work_p50_us", us(timing.work_s.p50)},
+          {"work_p999_us", us(timing.work_s.p999)},
+          {"decisions", timing.decisions},
+          {"decision_p50_us", us(timing.decision_s.p50)},
+          {"decision_p999_us", us(timing.decision_s.p999)},
+          {"decision_worst_us", us(timing.decision_s.worst)}};
+}
+
+std::string text_of(const LayerTiming& timing) {
+  std::string text = fmt::format(
+      "  measured here, of a control cycle of {:.0f} µs the layer takes {:.1f} µs (median)",
+      us(timing.cycle_s), us(timing.work_s.p50));
+  if (timing.decisions > 0) {
+    text += fmt::format(", with a decision {:.0f} µs, {:.0f} µs at p99.9 of {}",
+                        us(timing.decision_s.p50), us(timing.decision_s.p999), timing.decisions);
+  }
+  return text + "\n";
+}
+
+Answer report(const Machine& machine, const Measured& measured,
+              const std::vector<Finding>& findings) {
+  const bool ok = std::ranges::none_of(
+      findings, [](const Finding& f) { return f.severity == Severity::error; });
+  Answer answer;
+  answer.exit_code = ok ? kDone : kFailed;
+  answer.json["ok"] = ok;
+  answer.json["machine"] = machine.name;
+  answer.json["file"] = machine.file;
+  answer.json["port"] = passport::word(machine.port);
+  answer.json["timing"] = measured.timing ? json_of(*measured.timing) : Json();
+  answer.json["findings"] = Json::array();
+  answer.text =
+      fmt::format("{} ({}), port {}\n", machine.name, machine.file, passport::word(machine.port));
+  if (measured.timing) {
+    answer.text += text_of(*measured.timing);
+  }
+  for (const Finding& finding : findings) {
+    const std::string_view severity = passport::word(finding.severity);
+    answer.json["findings"].push_back({{"severity", severity},
+                                       {"check", finding.check},
+                                       {"what", finding.what},
+                                       {"to_do", finding.to_do}});
+    answer.text += fmt::format("  {}: {}; {}\n", severity, finding.what, finding.to_do);
+  }
+  answer.text += ok ? (findings.empty() ? "ok\n" : "ok, with the remarks above\n") : "not ok\n";
+  return answer;
+}
+
+/// A file that is refused is a finding too, so that scripts find it where they look.
+Answer report_refused(Refusals refusals) {
+  Answer answer;
+  answer.json["ok"] = false;
+  answer.json["findings"] = Json::array();
+  for (const auto& refusal : refusals) {
+    answer.json["findings"].push_back({{"severity", "error"},
+                                       {"check", "machine_file"},
+                                       {"file", refusal.file},
+                                       {"line", refusal.line},
+                                       {"what", refusal.what},
+                                       {"to_do", refusal.to_do}});
+  }
+  answer.refusals = std::move(refusals);
+  answer.exit_code = kRefused;
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_doctor(Session& session) {
+  Verb& verb =
+      session.verb(session.root(), "doctor",
+                   "Check a machine file and this computer's clock, and measure whether the "
+                   "layer's work fits into the control cycle",
+                   "doctor --machine examples/machines/vmc-840d.toml");
+  auto path = std::make_shared<std::string>();
+  add_machine_option(verb, *path);
+  session.on(verb, [path](Progress& progress) -> Outcome {
+    auto machine = read_machine(*path);
+    if (!machine) {
+      return report_refused(std::move(machine.error()));
+    }
+    const Measured measured = measure(*machine, progress);
+    return report(*machine, measured, examine(*machine, measured.findings));
+  });
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <steadyrest/apps/cli/motion/verb_motion_bench.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/page/motion/bench_page.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/motion/offline/bench/benchmark.hpp>
+#include <steadyrest/motion/offline/bench/estimator_choice.hpp>
+#include <steadyrest/motion/offline/bench/requirement.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace fs = std::filesystem;
+namespace offline = motion::offline;
+using kernel::outcome::Result;
+using offline::BenchRow;
+
+struct Options {
+  offline::BenchConfig bench;
+  std::string recorded;
+  std::string peer;
+  std::string csv;
+  std::string page;
+};
+
+fs::path requirement_path(const fs::path& csv) {
+  return fs::path(csv).replace_extension(".requirement.csv");
+}
+
+/// The table and the requirement.
+std::vector<PlannedFile> table_files(const std::string& csv) {
+  return {{csv, csv_content("a table of the bench (CSV)", {"scene,estimator,limits,ticks,"})},
+          {requirement_path(csv).string(), csv_content("a table of the requirement (CSV)",
+                                                       {"speed_mm_s,clock_s,line_error_counts,"})}};
+}
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
+}
+
+std::string against(double value, double target) {
+  if (!std::isfinite(target)) {
+    return number(value);
+  }
+  return fmt::format("{} {} {}", number(value), value <= target ? "≤" : ">", number(target));
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.6g} %", 100.0 * share) : "–";
+}
+
+std::string people_table(const offline::Benchmark& benchmark) {
+  Table table({"scene, estimator", "v, mm/s", "gain", "a, mm/s²", "gain", "within bound",
+               "bound/RMS v", "a", "ns/tick", "ns/edge"});
+  for (const BenchRow& row : benchmark.rows) {
+    const auto ratio = [](const offline::ErrorFigures& e) {
+      return number(e.bound_rms_at_speed / e.rms_at_speed);
+    };
+    table.row({fmt::format("{}, {}{}", row.scene, row.estimator, row.limits ? " + limits" : ""),
+               against(row.velocity.rms, row.target_velocity_mm_s), number(row.velocity_gain),
+               against(row.acceleration.rms, row.target_acceleration_mm_s2),
+               number(row.acceleration_gain), percent(row.velocity.coverage), ratio(row.velocity),
+               ratio(row.acceleration), number(row.ns_per_tick), number(row.ns_per_edge)});
+  }
+  std::string out = table.text();
+  for (const std::string& note : benchmark.notes) {
+    out += note + "\n";
+  }
+  return out;
+}
+
+/// What JSON has no number for is null.
+Json figures(const offline::ErrorFigures& e, double gain, double efficiency) {
+  return {{"rms", e.rms},
+          {"max", e.max},
+          {"own_lag_s", e.own_lag_s},
+          {"rms_at_own_lag", e.rms_at_own_lag},
+          {"gain", gain},
+          {"coverage", e.coverage},
+          {"bound_ratio", e.bound_rms_at_speed / e.rms_at_speed},
+          {"efficiency", efficiency}};
+}
+
+Json rows_json(const offline::Benchmark& benchmark) {
+  Json out = Json::array();
+  for (const BenchRow& row : benchmark.rows) {
+    out.push_back(
+        {{"scene", row.scene},
+         {"estimator", row.estimator},
+         {"limits", row.limits},
+         {"ticks", row.ticks},
+         {"velocity_mm_s", figures(row.velocity, row.velocity_gain, row.velocity_efficiency)},
+         {"acceleration_mm_s2",
+          figures(row.acceleration, row.acceleration_gain, row.acceleration_efficiency)},
+         {"contradictions", row.contradictions},
+         {"ns_per_tick", row.ns_per_tick},
+         {"ns_per_edge", row.ns_per_edge},
+         {"target_velocity_mm_s", row.target_velocity_mm_s},
+         {"target_acceleration_mm_s2", row.target_acceleration_mm_s2}});
+  }
+  return out;
+}
+
+/// Writes the tables that are asked for and hands the page to the session; the names of the files.
+Result<Json> write_files(const Options& options, const offline::Benchmark& benchmark,
+                         std::vector<Page>& pages, Progress& progress) {
+  Json files = Json::array();
+  if (options.csv.empty() && options.page.empty()) {
+    return files;
+  }
+  auto requirement = offline::requirement_table(
+      {}, [&progress](double share) { progress.update(share, "the requirement"); });
+  if (!requirement) {
+    return std::unexpected(requirement.error());
+  }
+  std::vector<kernel::file::FileText> out;
+  if (!options.csv.empty()) {
+    out.push_back({options.csv, offline::to_csv(benchmark)});
+    out.push_back({requirement_path(options.csv).string(), offline::to_csv(*requirement)});
+  }
+  if (!options.page.empty()) {
+    const auto data = page::page_data(benchmark, std::move(*requirement));
+    if (!data) {
+      return std::unexpected(data.error());
+    }
+    pages.push_back({.folder = {}, .file = options.page, .data = page::to_page(*data)});
+  }
+  if (const auto written = kernel::file::write_files(out); !written) {
+    return std::unexpected(written.error());
+  }
+  for (const kernel::file::FileText& one : out) {
+    files.push_back(one.file);
+  }
+  if (!options.page.empty()) {
+    files.push_back(options.page);
+  }
+  return files;
+}
+
+Outcome run(Options options, Progress& progress) {
+  options.bench.recorded_folder = options.recorded;
+  options.bench.peer = options.peer;
+  const auto benchmark = offline::run_benchmark(
+      options.bench,
+      [&progress](double share, std::string_view what) { progress.update(share, what); });
+  if (!benchmark) {
+    return refused(benchmark.error());
+  }
+  Answer answer;
+  const auto files = write_files(options, *benchmark, answer.pages, progress);
+  if (!files) {
+    return refused(files.error());
+  }
+  answer.json = {{"rows", rows_json(*benchmark)}, {"notes", benchmark->notes}, {"files", *files}};
+  answer.text = people_table(*benchmark);
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_motion_bench(Session& session) {
+  CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
+  Verb& verb =
+      session.verb(group, "bench", "Errors of all estimators on motions that are known exactly",
+                   "motion bench --scenes sine,s-curve --phases 1");
+  auto options = std::make_shared<Options>();
+  verb.add_option("--scenes", options->bench.scenes,
+                  "Scenes or families of them, by comma: sine, sine-line, sine-line-calibrated, "
+                  "s-curve, flywheel, dither, reversal, constant, jitter, lost, clock, recorded; "
+                  "all without it")
+      ->delimiter(',');
+  verb.add_option(
+          "--estimators", options->bench.estimators,
+          fmt::format("Some of {}; all without it", fmt::join(offline::estimator_names(), ",")))
+      ->delimiter(',');
+  verb.reads("--recorded", options->recorded,
+             "Folder of the recorded logs (k50m.csv or k50m.csv.gz, …)");
+  verb.reads("--linuxcnc", options->peer,
+             "Program that runs LinuxCNC's encoder: steadyrest_encoder_peer");
+  verb.add_option("--phases", options->bench.phases,
+                  "Starts inside of a count over which the S-curve goes")
+      ->capture_default_str();
+  verb.writes("-o,--output", options->csv, "Write the table to this CSV, the requirement beside it",
+              table_files);
+  verb.writes_page("--page", options->page, "Write a page with all of it to this HTML file");
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

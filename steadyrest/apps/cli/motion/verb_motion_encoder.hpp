@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// `steadyrest motion encoder`: the encoder that a speed permits, and the speed that an encoder
+/// permits.
+void add_verb_motion_encoder(Session& session);
+
+}  // namespace steadyrest::apps::cli

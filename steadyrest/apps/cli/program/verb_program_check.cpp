@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/program/verb_program_check.hpp>
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/apps/cli/shared/program_warnings.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+class NoMoves final : public nc::interpret::Sink {
+ public:
+  void on_move(const nc::interpret::Move& /*move*/) override {}
+  void on_event(const nc::interpret::Event& /*event*/) override {}
+};
+
+std::string text_of(const nc::interpret::Report& report) {
+  if (report.refused.empty()) {
+    return fmt::format("accepted: {} blocks, {} moves\n", report.blocks, report.moves);
+  }
+  Table table({"reason", "line", "word"});
+  for (const nc::read::Refused& refused : report.refused) {
+    table.row({refused.reason, fmt::format("{}", refused.line), refused.word});
+  }
+  return fmt::format("refused after {} blocks; not accepted:\n", report.blocks) + table.text();
+}
+
+/// Executes the program to its end, and says how far it has come in the file.
+kernel::outcome::Result<nc::interpret::Report> read_program(const std::string& path,
+                                                            const nc::interpret::Config& config,
+                                                            nc::interpret::Sink& sink,
+                                                            Progress& progress) {
+  constexpr std::uint32_t kEvery = 1U << 14U;
+  auto source = nc::read::LineSource::open(path);
+  if (!source) {
+    return std::unexpected(source.error());
+  }
+  auto run = nc::interpret::ProgramRun::make(*source, config, sink);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  std::error_code unknown;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(path, unknown));
+  while (run->step()) {
+    if (!unknown && run->line() % kEvery == 0) {
+      progress.update(static_cast<double>(source->offset()) / bytes, "reading");
+    }
+  }
+  return run->take();
+}
+
+struct Options {
+  ProgramOptions program;
+  std::string machine;  ///< empty: the program's words alone are looked at
+};
+
+Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
+               Progress& progress) {
+  const auto config = machine == nullptr ? program_config(options.program)
+                                         : program_config(options.program, *machine);
+  if (!config) {
+    return refused(config.error());
+  }
+  NoMoves nothing;
+  std::optional<nc::plan::MachineCheck> check;
+  if (machine != nullptr) {
+    check.emplace(*machine, known_of(options.program));
+  }
+  nc::interpret::Sink& sink = check ? static_cast<nc::interpret::Sink&>(*check) : nothing;
+  const auto report = read_program(options.program.file, *config, sink, progress);
+  if (!report) {
+    return refused(report.error());
+  }
+  Answer answer;
+  put_report(answer, *report, options.program.file);
+  answer.json["moves"] = report->moves;
+  answer.text = text_of(*report);
+  if (check) {
+    answer.text += put_warnings(answer, check->warnings(), check->count());
+  }
+  return answer;
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  if (options.machine.empty() && options.program.dialect.empty()) {
+    return refused({kernel::outcome::Kind::bad_input, "", 0, "--dialect is required",
+                    "give --dialect, or --machine with the machine that the program is for"});
+  }
+  if (options.machine.empty()) {
+    return run_on(options, nullptr, progress);
+  }
+  const auto machine = read_machine(options.machine);
+  return machine ? run_on(options, &*machine, progress) : std::unexpected(machine.error());
+}
+
+}  // namespace
+
+void add_verb_program_check(Session& session) {
+  CLI::App& group = session.group("program", "NC programs");
+  Verb& verb = session.verb(
+      group, "check", "Reads an NC program; lists every word that is not understood, with its line",
+      "program check examples/programs/rib-pocket.ngc --dialect linuxcnc");
+  auto options = std::make_shared<Options>();
+  add_program_options(verb, options->program);
+  verb.get_option("--dialect")->required(false);
+  verb.add_option("--machine", options->machine,
+                  "Machine file: dialect and axes are the machine's, and the program is held "
+                  "against its travel, feeds and spindle; fully with --variables and --tools")
+      ->option_text("FILE");
+  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

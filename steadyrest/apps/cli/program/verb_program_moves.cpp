@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include <steadyrest/apps/cli/program/verb_program_moves.hpp>
+#include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/nc/interpret/state/move_table.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using nc::interpret::MoveTable;
+
+struct Options {
+  ProgramOptions program;
+  std::string output;
+};
+
+// Without -o the table itself is the text for people, written as it arises: a program of ten
+// million lines must not be held in memory. With --json stdout belongs to the JSON object.
+Outcome run(const Options& options, bool json) {
+  const auto config = program_config(options.program);
+  if (!config) {
+    return refused(config.error());
+  }
+  auto out = table_output(options.output, json);
+  if (!out) {
+    return refused(out.error());
+  }
+  MoveTable table(*out);
+  const auto report = nc::interpret::run_file(options.program.file, *config, table);
+  if (!report) {
+    return refused(report.error());
+  }
+  table.finish();
+  // The moves up to a refusal are no reason to replace an older table of all.
+  const bool whole = report->refused.empty();
+  if (const auto written = whole ? out->commit() : out->flush(); !written) {
+    return refused(written.error());
+  }
+  Answer answer;
+  put_report(answer, *report, options.program.file);
+  answer.json["moves"] = report->moves;
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_program_moves(Session& session) {
+  CLI::App& group = session.group("program", "NC programs");
+  Verb& verb = session.verb(group, "moves",
+                            "Lists the moves of an NC program as CSV, in mm, degrees and mm/min",
+                            "program moves examples/programs/rib-pocket.ngc --dialect linuxcnc");
+  auto options = std::make_shared<Options>();
+  add_program_options(verb, options->program);
+  verb.writes("-o,--output", options->output, "Write the table to this file, not to stdout",
+              csv_content("a table of moves (CSV)", {std::string(MoveTable::kHead)}));
+  session.on(verb,
+             [options, &session](Progress& /*progress*/) { return run(*options, session.json()); });
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/program/verb_program_strip.hpp>
+#include <steadyrest/nc/rewrite/text/tag.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string output;
+};
+
+Outcome run(const Options& options) {
+  const auto removed = nc::rewrite::strip(options.file, options.output);
+  if (!removed) {
+    return refused(removed.error());
+  }
+  Answer answer;
+  answer.json["removed_lines"] = *removed;
+  answer.text = fmt::format("{} lines taken out\n", *removed);
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_program_strip(Session& session) {
+  CLI::App& group = session.group("program", "NC programs");
+  Verb& verb =
+      session.verb(group, "strip", "Takes the corrections out of an NC program, byte for byte",
+                   "program strip examples/programs/rib-pocket.ngc -o rib-pocket.ngc");
+  auto options = std::make_shared<Options>();
+  verb.reads("FILE", options->file, "The changed program")->required();
+  verb.writes("-o,--output", options->output,
+              "The original again; with --force it may be FILE itself", program_content())
+      ->required();
+  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+}
+
+}  // namespace steadyrest::apps::cli

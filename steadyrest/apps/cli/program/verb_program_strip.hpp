@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// `steadyrest program strip`: takes the corrections out of an NC program, byte for byte.
+void add_verb_program_strip(Session& session);
+
+}  // namespace steadyrest::apps::cli

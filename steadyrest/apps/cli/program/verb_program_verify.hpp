@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// `steadyrest program verify`: proves that a changed program differs by a plan's corrections
+/// alone.
+void add_verb_program_verify(Session& session);
+
+}  // namespace steadyrest::apps::cli

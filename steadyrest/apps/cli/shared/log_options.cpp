@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/apps/cli/shared/log_options.hpp>
+#include <steadyrest/apps/cli/shared/value_check.hpp>
+
+namespace steadyrest::apps::cli {
+
+void add_log_options(CLI::App& verb, LogOptions& options, bool over_time) {
+  verb.add_option("--columns", options.columns,
+                  "Names of the columns, for a log without a header: t_s,count; - passes one over; "
+                  "sample is the sample number of halsampler -t")
+      ->delimiter(',');
+  verb.add_option("--decimal", options.decimal,
+                  "Decimal mark of the log, point or comma, where the log itself does not tell")
+      ->check(CLI::IsMember({"point", "comma"}));
+  if (over_time) {
+    verb.add_option("--sample-hz", options.sample_hz,
+                    "Samples per second of a log that has no time: of the column sample, or of its "
+                    "rows")
+        ->check(within(1e-3, 1e9));
+  }
+}
+
+table::Format format_of(const LogOptions& options, double sample_hz) {
+  table::Format out;
+  out.columns = options.columns;
+  out.decimal = options.decimal == "comma"   ? table::Decimal::comma
+                : options.decimal == "point" ? table::Decimal::point
+                                             : table::Decimal::by_file;
+  out.sample_hz = options.sample_hz.value_or(sample_hz);
+  out.rows_are_samples = options.sample_hz.has_value();
+  return out;
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <expected>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// Adds the mandatory `--machine FILE` to a verb.
+void add_machine_option(Verb& verb, std::string& path);
+
+/// Reads a machine file; all of its faults are in the refusals.
+[[nodiscard]] std::expected<kernel::machine::Machine, Refusals> read_machine(
+    const std::string& path);
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <utility>
+
+#include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/nc/interpret/parameters/linuxcnc_files.hpp>
+#include <steadyrest/nc/read/reader.hpp>
+
+namespace steadyrest::apps::cli {
+
+using kernel::outcome::Result;
+using nc::interpret::Config;
+
+namespace {
+
+/// --dialect first, then the control's data.
+std::vector<CLI::Option*> add_data(Verb& verb, ProgramOptions& options) {
+  std::vector<CLI::Option*> made;
+  made.push_back(
+      verb.add_option("--dialect", options.dialect, "The control that the program is written for")
+          ->check(CLI::IsMember({"linuxcnc", "fanuc", "sinumerik"})));
+  made.push_back(
+      verb.reads("--tools", options.tools,
+                 "Tool table in LinuxCNC's format; without one every tool has length 0"));
+  made.push_back(verb.reads("--variables", options.variables,
+                            "Offsets and reference points from LinuxCNC's variable file"));
+  made.push_back(verb.add_option("--data-units", options.units,
+                                 "Unit of the lengths in the tool table and the variable file")
+                     ->check(CLI::IsMember({"mm", "inch"})));
+  made.push_back(
+      verb.reads("--subprograms", options.subprograms,
+                 "Folders of subprogram files, in the order of the search; the program's own "
+                 "folder when none is given"));
+  made.push_back(verb.add_flag("--block-delete", options.block_delete,
+                               "Leave out the lines that begin with /"));
+  made.push_back(verb.add_flag("--least-increment", options.least_increment,
+                               "fanuc: X100 is 0.100 mm (without it: 100 mm)"));
+  return made;
+}
+
+CLI::Option* add_common(Verb& verb, ProgramOptions& options) {
+  verb.reads("FILE", options.file, "The NC program")->required();
+  return add_data(verb, options).front();
+}
+
+constexpr const char* kOtherDialect =
+    "The control that the program is written for, if not the machine's";
+
+std::string dialect_name(kernel::machine::Dialect dialect) {
+  switch (dialect) {
+    case kernel::machine::Dialect::linuxcnc:
+      return "linuxcnc";
+    case kernel::machine::Dialect::fanuc:
+      return "fanuc";
+    case kernel::machine::Dialect::sinumerik:
+      return "sinumerik";
+  }
+  return "";
+}
+
+}  // namespace
+
+void add_program_options(Verb& verb, ProgramOptions& options) {
+  add_common(verb, options)->required();
+  verb.add_option("--axes", options.axes, "Letters of the machine's axes");
+}
+
+void add_machine_program_options(Verb& verb, ProgramOptions& options) {
+  add_common(verb, options)->description(kOtherDialect);
+}
+
+void add_optional_program(Verb& verb, ProgramOptions& options, const std::string& description) {
+  CLI::Option* program = verb.reads("--program", options.file, description);
+  const std::vector<CLI::Option*> data = add_data(verb, options);
+  data.front()->description(kOtherDialect);
+  for (CLI::Option* option : data) {
+    option->needs(program);
+  }
+}
+
+Result<Config> program_config(const ProgramOptions& options) {
+  Config config;
+  config.dialect = nc::read::dialect_from_name(options.dialect).value_or(config.dialect);
+  config.block_delete = options.block_delete;
+  config.axes = options.axes;
+  config.decimal_rule = options.least_increment ? nc::interpret::DecimalRule::least_increment
+                                                : nc::interpret::DecimalRule::calculator;
+  const double unit_mm = options.units == "inch" ? 25.4 : 1.0;
+  config.data_unit_mm = unit_mm;
+  config.subprogram_folders = options.subprograms;
+  if (options.subprograms.empty()) {
+    config.subprogram_folders.push_back(std::filesystem::path(options.file).parent_path().string());
+  }
+  if (!options.variables.empty()) {
+    if (auto read = nc::interpret::read_variables(options.variables, unit_mm, config); !read) {
+      return std::unexpected(read.error());
+    }
+  }
+  if (!options.tools.empty()) {
+    auto tools = nc::interpret::read_tool_table(options.tools, unit_mm);
+    if (!tools) {
+      return std::unexpected(tools.error());
+    }
+    config.tools = std::move(*tools);
+  }
+  return config;
+}
+
+Result<Config> program_config(const ProgramOptions& options,
+                              const kernel::machine::Machine& machine) {
+  ProgramOptions of_machine = options;
+  if (of_machine.dialect.empty()) {
+    of_machine.dialect = dialect_name(machine.control.dialect);
+  }
+  of_machine.axes.clear();
+  for (const kernel::machine::Axis& axis : machine.axes) {
+    of_machine.axes += axis.name;
+  }
+  auto config = program_config(of_machine);
+  if (config && machine.chatter.enabled) {
+    config->modulation_on = static_cast<std::int32_t>(machine.chatter.m_code_on);
+    config->modulation_off = static_cast<std::int32_t>(machine.chatter.m_code_off);
+  }
+  return config;
+}
+
+void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file) {
+  answer.json["blocks"] = report.blocks;
+  Json list = Json::array();
+  for (const nc::read::Refused& refused : report.refused) {
+    list.push_back({{"line", refused.line},
+                    {"word", refused.word},
+                    {"reason", refused.reason},
+                    {"text", refused.text}});
+    if (!refused.file.empty()) {  // of a subprogram
+      list.back()["file"] = refused.file;
+    }
+  }
+  answer.json["refused"] = std::move(list);
+  if (!report.refused.empty()) {
+    answer.exit_code = kRefused;
+    answer.refusals.push_back(nc::interpret::first_refusal(report, file));
+  }
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// What every verb that reads an NC program is told.
+struct ProgramOptions {
+  std::string file;
+  std::string dialect;
+  std::string tools;      ///< LinuxCNC tool table, empty for none
+  std::string variables;  ///< LinuxCNC variable file, empty for none
+  std::string units = "mm";
+  std::string axes = "XYZABC";
+  std::vector<std::string> subprograms;  ///< folders; empty: the program's own
+  bool block_delete = false;
+  bool least_increment = false;
+};
+
+/// Adds FILE, --dialect and the options of the control's data.
+void add_program_options(Verb& verb, ProgramOptions& options);
+/// The same for a verb that has a machine file: dialect and axes are the machine's, --dialect may
+/// still say otherwise.
+void add_machine_program_options(Verb& verb, ProgramOptions& options);
+/// The same for a verb that may do without a program: --program, and what is only said of one.
+void add_optional_program(Verb& verb, ProgramOptions& options, const std::string& description);
+
+/// The interpreter's configuration; reads the files that the options name.
+[[nodiscard]] kernel::outcome::Result<nc::interpret::Config> program_config(
+    const ProgramOptions& options);
+[[nodiscard]] kernel::outcome::Result<nc::interpret::Config> program_config(
+    const ProgramOptions& options, const kernel::machine::Machine& machine);
+
+/// The keys `blocks` and `refused[]`, the refusals for stderr and the exit code.
+void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file);
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/nc/plan/check/machine_check.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// What the options tell of the control's data.
+[[nodiscard]] nc::plan::Known known_of(const ProgramOptions& options);
+
+/// The keys `warnings[]` (`line`, `text`) and `warning_count`; the text for people, empty for none.
+[[nodiscard]] std::string put_warnings(Answer& answer,
+                                       const std::vector<nc::plan::Warning>& warnings,
+                                       std::size_t count);
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/apps/cli/shared/rewrite_options.hpp>
+#include <steadyrest/apps/cli/shared/value_check.hpp>
+#include <steadyrest/passport/keys/schema.hpp>
+
+namespace steadyrest::apps::cli {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using nc::rewrite::Method;
+using nc::rewrite::Way;
+
+namespace {
+
+// A path in a plan is meant from the folder of the plan.
+std::string machine_path(const RewriteOptions& options, const nc::rewrite::Plan& plan) {
+  if (!options.machine.empty() || plan.machine.empty()) {
+    return options.machine;
+  }
+  return (std::filesystem::path(options.plan).parent_path() / plan.machine).string();
+}
+
+using kernel::machine::CompensationMethod;
+
+std::expected<Way, Refusals> refuse(std::string what, std::string to_do) {
+  return std::unexpected(
+      Refusals{Refusal{Kind::bad_input, {}, 0, std::move(what), std::move(to_do)}});
+}
+
+// The command line says more than the machine file.
+CompensationMethod method_of(const RewriteOptions& options,
+                             const kernel::machine::Compensation& compensation) {
+  if (options.r_parameter != kNoParameter) {
+    return CompensationMethod::r_parameter;
+  }
+  return options.control == "haas"    ? CompensationMethod::haas
+         : options.control == "fanuc" ? CompensationMethod::fanuc
+                                      : compensation.method;
+}
+
+Method written(CompensationMethod method, kernel::machine::Dialect dialect) {
+  switch (method) {
+    case CompensationMethod::linuxcnc:
+      return Method::linuxcnc;
+    case CompensationMethod::fanuc:
+      return Method::fanuc;
+    case CompensationMethod::haas:
+      return Method::haas;
+    case CompensationMethod::r_parameter:
+      return Method::r_parameter;
+    case CompensationMethod::setting_data:
+      return Method::setting_data;
+    case CompensationMethod::frame_fine:
+      return Method::frame_fine;
+    case CompensationMethod::by_dialect:
+      break;
+  }
+  return dialect == kernel::machine::Dialect::fanuc ? Method::fanuc : Method::linuxcnc;
+}
+
+std::string_view dialect_name(nc::read::Dialect dialect) {
+  return dialect == nc::read::Dialect::sinumerik ? "sinumerik"
+         : dialect == nc::read::Dialect::fanuc   ? "fanuc"
+                                                 : "linuxcnc";
+}
+
+}  // namespace
+
+std::expected<Way, Refusals> way_of(const RewriteOptions& options,
+                                    const kernel::machine::Machine& machine,
+                                    nc::read::Dialect program) {
+  using Dialect = kernel::machine::Dialect;
+  const kernel::machine::Compensation& compensation = machine.compensation;
+  if (options.r_parameter != kNoParameter && program != nc::read::Dialect::sinumerik) {
+    return refuse(fmt::format("--r-parameter with a program of dialect {}", dialect_name(program)),
+                  "leave it out; R-parameters are of SINUMERIK controls");
+  }
+  if (!options.control.empty() && program != nc::read::Dialect::fanuc) {
+    return refuse(fmt::format("--control {} with a program of dialect {}", options.control,
+                              dialect_name(program)),
+                  "leave it out, or choose --dialect fanuc");
+  }
+  const Dialect own = program == nc::read::Dialect::sinumerik ? Dialect::sinumerik
+                      : program == nc::read::Dialect::fanuc   ? Dialect::fanuc
+                                                              : Dialect::linuxcnc;
+  const CompensationMethod method = method_of(options, compensation);
+  const Dialect needed = passport::dialect_of(method, own);
+  if (needed != own) {
+    return refuse(
+        fmt::format("{} says that corrections are written by \"{}\", which is for {}; the "
+                    "program is read as {}",
+                    machine.file, passport::word(method), passport::word(needed),
+                    dialect_name(program)),
+        "give the machine file of the control that the program is for");
+  }
+  if (own == Dialect::sinumerik && method == CompensationMethod::by_dialect) {
+    return refuse("corrections in dialect sinumerik: how the control takes them is not said",
+                  "write [compensation] into the machine file (method = \"r_parameter\", "
+                  "\"setting_data\" or \"frame_fine\"), or give --r-parameter N");
+  }
+  const auto r_parameter = options.r_parameter == kNoParameter
+                               ? compensation.r_parameter
+                               : static_cast<std::uint32_t>(options.r_parameter);
+  // What the machine file says of its own method is not said of another.
+  const bool as_in_file = method == compensation.method && r_parameter == compensation.r_parameter;
+  return Way{.method = written(method, own),
+             .r_parameter = r_parameter,
+             .sign = compensation.sign < 0 ? -1 : 1,
+             .external_offset_free =
+                 compensation.external_offset_free && written(method, own) == Method::fanuc,
+             .cleared_after_abort = compensation.cleared_after_abort && as_in_file,
+             .increment_mm = compensation.least_increment_mm};
+}
+
+namespace {
+
+using nc::rewrite::Told;
+
+/// What a mark tells: everything but the files that verify is given anyway.
+constexpr std::array kTold = {"dialect",      "control",        "r-parameter", "window-s",
+                              "tools",        "variables",      "data-units",  "subprograms",
+                              "block-delete", "least-increment"};
+
+std::vector<std::string> given(const RewriteOptions& options, std::string_view name) {
+  const CLI::Option* option = options.verb->get_option_no_throw("--" + std::string(name));
+  if (option == nullptr || option->count() == 0) {
+    return {};
+  }
+  const bool flag = option->get_expected_max() == 0;
+  return flag ? std::vector<std::string>{""} : option->results();
+}
+
+std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options,
+                                                   nc::read::Dialect dialect) {
+  std::vector<Told> told;
+  for (const std::string name : kTold) {
+    std::vector<std::string> values = given(options, name);
+    if (values.empty() && name == "dialect") {
+      values = {std::string(dialect_name(dialect))};
+    } else if (values.empty() && name == "window-s") {
+      values = {fmt::format("{:g}", options.window_s)};
+    }
+    for (std::string& value : values) {
+      told.push_back({.name = name, .value = std::move(value)});
+      if (nc::rewrite::told_as_text(told.back()).size() > nc::rewrite::kLongestTold) {
+        return std::unexpected(
+            Refusals{Refusal{Kind::bad_input,
+                             {},
+                             0,
+                             fmt::format("--{} is too long for a comment in the program", name),
+                             "give a shorter path"}});
+      }
+    }
+  }
+  return told;
+}
+
+/// A file may have been moved since.
+std::string comparable(const std::string& name, const std::string& value) {
+  if (name == "tools" || name == "variables" || name == "subprograms") {
+    return std::filesystem::path(value).filename().string();
+  }
+  double number = 0.0;
+  const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
+  return !value.empty() && read.ptr == value.data() + value.size() ? fmt::format("{:g}", number)
+                                                                   : value;
+}
+
+void set(RewriteOptions& options, const Told& one) {
+  ProgramOptions& program = options.program;
+  const auto number = [&one](auto& value) {
+    std::from_chars(one.value.data(), one.value.data() + one.value.size(), value);
+  };
+  if (one.name == "dialect") {
+    program.dialect = one.value;
+  } else if (one.name == "control") {
+    options.control = one.value;
+  } else if (one.name == "r-parameter") {
+    number(options.r_parameter);
+  } else if (one.name == "window-s") {
+    number(options.window_s);
+  } else if (one.name == "tools") {
+    program.tools = one.value;
+  } else if (one.name == "variables") {
+    program.variables = one.value;
+  } else if (one.name == "data-units") {
+    program.units = one.value;
+  } else if (one.name == "subprograms") {
+    program.subprograms.push_back(one.value);
+  } else if (one.name == "block-delete") {
+    program.block_delete = true;
+  } else if (one.name == "least-increment") {
+    program.least_increment = true;
+  }
+}
+
+}  // namespace
+
+std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                       const std::string& changed,
+                                                       Progress& progress) {
+  const auto mark = nc::rewrite::read_mark(changed);
+  if (!mark) {
+    return std::unexpected(Refusals{mark.error()});
+  }
+  if (mark->empty()) {  // nothing is inserted
+    auto task = read_rewrite_task(options, progress);
+    if (task) {
+      task->settings.told.clear();
+    }
+    return task;
+  }
+  RewriteOptions told = options;
+  for (const std::string name : kTold) {
+    std::vector<std::string> made_with;
+    for (const Told& one : *mark) {
+      if (one.name == name) {
+        made_with.push_back(one.value);
+      }
+    }
+    const std::vector<std::string> now = given(options, name);
+    const bool same = std::ranges::equal(
+        now, made_with, {}, [&](const auto& value) { return comparable(name, value); },
+        [&](const auto& value) { return comparable(name, value); });
+    if (!now.empty() && !same) {
+      return std::unexpected(Refusals{
+          Refusal{Kind::bad_input, changed, 0,
+                  made_with.empty() ? fmt::format("was made without --{}", name)
+                                    : fmt::format("was made with --{} {}, not {}", name,
+                                                  fmt::join(made_with, " "), fmt::join(now, " ")),
+                  fmt::format("leave --{} out, or compensate the program again", name)}});
+    }
+    if (now.empty()) {
+      for (const std::string& value : made_with) {
+        set(told, {.name = name, .value = value});
+      }
+    }
+  }
+  auto task = read_rewrite_task(told, progress);
+  if (task) {
+    task->settings.told = *mark;
+  }
+  return task;
+}
+
+std::vector<std::string> files_of(const RewriteOptions& options) {
+  const auto plan = nc::rewrite::read_plan(options.plan);
+  return plan ? std::vector<std::string>{machine_path(options, *plan)} : std::vector<std::string>{};
+}
+
+void add_rewrite_options(Verb& verb, RewriteOptions& options) {
+  options.verb = &verb;
+  verb.reads("--plan", options.plan, "The corrections (JSON); nc/rewrite/README.md has its keys")
+      ->required()
+      ->option_text("PLAN.json");
+  verb.reads("--machine", options.machine,
+             "Machine file (TOML): times, clamp; without it the one that the plan names")
+      ->option_text("FILE");
+  verb.add_option("--control", options.control,
+                  "fanuc: the make of the control; G10 L2 P0 is another offset on a Haas. Without "
+                  "it what [compensation] of the machine file says")
+      ->check(CLI::IsMember({"fanuc", "haas"}));
+  verb.add_option("--r-parameter", options.r_parameter,
+                  "sinumerik: number of the R-parameter that holds the correction in mm. Without "
+                  "it what [compensation] of the machine file says")
+      ->check(within(0, 32535));
+  verb.add_option("--window-s", options.window_s,
+                  "How far from its planned instant a correction may be placed, in s")
+      ->check(within(0.0, 86400.0));
+}
+
+std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                       Progress& progress) {
+  RewriteTask task;
+  const std::string extension = std::filesystem::path(options.program.file).extension().string();
+  if (extension == ".h" || extension == ".H") {
+    return std::unexpected(
+        Refusals{Refusal{Kind::bad_input, options.program.file, 0,
+                         "the name of a HEIDENHAIN Klartext program, which is not read",
+                         "post-process the part for linuxcnc, fanuc or sinumerik"}});
+  }
+  auto plan = nc::rewrite::read_plan(options.plan);
+  if (!plan) {
+    return std::unexpected(Refusals{plan.error()});
+  }
+  task.plan = std::move(*plan);
+  const std::string path = machine_path(options, task.plan);
+  if (path.empty()) {
+    return std::unexpected(
+        Refusals{Refusal{Kind::bad_input, options.plan, 0,
+                         "no machine is named, here or in the plan", "give --machine FILE"}});
+  }
+  auto machine = read_machine(path);
+  if (!machine) {
+    return std::unexpected(machine.error());
+  }
+  task.machine = std::move(*machine);
+  auto config = program_config(options.program, task.machine);
+  if (!config) {
+    return std::unexpected(Refusals{config.error()});
+  }
+  task.config = std::move(*config);
+  const auto way = way_of(options, task.machine, task.config.dialect);
+  if (!way) {
+    return std::unexpected(way.error());
+  }
+  static_cast<Way&>(task.settings) = *way;
+  task.settings.axes = task.config.axes;
+  task.config.external_offset = way->method != Method::haas;
+  task.settings.window_s = options.window_s;
+  auto told = told_of(options, task.config.dialect);
+  if (!told) {
+    return std::unexpected(told.error());
+  }
+  task.settings.told = std::move(*told);
+  task.settings.clamp_mm = task.machine.envelope.max_offset_mm;
+  task.settings.progress = [&progress](double share, std::string_view what) {
+    progress.update(share, what);
+  };
+  return task;
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <expected>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/rewrite/text/plan_file.hpp>
+#include <steadyrest/nc/rewrite/text/settings.hpp>
+
+namespace steadyrest::apps::cli {
+
+inline constexpr int kNoParameter = -1;
+
+/// What `program compensate` and `program verify` are told beside their files.
+struct RewriteOptions {
+  ProgramOptions program;
+  std::string plan;
+  std::string machine;  ///< empty: the one that the plan names
+  std::string control;
+  int r_parameter = kNoParameter;
+  double window_s = 60.0;
+  const CLI::App* verb = nullptr;  ///< which of them were given
+};
+
+/// Everything read.
+struct RewriteTask {
+  nc::rewrite::Plan plan;
+  kernel::machine::Machine machine;
+  nc::interpret::Config config;
+  nc::rewrite::Settings settings;
+};
+
+/// How corrections are written into programs of this dialect: as the command line says, else as the
+/// machine file does.
+[[nodiscard]] std::expected<nc::rewrite::Way, Refusals> way_of(
+    const RewriteOptions& options, const kernel::machine::Machine& machine,
+    nc::read::Dialect program);
+
+/// The machine file, which the plan may name.
+[[nodiscard]] std::vector<std::string> files_of(const RewriteOptions& options);
+
+/// Adds all but the programs' own names.
+void add_rewrite_options(Verb& verb, RewriteOptions& options);
+[[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                                     Progress& progress);
+/// For a program that is changed already: what its mark says need not be given, and what is given
+/// must not say otherwise.
+[[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                                     const std::string& changed,
+                                                                     Progress& progress);
+
+}  // namespace steadyrest::apps::cli

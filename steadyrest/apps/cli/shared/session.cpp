@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/apps/cli/shared/usage.hpp>
+#include <steadyrest/apps/page/shared/write_files.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/file/temporary.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+constexpr std::string_view kName = "steadyrest";
+
+void print_refusals(const Refusals& refusals) {
+  for (const Refusal& refusal : refusals) {
+    fmt::print(stderr, "{}: {}\n", kName, kernel::outcome::text(refusal));
+  }
+}
+
+Json as_json(const Refusals& refusals) {
+  Json list = Json::array();
+  for (const Refusal& refusal : refusals) {
+    list.push_back({{"file", refusal.file},
+                    {"line", refusal.line},
+                    {"what", refusal.what},
+                    {"to_do", refusal.to_do}});
+  }
+  return list;
+}
+
+int exit_code_of(const Refusals& refusals) {
+  for (const Refusal& refusal : refusals) {
+    if (refusal.kind == Kind::bad_input) {
+      return kRefused;
+    }
+  }
+  return kFailed;
+}
+
+/// False when stdout took not all of it (a full disk, a closed pipe).
+bool print_out(std::string_view text) {
+  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+         std::fflush(stdout) == 0;
+}
+
+bool print_json(const Json& json) {
+  // A file name need not be UTF-8; JSON must.
+  return print_out(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+int unwritten() {
+  fmt::print(stderr, "{}: the answer cannot be written to stdout; check disk space and pipe\n",
+             kName);
+  return kFailed;
+}
+
+}  // namespace
+
+Outcome refused(Refusal refusal) {
+  Refusals list;
+  list.push_back(std::move(refusal));
+  return std::unexpected(std::move(list));
+}
+
+Session::Session() : app_("Steadyrest: the corrective layer for CNC machines", std::string(kName)) {
+  app_.set_version_flag("--version", std::string(kName) + " " + STEADYREST_VERSION);
+  app_.require_subcommand(1);
+  app_.footer(
+      "`steadyrest VERB --help` says more and ends with an example.\n"
+      "Exit codes: 0 done, 2 refused (bad usage, bad input), 1 anything else.");
+}
+
+CLI::App& Session::group(const std::string& name, const std::string& description) {
+  const auto found =
+      app_.get_subcommands([&name](CLI::App* candidate) { return candidate->get_name() == name; });
+  if (!found.empty()) {
+    return *found.front();
+  }
+  CLI::App& made = *app_.add_subcommand(name, description);
+  made.require_subcommand(1);
+  return made;
+}
+
+Verb& Session::verb(CLI::App& parent, const std::string& name, const std::string& description,
+                    const std::string& example) {
+  const auto owned = std::make_shared<Verb>(description, name, parent);
+  parent.add_subcommand(owned);
+  Verb& made = *owned;
+  made.add_flag("--json", json_, "Print one JSON object on stdout and nothing else there");
+  made.footer("Example:\n  steadyrest " + example);
+  return made;
+}
+
+void Session::on(Verb& verb, Run run) {
+  verb.callback([this, &verb, run = std::move(run)] {
+    chosen_ = &verb;
+    run_ = run;
+  });
+}
+
+int Session::main(int argc, const char* const* argv) noexcept {
+  try {
+    kernel::file::remove_temporaries_on_signals();
+    return parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "steadyrest: internal error: %s; please report it\n", error.what());
+  } catch (...) {
+    std::fputs("steadyrest: internal error; please report it\n", stderr);
+  }
+  return kFailed;
+}
+
+int Session::parse_and_run(int argc, const char* const* argv) {
+  command_ = page::command_of(argc, argv);
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return usage(error);
+  }
+  return run_verb();
+}
+
+int Session::usage(const CLI::ParseError& error) const {
+  if (error.get_exit_code() == 0) {  // --help, --version
+    app_.exit(error, std::cout, std::cerr);
+    return std::cout.flush() ? kDone : unwritten();
+  }
+  const Refusal refusal = usage_refusal(app_, error);
+  if (json_) {
+    print_json({{"refused", as_json({refusal})}});
+  }
+  print_refusals({refusal});
+  return kRefused;
+}
+
+Result<void> Session::write_pages(const std::vector<Page>& pages,
+                                  const page::Provenance& provenance) const {
+  for (const Page& page : pages) {
+    page::Json data = page.data;
+    page::put_provenance(data, provenance);
+    const std::string json = page::text_of(data);
+    if (page.folder.empty()) {
+      if (auto done = kernel::file::write_file(page.file, page::to_html(json)); !done) {
+        return done;
+      }
+    } else if (auto done = page::write_files(page::to_html(json), json, page.folder); !done) {
+      return std::unexpected(std::move(done.error()));
+    }
+  }
+  return {};
+}
+
+Outcome Session::work() const {
+  const auto ready = chosen_->ready(json_);
+  if (!ready) {
+    return std::unexpected(ready.error());
+  }
+  kernel::file::declare_outputs(ready->outputs);
+  const page::Provenance provenance = chosen_->provenance(command_);  // before the work
+  Progress progress;
+  Outcome outcome = run_(progress);
+  progress.clear();
+  if (outcome) {
+    auto done = write_pages(outcome->pages, provenance);
+    if (done) {
+      done = kernel::file::put_outputs_in_place();
+    }
+    if (!done) {
+      return refused(std::move(done.error()));
+    }
+  }
+  if (!outcome || !chosen_->has_outputs()) {
+    return outcome;
+  }
+  if (ready->takes_stdout) {
+    outcome->text.clear();
+    return outcome;
+  }
+  Json& written = outcome->json["written"] = Json::array();
+  for (const kernel::file::Written& one : kernel::file::written_files()) {
+    written.push_back({{"file", one.file}, {"bytes", one.bytes}, {"lines", one.lines}});
+    outcome->text += fmt::format("wrote {}: {} lines, {} bytes\n", one.file, one.lines, one.bytes);
+  }
+  return outcome;
+}
+
+int Session::run_verb() {
+  const Outcome outcome = work();
+  if (!outcome) {
+    print_refusals(outcome.error());
+    if (json_ && !print_json({{"refused", as_json(outcome.error())}})) {
+      return unwritten();
+    }
+    return exit_code_of(outcome.error());
+  }
+  print_refusals(outcome->refusals);
+  const bool written = json_ ? print_json(outcome->json) : print_out(outcome->text);
+  return written ? outcome->exit_code : unwritten();
+}
+
+}  // namespace steadyrest::apps::cli

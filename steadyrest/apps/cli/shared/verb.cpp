@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/shared/verb.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::file::Place;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using Refusals = std::vector<Refusal>;
+
+constexpr std::string_view kNoDate = "none";
+
+/// The file itself; of a folder the files in it.
+std::vector<std::string> files_in(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) {
+    return {path};
+  }
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
+    if (entry.is_regular_file(error)) {
+      out.push_back(entry.path().string());
+    }
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+Refusal refusal(const std::string& file, std::string what, std::string to_do) {
+  return {Kind::bad_input, file, 0, std::move(what), std::move(to_do)};
+}
+
+std::string role_of(const CLI::Option& option) {
+  return option.get_positional() && option.get_lnames().empty()
+             ? "the " + option.get_name() + " itself"
+             : "the file of " + option.get_name() + " itself";
+}
+
+/// What is there: its begin is enough to know it by.
+std::string text_of(const std::filesystem::path& file) {
+  constexpr std::size_t kMost = std::size_t{8} << 20U;
+  std::ifstream in(file, std::ios::binary);
+  std::string text(kMost, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+  return text;
+}
+
+std::optional<Refusal> of_another_kind(const PlannedFile& planned, const Place& place) {
+  if (place.kind != Place::Kind::file || !place.exists) {
+    return std::nullopt;
+  }
+  const std::string text = text_of(place.path);
+  if (text.empty() || planned.content.fits(text)) {
+    return std::nullopt;
+  }
+  return refusal(planned.file, fmt::format("exists and is not {}", planned.content.name),
+                 "name another file, or give --force to replace this one");
+}
+
+std::optional<Refusal> an_input(const PlannedFile& planned, const std::vector<Input>& inputs) {
+  for (const Input& input : inputs) {
+    if (kernel::file::same_place(planned.file, input.file)) {
+      return refusal(planned.file, "is " + input.role,
+                     "name another file, or give --force to replace this one");
+    }
+  }
+  return std::nullopt;
+}
+
+/// The first fault of one output, beside what the outputs before it are.
+std::optional<Refusal> unfit(const PlannedFile& planned, std::span<const PlannedFile> before,
+                             const std::vector<Input>& inputs, bool force) {
+  for (const PlannedFile& other : before) {
+    if (kernel::file::same_place(planned.file, other.file)) {
+      return refusal(planned.file, fmt::format("is the same file as the output {}", other.file),
+                     "give each output its own name");
+    }
+  }
+  const auto place = kernel::file::place_of(planned.file);
+  if (!place) {
+    return place.error();
+  }
+  if (planned.file == "-") {
+    return refusal(planned.file, "would be a file called -",
+                   "write /dev/stdout for stdout, or ./- for that file");
+  }
+  if (force) {
+    return std::nullopt;
+  }
+  auto fault = an_input(planned, inputs);
+  return fault ? fault : of_another_kind(planned, *place);
+}
+
+}  // namespace
+
+kernel::outcome::Result<kernel::file::OutputFile> table_output(const std::string& output,
+                                                               bool json) {
+  if (output.empty() && !json) {
+    return kernel::file::OutputFile::standard_output();
+  }
+  return kernel::file::OutputFile::open(output.empty() ? "/dev/null" : output);
+}
+
+std::vector<PlannedFile> report_files(const std::string& folder) {
+  const std::filesystem::path in(folder);
+  return {{(in / "report.html").string(), page_content()},
+          {(in / "report.json").string(), page_data_content()}};
+}
+
+CLI::Option* Verb::add_output(const std::string& flags, std::string& path,
+                              const std::string& description, Files files, bool folder) {
+  CLI::Option* const option =
+      CLI::App::add_option(flags, path, description)->type_name(folder ? "DIR" : "OUT");
+  if (outputs_.empty()) {
+    add_flag("--force", force_, "Replace an input, or a file of another kind, by an output");
+  }
+  outputs_.push_back({.option = option, .files = std::move(files), .folder = folder});
+  return option;
+}
+
+CLI::Option* Verb::writes(const std::string& flags, std::string& path,
+                          const std::string& description, Content content) {
+  return writes(flags, path, description, [content = std::move(content)](const std::string& given) {
+    return std::vector<PlannedFile>{{given, content}};
+  });
+}
+
+CLI::Option* Verb::writes(const std::string& flags, std::string& path,
+                          const std::string& description, Files files) {
+  return add_output(flags, path, description, std::move(files), false);
+}
+
+void Verb::reports(std::string& folder, Files files) {
+  add_output("--report", folder, "Folder for report.html and report.json; it is made when missing",
+             files ? std::move(files) : report_files, true);
+  dates_last_output();
+}
+
+void Verb::writes_page(const std::string& flags, std::string& path,
+                       const std::string& description) {
+  writes(flags, path, description, page_content());
+  dates_last_output();
+}
+
+void Verb::dates_last_output() {
+  outputs_.back().page = true;
+  add_option(
+      "--report-date", date_,
+      "Date in the report instead of now: ISO 8601, or none, so that the same command on the "
+      "same inputs writes the same bytes")
+      ->check([](const std::string& given) {
+        return given == kNoDate || page::is_iso_date(given)
+                   ? std::string{}
+                   : given + " is neither a date (2026-01-02T03:04:05Z) nor none";
+      });
+}
+
+page::Provenance Verb::provenance(const std::string& command) const {
+  page::Provenance out;
+  if (std::ranges::none_of(outputs_,
+                           [](const Output& o) { return o.page && o.option->count() > 0; })) {
+    return out;
+  }
+  if (date_ != kNoDate) {
+    out.date = date_.empty() ? page::now_utc() : date_;
+  }
+  out.command = command;
+  for (const Input& input : inputs()) {
+    for (const std::string& file : files_in(input.file)) {
+      out.inputs.push_back({file, page::sha256_of_file(file)});
+    }
+  }
+  return out;
+}
+
+std::vector<Refusal> Verb::empty_names() const {
+  Refusals out;
+  const auto look = [&out](const CLI::Option& option, const char* to_do) {
+    if (std::ranges::find(option.results(), "") != option.results().end()) {
+      out.push_back(refusal("", option.get_name() + " is empty", to_do));
+    }
+  };
+  for (const CLI::Option* option : inputs_) {
+    look(*option, "name a file");
+  }
+  for (const Output& output : outputs_) {
+    look(*output.option, output.folder ? "name a folder" : "name a file");
+  }
+  return out;
+}
+
+std::vector<Input> Verb::inputs() const {
+  std::vector<Input> out;
+  for (const CLI::Option* option : inputs_) {
+    for (const std::string& file : option->results()) {
+      out.push_back({file == "-" ? "/dev/stdin" : file, role_of(*option)});
+    }
+  }
+  for (const auto& named : named_) {
+    for (std::string& file : named()) {
+      out.push_back({std::move(file), "a file that an input names"});
+    }
+  }
+  return out;
+}
+
+std::expected<std::vector<PlannedFile>, Refusals> Verb::plan(Ready& ready) const {
+  std::vector<PlannedFile> out;
+  for (const Output& output : outputs_) {
+    for (const std::string& given : output.option->results()) {
+      for (PlannedFile& file : output.files(given)) {
+        if (output.folder) {
+          auto made =
+              kernel::file::MadeFolders::make(std::filesystem::path(file.file).parent_path());
+          if (!made) {
+            return std::unexpected(Refusals{std::move(made.error())});
+          }
+          ready.folders.push_back(std::move(*made));
+        }
+        out.push_back(std::move(file));
+      }
+    }
+  }
+  return out;
+}
+
+std::expected<Ready, Refusals> Verb::ready(bool json) const {
+  Refusals refusals = empty_names();
+  if (!refusals.empty()) {
+    return std::unexpected(std::move(refusals));
+  }
+  Ready out;
+  auto planned = plan(out);
+  if (!planned || planned->empty()) {
+    return planned ? std::expected<Ready, Refusals>(std::move(out))
+                   : std::unexpected(std::move(planned.error()));
+  }
+  const std::vector<Input> read = inputs();
+  for (auto file = planned->begin(); file != planned->end(); ++file) {
+    if (auto fault = unfit(*file, {planned->begin(), file}, read, force_)) {
+      refusals.push_back(std::move(*fault));
+    }
+    const auto place = kernel::file::place_of(file->file);
+    out.outputs.push_back(file->file);
+    out.takes_stdout |= place && place->kind == Place::Kind::standard_output;
+  }
+  if (out.takes_stdout && json) {
+    refusals.push_back(refusal("", "an output goes to stdout, which --json has for its one object",
+                               "name a file for the output, or leave out --json"));
+  }
+  if (!refusals.empty()) {
+    return std::unexpected(std::move(refusals));
+  }
+  return out;
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/thermal/fit_channels.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using thermal::offline::Log;
+
+Refusal refusal(std::string file, std::string what, std::string to_do) {
+  return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
+}
+
+/// What the column of an axis is called without its unit: Z for z_um, ch1 for ch1_um.
+std::string axis_of(const std::string& column) {
+  const bool unit = column.size() > 3 && (column.ends_with("_um") || column.ends_with("_mm"));
+  std::string name = unit ? column.substr(0, column.size() - 3) : column;
+  if (name.size() == 1 && name.front() >= 'a' && name.front() <= 'z') {
+    name.front() = static_cast<char>(name.front() - 'a' + 'A');
+  }
+  return name;
+}
+
+constexpr std::size_t kLongestName = 32;  ///< in a passport
+
+bool is_of_a_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+}  // namespace
+
+kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>& wanted,
+                                                  const Log& log) {
+  FitChannels out;
+  for (const std::string& given : wanted) {
+    const std::size_t at = given.find('=');
+    const std::string name = given.substr(0, at);
+    const auto found =
+        std::ranges::find(log.displacement, name, &thermal::offline::LogChannel::name);
+    if (found == log.displacement.end()) {
+      return std::unexpected(refusal(log.file, fmt::format("there is no displacement {}", name),
+                                     "name a column of the log, as --channel z_um=Z"));
+    }
+    std::string axis = at == std::string::npos ? axis_of(name) : given.substr(at + 1);
+    if (axis.empty() || axis.size() > kLongestName || !std::ranges::all_of(axis, is_of_a_name)) {
+      return std::unexpected(refusal({}, fmt::format("--channel {} names no axis", given),
+                                     "write the axis behind =, as --channel z_um=Z; or letters, "
+                                     "digits and _ where no axis corrects it"));
+    }
+    out.emplace_back(found - log.displacement.begin(), std::move(axis));
+  }
+  for (std::size_t i = 0; i < log.displacement.size() && wanted.empty(); ++i) {
+    out.emplace_back(i, axis_of(log.displacement[i].name));
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (out[i].second == out[j].second) {
+        return std::unexpected(refusal({}, fmt::format("two channels are called {}", out[i].second),
+                                       "give each its own name"));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace steadyrest::apps::cli

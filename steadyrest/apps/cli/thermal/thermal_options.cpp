@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/apps/cli/thermal/thermal_options.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/nc/plan/time/segment_timer.hpp>
+#include <steadyrest/passport/file/thermal_passport.hpp>
+
+namespace steadyrest::apps::cli {
+
+using kernel::machine::ThermalAxis;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using thermal::offline::Cyclogram;
+using thermal::online::ThermalModel;
+
+namespace {
+
+/// No forecast further beyond the fastest speed that was fitted.
+constexpr double kBeyondFitted = 1.2;
+
+std::unexpected<Refusal> refuse(std::string file, std::string what, std::string to_do) {
+  return std::unexpected(
+      Refusal{Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)});
+}
+
+Result<Cyclogram> of_program(const ThermalOptions& options) {
+  const auto machine = read_machine(options.machine);
+  if (!machine) {
+    return std::unexpected(machine.error().front());
+  }
+  const auto config = program_config(options.program, *machine);
+  if (!config) {
+    return std::unexpected(config.error());
+  }
+  auto timer = nc::plan::SegmentTimer::make(*machine);
+  if (!timer) {
+    return std::unexpected(timer.error());
+  }
+  const auto report = nc::interpret::run_file(options.program.file, *config, *timer);
+  if (!report) {
+    return std::unexpected(report.error());
+  }
+  if (!report->refused.empty()) {
+    return std::unexpected(nc::interpret::first_refusal(*report, options.program.file));
+  }
+  const auto time = timer->take_cyclogram();
+  if (!time) {
+    Refusal refusal = time.error();
+    refusal.file = options.program.file;
+    return std::unexpected(std::move(refusal));
+  }
+  return thermal::offline::cyclogram_of(time->cyclogram, options.program.file);
+}
+
+/// SENSOR=°C.
+Result<std::vector<std::pair<std::string, double>>> temperatures(
+    const std::vector<std::string>& given) {
+  std::vector<std::pair<std::string, double>> out;
+  for (const std::string& one : given) {
+    const auto at = one.find('=');
+    double value = 0.0;
+    const char* end = one.data() + one.size();
+    const auto parsed = at == std::string::npos
+                            ? std::from_chars_result{one.data(), std::errc::invalid_argument}
+                            : std::from_chars(one.data() + at + 1, end, value);
+    if (parsed.ec != std::errc{} || parsed.ptr != end || !(value > -60.0 && value < 150.0)) {
+      return refuse({}, fmt::format("--ambient {} is not SENSOR=temperature in °C", one),
+                    "write it as --ambient t16_c=23.5");
+    }
+    out.emplace_back(one.substr(0, at), value);
+  }
+  return out;
+}
+
+Result<void> fits(const ThermalAxis& axis, const Cyclogram& cyclogram) {
+  for (std::size_t i = 0; i < cyclogram.transition.size(); ++i) {
+    const double speed = std::abs(cyclogram.transition[i].speed_rev_s);
+    double known = axis.max_speed_rev_s;
+    for (const auto& mode : axis.mode) {
+      known = std::max(known, mode.speed_rev_s.empty() ? 0.0 : mode.speed_rev_s.back());
+    }
+    if (known > 0.0 && speed > kBeyondFitted * known) {
+      return refuse(cyclogram.file,
+                    fmt::format("transition {} turns at {:.0f} rpm; the thermal passport of {} is "
+                                "known up to {:.0f} rpm",
+                                i + 1, kernel::units::rpm_from_rev_s(speed), axis.name,
+                                kernel::units::rpm_from_rev_s(known)),
+                    "test the machine at that speed and fit again");
+    }
+  }
+  return {};
+}
+
+Result<ThermalJob::Axis> start(const ThermalAxis& axis, const Cyclogram* before,
+                               const std::vector<std::pair<std::string, double>>& ambient) {
+  auto model = ThermalModel::make(axis);
+  if (!model) {
+    return std::unexpected(model.error());
+  }
+  ThermalJob::Axis out{std::move(*model), {}};
+  thermal::online::Drive drive;
+  drive.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t j = 0; j < axis.ambient.size(); ++j) {
+    const auto found =
+        std::ranges::find(ambient, axis.ambient[j].sensor, &std::pair<std::string, double>::first);
+    out.ambient_c.push_back(found != ambient.end() ? found->second
+                                                   : std::numeric_limits<double>::quiet_NaN());
+    drive.ambient_c[j] = axis.ambient[j].reference_c;
+  }
+  out.model.update(0.0, drive);  // the surroundings have stood at their reference
+  if (before != nullptr) {
+    for (const auto& transition : before->transition) {
+      out.model.update(transition.seconds, thermal::offline::drive_of(transition));
+    }
+  }
+  return out;
+}
+
+/// What the forecast takes for granted of temperatures that were not told; empty: nothing.
+std::string note_of(const ThermalJob::Axis& axis) {
+  const ThermalAxis& passport = axis.model.config();
+  std::set<std::string> untold;
+  for (std::size_t j = 0; j < passport.ambient.size(); ++j) {
+    if (!std::isfinite(axis.ambient_c[j])) {
+      untold.insert(passport.ambient[j].sensor);
+    }
+  }
+  if (untold.empty()) {
+    return {};
+  }
+  const std::string which = untold.size() == 1
+                                ? *untold.begin() + " counts"
+                                : fmt::format("{} temperatures count", untold.size());
+  return fmt::format(
+      "{}: {} as staying at the reference; what the spindle heats does not, so fit the passport of "
+      "work that is not yet made with the sensors of the surroundings alone: thermal fit --ambient",
+      passport.name, which);
+}
+
+}  // namespace
+
+void add_thermal_options(Verb& verb, ThermalOptions& options) {
+  verb.reads("--machine", options.machine, "Machine file, or the thermal passport alone, TOML")
+      ->required();
+  verb.reads("--cyclogram", options.cyclogram,
+             "What the machine does, TOML: [[transition]] with minutes and speed_rpm");
+  add_optional_program(verb, options.program,
+                       "NC program, instead of a cyclogram; needs a whole machine file");
+  verb.add_option("--axis", options.axes, "Only this axis of the passport; may be given again");
+  verb.add_option("--ambient", options.ambient,
+                  "SENSOR=temperature in °C during the work; without it nothing changes there");
+  verb.reads("--after", options.after,
+             "Cyclogram of what the machine has done before; without it it is cold");
+}
+
+Result<ThermalJob> thermal_job(const ThermalOptions& options) {
+  if (options.cyclogram.empty() == options.program.file.empty()) {
+    return refuse({}, "there must be a cyclogram or a program, one of them",
+                  "give --cyclogram FILE or --program FILE");
+  }
+  auto passport = passport::read_thermal_passport(options.machine);
+  if (!passport) {
+    return std::unexpected(passport.error());
+  }
+  auto cyclogram = options.cyclogram.empty() ? of_program(options)
+                                             : thermal::offline::read_cyclogram(options.cyclogram);
+  const auto ambient = temperatures(options.ambient);
+  if (!cyclogram || !ambient) {
+    return std::unexpected(cyclogram ? ambient.error() : cyclogram.error());
+  }
+  Result<Cyclogram> before;
+  if (!options.after.empty()) {
+    before = thermal::offline::read_cyclogram(options.after);
+    if (!before) {
+      return std::unexpected(before.error());
+    }
+  }
+  ThermalJob job;
+  std::vector<std::string> sensors;
+  for (const ThermalAxis& axis : passport->axis) {
+    for (const auto& a : axis.ambient) {
+      sensors.push_back(a.sensor);
+    }
+    if (!options.axes.empty() && std::ranges::find(options.axes, axis.name) == options.axes.end()) {
+      continue;
+    }
+    if (const auto fit = fits(axis, *cyclogram); !fit) {
+      return std::unexpected(fit.error());
+    }
+    auto made = start(axis, options.after.empty() ? nullptr : &*before, *ambient);
+    if (!made) {
+      return std::unexpected(made.error());
+    }
+    if (std::string note = note_of(*made); !note.empty()) {
+      job.notes.push_back(std::move(note));
+    }
+    job.axis.push_back(std::move(*made));
+  }
+  for (const std::string& name : options.axes) {
+    if (std::ranges::find(passport->axis, name, &ThermalAxis::name) == passport->axis.end()) {
+      return refuse(options.machine, fmt::format("there is no [[thermal.axis]] {}", name),
+                    "choose an axis of the passport");
+    }
+  }
+  for (const auto& [sensor, value] : *ambient) {
+    if (std::ranges::find(sensors, sensor) == sensors.end()) {
+      return refuse(options.machine, fmt::format("no thermal axis knows a sensor {}", sensor),
+                    "use a name that stands in an [[thermal.axis.ambient]]");
+    }
+  }
+  job.passport = std::move(*passport);
+  job.cyclogram = std::move(*cyclogram);
+  return job;
+}
+
+void put_notes(Answer& answer, const ThermalJob& job) {
+  answer.json["notes"] = job.notes;
+  for (const std::string& note : job.notes) {
+    answer.text += note + "\n";
+  }
+}
+
+}  // namespace steadyrest::apps::cli

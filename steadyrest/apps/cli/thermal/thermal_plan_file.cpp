@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include <steadyrest/apps/cli/thermal/thermal_plan_file.hpp>
+#include <steadyrest/passport/text/text_file.hpp>
+
+namespace steadyrest::apps::cli {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using PlanJson = nlohmann::ordered_json;  // read_plan() has checked its shape
+
+namespace {
+
+std::string beside(const std::string& plan, const std::string& named) {
+  const std::filesystem::path path(named);
+  return named.empty() || path.is_absolute()
+             ? named
+             : (std::filesystem::path(plan).parent_path() / path).generic_string();
+}
+
+}  // namespace
+
+Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
+  auto plan = nc::rewrite::read_plan(path);
+  const auto text = passport::read_text(path);
+  if (!text) {  // a wrong path is the caller's mistake, whatever keeps it from being read
+    return std::unexpected(Refusal{Kind::bad_input, path, 0, text.error().what,
+                                   "give the path of a plan (JSON): thermal plan -o writes it"});
+  }
+  if (!plan) {
+    return std::unexpected(plan.error());
+  }
+  ThermalPlanFile out;
+  out.plan = std::move(*plan);
+  try {
+    const PlanJson json = PlanJson::parse(*text);
+    out.machine = beside(path, json.value("machine", ""));
+    out.cyclogram = beside(path, json.value("cyclogram", ""));
+    out.program = beside(path, json.value("program", ""));
+    out.tolerance_um = json.value("tolerance_um", 0.0);
+    if (json.contains("level")) {
+      out.level = json["level"].get<double>();
+    }
+    if (json.contains("k")) {
+      out.share = json["k"].get<double>();
+    }
+    const PlanJson& rows =
+        json.contains("transitions") ? json["transitions"] : json["axes"].front()["transitions"];
+    double now_s = 0.0;
+    for (const PlanJson& row : rows) {
+      for (const PlanJson& minutes : row["t_min"]) {
+        now_s += 60.0 * minutes.get<double>();
+      }
+      out.transition.push_back({row.value("name", ""), now_s});
+    }
+  } catch (const PlanJson::exception&) {
+    return std::unexpected(Refusal{Kind::bad_input, path, 0,
+                                   "its notes are not of the type that thermal plan writes",
+                                   "level, k and tolerance_um are numbers, files are texts"});
+  }
+  return out;
+}
+
+std::vector<std::string> files_of(const std::string& plan) {
+  std::vector<std::string> out;
+  if (const auto read = read_thermal_plan(plan)) {
+    for (const std::string* file : {&read->machine, &read->cyclogram, &read->program}) {
+      if (!file->empty()) {
+        out.push_back(*file);
+      }
+    }
+  }
+  return out;
+}
+
+double corrected_um(const nc::rewrite::AxisPlan& axis, double time_s) {
+  double sum = 0.0;
+  for (const auto& step : axis.steps) {
+    if (step.time_s <= time_s) {
+      sum = step.displacement_um;
+    }
+  }
+  return sum;
+}
+
+}  // namespace steadyrest::apps::cli

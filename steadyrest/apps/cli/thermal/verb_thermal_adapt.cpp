@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/shared/log_options.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/cli/shared/value_check.hpp>
+#include <steadyrest/apps/cli/thermal/thermal_options.hpp>
+#include <steadyrest/apps/cli/thermal/thermal_parts.hpp>
+#include <steadyrest/apps/cli/thermal/thermal_plan_file.hpp>
+#include <steadyrest/apps/cli/thermal/verb_thermal_adapt.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/passport/edit/thermal_edit.hpp>
+#include <steadyrest/passport/file/thermal_passport.hpp>
+#include <steadyrest/passport/text/text_file.hpp>
+#include <steadyrest/thermal/offline/adapt/adapt.hpp>
+#include <steadyrest/thermal/offline/log/measured.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::machine::Thermal;
+using kernel::outcome::Kind;
+using kernel::outcome::Reason;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::units::mm_from_um;
+using kernel::units::um_from_mm;
+using thermal::offline::Gains;
+
+struct Options {
+  std::string plan;
+  std::string measured;
+  ThermalOptions thermal;  ///< where the plan does not name its machine and work
+  std::string output;
+  double tolerance_um = 0.0;
+  double noise_um = 0.0;
+  LogOptions format;
+  std::string started;
+};
+
+std::unexpected<Refusal> refuse(std::string file, std::size_t line, std::string what,
+                                std::string to_do) {
+  return std::unexpected(
+      Refusal{Kind::bad_input, std::move(file), line, std::move(what), std::move(to_do)});
+}
+
+struct Learnt {
+  std::string axis;
+  Gains gains;
+  std::vector<std::size_t> part;  ///< of each observation
+};
+
+/// The standard deviation of a measured part by what the passport says.
+double noise_mm(const Options& options, double passport_mm) {
+  if (options.noise_um > 0.0) {
+    return mm_from_um(options.noise_um);
+  }
+  return passport_mm > 0.0 ? passport_mm : 0.0005;
+}
+
+std::vector<Learnt> learn(const Options& options, const ThermalPlanFile& plan,
+                          const ThermalJob& job, const std::vector<PlacedPart>& parts) {
+  std::vector<Learnt> out;
+  for (std::size_t a = 0; a < plan.plan.axes.size(); ++a) {
+    const auto& axis_plan = plan.plan.axes[a];
+    const std::string name(1, axis_plan.letter);
+    const auto axis = std::ranges::find_if(
+        job.axis, [&](const auto& one) { return one.model.config().name == name; });
+    Learnt learnt{.axis = name, .gains = {}, .part = {}};
+    std::vector<double> time_s;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].axis == a) {
+        learnt.part.push_back(i);
+        time_s.push_back(parts[i].time_s);
+      }
+    }
+    if (axis == job.axis.end() || time_s.empty()) {
+      continue;
+    }
+    const auto& config = axis->model.config();
+    const auto said =
+        thermal::offline::predict(axis->model, job.cyclogram, axis->ambient_c, time_s);
+    std::vector<thermal::offline::Observation> observations;
+    observations.reserve(said.size());
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      observations.push_back(
+          {.deviation_mm = parts[learnt.part[i]].row->deviation_mm,
+           .expected_mm = said[i].displacement_mm - mm_from_um(corrected_um(axis_plan, time_s[i])),
+           .mode_mm = said[i].mode_mm});
+    }
+    thermal::offline::GainRule rule;
+    rule.measuring_sd_mm = std::hypot(noise_mm(options, config.noise_mm), config.drift_mm);
+    rule.bias_sd_mm = std::max(rule.bias_sd_mm, config.drift_mm);
+    learnt.gains = thermal::offline::learn_gains(observations, rule);
+    out.push_back(std::move(learnt));
+  }
+  return out;
+}
+
+struct Level {
+  std::uint32_t number = 0;
+  double share = 1.0;
+};
+
+/// The level that the plan was made for.
+Result<Level> level_of(const ThermalPlanFile& plan, const Thermal& passport) {
+  const double number = plan.level.value_or(passport.level);
+  if (number != std::floor(number) || !(number >= 0.0) ||
+      number >= static_cast<double>(passport.share.size())) {
+    return refuse(plan.plan.file, 0,
+                  fmt::format("level {} has no share; [thermal] shares of the machine file has {}",
+                              number, passport.share.size()),
+                  "give the machine file that the plan was made with");
+  }
+  const Level out{static_cast<std::uint32_t>(number),
+                  passport.share[static_cast<std::size_t>(number)]};
+  if (plan.share && std::abs(*plan.share - out.share) > 1e-9) {
+    return refuse(plan.plan.file, 0,
+                  fmt::format("the plan's k = {} is not the machine file's {} of level {}",
+                              *plan.share, out.share, out.number),
+                  "plan again with the machine file as it is now");
+  }
+  return out;
+}
+
+bool fits(const std::vector<Learnt>& learnt) {
+  return std::ranges::all_of(learnt, [](const Learnt& one) { return one.gains.fits; });
+}
+
+/// Outliers are not the level's business, unless it is the model that is wrong.
+std::vector<bool> outliers(const std::vector<Learnt>& learnt, std::size_t parts) {
+  std::vector<bool> out(parts, false);
+  for (const Learnt& one : learnt) {
+    for (const std::size_t k : one.gains.outlier) {
+      out[one.part[k]] = true;
+    }
+  }
+  return out;
+}
+
+/// The passport with the new level, and with the new gains where the model fits.
+Thermal adapted(Thermal passport, std::uint32_t level, const std::vector<Learnt>& learnt) {
+  passport.level = level;
+  for (auto& axis : passport.axis) {
+    for (const Learnt& one : learnt) {
+      if (one.axis == axis.name && one.gains.fits && !one.gains.few) {
+        thermal::offline::apply_gains(axis, one.gains.gain);
+      }
+    }
+  }
+  return passport;
+}
+
+Result<void> write(const Options& options, const std::string& machine, const Thermal& thermal) {
+  const auto text = passport::read_text(machine);
+  if (!text) {
+    return std::unexpected(text.error());
+  }
+  const auto with = passport::with_thermal(*text, machine, thermal);
+  if (!with) {
+    return std::unexpected(with.error());
+  }
+  return kernel::file::write_file(options.output, *with);
+}
+
+Json axes_json(const std::vector<Learnt>& learnt) {
+  Json out = Json::array();
+  for (const Learnt& one : learnt) {
+    out.push_back({{"axis", one.axis},
+                   {"gain", one.gains.gain},
+                   {"gain_sd", one.gains.gain_sd},
+                   {"bias_um", um_from_mm(one.gains.bias_mm)},
+                   {"rms_before_um", um_from_mm(one.gains.rms_before_mm)},
+                   {"rms_after_um", um_from_mm(one.gains.rms_after_mm)},
+                   {"gains_kept", !one.gains.fits || one.gains.few},
+                   {"fits", one.gains.fits}});
+  }
+  return out;
+}
+
+/// The first few, and what became of them.
+std::string text_of(const Json& outliers, bool counted) {
+  constexpr std::size_t kShown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, outliers.size()); ++i) {
+    const std::string part = outliers[i]["part"].get<std::string>();
+    text += fmt::format("outlier: line {}{}, {:.1f} µm\n", outliers[i]["line"].get<std::size_t>(),
+                        part.empty() ? "" : ", part " + part,
+                        outliers[i]["deviation_um"].get<double>());
+  }
+  if (outliers.size() > kShown) {
+    text += fmt::format("and {} outliers more\n", outliers.size() - kShown);
+  }
+  if (!outliers.empty()) {
+    text += counted ? "Outliers count for the level here: they may be right, and the model wrong.\n"
+                    : "Outliers count neither for the level nor for the gains.\n";
+  }
+  return text;
+}
+
+std::string text_of(const Level& before, const thermal::offline::LevelChoice& choice,
+                    const std::vector<Learnt>& learnt, std::size_t parts, const Json& outliers) {
+  Table table;
+  table.row({"parts", fmt::format("{}", parts)})
+      .row({"outliers", fmt::format("{}", outliers.size())})
+      .row({"outside their share", fmt::format("{}", choice.outside)})
+      .row({"largest error over share", fmt::format("{:.2f}", choice.largest_ratio)})
+      .row({"level", fmt::format("{} (was {})", choice.level, before.number)})
+      .row({"k", fmt::format("{:.6g} (was {:.6g})", choice.share, before.share)});
+  std::string text = table.text() + text_of(outliers, !fits(learnt));
+  if (choice.exhausted) {
+    text += "The parts leave their share at the strictest level.\n";
+  }
+  for (const Learnt& one : learnt) {
+    text += fmt::format("{}: levels times", one.axis);
+    for (std::size_t i = 0; i < one.gains.gain.size(); ++i) {
+      text += fmt::format(" {:.3f} ± {:.3f}", one.gains.gain[i], one.gains.gain_sd[i]);
+    }
+    text += fmt::format("; on all parts {:.1f} µm; error {:.1f} → {:.1f} µm RMS\n",
+                        um_from_mm(one.gains.bias_mm), um_from_mm(one.gains.rms_before_mm),
+                        um_from_mm(one.gains.rms_after_mm));
+    if (one.gains.few) {
+      text +=
+          fmt::format("{}: {} parts are too few to change its gains by. They stay as they are.\n",
+                      one.axis, one.part.size());
+    } else if (!one.gains.fits) {
+      text += fmt::format("{}: {} Its gains stay as they are.\n", one.axis,
+                          kernel::outcome::sentence(Reason::thermal_model_unfit));
+    }
+  }
+  return text;
+}
+
+/// The work that the plan was made for; none where nobody names it.
+Result<std::optional<ThermalJob>> work_of(const Options& options, const ThermalPlanFile& plan) {
+  ThermalOptions what = options.thermal;
+  if (what.cyclogram.empty() && what.program.file.empty()) {
+    what.cyclogram = plan.cyclogram;
+    what.program.file = plan.program;
+  }
+  if (what.cyclogram.empty() && what.program.file.empty()) {
+    return std::optional<ThermalJob>{};
+  }
+  for (const auto& axis : plan.plan.axes) {
+    what.axes.emplace_back(1, axis.letter);
+  }
+  auto job = thermal_job(what);
+  if (!job) {
+    return std::unexpected(job.error());
+  }
+  const double total_s = job->cyclogram.total_s();
+  if (std::abs(total_s - plan.plan.total_s) > 1.0 + 1e-4 * total_s) {
+    return refuse(plan.plan.file, 0,
+                  fmt::format("the plan lasts {:.2f} min, {} {:.2f} min", plan.plan.total_s / 60.0,
+                              job->cyclogram.file, total_s / 60.0),
+                  "give the cyclogram or the program that the plan was made for");
+  }
+  return std::optional(std::move(*job));
+}
+
+Outcome run(Options options) {
+  const auto plan = read_thermal_plan(options.plan);
+  if (!plan) {
+    return refused(plan.error());
+  }
+  if (options.thermal.machine.empty()) {
+    options.thermal.machine = plan->machine;
+  }
+  if (options.thermal.machine.empty()) {
+    return refused(Refusal{Kind::bad_input, options.plan, 0, "the plan names no machine file",
+                           "give --machine FILE"});
+  }
+  const auto passport = passport::read_thermal_passport(options.thermal.machine);
+  if (!passport) {
+    return refused(passport.error());
+  }
+  const auto level = level_of(*plan, *passport);
+  const auto rows = thermal::offline::read_measured(
+      options.measured, {format_of(options.format), table::stamp_of(options.started)});
+  if (!level || !rows) {
+    return refused(level ? rows.error() : level.error());
+  }
+  const auto work = work_of(options, *plan);
+  if (!work) {
+    return refused(work.error());
+  }
+  const auto parts = place_parts(*plan, *rows, options.measured, mm_from_um(options.tolerance_um),
+                                 *work ? &(*work)->cyclogram : nullptr);
+  if (!parts) {
+    return refused(parts.error());
+  }
+  const auto learnt = *work ? learn(options, *plan, **work, *parts) : std::vector<Learnt>{};
+  const std::vector<bool> out = outliers(learnt, parts->size());
+  std::vector<thermal::offline::PartError> errors;
+  Json left_out = Json::array();
+  for (std::size_t i = 0; i < parts->size(); ++i) {
+    const PlacedPart& part = (*parts)[i];
+    if (out[i]) {
+      left_out.push_back({{"line", part.row->line},
+                          {"part", part.row->part},
+                          {"deviation_um", um_from_mm(part.row->deviation_mm)}});
+    }
+    if (!out[i] || !fits(learnt)) {
+      errors.push_back({part.row->deviation_mm, part.tolerance_mm});
+    }
+  }
+  thermal::offline::LevelRule rule;
+  rule.measuring_sd_mm = noise_mm(options, passport->axis.front().noise_mm);
+  const auto choice = thermal::offline::next_level(passport->share, level->number, errors, rule);
+  Answer answer;
+  answer.json = {
+      {"level", choice.level},
+      {"k", choice.share},
+      {"level_before", level->number},
+      {"k_before", level->share},
+      {"parts", parts->size()},
+      {"outside", choice.outside},
+      {"largest_ratio", choice.largest_ratio},
+      {"exhausted", choice.exhausted},
+      {"outliers", left_out},
+      {"axes", axes_json(learnt)},
+      {"fits", fits(learnt)},
+      {"reason", kernel::outcome::name(fits(learnt) ? Reason::none : Reason::thermal_model_unfit)}};
+  answer.text = text_of(*level, choice, learnt, parts->size(), left_out);
+  if (!options.output.empty()) {
+    const Thermal next = adapted(*passport, choice.level, learnt);
+    if (const auto written = write(options, options.thermal.machine, next); !written) {
+      return refused(written.error());
+    }
+  }
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_thermal_adapt(Session& session) {
+  CLI::App& group = session.group("thermal", "Drift by heat");
+  Verb& verb =
+      session.verb(group, "adapt", "What measured parts say about the level k and about the model",
+                   "thermal adapt examples/paper-thermal/plan.json --measured "
+                   "examples/paper-thermal/measured.csv");
+  auto options = std::make_shared<Options>();
+  verb.reads("plan", options->plan, "PLAN.json that the parts were made with")->required();
+  verb.reads("--measured", options->measured,
+             "CSV: part; transition, time_min or stamps; deviation_um (the tool's place less the "
+             "right "
+             "one); if wanted tolerance_um, axis")
+      ->required();
+  add_log_options(verb, options->format, false);
+  verb.add_option("--started", options->started,
+                  "When the plan's work began, as 2026-11-22T23:47:06, for parts with stamps")
+      ->check([](const std::string& given) {
+        return table::stamp_of(given) ? std::string{}
+                                      : "is no date with a time; write 2026-11-22T23:47:06";
+      });
+  verb.reads("--machine", options->thermal.machine,
+             "Machine file or thermal passport; without it the one that the plan names");
+  verb.reads("--cyclogram", options->thermal.cyclogram,
+             "Cyclogram of the plan; without it the one that the plan names");
+  verb.reads("--program", options->thermal.program.file,
+             "NC program of the plan; without it the one that the plan names");
+  verb.add_option("--ambient", options->thermal.ambient,
+                  "SENSOR=temperature in °C during the work, as for the plan");
+  verb.reads("--after", options->thermal.after,
+             "Cyclogram of what the machine had done before, as for the plan");
+  verb.add_option("--tolerance-um", options->tolerance_um, "Tolerance Δ, µm; without it the plan's")
+      ->check(within(0.01, 1e5));
+  verb.add_option("--noise-um", options->noise_um,
+                  "Standard deviation of a measured part, µm; without it the passport's noise")
+      ->check(within(0.001, 1e3));
+  verb.writes("-o,--output", options->output,
+              "Write the machine file (or passport) with the new level and gains",
+              machine_content());
+  verb.also_reads([options] { return files_of(options->plan); });
+  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+}
+
+}  // namespace steadyrest::apps::cli

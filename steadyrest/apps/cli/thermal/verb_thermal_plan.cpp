@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <steadyrest/apps/cli/shared/report_option.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/cli/shared/value_check.hpp>
+#include <steadyrest/apps/cli/thermal/thermal_options.hpp>
+#include <steadyrest/apps/cli/thermal/verb_thermal_plan.hpp>
+#include <steadyrest/apps/page/thermal/thermal_page.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/thermal/offline/plan/forecast.hpp>
+#include <steadyrest/thermal/offline/plan/plan.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::units::mm_from_um;
+using kernel::units::um_from_mm;
+using thermal::offline::AxisCorrections;
+using thermal::offline::PlannedTransition;
+
+struct Options {
+  ThermalOptions thermal;
+  std::string output;
+  std::string report;
+  double tolerance_um = 0.0;
+  int level = -1;
+  bool whole_band = false;
+  double resolution_min = -1.0;
+};
+
+/// What binary fractions add behind the seventh digit of a minute goes.
+double seven_digits(double minutes) {
+  return std::round(minutes * 1e7) * 1e-7;
+}
+
+/// Rounded are the instants, so that the intervals of every axis sum to the same transition.
+std::vector<double> minutes(const std::vector<double>& interval_s) {
+  std::vector<double> out;
+  double end_s = 0.0;
+  double before_min = 0.0;
+  for (const double interval : interval_s) {
+    end_s += interval;
+    const double end_min = seven_digits(end_s / 60.0);
+    out.push_back(seven_digits(end_min - before_min));
+    before_min = end_min;
+  }
+  return out;
+}
+
+std::vector<double> micrometres(const std::vector<double>& delta_mm) {
+  std::vector<double> out;
+  out.reserve(delta_mm.size());
+  for (const double mm : delta_mm) {
+    out.push_back(std::round(um_from_mm(mm) * 1e6) * 1e-6);
+  }
+  return out;
+}
+
+Json transitions(const AxisCorrections& axis) {
+  Json out = Json::array();
+  for (const PlannedTransition& row : axis.transition) {
+    Json one;
+    if (!row.name.empty()) {
+      one["name"] = row.name;
+    }
+    one["n"] = row.interval_s.size();
+    one["t_min"] = minutes(row.interval_s);
+    one["delta_um"] = micrometres(row.delta_mm);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+/// The system R as the paper writes it.
+std::string system_text(const AxisCorrections& axis) {
+  std::string text;
+  const auto list = [](const std::vector<double>& values) {
+    return fmt::format("{{{:.6g}}}", fmt::join(values, ", "));
+  };
+  for (const PlannedTransition& row : axis.transition) {
+    text += fmt::format("  {}; {}; {}{}{}\n", row.interval_s.size(), list(minutes(row.interval_s)),
+                        list(micrometres(row.delta_mm)), row.name.empty() ? "" : "  ", row.name);
+  }
+  return text;
+}
+
+/// Displacements count from the start of the work: the part's zero is set there.
+thermal::offline::Curve from_start(thermal::offline::Curve curve) {
+  const double zero_mm = curve.at(0.0);
+  for (auto& piece : curve.piece) {
+    piece.displacement_mm.push_back({-zero_mm, 0.0});
+  }
+  return curve;
+}
+
+constexpr double kPoints = 600.0;
+
+std::vector<thermal::offline::ForecastPoint> course_of(
+    const ThermalJob::Axis& axis, const thermal::offline::Cyclogram& cyclogram) {
+  const double step_s = std::max(cyclogram.total_s() / kPoints, 1.0);
+  return thermal::offline::forecast(axis.model, cyclogram, step_s, axis.ambient_c);
+}
+
+double largest_sd_mm(const std::vector<thermal::offline::ForecastPoint>& course) {
+  return std::ranges::max(course, {}, &thermal::offline::ForecastPoint::sd_mm).sd_mm;
+}
+
+struct Planned {
+  std::vector<AxisCorrections> axis;
+  std::vector<double> sd_mm;
+  std::vector<std::vector<thermal::offline::ForecastPoint>> course;
+};
+
+Result<Planned> plan(const ThermalJob& job, const thermal::offline::PlanRequest& request) {
+  Planned out;
+  for (const ThermalJob::Axis& axis : job.axis) {
+    const auto curve =
+        from_start(thermal::offline::curve_of(axis.model, job.cyclogram, axis.ambient_c));
+    auto made =
+        thermal::offline::plan_corrections(axis.model.config().name, curve, job.cyclogram, request);
+    if (!made) {
+      return std::unexpected(made.error());
+    }
+    out.axis.push_back(std::move(*made));
+    out.course.push_back(course_of(axis, job.cyclogram));
+    out.sd_mm.push_back(largest_sd_mm(out.course.back()));
+  }
+  return out;
+}
+
+/// PLAN.json, what `program compensate` reads.
+Json file_of(const Planned& planned, const Json& head) {
+  Json out = head;
+  if (planned.axis.size() == 1) {
+    out["axis"] = planned.axis.front().name;
+    out["transitions"] = transitions(planned.axis.front());
+    return out;
+  }
+  out["axes"] = Json::object();
+  for (const AxisCorrections& axis : planned.axis) {
+    out["axes"][axis.name] = {{"transitions", transitions(axis)}};
+  }
+  return out;
+}
+
+Json head_of(const Options& options, std::uint32_t level, double share) {
+  namespace fs = std::filesystem;
+  const auto beside = [&options](const std::string& path) {
+    std::error_code error;
+    const fs::path folder = fs::absolute(options.output, error).parent_path();
+    const fs::path relative = fs::relative(fs::absolute(path, error), folder, error);
+    return error || relative.empty() ? path : relative.generic_string();
+  };
+  Json out;
+  out["machine"] = beside(options.thermal.machine);
+  if (!options.thermal.program.file.empty()) {
+    out["program"] = beside(options.thermal.program.file);
+  } else {
+    out["cyclogram"] = beside(options.thermal.cyclogram);
+  }
+  out["level"] = level;
+  out["k"] = share;
+  out["tolerance_um"] = options.tolerance_um;
+  return out;
+}
+
+void show(Answer& answer, const Planned& planned, double share) {
+  answer.json["axes"] = Json::array();
+  Table table({"axis", "without um", "with um", "ratio", "corrections", "95 %"});
+  for (std::size_t i = 0; i < planned.axis.size(); ++i) {
+    const AxisCorrections& axis = planned.axis[i];
+    // As the paper counts: the largest displacement over the band that it is held to.
+    double band_mm = 0.0;
+    for (const PlannedTransition& row : axis.transition) {
+      band_mm = std::max(band_mm, share * row.tolerance_mm);
+    }
+    const double ratio = std::max(axis.largest_mm / band_mm, 1.0);
+    answer.json["axes"].push_back({{"axis", axis.name},
+                                   {"max_um", um_from_mm(axis.largest_mm)},
+                                   {"residual_um", um_from_mm(axis.largest_residual_mm)},
+                                   {"ratio", ratio},
+                                   {"corrections", axis.corrections},
+                                   {"largest_offset_um", um_from_mm(axis.largest_offset_mm)},
+                                   {"sd_um", um_from_mm(planned.sd_mm[i])},
+                                   {"transitions", transitions(axis)}});
+    table.row({axis.name, fmt::format("{:.2f}", um_from_mm(axis.largest_mm)),
+               fmt::format("{:.2f}", um_from_mm(axis.largest_residual_mm)),
+               fmt::format("{:.2f}", ratio), fmt::format("{}", axis.corrections),
+               fmt::format("±{:.2f}", thermal::offline::kBand * um_from_mm(planned.sd_mm[i]))});
+    answer.text += fmt::format(
+        "R of {}: n; {{t, min}}; {{delta, um}}\n{}", axis.name,
+        axis.transition.size() <= 40
+            ? system_text(axis)
+            : fmt::format("  {} transitions (--json or -o has all)\n", axis.transition.size()));
+  }
+  answer.text += table.text();
+  answer.json["transitions"] = transitions(planned.axis.front());
+}
+
+Outcome run(const Options& options) {
+  const auto job = thermal_job(options.thermal);
+  if (!job) {
+    return refused(job.error());
+  }
+  const auto& passport = job->passport;
+  const std::uint32_t level =
+      options.level < 0 ? passport.level : static_cast<std::uint32_t>(options.level);
+  if (level >= passport.share.size()) {
+    return refused(Refusal{
+        Kind::bad_input, options.thermal.machine, 0,
+        fmt::format("level {} has no share; [thermal] shares has {}", level, passport.share.size()),
+        fmt::format("choose a level of 0 … {}", passport.share.size() - 1)});
+  }
+  thermal::offline::PlanRequest request;
+  request.tolerance_mm = mm_from_um(options.tolerance_um);
+  request.share = passport.share[level];
+  request.max_offset_mm = passport.max_offset_mm;
+  request.whole_band = options.whole_band;
+  request.resolution_s =
+      options.resolution_min >= 0.0 ? 60.0 * options.resolution_min : job->cyclogram.resolution_s;
+  const auto planned = plan(*job, request);
+  if (!planned) {
+    return refused(planned.error());
+  }
+  if (!options.output.empty()) {
+    const std::string text = file_of(*planned, head_of(options, level, request.share)).dump(2);
+    if (const auto written = kernel::file::write_file(options.output, text + "\n"); !written) {
+      return refused(written.error());
+    }
+  }
+  Answer answer;
+  answer.json["level"] = level;
+  answer.json["k"] = request.share;
+  answer.json["tolerance_um"] = options.tolerance_um;
+  show(answer, *planned, request.share);
+  put_notes(answer, *job);
+  if (!options.report.empty()) {
+    std::vector<page::Course> courses;
+    courses.reserve(planned->axis.size());
+    for (std::size_t i = 0; i < planned->axis.size(); ++i) {
+      courses.push_back({planned->axis[i].name, planned->course[i], planned->axis[i]});
+    }
+    put_report(answer, options.report,
+               page::plan_page(answer.json, job->cyclogram, courses, request.share));
+  }
+  return answer;
+}
+
+}  // namespace
+
+void add_verb_thermal_plan(Session& session) {
+  CLI::App& group = session.group("thermal", "Drift by heat");
+  Verb& verb = session.verb(group, "plan", "When which axis must be corrected by how much",
+                            "thermal plan --machine examples/paper-thermal/machine.toml "
+                            "--cyclogram examples/paper-thermal/cyclogram.toml "
+                            "--tolerance-um 10 --level 0 --report out/plan");
+  auto options = std::make_shared<Options>();
+  add_thermal_options(verb, options->thermal);
+  verb.add_option("--tolerance-um", options->tolerance_um,
+                  "Tolerance Δ, µm, where a transition has none of its own")
+      ->check(within(0.01, 1e5));
+  verb.add_option(
+          "--level", options->level,
+          "Level of exactness: which of the machine's shares k; without it the one in force")
+      ->check(within(0, 7));
+  verb.add_flag("--whole-band", options->whole_band, "Corrections of 2·k·Δ in half as many places");
+  verb.add_option("--resolution-min", options->resolution_min,
+                  "Round the instants to whole multiples, min; 0 = not")
+      ->check(within(0.0, 60.0));
+  verb.reports(options->report);
+  verb.writes("-o,--output", options->output, "Write PLAN.json, which `program compensate` reads",
+              plan_content());
+  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+}
+
+}  // namespace steadyrest::apps::cli

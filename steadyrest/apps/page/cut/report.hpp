@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <steadyrest/apps/page/shared/page.hpp>
+#include <steadyrest/trial/cut/report_data.hpp>
+
+/// The report of `cut`.
+namespace steadyrest::apps::page {
+
+/// Its page: keys in a fixed order, traces as columns, values rounded to what a person can use
+/// (1e-4 s, 1e-4 mm, 0.01 µm). Schema: web/src/cut/data.ts.
+[[nodiscard]] Json to_page(const trial::cut::ReportData& data);
+/// One object in text; null where there is no number.
+[[nodiscard]] std::string to_json(const trial::cut::VibrationFigures& vibration);
+
+}  // namespace steadyrest::apps::page

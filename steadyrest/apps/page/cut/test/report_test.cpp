@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <steadyrest/apps/page/cut/report.hpp>
+#include <steadyrest/apps/page/cut/test/sample.hpp>
+#include <steadyrest/apps/page/shared/write_files.hpp>
+
+namespace steadyrest::apps::page {
+namespace {
+
+using trial::cut::ReportData;
+
+namespace fs = std::filesystem;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// A folder of this test's own, gone afterwards.
+class Report : public ::testing::Test {
+ protected:
+  Report() {
+    std::string name = (fs::temp_directory_path() / "steadyrest-report-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~Report() override { fs::remove_all(folder_); }
+
+  static std::string read(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  fs::path folder_;
+};
+
+std::string text(const ReportData& data) {
+  return text_of(to_page(data));
+}
+
+auto write(std::size_t points, const fs::path& folder) {
+  const std::string json = text(sample_report(points));
+  return write_files(to_html(json), json, folder);
+}
+
+std::string data_element(const std::string& html) {
+  const std::string open = R"(id="report-data" type="application/json">)";
+  const std::size_t begin = html.find(open) + open.size();
+  return html.substr(begin, html.find("</script>", begin) - begin);
+}
+
+TEST_F(Report, JsonSaysWhatTheDataSay) {
+  const ReportData data = sample_report(50);
+  const auto json = nlohmann::json::parse(text(data));
+  EXPECT_EQ(json["schema"], "steadyrest-report/1");
+  EXPECT_EQ(json["program"], data.program);
+  EXPECT_EQ(json["limit_um"], 10.0);
+  EXPECT_EQ(json["without"]["figures"]["contour_error_max_mm"], 0.0877);
+  EXPECT_EQ(json["with"]["figures"]["samples"], 50);
+  EXPECT_EQ(json["with"]["reasons"][0]["reason"], "contour_within_limit");
+  EXPECT_EQ(json["worst_lines"][0]["with_um"], 9.5);
+  EXPECT_EQ(json["worst_lines"][0]["feed_with_mm_min"], 1320.0);
+  EXPECT_EQ(json["worst_lines"][0]["hold_feed_mm_min"], 1354.2);
+  EXPECT_EQ(json["worst_lines"][0]["held_by"], "closed form");
+  EXPECT_EQ(json["override_table"][2]["code"], 3);
+  EXPECT_EQ(json["motion"][0]["axis"], "X");
+  EXPECT_EQ(json["motion"][0]["velocity_rms_mm_s"], 0.0031);
+  EXPECT_EQ(json["motion"][0]["difference_acceleration_rms_mm_s2"], 707.0);
+  EXPECT_EQ(json["motion"][0]["velocity_coverage_ratio"], 1.0);
+  EXPECT_TRUE(json["motion"][0]["acceleration_coverage_ratio"].is_null()) << "no bound";
+  EXPECT_EQ(json["probes"][0]["innovation_um"], 2.94);
+  EXPECT_EQ(json["probes"][0]["reason"], "thermal_reading_taken");
+}
+
+TEST_F(Report, ColumnsOfATraceAreEquallyLong) {
+  const auto json = nlohmann::json::parse(text(sample_report(37)));
+  for (const char* run : {"without", "with"}) {
+    ASSERT_EQ(json[run]["trace"].size(), 11U);
+    for (const auto& column : json[run]["trace"]) {
+      EXPECT_EQ(column.size(), 37U);
+    }
+  }
+}
+
+TEST_F(Report, TheSameDataGiveTheSameBytes) {
+  EXPECT_EQ(to_html(text(sample_report(50))), to_html(text(sample_report(50))));
+}
+
+TEST_F(Report, ValuesThatAreNotFiniteBecomeNull) {
+  ReportData data = sample_report(2);
+  data.with.trace[1].contour_error_um = std::numeric_limits<double>::quiet_NaN();
+  data.worst_lines[0].with_um = std::numeric_limits<double>::infinity();
+  const auto json = nlohmann::json::parse(text(data));
+  EXPECT_TRUE(json["with"]["trace"]["contour_error_um"][1].is_null());
+  EXPECT_TRUE(json["worst_lines"][0]["with_um"].is_null());
+}
+
+TEST_F(Report, BytesThatAreNotUtf8AreReplaced) {
+  ReportData data = sample_report(1);
+  data.worst_lines[0].text = "( fr\xE4sen )";
+  const auto json = nlohmann::json::parse(text(data));
+  EXPECT_EQ(json["worst_lines"][0]["text"], "( fr\xEF\xBF\xBDsen )");
+}
+
+TEST_F(Report, NoTextLeavesTheScriptElement) {
+  const std::string html = to_html(text(sample_report(3)));
+  EXPECT_THAT(html, StartsWith("<!doctype html>"));
+  EXPECT_THAT(html, EndsWith("</html>\n"));
+  EXPECT_THAT(data_element(html), Not(HasSubstr("<")));
+  EXPECT_EQ(nlohmann::json::parse(data_element(html)),
+            nlohmann::json::parse(text(sample_report(3))));
+}
+
+TEST_F(Report, ThePageNeedsNothingFromOutside) {
+  const std::string html = to_html("{}");
+  EXPECT_THAT(html, Not(HasSubstr("<script src")));
+  EXPECT_THAT(html, Not(HasSubstr("<link rel=\"stylesheet\"")));
+  EXPECT_THAT(html, Not(HasSubstr("@STEADYREST_REPORT_DATA@")));
+}
+
+TEST_F(Report, WritesBothFilesAndLeavesNothingElse) {
+  const auto written = write(20, folder_ / "a" / "b");
+  ASSERT_TRUE(written.has_value());
+  EXPECT_EQ(read(written->json), text(sample_report(20)) + "\n");
+  EXPECT_EQ(read(written->html), to_html(text(sample_report(20))));
+  const auto count =
+      std::distance(fs::directory_iterator(folder_ / "a" / "b"), fs::directory_iterator{});
+  EXPECT_EQ(count, 2);
+}
+
+TEST_F(Report, ReplacesAnOlderReport) {
+  ASSERT_TRUE(write(20, folder_).has_value());
+  ASSERT_TRUE(write(3, folder_).has_value());
+  EXPECT_EQ(read(folder_ / "report.json"), text(sample_report(3)) + "\n");
+}
+
+TEST_F(Report, RefusesAFileInPlaceOfTheDirectory) {
+  std::ofstream(folder_ / "taken") << "x";
+  for (const fs::path& directory : {folder_ / "taken", folder_ / "taken" / "below"}) {
+    const auto written = write(2, directory);
+    ASSERT_FALSE(written.has_value());
+    EXPECT_EQ(written.error().kind, kernel::outcome::Kind::bad_input);
+    EXPECT_EQ(written.error().file, directory.string());
+    EXPECT_THAT(kernel::outcome::text(written.error()), HasSubstr("--report"));
+  }
+}
+
+TEST_F(Report, RefusesWhenAFileCannotBeReplacedAndLeavesNoPart) {
+  fs::create_directories(folder_ / "report.json" / "in-the-way");
+  const auto written = write(2, folder_);
+  ASSERT_FALSE(written.has_value());
+  EXPECT_EQ(written.error().kind, kernel::outcome::Kind::unavailable);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 1);
+}
+
+}  // namespace
+}  // namespace steadyrest::apps::page

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <utility>
+
+#include <steadyrest/apps/page/motion/bench_page.hpp>
+#include <steadyrest/motion/offline/scene/score.hpp>
+
+namespace steadyrest::apps::page {
+
+namespace offline = motion::offline;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+namespace {
+
+Result<std::vector<motion::online::Estimate>> estimates(std::string_view name,
+                                                        const offline::BenchScene& scene) {
+  auto estimator = offline::make_estimator(name, scene.setup);
+  if (!estimator) {
+    return std::unexpected(estimator.error());
+  }
+  return offline::run(**estimator, scene.records.front());
+}
+
+Result<offline::BenchScene> scene_named(const std::string& name) {
+  for (const offline::SceneChoice& choice : offline::bench_scenes({"", 1})) {
+    if (choice.name == name) {
+      return choice.make();
+    }
+  }
+  return std::unexpected(
+      Refusal{Kind::bad_input, "", 0, "there is no scene \"" + name + "\"", "give another one"});
+}
+
+}  // namespace
+
+Result<Trace> trace(const std::string& name) {
+  const auto scene = scene_named(name);
+  if (!scene) {
+    return std::unexpected(scene.error());
+  }
+  const auto before = estimates("difference", *scene);
+  const auto after = estimates(offline::estimator_names().front(), *scene);
+  if (!before || !after) {
+    return std::unexpected(before ? after.error() : before.error());
+  }
+  Trace out;
+  out.name = name;
+  const offline::Record& record = scene->records.front();
+  for (std::size_t k = 0; k < record.ticks.size(); ++k) {
+    out.t_s.push_back(record.ticks[k].t_s);
+    out.true_velocity_mm_s.push_back(record.truth[k].velocity_mm_s);
+    out.true_acceleration_mm_s2.push_back(record.truth[k].acceleration_mm_s2);
+    out.difference_velocity_mm_s.push_back((*before)[k].velocity_mm_s);
+    out.difference_acceleration_mm_s2.push_back((*before)[k].acceleration_mm_s2);
+    out.velocity_mm_s.push_back((*after)[k].velocity_mm_s);
+    out.velocity_bound_mm_s.push_back((*after)[k].velocity_bound_mm_s);
+    out.acceleration_mm_s2.push_back((*after)[k].acceleration_mm_s2);
+    out.acceleration_bound_mm_s2.push_back((*after)[k].acceleration_bound_mm_s2);
+  }
+  return out;
+}
+
+Result<PageData> page_data(offline::Benchmark benchmark,
+                           std::vector<offline::RequirementRow> requirement) {
+  PageData out;
+  out.benchmark = std::move(benchmark);
+  out.requirement = std::move(requirement);
+  for (const char* scene : {"s-curve", "flywheel"}) {
+    auto made = trace(scene);
+    if (!made) {
+      return std::unexpected(made.error());
+    }
+    out.traces.push_back(std::move(*made));
+  }
+  constexpr double kCount_mm = 0.001;
+  constexpr std::array kCycles_hz{1000.0, 2000.0, 2500.0};
+  auto figure_3a = offline::figure_3a(kCount_mm, kCycles_hz);
+  auto figure_3b = offline::figure_3b(kCount_mm, kCycles_hz);
+  auto figure_5 = offline::figure_5(300'000.0, 10.0);
+  if (!figure_3a || !figure_3b || !figure_5) {
+    return std::unexpected(!figure_3a   ? figure_3a.error()
+                           : !figure_3b ? figure_3b.error()
+                                        : figure_5.error());
+  }
+  out.figure_3a = std::move(*figure_3a);
+  out.figure_3b = std::move(*figure_3b);
+  out.figure_5 = std::move(*figure_5);
+  return out;
+}
+
+}  // namespace steadyrest::apps::page

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <steadyrest/apps/page/shared/json_numbers.hpp>
+
+namespace steadyrest::apps::page {
+
+double short_number(double value) {
+  if (!std::isfinite(value) || value == 0.0) {
+    return value;
+  }
+  const double scale = std::pow(10.0, 5.0 - std::floor(std::log10(std::abs(value))));
+  return std::isfinite(scale) ? std::round(value * scale) / scale : 0.0;
+}
+
+nlohmann::ordered_json short_numbers(const std::vector<double>& values) {
+  nlohmann::ordered_json::array_t out;
+  out.reserve(values.size());
+  for (const double value : values) {
+    out.emplace_back(short_number(value));
+  }
+  return out;
+}
+
+}  // namespace steadyrest::apps::page

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstring>
+
+#include <steadyrest/chatter/offline/cycle/columns.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+constexpr std::size_t kLanes = kRowsAtOnce;
+constexpr std::size_t kMostWides = 6;  ///< rows over four that registers hold beside the rest
+using Wide = double __attribute__((vector_size(kLanes * sizeof(double))));
+
+[[gnu::always_inline]] inline void load(const double* from, Wide& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+[[gnu::always_inline]] inline void store(const Wide& from, double* to) {
+  std::memcpy(to, &from, sizeof from);
+}
+
+/// Each of the columns less `column` times its number in `row`; 4·Count rows.
+template <std::size_t Count>
+[[gnu::always_inline]] inline void subtract_rows(double* matrix, std::size_t stride,
+                                                 std::size_t columns, const double* what,
+                                                 const double* factor) {
+  std::array<Wide, Count> c{};
+  for (std::size_t w = 0; w < Count; ++w) {
+    load(what + w * kLanes, c[w]);
+  }
+  for (std::size_t j = 0; j < columns; ++j) {
+    double* const to = matrix + j * stride;
+    const double f = factor[j];
+    for (std::size_t w = 0; w < Count; ++w) {
+      Wide rows;
+      load(to + w * kLanes, rows);
+      rows -= c[w] * f;
+      store(rows, to + w * kLanes);
+    }
+  }
+}
+
+/// out = Σ in_j·column_j.
+template <std::size_t Count>
+[[gnu::always_inline]] inline void sum_rows(const double* matrix, std::size_t stride,
+                                            std::size_t columns, const double* in, double* out) {
+  std::array<Wide, Count> sum{};
+  for (std::size_t j = 0; j < columns; ++j) {
+    const double* const from = matrix + j * stride;
+    const double f = in[j];
+    for (std::size_t w = 0; w < Count; ++w) {
+      Wide rows;
+      load(from + w * kLanes, rows);
+      sum[w] += rows * f;
+    }
+  }
+  for (std::size_t w = 0; w < Count; ++w) {
+    store(sum[w], out + w * kLanes);
+  }
+}
+
+/// Rows in blocks that registers hold.
+[[gnu::always_inline]] inline void subtract_lanes(double* matrix, std::size_t stride,
+                                                  std::size_t columns, const double* what,
+                                                  const double* factor) {
+  std::size_t row = 0;
+  for (; row + kMostWides * kLanes <= stride; row += kMostWides * kLanes) {
+    subtract_rows<kMostWides>(matrix + row, stride, columns, what + row, factor);
+  }
+  for (; row + 2 * kLanes <= stride; row += 2 * kLanes) {
+    subtract_rows<2>(matrix + row, stride, columns, what + row, factor);
+  }
+  if (row < stride) {
+    subtract_rows<1>(matrix + row, stride, columns, what + row, factor);
+  }
+}
+
+[[gnu::always_inline]] inline void sum_lanes(const double* matrix, std::size_t stride,
+                                             std::size_t columns, const double* in, double* out) {
+  std::size_t row = 0;
+  for (; row + kMostWides * kLanes <= stride; row += kMostWides * kLanes) {
+    sum_rows<kMostWides>(matrix + row, stride, columns, in, out + row);
+  }
+  for (; row + 2 * kLanes <= stride; row += 2 * kLanes) {
+    sum_rows<2>(matrix + row, stride, columns, in, out + row);
+  }
+  if (row < stride) {
+    sum_rows<1>(matrix + row, stride, columns, in, out + row);
+  }
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) void subtract_avx2(double* matrix, std::size_t stride,
+                                                   std::size_t columns, const double* what,
+                                                   const double* factor) {
+  subtract_lanes(matrix, stride, columns, what, factor);
+}
+__attribute__((target("avx2"))) void sum_avx2(const double* matrix, std::size_t stride,
+                                              std::size_t columns, const double* in, double* out) {
+  sum_lanes(matrix, stride, columns, in, out);
+}
+const bool kWide = __builtin_cpu_supports("avx2") != 0;
+#endif
+
+}  // namespace
+
+void subtract_from_columns(double* matrix, std::size_t stride, std::size_t columns,
+                           const double* what, const double* factor) noexcept {
+#if defined(__x86_64__)
+  if (kWide) {
+    subtract_avx2(matrix, stride, columns, what, factor);
+    return;
+  }
+#endif
+  subtract_lanes(matrix, stride, columns, what, factor);
+}
+
+void sum_columns(const double* matrix, std::size_t stride, std::size_t columns,
+                 const double* factor, double* out) noexcept {
+#if defined(__x86_64__)
+  if (kWide) {
+    sum_avx2(matrix, stride, columns, factor, out);
+    return;
+  }
+#endif
+  sum_lanes(matrix, stride, columns, factor, out);
+}
+
+}  // namespace steadyrest::chatter::offline

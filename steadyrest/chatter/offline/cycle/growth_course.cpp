@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <tbb/parallel_for.h>
+
+#include <steadyrest/chatter/offline/cycle/growth_course.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+using Eigen::Index;
+
+constexpr std::size_t kMostStarts = 16;
+constexpr std::size_t kLeastWindow = 20;  ///< passes
+constexpr Index kMostRows = 200;          ///< that are followed one by one
+constexpr double kBeyondLog = 700.0;      ///< as far as peak() tells
+constexpr double kDied = 1e-4;            ///< of its peak, then it is followed no longer
+
+/// Ends the course where it has died.
+bool died(const std::vector<double>& log_growth, double peak) {
+  const double now = log_growth.back();
+  return now < peak + std::log(kDied) && now < 0.0;
+}
+
+/// Where all passes are the same map P: row i of P^k is e_iᵀ·P^k, so that each row is followed by
+/// itself, and the sum of its moduli is that row's growth. A low speed has thousands of rows, which
+/// change little from one to the next: some are followed, then the neighbours of the worst.
+class EvenPasses {
+ public:
+  EvenPasses(DelayCycle& cycle, std::size_t window)
+      : cycle_(cycle),
+        rows_(cycle.state_size()),
+        log_growth_(window + 1, -std::numeric_limits<double>::infinity()),
+        worst_row_(window + 1, 0) {
+    log_growth_[0] = 0.0;
+  }
+
+  GrowthCourse course(Index modal_rows) {
+    const Index apart = (rows_ + kMostRows - 1) / kMostRows;
+    std::set<Index> wanted;
+    for (Index i = 0; i < rows_; i += i < modal_rows ? 1 : apart) {
+      wanted.insert(i);
+    }
+    for (const Index i : wanted) {
+      follow(i);
+    }
+    std::set<Index> near;
+    for (const Index worst : worst_row_) {
+      for (Index i = std::max<Index>(0, worst - apart + 1); i < std::min(rows_, worst + apart);
+           ++i) {
+        near.insert(i);
+      }
+    }
+    for (const Index i : near) {
+      if (!wanted.contains(i)) {
+        follow(i);
+      }
+    }
+    GrowthCourse out{.start_pass = 0, .log_growth = {0.0}};
+    double peak = 0.0;
+    for (std::size_t k = 1; k < log_growth_.size() && std::isfinite(log_growth_[k]); ++k) {
+      out.log_growth.push_back(log_growth_[k]);
+      if (died(out.log_growth, peak)) {
+        break;
+      }
+      peak = std::max(peak, log_growth_[k]);
+    }
+    return out;
+  }
+
+ private:
+  void follow(Index i) {
+    Eigen::VectorXd row = Eigen::VectorXd::Unit(rows_, i);
+    double log_size = 0.0;
+    for (std::size_t k = 1; k < log_growth_.size(); ++k) {
+      cycle_.retreat(0, row);
+      const double sum = row.cwiseAbs().sum();
+      if (!std::isfinite(sum)) {  // beyond a double's range within one pass
+        log_growth_[k] = kBeyondLog;
+      }
+      if (!(sum > 0.0) || !std::isfinite(sum)) {
+        return;
+      }
+      row /= sum;
+      log_size += std::log(sum);
+      if (log_size > log_growth_[k]) {
+        log_growth_[k] = log_size;
+        worst_row_[k] = i;
+      }
+    }
+  }
+
+  DelayCycle& cycle_;
+  Index rows_;
+  std::vector<double> log_growth_;
+  std::vector<Index> worst_row_;
+};
+
+/// The map from the pass `begin` on, all of its columns: advance() costs so little that whatever
+/// would leave columns out costs more.
+GrowthCourse course_from(DelayCycle& cycle, std::size_t begin, std::size_t window) {
+  Eigen::MatrixXd map = Eigen::MatrixXd::Identity(cycle.state_size(), cycle.state_size());
+  double log_scale = 0.0;
+  double peak = 0.0;
+  GrowthCourse out{.start_pass = begin, .log_growth = {0.0}};
+  for (std::size_t k = 0; k < window; ++k) {
+    for (Index i = 0; i < map.cols(); ++i) {
+      cycle.advance((begin + k) % cycle.passes(), map.col(i));
+    }
+    const double norm = map.cwiseAbs().rowwise().sum().maxCoeff();
+    if (!(norm > 0.0) || !std::isfinite(norm)) {
+      break;
+    }
+    map /= norm;
+    log_scale += std::log(norm);
+    out.log_growth.push_back(log_scale);
+    if (died(out.log_growth, peak)) {
+      break;
+    }
+    peak = std::max(peak, log_scale);
+  }
+  return out;
+}
+
+}  // namespace
+
+double GrowthCourse::log_peak() const noexcept {
+  return *std::ranges::max_element(log_growth);
+}
+
+double GrowthCourse::peak() const noexcept {
+  return std::exp(std::min(700.0, log_peak()));
+}
+
+std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {
+  const std::size_t passes = cycle.passes();
+  if (passes == 1) {
+    return {EvenPasses(cycle, kLeastWindow).course(cycle.modal_size())};
+  }
+  const std::size_t starts = std::min(passes, kMostStarts);
+  std::vector<GrowthCourse> out;
+  out.resize(starts);
+  tbb::parallel_for(std::size_t{0}, starts, [&](std::size_t k) {
+    DelayCycle own = cycle;  // advance() leaves the last pass in it
+    out[k] = course_from(own, k * passes / starts, std::max(2 * passes, kLeastWindow));
+  });
+  return out;
+}
+
+const GrowthCourse& worst(const std::vector<GrowthCourse>& courses) {
+  return *std::ranges::max_element(courses, {}, &GrowthCourse::log_peak);
+}
+
+}  // namespace steadyrest::chatter::offline

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <mutex>
+#include <ranges>
+
+#include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <steadyrest/chatter/offline/cycle/reach.hpp>
+#include <steadyrest/chatter/offline/depth/border_line.hpp>
+#include <steadyrest/chatter/offline/depth/depth_line.hpp>
+#include <steadyrest/chatter/offline/depth/limit_depth.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+constexpr double kOfDepth = 1e-2;  ///< tolerance
+constexpr double kOfMost = 5e-4;   ///< of the greatest depth, beside that
+constexpr double kNarrow = 3e-4;   ///< of a lobe's width, to which cusps and jumps are closed in on
+constexpr double kPerLobe = 6.0;
+constexpr double kFrom = 0.5;    ///< of the lowest border of all lobes, from which it is sought
+constexpr double kMiddle = 0.5;  ///< of the tolerance: a bow is deepest in its middle
+constexpr std::size_t kQuickPoints = 20'000;
+constexpr std::size_t kSlowPoints = 200;
+
+struct Point {
+  double speed_rev_s = 0.0;
+  std::optional<double> depth_mm = std::nullopt;
+};
+
+/// Between two neighbours of the line.
+struct Span {
+  Point from;
+  Point to;
+  double doubt_mm = 0.0;  ///< how far the line was off there when last looked at
+  bool calm = false;      ///< then it was within tolerance
+};
+
+class Line {
+ public:
+  Line(const Process& process, const BorderLineConfig& config)
+      : process_(process),
+        config_(config),
+        arena_(config.threads == 0 ? oneapi::tbb::task_arena::automatic
+                                   : static_cast<int>(config.threads)) {}
+
+  Result<BorderLine> run(const std::function<void(double)>& progress) {
+    std::vector<Point> points(config_.speed_rev_s.size());
+    std::ranges::transform(config_.speed_rev_s, points.begin(),
+                           [](double speed) { return Point{.speed_rev_s = speed}; });
+    evaluate(points);
+    left_ = quick_ ? kQuickPoints : std::max(kSlowPoints, points.size());
+    for (std::vector<Span> open = refused_ ? std::vector<Span>{} : first_spans(points);
+         !open.empty() && !refused_;) {
+      spend(open);
+      open = halved(open, points);
+      if (progress) {
+        const auto done = static_cast<double>(points.size());
+        progress(done / (done + static_cast<double>(open.size())));
+      }
+    }
+    if (refused_) {
+      return std::unexpected(std::move(*refused_));
+    }
+    std::ranges::sort(points, {}, &Point::speed_rev_s);
+    BorderLine out;
+    out.settled = settled_;
+    for (const Point& point : points) {
+      out.speed_rev_s.push_back(point.speed_rev_s);
+      out.depth_mm.push_back(point.depth_mm);
+    }
+    return out;
+  }
+
+ private:
+  void evaluate(std::vector<Point>& points) {
+    const auto one = [&](std::size_t i) {
+      auto line = DepthLine::make(process_, points[i].speed_rev_s, config_.modulation,
+                                  config_.most_depth_mm);
+      if (line) {
+        points[i].depth_mm = limit_depth_mm(*line, config_.most_depth_mm, from_mm_);
+      }
+      const std::scoped_lock lock(mutex_);
+      quick_ = line && line->quick();
+      if (!line && !refused_) {
+        refused_ = line.error();
+      }
+    };
+    arena_.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, points.size(), one); });
+  }
+
+  [[nodiscard]] double depth(const Point& point) const {
+    return point.depth_mm.value_or(config_.most_depth_mm);
+  }
+
+  /// Cuts the gaps between the given speeds so that each lobe has its points.
+  std::vector<Span> first_spans(std::vector<Point>& points) {
+    std::vector<double> parts;
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      parts.push_back(kPerLobe * (free_waves(process_, points[i].speed_rev_s) -
+                                  free_waves(process_, points[i + 1].speed_rev_s)));
+      sum += parts.back();
+    }
+    const double share = std::min(1.0, 0.25 * static_cast<double>(left_) / std::max(sum, 1.0));
+    std::vector<Point> more;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const double from = 1.0 / points[i].speed_rev_s;
+      const double to = 1.0 / points[i + 1].speed_rev_s;
+      const double count = std::floor(share * parts[i]);
+      for (double k = 1.0; k <= count; k += 1.0) {
+        more.push_back({.speed_rev_s = 1.0 / (from + (to - from) * k / (count + 1.0))});
+      }
+    }
+    evaluate(more);
+    left_ -= std::min(left_, more.size());
+    points.insert(points.end(), more.begin(), more.end());
+    if (share == 1.0) {
+      from_mm_ =
+          kFrom * std::ranges::min(points | std::views::transform([this](const Point& point) {
+                                     return depth(point);
+                                   }));
+    }
+    std::ranges::sort(points, {}, &Point::speed_rev_s);
+    std::vector<Span> out;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      out.push_back({.from = points[i],
+                     .to = points[i + 1],
+                     .doubt_mm = std::abs(depth(points[i]) - depth(points[i + 1]))});
+    }
+    return out;
+  }
+
+  /// Leaves of the spans those that the work allowed is enough for, the worst.
+  void spend(std::vector<Span>& open) {
+    if (open.size() > left_) {
+      settled_ = false;
+      std::ranges::sort(open, std::ranges::greater{}, &Span::doubt_mm);
+      open.resize(left_);
+    }
+    left_ -= open.size();
+  }
+
+  /// What is left to do once the middles are known.
+  std::vector<Span> halved(const std::vector<Span>& open, std::vector<Point>& points) {
+    std::vector<Point> middles;
+    middles.reserve(open.size());
+    for (const Span& span : open) {
+      middles.push_back({.speed_rev_s = 0.5 * (span.from.speed_rev_s + span.to.speed_rev_s)});
+    }
+    evaluate(middles);
+    points.insert(points.end(), middles.begin(), middles.end());
+    std::vector<Span> out;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const Span& span = open[i];
+      const double there = depth(middles[i]);
+      const double off = std::abs(there - 0.5 * (depth(span.from) + depth(span.to)));
+      const bool calm = off <= kMiddle * (kOfDepth * there + kOfMost * config_.most_depth_mm);
+      const double width = span.to.speed_rev_s - span.from.speed_rev_s;
+      const double lobe =
+          span.to.speed_rev_s / std::max(1.0, free_waves(process_, span.to.speed_rev_s));
+      if ((calm && span.calm) || width <= kNarrow * lobe) {
+        continue;
+      }
+      out.push_back({span.from, middles[i], off, calm});
+      out.push_back({middles[i], span.to, off, calm});
+    }
+    return out;
+  }
+
+  const Process& process_;
+  const BorderLineConfig& config_;
+  oneapi::tbb::task_arena arena_;
+  std::mutex mutex_;
+  std::optional<Refusal> refused_;
+  bool quick_ = true;
+  bool settled_ = true;
+  double from_mm_ = 0.0;
+  std::size_t left_ = 0;  ///< points that may still be computed
+};
+
+}  // namespace
+
+Result<BorderLine> border_line(const Process& process, const BorderLineConfig& config,
+                               const std::function<void(double)>& progress) {
+  const std::vector<double>& speed = config.speed_rev_s;
+  const bool rises = std::ranges::adjacent_find(speed, std::ranges::greater_equal{}) == speed.end();
+  if (speed.empty() || !rises) {
+    return std::unexpected(Refusal{Kind::bad_input, "", 0, "the speeds of the border do not rise",
+                                   "give at least one speed, rising"});
+  }
+  return Line(process, config).run(progress);
+}
+
+}  // namespace steadyrest::chatter::offline

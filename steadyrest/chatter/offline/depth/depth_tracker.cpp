@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
+#include <steadyrest/chatter/offline/cycle/multipliers.hpp>
+#include <steadyrest/chatter/offline/depth/crossing.hpp>
+#include <steadyrest/chatter/offline/depth/depth_tracker.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kMostXi = 3.0;     ///< smaller multipliers are left to Arnoldi's method
+constexpr double kFollowed = 1.35;  ///< zeros farther out over the nearest are left
+constexpr double kSpan = 0.2;       ///< of the depth, for which one disc is to serve
+constexpr double kLeastSpan = 0.02;
+constexpr double kSpare = 1.05;     ///< of |z| over what is needed
+constexpr double kSame = 1e-7;      ///< two zeros are one, relative
+constexpr double kLastStep = 1e-5;  ///< relative; the error left is far smaller
+constexpr double kNudge = 1e-3;     ///< for derivatives, relative
+constexpr double kLeastNudge = 1e-5;
+constexpr double kLevelRatio = 3.0;
+constexpr double kReal = 1e-7;  ///< |Im ξ| of a real zero, relative
+constexpr int kMostSteps = 9;
+constexpr std::size_t kMostRoots = 5;
+constexpr std::size_t kSeeds = 6;
+constexpr std::size_t kStarts = 9;
+constexpr double kOutside = 1.12;  ///< radius of the counting circle over the zero within
+constexpr double kBetween = 1.03;  ///< a zero nearer to the circle than this is taken inside
+constexpr std::size_t kArc = 16;   ///< points on the half circle, a multiple of the lanes
+constexpr int kMostHalvings = 7;
+
+/// One of a conjugate pair; a real zero exactly real.
+Complex upper(Complex xi) {
+  return std::abs(xi.imag()) < kReal * std::abs(xi) ? Complex(xi.real())
+         : xi.imag() < 0.0                          ? std::conj(xi)
+                                                    : xi;
+}
+
+int quadrant(Complex g) {
+  if (g.imag() >= 0.0) {
+    return g.real() > 0.0 ? 0 : g.imag() > 0.0 ? 1 : 2;
+  }
+  return g.real() < 0.0 ? 2 : 3;
+}
+
+}  // namespace
+
+DepthTracker::DepthTracker(Process process, double speed_rev_s, double most_depth_mm)
+    : process_(std::move(process)),
+      speed_rev_s_(speed_rev_s),
+      most_depth_mm_(most_depth_mm),
+      each_depth_(process_.tool.helix_rad != 0.0 && process_.cut.operation == Operation::milling) {
+  const double pass_s = 1.0 / (static_cast<double>(process_.tool.teeth) * speed_rev_s_);
+  for (const Complex& mu : free_multipliers(process_, pass_s)) {
+    free_log_radius_ = std::max(free_log_radius_, std::log(std::abs(mu)));
+    if (std::abs(mu) * kMostXi > 1.0) {
+      roots_.push_back({upper(1.0 / mu), 0.0});
+    }
+  }
+  sort();
+}
+
+void DepthTracker::sort() {
+  std::ranges::sort(roots_, {}, [](const Root& r) { return std::abs(r.xi); });
+  const auto same = [](const Root& a, const Root& b) {
+    return std::abs(a.xi - b.xi) < kSame * std::abs(a.xi);
+  };
+  roots_.erase(std::unique(roots_.begin(), roots_.end(), same), roots_.end());
+  const double most =
+      roots_.empty() ? kMostXi : std::min(kMostXi, kFollowed * std::abs(roots_[0].xi));
+  std::erase_if(roots_, [most](const Root& r) { return std::abs(r.xi) > most; });
+  if (roots_.size() > kMostRoots) {
+    roots_.resize(kMostRoots);
+  }
+}
+
+const PassMatrix& DepthTracker::pass(double z_mm, double depth_mm) {
+  if (each_depth_) {
+    if (!pass_[0] || depth_mm != made_for_mm_ || pass_[0]->most_z_mm() < z_mm) {
+      disc_.reset();
+      made_for_mm_ = depth_mm;
+      pass_[0] = std::make_unique<PassMatrix>(process_, speed_rev_s_, kSpare * z_mm, depth_mm);
+    }
+    return *pass_[0];
+  }
+  double most = (1.0 + 2.0 * kMostXi) * most_depth_mm_;
+  std::size_t level = 0;
+  while (level + 1 < kLevels && z_mm <= most / kLevelRatio) {
+    most /= kLevelRatio;
+    ++level;
+  }
+  if (!pass_[level]) {
+    pass_[level] = std::make_unique<PassMatrix>(process_, speed_rev_s_, most, depth_mm);
+  }
+  return *pass_[level];
+}
+
+void DepthTracker::aim(double size, double depth_mm) {
+  const bool same = !each_depth_ || depth_mm == made_for_mm_;
+  if (same && disc_ && disc_->holds(depth_mm, size * depth_mm)) {
+    return;
+  }
+  for (double span = each_depth_ ? kLeastSpan : kSpan; span >= kLeastSpan; span *= 0.25) {
+    const double center = (1.0 + 0.5 * span) * depth_mm;
+    const double radius = 0.5 * span * depth_mm + size * (1.0 + span) * depth_mm;
+    disc_ = PassDisc::make(pass(center + radius, depth_mm), center, radius, terms_);
+    if (disc_) {
+      terms_ = disc_->terms();
+      return;
+    }
+  }
+}
+
+void DepthTracker::g(std::span<const Complex> xi, double depth_mm, std::span<Complex> out) {
+  double square = 0.0;
+  for (const Complex& x : xi) {
+    square = std::max(square, std::norm(x));
+  }
+  const double size = std::sqrt(square);
+  const bool same = !each_depth_ || depth_mm == made_for_mm_;
+  if (same && disc_ && disc_->holds(depth_mm, size * depth_mm)) {
+    disc_->g(xi, depth_mm, out);
+    return;
+  }
+  const PassMatrix& matrix = pass((1.0 + size) * depth_mm, depth_mm);
+  for (std::size_t k = 0; k < xi.size(); k += PassMatrix::kLanes) {
+    PassMatrix::Lanes lanes;
+    std::copy_n(&xi[k], lanes.size(), lanes.begin());
+    std::ranges::copy(matrix.g_lanes(lanes, depth_mm), &out[k]);
+  }
+}
+
+/// Halley's steps, the derivatives from neighbours on either side; empty: they lead nowhere.
+std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm,
+                                            std::span<const Complex> but) {
+  Complex x = start;
+  double h = kNudge * std::abs(start);
+  for (int i = 0; i < kMostSteps; ++i) {
+    PassMatrix::Lanes at;
+    const PassMatrix::Lanes xi{x, x + h, x - h, x};
+    g(xi, depth_mm, at);
+    for (const Complex& zero : but) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        at[k] /= zero.imag() == 0.0 ? xi[k] - zero : (xi[k] - zero) * (xi[k] - std::conj(zero));
+      }
+    }
+    const Complex slope = (at[1] - at[2]) / (2.0 * h);
+    const Complex bend = (at[1] - 2.0 * at[0] + at[2]) / (h * h);
+    const Complex below = 2.0 * slope * slope - at[0] * bend;
+    if (below == 0.0) {
+      return at[0] == 0.0 ? std::optional<Complex>(x) : std::nullopt;
+    }
+    const Complex step = 2.0 * at[0] * slope * std::conj(below) / std::norm(below);
+    x -= step;
+    const double size = std::sqrt(std::norm(x));
+    const double moved = std::sqrt(std::norm(step));
+    if (!(size < 2.0 * kMostXi)) {
+      return std::nullopt;
+    }
+    // What is left is about the cube of the step, and its product with the error of the slope.
+    if (moved < kLastStep * size) {
+      return x;
+    }
+    h = std::clamp(0.3 * moved, kLeastNudge * size, kNudge * size);
+  }
+  return std::nullopt;
+}
+
+/// False: it could not be followed.
+bool DepthTracker::follow(Root& root, double from_mm, double to_mm) {
+  double at = from_mm;
+  double step = to_mm - from_mm;
+  for (int tries = 0; tries < 40; ++tries) {
+    const Complex guess = root.xi + root.slope * step;
+    const auto next = refine(guess, at + step);
+    // A step that is far from what was foretold may have landed on a neighbour.
+    const double moved = next ? std::abs(*next - guess) : 1.0;
+    if (!next || moved > 0.05 * std::abs(root.xi) + 0.5 * std::abs(root.slope * step)) {
+      step *= 0.5;
+      if (std::abs(step) < 1e-3 * std::abs(to_mm - from_mm)) {
+        return false;
+      }
+      continue;
+    }
+    root.slope = (*next - root.xi) / step;
+    root.xi = *next;
+    at += step;
+    if (std::abs(at - to_mm) <= 1e-12 * most_depth_mm_) {
+      root.xi = upper(root.xi);
+      if (root.xi.imag() == 0.0) {
+        root.slope = root.slope.real();
+      }
+      return true;
+    }
+    step = std::min(2.0 * step, to_mm - at);
+  }
+  return false;
+}
+
+/// Zeros of g with |ξ| < radius by the turns of its argument; empty: the circle passes too near to
+/// one. Conjugate symmetry: half of the circle is enough.
+std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
+  static const std::array<Complex, kArc> kUnit = [] {
+    std::array<Complex, kArc> out;
+    for (std::size_t k = 0; k < kArc; ++k) {
+      out[k] = std::polar(1.0, std::numbers::pi * static_cast<double>(k) / (kArc - 1.0));
+    }
+    return out;
+  }();
+  struct Point {
+    Complex unit;
+    Complex g;
+  };
+  std::array<Complex, kArc> xi;
+  std::array<Complex, kArc> value;
+  for (std::size_t k = 0; k < kArc; ++k) {
+    xi[k] = radius * kUnit[k];
+  }
+  g(xi, depth_mm, value);
+  // Real where ξ is.
+  value.front() = value.front().real();
+  value.back() = value.back().real();
+  int quarters = 0;
+  Point last{kUnit[0], value[0]};
+  for (std::size_t k = 1; k < kArc; ++k) {
+    std::array<Point, kMostHalvings + 1> ahead{};
+    std::size_t depth = 0;
+    ahead[0] = {kUnit[k], value[k]};
+    while (true) {
+      const Point& next = ahead[depth];
+      // Less than a quarter turn: then the quadrants tell how many of them there are in all.
+      if (next.g.real() * last.g.real() + next.g.imag() * last.g.imag() > 0.0) {
+        const int step = quadrant(next.g) - quadrant(last.g);
+        quarters += step == 3 ? -1 : step == -3 ? 1 : step;
+        last = next;
+        if (depth == 0) {
+          break;
+        }
+        --depth;
+        continue;
+      }
+      if (depth + 1 == ahead.size()) {
+        return std::nullopt;
+      }
+      Complex between = last.unit + next.unit;
+      between /= std::sqrt(std::norm(between));
+      const Complex at = radius * between;
+      PassMatrix::Lanes there;
+      g(PassMatrix::Lanes{at, at, at, at}, depth_mm, there);
+      ahead[++depth] = {between, there[0]};
+    }
+  }
+  return quarters / 2;
+}
+
+/// All zeros within a circle that leaves the dominant one well inside are among those followed.
+bool DepthTracker::verified(double depth_mm) {
+  if (roots_.empty()) {
+    return false;
+  }
+  const double dominant = std::abs(roots_[0].xi);
+  double radius = kOutside * dominant;
+  int expected = 0;
+  for (const Root& root : roots_) {
+    const double size = std::abs(root.xi);
+    if (size < kBetween * radius) {
+      expected += root.xi.imag() == 0.0 ? 1 : 2;
+      radius = std::max(radius, kOutside * size);
+    } else {
+      radius = std::min(radius, std::sqrt(size * radius));
+      break;
+    }
+  }
+  const auto inside = zeros_within(radius, depth_mm);
+  return inside.has_value() && *inside == expected;
+}
+
+/// Looks for zeros that have come near from outside, those that are known divided out, until none
+/// is missing.
+bool DepthTracker::search(double depth_mm) {
+  const double radius = roots_.empty() ? 1.0 : std::abs(roots_[0].xi);
+  std::vector<Complex> known;
+  known.reserve(roots_.size() + kStarts);
+  for (const Root& root : roots_) {
+    known.push_back(root.xi);
+  }
+  for (std::size_t k = 0; k < kStarts; ++k) {
+    const double angle =
+        std::numbers::pi * static_cast<double>(k) / static_cast<double>(kStarts - 1);
+    const auto near = refine(std::polar(radius, angle), depth_mm, known);
+    const auto xi = near ? refine(*near, depth_mm) : std::nullopt;
+    const bool is_known = !xi || std::ranges::any_of(known, [&](const Complex& other) {
+      return std::abs(other - upper(*xi)) < kSame * std::abs(other);
+    });
+    if (is_known) {
+      continue;
+    }
+    known.push_back(upper(*xi));
+    roots_.push_back({known.back(), 0.0});
+    sort();
+    if (verified(depth_mm)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Complex DepthTracker::by_arnoldi(double depth_mm) {
+  ++helped_;
+  seed(depth_mm);
+  const Multipliers found = multipliers(*cycle_, kSeeds, 1e-9);
+  std::vector<Root> now;
+  for (const Complex& mu : found.value) {
+    if (mu.imag() < 0.0 || std::abs(mu) * kMostXi < 1.0) {
+      continue;
+    }
+    const Complex xi = upper(1.0 / mu);
+    const auto exact = refine(xi, depth_mm);
+    now.push_back({exact && std::abs(*exact - xi) < 1e-3 * std::abs(xi) ? upper(*exact) : xi, 0.0});
+  }
+  roots_ = std::move(now);
+  sort();
+  depth_mm_ = depth_mm;
+  const Complex mu = found.value[0];
+  return roots_.empty() ? Complex(mu.real(), std::abs(mu.imag())) : std::conj(1.0 / roots_[0].xi);
+}
+
+void DepthTracker::seed(double depth_mm) {
+  if (!cycle_ || each_depth_) {
+    DelayCycle::Config config;
+    config.speed_rev_s = speed_rev_s_;
+    config.most_depth_mm = each_depth_ ? depth_mm : most_depth_mm_;
+    auto made = DelayCycle::make(process_, config);
+    cycle_ = std::make_unique<DelayCycle>(std::move(made.value()));
+  }
+  cycle_->set_depth(depth_mm);
+}
+
+Complex DepthTracker::dominant(double depth_mm) {
+  aim(kOutside * kFollowed * (roots_.empty() ? 1.0 : std::abs(roots_[0].xi)), depth_mm);
+  if (depth_mm != depth_mm_) {
+    std::erase_if(roots_, [&](Root& root) { return !follow(root, depth_mm_, depth_mm); });
+    sort();
+    depth_mm_ = depth_mm;
+  }
+  if (!verified(depth_mm) && !search(depth_mm)) {
+    return by_arnoldi(depth_mm);
+  }
+  return upper(1.0 / roots_[0].xi);
+}
+
+std::optional<double> DepthTracker::border_mm(std::size_t steps) {
+  double low = 0.0;
+  double log_low = free_log_radius_;
+  const auto log_radius = [this](double depth_mm) {
+    return std::log(std::abs(dominant(depth_mm)));
+  };
+  for (std::size_t k = 1; k <= steps; ++k) {
+    const double high = most_depth_mm_ * static_cast<double>(k) / static_cast<double>(steps);
+    const double log_high = log_radius(high);
+    if (log_high >= 0.0) {
+      return crossing(log_radius, {low, log_low}, {high, log_high});
+    }
+    low = high;
+    log_low = log_high;
+  }
+  return std::nullopt;
+}
+
+}  // namespace steadyrest::chatter::offline

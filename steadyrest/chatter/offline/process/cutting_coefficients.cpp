@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <steadyrest/chatter/offline/process/cutting_coefficients.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+double within_turn(double angle) noexcept {
+  const double turns = std::floor(angle / kTurn);
+  const double out = angle - turns * kTurn;
+  return out >= kTurn ? out - kTurn : out;
+}
+
+/// Antiderivatives of sin², sin·cos and cos².
+Eigen::Vector3d primitive(double phi) noexcept {
+  const double s2 = std::sin(2.0 * phi);
+  return {0.5 * phi - 0.25 * s2, -0.25 * std::cos(2.0 * phi), 0.5 * phi + 0.25 * s2};
+}
+
+}  // namespace
+
+CuttingCoefficients::CuttingCoefficients(const Process& process, double depth_mm)
+    : cut_(process.cut), entry_rad_(process.entry_rad()), exit_rad_(process.exit_rad()) {
+  if (cut_.operation == Operation::milling) {
+    lag_rad_ = 2.0 * depth_mm * std::tan(process.tool.helix_rad) / process.tool.diameter_mm;
+  }
+  damping_n_s_ = cut_.process_damping_n_mm / (std::numbers::pi * process.tool.diameter_mm);
+  double offset = 0.0;
+  for (std::size_t j = 0; j < process.tool.teeth; ++j) {
+    offset += j == 0 ? 0.0 : process.pitch_rad(j);
+    offset_rad_.push_back(offset);
+  }
+}
+
+Eigen::Vector3d CuttingCoefficients::squares(std::size_t tooth, double angle_rad) const noexcept {
+  if (lag_rad_ < 1e-9) {
+    const double phi = within_turn(angle_rad - offset_rad_[tooth]);
+    if (phi < entry_rad_ || phi > exit_rad_) {
+      return Eigen::Vector3d::Zero();
+    }
+    const double s = std::sin(phi);
+    const double c = std::cos(phi);
+    return {s * s, s * c, c * c};
+  }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  // The edge covers [φ − lag, φ]; a long one may wind round the tool more than once.
+  const double tip = within_turn(angle_rad - offset_rad_[tooth]);
+  for (double shift = 0.0; shift > -lag_rad_ - kTurn; shift -= kTurn) {
+    const double high = std::min(tip, exit_rad_ + shift);
+    const double low = std::max(tip - lag_rad_, entry_rad_ + shift);
+    if (high > low) {
+      sum += primitive(high) - primitive(low);
+    }
+  }
+  return sum / lag_rad_;
+}
+
+Eigen::Matrix2d CuttingCoefficients::stiffness(std::size_t tooth, double angle_rad) const noexcept {
+  Eigen::Matrix2d h;
+  if (cut_.operation == Operation::turning) {
+    h << cut_.radial_n_mm2, 0.0, cut_.tangential_n_mm2, 0.0;
+    return h;
+  }
+  const Eigen::Vector3d q = squares(tooth, angle_rad);
+  const double kt = cut_.tangential_n_mm2;
+  const double kr = cut_.radial_n_mm2;
+  h << kt * q[1] + kr * q[0], kt * q[2] + kr * q[1], -kt * q[0] + kr * q[1], -kt * q[1] + kr * q[2];
+  return h;
+}
+
+Eigen::Matrix2d CuttingCoefficients::damping(std::size_t tooth, double angle_rad) const noexcept {
+  Eigen::Matrix2d p = Eigen::Matrix2d::Zero();
+  if (damping_n_s_ == 0.0) {
+    return p;
+  }
+  if (cut_.operation == Operation::turning) {
+    p(0, 0) = damping_n_s_;
+    return p;
+  }
+  const Eigen::Vector3d q = squares(tooth, angle_rad);
+  p << q[0], q[1], q[1], q[2];
+  return damping_n_s_ * p;
+}
+
+std::vector<double> CuttingCoefficients::corners_rad(std::size_t tooth) const {
+  if (cut_.operation == Operation::turning) {
+    return {};
+  }
+  std::vector<double> out;
+  for (const double border : {entry_rad_, exit_rad_}) {
+    out.push_back(within_turn(border + offset_rad_[tooth]));
+    if (lag_rad_ >= 1e-9) {
+      out.push_back(within_turn(border + lag_rad_ + offset_rad_[tooth]));
+    }
+  }
+  return out;
+}
+
+}  // namespace steadyrest::chatter::offline

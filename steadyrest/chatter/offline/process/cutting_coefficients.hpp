@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <steadyrest/chatter/offline/process/process.hpp>
+
+/// What a tooth answers to a change of its chip, by the spindle's angle θ.
+///
+/// Tooth j stands at φ_j = θ − Σ_{i=1…j} pitch_i and cuts while entry ≤ φ_j ≤ exit, the angle taken
+/// within one turn. On Δ = (x, y) less what the tooth in front left, it answers with
+/// F = −a·H_j(θ)·Δ, H = u·nᵀ with n = (sin φ, cos φ), u = Kt·(cos φ, −sin φ) + Kr·(sin φ, cos φ);
+/// and on the velocity with F = −a·P_j(θ)·(ẋ, ẏ), P = C/v·n·nᵀ. With helix both are the mean over
+/// the height 0 … a, in closed form; they then depend on the depth. Unit of H: N/mm², of P:
+/// N·s/mm². Source: Altintas and Budak, CIRP Annals 44 (1995) 357; reference values and angles:
+/// Insperger and Stépán.
+namespace steadyrest::chatter::offline {
+
+class CuttingCoefficients {
+ public:
+  /// `depth_mm` matters for helical teeth alone.
+  CuttingCoefficients(const Process& process, double depth_mm);
+
+  [[nodiscard]] std::size_t teeth() const noexcept { return offset_rad_.size(); }
+  [[nodiscard]] Eigen::Matrix2d stiffness(std::size_t tooth, double angle_rad) const noexcept;
+  /// At 1 rev/s of the spindle; divide by the speed.
+  [[nodiscard]] Eigen::Matrix2d damping(std::size_t tooth, double angle_rad) const noexcept;
+  /// Angles within [0, 2π) at which an answer of this tooth is not smooth.
+  [[nodiscard]] std::vector<double> corners_rad(std::size_t tooth) const;
+
+ private:
+  /// ∫ of sin², sin·cos, cos² over the engaged part of the edge, per unit of depth.
+  [[nodiscard]] Eigen::Vector3d squares(std::size_t tooth, double angle_rad) const noexcept;
+
+  Cut cut_;
+  double entry_rad_;
+  double exit_rad_;
+  double lag_rad_ = 0.0;      ///< of the edge's top behind its tip
+  double damping_n_s_ = 0.0;  ///< C over the cutting speed at 1 rev/s
+  std::vector<double> offset_rad_;
+};
+
+}  // namespace steadyrest::chatter::offline

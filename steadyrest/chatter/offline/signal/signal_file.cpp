@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/chatter/offline/signal/signal_parts.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+constexpr std::size_t kMaxBytes = 256U << 20U;
+constexpr double kRateSlack = 1e-6;  // stamps are rounded
+
+OrFault<std::string> bytes_of(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return std::unexpected(SignalFault{0, "is a folder", "give a recording as CSV or WAV"});
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::string out;
+  constexpr std::size_t kBlock = 1U << 16U;
+  while (in && out.size() <= kMaxBytes) {
+    const std::size_t before = out.size();
+    out.resize(before + kBlock);
+    in.read(out.data() + before, static_cast<std::streamsize>(kBlock));
+    out.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad() || (!in.eof() && out.size() <= kMaxBytes)) {
+    return std::unexpected(
+        SignalFault{0, "cannot be read", "give the path of a recording as CSV or WAV"});
+  }
+  return out;
+}
+
+Refusal refusal_of(SignalFault fault, const std::string& file) {
+  return {Kind::bad_input, file, fault.line, std::move(fault.what), std::move(fault.to_do)};
+}
+
+bool named_wav(const std::string& file) {
+  std::string end = std::filesystem::path(file).extension().string();
+  std::ranges::transform(end, end.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
+  return end == ".wav";
+}
+
+OrFault<RecordedSignal> parse(std::string_view bytes, const std::string& file,
+                              const table::Format& format) {
+  if (bytes.size() > kMaxBytes) {
+    return std::unexpected(SignalFault{0, fmt::format("larger than {} MB", kMaxBytes >> 20U),
+                                       "cut out the minutes that matter"});
+  }
+  if (bytes.starts_with("RIFF")) {
+    return parse_wav_signal(bytes);
+  }
+  if (named_wav(file)) {
+    return std::unexpected(SignalFault{
+        0, "is not RIFF: its first bytes are \"" + table::shown(bytes.substr(0, 4)) + "\"",
+        "save the recording as WAV (RIFF, PCM)"});
+  }
+  if (bytes.find('\0') != std::string_view::npos) {
+    return std::unexpected(
+        SignalFault{0, "is neither text nor RIFF", "give CSV in UTF-8, or WAV (RIFF, PCM)"});
+  }
+  return parse_csv_signal(bytes, format);
+}
+
+}  // namespace
+
+std::optional<SignalFault> unfit_rate(double rate_hz) {
+  if (rate_hz >= kLeastRateHz * (1.0 - kRateSlack) && rate_hz <= kMostRateHz * (1.0 + kRateSlack)) {
+    return std::nullopt;
+  }
+  return SignalFault{0, fmt::format("{:.6g} samples a second; allowed are 1000 … 50000", rate_hz),
+                     rate_hz > kMostRateHz
+                         ? "resample it to 50 kHz or less, through a low-pass filter"
+                         : "record at 1 kHz or more; t_s is in seconds"};
+}
+
+Result<RecordedSignal> parse_signal(std::string_view bytes, const std::string& file,
+                                    const table::Format& format) {
+  auto out = parse(bytes, file, format);
+  if (!out) {
+    return std::unexpected(refusal_of(std::move(out.error()), file));
+  }
+  return std::move(*out);
+}
+
+Result<RecordedSignal> read_signal(const std::string& path, const table::Format& format) {
+  auto bytes = bytes_of(path);
+  if (!bytes) {
+    return std::unexpected(refusal_of(std::move(bytes.error()), path));
+  }
+  return parse_signal(*bytes, path, format);
+}
+
+}  // namespace steadyrest::chatter::offline

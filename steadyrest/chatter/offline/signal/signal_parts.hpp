@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <expected>
+#include <optional>
+#include <string_view>
+
+#include <steadyrest/chatter/offline/signal/signal_file.hpp>
+#include <steadyrest/table/text.hpp>
+
+/// The two formats of a recorded signal, and what their readers share.
+namespace steadyrest::chatter::offline {
+
+inline constexpr double kLeastRateHz = 1e3;
+inline constexpr double kMostRateHz = 50e3;
+
+using SignalFault = table::Fault;
+template <class T>
+using OrFault = std::expected<T, SignalFault>;
+
+/// A rate outside of what the detector takes, with room for the rounding of time stamps.
+[[nodiscard]] std::optional<SignalFault> unfit_rate(double rate_hz);
+
+[[nodiscard]] OrFault<RecordedSignal> parse_csv_signal(std::string_view text,
+                                                       const table::Format& format);
+/// `bytes` begin with RIFF.
+[[nodiscard]] OrFault<RecordedSignal> parse_wav_signal(std::string_view bytes);
+
+}  // namespace steadyrest::chatter::offline

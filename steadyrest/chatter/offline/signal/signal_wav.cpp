@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/chatter/offline/signal/signal_parts.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+constexpr std::size_t kRiffHead = 12;
+constexpr std::size_t kChunkHead = 8;
+
+std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint32_t out = 0;
+  for (std::size_t i = size; i > 0; --i) {
+    out = (out << 8U) | static_cast<unsigned char>(bytes[at + i - 1]);
+  }
+  return out;
+}
+
+struct WavFormat {
+  bool floats = false;
+  std::size_t channels = 1;
+  std::size_t sample_bytes = 2;
+  double rate_hz = 0.0;
+};
+
+SignalFault cut_off(std::size_t at, std::size_t wanted, std::size_t held) {
+  return {0,
+          fmt::format("byte {}: {} bytes are announced, {} are there: the file is cut off", at,
+                      wanted, held),
+          "copy the recording again, or save it anew in an audio editor"};
+}
+
+OrFault<WavFormat> format_of(std::string_view bytes, std::size_t at, std::size_t size) {
+  constexpr std::size_t kPlain = 16;
+  constexpr std::size_t kExtensible = 40;
+  constexpr std::size_t kSubFormat = 24;
+  if (size < kPlain) {
+    return std::unexpected(SignalFault{
+        0, fmt::format("byte {}: the fmt chunk has {} bytes; it must have 16 or more", at, size),
+        "save the recording anew as WAV"});
+  }
+  std::uint32_t tag = little_endian(bytes, at, 2);
+  if (tag == 0xFFFEU && size >= kExtensible) {
+    tag = little_endian(bytes, at + kSubFormat, 2);
+  }
+  const std::uint32_t bits = little_endian(bytes, at + 14, 2);
+  WavFormat out;
+  out.floats = tag == 3;
+  out.channels = little_endian(bytes, at + 2, 2);
+  out.sample_bytes = bits / 8;
+  out.rate_hz = little_endian(bytes, at + 4, 4);
+  const bool pcm = tag == 1 && (bits == 16 || bits == 24 || bits == 32);
+  if (!pcm && !(out.floats && bits == 32)) {
+    return std::unexpected(
+        SignalFault{0, fmt::format("byte {}: format {} of {} bits is not read", at, tag, bits),
+                    "save it as PCM of 16, 24 or 32 bits or as floats of 32"});
+  }
+  if (out.channels == 0 || little_endian(bytes, at + 12, 2) != out.channels * out.sample_bytes) {
+    return std::unexpected(
+        SignalFault{0,
+                    fmt::format("byte {}: {} channels of {} bits do not make frames of {} bytes",
+                                at, out.channels, bits, little_endian(bytes, at + 12, 2)),
+                    "save the recording anew as WAV"});
+  }
+  if (auto fault = unfit_rate(out.rate_hz)) {
+    return std::unexpected(std::move(*fault));
+  }
+  return out;
+}
+
+double sample_at(std::string_view bytes, std::size_t at, const WavFormat& format) {
+  const std::uint32_t word = little_endian(bytes, at, format.sample_bytes);
+  if (format.floats) {
+    return static_cast<double>(std::bit_cast<float>(word));
+  }
+  const std::size_t shift = 32 - 8 * format.sample_bytes;  // the sign to the top
+  return static_cast<double>(static_cast<std::int32_t>(word << shift)) / 2147483648.0;
+}
+
+OrFault<RecordedSignal> samples_of(std::string_view bytes, std::size_t at, std::size_t size,
+                                   const WavFormat& format) {
+  const std::size_t frame = format.channels * format.sample_bytes;
+  if (size % frame != 0 || size < 2 * frame) {
+    return std::unexpected(
+        SignalFault{0,
+                    fmt::format("byte {}: {} bytes of data are not two or more frames of {} bytes",
+                                at, size, frame),
+                    "record anew, or save it anew in an audio editor"});
+  }
+  RecordedSignal out;
+  out.rate_hz = format.rate_hz;
+  out.value.resize(size / frame);
+  for (std::size_t i = 0; i < out.value.size(); ++i) {
+    out.value[i] = sample_at(bytes, at + i * frame, format);
+    if (!std::isfinite(out.value[i])) {
+      return std::unexpected(SignalFault{
+          0, fmt::format("byte {}: sample {} is not a finite number", at + i * frame, i + 1),
+          "repair the recorder"});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+OrFault<RecordedSignal> parse_wav_signal(std::string_view bytes) {
+  if (bytes.size() < kRiffHead) {
+    return std::unexpected(cut_off(0, kRiffHead, bytes.size()));
+  }
+  if (bytes.substr(8, 4) != "WAVE") {
+    return std::unexpected(SignalFault{
+        0, fmt::format("byte 8: RIFF of kind \"{}\", not WAVE", table::shown(bytes.substr(8, 4))),
+        "give a WAV file"});
+  }
+  if (const std::size_t riff = little_endian(bytes, 4, 4); riff + 8 > bytes.size()) {
+    return std::unexpected(cut_off(4, riff, bytes.size() - 8));
+  }
+  std::optional<WavFormat> format;
+  for (std::size_t at = kRiffHead; at + kChunkHead <= bytes.size();) {
+    const std::string_view name = bytes.substr(at, 4);
+    const std::size_t size = little_endian(bytes, at + 4, 4);
+    const std::size_t body = at + kChunkHead;
+    if (size > bytes.size() - body) {
+      return std::unexpected(cut_off(at, size, bytes.size() - body));
+    }
+    if (name == "fmt ") {
+      auto found = format_of(bytes, body, size);
+      if (!found) {
+        return std::unexpected(std::move(found.error()));
+      }
+      format = *found;
+    } else if (name == "data" && format) {
+      return samples_of(bytes, body, size, *format);
+    }
+    at = body + size + size % 2;
+  }
+  return std::unexpected(
+      SignalFault{0, format ? "has no data chunk" : "has no fmt chunk before the data",
+                  "save the recording anew as WAV"});
+}
+
+}  // namespace steadyrest::chatter::offline

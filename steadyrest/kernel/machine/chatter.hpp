@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace steadyrest::kernel::machine {
+
+/// Shapes of the spindle's speed, in the order of chatter::online::Law.
+enum class SpeedLaw : std::uint8_t { constant, square, pulse, triangle, sine, random, stop };
+
+/// What the chatter room may do on this machine.
+struct Chatter {
+  bool enabled = false;
+  SpeedLaw law = SpeedLaw::triangle;
+  double amplitude_ratio = 0.10;  ///< of the mean speed, to either side
+  double amplitude_rev_s = 0.0;   ///< the same as a speed; 0 = `amplitude_ratio` counts
+  double period_s = 2.0;
+  double mean_ratio = 1.0;                ///< of the programmed speed
+  double min_feed_per_tooth_ratio = 0.8;  ///< of the programmed feed per tooth
+  double max_feed_per_tooth_ratio = 1.2;
+  std::uint32_t m_code_on = 38;  ///< 0 = always on, the program has no say
+  std::uint32_t m_code_off = 39;
+  std::uint64_t seed = 1;
+};
+
+}  // namespace steadyrest::kernel::machine

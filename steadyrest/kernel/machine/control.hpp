@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <steadyrest/kernel/machine/unlimited.hpp>
+
+namespace steadyrest::kernel::machine {
+
+enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
+
+/// How the control plans motion along the path.
+struct Control {
+  Dialect dialect = Dialect::linuxcnc;
+  double interpolator_period_s = 0.001;
+  double servo_period_s = 0.001;
+  double max_path_acceleration_mm_s2 = kUnlimited;  ///< along the path, on top of the axes' own
+  double max_path_jerk_mm_s3 = kUnlimited;
+  double max_feed_mm_s = kUnlimited;
+  double rapid_mm_s = kUnlimited;  ///< path speed of G0, on top of the axes' own
+  std::uint32_t look_ahead_blocks = 100;
+  double corner_tolerance_mm =
+      0.0;  ///< G64 without P; 0 = as fast as the junction allows on the exact path
+  double junction_deviation_mm = 0.01;  ///< bound on the speed at a corner of the exact path
+  double tool_change_s = 5.0;
+  double centripetal_share = 0.866;  ///< share of the axes' acceleration that arcs may use across
+                                     ///< the path; the rest is for speed changes
+  double blend_share = 0.5;  ///< a corner arc takes at most this share of each of its neighbours
+  double min_block_cycles = 0.0;  ///< a block takes at least this many interpolator periods
+  double merge_share =
+      0.0;  ///< lines merge while within this share of the program's own tolerance; 0 = never
+  double junction_share =
+      1.0;  ///< share of an axis's acceleration that a corner of the exact path may use in one
+            ///< period; below 1 the rest is what its neighbours keep
+  double corner_acceleration_share =
+      1.0;  ///< continuous mode: what is left of the acceleration beside a corner that could not be
+            ///< rounded and before a stop
+  double blend_gap_cycles = 0.0;  ///< what a corner arc leaves of the line before it keeps the
+                                  ///< arc's limits when it is shorter than this many periods
+  bool stop_between_rapid_and_feed = false;
+};
+
+}  // namespace steadyrest::kernel::machine

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace steadyrest::kernel::machine {
+
+/// The last step before any write; the layer cannot switch it off.
+struct Envelope {
+  double min_feed_ratio = 0.0;
+  double max_feed_ratio = 1.2;
+  double feed_fall_1_s = 10.0;  ///< slew limits of the ratio, per second
+  double feed_rise_1_s = 2.0;
+  double min_spindle_ratio = 0.5;
+  double max_spindle_ratio = 1.2;
+  double spindle_slew_1_s = 2.0;
+  double max_offset_mm = 0.2;
+  double offset_slew_mm_s = 0.05;
+  double stale_after_s = 0.1;  ///< older input is not acted on
+};
+
+}  // namespace steadyrest::kernel::machine

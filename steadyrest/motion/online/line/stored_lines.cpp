@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <steadyrest/motion/online/line/stored_lines.hpp>
+
+namespace steadyrest::motion::online {
+namespace {
+
+constexpr double kLeastStored = 1e-5;  ///< counts; the machine file rounds to it
+
+}  // namespace
+
+kernel::outcome::Result<LineTable> stored_lines(const kernel::machine::Encoder& encoder) {
+  auto table = LineTable::make({.count_mm = encoder.count_mm,
+                                .first_line = encoder.line_table_first,
+                                .lines = encoder.line_table_mm.size(),
+                                .periodic = encoder.line_table_periodic,
+                                .learn = 0.0});
+  if (table) {
+    std::array<double, 4> phase_mm{};
+    std::copy_n(encoder.phase_error_mm.begin(),
+                std::min<std::size_t>(encoder.phase_error_mm.size(), 4), phase_mm.begin());
+    table->restore(phase_mm, encoder.line_table_mm);
+  }
+  return table;
+}
+
+void store_lines(const LineTable& table, kernel::machine::Encoder& encoder) {
+  encoder.count_mm = table.config().count_mm;
+  encoder.line_table_first = table.config().first_line;
+  encoder.line_table_periodic = table.config().periodic;
+  encoder.phase_error_mm.assign(table.phase_mm().begin(), table.phase_mm().end());
+  encoder.line_table_mm = table.error_mm();
+  std::int64_t line = table.config().first_line;
+  for (double& error_mm : encoder.line_table_mm) {
+    if (table.learnt(line++) && std::abs(error_mm) < kLeastStored * encoder.count_mm) {
+      error_mm = kLeastStored * encoder.count_mm;  // 0 would say that it is not known
+    }
+  }
+  if (!table.in_use()) {  // it would say no more than the fits are wrong by
+    std::ranges::fill(encoder.phase_error_mm, 0.0);
+    std::ranges::fill(encoder.line_table_mm, 0.0);
+  }
+}
+
+}  // namespace steadyrest::motion::online

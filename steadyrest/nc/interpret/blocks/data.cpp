@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/state/frame.hpp>
+
+// G10: work offsets (L2, L20) and the tool table (L1, L10, L11).
+namespace steadyrest::nc::interpret {
+
+bool Interpreter::set_data(const Step& step) {
+  const double form = step.has('L') ? step['L'] : -1.0;
+  if (config_.dialect == read::Dialect::fanuc) {
+    return set_fanuc_data(step, form);
+  }
+  if (form == 2.0 || form == 20.0) {
+    return set_work_data(step, form);
+  }
+  if (form == 1.0 || form == 10.0 || form == 11.0) {
+    return set_tool_data(step, form);
+  }
+  return refuse_code(step, 'G', 10, "g10_form",
+                     "this form of G10 is not interpreted; L1, L10, L11 (tool table), L2 and L20 "
+                     "(work offsets) are");
+}
+
+bool Interpreter::set_work_data(const Step& step, double form) {
+  const double number = step.has('P') ? step['P'] : -1.0;
+  if (number != std::floor(number) || number < 0.0 || number > 9.0) {
+    return refuse_code(step, 'G', 10, "g10_form",
+                       "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
+  }
+  if (step.has('R') && form == 20.0) {
+    return refuse(step, 'R', "g10_form", "a rotation (R) in G10 L20; G10 L2 takes one");
+  }
+  if (!state_.work_offset_on && number == 0.0) {
+    return refuse_code(step, 'G', 10, "g10_form", "no work offset is active");
+  }
+  const std::size_t set =
+      number == 0.0 ? state_.active_offset : static_cast<std::size_t>(number) - 1;
+  Axes& offset = state_.work_offset[set];
+  if (step.has('R')) {
+    state_.rotation_deg[set] = step['R'];
+  }
+  if (form == 2.0) {
+    for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+      if (step.has(kAxisLetters[i])) {
+        offset[i] = component(step, i);
+      }
+    }
+  } else {
+    place_here(step, state_.rotation_deg[set], offset);
+  }
+  if (set != state_.active_offset) {
+    return true;
+  }
+  const Axes before = state_.work_in_force;
+  state_.work_in_force = offset;
+  const double before_deg = state_.rotation_in_force_deg;
+  Axes place = turned(state_.position, before_deg);
+  update_offset();
+  // LinuxCNC 2.9 leaves G92 out of account where the rotation changes: from here on it has X and Y
+  // at another place than the machine, and an axis that is not programmed goes there.
+  if (state_.rotation_in_force_deg != before_deg) {
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      place[i] += before[i] - offset[i];
+    }
+    place = turned(place, -state_.rotation_in_force_deg);
+    state_.position[0] = place[0];
+    state_.position[1] = place[1];
+  }
+  return true;
+}
+
+// L2 alone: P1 to P6 are G54 to G59, P0 is the external offset that is added to all of them; on a
+// Haas P0 is G52. In G91 the words are added to what the offset has.
+bool Interpreter::set_fanuc_data(const Step& step, double form) {
+  if (form != 2.0) {
+    return refuse_code(step, 'G', 10, "g10_form",
+                       "this form of G10 is not interpreted; L2 (work offsets) is");
+  }
+  const double number = step.has('P') ? step['P'] : -1.0;
+  if (number != std::floor(number) || number < 0.0 || number > 6.0) {
+    return refuse_code(step, 'G', 10, "g10_form",
+                       "G10 L2 names no work offset; P0 (external) to P6 (G59) are allowed");
+  }
+  if (number == 0.0 && !config_.external_offset) {
+    return refuse_code(step, 'G', 10, "g10_form", "G10 L2 P0 is G52 on this control; write G52");
+  }
+  if (step.has('R')) {
+    return refuse(step, 'R', "unused_word", "an R word with G10 L2");
+  }
+  Axes& offset =
+      number == 0.0 ? state_.external : state_.work_offset[static_cast<std::size_t>(number) - 1];
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (step.has(kAxisLetters[i])) {
+      offset[i] = component(step, i) + (state_.incremental ? offset[i] : 0.0);
+    }
+  }
+  if (number == static_cast<double>(state_.active_offset) + 1.0) {
+    state_.work_in_force = offset;
+  }
+  update_offset();
+  return true;
+}
+
+// L20: `offset` so that the machine stands where the words say, in the coordinates turned by it.
+void Interpreter::place_here(const Step& step, double rotation_deg, Axes& offset) const {
+  const Axes machine = to_machine(state_.position);
+  if (rotation_deg == 0.0) {
+    for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+      if (step.has(kAxisLetters[i])) {
+        offset[i] = machine[i] - state_.g92[i] - state_.tool_offset[i] - component(step, i);
+      }
+    }
+    return;
+  }
+  Axes from_origin{};
+  for (std::size_t i = 0; i < from_origin.size(); ++i) {
+    from_origin[i] = machine[i] - state_.tool_offset[i] - offset[i];
+  }
+  Axes shift = turned(from_origin, -rotation_deg);
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    shift[i] = step.has(kAxisLetters[i]) ? shift[i] - state_.g92[i] - component(step, i) : 0.0;
+  }
+  shift = turned(shift, rotation_deg);
+  for (std::size_t i = 0; i < shift.size(); ++i) {
+    offset[i] += shift[i];
+  }
+}
+
+Tool* Interpreter::place_of_tool(std::int32_t number) {
+  if (!config_.tools) {
+    return nullptr;
+  }
+  const auto found = std::ranges::find(*config_.tools, number, &Tool::number);
+  return found == config_.tools->end() ? nullptr : &*found;
+}
+
+// L10 in rotated coordinates: X or Y that is not named stays where the tool's old data have it.
+void Interpreter::place_tool(const Step& step, const Axes& machine, const Axes& frame,
+                             double turn_deg, Tool& tool) const {
+  Axes tip{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    tip[i] = machine[i] - frame[i] - tool.offset[i];
+  }
+  tip = turned(tip, -turn_deg);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (step.has(kAxisLetters[i])) {
+      tip[i] = component(step, i) + state_.g92[i];
+    }
+  }
+  tip = turned(tip, turn_deg);
+  for (std::size_t i = 0; i < 2; ++i) {
+    tool.offset[i] = machine[i] - frame[i] - tip[i];
+  }
+}
+
+// L1 sets a tool's data; L10 and L11 so that the tip would stand at the given place of the present
+// work offset or of G59.3. What is in force changes with the next G43.
+bool Interpreter::set_tool_data(const Step& step, double form) {
+  const double number = step.has('P') ? step['P'] : -1.0;
+  Tool* const tool = number == std::floor(number) && number > 0.0 && number < 1e6
+                         ? place_of_tool(static_cast<std::int32_t>(number))
+                         : nullptr;
+  if (tool == nullptr) {
+    return refuse_code(step, 'G', 10, "no_such_tool",
+                       "G10 names a tool (P) that is not in the tool table");
+  }
+  constexpr std::size_t kFixtures = 8;  // G59.3
+  const Axes& frame = form == 11.0 ? state_.work_offset[kFixtures] : state_.work_in_force;
+  const Axes machine = to_machine(state_.position);
+  const double turn_deg = form == 10.0 ? state_.rotation_in_force_deg : 0.0;
+  if (turn_deg != 0.0) {
+    place_tool(step, machine, frame, turn_deg, *tool);
+  }
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (!step.has(kAxisLetters[i]) || (turn_deg != 0.0 && i < 2)) {
+      continue;
+    }
+    const double value = component(step, i);
+    const double shift = form == 10.0 ? state_.g92[i] : 0.0;
+    tool->offset[i] = form == 1.0 ? value : machine[i] - frame[i] - shift - value;
+  }
+  if (step.has('R')) {
+    tool->diameter_mm = 2.0 * step['R'] * state_.unit_mm;
+  }
+  if (step.has('I')) {
+    tool->front_angle_deg = step['I'];
+  }
+  if (step.has('J')) {
+    tool->back_angle_deg = step['J'];
+  }
+  if (step.has('Q')) {
+    if (step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0 || step['Q'] > 9.0) {
+      return refuse(step, 'Q', "out_of_range", "a lathe tool's orientation (Q) is 0 to 9");
+    }
+    tool->orientation = static_cast<std::int32_t>(step['Q']);
+  }
+  if (tool->number == state_.tool_in_spindle) {
+    load_tool();
+  }
+  return true;
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/nc/interpret/cycle/cycle.hpp>
+
+// Canned cycles G73, G74, G81–G89. The sequence of moves is LinuxCNC 2.9's (documentation
+// "Canned cycles" and rs274 by experiment).
+namespace steadyrest::nc::interpret {
+namespace {
+
+constexpr std::string_view kNormalLetters = "XYZ";
+/// Most moves that one block may unfold into: bounded time for every program.
+constexpr double kMostMoves = 1e6;
+/// G73 and G83 return to this height above the bottom of the last peck: 0.254 mm or 0.010 in.
+constexpr double kPeckClearance_mm = 0.254;
+
+}  // namespace
+
+// Sticky words: they stay while the same cycle goes on from block to block.
+bool Interpreter::remember_cycle(const Step& step) {
+  CycleMemory& memory = state_.cycle;
+  // LinuxCNC keeps words within one cycle, FANUC from cycle to cycle until G80.
+  const bool fanuc = config_.dialect == read::Dialect::fanuc;
+  const bool fresh = fanuc ? !is_cycle(state_.motion) : state_.motion != motion_now_;
+  if (!is_cycle(state_.motion) || memory.begins_anew) {
+    memory.initial = state_.position[axes_of(state_.plane).normal] / state_.unit_mm;
+    memory.begins_anew = false;
+  }
+  const char normal = kNormalLetters[axes_of(state_.plane).normal];
+  struct Sticky {
+    char letter;
+    double* place;
+    bool needed;
+    std::string_view text;
+  };
+  const PlaneAxes axes = axes_of(state_.plane);
+  const int code = motion_now_;
+  const bool pecks = code == 730 || code == 830;
+  const bool dwells = code == 820 || code == 860 || code == 880 || code == 890;
+  const bool taps = code == 840 || code == 740;
+  const bool back = code == 870;
+  if (fresh && (taps || fanuc)) {
+    memory.dwell_s = 0.0;
+  }
+  const std::array words = {
+      Sticky{'R', &memory.retract, true, "a canned cycle without its retract plane (R)"},
+      Sticky{normal, &memory.bottom, true, "a canned cycle without the depth of its hole"},
+      Sticky{'Q', &memory.peck, pecks, "a peck cycle without the depth of a peck (Q)"},
+      Sticky{'P', &memory.dwell_s, dwells && !fanuc, "a cycle with a dwell, without its time (P)"},
+      Sticky{"IJK"[axes.first], &memory.ijk[axes.first], back, "G87 without its shift (I J K)"},
+      Sticky{"IJK"[axes.second], &memory.ijk[axes.second], back, "G87 without its shift (I J K)"},
+      Sticky{"IJK"[axes.normal], &memory.ijk[axes.normal], back,
+             "G87 without its upper depth (I J K)"},
+  };
+  for (const Sticky& word : words) {
+    if (step.has(word.letter)) {
+      *word.place = step[word.letter];
+    } else if (word.needed && fresh) {
+      return refuse_code(step, 'G', code / 10, "cycle_word_missing", word.text);
+    }
+  }
+  if (taps && step.has('P') && step['P'] < 0.0) {
+    return refuse(step, 'P', "out_of_range", "a dwell of negative time");
+  }
+  if (pecks && !(memory.peck > 0.0)) {
+    return refuse(step, 'Q', "out_of_range", "the depth of a peck (Q) must be above zero");
+  }
+  return true;
+}
+
+bool Interpreter::cycle(const Step& step) {
+  for (const char letter : std::string_view{"ABCUVW"}) {
+    if (step.has(letter)) {
+      return refuse(step, letter, "axis_in_cycle", "this axis cannot move in a canned cycle");
+    }
+  }
+  if (state_.feed_mode == FeedMode::inverse_time) {
+    return refuse_code(step, 'G', motion_now_ / 10, "cycle_in_inverse_time",
+                       "a canned cycle while inverse-time feed (G93) is in force");
+  }
+  const double repeats = step.has('L') ? step['L'] : 1.0;
+  if (repeats < 1.0) {
+    return refuse(step, 'L', "out_of_range", "the number of repeats (L) is at least 1");
+  }
+  if (!has_feed(step) || !remember_cycle(step)) {
+    return false;
+  }
+  const PlaneAxes axes = axes_of(state_.plane);
+  const CycleMemory& memory = state_.cycle;
+  const double unit = state_.unit_mm;
+  const double initial = memory.initial * unit;
+  Hole hole{.axes = axes, .retract_mm = 0.0, .bottom_mm = 0.0, .clear_mm = 0.0};
+  hole.retract_mm = memory.retract * unit + (state_.incremental ? initial : 0.0);
+  hole.bottom_mm = memory.bottom * unit + (state_.incremental ? hole.retract_mm : 0.0);
+  if (hole.retract_mm < hole.bottom_mm) {
+    return refuse(step, step.has('R') ? 'R' : kNormalLetters[axes.normal], "retract_below_bottom",
+                  "the retract plane (R) lies below the bottom of the hole");
+  }
+  const double depth = hole.retract_mm - hole.bottom_mm;
+  const bool pecks = motion_now_ == 730 || motion_now_ == 830;
+  const double moves = repeats * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
+  if (!(moves <= kMostMoves)) {
+    return refuse(step, step.has('L') ? 'L' : 'Q', "out_of_range",
+                  "a cycle of more than a million moves");
+  }
+  state_.motion = motion_now_;
+  const double high = std::max(initial, hole.retract_mm);
+  const bool lifts = config_.dialect != read::Dialect::fanuc;  // FANUC first goes over the hole
+  if (lifts && initial < hole.retract_mm) {
+    emit_normal(MoveKind::rapid, axes.normal, hole.retract_mm);
+  }
+  hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
+  const PathMode path_mode = state_.path_mode;
+  state_.path_mode = PathMode::exact_path;
+  // LinuxCNC lifts to the clearance first where the cycle goes on without its G word.
+  const bool goes_on = step.code(GGroup::motion) == kNoCode;
+  double height = state_.position[axes.normal];
+  if (lifts) {
+    height = std::max(height, goes_on ? hole.clear_mm : hole.retract_mm);
+  }
+  bool accepted = true;
+  for (double repeat = 0.0; repeat < repeats && accepted; repeat += 1.0) {
+    Axes over = state_.position;
+    for (const std::size_t axis : {axes.first, axes.second}) {
+      if (step.has(kAxisLetters[axis])) {
+        const double value = component(step, axis);
+        over[axis] = state_.incremental ? over[axis] + value : value;
+      }
+    }
+    if (step.polar) {
+      over[0] = state_.position[0];
+      over[1] = state_.position[1];
+      polar_point(step, over);
+    }
+    over[axes.normal] = height;
+    emit(MoveKind::rapid, over);
+    if (height != hole.retract_mm) {
+      emit_normal(MoveKind::rapid, axes.normal, hole.retract_mm);
+    }
+    accepted = drill(step, hole);
+    height = hole.clear_mm;
+  }
+  state_.path_mode = path_mode;
+  return accepted;
+}
+
+bool Interpreter::drill(const Step& step, const Hole& hole) {
+  const std::size_t normal = hole.axes.normal;
+  switch (motion_now_) {
+    case 730:
+    case 830:
+      return peck(step, hole);
+    case 740:
+    case 840:
+      return tap(step, hole);
+    case 860:
+    case 880:
+      return bore(step, hole);
+    case 870:
+      return back_bore(step, hole);
+    case 850:
+      emit_normal(MoveKind::linear, normal, hole.bottom_mm);
+      emit_normal(MoveKind::linear, normal, hole.retract_mm);
+      emit_normal(MoveKind::rapid, normal, hole.clear_mm);
+      return true;
+    case 890:
+      emit_normal(MoveKind::linear, normal, hole.bottom_mm);
+      emit_dwell(state_.cycle.dwell_s);
+      emit_normal(MoveKind::linear, normal, hole.clear_mm);
+      return true;
+    default:  // G81, G82
+      emit_normal(MoveKind::linear, normal, hole.bottom_mm);
+      if (motion_now_ == 820) {
+        emit_dwell(state_.cycle.dwell_s);
+      }
+      emit_normal(MoveKind::rapid, normal, hole.clear_mm);
+      return true;
+  }
+}
+
+// G83 clears the chips by going up to the R plane, G73 only breaks them.
+bool Interpreter::peck(const Step& step, const Hole& hole) {
+  const std::size_t normal = hole.axes.normal;
+  const double peck_mm = state_.cycle.peck * state_.unit_mm;
+  const double furthest_mm = std::max(std::abs(hole.retract_mm), std::abs(hole.bottom_mm));
+  if (furthest_mm - peck_mm == furthest_mm) {  // there would be no end
+    return refuse_code(step, 'G', motion_now_ / 10, "out_of_range",
+                       "so far out a peck is lost in rounding");
+  }
+  for (double depth = hole.retract_mm - peck_mm; depth > hole.bottom_mm; depth -= peck_mm) {
+    emit_normal(MoveKind::linear, normal, depth);
+    if (motion_now_ == 830) {
+      emit_normal(MoveKind::rapid, normal, hole.retract_mm);
+    }
+    emit_normal(MoveKind::rapid, normal, depth + kPeckClearance_mm);
+  }
+  emit_normal(MoveKind::linear, normal, hole.bottom_mm);
+  emit_normal(MoveKind::rapid, normal, hole.clear_mm);
+  return true;
+}
+
+bool Interpreter::tap(const Step& step, const Hole& hole) {
+  const int into = motion_now_ == 840 ? 1 : -1;
+  if (state_.spindle_direction != into) {
+    return refuse_code(step, 'G', motion_now_ / 10, "spindle_direction",
+                       into > 0 ? "right-hand tapping needs the spindle turning clockwise (M3)"
+                                : "left-hand tapping needs the spindle turning "
+                                  "counter-clockwise (M4)");
+  }
+  const std::size_t normal = hole.axes.normal;
+  if (config_.dialect == read::Dialect::linuxcnc && state_.plane != Plane::xy) {
+    return refuse_code(step, 'G', motion_now_ / 10, "tapping_off_xy",
+                       "LinuxCNC 2.9 moves other axes than those programmed when it taps outside "
+                       "of G17");
+  }
+  const bool override_off = state_.override_off;
+  state_.override_off = true;
+  emit_normal(MoveKind::linear, normal, hole.bottom_mm);
+  state_.spindle_direction = -into;
+  emit_spindle();
+  emit_dwell(state_.cycle.dwell_s);
+  emit_normal(MoveKind::linear, normal, hole.clear_mm);
+  state_.spindle_direction = into;
+  emit_spindle();
+  state_.override_off = override_off;
+  return true;
+}
+
+// G86: out with the spindle standing. G88: the operator brings the tool out by hand.
+bool Interpreter::bore(const Step& step, const Hole& hole) {
+  const int direction = state_.spindle_direction;
+  if (direction == 0) {
+    return refuse_code(step, 'G', motion_now_ / 10, "spindle_stands",
+                       "a boring cycle while the spindle stands");
+  }
+  emit_normal(MoveKind::linear, hole.axes.normal, hole.bottom_mm);
+  emit_dwell(state_.cycle.dwell_s);
+  state_.spindle_direction = 0;
+  emit_spindle();
+  if (motion_now_ == 880) {
+    emit_event(EventKind::stop, 0.0);
+    state_.position[hole.axes.normal] = hole.clear_mm;  // by hand: no move of the program
+  } else {
+    emit_normal(MoveKind::rapid, hole.axes.normal, hole.clear_mm);
+  }
+  state_.spindle_direction = direction;
+  emit_spindle();
+  return true;
+}
+
+// G87: in beside the axis with the spindle standing, then boring upwards from below.
+bool Interpreter::back_bore(const Step& step, const Hole& hole) {
+  const int direction = state_.spindle_direction;
+  if (direction == 0) {
+    return refuse_code(step, 'G', 87, "spindle_stands", "a boring cycle while the spindle stands");
+  }
+  const CycleMemory& memory = state_.cycle;
+  const double unit = state_.unit_mm;
+  const PlaneAxes axes = hole.axes;
+  const double upper = memory.ijk[axes.normal] * unit + (state_.incremental ? hole.bottom_mm : 0.0);
+  const Axes above = state_.position;
+  Axes beside = above;
+  beside[axes.first] += memory.ijk[axes.first] * unit;
+  beside[axes.second] += memory.ijk[axes.second] * unit;
+  emit(MoveKind::rapid, beside);
+  state_.spindle_direction = 0;
+  emit_spindle();
+  emit_normal(MoveKind::rapid, axes.normal, hole.bottom_mm);
+  Axes below = above;
+  below[axes.normal] = hole.bottom_mm;
+  emit(MoveKind::rapid, below);
+  state_.spindle_direction = direction;
+  emit_spindle();
+  emit_normal(MoveKind::linear, axes.normal, upper);
+  emit_normal(MoveKind::linear, axes.normal, hole.bottom_mm);
+  state_.spindle_direction = 0;
+  emit_spindle();
+  beside[axes.normal] = hole.bottom_mm;
+  emit(MoveKind::rapid, beside);
+  emit_normal(MoveKind::rapid, axes.normal, hole.clear_mm);
+  Axes end = above;
+  end[axes.normal] = hole.clear_mm;
+  emit(MoveKind::rapid, end);
+  state_.spindle_direction = direction;
+  emit_spindle();
+  return true;
+}
+
+void Interpreter::emit_normal(MoveKind kind, std::size_t axis, double value) {
+  Axes end = state_.position;
+  end[axis] = value;
+  emit(kind, end);
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+
+#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+
+// G33, G33.1 and G76: the feed follows the spindle.
+namespace steadyrest::nc::interpret {
+namespace {
+
+constexpr double kMostPasses = 100'000.0;
+
+}  // namespace
+
+bool Interpreter::spindle_turns(const Step& step) {
+  return (state_.spindle_direction != 0 &&
+          (state_.spindle_speed_rev_s != 0.0 || state_.surface_speed_mm_s != 0.0)) ||
+         refuse_code(step, 'G', motion_now_ / 10, "spindle_stands",
+                     "threading while the spindle stands");
+}
+
+void Interpreter::emit_thread(const Axes& end, double pitch_mm) {
+  const FeedMode mode = state_.feed_mode;
+  const double feed = state_.feed_mm_s;
+  state_.feed_mode = FeedMode::per_revolution;
+  state_.feed_mm_s = std::abs(pitch_mm);
+  emit(MoveKind::thread, end);
+  state_.feed_mode = mode;
+  state_.feed_mm_s = feed;
+}
+
+// K is the travel in a revolution. G33.1 turns the spindle back at the end and goes out again.
+bool Interpreter::thread(const Step& step) {
+  if (!step.has('K')) {
+    return refuse_code(step, 'G', 33, "pitch_missing", "a thread without its pitch (K)");
+  }
+  if (!spindle_turns(step)) {
+    return false;
+  }
+  Axes end;
+  if (!end_point(step, end)) {
+    return false;
+  }
+  const double pitch_mm = step['K'] * state_.unit_mm;
+  if (motion_now_ == 330) {
+    emit_thread(end, pitch_mm);
+    return true;
+  }
+  for (const char letter : std::string_view{"ABCUVW"}) {
+    if (step.has(letter)) {
+      return refuse(step, letter, "axis_in_cycle", "rigid tapping moves X, Y and Z alone");
+    }
+  }
+  if (pitch_mm == 0.0) {
+    return refuse(step, 'K', "out_of_range", "a pitch of zero");
+  }
+  const Axes start = state_.position;
+  const int direction = state_.spindle_direction;
+  emit_thread(end, pitch_mm);
+  state_.spindle_direction = -direction;
+  emit_spindle();
+  emit_thread(start, pitch_mm);
+  state_.spindle_direction = direction;
+  emit_spindle();
+  return true;
+}
+
+struct Interpreter::ThreadCycle {
+  double pitch_mm;
+  double peak_mm;   ///< I: from the drive line to the thread's peak
+  double first_mm;  ///< J: depth of the first pass
+  double full_mm;   ///< K
+  double end_mm;    ///< Z
+  double slope;     ///< tan of the compound slide's angle
+  double taper_mm;  ///< E
+  bool entry;
+  bool exit;
+  double start_mm;  ///< where Z stands
+  double drive_mm;  ///< where X stands
+};
+
+bool Interpreter::thread_cycle(const Step& step) {
+  for (const char letter : std::string_view{"PIJK"}) {
+    if (!step.has(letter)) {
+      return refuse_code(step, 'G', 76, "cycle_word_missing",
+                         std::string{"G76 without its "} + letter + " word");
+    }
+  }
+  for (const char letter : std::string_view{"ABCUVW"}) {
+    if (step.has(letter)) {
+      return refuse(step, letter, "axis_in_cycle", "this axis cannot move in a canned cycle");
+    }
+  }
+  const double unit = state_.unit_mm;
+  const double across = state_.diameter ? 0.5 * unit : unit;
+  const double ends = step.has('L') ? step['L'] : 0.0;
+  ThreadCycle cycle{.pitch_mm = step['P'] * unit,
+                    .peak_mm = step['I'] * across,
+                    .first_mm = step['J'] * across,
+                    .full_mm = step['K'] * across,
+                    .end_mm = state_.position[2],
+                    .slope = std::tan((step.has('Q') ? step['Q'] : 0.0) * std::numbers::pi / 180.0),
+                    .taper_mm = (step.has('E') ? step['E'] : 0.0) * unit,
+                    .entry = ends == 1.0 || ends == 3.0,
+                    .exit = ends == 2.0 || ends == 3.0,
+                    .start_mm = state_.position[2],
+                    .drive_mm = state_.position[0]};
+  const double degression = step.has('R') ? step['R'] : 1.0;
+  const double springs = step.has('H') ? step['H'] : 0.0;
+  const double angle = step.has('Q') ? step['Q'] : 0.0;
+  const auto wrong = [&](bool is, char letter, std::string_view text) {
+    return is && !refuse(step, letter, "out_of_range", text);
+  };
+  if (wrong(!(cycle.pitch_mm > 0.0), 'P', "a pitch (P) that is not above zero") ||
+      wrong(cycle.peak_mm == 0.0, 'I', "G76 with I zero: it tells inside from outside") ||
+      wrong(!(cycle.first_mm > 0.0), 'J', "the first depth (J) must be above zero") ||
+      wrong(!(cycle.full_mm > cycle.first_mm), 'K', "the full depth (K) must be above J") ||
+      wrong(!(degression >= 1.0), 'R', "the degression of depth (R) is at least 1") ||
+      wrong(springs < 0.0 || springs > 1000.0 || springs != std::floor(springs), 'H',
+            "the number of spring passes (H) is a whole number from 0") ||
+      wrong(ends > 3.0, 'L', "the tapered ends (L) are 0 to 3") ||
+      wrong(!(std::abs(angle) < 80.0), 'Q', "the angle of the compound slide (Q) is below 80") ||
+      wrong((cycle.entry || cycle.exit) && !(cycle.taper_mm > 0.0), 'L',
+            "tapered ends need the length of the taper (E above zero)") ||
+      wrong(!(std::pow(cycle.full_mm / cycle.first_mm, degression) < kMostPasses), 'J',
+            "a thread of more than 100000 passes")) {
+    return false;
+  }
+  if (!spindle_turns(step)) {
+    return false;
+  }
+  Axes end;
+  if (!end_point(step, end)) {
+    return false;
+  }
+  cycle.end_mm = end[2];
+  double pass = 1.0;
+  for (double depth = cycle.first_mm; depth < cycle.full_mm;
+       depth = cycle.first_mm * std::pow(++pass, 1.0 / degression)) {
+    thread_pass(cycle, depth);
+  }
+  for (double spring = 0.0; spring <= springs; spring += 1.0) {
+    thread_pass(cycle, cycle.full_mm);
+  }
+  Axes out = state_.position;
+  out[0] = cycle.drive_mm;
+  out[2] = cycle.end_mm;
+  emit(MoveKind::rapid, out);
+  return true;
+}
+
+void Interpreter::thread_pass(const ThreadCycle& cycle, double depth_mm) {
+  const double side = cycle.peak_mm > 0.0 ? 1.0 : -1.0;  // inside: the tool goes outwards
+  const double along = cycle.end_mm > cycle.start_mm ? 1.0 : -1.0;
+  const double left_mm = cycle.full_mm - depth_mm;
+  const double taper_pitch_mm =
+      cycle.taper_mm > 0.0
+          ? cycle.pitch_mm * std::hypot(cycle.taper_mm, cycle.full_mm) / cycle.taper_mm
+          : cycle.pitch_mm;
+  const double clear = cycle.drive_mm - side * left_mm;
+  const double surface = clear + cycle.peak_mm;
+  const double cut = cycle.drive_mm + cycle.peak_mm + side * depth_mm;
+  const double begin = cycle.start_mm + along * depth_mm * cycle.slope;
+  const double end = cycle.end_mm - along * left_mm * cycle.slope;
+  Axes at = state_.position;
+  const auto to = [&](double x, double z) -> const Axes& {
+    at[0] = x;
+    at[2] = z;
+    return at;
+  };
+  emit(MoveKind::rapid, to(clear, begin));
+  if (cycle.entry) {
+    emit_thread(to(surface, begin), taper_pitch_mm);
+    emit_thread(to(cut, begin + along * cycle.taper_mm), taper_pitch_mm);
+  } else {
+    emit(MoveKind::rapid, to(cut, begin));
+  }
+  if (cycle.exit) {
+    emit_thread(to(cut, end - along * cycle.taper_mm), cycle.pitch_mm);
+    emit_thread(to(surface + 0.0, end), taper_pitch_mm);
+  } else {
+    emit_thread(to(cut, end), cycle.pitch_mm);
+  }
+  emit(MoveKind::rapid, to(clear, end));
+}
+
+}  // namespace steadyrest::nc::interpret

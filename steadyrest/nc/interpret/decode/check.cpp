@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+
+// What a block must and must not contain, before anything of it acts. The rules are those that
+// LinuxCNC 2.9 shows (docs "G-code overview", and rs274 by experiment).
+namespace steadyrest::nc::interpret {
+namespace {
+
+constexpr bool uses_axes(int non_modal) noexcept {
+  return non_modal == 100 || non_modal == 280 || non_modal == 300 || non_modal == 520 ||
+         non_modal == 920;
+}
+constexpr bool is_arc(int code) noexcept {
+  return code == 20 || code == 30;
+}
+
+}  // namespace
+
+// Which motion the block makes: its own G word, or the modal one when axis words ask for it.
+bool Interpreter::choose_motion(const Step& step) {
+  const int motion = step.code(GGroup::motion);
+  const int non_modal = step.code(GGroup::non_modal);
+  const bool axis_words = (step.mask & kAxisMask) != 0;
+  const bool axes_taken = uses_axes(non_modal);
+  motion_now_ = -1;
+  if (motion != kNoCode) {
+    if (motion == 800) {
+      if (axis_words && !axes_taken) {
+        return refuse_code(step, 'G', 80, "axis_words_with_g80",
+                           "axis words in a block whose G80 ends motion");
+      }
+    } else if (axes_taken) {
+      return refuse_code(step, 'G', motion / 10, "two_users_of_axis_words",
+                         "two G words in one block that both use the axis words");
+    } else if (!axis_words && (is_cycle(motion) || motion == 330 || motion == 331 ||
+                               motion == 760 || motion == 50 || motion == 51)) {
+      return refuse_code(step, 'G', motion / 10, "axis_words_missing",
+                         "a motion without any axis word");
+    }
+    motion_now_ = motion;
+    return true;
+  }
+  if (axes_taken) {
+    if (!axis_words && (non_modal == 520 || non_modal == 920)) {
+      return refuse_code(step, 'G', non_modal / 10, "axis_words_missing",
+                         "an offset without any axis word");
+    }
+    return true;
+  }
+  const bool tool_length_takes = step.code(GGroup::tool_length) == 431;
+  if (axis_words && !tool_length_takes) {
+    if (state_.motion == -1 || state_.motion == 800) {
+      for (const char letter : kAxisLetters) {
+        if (step.has(letter)) {
+          return refuse(step, letter, "no_motion_mode",
+                        "an axis word, but no G word is in force that uses it");
+        }
+      }
+    }
+    motion_now_ = state_.motion;
+  }
+  if (!axis_words && (step.mask & kCentreMask) != 0 && is_arc(state_.motion) && non_modal != 100) {
+    motion_now_ = state_.motion;
+  }
+  return true;
+}
+
+bool Interpreter::check(const Step& step) {
+  return choose_motion(step) && check_values(step) && check_non_modal(step) && check_unused(step) &&
+         check_cutter(step);
+}
+
+bool Interpreter::check_values(const Step& step) {
+  for (std::uint32_t left = step.mask; left != 0; left &= left - 1) {
+    const auto letter = static_cast<char>('A' + std::countr_zero(left));
+    if (!(std::abs(step[letter]) <= kLargestValue)) {
+      return refuse(step, letter, "out_of_range",
+                    "a value beyond every machine; at most 10000000 in magnitude is allowed");
+    }
+  }
+  if (step.has('F') && step['F'] < 0.0) {
+    return refuse(step, 'F', "out_of_range", "a negative feed");
+  }
+  if (step.has('S') && step['S'] < 0.0) {
+    return refuse(step, 'S', "out_of_range", "a negative spindle speed");
+  }
+  constexpr std::uint32_t kWhole = Step::bit('T') | Step::bit('H') | Step::bit('L');
+  for (const char letter : {'T', 'H', 'L'}) {
+    if ((step.mask & kWhole) == 0) {
+      break;
+    }
+    if (step.has(letter) && (step[letter] != std::floor(step[letter]) || step[letter] < 0.0)) {
+      return refuse(step, letter, "not_an_integer",
+                    std::string{"a "} + letter + " word that is not a whole number from 0");
+    }
+  }
+  return true;
+}
+
+bool Interpreter::check_non_modal(const Step& step) {
+  const int non_modal = step.code(GGroup::non_modal);
+  if (non_modal == 40 && !(step.has('P') && step['P'] >= 0.0)) {
+    return refuse_code(step, 'G', 4, "dwell_missing", "a dwell without its time (P from 0)");
+  }
+  if (non_modal == 40 && step['P'] > 1e6) {
+    return refuse(step, 'P', "out_of_range", "a dwell of more than 1000000 s");
+  }
+  if (step.machine_frame) {
+    const bool straight = motion_now_ == 0 || motion_now_ == 10;
+    const bool lone = config_.dialect == read::Dialect::sinumerik && (step.mask & kAxisMask) == 0 &&
+                      step.code(GGroup::motion) == kNoCode;
+    if (!straight && !lone) {
+      return refuse_code(step, 'G', 53, "g53_without_straight_motion",
+                         "machine coordinates need G0 or G1 in force");
+    }
+    const int distance = step.code(GGroup::distance);
+    if (!lone && (distance == 910 || (distance != 900 && state_.incremental))) {
+      return refuse_code(step, 'G', 53, "g53_incremental",
+                         "machine coordinates while G91 is in force");
+    }
+  }
+  return true;
+}
+
+bool Interpreter::check_unused(const Step& step) {
+  constexpr std::uint32_t kNeedUse = Step::bit('D') | Step::bit('E') | Step::bit('H') |
+                                     Step::bit('L') | Step::bit('P') | Step::bit('Q') |
+                                     Step::bit('R') | kCentreMask;
+  if ((step.mask & kNeedUse) == 0) {
+    return true;
+  }
+  const int motion = motion_now_;
+  const int non_modal = step.code(GGroup::non_modal);
+  const int override_switch = step.code(MGroup::override_switch);
+  const int tool_length = step.code(GGroup::tool_length);
+  const bool drilling = is_cycle(motion);
+  const auto unused = [&](char letter, bool used) {
+    return step.has(letter) && !used &&
+           !refuse(step, letter, "unused_word",
+                   std::string{"a "} + letter + " word, but no word of the block uses it");
+  };
+  const int io = step.code(MGroup::io);
+  const bool orients = step.code(MGroup::spindle) == 19;
+  const bool compensates = step.code(GGroup::cutter) > 400;
+  if (unused('D', compensates || step.code(GGroup::spindle_mode) == 960) ||
+      unused('E', io >= 66 || motion == 760) ||
+      unused('H', tool_length == 430 || tool_length == 432 || motion == 760)) {
+    return false;
+  }
+  const bool arc = is_arc(motion);
+  const bool tool_data = non_modal == 100;
+  const bool spline = motion == 50 || motion == 51;
+  const bool threads = motion == 760;
+  if (unused('I', arc || spline || threads || motion == 870 || motion == 331 || tool_data) ||
+      unused('J', arc || spline || threads || motion == 870 || tool_data) ||
+      unused('K', arc || threads || motion == 870 || motion == 330 || motion == 331)) {
+    return false;
+  }
+  if (unused('L', compensates || drilling || threads || motion == 52 || non_modal == 100 ||
+                      io == 66 || step.code(MGroup::program) == 98)) {
+    return false;
+  }
+  const bool p_override = override_switch >= 50;
+  const bool p_elsewhere = (io >= 62 && io <= 66) || orients || step.code(MGroup::program) == 98;
+  if (unused('P', p_elsewhere || arc || motion == 50 || motion == 52 || threads ||
+                      non_modal == 40 || non_modal == 100 || p_override ||
+                      step.code(GGroup::path_mode) == 640 || motion == 820 || motion == 860 ||
+                      motion == 880 || motion == 890 || motion == 840 || motion == 740)) {
+    return false;
+  }
+  if (unused('Q', motion == 50 || threads || motion == 730 || motion == 830 ||
+                      step.code(GGroup::path_mode) == 640 || step.code(MGroup::tool_change) == 61 ||
+                      tool_data || io >= 66 || orients)) {
+    return false;
+  }
+  return !unused('R', arc || drilling || threads || non_modal == 100 || orients);
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+
+// FANUC-style milling programs (G code system of the machining-centre controls, also Haas and Mazak
+// EIA). Codes that lathes give another meaning are refused, not guessed.
+namespace steadyrest::nc::interpret {
+namespace {
+
+using read::Block;
+using read::Word;
+
+struct Note {
+  int code;  // G times ten
+  std::string_view reason;
+  std::string_view text;
+};
+
+constexpr std::array kNotes = {
+    Note{50, "g_code_not_interpreted", "G5 (high-speed machining) is not interpreted"},
+    Note{51, "g_code_not_interpreted", "G5.1 (contour control, Q1) is not interpreted"},
+    Note{52, "g_code_not_interpreted", "G5.2 is not interpreted"},
+    Note{53, "g_code_not_interpreted", "G5.3 is not interpreted"},
+    Note{331, "ambiguous_code", "G33.1 is no code of this dialect"},
+    Note{382, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
+    Note{383, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
+    Note{384, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
+    Note{385, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
+    Note{70, "g_code_not_interpreted", "G7/G07 is another function on every control"},
+    Note{80, "g_code_not_interpreted", "G8/G08 (look-ahead control) is not interpreted"},
+    Note{150, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
+    Note{160, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
+    Note{270, "g_code_not_interpreted", "the reference check (G27) is not interpreted"},
+    Note{290, "g_code_not_interpreted",
+         "the return from the reference point (G29) is not "
+         "interpreted"},
+    Note{310, "g_code_not_interpreted", "a skip move (G31) ends where the machine decides"},
+    Note{320, "lathe_code", "G32 threads on a lathe; lathe programs are not interpreted"},
+    Note{330, "ambiguous_code", "G33 takes F as pitch here; its rounding differs between controls"},
+    Note{500, "lathe_code",
+         "G50 sets the spindle limit or the origin on a lathe and ends scaling "
+         "on a mill; write G92 for an origin"},
+    Note{510, "g_code_not_interpreted", "scaling (G51) is not interpreted"},
+    Note{650, "macro_call", "a macro call (G65) is not interpreted"},
+    Note{660, "macro_call", "a modal macro call (G66) is not interpreted"},
+    Note{670, "macro_call", "the end of a modal macro call (G67) is not interpreted"},
+    Note{680, "g_code_not_interpreted", "coordinate rotation (G68) is not interpreted"},
+    Note{690, "g_code_not_interpreted", "coordinate rotation (G69) is not interpreted"},
+    Note{760, "g_code_not_interpreted", "fine boring (G76) shifts by a machine parameter"},
+    Note{870, "g_code_not_interpreted", "back boring (G87) shifts by a machine parameter"},
+    Note{880, "g_code_not_interpreted", "G88 stops for the operator's hand"},
+    Note{930, "g_code_not_interpreted", "inverse-time feed (G93) is not interpreted here"},
+};
+
+constexpr std::string_view kLengthLetters = "XYZIJKRQ";
+constexpr std::string_view kAngleLetters = "ABC";
+
+}  // namespace
+
+bool Interpreter::decode_fanuc(const Block& block, Step& step) {
+  if (block.words().empty()) {
+    return true;
+  }
+  // The codes first: G4 decides what X and P are, G20/G21 what an increment is.
+  for (const Word& word : block.words()) {
+    if (word.letter == 'G' ? !fanuc_g(word, step) : word.letter == 'M' && !fanuc_m(word, step)) {
+      return false;
+    }
+  }
+  for (const Word& word : block.words()) {
+    if (word.letter != 'G' && word.letter != 'M' && !fanuc_letter(word, step)) {
+      return false;
+    }
+  }
+  return fanuc_finish(step);
+}
+
+bool Interpreter::fanuc_g(const Word& word, Step& step) {
+  const double tenfold = word.value * 10.0;
+  const double rounded = std::round(tenfold);
+  if (!(rounded >= 0.0 && rounded < 1e5) || std::abs(tenfold - rounded) > 1e-3) {
+    return refuse_word(step.line, word, "unknown_g_code", "a G word that is not known");
+  }
+  const int code = static_cast<int>(rounded);
+  for (const Note& note : kNotes) {
+    if (note.code == code) {
+      return refuse_word(step.line, word, note.reason, note.text);
+    }
+  }
+  switch (code) {
+    case 90:  // G9 exact stop, this block
+      step.exact_stop = true;
+      return true;
+    case 541:
+      return refuse_word(step.line, word, "g_code_not_interpreted",
+                         "additional work offsets (G54.1 P) are not interpreted");
+    case 640:  // G64 cutting mode, G61 exact stop mode: stops at every end point
+      return put_g(word, 640, step);
+    case 610:
+      return put_g(word, 611, step);
+    case 281:
+    case 301:
+    case 331:
+    case 431:
+    case 432:
+    case 521:
+    case 591:
+    case 592:
+    case 593:
+    case 611:
+    case 901:
+    case 911:
+    case 921:
+    case 922:
+    case 923:
+      return refuse_word(step.line, word, "ambiguous_code",
+                         "this decimal G word means something else, or nothing, on each control");
+    default:
+      return put_g(word, code, step);
+  }
+}
+
+bool Interpreter::fanuc_m(const Word& word, Step& step) {
+  if (is_modulation(word)) {
+    return take_modulation(word, step);
+  }
+  if (word.value == 60.0 || word.value == 61.0 || (word.value >= 50.0 && word.value <= 53.0)) {
+    return refuse_word(step.line, word, "machine_builders_code",
+                       "an M word that every machine builder gives his own meaning");
+  }
+  return take_m(word, step);
+}
+
+bool Interpreter::fanuc_letter(const Word& word, Step& step) {
+  const bool dwell = step.code(GGroup::non_modal) == 40;
+  char letter = word.letter;
+  double value = word.value;
+  if (letter == 'U' || letter == 'V' || letter == 'W') {
+    if (step.code(GGroup::non_modal) != 280 && step.code(GGroup::non_modal) != 300) {
+      return refuse_word(
+          step.line, word, "lathe_word",
+          "U, V and W are increments on a lathe; lathe programs are not interpreted");
+    }
+    letter = letter == 'U' ? 'X' : letter == 'V' ? 'Y' : 'Z';
+    step.incremental |= Step::bit(letter);
+  }
+  if (letter == 'D') {
+    // A radius or length number without G41/G42/G43 is a preparation that moves nothing.
+    return refuse_word(step.line, word, "unused_word",
+                       "a D word, but cutter radius compensation is not interpreted");
+  }
+  if (dwell && letter == 'X') {  // G4 X: seconds, with or without point as the rule says
+    const bool increments =
+        !word.decimal_point && config_.decimal_rule == DecimalRule::least_increment;
+    return put_letter(word, 'P', increments ? value * 1e-3 : value, step);
+  }
+  if (step.code(MGroup::program) == 98 && (letter == 'P' || letter == 'L')) {
+    return put_letter(word, letter, value, step);
+  }
+  if (letter == 'P' && step.code(MGroup::program) == 99) {
+    return refuse_word(step.line, word, "flow_control",
+                       "M99 with a block number (P) is a jump, which is not interpreted");
+  }
+  if (letter == 'P') {
+    if (step.code(GGroup::non_modal) == 100) {
+      return put_letter(word, 'P', value, step);  // which work offset
+    }
+    const bool with_time = dwell || is_cycle(step.code(GGroup::motion)) ||
+                           (step.code(GGroup::motion) == kNoCode && is_cycle(state_.motion));
+    if (!with_time) {
+      return refuse_word(step.line, word, "unused_word",
+                         "a P word, but no word of the block uses it");
+    }
+    return put_letter(word, 'P', value * 1e-3, step);  // milliseconds
+  }
+  if (!word.decimal_point && config_.decimal_rule == DecimalRule::least_increment) {
+    const int units = step.code(GGroup::units);
+    const bool inch = units == kNoCode ? state_.unit_mm != 1.0 : units == 200;
+    if (kLengthLetters.find(letter) != std::string_view::npos) {
+      value *= inch ? 1e-4 : 1e-3;
+    } else if (kAngleLetters.find(letter) != std::string_view::npos) {
+      value *= 1e-3;
+    }
+  }
+  if (letter == 'K' &&
+      is_cycle(step.code(GGroup::motion) == kNoCode ? state_.motion : step.code(GGroup::motion))) {
+    letter = 'L';  // the number of repeats is K on these controls
+    value = word.value;
+  }
+  return put_letter(word, letter, value, step);
+}
+
+// M98 P…: eight digits are four of repeats and four of the program's number; or P and L.
+bool Interpreter::fanuc_call(Step& step) {
+  constexpr double kNumbers = 10000.0;
+  if (step.code(MGroup::program) != 98 || !step.has('P')) {
+    return true;
+  }
+  const double p = step['P'];
+  if (step.has('L') && (!(step['L'] >= 1.0) || p >= kNumbers)) {
+    return refuse(step, 'L', "bad_value",
+                  p >= kNumbers ? "repeats both in L and in the digits of P"
+                                : "the number of repeats (L) is at least 1");
+  }
+  if (p >= kNumbers) {
+    step.set('L', std::floor(p / kNumbers));
+    step.set('P', std::fmod(p, kNumbers));
+  }
+  return true;
+}
+
+// Where these controls do otherwise than LinuxCNC.
+bool Interpreter::fanuc_finish(Step& step) {
+  if (step.code(GGroup::units) != kNoCode) {
+    for (const Word& word : step.block->words()) {
+      if (word.calculated) {
+        return refuse_word(step.line, word, "units_beside_variables",
+                           "a calculated value beside G20 or G21: which unit it is rounded in is "
+                           "not known; write the units in a block before");
+      }
+    }
+  }
+  if (!fanuc_call(step)) {
+    return false;
+  }
+  const int non_modal = step.code(GGroup::non_modal);
+  if (non_modal == 530) {
+    step.machine_frame = true;
+  }
+  // G28 in one block with G0/G1: the motion word is modal only, the axis words belong to G28.
+  if ((non_modal == 280 || non_modal == 300) && step.code(GGroup::motion) != kNoCode) {
+    const std::int16_t motion = step.code(GGroup::motion);
+    if (motion != 0 && motion != 10) {
+      return refuse(step, 'G', "two_users_of_axis_words",
+                    "two G words in one block that both use the axis words");
+    }
+    state_.motion = motion;
+    step.g[static_cast<std::size_t>(GGroup::motion)] = kNoCode;
+  }
+  if ((non_modal == 280 || non_modal == 300) && (step.mask & kAxisMask) == 0) {
+    return refuse_code(step, 'G', non_modal / 10, "axis_words_missing",
+                       "a reference point without axes; write G91 G28 Z0");
+  }
+  if (step.code(GGroup::tool_length) == 430 && !step.has('H')) {
+    return refuse_code(step, 'G', 43, "tool_missing", "G43 without its offset number (H)");
+  }
+  if ((non_modal == 520 && state_.g92_used) || (non_modal == 920 && state_.g52_used)) {
+    return refuse_code(step, 'G', non_modal / 10, "ambiguous_code",
+                       "G52 and G92 in one program: which of them goes first differs");
+  }
+  return true;
+}
+
+}  // namespace steadyrest::nc::interpret

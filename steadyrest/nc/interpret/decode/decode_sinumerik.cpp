@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+
+// SINUMERIK 840D/828D programs in Siemens' own language (not the ISO dialect).
+namespace steadyrest::nc::interpret {
+namespace {
+
+using read::Block;
+using read::Qualifier;
+using read::Word;
+
+struct Translation {
+  int theirs;
+  int ours;  // G code times ten
+};
+
+// Codes with the same meaning under the same or another number.
+constexpr std::array kTranslations = {
+    Translation{0, 0},     Translation{1, 10},    Translation{2, 20},    Translation{3, 30},
+    Translation{4, 40},    Translation{17, 170},  Translation{18, 180},  Translation{19, 190},
+    Translation{40, 400},  Translation{53, 530},  Translation{54, 540},  Translation{55, 550},
+    Translation{56, 560},  Translation{57, 570},  Translation{505, 580}, Translation{506, 590},
+    Translation{507, 591}, Translation{508, 592}, Translation{509, 593}, Translation{60, 611},
+    Translation{64, 640},  Translation{641, 640}, Translation{642, 640}, Translation{643, 640},
+    Translation{644, 640}, Translation{70, 200},  Translation{71, 210},  Translation{700, 200},
+    Translation{710, 210}, Translation{90, 900},  Translation{91, 910},  Translation{93, 930},
+    Translation{94, 940},  Translation{95, 950},  Translation{96, 960},  Translation{97, 970},
+};
+
+struct Note {
+  int code;
+  std::string_view text;
+};
+
+constexpr std::array kNotes = {
+    Note{5, "G5 (inclined-axis grinding) is not interpreted"},
+    Note{7, "G7 (inclined-axis grinding) is not interpreted"},
+    Note{25, "a working-area or spindle limit (G25) is not interpreted"},
+    Note{26, "a working-area or spindle limit (G26) is not interpreted"},
+    Note{33, "threading (G33) is not interpreted in this dialect"},
+    Note{41, "cutter radius compensation (G41) is not interpreted"},
+    Note{42, "cutter radius compensation (G42) is not interpreted"},
+    Note{63, "tapping with compensating chuck (G63) is not interpreted"},
+    Note{74, "the reference-point approach (G74) is not interpreted"},
+    Note{75, "the fixed-point approach (G75) is not interpreted"},
+    Note{110, "polar coordinates (G110-G112) are not interpreted"},
+    Note{111, "polar coordinates (G110-G112) are not interpreted"},
+    Note{112, "polar coordinates (G110-G112) are not interpreted"},
+    Note{331, "rigid tapping (G331) is not interpreted"},
+    Note{332, "rigid tapping (G332) is not interpreted"},
+    Note{961, "G961 (constant cutting speed with another feed type) is not interpreted"},
+    Note{971, "G971 is not interpreted"},
+};
+
+bool equal(std::string_view text, std::string_view upper_name) noexcept {
+  return std::ranges::equal(text, upper_name, {}, [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+}
+
+// Dynamics of the control, exact-stop criteria: no influence on the moves.
+constexpr std::array<std::string_view, 8> kWithoutEffect = {"STOPRE", "FNORM", "CFC",  "CFTCP",
+                                                            "CFIN",   "FFWOF", "SOFT", "MSG"};
+
+}  // namespace
+
+bool Interpreter::decode_sinumerik(const Block& block, Step& step) {
+  for (const Word& word : block.words()) {
+    if (word.letter == 'G' && !sinumerik_g(word, step)) {
+      return false;
+    }
+  }
+  for (const Word& word : block.words()) {
+    const bool accepted = word.letter == 'G'   ? true
+                          : word.letter == 'M' ? sinumerik_m(word, step)
+                          : word.letter == 0   ? sinumerik_name(word, step)
+                                               : sinumerik_letter(word, step);
+    if (!accepted) {
+      return false;
+    }
+  }
+  return sinumerik_finish(step);
+}
+
+bool Interpreter::sinumerik_g(const Word& word, Step& step) {
+  if (word.qualifier != Qualifier::none || word.value != std::floor(word.value)) {
+    return refuse_word(step.line, word, "unknown_g_code", "a G word that is not known");
+  }
+  const double value = word.value;
+  if (value == 9.0) {
+    step.exact_stop = true;
+    return true;
+  }
+  if (value == 500.0) {
+    if (step.code(GGroup::work_offset) != kNoCode || step.zero_offset) {
+      return refuse_word(step.line, word, "same_modal_group",
+                         "a second G word of the same modal group in one block");
+    }
+    step.zero_offset = true;
+    return true;
+  }
+  if (value == 601.0 || value == 602.0 || value == 603.0) {
+    return true;  // when an exact stop counts as reached
+  }
+  for (const Note& note : kNotes) {
+    if (value == note.code) {
+      return refuse_word(step.line, word, "g_code_not_interpreted", note.text);
+    }
+  }
+  for (const Translation& translation : kTranslations) {
+    if (value == translation.theirs) {
+      // G70 and G71 are for geometry alone: feeds stay in the control's basic unit, mm.
+      step.work_feed = step.work_feed && translation.theirs != 70 && translation.theirs != 71;
+      return put_g(word, translation.ours, step);
+    }
+  }
+  return refuse_word(step.line, word, "unknown_g_code", "a G word that is not known");
+}
+
+bool Interpreter::sinumerik_m(const Word& word, Step& step) {
+  if (is_modulation(word)) {
+    return take_modulation(word, step);
+  }
+  constexpr std::array kKnown = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 30.0};
+  if (word.value == 17.0) {
+    step.m[static_cast<std::size_t>(MGroup::program)] = 99;
+    return true;
+  }
+  if (std::ranges::find(kKnown, word.value) == kKnown.end()) {
+    return refuse_word(step.line, word, "unknown_m_code",
+                       "an M word that every machine builder gives his own meaning");
+  }
+  return take_m(word, step);
+}
+
+bool Interpreter::sinumerik_letter(const Word& word, Step& step) {
+  const char letter = word.letter;
+  const bool dwell = step.code(GGroup::non_modal) == 40;
+  if (word.qualifier == Qualifier::text) {
+    if (letter != 'T') {
+      return refuse_word(step.line, word, "bad_value", "a string where a number belongs");
+    }
+    if (config_.tools) {
+      return refuse_word(step.line, word, "no_such_tool",
+                         "a tool by name, but the tool table has numbers");
+    }
+    step.tool_name = word.text;
+    return true;
+  }
+  if (dwell && letter == 'F') {
+    return put_letter(word, 'P', word.value, step);
+  }
+  if (dwell && letter == 'S') {
+    if (!(state_.spindle_speed_rev_s > 0.0)) {
+      return refuse_word(step.line, word, "spindle_speed_missing",
+                         "a dwell in revolutions, but no spindle speed is in force");
+    }
+    return put_letter(word, 'P', word.value / state_.spindle_speed_rev_s, step);
+  }
+  if (letter == 'D') {  // D0 takes the tool's length off, D1 puts it on
+    if (word.value != std::floor(word.value) || word.value < 0.0 ||
+        (config_.tools && word.value > 1.0)) {
+      return refuse_word(step.line, word, "no_such_tool",
+                         "a cutting edge that is not in the tool table");
+    }
+    std::int16_t& place = step.g[static_cast<std::size_t>(GGroup::tool_length)];
+    if (place != kNoCode) {
+      return refuse_word(step.line, word, "word_twice", "a second D word in one block");
+    }
+    place = word.value == 0.0 ? 490 : 430;
+    return true;
+  }
+  if (std::string_view{"EHLOPQR"}.find(letter) != std::string_view::npos) {
+    return refuse_word(step.line, word, "unknown_word",
+                       letter == 'L' ? "a subprogram call (L)"
+                                     : "an address that is not interpreted in this dialect");
+  }
+  if (word.qualifier == Qualifier::absolute) {
+    step.absolute |= Step::bit(letter);
+  } else if (word.qualifier == Qualifier::incremental) {
+    step.incremental |= Step::bit(letter);
+  }
+  const bool takes_qualifier = ((kAxisMask | kCentreMask) & Step::bit(letter)) != 0;
+  if (word.qualifier != Qualifier::none && !takes_qualifier) {
+    return refuse_word(step.line, word, "bad_value",
+                       "AC( ) and IC( ) belong to axis and centre words");
+  }
+  return put_letter(word, letter, word.value, step);
+}
+
+bool Interpreter::sinumerik_name(const Word& word, Step& step) {
+  const auto without_effect = [&](std::string_view known) { return equal(word.name, known); };
+  if (equal(word.name, "RET")) {
+    if (step.block->words().size() > 1 || word.has_value) {
+      return refuse_word(step.line, word, "subprogram_end", "RET stands in a block of its own");
+    }
+    step.m[static_cast<std::size_t>(MGroup::program)] = 99;
+    return true;
+  }
+  constexpr std::array<std::pair<std::string_view, char>, 4> kFrames = {
+      {{"TRANS", 'T'}, {"ATRANS", 't'}, {"ROT", 'R'}, {"AROT", 'r'}}};
+  for (const auto& [name, frame] : kFrames) {
+    if (equal(word.name, name)) {
+      if (step.frame != 0 || word.has_value) {
+        return refuse_word(step.line, word, "frame", "a frame stands in a block of its own");
+      }
+      step.frame = frame;
+      return true;
+    }
+  }
+  if (equal(word.name, "TRAFOOF")) {
+    return true;  // transformations are refused: none can be on
+  }
+  if (equal(word.name, "SUPA")) {
+    step.machine_frame = true;
+    return true;
+  }
+  if (std::ranges::any_of(kWithoutEffect, without_effect)) {
+    return true;
+  }
+  if (!word.has_value) {
+    return refuse_word(step.line, word, "missing_value", "a word without its value");
+  }
+  if (word.qualifier != Qualifier::none) {
+    return refuse_word(step.line, word, "bad_value", "a plain number belongs here");
+  }
+  if (equal(word.name, "RPL")) {
+    step.frame_angle_deg = word.value;
+    return true;
+  }
+  if (equal(word.name, "CR")) {
+    return put_letter(word, 'R', word.value, step);
+  }
+  if (equal(word.name, "TURN")) {
+    if (word.value != std::floor(word.value) || word.value < 0.0 || word.value > 999.0) {
+      return refuse_word(step.line, word, "arc_turns",
+                         "the number of further turns is a whole number from 0 to 999");
+    }
+    return put_letter(word, 'P', word.value + 1.0, step);
+  }
+  // ADIS, ADISPOS: how far before a corner the rounding may begin.
+  if (word.value < 0.0) {
+    return refuse_word(step.line, word, "out_of_range", "a negative distance");
+  }
+  step.rounding_mm = word.value * state_.unit_mm;
+  return true;
+}
+
+bool Interpreter::sinumerik_finish(Step& step) {
+  if (!std::isnan(step.frame_angle_deg) && step.frame != 'R' && step.frame != 'r') {
+    return refuse_word(step.line, step.block->words().front(), "unused_word",
+                       "RPL without ROT or AROT");
+  }
+  if (step.code(GGroup::non_modal) == 530) {
+    step.machine_frame = true;
+    step.g[static_cast<std::size_t>(GGroup::non_modal)] = kNoCode;
+  }
+  if (step.code(GGroup::non_modal) == 40 && (step.mask & kAxisMask) != 0) {
+    return refuse(step, 'G', "g4_with_motion", "a dwell (G4) stands in a block of its own");
+  }
+  // Constant cutting speed brings feed per revolution with it.
+  std::int16_t& feed_mode = step.g[static_cast<std::size_t>(GGroup::feed_mode)];
+  if (step.code(GGroup::spindle_mode) == 960) {
+    if (feed_mode != kNoCode) {
+      return refuse(step, 'G', "same_modal_group",
+                    "G96 is itself a feed type in this dialect; no other beside it");
+    }
+    if (state_.feed_mode != FeedMode::per_revolution) {
+      feed_mode = 950;
+    }
+  }
+  return true;
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/state/frame.hpp>
+
+// The programmed frame of the dialect `sinumerik`: TRANS, ATRANS, ROT and AROT about Z.
+//
+//   machine = settable offset + fine offset + Rs·(shift + Rp·position) + tool
+//
+// TRANS and ROT delete the programmed frame before; ATRANS and AROT build on it, so that ATRANS
+// goes along the turned axes.
+namespace steadyrest::nc::interpret {
+
+bool Interpreter::set_frame(const Step& step) {
+  const auto refuse_frame = [&](std::string_view reason, std::string_view text) {
+    return refuse_word(step.line, step.block->words().front(), reason, text);
+  };
+  const bool codes = std::ranges::any_of(step.g, [](int code) { return code != kNoCode; }) ||
+                     std::ranges::any_of(step.m, [](int code) { return code != kNoCode; });
+  if (codes || (step.mask & ~kAxisMask) != 0 || step.absolute != 0 || step.incremental != 0 ||
+      step.zero_offset || step.machine_frame || !step.tool_name.empty()) {
+    return refuse_frame("frame", "a frame with its axis words stands in a block of its own");
+  }
+  const bool turns = step.frame == 'R' || step.frame == 'r';
+  const bool adds = step.frame == 't' || step.frame == 'r';
+  const bool empty = step.mask == 0 && std::isnan(step.frame_angle_deg);
+  if (empty && adds) {
+    return refuse_frame("missing_value", "ATRANS or AROT without a value");
+  }
+  for (const char letter : kAxisLetters) {
+    if (step.has(letter) && !(std::abs(step[letter]) <= 1e7)) {
+      return refuse_frame("out_of_range", "a value beyond every machine");
+    }
+  }
+  const Axes old_shift = state_.frame_shift;
+  const double old_angle = state_.frame_rotation_deg;
+  Axes shift = adds ? old_shift : Axes{};
+  double angle = adds ? old_angle : 0.0;
+  if (turns && !empty) {
+    const bool by_plane = !std::isnan(step.frame_angle_deg);
+    if ((step.mask & ~Step::bit('Z')) != 0 || (by_plane && state_.plane != Plane::xy)) {
+      return refuse_frame("frame_rotation", "a rotation about another axis than Z");
+    }
+    if (by_plane == step.has('Z')) {
+      return refuse_frame("frame_rotation", "a rotation by RPL and by Z in one block");
+    }
+    angle += by_plane ? step.frame_angle_deg : step['Z'];
+  } else if (!turns) {
+    Axes added{};
+    for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+      added[i] = step.has(kAxisLetters[i]) ? component(step, i) : 0.0;
+    }
+    added = turned(added, angle);
+    for (std::size_t i = 0; i < added.size(); ++i) {
+      shift[i] += added[i];
+    }
+  }
+  state_.frame_shift = shift;
+  state_.frame_rotation_deg = angle;
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (shift[i] != old_shift[i]) {
+      state_.frame_pending |= Step::bit(kAxisLetters[i]);
+    }
+  }
+  state_.frame_turned = state_.frame_turned || angle != old_angle;
+  update_offset();
+  return true;
+}
+
+// $P_IFRAME[X,FI]: "The written settable frame is immediately included in the calculation"; the
+// programmed frame stays, and the next G54 … takes what is stored ($P_UIFR). It moves nothing.
+bool Interpreter::set_fine(const read::Word& word) {
+  const std::size_t axis = kAxisLetters.find(word.letter);
+  if ((axes_allowed_ & Step::bit(word.letter)) == 0) {
+    return refuse_word(state_.line, word, "no_such_axis", "an axis that the machine does not have");
+  }
+  if (state_.unit_mm != 1.0) {
+    return refuse_word(state_.line, word, "frame",
+                       "a fine offset in an inch program: its unit is a setting of the control");
+  }
+  if (!(std::abs(word.value) <= 1e7)) {
+    return refuse_word(state_.line, word, "out_of_range", "a value beyond every machine");
+  }
+  if (state_.frame_fine[axis] != word.value) {
+    state_.frame_pending |= Step::bit(word.letter);
+  }
+  state_.frame_fine[axis] = word.value;
+  update_offset();
+  return true;
+}
+
+// Whether an increment behind a new frame contains the frame's shift is a setting of the control
+// (42440), so the axis must be programmed absolutely first; after a rotation X and Y together.
+bool Interpreter::frame_settles(const Step& step) {
+  if ((state_.frame_pending == 0 && !state_.frame_turned) || motion_now_ < 0 ||
+      step.machine_frame) {
+    return true;
+  }
+  const std::uint32_t plane = Step::bit('X') | Step::bit('Y');
+  const std::uint32_t moved = step.mask & kAxisMask;
+  const std::uint32_t incremental =
+      moved & (step.incremental | (state_.incremental ? ~step.absolute : 0U));
+  const bool pending = (incremental & state_.frame_pending) != 0 ||
+                       (state_.frame_turned && (incremental & plane) != 0);
+  if (pending || (step.code(GGroup::distance) == 910 && moved != 0)) {
+    return refuse_word(
+        step.line, step.block->words().front(), "frame_incremental",
+        "an increment behind a new frame: whether it contains the frame's shift is a "
+        "setting of the control; program the axis absolutely first");
+  }
+  const bool arc = motion_now_ == 20 || motion_now_ == 30;
+  if (state_.frame_turned && ((moved & plane) != 0 || arc) && (moved & plane) != plane) {
+    return refuse_word(step.line, step.block->words().front(), "frame_axis",
+                       "the first move in X or Y behind a rotation names both");
+  }
+  state_.frame_pending &= ~moved;
+  state_.frame_turned = state_.frame_turned && (moved & plane) != plane;
+  return true;
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string>
+
+#include <steadyrest/nc/interpret/flow/flow_control.hpp>
+
+// Conditions and loops: if, while, do, repeat, break and continue.
+namespace steadyrest::nc::interpret {
+
+using read::Block;
+using read::FlowKind;
+
+// A label heads one block of its subprogram.
+bool FlowControl::define(const Block& block) {
+  const std::string key = frames_.back().sub + '\n' + std::to_string(files_.line_begin().file) +
+                          '\n' + std::string{block.flow().label.view()};
+  const auto [known, fresh] = heads_.try_emplace(key, files_.line_begin());
+  return fresh || known->second.line == files_.line_begin().line ||
+         refuse(block.line(), block.flow().label.view(), "o_word_twice",
+                "a label that heads another block already, in line " +
+                    std::to_string(known->second.line + 1));
+}
+
+bool FlowControl::open(const Block& block, const Place& head) {
+  if (!define(block)) {
+    return false;
+  }
+  frames_.back().open.push_back(
+      {.kind = block.flow().kind, .label = std::string{block.flow().label.view()}, .head = head});
+  return true;
+}
+
+bool FlowControl::condition(const Block& block) {
+  if (!open(block, files_.line_begin())) {
+    return false;
+  }
+  if (block.flow().values[0] == 0.0) {
+    pass(Passing::to_else, block.flow().label.view());
+  }
+  return true;
+}
+
+// Met while executing: the branch that was taken ends here.
+bool FlowControl::otherwise(const Block& block) {
+  const Open* const found = find(block, false);
+  if (found == nullptr || found->kind != FlowKind::when) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                  "elseif or else without its if");
+  }
+  pass(Passing::to_endif, block.flow().label.view());
+  return true;
+}
+
+bool FlowControl::close(const Block& block, FlowKind head) {
+  const Open* const found = find(block, false);
+  if (found == nullptr || found->kind != head) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                  "the end of a block that was not begun");
+  }
+  drop_to(*found);
+  return true;
+}
+
+bool FlowControl::head_of_while(const Block& block) {
+  const bool goes_on = block.flow().values[0] != 0.0;
+  const Open* const found = find(block, true);
+  if (found != nullptr && found->kind == FlowKind::loop_do) {
+    if (goes_on) {
+      const Place head = found->head;
+      frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
+      return go(block.line(), head);
+    }
+    drop_to(*found);
+    return true;
+  }
+  if (!goes_on) {
+    if (!define(block)) {
+      return false;
+    }
+    pass(Passing::to_endwhile, block.flow().label.view());
+    return true;
+  }
+  return open(block, files_.line_begin());
+}
+
+bool FlowControl::end_of_while(const Block& block) {
+  const Open* const found = find(block, false);
+  if (found == nullptr || found->kind != FlowKind::loop_while) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                  "endwhile without its while");
+  }
+  const Place head = found->head;
+  drop_to(*found);
+  return go(block.line(), head);
+}
+
+// LinuxCNC forgets the count at the end of the last turn alone: after a return, break or continue
+// out of the loop, and in a call within it, the next turns are those that were left.
+bool FlowControl::head_of_repeat(const Block& block) {
+  const Place head = files_.line_begin();
+  const auto left =
+      turns_left_.try_emplace({head.file, head.line}, std::round(block.flow().values[0])).first;
+  if (left->second >= 1.0) {
+    left->second -= 1.0;
+    return open(block, head);
+  }
+  turns_left_.erase(left);
+  if (!define(block)) {
+    return false;
+  }
+  pass(Passing::to_endrepeat, block.flow().label.view());
+  return true;
+}
+
+bool FlowControl::end_of_repeat(const Block& block) {
+  const Open* const found = find(block, false);
+  if (found == nullptr || found->kind != FlowKind::repeat) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                  "endrepeat without its repeat");
+  }
+  const Place head = found->head;
+  drop_to(*found);
+  return go(block.line(), head);
+}
+
+bool FlowControl::leave_loop(const Block& block) {
+  const Open* const found = find(block, true);
+  if (found == nullptr || found->kind == FlowKind::repeat) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                  "break outside of its while or do loop (a repeat has none)");
+  }
+  pass(found->kind == FlowKind::loop_do ? Passing::to_while : Passing::to_endwhile,
+       block.flow().label.view());
+  drop_to(*found);
+  return true;
+}
+
+bool FlowControl::next_turn(const Block& block) {
+  const Open* const found = find(block, true);
+  if (found == nullptr || found->kind == FlowKind::repeat) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                  "continue outside of its while or do loop (a repeat has none)");
+  }
+  if (found->kind == FlowKind::loop_do) {
+    frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
+    pass(Passing::to_condition, block.flow().label.view());
+    return true;
+  }
+  const Place head = found->head;
+  drop_to(*found);
+  return go(block.line(), head);
+}
+
+}  // namespace steadyrest::nc::interpret

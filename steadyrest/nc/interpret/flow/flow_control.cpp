@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <steadyrest/nc/interpret/flow/flow_control.hpp>
+
+namespace steadyrest::nc::interpret {
+
+using read::Block;
+using read::FlowKind;
+
+FlowControl::FlowControl(ProgramFiles& files, Parameters& parameters, read::Reader& reader,
+                         const Config& config)
+    : files_(files),
+      parameters_(parameters),
+      reader_(reader),
+      most_repeated_lines_(config.most_repeated_lines),
+      frames_(1) {}
+
+bool FlowControl::refuse(std::uint32_t line, std::string_view label, std::string_view reason,
+                         std::string_view text) {
+  refused_ = {.line = line,
+              .word = label.empty() ? std::string{} : "O" + read::printable(label),
+              .reason = std::string{reason},
+              .text = std::string{text}};
+  return false;
+}
+
+bool FlowControl::count_line(std::uint64_t moves_before) {
+  constexpr std::uint64_t kMovesOfALine = 100;  // a cycle that pecks may make a million
+  repeated_lines_ += repeating() ? 1 + moves_before / kMovesOfALine : 0;
+  if (!repeating() || repeated_lines_ <= most_repeated_lines_) {
+    return true;
+  }
+  return refuse(files_.now().number(), {}, "endless_program",
+                "loops and subprograms execute more than " + std::to_string(most_repeated_lines_) +
+                    " lines: the program does not seem to end");
+}
+
+void FlowControl::pass(Passing how, std::string_view label) {
+  passing_ = how;
+  passing_label_ = label;
+  passing_from_ = files_.now().number();
+}
+
+bool FlowControl::go(std::uint32_t line, const Place& place) {
+  return files_.go(place) ||
+         refuse(line, {}, "cannot_go_back", "a loop or call in a file that cannot be read twice");
+}
+
+bool FlowControl::act(const Block& block) {
+  switch (block.flow().kind) {
+    case FlowKind::label:
+      return !in_call() || frames_.back().by_number ||
+             refuse(block.line(), block.flow().label.view(), "o_word_misplaced",
+                    "a subprogram for M98 that begins inside of one for call");
+    case FlowKind::none:
+    case FlowKind::cycle:
+    case FlowKind::modal_cycle:
+      return true;
+    case FlowKind::sub:
+      return sub(block);
+    case FlowKind::endsub:
+    case FlowKind::back:
+      return end_of_sub(block);
+    case FlowKind::call:
+      return call(block);
+    case FlowKind::when:
+      return condition(block);
+    case FlowKind::elseif:
+    case FlowKind::otherwise:
+      return otherwise(block);
+    case FlowKind::endif:
+      return close(block, FlowKind::when);
+    case FlowKind::loop_while:
+      return head_of_while(block);
+    case FlowKind::endwhile:
+      return end_of_while(block);
+    case FlowKind::loop_do:
+      return open(block, files_.line_end());
+    case FlowKind::repeat:
+      return head_of_repeat(block);
+    case FlowKind::endrepeat:
+      return end_of_repeat(block);
+    case FlowKind::leave_loop:
+      return leave_loop(block);
+    case FlowKind::next_turn:
+      return next_turn(block);
+  }
+  return true;
+}
+
+// What ends the passing over of lines.
+bool FlowControl::pass_over(Block& block) {
+  const auto& source = files_.now();
+  if (reader_.ends_program(source.line())) {
+    return !refuse_end();
+  }
+  if (!reader_.read_flow(source.line(), source.number(), block)) {
+    refused_ = reader_.refused();
+    return false;
+  }
+  const FlowKind kind = block.flow().kind;
+  if (passing_ == Passing::to_endsub && (kind == FlowKind::sub || kind == FlowKind::label)) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_misplaced",
+                  "a subprogram that begins inside of another");
+  }
+  // LinuxCNC looks at these whether they are executed or not.
+  if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
+    const Open* const loop = find(block, true);
+    if (loop != nullptr && loop->kind == FlowKind::repeat) {
+      return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                    "break or continue of a repeat, which has none");
+    }
+  }
+  if (kind == FlowKind::none || block.flow().label.view() != passing_label_) {
+    return true;
+  }
+  // LinuxCNC evaluates the endsub and return of a definition that it passes over and takes the
+  // value over; what a call would have set is not missed there.
+  const bool ends_sub = kind == FlowKind::endsub || kind == FlowKind::back;
+  const bool asks = passing_ == Passing::to_endsub      ? ends_sub
+                    : passing_ == Passing::to_else      ? kind == FlowKind::elseif
+                    : passing_ == Passing::to_condition ? kind == FlowKind::loop_while
+                                                        : false;
+  if (asks && !evaluate(block) && !(ends_sub && refused_.reason == "unset_parameter")) {
+    return false;
+  }
+  switch (passing_) {
+    case Passing::to_endsub:
+      if (kind == FlowKind::endsub || kind == FlowKind::back) {
+        const read::Flow& flow = block.flow();
+        parameters_.record_value(flow.count == 1 ? flow.values.data() : nullptr);
+      }
+      if (kind == FlowKind::endsub) {
+        passing_ = Passing::nothing;
+      }
+      return true;
+    case Passing::to_sub:
+    case Passing::to_program:
+      if (kind == (passing_ == Passing::to_sub ? FlowKind::sub : FlowKind::label)) {
+        passing_ = Passing::nothing;
+        frames_.back().head = files_.line_end();
+        (frames_.back().by_number ? programs_ : subs_)[passing_label_] = files_.line_end();
+      }
+      return true;
+    default:
+      return arrived(block);
+  }
+}
+
+bool FlowControl::arrived(Block& block) {
+  const FlowKind kind = block.flow().kind;
+  const auto ends = [&](FlowKind closing) {
+    if (kind == closing) {
+      passing_ = Passing::nothing;
+    }
+    return true;
+  };
+  switch (passing_) {
+    case Passing::to_else:
+      if (kind == FlowKind::elseif) {
+        if (block.flow().values[0] != 0.0) {
+          passing_ = Passing::nothing;
+        }
+        return true;
+      }
+      if (kind == FlowKind::endif) {
+        passing_ = Passing::nothing;
+        return close(block, FlowKind::when);
+      }
+      return ends(FlowKind::otherwise);
+    case Passing::to_endif:
+      ends(FlowKind::endif);
+      return passing_over() || close(block, FlowKind::when);
+    case Passing::to_endwhile:
+      return ends(FlowKind::endwhile);
+    case Passing::to_endrepeat:
+      // LinuxCNC sees them here too: the label is that of the repeat.
+      if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
+        return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
+                      "break or continue of a repeat, which has none");
+      }
+      return ends(FlowKind::endrepeat);
+    case Passing::to_while:
+      return ends(FlowKind::loop_while);
+    case Passing::to_condition:
+      ends(FlowKind::loop_while);
+      return passing_over() || head_of_while(block);
+    default:
+      return true;
+  }
+}
+
+bool FlowControl::evaluate(Block& block) {
+  const auto& source = files_.now();
+  if (!reader_.read(source.line(), source.number(), source.ending_length(), block)) {
+    refused_ = reader_.refused();
+    return false;
+  }
+  return true;
+}
+
+bool FlowControl::refuse_end() {
+  if (passing_over()) {
+    return !refuse(
+        passing_from_, passing_label_, "o_word_without_end",
+        "the file ends before what belongs to this O-word (its sub, endsub, else, endif, "
+        "endwhile, endrepeat or while)");
+  }
+  if (in_call()) {
+    return !refuse(files_.now().number() - 1, frames_.back().sub, "o_word_without_end",
+                   "the file ends in a subprogram; close it with endsub or M99");
+  }
+  return false;
+}
+
+FlowControl::Open* FlowControl::find(const Block& block, bool loops_only) {
+  auto& open = frames_.back().open;
+  const auto found = std::find_if(open.rbegin(), open.rend(), [&](const Open& one) {
+    return one.label == block.flow().label.view() && !(loops_only && one.kind == FlowKind::when);
+  });
+  return found == open.rend() ? nullptr : &*found;
+}
+
+void FlowControl::drop_to(const Open& open) {
+  auto& all = frames_.back().open;
+  all.erase(all.begin() + (&open - all.data()), all.end());
+}
+
+bool FlowControl::sub(const Block& block) {
+  const std::string label{block.flow().label.view()};
+  const auto known = subs_.find(label);
+  if (in_call() || known != subs_.end()) {
+    return refuse(block.line(), label, "o_word_misplaced",
+                  in_call() ? "a subprogram that begins inside of another"
+                            : "a subprogram that is known already");
+  }
+  subs_[label] = files_.line_end();
+  pass(Passing::to_endsub, label);
+  return true;
+}
+
+bool FlowControl::call(const Block& block) {
+  const read::Flow& flow = block.flow();
+  if (frames_.size() > kDeepestCall) {
+    return refuse(block.line(), flow.label.view(), "calls_too_deep",
+                  "subprograms that call each other more than ten deep");
+  }
+  parameters_.enter({flow.values.data(), flow.count});
+  const std::string label{flow.label.view()};
+  return enter(block.line(), label, Passing::to_sub,
+               {.sub = label, .back = files_.line_end(), .head = {}, .open = {}});
+}
+
+bool FlowControl::call_program(std::uint32_t line, std::string_view label, double repeats) {
+  if (frames_.size() > kDeepestCall) {
+    return refuse(line, label, "calls_too_deep",
+                  "subprograms that call each other more than ten deep");
+  }
+  parameters_.enter_shared();
+  return enter(line, label, Passing::to_program,
+               {.sub = std::string{label},
+                .back = files_.line_end(),
+                .head = {},
+                .left = repeats - 1.0,
+                .by_number = true,
+                .open = {}});
+}
+
+bool FlowControl::enter(std::uint32_t line, std::string_view label, Passing how, Frame frame) {
+  const auto& known = frame.by_number ? programs_ : subs_;
+  const auto found = known.find(std::string{label});
+  if (found != known.end()) {
+    frame.head = found->second;
+    frames_.push_back(std::move(frame));
+    return go(line, found->second);
+  }
+  frames_.push_back(std::move(frame));
+  pass(how, label);
+  const auto file = files_.find(label);
+  return !file || go(line, *file);
+}
+
+bool FlowControl::end_of_sub(const Block& block) {
+  const read::Flow& flow = block.flow();
+  if (!in_call() || frames_.back().by_number ||
+      (flow.kind == FlowKind::endsub && frames_.back().sub != flow.label.view())) {
+    return refuse(block.line(), flow.label.view(), "o_word_unmatched",
+                  "the end of a subprogram that is not being executed");
+  }
+  return leave(flow.count == 1 ? flow.values.data() : nullptr);
+}
+
+bool FlowControl::end_program(std::uint32_t line) {
+  if (!in_call()) {
+    return refuse(line, {}, "endless_program",
+                  "M99 in the main program: it would begin again for ever");
+  }
+  Frame& frame = frames_.back();
+  if (frame.left > 0.5) {
+    frame.left -= 1.0;
+    frame.open.clear();
+    return go(line, frame.head);
+  }
+  return leave(nullptr);
+}
+
+bool FlowControl::leave(const double* returned) {
+  const Place back = frames_.back().back;
+  frames_.pop_back();
+  parameters_.leave(returned);
+  return go(back.line, back);
+}
+
+}  // namespace steadyrest::nc::interpret

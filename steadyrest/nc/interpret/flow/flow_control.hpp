@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <steadyrest/nc/interpret/flow/program_files.hpp>
+#include <steadyrest/nc/interpret/parameters/parameters.hpp>
+#include <steadyrest/nc/read/reader.hpp>
+#include <steadyrest/nc/read/text/block.hpp>
+#include <steadyrest/nc/read/text/refused.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// Which line comes next: subprograms, conditions and loops.
+///
+/// As LinuxCNC 2.9's interpreter does it (rs274, by experiment): a subprogram's definition is
+/// passed over where it is met and executed where it is called; a call looks among the definitions
+/// that were met, then for NAME.ngc, then further down in the file. Calls nest ten deep. A label
+/// belongs to the subprogram in which it stands and may head one block only. What is passed over
+/// is not read but for O-words. Every program ends: the lines that are executed in loops and calls
+/// are counted against a bound.
+class FlowControl {
+ public:
+  static constexpr std::size_t kDeepestCall = 10;
+
+  /// All outlive the object.
+  FlowControl(ProgramFiles& files, Parameters& parameters, read::Reader& reader,
+              const Config& config);
+
+  /// The next lines are passed over: give them to pass_over() instead of executing them.
+  [[nodiscard]] bool passing_over() const noexcept { return passing_ != Passing::nothing; }
+  bool pass_over(read::Block& block);
+  /// Executes the O-word of a block. False when it is refused: see refused().
+  bool act(const read::Block& block);
+  /// M98 P… L… and M99.
+  bool call_program(std::uint32_t line, std::string_view label, double repeats);
+  bool end_program(std::uint32_t line);
+  /// M98 of fanuc: a program of the same file, before or behind, else a file in the folders named
+  /// after its number.
+  bool call_numbered(std::uint32_t line, std::int32_t number, double repeats);
+  /// A call by name of sinumerik: NAME.SPF or NAME.MPF in the folders.
+  bool call_named(const read::Block& block);
+  /// To be called for each line, with the moves of the line before; false when the bound is
+  /// reached.
+  bool count_line(std::uint64_t moves_before);
+  /// Why the file must not end here; false when it may.
+  bool refuse_end();
+  [[nodiscard]] bool in_call() const noexcept { return frames_.size() > 1; }
+  [[nodiscard]] bool repeating() const noexcept {
+    return in_call() || !frames_.back().open.empty();
+  }
+
+  [[nodiscard]] const read::Refused& refused() const noexcept { return refused_; }
+
+ private:
+  enum class Passing : std::uint8_t {
+    nothing,
+    to_endsub,
+    to_sub,
+    to_program,
+    to_else,
+    to_endif,
+    to_endwhile,
+    to_endrepeat,
+    to_while,     ///< behind the `while` that ends a do loop
+    to_condition  ///< to that `while` itself
+  };
+  struct Open {
+    read::FlowKind kind = read::FlowKind::none;
+    std::string label;
+    Place head;
+  };
+  struct Frame {
+    std::string sub;
+    Place back;
+    Place head;
+    double left = 0.0;  ///< further repeats (M98 L)
+    bool by_number = false;
+    std::vector<Open> open;
+  };
+
+  bool sub(const read::Block& block);
+  bool call(const read::Block& block);
+  bool enter_numbered(std::uint32_t line, std::string_view label, const Place& head,
+                      double repeats);
+  bool note_programs(std::uint32_t line, std::uint32_t file);
+  bool enter(std::uint32_t line, std::string_view label, Passing how, Frame frame);
+  bool leave(const double* returned);
+  bool end_of_sub(const read::Block& block);
+  bool condition(const read::Block& block);
+  bool otherwise(const read::Block& block);
+  bool close(const read::Block& block, read::FlowKind head);
+  bool head_of_while(const read::Block& block);
+  bool end_of_while(const read::Block& block);
+  bool head_of_repeat(const read::Block& block);
+  bool end_of_repeat(const read::Block& block);
+  bool leave_loop(const read::Block& block);
+  bool next_turn(const read::Block& block);
+  bool arrived(read::Block& block);
+  bool evaluate(read::Block& block);
+
+  bool open(const read::Block& block, const Place& head);
+  Open* find(const read::Block& block, bool loops_only);
+  void drop_to(const Open& open);
+  bool define(const read::Block& block);
+  bool go(std::uint32_t line, const Place& place);
+  void pass(Passing how, std::string_view label);
+  bool refuse(std::uint32_t line, std::string_view label, std::string_view reason,
+              std::string_view text);
+
+  ProgramFiles& files_;
+  Parameters& parameters_;
+  read::Reader& reader_;
+  std::uint64_t most_repeated_lines_;
+  std::uint64_t repeated_lines_ = 0;
+  std::vector<Frame> frames_;
+  std::map<std::string, Place> subs_;      ///< label → behind the line of its `sub`
+  std::map<std::string, Place> programs_;  ///< number → behind the line of its O
+  std::map<std::string, Place> heads_;     ///< labels that head a block
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> turns_left_;  ///< repeats by file, line
+  bool programs_noted_ = false;
+  Passing passing_ = Passing::nothing;
+  std::string passing_label_;
+  std::uint32_t passing_from_ = 0;
+  read::Refused refused_;
+};
+
+}  // namespace steadyrest::nc::interpret

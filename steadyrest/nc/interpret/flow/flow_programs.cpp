@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <steadyrest/nc/interpret/flow/flow_control.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
+
+// Subprograms by number as FANUC's controls have them.
+namespace steadyrest::nc::interpret {
+namespace {
+
+// `O1234` or `:1234` at the beginning of a line.
+std::optional<std::int32_t> program_number(std::string_view line) noexcept {
+  std::size_t at = 0;
+  const auto skip = [&] {
+    while (at < line.size() && read::is_blank(line[at])) {
+      ++at;
+    }
+  };
+  skip();
+  if (at == line.size() || (read::upper(line[at]) != 'O' && line[at] != ':')) {
+    return std::nullopt;
+  }
+  ++at;
+  skip();
+  std::int32_t number = 0;
+  std::size_t digits = 0;
+  for (; at < line.size() && read::is_digit(line[at]) && digits < 9; ++at, ++digits) {
+    number = number * 10 + (line[at] - '0');
+  }
+  return digits == 0 ? std::nullopt : std::optional{number};
+}
+
+bool closes(std::string_view line) noexcept {
+  const auto first = line.find_first_not_of(" \t\r");
+  return first != std::string_view::npos && line[first] == '%';
+}
+
+std::vector<std::string> file_names(std::int32_t number) {
+  const std::string plain = std::to_string(number);
+  const std::string four = plain.size() < 4 ? std::string(4 - plain.size(), '0') + plain : plain;
+  std::vector<std::string> names;
+  for (const std::string& digits : {four, plain}) {
+    for (const std::string_view head : {"O", "o", ""}) {
+      for (const std::string_view tail : {"", ".nc", ".NC", ".ngc", ".tap", ".txt"}) {
+        if (!(head.empty() && tail.empty())) {
+          names.push_back(std::string{head}.append(digits).append(tail));
+        }
+      }
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+// Where the programs of a file begin: each behind the line of its number.
+bool FlowControl::note_programs(std::uint32_t line, std::uint32_t file) {
+  const Place back = files_.line_end();
+  if (!go(line, {.file = file, .line = 0, .offset = 0})) {
+    return false;
+  }
+  while (files_.next() == read::LineSource::Status::line) {
+    const std::string_view text = files_.now().line();
+    if (closes(text) && files_.now().number() > 1) {
+      break;
+    }
+    if (const auto number = program_number(text)) {
+      programs_.try_emplace(std::to_string(*number), files_.line_end());
+    }
+  }
+  return go(line, back);
+}
+
+bool FlowControl::call_numbered(std::uint32_t line, std::int32_t number, double repeats) {
+  const std::string label = std::to_string(number);
+  if (frames_.size() > kDeepestCall) {
+    return refuse(line, label, "calls_too_deep",
+                  "subprograms that call each other more than ten deep");
+  }
+  if (!programs_noted_ && !note_programs(line, 0)) {
+    return false;
+  }
+  programs_noted_ = true;
+  auto found = programs_.find(label);
+  if (found == programs_.end()) {
+    const auto file = files_.find(file_names(number));
+    if (!file) {
+      return refuse(line, label, "no_such_program",
+                    "a subprogram that stands neither in this file nor in the folders of "
+                    "subprograms, as O" +
+                        label + " or O" + label + ".nc");
+    }
+    if (!note_programs(line, file->file)) {
+      return false;
+    }
+    found = programs_.try_emplace(label, *file).first;
+  }
+  return enter_numbered(line, label, found->second, repeats);
+}
+
+bool FlowControl::enter_numbered(std::uint32_t line, std::string_view label, const Place& head,
+                                 double repeats) {
+  parameters_.enter_shared();
+  frames_.push_back({.sub = std::string{label},
+                     .back = files_.line_end(),
+                     .head = head,
+                     .left = repeats - 1.0,
+                     .by_number = true,
+                     .open = {}});
+  return go(line, head);
+}
+
+bool FlowControl::call_named(const read::Block& block) {
+  const std::string name{block.flow().label.view()};
+  if (frames_.size() > kDeepestCall) {
+    return refuse(block.line(), name, "calls_too_deep",
+                  "subprograms that call each other more than ten deep");
+  }
+  std::string big = name;
+  std::string small = name;
+  std::ranges::transform(name, big.begin(), read::upper);
+  std::ranges::transform(name, small.begin(), [](char c) {
+    return read::is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
+  });
+  std::vector<std::string> names;
+  for (const std::string& stem : {name, big, small}) {
+    for (const std::string_view tail : {".SPF", ".spf", ".MPF", ".mpf"}) {
+      names.push_back(stem + std::string{tail});
+    }
+  }
+  const auto file = files_.find(names);
+  if (!file) {
+    refuse(block.line(), name, "no_such_program",
+           "neither a word that is known nor a subprogram (NAME.SPF or NAME.MPF) in the folders of "
+           "subprograms");
+    refused_.word = name;
+    return false;
+  }
+  return enter_numbered(block.line(), name, *file, block.flow().repeats);
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+
+#include <steadyrest/nc/interpret/parameters/macro_variables.hpp>
+#include <steadyrest/nc/interpret/state/step.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+using read::Lookup;
+
+constexpr bool is_kept(int index) noexcept {
+  return (index >= 1 && index <= 33) || (index >= 100 && index <= 199) ||
+         (index >= 500 && index <= 999);
+}
+
+/// What #4001 … show.
+constexpr ModeMask mode_of(int index) noexcept {
+  switch (index) {
+    case 4001:
+    case 4009:
+      return mode(GGroup::motion);
+    case 4002:
+      return mode(GGroup::plane);
+    case 4003:
+      return mode(GGroup::distance);
+    case 4005:
+      return mode(GGroup::feed_mode);
+    case 4006:
+      return mode(GGroup::units);
+    case 4010:
+      return mode(GGroup::retract);
+    case 4014:
+      return mode(GGroup::work_offset);
+    case 4109:
+      return kFeedMode;
+    case 4119:
+      return kSpeedMode;
+    case 4120:
+      return kToolMode;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+MacroVariables::MacroVariables(const State& state) : state_(state) {
+  numbers_.fill(std::numeric_limits<double>::quiet_NaN());
+}
+
+Lookup MacroVariables::number(int index, double& value) const {
+  if (index == 0) {
+    return Lookup::no_such_name;
+  }
+  if (is_kept(index)) {
+    value = numbers_[static_cast<std::size_t>(index)];
+    return std::isnan(value) ? Lookup::no_such_name : Lookup::found;
+  }
+  if (index < 1000) {
+    return Lookup::no_such_number;
+  }
+  return mode(index, value) || position(index, value) ? Lookup::found : Lookup::not_known_here;
+}
+
+// Codes of the blocks before this one. Group 9 (cycles) counts as one with group 1 here, so both
+// are answered only where no cycle is in force.
+bool MacroVariables::mode(int index, double& value) const {
+  const auto yes = [&](double answer) {
+    value = answer;
+    return true;
+  };
+  asked_.about_mode(mode_of(index));
+  switch (index) {
+    case 4001:
+      return state_.motion >= 0 && state_.motion <= 30 && yes(state_.motion / 10.0);
+    case 4002:
+      return yes(state_.plane == Plane::xy ? 17.0 : state_.plane == Plane::zx ? 18.0 : 19.0);
+    case 4003:
+      return yes(state_.incremental ? 91.0 : 90.0);
+    case 4005:
+      return state_.feed_mode != FeedMode::inverse_time &&
+             yes(state_.feed_mode == FeedMode::per_minute ? 94.0 : 95.0);
+    case 4006:
+      return yes(state_.unit_mm == 1.0 ? 21.0 : 20.0);
+    case 4009:
+      return is_cycle(state_.motion) && yes(state_.motion / 10.0);
+    case 4010:
+      return yes(state_.retract_to_initial ? 98.0 : 99.0);
+    case 4014:
+      return state_.active_offset < 6 && yes(54.0 + static_cast<double>(state_.active_offset));
+    case 4109:
+      return state_.feed_mode == FeedMode::per_minute &&
+             yes(state_.feed_mm_s * 60.0 / state_.feed_unit_mm);
+    case 4119:
+      return !state_.surface_speed && yes(state_.spindle_speed_rev_s * 60.0);
+    case 4120:
+      return yes(state_.selected_tool);
+    default:
+      return false;
+  }
+}
+
+bool MacroVariables::position(int index, double& value) const {
+  constexpr int kBlockEnd = 5001;
+  constexpr int kMachine = 5021;
+  constexpr int kNose = 5041;
+  constexpr int kAnswered = 3;  // X Y Z: what the fourth axis is called is machine data
+  for (const int first : {kBlockEnd, kMachine, kNose}) {
+    if (index < first || index >= first + kAnswered) {
+      continue;
+    }
+    const auto axis = static_cast<std::size_t>(index - first);
+    if (first == kMachine && state_.unit_mm != 1.0) {
+      return false;
+    }
+    value = state_.position[axis] + (first == kBlockEnd  ? 0.0
+                                     : first == kMachine ? state_.offset[axis]
+                                                         : state_.tool_offset[axis]);
+    value /= state_.unit_mm;
+    asked_.about_position(axis);
+    if (first != kBlockEnd) {  // what the offset and the tool add is not the program's
+      asked_.about("#" + std::to_string(index));
+    }
+    return true;
+  }
+  return false;
+}
+
+Lookup MacroVariables::name(std::string_view /*name*/, double& /*value*/) const {
+  return Lookup::not_known_here;
+}
+
+Lookup MacroVariables::set_number(int index, double value) {
+  if (index == 0) {
+    return Lookup::read_only;
+  }
+  if (!is_kept(index)) {
+    return index < 1000 ? Lookup::no_such_number : Lookup::read_only;
+  }
+  pending_.emplace_back(index, value);
+  return Lookup::found;
+}
+
+Lookup MacroVariables::set_name(std::string_view /*name*/, double /*value*/) {
+  return Lookup::read_only;
+}
+
+void MacroVariables::commit() {
+  for (const auto& [index, value] : pending_) {
+    numbers_[static_cast<std::size_t>(index)] = value;
+  }
+  drop();
+}
+
+void MacroVariables::list(std::vector<std::pair<std::string, double>>& out) const {
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (!std::isnan(numbers_[i])) {
+      out.emplace_back("#" + std::to_string(i), numbers_[i]);
+    }
+  }
+}
+
+void MacroVariables::drop() noexcept {
+  pending_.clear();
+}
+
+double MacroVariables::increment(char letter) const {
+  constexpr double kMetric = 0.001;
+  constexpr double kInch = 0.0001;
+  if (std::string_view{"ABC"}.find(letter) != std::string_view::npos) {
+    return kMetric;
+  }
+  return std::string_view{"XYZIJKRQUVW"}.find(letter) == std::string_view::npos ? 0.0
+         : state_.unit_mm == 1.0                                                ? kMetric
+                                                                                : kInch;
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <steadyrest/nc/interpret/state/asked.hpp>
+#include <steadyrest/nc/interpret/state/state.hpp>
+#include <steadyrest/nc/read/text/values.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// The variables of a FANUC custom macro: local #1 … #33, common #100 … #199 and #500 … #999, and
+/// the system variables that follow from the program alone: #4001 … (modes), #5001 … (end of the
+/// block before, work coordinates), #5021 … (machine coordinates; not after G20, for their unit is
+/// the machine's), #5041 … (work coordinates of the spindle nose).
+///
+/// All are vacant at the start: what the control has kept in #500 … is not known. M98 leaves the
+/// local ones as they are.
+class MacroVariables final : public read::Values {
+ public:
+  /// `state` outlives the object.
+  explicit MacroVariables(const State& state);
+
+  [[nodiscard]] read::Lookup number(int index, double& value) const override;
+  [[nodiscard]] read::Lookup name(std::string_view name, double& value) const override;
+  read::Lookup set_number(int index, double value) override;
+  read::Lookup set_name(std::string_view name, double value) override;
+  void commit() override;
+  /// 0.001 mm, 0.0001 in, 0.001° (increment system IS-B).
+  [[nodiscard]] double increment(char letter) const override;
+  void drop() noexcept override;
+
+  [[nodiscard]] Asked& asked() noexcept { return asked_; }
+  [[nodiscard]] const Asked& asked() const noexcept { return asked_; }
+  /// The variables that are set, `#500`, with their values.
+  void list(std::vector<std::pair<std::string, double>>& out) const;
+
+ private:
+  static constexpr std::size_t kNumbers = 1000;
+  [[nodiscard]] bool mode(int index, double& value) const;
+  [[nodiscard]] bool position(int index, double& value) const;
+
+  const State& state_;
+  std::array<double, kNumbers> numbers_{};
+  mutable Asked asked_;
+  std::vector<std::pair<int, double>> pending_;
+};
+
+}  // namespace steadyrest::nc::interpret

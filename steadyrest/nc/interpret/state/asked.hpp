@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <steadyrest/nc/interpret/state/step.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// Modes of the control as bits: the groups of the G words, then these.
+using ModeMask = std::uint32_t;
+[[nodiscard]] constexpr ModeMask mode(GGroup group) noexcept {
+  return ModeMask{1} << static_cast<unsigned>(group);
+}
+inline constexpr ModeMask kToolMode = ModeMask{1} << kGGroups;  ///< which tool is in the spindle
+inline constexpr ModeMask kSpindleMode = kToolMode << 1U;       ///< M3 M4 M5
+inline constexpr ModeMask kCoolantMode = kToolMode << 2U;       ///< M7 M8 M9
+inline constexpr ModeMask kOverrideMode = kToolMode << 3U;      ///< M48 …
+inline constexpr ModeMask kFeedMode = kToolMode << 4U;          ///< F
+inline constexpr ModeMask kSpeedMode = kToolMode << 5U;         ///< S
+
+/// What the expressions of a line have asked of the control: values that the program need not have
+/// set, so that they may be those of the state in which it was started.
+struct Asked {
+  std::uint32_t positions = 0;  ///< axes whose work position was asked for, a mask
+  ModeMask modes = 0;
+  std::string value;  ///< the first value that the program has certainly not set, as it is written
+  /// Work offsets whose numbers (#5221 …) it has set, a mask; kShift: those of G92.
+  std::uint32_t offsets_set = 0;
+  static constexpr std::uint32_t kShift = std::uint32_t{1} << 31U;
+
+  void about(std::string_view name) {
+    if (value.empty()) {
+      value = name;
+    }
+    any = true;
+  }
+  void about_position(std::size_t axis) noexcept {
+    positions |= std::uint32_t{1} << axis;
+    any = true;
+  }
+  void about_mode(ModeMask mode) noexcept {
+    modes |= mode;
+    any = true;
+  }
+  void about_offset(std::uint32_t mask) noexcept {
+    offsets_set |= mask;
+    any = true;
+  }
+  void clear() {
+    if (any) {
+      *this = {};
+    }
+  }
+  bool any = false;
+};
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <steadyrest/nc/interpret/state/cutter_compensation.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+constexpr double kMmPerMil = 0.0254;
+
+}  // namespace
+
+void CutterCompensation::begin(Plane plane, const Tool& tool, const Axes& machine) {
+  tool_ = tool;
+  if (tool_.radius_mm < 0.0) {
+    tool_.radius_mm = -tool_.radius_mm;
+    tool_.side = -tool_.side;
+  }
+  axes_ = axes_of(plane);
+  lathe_ = plane == Plane::zx;
+  entered_ = false;
+  stopped_ = false;
+  overflow_ = false;
+  waiting_.clear();
+  machine_ = machine;
+}
+
+CutterCompensation::Fault CutterCompensation::end(bool inch) {
+  return meet_at(current_, inch);
+}
+
+CutterCompensation::Fault CutterCompensation::stop(bool inch) {
+  if (!active() || !entered_) {
+    return Fault::none;
+  }
+  stopped_ = true;
+  return meet_at(current_, inch);
+}
+
+PlanePoint CutterCompensation::point(const Axes& axes) const noexcept {
+  return {.first = axes[axes_.first], .second = axes[axes_.second]};
+}
+
+void CutterCompensation::put(Axes& axes, PlanePoint value) const noexcept {
+  axes[axes_.first] = value.first;
+  axes[axes_.second] = value.second;
+}
+
+Axes CutterCompensation::centre(Axes point) const noexcept {
+  if (active() && entered_) {
+    put(point, current_);
+  }
+  return point;
+}
+
+PlanePoint CutterCompensation::to_tool(PlanePoint direction) const noexcept {
+  const PlanePoint normal = left_of(direction);
+  return left() ? normal : PlanePoint{.first = -normal.first, .second = -normal.second};
+}
+
+PlanePoint CutterCompensation::from_tool(PlanePoint normal) const noexcept {
+  const PlanePoint direction = left_of(normal);
+  return left() ? PlanePoint{.first = -direction.first, .second = -direction.second} : direction;
+}
+
+OffsetCircle CutterCompensation::offset_of(PlanePoint centre, double radius,
+                                           int turns) const noexcept {
+  const bool inside = left() == (turns > 0);
+  return {.centre = centre,
+          .radius = inside ? radius - tool_.radius_mm : radius + tool_.radius_mm,
+          .tool_inside = inside,
+          .counter_clockwise = turns > 0};
+}
+
+const Move* CutterCompensation::waiting_arc() const noexcept {
+  const auto* const first =
+      waiting_.empty() ? nullptr : std::get_if<WaitingMove>(&waiting_.front());
+  return first != nullptr && first->move.kind == MoveKind::arc ? &first->move : nullptr;
+}
+
+bool CutterCompensation::behind_outer_arc() const noexcept {
+  const Move* const arc = waiting_arc();
+  return arc != nullptr && left() != (arc->turns > 0);
+}
+
+CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes& programmed,
+                                                   bool inch) {
+  const double radius = tool_.radius_mm;
+  const PlanePoint from = point(programmed);
+  const PlanePoint to = point(move.end);
+  Move offset = move;
+  if (!entered_) {
+    current_ = from;
+    if (length(between(from, to)) <= radius) {
+      return Fault::entry_too_short;
+    }
+    start_ = from;
+    current_ = along(to, to_tool(unit(between(from, to))), radius);
+    put(offset.end, current_);
+    entered_ = true;
+    return wait(offset, to_tool(unit(between(from, to))), 0.0);
+  }
+  const PlanePoint way = between(from, to);
+  if (way.first == 0.0 && way.second == 0.0) {  // other axes alone
+    put(offset.end, current_);
+    return wait(offset, way, 0.0);
+  }
+  const PlanePoint direction = unit(way);
+  const PlanePoint normal = to_tool(direction);
+  const double turn = turn_between(from_tool(unit(between(from, current_))), direction, tool_.side);
+  const Corner corner = kind_of(turn, behind_outer_arc());
+  if (corner == Corner::concave) {
+    if (waiting_.empty() || stopped_) {
+      return Fault::after_stop;
+    }
+    PlanePoint meet;
+    Fault fault = line_corner(from, direction, turn, meet);
+    fault = fault != Fault::none ? fault : meet_at(meet, inch);
+    if (fault != Fault::none) {
+      return fault;
+    }
+  } else {
+    const Fault fault = corner == Corner::convex ? meet_at(current_, inch) : Fault::none;
+    if (fault != Fault::none) {
+      return fault;
+    }
+    release();
+    start_ = current_;
+    if (corner == Corner::convex) {
+      join(move, programmed, normal);
+    }
+  }
+  current_ = along(to, normal, radius);
+  put(offset.end, current_);
+  return wait(offset, way, 0.0);
+}
+
+// An arc about the contour's corner, for G0 a straight line, at the place of the other axes before
+// the move.
+void CutterCompensation::join(const Move& move, const Axes& programmed, PlanePoint normal) {
+  const PlanePoint corner = point(programmed);
+  Move arc = move;
+  arc.end = programmed;
+  start_ = along(corner, normal, tool_.radius_mm);
+  put(arc.end, start_);
+  if (move.kind != MoveKind::rapid) {
+    arc.kind = MoveKind::arc;
+    arc.centre_mm = {};
+    arc.centre_mm[axes_.first] = corner.first;
+    arc.centre_mm[axes_.second] = corner.second;
+    arc.normal = {};
+    arc.normal[axes_.normal] = 1.0;
+    arc.turns = left() ? -1 : 1;
+  }
+  send(arc);
+}
+
+CutterCompensation::Fault CutterCompensation::line_corner(PlanePoint corner, PlanePoint direction,
+                                                          double turn, PlanePoint& meet) const {
+  if (const Move* const arc = waiting_arc(); arc != nullptr) {
+    const PlanePoint centre{.first = arc->centre_mm[axes_.first],
+                            .second = arc->centre_mm[axes_.second]};
+    OffsetCircle circle = offset_of(centre, 0.0, arc->turns);
+    circle.radius = length(between(centre, point(arc->end)));
+    const PlanePoint normal = to_tool(direction);
+    // An entry arc's centre may lie beyond its end: the contour's radius is counted from the
+    // offset.
+    const double contour =
+        circle.radius + (circle.tool_inside ? tool_.radius_mm : -tool_.radius_mm);
+    const double height = contour * dot(unit(between(corner, centre)), normal);
+    const auto found = crossing(circle, normal, direction, height, tool_.radius_mm, true);
+    meet = found.value_or(PlanePoint{});
+    return found ? Fault::none : Fault::does_not_fit;
+  }
+  const PlanePoint before = from_tool(unit(between(corner, current_)));
+  meet = along(current_, before, -tool_.radius_mm * std::tan(0.5 * turn));
+  return Fault::none;
+}
+
+CutterCompensation::Fault CutterCompensation::arc_corner(const Move& move, PlanePoint corner,
+                                                         PlanePoint& meet) const {
+  const PlanePoint centre{.first = move.centre_mm[axes_.first],
+                          .second = move.centre_mm[axes_.second]};
+  const double radius = length(between(centre, point(move.end)));
+  const OffsetCircle after = offset_of(centre, radius, move.turns);
+  if (const Move* const arc = waiting_arc(); arc != nullptr) {
+    const PlanePoint old{.first = arc->centre_mm[axes_.first],
+                         .second = arc->centre_mm[axes_.second]};
+    OffsetCircle before = offset_of(old, 0.0, arc->turns);
+    before.radius = length(between(old, point(arc->end)));
+    if (before.radius == 0.0 || length(between(old, centre)) == 0.0) {
+      return Fault::same_centre;
+    }
+    const auto found = crossing(before, after);
+    meet = found.value_or(PlanePoint{});
+    return found ? Fault::none : Fault::does_not_fit;
+  }
+  const PlanePoint normal = unit(between(corner, current_));
+  const double height = radius * dot(unit(between(corner, centre)), normal);
+  const auto found = crossing(after, normal, from_tool(normal), height, tool_.radius_mm, false);
+  meet = found.value_or(PlanePoint{});
+  return found ? Fault::none : Fault::does_not_fit;
+}
+
+// From the start to the offset of the end on a new arc: its centre is where the end's radius meets
+// the perpendicular bisector of the chord.
+CutterCompensation::Fault CutterCompensation::entry_arc(const Move& move, PlanePoint end,
+                                                        PlanePoint& centre) const {
+  const PlanePoint old{.first = move.centre_mm[axes_.first],
+                       .second = move.centre_mm[axes_.second]};
+  const PlanePoint inwards = unit(between(end, old));
+  const PlanePoint chord = between(end, current_);
+  const double cosine = dot(unit(chord), inwards);
+  if (std::abs(cosine) < 1e-6) {
+    return Fault::entry_arc;
+  }
+  centre = along(end, inwards, 0.5 * length(chord) / cosine);
+  return Fault::none;
+}
+
+CutterCompensation::Fault CutterCompensation::arc(const Move& move, const Axes& programmed,
+                                                  bool inch) {
+  const PlanePoint from = point(programmed);
+  const PlanePoint to = point(move.end);
+  const PlanePoint centre{.first = move.centre_mm[axes_.first],
+                          .second = move.centre_mm[axes_.second]};
+  const OffsetCircle circle = offset_of(centre, length(between(centre, to)), move.turns);
+  const PlanePoint outwards = unit(between(centre, to));
+  const PlanePoint end =
+      along(to, outwards, circle.tool_inside ? -tool_.radius_mm : tool_.radius_mm);
+  if (circle.tool_inside && circle.radius <= 0.0) {
+    return Fault::arc_too_small;
+  }
+  Move offset = move;
+  put(offset.end, end);
+  if (!entered_) {
+    current_ = from;
+    if (length(between(from, to)) <= tool_.radius_mm) {
+      return Fault::entry_too_short;
+    }
+    PlanePoint moved;
+    if (const Fault fault = entry_arc(move, end, moved); fault != Fault::none) {
+      return fault;
+    }
+    start_ = from;
+    entered_ = true;
+    if (lathe_ && tool_.orientation != 0 && tool_.orientation != 9) {
+      Move first = move;  // the edge's own point goes to its place first
+      first.kind = MoveKind::linear;
+      first.end = programmed;
+      first.centre_mm = {};
+      first.normal = {};
+      first.turns = 0;
+      static_cast<void>(wait(first, {}, 0.0));
+    }
+    offset.centre_mm[axes_.first] = moved.first;
+    offset.centre_mm[axes_.second] = moved.second;
+    current_ = end;
+    return wait(offset, {}, 0.0);
+  }
+  const PlanePoint across = unit(between(from, centre));
+  PlanePoint direction = left_of(across);  // clockwise
+  if (move.turns > 0) {
+    direction = {.first = -direction.first, .second = -direction.second};
+  }
+  const double turn = turn_between(from_tool(unit(between(from, current_))), direction, tool_.side);
+  const Corner corner = kind_of(turn, !circle.tool_inside);
+  const double angle = swept(from, to, centre, move.turns);
+  if (corner == Corner::concave) {
+    if (waiting_.empty() || stopped_) {
+      return Fault::after_stop;
+    }
+    PlanePoint meet;
+    Fault fault = arc_corner(move, from, meet);
+    fault = fault != Fault::none ? fault : meet_at(meet, inch);
+    if (fault != Fault::none) {
+      return fault;
+    }
+  } else {
+    release();
+    start_ = current_;
+    if (corner == Corner::convex) {
+      join(move, programmed, to_tool(direction));
+    }
+  }
+  current_ = end;
+  return wait(offset, {}, angle);
+}
+
+// Everything that waits ends at the corner found; then it goes out.
+CutterCompensation::Fault CutterCompensation::meet_at(PlanePoint meet, bool inch) {
+  for (Waiting& one : waiting_) {
+    auto* const waiting = std::get_if<WaitingMove>(&one);
+    if (waiting == nullptr || !waiting->in_plane) {
+      continue;
+    }
+    Move& move = waiting->move;
+    if (move.kind == MoveKind::arc) {
+      const PlanePoint centre{.first = move.centre_mm[axes_.first],
+                              .second = move.centre_mm[axes_.second]};
+      const double miss =
+          std::abs(length(between(centre, point(move.end))) - length(between(centre, meet)));
+      if (miss > (inch ? 0.01 * kMmPerInch : 0.01)) {
+        return Fault::arc_broken;
+      }
+      const double angle = swept(start_, meet, centre, move.turns);
+      if (waiting->angle != 0.0 &&
+          std::abs(angle) > std::abs(waiting->angle) + (inch ? 0.001 : kMmPerMil)) {
+        return Fault::runs_backwards;
+      }
+    } else if (dot(waiting->direction, between(start_, meet)) < 0.0) {
+      return Fault::runs_backwards;
+    }
+    put(move.end, meet);
+  }
+  release();
+  start_ = meet;
+  return Fault::none;
+}
+
+CutterCompensation::Fault CutterCompensation::wait(const Move& move, PlanePoint direction,
+                                                   double angle) {
+  if (waiting_.size() >= kMostWaiting || overflow_) {
+    return Fault::too_many_waiting;
+  }
+  const bool turns_corner =
+      move.kind == MoveKind::arc || direction.first != 0.0 || direction.second != 0.0;
+  stopped_ = stopped_ && !turns_corner;
+  waiting_.emplace_back(
+      WaitingMove{.move = move, .direction = direction, .angle = angle, .in_plane = true});
+  return Fault::none;
+}
+
+void CutterCompensation::on_move(const Move& move) {
+  if (waiting_.empty()) {
+    send(move);
+  } else if (waiting_.size() < kMostWaiting) {
+    waiting_.emplace_back(
+        WaitingMove{.move = move, .direction = {}, .angle = 0.0, .in_plane = false});
+  } else {
+    overflow_ = true;
+  }
+}
+
+void CutterCompensation::on_event(const Event& event) {
+  if (event.kind == EventKind::end) {
+    release();
+  }
+  if (waiting_.empty()) {
+    out_->on_event(event);
+  } else if (waiting_.size() < kMostWaiting) {
+    waiting_.emplace_back(event);
+  } else {
+    overflow_ = true;
+  }
+}
+
+void CutterCompensation::release() {
+  for (const Waiting& one : waiting_) {
+    if (const auto* const event = std::get_if<Event>(&one); event != nullptr) {
+      out_->on_event(*event);
+    } else {
+      send(std::get<WaitingMove>(one).move);
+    }
+  }
+  waiting_.clear();
+}
+
+// The tool's own point of a lathe tool lies beside its edge's centre.
+void CutterCompensation::send(const Move& move) {
+  Move out = move;
+  if (active() && out.kind != MoveKind::dwell) {
+    constexpr auto kShift = [](int orientation, int a, int b, int c, int x, int y, int z) {
+      return orientation == a || orientation == b || orientation == c   ? -1.0
+             : orientation == x || orientation == y || orientation == z ? 1.0
+                                                                        : 0.0;
+    };
+    if (lathe_) {
+      const double shift_x = tool_.radius_mm * kShift(tool_.orientation, 1, 2, 6, 3, 4, 8);
+      const double shift_z = tool_.radius_mm * kShift(tool_.orientation, 2, 3, 7, 1, 4, 5);
+      out.end[0] += shift_x;
+      out.end[2] += shift_z;
+      out.centre_mm[0] += out.kind == MoveKind::arc ? shift_x : 0.0;
+      out.centre_mm[2] += out.kind == MoveKind::arc ? shift_z : 0.0;
+    }
+  }
+  if (out.kind == MoveKind::dwell) {
+    out.end = machine_;
+  }
+  out.start = machine_;
+  if (out.kind == MoveKind::arc) {
+    out.centre_mm[axes_.normal] = machine_[axes_.normal];
+  }
+  machine_ = out.end;
+  out_->on_move(out);
+}
+
+}  // namespace steadyrest::nc::interpret

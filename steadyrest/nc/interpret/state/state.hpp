@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/interpret/state/move.hpp>
+
+namespace steadyrest::nc::interpret {
+
+inline constexpr double kMmPerInch = 25.4;
+
+enum class Plane : std::uint8_t { xy, zx, yz };
+
+/// Axis indices of a plane: first and second in right-handed order, then the normal.
+struct PlaneAxes {
+  std::size_t first;
+  std::size_t second;
+  std::size_t normal;
+};
+[[nodiscard]] constexpr PlaneAxes axes_of(Plane plane) noexcept {
+  return plane == Plane::xy   ? PlaneAxes{.first = 0, .second = 1, .normal = 2}
+         : plane == Plane::zx ? PlaneAxes{.first = 2, .second = 0, .normal = 1}
+                              : PlaneAxes{.first = 1, .second = 2, .normal = 0};
+}
+
+/// What a canned cycle keeps from block to block, in program units as written: a change of G20/G21
+/// inside a row of cycles changes their meaning, as on LinuxCNC.
+struct CycleMemory {
+  double bottom = 0.0;          ///< Z word
+  double retract = 0.0;         ///< R word
+  double peck = 0.0;            ///< Q word
+  double dwell_s = 0.0;         ///< P word
+  std::array<double, 3> ijk{};  ///< I, J, K words of G87: shifts in the plane, upper depth
+  double initial = 0.0;         ///< where the normal axis stood when the row of cycles began
+  bool begins_anew = false;     ///< a spline stood between: the row begins where it ended
+};
+
+/// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
+struct State {
+  Axes position{};     ///< active work coordinates
+  Axes offset{};       ///< sum of those below (G92's turned); machine = turned position + offset
+  Axes frame_shift{};  ///< sinumerik TRANS, in the settable frame
+  double frame_rotation_deg = 0.0;  ///< sinumerik ROT, about Z
+  Axes frame_fine{};  ///< sinumerik $P_IFRAME[X,FI], beyond what is stored; gone at the next G54 …
+  std::uint32_t frame_pending =
+      0;                      ///< axes that have not been programmed since their shift changed
+  bool frame_turned = false;  ///< X and Y have not been programmed since the rotation changed
+  double rotation_in_force_deg = 0.0;  ///< of the work coordinates against the machine, about Z
+  std::array<Axes, kWorkOffsets> work_offset{};
+  Axes work_in_force{};  ///< of the active one: what #5221 … say later acts when it is chosen anew
+  std::size_t active_offset = 0;
+  bool work_offset_on = true;  ///< false after G500
+  Axes external{};             ///< fanuc: added to every work offset (G10 L2 P0)
+  Axes g92{};                  ///< in force (G92, G52)
+  Axes g92_stored{};           ///< what G92.3 brings back
+  bool g92_on = false;         ///< G92 or G52 in force (#5210)
+  bool g92_used = false;       ///< G92 has set an origin in this program
+  bool g52_used = false;       ///< G52 has set a shift in this program
+  Axes tool_offset{};
+  std::array<Axes, 2> home{};
+
+  double unit_mm = 1.0;       ///< 25.4 after G20
+  double feed_unit_mm = 1.0;  ///< differs from unit_mm only after sinumerik G70/G71
+  Plane plane = Plane::xy;
+  bool incremental = false;
+  bool centre_absolute = false;
+  bool retract_to_initial = false;  ///< G98
+  int motion = -1;                  ///< G code times ten; −1 = none yet
+  CycleMemory cycle;
+
+  FeedMode feed_mode = FeedMode::per_minute;
+  double feed_mm_s = 0.0;   ///< per_minute; per_revolution: mm/rev; inverse_time: 1/s
+  double feed_deg_s = 0.0;  ///< the same F for a move of rotary axes alone
+  PathMode path_mode = PathMode::continuous;
+  double path_tolerance_mm = 0.0;
+  bool override_off = false;  ///< M49, M50 P0
+
+  double spindle_speed_rev_s = 0.0;  ///< S, without sign
+  int spindle_direction = 0;         ///< +1 M3, −1 M4, 0 M5
+  bool surface_speed = false;        ///< G96
+  double surface_speed_mm_s = 0.0;   ///< S in G96
+  double spindle_limit_rev_s = 0.0;  ///< D in G96; 0 = none given
+  bool speed_modulation = false;     ///< Config::modulation_on and off
+  double coolant = 0.0;              ///< 0 off, 1 mist, 2 flood, 3 both
+  std::int32_t selected_tool = 0;
+  std::int32_t tool_in_spindle = 0;
+  Tool tool;  ///< the one in the spindle, where a tool table knows it
+
+  std::array<double, kWorkOffsets> rotation_deg{};  ///< of the work offsets (G10 L2 R)
+  int cutter_side = 0;                              ///< G41 −1, G42 +1
+  Axes cutter_shift{};    ///< tool's centre − programmed point while it is on
+  bool diameter = false;  ///< G7
+  std::uint32_t line = 0;
+};
+
+}  // namespace steadyrest::nc::interpret

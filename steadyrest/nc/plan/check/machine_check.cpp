@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/nc/plan/check/machine_check.hpp>
+#include <steadyrest/nc/plan/check/reach.hpp>
+#include <steadyrest/nc/plan/path/spline_lines.hpp>
+
+namespace steadyrest::nc::plan {
+namespace {
+
+using interpret::Event;
+using interpret::EventKind;
+using interpret::Move;
+using interpret::MoveKind;
+using kernel::units::mm_min_from_mm_s;
+using kernel::units::rpm_from_rev_s;
+
+constexpr std::string_view kLetters = "XYZABCUVW";
+constexpr double kRounding_mm = 1e-6;
+constexpr double kRounding = 1e-6;  ///< of a speed
+constexpr std::size_t kMostSeen = 100'000;
+
+bool feeds(const Move& move) {
+  return move.kind == MoveKind::linear || move.kind == MoveKind::arc ||
+         move.kind == MoveKind::spline;
+}
+
+constexpr double kChord_mm = 1e-3;
+
+/// Where the axis goes; of a line only its end, since where the first one begins nobody knows. Of a
+/// spline the curve counts, not its control points.
+Reach goes_to(const Move& move, std::size_t axis) {
+  if (move.kind == MoveKind::arc) {
+    return reach_of(move, axis);
+  }
+  const double end_mm = interpret::machine_of(move, move.end)[axis];
+  Reach reach{.low_mm = end_mm, .high_mm = end_mm};
+  if (move.kind == MoveKind::spline) {
+    spline_lines(move, kChord_mm, [&](const Move& chord) {
+      const double at_mm = interpret::machine_of(chord, chord.end)[axis];
+      reach.low_mm = std::min(reach.low_mm, at_mm);
+      reach.high_mm = std::max(reach.high_mm, at_mm);
+    });
+  }
+  return reach;
+}
+
+}  // namespace
+
+MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known& known)
+    : machine_(machine),
+      known_(known),
+      pieces_(machine),
+      always_mm_s_(machine.control.max_feed_mm_s) {
+  for (const kernel::machine::Axis& axis : machine.axes) {
+    const std::size_t at = axis.name.size() == 1 ? kLetters.find(axis.name[0]) : kLetters.size();
+    if (at < axis_.size() && !axis.rotary && axis.present) {
+      axis_[at] = &axis;
+    }
+    if (!axis.rotary && axis.present) {
+      always_mm_s_ = std::min(always_mm_s_, axis.max_speed_mm_s);
+    }
+    lathe_ = lathe_ || (axis.name == "Y" && !axis.present);
+  }
+}
+
+bool MachineCheck::placed(const Move& move, std::size_t axis) const noexcept {
+  const bool by_tool = axis == 2 || (axis == 0 && lathe_);
+  const bool length = known_.tools || !tool_came_ || !by_tool;
+  if ((move.machine_axes >> axis & 1U) != 0) {  // SUPA keeps the tool's length
+    return length || machine_.control.dialect != kernel::machine::Dialect::sinumerik;
+  }
+  return known_.offsets && length;
+}
+
+void MachineCheck::on_move(const Move& move) {
+  if (move.kind == MoveKind::dwell) {
+    return;
+  }
+  for (std::size_t axis = 0; axis < axis_.size(); ++axis) {
+    if (axis_[axis] != nullptr) {
+      check_travel(move, axis);
+    }
+  }
+  if (feeds(move)) {
+    check_feed(move);
+    check_standing(move);
+  }
+}
+
+void MachineCheck::check_travel(const Move& move, std::size_t axis) {
+  const kernel::machine::Axis& limits = *axis_[axis];
+  const Reach reach = goes_to(move, axis);
+  const double start_mm = interpret::machine_of(move, move.start)[axis];
+  if (reach.low_mm == start_mm && reach.high_mm == start_mm) {
+    return;
+  }
+  const bool over =
+      reach.high_mm > limits.max_mm + kRounding_mm || reach.low_mm < limits.min_mm - kRounding_mm;
+  if (placed(move, axis)) {
+    if (over) {
+      const double to_mm =
+          reach.high_mm > limits.max_mm + kRounding_mm ? reach.high_mm : reach.low_mm;
+      warn(move.line, What::travel, axis,
+           fmt::format("{} {} to {:.3f} mm, outside of its travel {:g} … {:g} mm (machine "
+                       "coordinates)",
+                       move.kind == MoveKind::rapid ? "a rapid takes" : "the move takes",
+                       limits.name, to_mm, limits.min_mm, limits.max_mm));
+    }
+    return;
+  }
+  if (move.kind == MoveKind::rapid && !over) {
+    return;
+  }
+  Extent& extent = extent_[axis];
+  extent.low_mm = std::min(extent.low_mm, reach.low_mm);
+  extent.high_mm = std::max(extent.high_mm, reach.high_mm);
+  if (extent.line == 0 &&
+      extent.high_mm - extent.low_mm > limits.max_mm - limits.min_mm + kRounding_mm) {
+    extent.line = move.line;
+    seen_.emplace(move.line, What::extent, axis);
+  }
+}
+
+void MachineCheck::check_feed(const Move& move) {
+  constexpr std::size_t kLinear = 3;
+  const bool turns =
+      !std::equal(move.start.begin() + kLinear, move.start.end(), move.end.begin() + kLinear);
+  if (!turns && move.feed_mode == interpret::FeedMode::per_minute &&
+      move.feed_mm_s <= always_mm_s_) {
+    return;  // most moves
+  }
+  const auto made = pieces_.make(move, piece_);
+  if (!made || !*made) {
+    return;  // no length, or refused by whoever plans it
+  }
+  const SegmentPlan& plan = piece_.plan;
+  const double feed_mm_s =
+      plan.feed_mm_s * (plan.per_revolution ? std::abs(move.spindle_rev_s) : 1.0);
+  const double axes_mm_s = move.kind == MoveKind::arc
+                               ? pieces_.limits().plane(piece_.segment.axis).speed_mm_s
+                               : pieces_.limits().line(piece_.end_direction).speed_mm_s;
+  const double most_mm_s = std::min(axes_mm_s, machine_.control.max_feed_mm_s);
+  if (feed_mm_s <= most_mm_s * (1.0 + kRounding) || feed_mm_s == feed_warned_mm_s_) {
+    return;
+  }
+  feed_warned_mm_s_ = feed_mm_s;
+  warn(move.line, What::feed, 0,
+       fmt::format("the feed of {:.9g} mm/min is more than the {} can do here, {:.9g} mm/min",
+                   mm_min_from_mm_s(feed_mm_s),
+                   axes_mm_s <= machine_.control.max_feed_mm_s ? "axes" : "control",
+                   mm_min_from_mm_s(most_mm_s)));
+}
+
+void MachineCheck::check_standing(const Move& move) {
+  const bool stands = move.spindle_rev_s == 0.0 && move.surface_speed_mm_s == 0.0;
+  if (stands && !stands_warned_) {
+    warn(move.line, What::standing, 0,
+         "cuts while the spindle stands: no S with M3 or M4 is in force");
+  }
+  stands_warned_ = stands;
+}
+
+void MachineCheck::on_event(const Event& event) {
+  if (event.kind == EventKind::tool_change) {
+    tool_came_ = true;
+  }
+  if (event.kind != EventKind::spindle || event.value == 0.0) {
+    return;
+  }
+  const double speed_rev_s = std::abs(event.value);
+  const auto& spindle = machine_.spindle;
+  if (speed_rev_s > spindle.max_rev_s * (1.0 + kRounding) ||
+      speed_rev_s < spindle.min_rev_s * (1.0 - kRounding)) {
+    warn(event.line, What::spindle, 0,
+         fmt::format("S{:.6g} is outside of the spindle's {:.6g} … {:.6g} rev/min",
+                     rpm_from_rev_s(speed_rev_s), rpm_from_rev_s(spindle.min_rev_s),
+                     rpm_from_rev_s(spindle.max_rev_s)));
+  }
+}
+
+void MachineCheck::warn(std::uint32_t line, What what, std::size_t axis, std::string text) {
+  if (seen_.size() < kMostSeen && seen_.emplace(line, what, axis).second &&
+      warnings_.size() < kMost) {
+    warnings_.push_back({line, std::move(text)});
+  }
+}
+
+std::vector<Warning> MachineCheck::warnings() const {
+  std::vector<Warning> out = warnings_;
+  for (std::size_t axis = 0; axis < extent_.size(); ++axis) {
+    const Extent& extent = extent_[axis];
+    if (extent.line > 0) {
+      out.push_back(
+          {extent.line,
+           fmt::format("the program covers {:.3f} mm of {}, from {:.3f} to {:.3f} mm; its "
+                       "travel is {:g} mm, wherever the work offset lies",
+                       extent.high_mm - extent.low_mm, axis_[axis]->name, extent.low_mm,
+                       extent.high_mm, axis_[axis]->max_mm - axis_[axis]->min_mm)});
+    }
+  }
+  std::ranges::stable_sort(out, {}, &Warning::line);
+  return out;
+}
+
+}  // namespace steadyrest::nc::plan

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <steadyrest/nc/plan/check/reach.hpp>
+
+namespace steadyrest::nc::plan {
+namespace {
+
+using interpret::Axes;
+using interpret::Move;
+using interpret::MoveKind;
+
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
+
+/// What is added to the ends of an arc: where it passes the axis' direction from its centre. The
+/// work coordinates may be turned out of the arc's plane.
+void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
+  if (axis >= move.normal.size()) {
+    return;
+  }
+  const auto* const largest =
+      std::ranges::max_element(move.normal, {}, [](double part) { return std::abs(part); });
+  const auto normal = static_cast<std::size_t>(largest - move.normal.begin());
+  const std::size_t first = (normal + 1) % 3;
+  const std::size_t second = (normal + 2) % 3;
+  Axes centre = move.start;
+  std::ranges::copy(move.centre_mm, centre.begin());
+  const double centre_mm = machine_of(move, centre)[axis];
+  const auto along = [&](std::size_t direction) {  // of the work coordinates, on the machine's axis
+    Axes at = centre;
+    at[direction] += 1.0;
+    return machine_of(move, at)[axis] - centre_mm;
+  };
+  const double share = std::hypot(along(first), along(second));
+  if (share < 1e-9) {
+    return;
+  }
+  const auto angle = [&](const Axes& at) {
+    return std::atan2(at[second] - centre[second], at[first] - centre[first]);
+  };
+  const auto behind_start = [&](double at) {  // in the direction of travel, 0 … 2π
+    const double ahead = (move.turns < 0 ? -1.0 : 1.0) * (at - angle(move.start));
+    return ahead - kFullTurn * std::floor(ahead / kFullTurn);
+  };
+  const auto from_centre_mm = [&](const Axes& at) {
+    return std::hypot(at[first] - centre[first], at[second] - centre[second]);
+  };
+  double swept = behind_start(angle(move.end));
+  if (std::abs(move.turns) > 1 || swept < 1e-9) {
+    swept = kFullTurn;
+  }
+  const double bulge_mm = share * std::max(from_centre_mm(move.start), from_centre_mm(move.end));
+  const double helix_mm = (move.end[normal] - move.start[normal]) * along(normal);
+  const double high_at = std::atan2(along(second), along(first));
+  if (behind_start(high_at) <= swept) {
+    reach.high_mm = std::max(reach.high_mm, centre_mm + bulge_mm + std::max(helix_mm, 0.0));
+  }
+  if (behind_start(high_at + std::numbers::pi) <= swept) {
+    reach.low_mm = std::min(reach.low_mm, centre_mm - bulge_mm + std::min(helix_mm, 0.0));
+  }
+}
+
+}  // namespace
+
+Reach reach_of(const Move& move, std::size_t axis) noexcept {
+  const double start_mm = machine_of(move, move.start)[axis];
+  const double end_mm = machine_of(move, move.end)[axis];
+  Reach reach{.low_mm = std::min(start_mm, end_mm), .high_mm = std::max(start_mm, end_mm)};
+  if (move.kind == MoveKind::arc) {
+    bulge(move, axis, reach);
+  }
+  for (const interpret::SplinePoint& point : move.spline) {  // the curve lies within their hull
+    Axes at = move.start;
+    at[0] = point.x_mm;
+    at[1] = point.y_mm;
+    const double at_mm = machine_of(move, at)[axis];
+    reach.low_mm = std::min(reach.low_mm, at_mm);
+    reach.high_mm = std::max(reach.high_mm, at_mm);
+  }
+  return reach;
+}
+
+}  // namespace steadyrest::nc::plan

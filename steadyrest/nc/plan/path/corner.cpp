@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <steadyrest/math/geometry/vector.hpp>
+#include <steadyrest/nc/plan/path/corner.hpp>
+
+namespace steadyrest::nc::plan {
+
+using kernel::signal::Geometry;
+using kernel::signal::PathSegment;
+using kernel::signal::Point;
+using math::geometry::add_scaled;
+using math::geometry::cross;
+using math::geometry::dot;
+using math::geometry::norm;
+
+namespace {
+
+constexpr double kSmoothTurn_rad = 1e-4;
+constexpr double kInPlane = 1e-6;
+constexpr double kRounding = 1e-7;  ///< of lengths, where the pieces are nearly in line
+
+struct Flat {
+  double x = 0.0;
+  double y = 0.0;
+};
+Flat operator+(Flat a, Flat b) {
+  return {a.x + b.x, a.y + b.y};
+}
+Flat operator-(Flat a, Flat b) {
+  return {a.x - b.x, a.y - b.y};
+}
+Flat operator*(double k, Flat a) {
+  return {k * a.x, k * a.y};
+}
+double inner(Flat a, Flat b) {
+  return a.x * b.x + a.y * b.y;
+}
+double outer(Flat a, Flat b) {
+  return a.x * b.y - a.y * b.x;
+}
+double length(Flat a) {
+  return std::hypot(a.x, a.y);
+}
+Flat left_of(Flat d) {
+  return {-d.y, d.x};
+}
+
+/// One piece in the plane; it passes the origin in direction `tangent`.
+struct Curve {
+  bool circle = false;
+  Flat tangent;
+  Flat centre;
+  double radius = 0.0;
+  double turn = 1.0;  ///< o
+};
+
+std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const Point& normal,
+                              const Point& direction) {
+  Curve out;
+  out.tangent = tangent;
+  if (s.geometry == Geometry::line) {
+    return std::abs(dot(direction, normal)) < kInPlane ? std::optional(out) : std::nullopt;
+  }
+  const double along = dot(s.axis, normal);
+  if (std::abs(std::abs(along) - 1.0) > kInPlane || std::abs(s.rise_mm) > 1e-9 ||
+      s.radius_end_mm != s.radius_mm) {
+    return std::nullopt;
+  }
+  out.circle = true;
+  out.turn = along > 0.0 ? 1.0 : -1.0;
+  out.radius = s.radius_mm;
+  out.centre = (out.turn * out.radius) * left_of(tangent);
+  return out;
+}
+
+/// Where the offsets by r meet, nearest to the corner; one piece at least is a circle.
+std::optional<Flat> meet(const Curve& a, const Curve& b, double r) {
+  const double rb = b.radius - b.turn * r;
+  if (a.circle && b.circle) {
+    const double ra = a.radius - a.turn * r;
+    const Flat between = b.centre - a.centre;
+    const double d = length(between);
+    if (ra <= 0.0 || rb <= 0.0 || d <= 1e-12) {
+      return std::nullopt;
+    }
+    const double k = (d * d + ra * ra - rb * rb) / (2.0 * d);
+    const double h2 = ra * ra - k * k;
+    if (h2 < 0.0) {
+      return std::nullopt;
+    }
+    const Flat unit = (1.0 / d) * between;
+    const Flat foot = a.centre + k * unit;
+    const Flat p = foot + std::sqrt(h2) * left_of(unit);
+    const Flat q = foot - std::sqrt(h2) * left_of(unit);
+    return length(p) < length(q) ? p : q;
+  }
+  const Curve& line = a.circle ? b : a;
+  const Curve& ring = a.circle ? a : b;
+  const double radius = ring.radius - ring.turn * r;
+  const Flat from = r * left_of(line.tangent);
+  const Flat to = ring.centre - from;
+  const double k = inner(to, line.tangent);
+  const double h2 = radius * radius - outer(line.tangent, to) * outer(line.tangent, to);
+  if (radius <= 0.0 || h2 < 0.0) {
+    return std::nullopt;
+  }
+  const Flat p = from + (k + std::sqrt(h2)) * line.tangent;
+  const Flat q = from + (k - std::sqrt(h2)) * line.tangent;
+  return length(p) < length(q) ? p : q;
+}
+
+/// The point where the rounding touches, and its signed path distance from the corner.
+struct Touch {
+  Flat point;
+  double distance = 0.0;
+};
+Touch touch(const Curve& c, Flat centre) {
+  if (!c.circle) {
+    const double along = inner(centre, c.tangent);
+    return {along * c.tangent, along};
+  }
+  const Flat away = centre - c.centre;
+  const Flat point = (c.radius / length(away)) * away;
+  const Flat corner = Flat{} - c.centre;
+  const double angle = c.turn * std::atan2(outer(corner, point), inner(corner, point));
+  return {c.centre + point, c.radius * angle};
+}
+
+struct FlatArc {
+  Flat centre;
+  Touch before;
+  Touch after;
+};
+
+std::optional<FlatArc> fit(const Curve& a, const Curve& b, double r, const CornerRequest& request) {
+  const auto centre = meet(a, b, r);
+  if (!centre || length(*centre) - r > request.tolerance_mm * (1.0 + kRounding)) {
+    return std::nullopt;
+  }
+  const FlatArc out{*centre, touch(a, *centre), touch(b, *centre)};
+  const bool fits = out.before.distance < 0.0 &&
+                    -out.before.distance <= request.room_before_mm * (1.0 + kRounding) &&
+                    out.after.distance > 0.0 &&
+                    out.after.distance <= request.room_after_mm * (1.0 + kRounding);
+  return fits ? std::optional(out) : std::nullopt;
+}
+
+/// The tangent of half the turn, and 1/cos of it less one, without a difference of near numbers.
+struct Half {
+  double tangent = 0.0;
+  double secant_less_1 = 0.0;
+};
+Half half_of(const Bend& bend) {
+  const double wide = 1.0 + bend.cosine;
+  const double cosine = std::sqrt(0.5 * wide);
+  const double sine_squared = bend.sine * bend.sine / (2.0 * wide);
+  return {bend.sine / wide, sine_squared / ((1.0 + cosine) * cosine)};
+}
+
+/// Two lines: in closed form.
+double line_radius(const Half& half, const CornerRequest& request) {
+  const double room = std::min(request.room_before_mm, request.room_after_mm);
+  return std::min(
+      {request.tolerance_mm / half.secant_less_1, room / half.tangent, request.most_radius_mm});
+}
+
+double largest_radius(const Curve& a, const Curve& b, const Half& half,
+                      const CornerRequest& request) {
+  // What the tangents would permit is near the answer; from there the largest that fits.
+  double low = 0.0;
+  double high = std::min(4.0 * line_radius(half, request), request.most_radius_mm);
+  if (fit(a, b, high, request)) {
+    return high;
+  }
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (fit(a, b, middle, request) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+std::optional<Bend> bend_of(const Point& in, const Point& out) noexcept {
+  Bend bend;
+  bend.axis = cross(in, out);
+  bend.sine = norm(bend.axis);
+  bend.cosine = dot(in, out);
+  if (bend.cosine > 0.0 && bend.sine < 0.5 * kSmoothTurn_rad) {
+    return std::nullopt;
+  }
+  bend.turn_rad = std::atan2(bend.sine, bend.cosine);
+  if (bend.turn_rad < kSmoothTurn_rad || bend.turn_rad > std::numbers::pi - 1e-3) {
+    return std::nullopt;
+  }
+  bend.axis = math::geometry::scale(bend.axis, 1.0 / bend.sine);
+  return bend;
+}
+
+std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegment& after,
+                                      const Point& in, const Point& out, const Bend& bend,
+                                      const CornerRequest& request) {
+  const Half half = half_of(bend);
+  CornerArc result;
+  result.axis = bend.axis;
+  if (before.geometry == Geometry::line && after.geometry == Geometry::line) {
+    result.radius_mm = line_radius(half, request);
+    if (!(result.radius_mm > 0.0)) {
+      return std::nullopt;
+    }
+    const double taken_mm = result.radius_mm * half.tangent;
+    result.start_mm = add_scaled(before.end_mm, in, -taken_mm);
+    result.end_mm = add_scaled(before.end_mm, out, taken_mm);
+    result.centre_mm = add_scaled(result.start_mm, cross(bend.axis, in), result.radius_mm);
+    result.sweep_rad = bend.turn_rad;  // the rounding turns as the corner does
+    result.taken_before_mm = result.taken_after_mm = taken_mm;
+    return result;
+  }
+  const auto a = curve_of(before, {1.0, 0.0}, bend.axis, in);
+  const auto b = curve_of(after, {bend.cosine, bend.sine}, bend.axis, out);
+  if (!a || !b) {
+    return std::nullopt;
+  }
+  result.radius_mm = largest_radius(*a, *b, half, request);
+  const auto arc = result.radius_mm > 0.0 ? fit(*a, *b, result.radius_mm, request) : std::nullopt;
+  if (!arc) {
+    return std::nullopt;
+  }
+  const Point side = cross(bend.axis, in);
+  const auto place = [&](Flat p) {
+    return add_scaled(add_scaled(before.end_mm, in, p.x), side, p.y);
+  };
+  const Flat from = arc->before.point - arc->centre;
+  const Flat to = arc->after.point - arc->centre;
+  result.start_mm = place(arc->before.point);
+  result.end_mm = place(arc->after.point);
+  result.centre_mm = place(arc->centre);
+  result.sweep_rad = std::atan2(outer(from, to), inner(from, to));
+  if (result.sweep_rad <= 0.0) {
+    result.sweep_rad += 2.0 * std::numbers::pi;
+  }
+  result.taken_before_mm = -arc->before.distance;
+  result.taken_after_mm = arc->after.distance;
+  return result;
+}
+
+}  // namespace steadyrest::nc::plan

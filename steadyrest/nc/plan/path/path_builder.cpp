@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <steadyrest/math/geometry/segment.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+#include <steadyrest/nc/interpret/state/spline_curve.hpp>
+#include <steadyrest/nc/plan/path/corner.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/path/spline_lines.hpp>
+
+namespace steadyrest::nc::plan {
+
+using interpret::FeedMode;
+using interpret::Move;
+using interpret::MoveKind;
+using interpret::PathMode;
+using kernel::machine::kUnlimited;
+using kernel::machine::Machine;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::signal::Geometry;
+using kernel::signal::Motion;
+using kernel::signal::PathSegment;
+using kernel::signal::Point;
+using math::geometry::add_scaled;
+using math::geometry::dot;
+using math::geometry::norm;
+using math::geometry::subtract;
+
+namespace {
+
+constexpr double kUsable = 1.0 - 1e-6;
+/// A spline is planned as chords that miss it by no more.
+constexpr double kSplineTolerance_mm = 5e-4;
+constexpr std::size_t kMostMerged = 512;
+
+bool others_move(const PathSegment& s) {
+  return s.other_start != s.other_end;
+}
+
+}  // namespace
+
+PathStream::PathStream(const Machine& machine, PathReceiver& receiver)
+    : machine_(machine),
+      receiver_(receiver),
+      pieces_(machine),
+      plane_(pieces_.limits().plane(plane_normal_)) {}
+
+const PlaneLimits& PathStream::plane_of(const Point& normal) noexcept {
+  if (normal != plane_normal_) {
+    plane_normal_ = normal;
+    plane_ = pieces_.limits().plane(normal);
+  }
+  return plane_;
+}
+
+void PathStream::emit(Piece& out) {
+  out.segment.position_mm = position_mm_;
+  out.plan.exit_speed_limit_mm_s = out.segment.exit_speed_limit_mm_s;
+  position_mm_ += out.segment.length_mm;
+  ++emitted_;
+  receiver_.on_segment(out.segment, out.plan);
+}
+
+void PathStream::release(double exit_speed_limit_mm_s) {
+  if (held_ == kNone) {
+    return;
+  }
+  places_[held_].segment.exit_speed_limit_mm_s = exit_speed_limit_mm_s;
+  emit(places_[held_]);
+  held_ = kNone;
+}
+
+/// Takes `next` into the line that waits when every point between stays within the merge tolerance.
+bool PathStream::merge(const Piece& next) {
+  Piece& line = places_[waiting_];
+  const double tolerance = line.merge_tolerance_mm;
+  if (!(tolerance > 0.0)) {
+    return false;
+  }
+  const bool alike = line.segment.motion == Motion::feed && next.segment.motion == Motion::feed &&
+                     line.segment.geometry == Geometry::line &&
+                     next.segment.geometry == Geometry::line && next.mode == line.mode &&
+                     next.plan.feed_mm_s == line.plan.feed_mm_s &&
+                     next.plan.per_revolution == line.plan.per_revolution &&
+                     next.segment.speed_modulation == line.segment.speed_modulation;
+  if (!alike || line.mode != PathMode::continuous || others_move(line.segment) ||
+      others_move(next.segment) || merged_.size() >= kMostMerged) {
+    return false;
+  }
+  const Point from = line.segment.start_mm;
+  Point chord = subtract(next.segment.end_mm, from);
+  const double length = norm(chord);
+  if (length <= kShortest_mm) {
+    return false;
+  }
+  for (double& c : chord) {
+    c /= length;
+  }
+  const auto near = [&](const Point& p) {
+    const Point to = subtract(p, from);
+    const double along = dot(to, chord);
+    return along >= 0.0 && along <= length && norm(add_scaled(to, chord, -along)) <= tolerance;
+  };
+  if (!near(line.segment.end_mm) || !std::all_of(merged_.begin(), merged_.end(), near)) {
+    return false;
+  }
+  merged_.push_back(line.segment.end_mm);
+  line.segment.end_mm = next.segment.end_mm;
+  line.segment.length_mm = length;
+  line.nominal_mm = length;
+  pieces_.limit(line);
+  return true;
+}
+
+/// What waited for merging goes on to its corner.
+void PathStream::accept() {
+  if (waiting_ == kNone) {
+    return;
+  }
+  join(places_[waiting_]);
+  held_ = std::exchange(waiting_, kNone);
+  merged_.clear();
+}
+
+/// Puts a tangential arc into the corner between the held piece and `next`.
+bool PathStream::round_corner(Piece& next) {
+  Piece& held = places_[held_];
+  if (!(held.tolerance_mm > 0.0) || others_move(held.segment) || others_move(next.segment) ||
+      held.plan.per_revolution != next.plan.per_revolution || held.plan.locked ||
+      next.plan.locked) {
+    return false;
+  }
+  const Point in = xyz_of(held.end_direction);
+  const Point out = xyz_of(next.start_direction);
+  const auto bend = bend_of(in, out);
+  if (!bend) {
+    return false;
+  }
+  const double share = machine_.control.blend_share;
+  const double slower = std::min(held.plan.feed_mm_s, next.plan.feed_mm_s);
+  const double goal = std::min({held.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s,
+                                machine_.feed_override.max_ratio * slower});
+  const PlaneLimits& plane = plane_of(bend->axis);
+  const double kappa = pieces_.limits().centripetal_share();
+  const double a_normal = kappa * plane.acceleration_mm_s2;
+  const double a_tangential = std::sqrt(1.0 - kappa * kappa) * plane.acceleration_mm_s2;
+  // A sliver of every piece stays, so that two corner arcs never meet without knowing one another.
+  CornerRequest request;
+  request.tolerance_mm = held.tolerance_mm;
+  request.room_before_mm = kUsable * std::min(share * held.nominal_mm, held.segment.length_mm);
+  request.room_after_mm = kUsable * share * next.nominal_mm;
+  request.most_radius_mm = held.plan.per_revolution
+                               ? kUnlimited
+                               : goal * goal / std::min(a_normal, bend->turn_rad * a_tangential);
+  const auto corner = plan::round_corner(held.segment, next.segment, in, out, *bend, request);
+  const double exact = pieces_.limits().junction_mm_s(
+      held.end_direction, next.start_direction, held.segment.length_mm, next.segment.length_mm);
+  if (!corner || std::sqrt(a_normal * corner->radius_mm) <= exact ||
+      corner->taken_before_mm <= 10.0 * kShortest_mm) {
+    return false;
+  }
+  Piece& arc = corner_;
+  arc.plan = slower == held.plan.feed_mm_s ? held.plan : next.plan;
+  arc.plan.rapid = held.plan.rapid && next.plan.rapid;
+  const PathSegment& like = slower == held.plan.feed_mm_s ? held.segment : next.segment;
+  arc.segment = {.geometry = Geometry::arc,
+                 .motion = arc.plan.rapid ? Motion::rapid : Motion::feed,
+                 .speed_modulation = like.speed_modulation,
+                 .line = held.segment.line,
+                 .start_mm = corner->start_mm,
+                 .end_mm = corner->end_mm,
+                 .centre_mm = corner->centre_mm,
+                 .axis = corner->axis,
+                 .radius_mm = corner->radius_mm,
+                 .radius_end_mm = corner->radius_mm,
+                 .sweep_rad = corner->sweep_rad,
+                 .other_start = held.segment.other_end,
+                 .other_end = held.segment.other_end,
+                 .length_mm = corner->radius_mm * corner->sweep_rad,
+                 .feed_mm_s = like.feed_mm_s};
+  arc.nominal_mm = arc.segment.length_mm;
+  pieces_.limit(arc, pieces_.limits().circle(corner->radius_mm, plane));
+  shorten(held, corner->taken_before_mm);
+  held.segment.end_mm = corner->start_mm;
+  const auto& control = machine_.control;
+  const double gap = control.blend_gap_cycles * control.interpolator_period_s *
+                     std::min(goal, arc.plan.speed_limit_mm_s);
+  if (held.segment.length_mm < gap) {
+    held.plan.acceleration_mm_s2 =
+        std::min(held.plan.acceleration_mm_s2, arc.plan.acceleration_mm_s2);
+  }
+  shorten(next, corner->taken_after_mm);
+  next.segment.start_mm = corner->end_mm;
+  release(std::min(held.plan.speed_limit_mm_s, arc.plan.speed_limit_mm_s));
+  arc.segment.exit_speed_limit_mm_s =
+      std::min(arc.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s);
+  emit(arc);
+  return true;
+}
+
+/// Takes path length from either end of a piece; the caller moves the end.
+void PathStream::shorten(Piece& piece, double taken_mm) {
+  PathSegment& s = piece.segment;
+  if (s.geometry == Geometry::arc) {
+    s.sweep_rad *= 1.0 - taken_mm / s.length_mm;
+  }
+  s.length_mm -= taken_mm;
+  piece.plan.length_mm = s.length_mm;
+}
+
+/// Decides how the path goes from the held piece into `next`, and hands the held one over.
+void PathStream::join(Piece& next) {
+  if (held_ == kNone) {
+    return;
+  }
+  Piece& held = places_[held_];
+  const bool probing = held.segment.motion == Motion::probe || next.segment.motion == Motion::probe;
+  const bool changes =
+      machine_.control.stop_between_rapid_and_feed && held.plan.rapid != next.plan.rapid;
+  if (held.mode == PathMode::exact_stop || probing || changes) {
+    release(0.0);
+    return;
+  }
+  if (held.mode == PathMode::continuous && round_corner(next)) {
+    return;
+  }
+  const double junction = pieces_.limits().junction_mm_s(
+      held.end_direction, next.start_direction, held.segment.length_mm, next.segment.length_mm);
+  const double most = std::min(held.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s);
+  const double use = pieces_.limits().junction_use(held.end_direction, next.start_direction, most);
+  if (held.mode == PathMode::continuous && junction < most) {
+    slow_ramps(held, machine_.control.corner_acceleration_share);
+    slow_ramps(next, machine_.control.corner_acceleration_share);
+  } else if (use > 0.0) {
+    slow_ramps(held, 1.0 - use);
+    slow_ramps(next, 1.0 - use);
+  }
+  release(std::min(junction, most));
+}
+
+/// Leaves a share of the acceleration to a piece; the smaller of two shares counts.
+void PathStream::slow_ramps(Piece& out, double share) const {
+  if (share < out.ramp_share) {
+    out.plan.acceleration_mm_s2 *= share / out.ramp_share;
+    out.ramp_share = share;
+  }
+}
+
+/// The path ends or waits here.
+void PathStream::rest() {
+  accept();
+  if (held_ != kNone && places_[held_].mode == PathMode::continuous) {
+    slow_ramps(places_[held_], machine_.control.corner_acceleration_share);
+  }
+  release(0.0);
+}
+
+/// An arc that is a line within the merge tolerance becomes two, over its middle; LinuxCNC does so
+/// in the XY plane under G64 P (manual, G64).
+bool PathStream::split_flat_arc(const Move& move) {
+  const double tolerance_mm = machine_.control.merge_share * move.path_tolerance_mm;
+  if (move.kind != MoveKind::arc || move.path_mode != PathMode::continuous ||
+      move.feed_mode == FeedMode::inverse_time || move.override_locked || !(tolerance_mm > 0.0) ||
+      move.normal[2] == 0.0 || std::abs(move.turns) > 1) {
+    return false;
+  }
+  PathSegment arc;
+  arc.start_mm = {move.start[0], move.start[1], move.start[2]};
+  arc.end_mm = {move.end[0], move.end[1], move.end[2]};
+  Move bare = move;
+  bare.offset = {};
+  bare.rotation_deg = 0.0;
+  set_arc(arc, bare);
+  if (arc.radius_mm * (1.0 - std::cos(arc.sweep_rad / 2.0)) >= tolerance_mm) {
+    return false;
+  }
+  Move first = move;
+  first.kind = MoveKind::linear;
+  Move second = first;
+  for (std::size_t i = 0; i < first.end.size(); ++i) {
+    first.end[i] = (move.start[i] + move.end[i]) / 2.0;
+  }
+  const Point middle = math::geometry::point_at(arc, 0.5);
+  std::copy(middle.begin(), middle.begin() + 2, first.end.begin());
+  second.start = first.end;
+  on_move(first);
+  on_move(second);
+  return true;
+}
+
+void PathStream::on_move(const Move& move) {
+  if (refusal_ || split_flat_arc(move)) {
+    return;
+  }
+  if (move.kind == MoveKind::spline) {
+    if (move.spline_order < 2 || interpret::spline_spans(move.spline, move.spline_order) < 1) {
+      refusal_ = Refusal{Kind::bad_input,
+                         {},
+                         move.line,
+                         "a spline without its control points",
+                         "output lines or arcs from the CAM system"};
+      return;
+    }
+    spline_lines(move, kSplineTolerance_mm, [this](const Move& line) { on_move(line); });
+    return;
+  }
+  if (move.kind == MoveKind::dwell) {
+    event(PathEventKind::dwell, move.line, move.dwell_s);
+    return;
+  }
+  Piece& next = places_[next_];
+  const auto made = pieces_.make(move, next);
+  if (!made) {
+    refusal_ = made.error();
+    return;
+  }
+  if (!*made) {
+    return;
+  }
+  if (spindle_pending_ && !next.plan.rapid) {
+    spindle_pending_ = false;
+    event(PathEventKind::spindle_wait, spindle_line_, spindle_rev_s_);
+  }
+  if (waiting_ != kNone && merge(next)) {
+    return;
+  }
+  accept();
+  waiting_ = next_;
+  next_ = held_ == kNone ? (waiting_ + 1) % kNone : kNone - held_ - waiting_;
+}
+
+void PathStream::event(PathEventKind kind, std::uint32_t line, double value) {
+  rest();
+  receiver_.on_event(PathEvent{kind, emitted_, line, value});
+}
+
+void PathStream::on_event(const interpret::Event& e) {
+  if (refusal_) {
+    return;
+  }
+  switch (e.kind) {
+    case interpret::EventKind::spindle:
+      spindle_pending_ = e.value != 0.0;
+      spindle_line_ = e.line;
+      spindle_rev_s_ = e.value;
+      event(PathEventKind::spindle, e.line, e.value);
+      break;
+    case interpret::EventKind::coolant:
+      event(PathEventKind::coolant, e.line, e.value);
+      break;
+    case interpret::EventKind::tool_change:
+      event(PathEventKind::tool_change, e.line, e.value);
+      break;
+    case interpret::EventKind::stop:
+      event(PathEventKind::stop, e.line, e.value);
+      break;
+    case interpret::EventKind::end:
+      event(PathEventKind::end, e.line, e.value);
+      break;
+  }
+}
+
+void PathStream::finish() {
+  rest();
+}
+
+Result<PlannedPath> PathBuilder::take() {
+  stream_.finish();
+  if (stream_.refusal()) {
+    return std::unexpected(*stream_.refusal());
+  }
+  return std::move(store_.path);
+}
+
+}  // namespace steadyrest::nc::plan

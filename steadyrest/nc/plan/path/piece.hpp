@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/plan/path/limits.hpp>
+#include <steadyrest/nc/plan/path/planned_path.hpp>
+
+namespace steadyrest::nc::plan {
+
+inline constexpr double kShortest_mm = 1e-9;  ///< what is no longer is no move
+
+/// One move as a segment of the path, before anything is known of its neighbours.
+struct Piece {
+  kernel::signal::PathSegment segment;
+  SegmentPlan plan;
+  interpret::PathMode mode = interpret::PathMode::continuous;
+  double tolerance_mm = 0.0;
+  double merge_tolerance_mm = 0.0;
+  double ramp_share = 1.0;  ///< applied to the acceleration already
+  double nominal_mm = 0.0;  ///< length before its corners were rounded
+  kernel::signal::AxisValues start_direction{};
+  kernel::signal::AxisValues end_direction{};
+};
+
+[[nodiscard]] inline kernel::signal::Point xyz_of(const kernel::signal::AxisValues& v) {
+  return {v[0], v[1], v[2]};
+}
+
+/// The arc of a move through the segment's start and end, which must be set.
+void set_arc(kernel::signal::PathSegment& segment, const interpret::Move& move);
+
+/// Moves → pieces: machine coordinates, geometry and length, feed, the limits of machine and
+/// control.
+class PieceMaker {
+ public:
+  /// `machine` must outlive it.
+  explicit PieceMaker(const kernel::machine::Machine& machine);
+
+  /// Makes `out` of the move; false for a move of no length. Refused: a coordinate that is not
+  /// finite, a feed move without a feed, a feed per revolution without a spindle, axes without
+  /// limits.
+  [[nodiscard]] kernel::outcome::Result<bool> make(const interpret::Move& move, Piece& out) const;
+  /// Sets the limits anew after the segment was changed, and a line's direction.
+  void limit(Piece& out) const;
+  /// The same with limits that are known.
+  void limit(Piece& out, const SpeedLimits& limits) const;
+  [[nodiscard]] const PathLimits& limits() const noexcept { return limits_; }
+
+ private:
+  [[nodiscard]] kernel::signal::AxisValues machine_position(const interpret::Move& move,
+                                                            const interpret::Axes& work) const;
+  [[nodiscard]] double spindle_of(const kernel::signal::PathSegment& s,
+                                  const interpret::Move& move) const;
+  void set_speed(Piece& out, const interpret::Move& move) const;
+
+  const kernel::machine::Machine& machine_;
+  PathLimits limits_;
+  bool others_ = false;                   ///< the machine has axes beyond X Y Z
+  std::array<std::size_t, 9> axis_of_{};  ///< index of the machine's axis for X Y Z A B C U V W
+  std::array<bool, kernel::signal::kMaxAxes> rotary_{};
+};
+
+}  // namespace steadyrest::nc::plan

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/signal/path.hpp>
+#include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/plan/time/cyclogram.hpp>
+
+namespace steadyrest::nc::plan {
+
+/// Where the time of a program goes.
+struct ProgramTime {
+  struct Tool {
+    std::int64_t number = 0;  ///< 0 before the first tool change
+    double seconds = 0.0;     ///< its change included
+  };
+  double total_s = 0.0;
+  double cut_s = 0.0;  ///< feed, thread, tap and probe moves
+  double rapid_s = 0.0;
+  double dwell_s = 0.0;
+  double tool_change_s = 0.0;
+  double spindle_wait_s = 0.0;
+  double cut_mm = 0.0;
+  double rapid_mm = 0.0;
+  std::uint64_t moves = 0;
+  std::vector<Tool> tools;            ///< in the order of use, one entry for each change
+  std::vector<Transition> cyclogram;  ///< what the machine does, in order
+  std::vector<double> line_s;  ///< by line of the program (index 0 unused); repeated lines add up
+};
+
+/// Times a program by running it through the planner and the interpolator, period by period.
+///
+/// A moving window over the path is held: memory does not grow with the path, only `line_s` (8
+/// bytes for each line), `tools` and `cyclogram` do. The spindle reaches its speed with
+/// machine.spindle.acceleration. Resolution: one interpolator period for each stop.
+class ProgramTimer final : public interpret::Sink {
+ public:
+  /// Refuses a machine that the interpolator refuses. `machine` must outlive the timer.
+  static kernel::outcome::Result<ProgramTimer> make(const kernel::machine::Machine& machine);
+  ProgramTimer(ProgramTimer&& other) noexcept;
+  ~ProgramTimer() override;
+
+  void on_move(const interpret::Move& move) override;
+  void on_event(const interpret::Event& event) override;
+  /// The result; call once after the last move. Refuses what the planner refuses, and a program
+  /// that would take longer than `kMost_s`.
+  [[nodiscard]] kernel::outcome::Result<ProgramTime> take();
+
+  /// Called with a move's line when the machine gets to it, and the time since the program's
+  /// start; `line_s` stays empty then, so that memory does not grow with the lines.
+  using Arrival = std::function<void(std::uint32_t line, double time_s)>;
+  void set_arrival(Arrival arrival);
+
+  /// Feed, rapid and spindle override in force throughout; 1 without.
+  void set_overrides(double feed_ratio, double rapid_ratio, double spindle_ratio);
+
+  static constexpr double kMost_s = 30.0 * 24.0 * 3600.0;
+
+ private:
+  class Runner;
+  explicit ProgramTimer(std::unique_ptr<Runner> runner);
+  std::unique_ptr<Runner> runner_;
+};
+
+}  // namespace steadyrest::nc::plan

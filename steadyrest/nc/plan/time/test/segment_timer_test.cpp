@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/plan/test/moves.hpp>
+#include <steadyrest/nc/plan/time/program_timer.hpp>
+#include <steadyrest/nc/plan/time/segment_timer.hpp>
+
+// The truth is the interpolator, period by period; it is held against closed forms and LinuxCNC
+// elsewhere (interpolator_test, tests/linuxcnc).
+namespace steadyrest::nc::plan {
+namespace {
+
+using interpret::EventKind;
+using kernel::machine::Machine;
+using test::mill;
+using test::Program;
+
+/// As examples/machines/linuxcnc-mill.toml.
+Machine linuxcnc_mill() {
+  Machine m = mill();
+  m.control.max_path_acceleration_mm_s2 = 3000.0;
+  m.control.max_feed_mm_s = 250.0;
+  m.control.corner_tolerance_mm = 10.0;
+  m.control.junction_deviation_mm = 0.0;
+  m.control.junction_share = 0.1;
+  m.control.blend_gap_cycles = 4.0;
+  m.control.min_block_cycles = 1.02;
+  m.control.merge_share = 1.0;
+  m.control.corner_acceleration_share = 0.5;
+  m.control.stop_between_rapid_and_feed = true;
+  return m;
+}
+
+/// A control that looks ahead over few blocks, in long periods.
+Machine short_sighted() {
+  Machine m = mill();
+  m.control.look_ahead_blocks = 8;
+  m.control.interpolator_period_s = 0.004;
+  m.axes[2].max_acceleration_mm_s2 = 500.0;
+  return m;
+}
+
+/// Both timers over the same moves.
+class Both final : public interpret::Sink {
+ public:
+  explicit Both(const Machine& machine)
+      : stepped(ProgramTimer::make(machine).value()), closed(SegmentTimer::make(machine).value()) {
+    stepped.set_arrival([this](std::uint32_t n, double t_s) { note(stepped_s, n, t_s); });
+    closed.set_arrival([this](std::uint32_t n, double t_s) { note(closed_s, n, t_s); });
+  }
+  void on_move(const interpret::Move& move) override {
+    interpret::Move numbered = move;
+    numbered.line = ++sequence_;
+    stepped.on_move(numbered);
+    closed.on_move(numbered);
+  }
+  void on_event(const interpret::Event& event) override {
+    interpret::Event numbered = event;
+    numbered.line = ++sequence_;
+    stepped.on_event(numbered);
+    closed.on_event(numbered);
+  }
+
+  struct Difference {
+    double total_s = 0.0;
+    double of_total_s = 0.0;
+    double arrival_s = 0.0;
+  };
+  Difference difference() {
+    const double wanted = stepped.take().value().total_s;
+    const double got = closed.take().value();
+    note(stepped_s, sequence_ + 1, wanted);
+    note(closed_s, sequence_ + 1, got);
+    Difference out{wanted, got - wanted, 0.0};
+    for (std::size_t i = 0; i < stepped_s.size(); ++i) {
+      out.arrival_s = std::max(out.arrival_s, std::abs(stepped_s[i] - closed_s[i]));
+    }
+    return out;
+  }
+
+ private:
+  // What has no time of its own is reached with what follows it.
+  static void note(std::vector<double>& to, std::uint32_t n, double t_s) {
+    if (n >= to.size()) {
+      to.resize(n + 1U, t_s);
+    }
+  }
+  ProgramTimer stepped;
+  SegmentTimer closed;
+  std::vector<double> stepped_s;
+  std::vector<double> closed_s;
+  std::uint32_t sequence_ = 0;
+};
+
+std::vector<std::string> shared_programs() {
+  const char* const folder = std::getenv("STEADYREST_SHARED_DATA");
+  const std::string root = folder != nullptr ? folder : STEADYREST_SOURCE_DIR "/../shared/data";
+  std::vector<std::string> found;
+  std::error_code absent;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root + "/nc", absent)) {
+    if (entry.is_regular_file() && entry.path().extension() != ".MPF") {
+      found.push_back(entry.path().string());
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+/// `share` of the total, but no less than `least_s`, on the whole and on the way.
+void expect_near(const Both::Difference& d, double share, double least_s, const std::string& what) {
+  const double bound_s = std::max(share * d.total_s, least_s);
+  EXPECT_LE(std::abs(d.of_total_s), bound_s) << what << " of " << d.total_s;
+  EXPECT_LE(d.arrival_s, bound_s) << what << " of " << d.total_s;
+}
+
+TEST(SegmentTimer, AgreesWithTheInterpolatorOnRealProgramsWithinAThousandth) {
+  double longest_s = 0.0;
+  for (const auto& file : shared_programs()) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string text = std::string{std::istreambuf_iterator<char>(in), {}} + "\nM2\n";
+    for (const Machine& m : {linuxcnc_mill(), mill(), short_sighted()}) {
+      Both both(m);
+      interpret::Config config;
+      config.axes = "XYZ";
+      if (!interpret::run_text(text, config, both)) {
+        continue;
+      }
+      const auto d = both.difference();
+      longest_s = std::max(longest_s, d.total_s);
+      const bool coarse = m.control.interpolator_period_s > 0.001;
+      expect_near(d, coarse ? 0.0012 : 0.0004, coarse ? 0.04 : 0.004, file);
+    }
+  }
+  if (longest_s == 0.0) {
+    GTEST_SKIP() << "the shared programs are not here";
+  }
+  EXPECT_GT(longest_s, 1000.0);
+}
+
+double closed_s(const Machine& m, const Program& p) {
+  auto timer = SegmentTimer::make(m).value();
+  for (const auto& move : p.moves) {
+    timer.on_move(move);
+  }
+  timer.on_event({EventKind::end, 99, 0.0});
+  return timer.take().value();
+}
+
+TEST(SegmentTimer, ALineTakesItsLengthOverTheSpeedAndTheSpeedOverTheAcceleration) {
+  const auto m = mill();  // 200 mm/s, 2000 mm/s²
+  for (const double feed : {0.5, 10.0, 50.0, 150.0}) {
+    Program p;
+    p.line(100, 0, feed);
+    const double law_s = 100.0 / feed + feed / 2000.0;
+    EXPECT_GE(closed_s(m, p), law_s - 1e-6);
+    EXPECT_LE(closed_s(m, p), law_s + 0.001);  // it ends with a period
+  }
+  Program triangle;
+  triangle.line(2, 0, 150.0);
+  EXPECT_NEAR(closed_s(m, triangle), 2.0 * std::sqrt(2.0 / 2000.0), 0.001);
+}
+
+TEST(SegmentTimer, WithAJerkLimitALineTakesAccelerationOverJerkBesides) {
+  const auto m = mill(50000.0);
+  Program p;
+  p.line(100, 0, 50.0);
+  EXPECT_NEAR(closed_s(m, p), 100.0 / 50.0 + 50.0 / 2000.0 + 2000.0 / 50000.0, 0.003);
+}
+
+/// What the interpolator's periods cost at a corner, at most: 0.65 of one.
+constexpr double kPerMove = 0.65 * 0.001;
+
+TEST(SegmentTimer, SlowsDownBeforeWhatTheLookAheadShows) {
+  auto m = mill();
+  m.axes[0].max_acceleration_mm_s2 = 100.0;
+  for (const std::uint32_t blocks : {1U, 2U, 5U, 50U, 500U}) {
+    m.control.look_ahead_blocks = blocks;
+    Both both(m);
+    Program p;
+    for (int i = 1; i <= 3000; ++i) {
+      p.line(0.05 * i, 0.0, 40.0);
+    }
+    for (const auto& move : p.moves) {
+      both.on_move(move);
+    }
+    expect_near(both.difference(), 0.0, kPerMove * 3000.0, std::to_string(blocks) + " blocks");
+  }
+}
+
+TEST(SegmentTimer, AgreesOnRandomPathsWithDwellsToolsAndSpindle) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int round = 0; round < 20; ++round) {
+    auto m = round % 2 == 0 ? linuxcnc_mill() : mill();
+    m.control.tool_change_s = 1.234;
+    m.spindle.acceleration_rev_s2 = 30.0;
+    Both both(m);
+    Program p;
+    p.mode = round % 3 == 0 ? interpret::PathMode::exact_path : interpret::PathMode::continuous;
+    const double step = std::pow(10.0, 1.5 * unit(random));
+    for (int i = 0; i < 400; ++i) {
+      if (i % 50 == 7) {
+        both.on_event({EventKind::tool_change, 0, 1.0 + i});
+        both.on_event({EventKind::spindle, 0, 60.0 * unit(random)});
+      }
+      if (i % 20 == 3) {
+        p.rapid(p.at[0] + 50.0 * unit(random), p.at[1] + 50.0 * unit(random));
+      } else if (i % 33 == 5) {
+        p.dwell(std::abs(unit(random)));
+      } else {
+        p.line(p.at[0] + step * unit(random), p.at[1] + step * unit(random),
+               1.0 + 40.0 * std::abs(unit(random)));
+      }
+      both.on_move(p.moves.back());
+    }
+    expect_near(both.difference(), 0.0, kPerMove * 400.0, "round " + std::to_string(round));
+  }
+}
+
+TEST(SegmentTimer, AFeedPerRevolutionFollowsTheSpindleAsItRampsUp) {
+  auto m = mill();
+  m.spindle.acceleration_rev_s2 = 5.0;
+  Both both(m);
+  Program p;
+  both.on_event({EventKind::spindle, 0, 10.0});
+  p.line(20, 0, 0.1);
+  p.moves.back().feed_mode = interpret::FeedMode::per_revolution;
+  p.moves.back().spindle_rev_s = 10.0;
+  both.on_move(p.moves.back());
+  both.on_event({EventKind::spindle, 0, 20.0});
+  p.line(40, 0, 0.1);
+  p.moves.back().feed_mode = interpret::FeedMode::per_revolution;
+  p.moves.back().spindle_rev_s = 20.0;
+  both.on_move(p.moves.back());
+  const auto d = both.difference();
+  EXPECT_NEAR(d.total_s, 20.0 + 10.0 + 3.8, 0.4);
+  expect_near(d, 0.001, 0.02, "per revolution");
+}
+
+TEST(SegmentTimer, RefusesWhatThePlannerRefusesAndWhatNeverEnds) {
+  const auto m = mill();
+  auto without_feed = SegmentTimer::make(m).value();
+  Program p;
+  p.line(10, 0, 0.0);
+  without_feed.on_move(p.moves[0]);
+  EXPECT_FALSE(without_feed.take().has_value());
+
+  auto endless = SegmentTimer::make(m).value();
+  Program slow;
+  slow.line(1000, 0, 1e-4);
+  endless.on_move(slow.moves[0]);
+  const auto refused = endless.take();
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().what.find("30 days"), std::string::npos);
+
+  auto blind = m;
+  blind.control.look_ahead_blocks = 0;
+  EXPECT_FALSE(SegmentTimer::make(blind).has_value());
+}
+
+}  // namespace
+}  // namespace steadyrest::nc::plan

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <steadyrest/nc/read/letter/expression.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
+#include <steadyrest/nc/read/text/name.hpp>
+#include <steadyrest/nc/read/text/number.hpp>
+
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr double kEqual =
+    1e-4;  // LinuxCNC: EQ, NE, and how far an index may be from a whole number
+
+constexpr char lower(char c) noexcept {
+  return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
+}
+
+constexpr int kWeakest = 1;  // AND OR XOR
+
+}  // namespace
+
+enum class Expression::Operator : unsigned char {
+  power,
+  times,
+  over,
+  modulo,
+  plus,
+  minus,
+  eq,
+  ne,
+  gt,
+  ge,
+  lt,
+  le,
+  both,
+  either,
+  one
+};
+
+constexpr std::array<Sign<Expression::Operator>, 15> Expression::kSigns = {{
+    {"**", Operator::power, 5},
+    {"*", Operator::times, 4},
+    {"/", Operator::over, 4},
+    {"MOD", Operator::modulo, 4},
+    {"+", Operator::plus, 3},
+    {"-", Operator::minus, 3},
+    {"EQ", Operator::eq, 2},
+    {"NE", Operator::ne, 2},
+    {"GT", Operator::gt, 2},
+    {"GE", Operator::ge, 2},
+    {"LT", Operator::lt, 2},
+    {"LE", Operator::le, 2},
+    {"AND", Operator::both, 1},
+    {"OR", Operator::either, 1},
+    {"XOR", Operator::one, 1},
+}};
+
+const char* read_name(const char* at, const char* end, Name& name) noexcept {
+  name.clear();
+  for (++at; at != end && *at != '>'; ++at) {
+    if (!is_blank(*at) && (is_control(*at) || !name.push(lower(*at)))) {
+      return nullptr;
+    }
+  }
+  return at == end || name.view().empty() ? nullptr : at + 1;
+}
+
+bool Expression::read(double& out) {
+  return operand(out);
+}
+
+bool Expression::operand(double& out) {
+  bool negative = false;
+  for (char c = peek(); c == '+' || c == '-'; c = peek()) {
+    negative ^= c == '-';
+    ++at_;
+  }
+  const char c = peek();
+  const bool read =
+      c == '['                  ? bracket(out)
+      : c == '#'                ? parameter(out)
+      : is_digit(c) || c == '.' ? spaced_number(out)
+      : is_letter(c)
+          ? function(out)
+          : fail("missing_value", "a value is missing: a number, a parameter or [ ] belongs here");
+  if (read && negative) {
+    out = -out;
+  }
+  // The control looks at whole values only: 4 MOD 0 inside of a comparison is let through.
+  return read && finite(out);
+}
+
+bool Expression::spaced_number(double& out) {
+  const Number number = read_number({at_, static_cast<std::size_t>(end_ - at_)});
+  const char* const after = at_ + number.length;
+  const char* look = after;
+  while (look != end_ && is_blank(*look)) {
+    ++look;
+  }
+  if (number.length != 0 && (look == after || look == end_ || !(is_digit(*look) || *look == '.'))) {
+    at_ = after;
+    out = number.value;
+    return true;
+  }
+  std::array<char, 256> packed{};
+  std::size_t length = 0;
+  for (; at_ != end_ && length < packed.size(); ++at_) {
+    if (is_digit(*at_) || *at_ == '.') {
+      packed[length++] = *at_;
+    } else if (!is_blank(*at_)) {
+      break;
+    }
+  }
+  const Number whole = read_number({packed.data(), length});
+  out = whole.value;
+  return (whole.length != 0 && whole.length == length) ||
+         fail("bad_number", "not a number; write digits and one point");
+}
+
+bool Expression::bracket(double& out) {
+  if (++depth_ > kDeepest) {
+    return fail("expression_too_deep", "brackets nested more than 64 deep");
+  }
+  ++at_;
+  if (!climb(out, kWeakest)) {
+    return false;
+  }
+  if (peek() != ']') {
+    return fail("unclosed_expression", at_ == end_
+                                           ? "an expression that is not closed; write ] at its end"
+                                           : "an operator or ] belongs here");
+  }
+  ++at_;
+  --depth_;
+  return true;
+}
+
+bool Expression::apply(Operator op, double& left, double right) {
+  const double a = left;
+  const auto truth = [](bool yes) { return yes ? 1.0 : 0.0; };
+  const double apart = std::abs(a - right);  // NaN behind 4 MOD 0: neither EQ nor NE
+  switch (op) {
+    case Operator::power:
+      if (a < 0.0 && right != std::floor(right)) {
+        return fail("not_finite", "a negative number to a power that is not whole");
+      }
+      left = std::pow(a, right);
+      break;
+    case Operator::times:
+      left = a * right;
+      break;
+    case Operator::over:
+      if (right == 0.0) {
+        return fail("division_by_zero", "a division by zero");
+      }
+      left = a / right;
+      break;
+    case Operator::modulo:
+      left = std::fmod(a, right);
+      left += left < 0.0 ? std::abs(right) : 0.0;
+      break;
+    case Operator::plus:
+      left = a + right;
+      break;
+    case Operator::minus:
+      left = a - right;
+      break;
+    case Operator::eq:
+      left = truth(apart < kEqual);
+      break;
+    case Operator::ne:
+      left = truth(apart >= kEqual);
+      break;
+    case Operator::gt:
+      left = truth(a > right);
+      break;
+    case Operator::ge:
+      left = truth(a >= right);
+      break;
+    case Operator::lt:
+      left = truth(a < right);
+      break;
+    case Operator::le:
+      left = truth(a <= right);
+      break;
+    case Operator::both:
+      left = truth(a != 0.0 && right != 0.0);
+      break;
+    case Operator::either:
+      left = truth(a != 0.0 || right != 0.0);
+      break;
+    case Operator::one:
+      left = truth((a != 0.0) != (right != 0.0));
+      break;
+  }
+  return true;
+}
+
+bool Expression::parameter_number(int& index) {
+  double number = 0.0;
+  if (++depth_ > kDeepest) {
+    return fail("expression_too_deep", "parameters nested more than 64 deep");
+  }
+  if (!operand(number)) {
+    return false;
+  }
+  --depth_;
+  const double whole = std::round(number);
+  if (!(std::abs(number - whole) <= kEqual)) {
+    return fail("not_an_integer", "a parameter's number that is not a whole number");
+  }
+  if (!(std::abs(whole) < 1e9)) {
+    return fail("no_such_parameter", "a parameter that the control has not");
+  }
+  index = static_cast<int>(whole);
+  return true;
+}
+
+bool Expression::looked_up(Lookup lookup) {
+  switch (lookup) {
+    case Lookup::found:
+      return true;
+    case Lookup::no_such_number:
+      return fail("no_such_parameter", "a parameter that the control has not");
+    case Lookup::no_such_name:
+      return fail("unset_parameter",
+                  "a named parameter that was never set; set it before, or ask EXISTS");
+    case Lookup::read_only:
+      return fail("read_only_parameter", "a parameter that cannot be set");
+    case Lookup::not_while_compensating:
+      return fail("position_in_cutter_comp",
+                  "the present position while cutter radius compensation is on");
+    case Lookup::assigned_in_block:
+    case Lookup::not_known_here:
+      break;
+  }
+  return fail("parameter_of_the_machine", "a parameter whose value only the running control knows");
+}
+
+bool Expression::parameter(double& out) {
+  ++at_;
+  if (peek() == '<') {
+    Name name;
+    const char* const after = read_name(at_, end_, name);
+    if (after == nullptr) {
+      return fail("bad_parameter", "a parameter's name that is empty, too long or not closed by >");
+    }
+    at_ = after;
+    return looked_up(values_.name(name.view(), out));
+  }
+  int index = 0;
+  return parameter_number(index) && looked_up(values_.number(index, out));
+}
+
+}  // namespace steadyrest::nc::read

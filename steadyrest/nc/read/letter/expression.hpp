@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include <steadyrest/nc/read/text/climber.hpp>
+#include <steadyrest/nc/read/text/values.hpp>
+
+namespace steadyrest::nc::read {
+
+/// Real values of the dialects with `#` and `[ ]` (`linuxcnc`, `fanuc`), at a place in a line:
+/// a number, `#5`, `#<name>`, `##5`, `#[…]`, `[…]`, a function `SIN[…]`, `ATAN[y]/[x]`,
+/// `EXISTS[#<name>]`, each with signs before it.
+///
+/// Law as LinuxCNC 2.9's interpreter shows it (rs274, by experiment): all operators are
+/// left-associative; from strong to weak `**`; `* / MOD`; `+ -`; `EQ NE GT GE LT LE`;
+/// `AND OR XOR`; a sign binds to its value before all of them. EQ and NE hold two numbers for
+/// equal that differ by less than 0.0001. Angles are degrees. MOD has the sign of a positive
+/// number. A result that is not finite is refused. Blanks have no meaning, between the digits of a
+/// number neither. Nesting is bounded by `kDeepest`. Never allocates.
+class Expression : public Climber<Expression> {
+ public:
+  static constexpr int kDeepest = 64;
+
+  /// `values` answers for parameters; both outlive the object.
+  Expression(std::string_view line, std::size_t at, const Values& values) noexcept
+      : Climber(line, at, values) {}
+
+  /// Reads one real value. False when it is refused: see reason() and text().
+  bool read(double& out);
+  /// Reads what stands between # and = : the number of a parameter, or its name when `<` follows.
+  bool parameter_number(int& index);
+
+ private:
+  friend class Climber<Expression>;
+  enum class Operator : unsigned char;
+  static const std::array<Sign<Operator>, 15> kSigns;
+  static constexpr bool kBlanksWithin = true;
+  static constexpr char kClosing = ']';
+  bool operand(double& out);
+  bool bracket(double& out);
+  bool apply(Operator op, double& left, double right);
+  bool function(double& out);
+  bool named_function(std::string_view name, double& out);
+  bool arc_tangent(double& out);
+  bool exists(double& out);
+  bool parameter(double& out);
+  bool spaced_number(double& out);
+  bool looked_up(Lookup lookup);
+};
+
+}  // namespace steadyrest::nc::read

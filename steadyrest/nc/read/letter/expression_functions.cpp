@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <steadyrest/nc/read/letter/expression.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
+#include <steadyrest/nc/read/text/name.hpp>
+
+// The functions of expressions: SIN[…], ATAN[y]/[x], EXISTS[#<name>] …
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
+bool Expression::function(double& out) {
+  std::array<char, 8> name{};
+  std::size_t length = 0;
+  const char* const first = at_;
+  for (char c = peek(); is_letter(c) && length < name.size(); c = peek()) {
+    name[length++] = c;
+    ++at_;
+  }
+  const std::string_view text{name.data(), length};
+  if (peek() != '[') {
+    at_ = first;
+    return fail("missing_value", "a value is missing: a number, a parameter or [ ] belongs here");
+  }
+  return text == "EXISTS" ? exists(out)
+         : text == "ATAN" ? arc_tangent(out)
+                          : named_function(text, out);
+}
+
+bool Expression::named_function(std::string_view name, double& out) {
+  double x = 0.0;
+  if (!bracket(x)) {
+    return false;
+  }
+  const auto domain = [&](bool inside, std::string_view text) {
+    return inside || fail("out_of_domain", text);
+  };
+  if (name == "ABS") {
+    out = std::abs(x);
+  } else if (name == "ACOS" || name == "ASIN") {
+    if (!domain(x >= -1.0 && x <= 1.0, "ASIN or ACOS of a number beyond -1 to 1")) {
+      return false;
+    }
+    out = (name == "ACOS" ? std::acos(x) : std::asin(x)) / kDegree;
+  } else if (name == "COS") {
+    out = std::cos(x * kDegree);
+  } else if (name == "EXP") {
+    out = std::exp(x);
+  } else if (name == "FIX") {
+    out = std::floor(x);
+  } else if (name == "FUP") {
+    out = std::ceil(x);
+  } else if (name == "LN") {
+    if (!domain(x > 0.0, "LN of a number that is not above zero")) {
+      return false;
+    }
+    out = std::log(x);
+  } else if (name == "ROUND") {
+    out = std::round(x);
+  } else if (name == "SIN") {
+    out = std::sin(x * kDegree);
+  } else if (name == "SQRT") {
+    if (!domain(x >= 0.0, "SQRT of a negative number")) {
+      return false;
+    }
+    out = std::sqrt(x);
+  } else if (name == "TAN") {
+    out = std::tan(x * kDegree);
+  } else {
+    return fail("unknown_function",
+                "a function that is not known; ABS ACOS ASIN ATAN COS EXISTS EXP FIX "
+                "FUP LN ROUND SIN SQRT TAN are");
+  }
+  return finite(out);
+}
+
+bool Expression::arc_tangent(double& out) {
+  double y = 0.0;
+  double x = 0.0;
+  if (!bracket(y)) {
+    return false;
+  }
+  if (peek() != '/') {
+    return fail("bad_function", "ATAN takes two values: ATAN[y]/[x]");
+  }
+  ++at_;
+  if (peek() != '[') {
+    return fail("bad_function", "ATAN takes two values: ATAN[y]/[x]");
+  }
+  if (!bracket(x)) {
+    return false;
+  }
+  out = std::atan2(y, x) / kDegree;
+  return finite(out);
+}
+
+bool Expression::exists(double& out) {
+  constexpr std::string_view kText = "EXISTS takes a parameter: EXISTS[#<name>]";
+  ++at_;
+  if (peek() != '#') {
+    return fail("bad_function", kText);
+  }
+  ++at_;
+  double ignored = 0.0;
+  if (peek() == '<') {
+    Name name;
+    const char* const after = read_name(at_, end_, name);
+    if (after == nullptr) {
+      return fail("bad_parameter", "a parameter's name that is empty, too long or not closed by >");
+    }
+    at_ = after;
+    out = values_.name(name.view(), ignored) == Lookup::found ? 1.0 : 0.0;
+  } else {
+    int index = 0;
+    if (!parameter_number(index)) {
+      return false;
+    }
+    out = values_.number(index, ignored) == Lookup::found ? 1.0 : 0.0;
+  }
+  if (peek() != ']') {
+    return fail("bad_function", kText);
+  }
+  ++at_;
+  return true;
+}
+
+}  // namespace steadyrest::nc::read

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <steadyrest/nc/read/letter/letter_line.hpp>
+#include <steadyrest/nc/read/letter/macro_expression.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
+
+// What custom macros add to a line of the dialect `fanuc`.
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr std::array<std::string_view, 11> kKeywords = {
+    "IF", "THEN", "GOTO", "WHILE", "DO", "END", "SETVN", "POPEN", "PCLOS", "DPRNT", "BPRNT"};
+
+}  // namespace
+
+// False when a statement that begins with a word of several letters stands here.
+bool LetterLine::macro_keyword() {
+  if (at_ + 1 == end_ || !is_letter(at_[1])) {
+    return true;
+  }
+  const char* stop = at_;
+  while (stop != end_ && is_letter(*stop)) {
+    ++stop;
+  }
+  const std::string_view letters{at_, static_cast<std::size_t>(stop - at_)};
+  const auto same = [&](std::string_view keyword) {
+    return std::ranges::equal(letters, keyword, {}, upper);
+  };
+  const auto* const found = std::ranges::find_if(kKeywords, same);
+  if (found == kKeywords.end()) {
+    return true;
+  }
+  at_ = end_;
+  constexpr std::size_t kFlow = 6;  // the keywords before are of flow control
+  return found - kKeywords.begin() < static_cast<std::ptrdiff_t>(kFlow)
+             ? refuse(letters, "flow_control",
+                      "a jump, condition or loop of a custom macro is not interpreted")
+             : refuse(letters, "macro_output", "the output of a custom macro is not interpreted");
+}
+
+// A value that is no plain number: `X#5`, `X[…]`, `X-#5`. It is rounded to what the address takes.
+bool LetterLine::macro_value(const char* word_begin, Word& word) {
+  const double increment = reading_.values->increment(word.letter);
+  MacroExpression expression(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values,
+                             increment);
+  const bool read = expression.read(word.value);
+  at_ += expression.length();
+  if (!read) {
+    return refuse(since(word_begin), expression.reason(), expression.text());
+  }
+  if (increment > 0.0) {
+    word.value = std::round(word.value / increment) * increment;
+  }
+  word.decimal_point = true;  // a calculated value is in units, never in increments
+  word.calculated = true;
+  return true;
+}
+
+// `#5 = …`; `#5 = #0` makes #5 vacant.
+bool LetterLine::macro_statement() {
+  const char* const from = at_++;
+  if (assigned_ || !block_.words().empty() || block_.flow().kind != FlowKind::none) {
+    at_ = end_;
+    return refuse(since(from), "macro_statement",
+                  "an assignment stands in a block of its own in this dialect");
+  }
+  int index = 0;
+  MacroExpression number(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values, 1.0);
+  const bool numbered = number.variable_number(index);
+  at_ += number.length();
+  if (!numbered) {
+    return refuse(since(from), number.reason(), number.text());
+  }
+  skip_blanks();
+  if (at_ == end_ || *at_ != '=') {
+    return refuse(since(from), "bad_assignment", "a variable in front of nothing; write #5=2");
+  }
+  ++at_;
+  skip_blanks();
+  double value = 0.0;
+  const bool vacant = end_ - at_ >= 2 && at_[0] == '#' && at_[1] == '0' &&
+                      (end_ - at_ == 2 || is_blank(at_[2]) || at_[2] == ';' || at_[2] == '(');
+  if (vacant) {
+    at_ += 2;
+    value = std::numeric_limits<double>::quiet_NaN();
+  } else {
+    MacroExpression right(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values, 1.0);
+    const bool read = right.read_sum(value);
+    at_ += right.length();
+    if (!read) {
+      return refuse(since(from), right.reason(), right.text());
+    }
+  }
+  assigned_ = true;
+  const Lookup lookup = reading_.values->set_number(index, value);
+  const LookupText why = macro_lookup_text(lookup);
+  return lookup == Lookup::found || refuse(since(from), why.reason, why.text);
+}
+
+}  // namespace steadyrest::nc::read

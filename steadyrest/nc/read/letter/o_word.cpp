@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <steadyrest/nc/read/letter/expression.hpp>
+#include <steadyrest/nc/read/letter/o_word.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
+#include <steadyrest/nc/read/text/name.hpp>
+
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr char lower(char c) noexcept {
+  return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
+}
+
+/// How many values follow a keyword.
+enum class Takes : unsigned char { nothing, one, perhaps_one, any };
+
+struct Keyword {
+  std::string_view name;
+  FlowKind kind;
+  Takes takes;
+};
+constexpr std::array kKeywords = {
+    Keyword{"sub", FlowKind::sub, Takes::any},
+    Keyword{"endsub", FlowKind::endsub, Takes::perhaps_one},
+    Keyword{"return", FlowKind::back, Takes::perhaps_one},
+    Keyword{"call", FlowKind::call, Takes::any},
+    Keyword{"if", FlowKind::when, Takes::one},
+    Keyword{"elseif", FlowKind::elseif, Takes::one},
+    Keyword{"else", FlowKind::otherwise, Takes::nothing},
+    Keyword{"endif", FlowKind::endif, Takes::nothing},
+    Keyword{"while", FlowKind::loop_while, Takes::one},
+    Keyword{"endwhile", FlowKind::endwhile, Takes::nothing},
+    Keyword{"do", FlowKind::loop_do, Takes::nothing},
+    Keyword{"repeat", FlowKind::repeat, Takes::one},
+    Keyword{"endrepeat", FlowKind::endrepeat, Takes::nothing},
+    Keyword{"break", FlowKind::leave_loop, Takes::nothing},
+    Keyword{"continue", FlowKind::next_turn, Takes::nothing},
+};
+
+constexpr Takes takes(FlowKind kind) noexcept {
+  for (const Keyword& keyword : kKeywords) {
+    if (keyword.kind == kind) {
+      return keyword.takes;
+    }
+  }
+  return Takes::nothing;
+}
+
+}  // namespace
+
+std::size_t o_word_at(std::string_view line) noexcept {
+  std::size_t at = 0;
+  const auto skip = [&](auto unwanted) {
+    while (at < line.size() && unwanted(line[at])) {
+      ++at;
+    }
+  };
+  skip([](char c) { return is_blank(c) || c == '/'; });
+  if (at < line.size() && upper(line[at]) == 'N') {
+    ++at;
+    skip([](char c) { return is_blank(c) || is_digit(c) || c == '.'; });
+  }
+  return at < line.size() && upper(line[at]) == 'O' ? at + 1 : 0;
+}
+
+bool OWord::fail(std::string_view reason, std::string_view text) noexcept {
+  reason_ = reason;
+  text_ = text;
+  return false;
+}
+
+char OWord::peek() noexcept {
+  while (at_ < line_.size() && is_blank(line_[at_])) {
+    ++at_;
+  }
+  return at_ < line_.size() ? lower(line_[at_]) : '\0';
+}
+
+bool OWord::value(double& out) {
+  Expression expression(line_, at_, values_);
+  const bool read = expression.read(out);
+  at_ += expression.length();
+  return read || fail(expression.reason(), expression.text());
+}
+
+bool OWord::read(Flow& flow, bool evaluate) {
+  flow.kind = FlowKind::none;
+  flow.count = 0;
+  if (!label(flow) || !keyword(flow)) {
+    return false;
+  }
+  return !evaluate || arguments(flow);
+}
+
+bool OWord::label(Flow& flow) {
+  constexpr std::string_view kText =
+      "an O-word without its label; write O and a whole number, or O<name>";
+  flow.label.clear();
+  const char first = peek();
+  if (first == '<') {
+    const char* const after =
+        read_name(line_.data() + at_, line_.data() + line_.size(), flow.label);
+    if (after == nullptr) {
+      return fail("o_word", "an O-word's name that is empty, too long or not closed by >");
+    }
+    at_ = static_cast<std::size_t>(after - line_.data());
+    return true;
+  }
+  double number = 0.0;
+  if (is_digit(first)) {
+    for (char c = peek(); is_digit(c); c = peek()) {
+      number = number * 10.0 + (c - '0');
+      ++at_;
+    }
+  } else if (first != '#' && first != '[') {
+    return fail("o_word", kText);
+  } else if (!value(number)) {
+    return false;
+  }
+  const double whole = std::round(number);
+  if (!(std::abs(number - whole) < 1e-4) || !(whole >= 0.0 && whole < 1e9)) {
+    return fail("o_word", "an O-word whose label is not a whole number from 0");
+  }
+  std::array<char, 16> digits{};
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<long>(whole)).ptr;
+  for (const char* at = digits.data(); at != end; ++at) {
+    flow.label.push(*at);
+  }
+  return true;
+}
+
+bool OWord::keyword(Flow& flow) {
+  std::array<char, 12> name{};
+  std::size_t length = 0;
+  for (char c = peek(); is_letter(c) && length < name.size(); c = peek()) {
+    name[length++] = c;
+    ++at_;
+  }
+  if (length == 0) {
+    flow.kind = FlowKind::label;
+    return true;
+  }
+  for (const Keyword& keyword : kKeywords) {
+    if (keyword.name == std::string_view{name.data(), length}) {
+      flow.kind = keyword.kind;
+      return true;
+    }
+  }
+  return fail("o_word",
+              "an O-word whose keyword is not known; sub endsub return call if elseif else endif "
+              "while endwhile do repeat endrepeat break continue are");
+}
+
+bool OWord::arguments(Flow& flow) {
+  const Takes wanted = takes(flow.kind);
+  if (wanted == Takes::nothing) {
+    return true;
+  }
+  while (peek() == '[') {
+    if (flow.count == (wanted == Takes::any ? Flow::kMostArguments : 1)) {
+      return wanted == Takes::any ? fail("o_word", "more than 30 arguments") : true;
+    }
+    if (!value(flow.values[flow.count])) {
+      return false;
+    }
+    ++flow.count;
+  }
+  return wanted != Takes::one || flow.count == 1 ||
+         fail("o_word", "this O-word needs a value in [ ]: a condition or a count");
+}
+
+}  // namespace steadyrest::nc::read

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstddef>
+
+#include <steadyrest/nc/read/sinumerik/sinumerik_expression.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_line.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
+#include <steadyrest/nc/read/text/number.hpp>
+
+// Variables, definitions, calls of subprograms and cycles of the dialect `sinumerik`.
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr bool in_name(char c) noexcept {
+  return is_letter(c) || is_digit(c) || c == '_';
+}
+constexpr std::string_view kOwnBlock = "a call or definition stands in a block of its own";
+
+}  // namespace
+
+char SinumerikLine::next() noexcept {
+  skip_blanks();
+  return at_ == end_ || *at_ == ';' ? '\0' : upper(*at_);
+}
+
+std::string_view SinumerikLine::letters() noexcept {
+  skip_blanks();
+  const char* const first = at_;
+  while (at_ != end_ && in_name(*at_)) {
+    ++at_;
+  }
+  return since(first);
+}
+
+bool SinumerikLine::calculated(const char* word_begin, double& out) {
+  if (reading_.values == nullptr) {
+    return refuse_value(word_begin);
+  }
+  if (next() == '\0') {
+    return refuse(since(word_begin), "missing_value", "an address without its value");
+  }
+  SinumerikExpression expression({begin_, static_cast<std::size_t>(end_ - begin_)},
+                                 static_cast<std::size_t>(at_ - begin_), *reading_.values);
+  const bool read = expression.read(out);
+  at_ += expression.length();
+  return read || refuse(since(word_begin), expression.reason(), expression.text());
+}
+
+/// What begins with this name, when it is a statement and no word; `done` then.
+bool SinumerikLine::statement(const char* word_begin, std::string_view name, bool& done) {
+  if (reading_.typed_values == nullptr || known_name(name)) {
+    return true;
+  }
+  done = true;
+  if (equal(name, "DEF")) {
+    return done = definition(word_begin);
+  }
+  if (equal(name, "PROC")) {
+    return done = head_of_subprogram(word_begin);
+  }
+  if (equal(name, "EXTERN")) {
+    return done = declaration(word_begin);
+  }
+  if (equal(name, "MCALL")) {
+    return done = modal_call(word_begin);
+  }
+  if (equal(name, "SETMS")) {
+    return done = master_spindle(word_begin);
+  }
+  Name variable;
+  double ignored = 0.0;
+  if (lower_name(name, variable) &&
+      reading_.values->name(variable.view(), ignored) != Lookup::no_such_name) {
+    return done = variable_assignment(word_begin, variable.view());
+  }
+  const char after = next();
+  if (refused_name(name) != nullptr || after == '=' || after == '[' || !block_.words().empty()) {
+    done = false;  // refused as a word
+    return true;
+  }
+  const bool cycle = name.size() > 5 && equal(name.substr(0, 5), "CYCLE");
+  return done = call(word_begin, name, cycle ? FlowKind::cycle : FlowKind::call);
+}
+
+bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
+  const std::string_view name = letters();
+  if (equal(name, "REAL") || equal(name, "INT") || equal(name, "BOOL")) {
+    type = equal(name, "REAL")  ? ValueType::real
+           : equal(name, "INT") ? ValueType::integer
+                                : ValueType::boolean;
+    return true;
+  }
+  return refuse(since(word_begin), "definition",
+                "a variable or parameter of a type that is not interpreted; REAL, INT and BOOL "
+                "are (no VAR, CHAR, STRING, AXIS, FRAME, SYN…)");
+}
+
+bool SinumerikLine::variable_name(const char* word_begin, Name& name) {
+  const std::string_view written = letters();
+  const bool starts = written.size() >= 2 && !is_digit(written[0]) && !is_digit(written[1]);
+  if (!starts || written.size() > 31 || known_name(written) || refused_name(written) != nullptr ||
+      !lower_name(written, name)) {
+    return refuse(since(word_begin), "bad_name",
+                  "the name of a variable: two letters or underscores first, at most 31 "
+                  "characters, no word of the language");
+  }
+  if (next() == '[') {
+    return refuse(since(word_begin), "array", "an array of variables is not interpreted");
+  }
+  return true;
+}
+
+// DEF REAL A, B=2.5
+bool SinumerikLine::definition(const char* word_begin) {
+  ValueType type{};
+  if (!block_.words().empty() || assigned_) {
+    return refuse(since(word_begin), "definition", kOwnBlock);
+  }
+  if (!value_type(word_begin, type)) {
+    return false;
+  }
+  do {
+    at_ += next() == ',' ? 1 : 0;
+    Name name;
+    double value = 0.0;
+    if (!variable_name(word_begin, name)) {
+      return false;
+    }
+    if (next() == '=') {
+      ++at_;
+      if (!calculated(word_begin, value)) {
+        return false;
+      }
+    }
+    if (!reading_.typed_values->define(name.view(), type, value)) {
+      return refuse(since(word_begin), "definition", "a variable that is defined already");
+    }
+  } while (next() == ',');
+  return next() == '\0' || refuse(since(word_begin), "definition", kOwnBlock);
+}
+
+bool SinumerikLine::parameter_of_subprogram(const char* word_begin, std::size_t place) {
+  ValueType type{};
+  Name name;
+  double otherwise = 0.0;
+  if (!value_type(word_begin, type)) {
+    return false;
+  }
+  skip_blanks();
+  const std::string_view written = letters();  // one letter is allowed here
+  if (written.empty() || is_digit(written[0]) || !lower_name(written, name) || next() == '[') {
+    return refuse(since(word_begin), "bad_name", "a parameter without a name, or an array");
+  }
+  if (next() == '=') {
+    ++at_;
+    if (!calculated(word_begin, otherwise)) {
+      return false;
+    }
+  }
+  return reading_.typed_values->define_argument(name.view(), type, place, otherwise) ||
+         refuse(since(word_begin), "definition", "a parameter that is defined already");
+}
+
+// PROC NAME(REAL A, INT B=3)
+bool SinumerikLine::head_of_subprogram(const char* word_begin) {
+  if (letters().empty()) {
+    return refuse(since(word_begin), "definition", "PROC without the subprogram's name");
+  }
+  if (next() == '(') {
+    ++at_;
+    for (std::size_t place = 0; next() != ')'; ++place) {
+      if (place > 0) {
+        if (next() != ',') {
+          return refuse(since(word_begin), "definition", "a , or ) is missing");
+        }
+        ++at_;
+      }
+      if (!parameter_of_subprogram(word_begin, place)) {
+        return false;
+      }
+    }
+    ++at_;
+  }
+  while (next() != '\0') {
+    const std::string_view attribute = letters();
+    if (!equal(attribute, "DISPLOF") && !equal(attribute, "DISPLON")) {
+      at_ += attribute.empty() ? 1 : 0;
+      return refuse(since(word_begin), "definition",
+                    "an attribute of a subprogram that is not interpreted (SAVE, SBLOF …)");
+    }
+  }
+  return true;
+}
+
+// EXTERN says only which parameters a subprogram has; PROC says it again.
+bool SinumerikLine::declaration(const char* word_begin) {
+  at_ = end_;
+  return block_.words().empty() || refuse(since(word_begin), "definition", kOwnBlock);
+}
+
+bool SinumerikLine::assign(const char* word_begin, Lookup lookup) {
+  if (!block_.words().empty()) {
+    return refuse(since(word_begin), "assignment_and_words",
+                  "the assignment of a variable beside other words; write two blocks");
+  }
+  assigned_ = true;
+  const SinumerikLookup why = sinumerik_lookup_text(lookup);
+  return lookup == Lookup::found || refuse(since(word_begin), why.reason, why.text);
+}
+
+// R1=…, R[…]=…; at_ stands behind the R.
+bool SinumerikLine::parameter_assignment(const char* word_begin) {
+  double index = 0.0;
+  if (next() == '[') {
+    ++at_;
+    if (!calculated(word_begin, index)) {
+      return false;
+    }
+    if (next() != ']') {
+      return refuse(since(word_begin), "unclosed_expression", "R[ that is not closed by ]");
+    }
+    ++at_;
+  } else {
+    const Number number = read_number(rest());
+    if (number.length == 0 || number.decimal_point || !is_digit(*at_)) {
+      return refuse(since(word_begin), "missing_value", "an R-parameter without its number");
+    }
+    index = number.value;
+    at_ += number.length;
+  }
+  if (next() != '=') {
+    return refuse(since(word_begin), "bad_assignment",
+                  "an R-parameter in front of nothing; write R1=5 or X=R1");
+  }
+  ++at_;
+  double value = 0.0;
+  if (!calculated(word_begin, value)) {
+    return false;
+  }
+  const bool whole =
+      index >= 0.0 && index < 1e6 && index == static_cast<double>(static_cast<int>(index));
+  return assign(word_begin, whole ? reading_.values->set_number(static_cast<int>(index), value)
+                                  : Lookup::no_such_number);
+}
+
+bool SinumerikLine::variable_assignment(const char* word_begin, std::string_view name) {
+  if (next() != '=') {
+    return refuse(since(word_begin), "bad_assignment", "a variable in front of nothing");
+  }
+  ++at_;
+  double value = 0.0;
+  return calculated(word_begin, value) &&
+         assign(word_begin, reading_.values->set_name(name, value));
+}
+
+// NAME, NAME(1,,R2), L100; the repeats (P) follow as a word of their own.
+bool SinumerikLine::call(const char* word_begin, std::string_view name, FlowKind kind) {
+  Flow& flow = block_.flow();
+  if (!block_.words().empty() || assigned_) {
+    return refuse(since(word_begin), "subprogram_call", kOwnBlock);
+  }
+  flow.label.clear();
+  for (const char c : name) {
+    if (!flow.label.push(c)) {
+      return refuse(since(word_begin), "bad_name", "a name that is too long");
+    }
+  }
+  flow.kind = kind;
+  flow.count = 0;
+  flow.given = 0;
+  flow.repeats = 1.0;
+  return next() != '(' || call_values(word_begin);
+}
+
+bool SinumerikLine::call_values(const char* word_begin) {
+  Flow& flow = block_.flow();
+  ++at_;
+  if (next() == ')') {
+    ++at_;
+    return true;
+  }
+  for (;;) {
+    if (flow.count == Flow::kMostArguments) {
+      return refuse(since(word_begin), "subprogram_call", "more than 30 values");
+    }
+    const char c = next();
+    if (c == '"') {
+      at_ = end_;
+      return refuse(since(word_begin), "subprogram_call", "a string as value of a call");
+    }
+    if (c != ',' && c != ')') {
+      if (!calculated(word_begin, flow.values[flow.count])) {
+        return false;
+      }
+      flow.given |= std::uint32_t{1} << flow.count;
+    }
+    ++flow.count;
+    const char after = next();
+    if (after != ',' && after != ')') {
+      return refuse(since(word_begin), "unclosed_expression", "a call that is not closed by )");
+    }
+    ++at_;
+    if (after == ')') {
+      return true;
+    }
+  }
+}
+
+// Behind a call: P3.
+bool SinumerikLine::repeats(const char* word_begin) {
+  Flow& flow = block_.flow();
+  const bool p = flow.kind == FlowKind::call && upper(*at_) == 'P' && flow.repeats == 1.0;
+  ++at_;
+  double value = 0.0;
+  if (p) {
+    at_ += next() == '=' ? 1 : 0;
+    if (!calculated(word_begin, value)) {
+      return false;
+    }
+  }
+  if (!p) {
+    at_ = end_;
+    return refuse(since(word_begin), "subprogram_call", kOwnBlock);
+  }
+  if (!(value >= 1.0 && value <= 9999.0) || value != static_cast<double>(static_cast<int>(value))) {
+    return refuse(since(word_begin), "out_of_range",
+                  "repeats (P) are a whole number from 1 to 9999");
+  }
+  flow.repeats = value;
+  return true;
+}
+
+// MCALL CYCLE81(…), MCALL.
+bool SinumerikLine::modal_call(const char* word_begin) {
+  if (!block_.words().empty() || assigned_) {
+    return refuse(since(word_begin), "modal_call", kOwnBlock);
+  }
+  const std::string_view name = letters();
+  if (!name.empty() && !(name.size() > 5 && equal(name.substr(0, 5), "CYCLE"))) {
+    return refuse(since(word_begin), "modal_call",
+                  "a modal call (MCALL) of a subprogram; cycles alone are interpreted");
+  }
+  return call(word_begin, name, FlowKind::modal_cycle);
+}
+
+// SETMS, SETMS(1): one spindle is known, and it is the master.
+bool SinumerikLine::master_spindle(const char* word_begin) {
+  double number = 1.0;
+  if (next() == '(') {
+    ++at_;
+    if (next() != ')' && !calculated(word_begin, number)) {
+      return false;
+    }
+    if (next() != ')') {
+      return refuse(since(word_begin), "unclosed_expression", "SETMS( that is not closed by )");
+    }
+    ++at_;
+  }
+  return number == 1.0 || refuse(since(word_begin), "spindle_selection",
+                                 "another master spindle (SETMS) than the first");
+}
+
+}  // namespace steadyrest::nc::read

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <system_error>
+
+#include <steadyrest/nc/read/sinumerik/sinumerik_expression.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
+#include <steadyrest/nc/read/text/name.hpp>
+#include <steadyrest/nc/read/text/number.hpp>
+
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr double kEqual = 1e-12;  // the manual: relative equality of the comparisons
+constexpr int kComparison = 0;
+constexpr int kStrongest = 9;
+
+constexpr bool in_name(char c) noexcept {
+  return is_letter(c) || is_digit(c) || c == '_';
+}
+bool whole(double x) noexcept {
+  return x == std::floor(x);
+}
+
+}  // namespace
+
+enum class SinumerikExpression::Operator : unsigned char {
+  times,
+  over,
+  div,
+  mod,
+  plus,
+  minus,
+  bit_and,
+  bit_xor,
+  bit_or,
+  both,
+  one,
+  either,
+  eq,
+  ne,
+  le,
+  ge,
+  lt,
+  gt
+};
+
+constexpr std::array<Sign<SinumerikExpression::Operator>, 18> SinumerikExpression::kSigns = {{
+    {"*", Operator::times, 8},
+    {"/", Operator::over, 8},
+    {"DIV", Operator::div, 8},
+    {"MOD", Operator::mod, 8},
+    {"+", Operator::plus, 7},
+    {"-", Operator::minus, 7},
+    {"B_AND", Operator::bit_and, 6},
+    {"B_XOR", Operator::bit_xor, 5},
+    {"B_OR", Operator::bit_or, 4},
+    {"AND", Operator::both, 3},
+    {"XOR", Operator::one, 2},
+    {"OR", Operator::either, 1},
+    {"==", Operator::eq, 0},
+    {"<>", Operator::ne, 0},
+    {"<=", Operator::le, 0},
+    {">=", Operator::ge, 0},
+    {"<", Operator::lt, 0},
+    {">", Operator::gt, 0},
+}};
+
+bool lower_name(std::string_view written, Name& name) noexcept {
+  name.clear();
+  return std::ranges::all_of(written, [&](char c) {
+    return name.push(is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c);
+  });
+}
+
+SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept {
+  switch (lookup) {
+    case Lookup::no_such_name:
+      return {.reason = "unset_parameter",
+              .text =
+                  "a parameter or variable that was never set in this program; what the control "
+                  "has kept in it is not known"};
+    case Lookup::not_while_compensating:
+    case Lookup::assigned_in_block:
+      return {.reason = "order_of_assignments",
+              .text = "a value that is set and used in one block; write two blocks"};
+    case Lookup::read_only:
+    case Lookup::not_known_here:
+    case Lookup::found:
+    case Lookup::no_such_number:
+      break;
+  }
+  return {.reason = "no_such_parameter", .text = "an R-parameter beyond R0 to R999"};
+}
+
+bool SinumerikExpression::looked_up(Lookup lookup) {
+  const SinumerikLookup why = sinumerik_lookup_text(lookup);
+  return lookup == Lookup::found || fail(why.reason, why.text);
+}
+
+bool SinumerikExpression::closing(char bracket) {
+  if (peek() != bracket) {
+    return fail("unclosed_expression", at_ == end_
+                                           ? "an expression that is not closed"
+                                           : "an operator or a closing bracket belongs here");
+  }
+  ++at_;
+  --depth_;
+  return true;
+}
+
+bool SinumerikExpression::read(double& out) {
+  return climb(out, kComparison);
+}
+
+bool SinumerikExpression::apply(Operator op, double& left, double right) {
+  const double a = left;
+  const bool equals =
+      a == right || std::abs(a - right) <= kEqual * std::max(std::abs(a), std::abs(right));
+  const auto truth = [&](bool yes) {
+    left = yes ? 1.0 : 0.0;
+    return true;
+  };
+  switch (op) {
+    case Operator::bit_and:
+    case Operator::bit_xor:
+    case Operator::bit_or:
+      return bits(op, left, right);
+    case Operator::both:
+      return truth(a != 0.0 && right != 0.0);
+    case Operator::one:
+      return truth((a != 0.0) != (right != 0.0));
+    case Operator::either:
+      return truth(a != 0.0 || right != 0.0);
+    case Operator::eq:
+      return truth(equals);
+    case Operator::ne:
+      return truth(!equals);
+    case Operator::le:
+      return truth(equals || a < right);
+    case Operator::ge:
+      return truth(equals || a > right);
+    case Operator::lt:
+      return truth(!equals && a < right);
+    case Operator::gt:
+      return truth(!equals && a > right);
+    default:
+      return arithmetic(op, left, right);
+  }
+}
+
+bool SinumerikExpression::arithmetic(Operator op, double& left, double right) {
+  const bool divides = op == Operator::over || op == Operator::div || op == Operator::mod;
+  if (divides && right == 0.0) {
+    return fail("division_by_zero", "a division by zero");
+  }
+  if ((op == Operator::div || op == Operator::mod) && (left < 0.0 || right < 0.0)) {
+    return fail("out_of_domain", "DIV or MOD of a negative number");
+  }
+  if (op == Operator::mod && !(whole(left) && whole(right))) {
+    return fail("not_an_integer", "MOD works on whole numbers");
+  }
+  left = op == Operator::times  ? left * right
+         : op == Operator::over ? left / right
+         : op == Operator::div  ? std::trunc(left / right)
+         : op == Operator::mod  ? std::fmod(left, right)
+         : op == Operator::plus ? left + right
+                                : left - right;
+  return finite(left);
+}
+
+bool SinumerikExpression::bits(Operator op, double& left, double right) {
+  constexpr double kMost = 2147483647.0;
+  if (!whole(left) || !whole(right) || left < 0.0 || right < 0.0 || left > kMost || right > kMost) {
+    return fail("not_an_integer", "B_AND, B_OR and B_XOR work on whole numbers from 0");
+  }
+  const auto a = static_cast<std::uint32_t>(left);
+  const auto b = static_cast<std::uint32_t>(right);
+  left = op == Operator::bit_and ? a & b : op == Operator::bit_or ? a | b : a ^ b;
+  return true;
+}
+
+bool SinumerikExpression::operand(double& out) {
+  const char c = peek();
+  if (++depth_ > kDeepest) {
+    return fail("expression_too_deep", "brackets or signs nested more than 64 deep");
+  }
+  if (c == '-' || c == '+') {
+    ++at_;
+    if (!climb(out, kStrongest)) {
+      return false;
+    }
+    out = c == '-' ? -out : out;
+    --depth_;
+    return true;
+  }
+  if (c == '(') {
+    ++at_;
+    return climb(out, kComparison) && closing(')');
+  }
+  --depth_;
+  if (is_digit(c) || c == '.') {
+    return number(out);
+  }
+  if (is_letter(c) || c == '_') {
+    return word(out);
+  }
+  if (c == '$') {
+    return fail("system_variable", "a system variable ($...) is not read");
+  }
+  return c == '\'' || c == '"'
+             ? fail("bad_value", "a string or a binary number where a number belongs")
+             : fail("missing_value", "a value is missing");
+}
+
+// 1.5, 1.5EX-3
+bool SinumerikExpression::number(double& out) {
+  const Number mantissa = read_number({at_, static_cast<std::size_t>(end_ - at_)});
+  if (mantissa.length == 0) {
+    return fail("bad_number", "not a number; write digits and one point");
+  }
+  at_ += mantissa.length;
+  out = mantissa.value;
+  if (at_ != end_ && *at_ == '.') {
+    return fail("bad_number", "not a number; write digits and one point");
+  }
+  if (end_ - at_ >= 3 && upper(*at_) == 'E' && upper(at_[1]) == 'X') {
+    const Number power = read_number({at_ + 2, static_cast<std::size_t>(end_ - at_ - 2)});
+    if (power.length == 0 || power.decimal_point || std::abs(power.value) > 300.0) {
+      return fail("bad_number", "not a number; EX takes a whole number from -300 to 300");
+    }
+    std::array<char, 80> written{};  // as C++ writes it: correctly rounded
+    const std::size_t digits = mantissa.length;
+    if (digits + power.length + 1 > written.size()) {
+      return fail("bad_number", "a number of too many digits");
+    }
+    std::copy_n(at_ - digits, digits, written.begin());
+    written[digits] = 'e';
+    const char* const sign = at_[2] == '+' ? at_ + 3 : at_ + 2;
+    const char* const stop = at_ + 2 + power.length;
+    const char* const end = std::copy(sign, stop, written.begin() + static_cast<long>(digits) + 1);
+    if (std::from_chars(written.data(), end, out).ec != std::errc{}) {
+      return fail("bad_number", "a number beyond the range of a double");
+    }
+    at_ = stop;
+  }
+  return finite(out);
+}
+
+bool SinumerikExpression::word(double& out) {
+  const char* const first = at_;
+  while (at_ != end_ && in_name(*at_)) {
+    ++at_;
+  }
+  const std::string_view name{first, static_cast<std::size_t>(at_ - first)};
+  if (equal(name, "TRUE") || equal(name, "FALSE")) {
+    out = equal(name, "TRUE") ? 1.0 : 0.0;
+    return true;
+  }
+  if (equal(name, "NOT") || equal(name, "B_NOT")) {
+    if (name.size() > 3) {
+      return fail("function_not_interpreted", "B_NOT is not interpreted");
+    }
+    if (++depth_ > kDeepest || !climb(out, kStrongest)) {
+      return reason_.empty() ? fail("expression_too_deep", "more than 64 deep") : false;
+    }
+    --depth_;
+    out = out == 0.0 ? 1.0 : 0.0;
+    return true;
+  }
+  const bool digits = name.size() > 1 && std::ranges::all_of(name.substr(1), is_digit);
+  if (upper(name.front()) == 'R' && (digits || (name.size() == 1 && peek() == '['))) {
+    return parameter(out, name);
+  }
+  Name variable;
+  if (lower_name(name, variable) && peek() != '(' && peek() != '[') {
+    const Lookup lookup = values_.name(variable.view(), out);
+    return lookup == Lookup::no_such_name
+               ? fail("variable", "a variable that was not defined (DEF) in this program")
+               : looked_up(lookup);
+  }
+  return peek() == '(' ? function(name, out)
+                       : fail("variable", "an array or a word that is not known as a value");
+}
+
+bool SinumerikExpression::parameter(double& out, std::string_view name) {
+  double index = 0.0;
+  if (name.size() == 1) {
+    ++at_;
+    ++depth_;
+    if (!climb(index, kComparison) || !closing(']')) {
+      return false;
+    }
+  } else {
+    index = read_number(name.substr(1)).value;
+  }
+  if (!whole(index) || index < 0.0 || index > 99999.0) {
+    return fail("no_such_parameter", "an R-parameter beyond R0 to R999");
+  }
+  return looked_up(values_.number(static_cast<int>(index), out));
+}
+
+}  // namespace steadyrest::nc::read

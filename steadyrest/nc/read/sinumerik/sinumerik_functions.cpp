@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <steadyrest/nc/read/sinumerik/sinumerik_expression.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
+
+// The functions that stand in expressions of the dialect `sinumerik`.
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
+bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t wanted) {
+  ++at_;
+  if (++depth_ > kDeepest) {
+    return fail("expression_too_deep", "brackets nested more than 64 deep");
+  }
+  for (std::size_t i = 0; i < wanted; ++i) {
+    if (i > 0 && peek() != ',') {
+      return fail("bad_function", "a function with too few values");
+    }
+    at_ += i > 0 ? 1 : 0;
+    if (!read(values[i])) {
+      return false;
+    }
+  }
+  return closing(')');
+}
+
+bool SinumerikExpression::function(std::string_view name, double& out) {
+  struct Known {
+    std::string_view name;
+    std::size_t values;
+    double (*law)(double, double, double);
+    double lowest = -1e300;
+    double highest = 1e300;
+  };
+  static constexpr std::array kKnown = {
+      Known{"SIN", 1, [](double x, double, double) { return std::sin(x * kDegree); }},
+      Known{"COS", 1, [](double x, double, double) { return std::cos(x * kDegree); }},
+      Known{"TAN", 1, [](double x, double, double) { return std::tan(x * kDegree); }},
+      Known{"ASIN", 1, [](double x, double, double) { return std::asin(x) / kDegree; }, -1.0, 1.0},
+      Known{"ACOS", 1, [](double x, double, double) { return std::acos(x) / kDegree; }, -1.0, 1.0},
+      Known{"ATAN2", 2, [](double y, double x, double) { return std::atan2(y, x) / kDegree; }},
+      Known{"SQRT", 1, [](double x, double, double) { return std::sqrt(x); }, 0.0},
+      Known{"ABS", 1, [](double x, double, double) { return std::abs(x); }},
+      Known{"POT", 1, [](double x, double, double) { return x * x; }},
+      Known{"TRUNC", 1, [](double x, double, double) { return std::trunc(x); }},
+      Known{"ROUND", 1, [](double x, double, double) { return std::round(x); }},
+      Known{"LN", 1, [](double x, double, double) { return std::log(x); }, 1e-300},
+      Known{"EXP", 1, [](double x, double, double) { return std::exp(x); }},
+      Known{"MINVAL", 2, [](double x, double y, double) { return std::min(x, y); }},
+      Known{"MAXVAL", 2, [](double x, double y, double) { return std::max(x, y); }},
+      Known{"BOUND", 3,
+            [](double low, double high, double x) { return std::max(low, std::min(high, x)); }},
+  };
+  const auto* const found =
+      std::ranges::find_if(kKnown, [&](const Known& one) { return equal(name, one.name); });
+  if (found == kKnown.end()) {
+    return fail("unknown_function", "a function that is not known or not interpreted");
+  }
+  std::array<double, 3> values{};
+  if (!arguments(values, found->values)) {
+    return false;
+  }
+  if (!(values[0] >= found->lowest && values[0] <= found->highest)) {
+    return fail("out_of_domain", "a function of a number for which it has no value");
+  }
+  out = found->law(values[0], values[1], values[2]);
+  return finite(out);
+}
+
+}  // namespace steadyrest::nc::read

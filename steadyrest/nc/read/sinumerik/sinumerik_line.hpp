@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include <steadyrest/nc/read/text/block.hpp>
+#include <steadyrest/nc/read/text/name.hpp>
+#include <steadyrest/nc/read/text/reading.hpp>
+
+namespace steadyrest::nc::read {
+
+/// One line of a SINUMERIK program: letters with numbers (`X10`), assignments (`X=10`, `X=AC(10)`,
+/// `CR=5`, `T="DRILL"`), names that stand alone (`SUPA`), calls (`MSG("…")`), `;` comments.
+///
+/// Variables, definitions and calls are read where the reader has values for them.
+/// Names that are not in the reader's table are refused by the group that they belong to.
+class SinumerikLine {
+ public:
+  SinumerikLine(Reading& reading, std::string_view line, std::uint32_t number,
+                Block& block) noexcept
+      : reading_(reading),
+        begin_(line.data()),
+        at_(line.data()),
+        end_(line.data() + line.size()),
+        number_(number),
+        block_(block) {}
+
+  bool read();
+
+ private:
+  bool header();
+  bool block_number();
+  bool comment();
+  bool item();
+  bool named(const char* word_begin);
+  bool assigned(const char* word_begin, Word& word);
+  bool qualified(const char* word_begin, Word& word);
+  bool quoted(const char* word_begin, Word& word);
+  bool message(const char* word_begin, Word& word);
+  // sinumerik_call.cpp
+  bool statement(const char* word_begin, std::string_view name, bool& done);
+  bool definition(const char* word_begin);
+  bool head_of_subprogram(const char* word_begin);
+  bool parameter_of_subprogram(const char* word_begin, std::size_t place);
+  bool declaration(const char* word_begin);
+  bool value_type(const char* word_begin, ValueType& type);
+  bool variable_name(const char* word_begin, Name& name);
+  bool parameter_assignment(const char* word_begin);
+  bool variable_assignment(const char* word_begin, std::string_view name);
+  bool assign(const char* word_begin, Lookup lookup);
+  bool call(const char* word_begin, std::string_view name, FlowKind kind);
+  bool modal_call(const char* word_begin);
+  bool master_spindle(const char* word_begin);
+  bool call_values(const char* word_begin);
+  bool repeats(const char* word_begin);
+  bool calculated(const char* word_begin, double& out);
+  [[nodiscard]] char next() noexcept;
+  [[nodiscard]] std::string_view letters() noexcept;
+
+  // sinumerik_system.cpp
+  bool system_variable(const char* word_begin);
+  bool fine_offset(const char* word_begin);
+  bool axis_letter(char& letter);
+  bool take(std::string_view upper_text);
+
+  bool plain_number(const char* word_begin, Word& word);
+  bool refuse_value(const char* word_begin);
+  bool refuse_character();
+  bool push(const char* word_begin, Word& word);
+  void skip_blanks() noexcept;
+  [[nodiscard]] std::string_view rest() const noexcept {
+    return {at_, static_cast<std::size_t>(end_ - at_)};
+  }
+  [[nodiscard]] std::string_view since(const char* from) const noexcept {
+    return {from, static_cast<std::size_t>(at_ - from)};
+  }
+  bool refuse(std::string_view word, std::string_view reason, std::string_view text) {
+    return reading_.refuse(number_, word, reason, text);
+  }
+
+  Reading& reading_;
+  const char* begin_;
+  const char* at_;
+  const char* end_;
+  std::uint32_t number_;
+  Block& block_;
+  bool assigned_ = false;  ///< a variable was set
+};
+
+}  // namespace steadyrest::nc::read

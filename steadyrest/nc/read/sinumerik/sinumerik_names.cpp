@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+
+#include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
+
+namespace steadyrest::nc::read {
+namespace {
+
+constexpr std::array<std::string_view, 19> kKnownNames = {
+    "CR",   "TURN", "SUPA",    "ADIS",  "ADISPOS", "FNORM", "CFC",  "CFTCP", "CFIN",  "FFWOF",
+    "SOFT", "RET",  "TRAFOOF", "TRANS", "ATRANS",  "ROT",   "AROT", "RPL",   "STOPRE"};
+
+constexpr std::array kRefusedNames = {
+    RefusedName{"IF", "flow_control", "a condition (IF)"},
+    RefusedName{"ELSE", "flow_control", "a condition (ELSE)"},
+    RefusedName{"ENDIF", "flow_control", "a condition (ENDIF)"},
+    RefusedName{"FOR", "flow_control", "a loop (FOR)"},
+    RefusedName{"ENDFOR", "flow_control", "a loop (ENDFOR)"},
+    RefusedName{"WHILE", "flow_control", "a loop (WHILE)"},
+    RefusedName{"ENDWHILE", "flow_control", "a loop (ENDWHILE)"},
+    RefusedName{"LOOP", "flow_control", "a loop (LOOP)"},
+    RefusedName{"ENDLOOP", "flow_control", "a loop (ENDLOOP)"},
+    RefusedName{"REPEAT", "flow_control", "a loop (REPEAT)"},
+    RefusedName{"UNTIL", "flow_control", "a loop (UNTIL)"},
+    RefusedName{"CASE", "flow_control", "a branch (CASE)"},
+    RefusedName{"GOTO", "flow_control", "a jump (GOTO)"},
+    RefusedName{"GOTOF", "flow_control", "a jump (GOTOF)"},
+    RefusedName{"GOTOB", "flow_control", "a jump (GOTOB)"},
+    RefusedName{"REPEATB", "flow_control", "a loop (REPEATB)"},
+    RefusedName{"GOTOC", "flow_control", "a jump (GOTOC)"},
+    RefusedName{"GOTOS", "flow_control", "a jump (GOTOS)"},
+    RefusedName{"CALL", "subprogram_call", "an indirect call (CALL) is not interpreted"},
+    RefusedName{"PCALL", "subprogram_call", "a call by path (PCALL) is not interpreted"},
+    RefusedName{"ASCALE", "frame", "a programmed frame (ASCALE) is not interpreted"},
+    RefusedName{"AMIRROR", "frame", "a programmed frame (AMIRROR) is not interpreted"},
+    RefusedName{"ROTS", "frame", "a programmed frame (ROTS) is not interpreted"},
+    RefusedName{"AROTS", "frame", "a programmed frame (AROTS) is not interpreted"},
+    RefusedName{"SCALE", "frame", "a programmed frame (SCALE) is not interpreted"},
+    RefusedName{"MIRROR", "frame", "a programmed frame (MIRROR) is not interpreted"},
+    RefusedName{"TRAORI", "transformation", "a transformation (TRAORI) is not interpreted"},
+    RefusedName{"TRANSMIT", "transformation", "a transformation (TRANSMIT) is not interpreted"},
+    RefusedName{"TRACYL", "transformation", "a transformation (TRACYL) is not interpreted"},
+    RefusedName{"CIP", "unknown_word", "a circle through a point (CIP) is not interpreted"},
+    RefusedName{"CT", "unknown_word", "a tangential circle (CT) is not interpreted"},
+};
+
+}  // namespace
+
+bool equal(std::string_view text, std::string_view upper_name) noexcept {
+  return std::ranges::equal(text, upper_name, {}, upper);
+}
+
+bool known_name(std::string_view name) noexcept {
+  return std::ranges::any_of(kKnownNames,
+                             [&](std::string_view known) { return equal(name, known); });
+}
+
+const RefusedName* refused_name(std::string_view name) noexcept {
+  const auto* const found = std::ranges::find_if(
+      kRefusedNames, [&](const RefusedName& refused) { return equal(name, refused.name); });
+  return found == kRefusedNames.end() ? nullptr : found;
+}
+
+}  // namespace steadyrest::nc::read

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <steadyrest/nc/read/text/name.hpp>
+
+namespace steadyrest::nc::read {
+
+/// How a word's value is meant, where the dialect can say so for a single word.
+enum class Qualifier : std::uint8_t {
+  none,
+  absolute,     ///< sinumerik AC(…)
+  incremental,  ///< sinumerik IC(…)
+  text,         ///< a string: T="DRILL", MSG("…")
+  fine          ///< sinumerik $P_IFRAME[X,FI]: further than what is stored ($P_UIFR)
+};
+
+/// One word of a block: an address and its value.
+///
+/// The reader delivers finished numbers; where a dialect allows expressions, the reader is the
+/// place that evaluates them (as controls do: at reading time), so that a word's value never
+/// changes its type for those who interpret it.
+struct Word {
+  char letter = 0;  ///< upper case; 0 when the address is a name of several letters
+  Qualifier qualifier = Qualifier::none;
+  bool decimal_point = false;  ///< the value was written with a decimal point
+  bool calculated = false;     ///< the value was an expression
+  bool has_value = false;      ///< sinumerik: SUPA, FNORM, … stand alone
+  double value = 0.0;
+  std::string_view name;  ///< sinumerik: the address as written, `CR`, `TURN`, `SUPA`
+  std::string_view text;  ///< the whole word as it stands in the line; of a string, its content
+};
+
+/// What a line says about the order of execution: an O-word with its keyword.
+enum class FlowKind : std::uint8_t {
+  none,
+  label,  ///< `O1234` alone: the number of a program or subprogram
+  sub,
+  endsub,
+  call,
+  back,  ///< return
+  when,  ///< if
+  elseif,
+  otherwise,  ///< else
+  endif,
+  loop_while,  ///< while
+  endwhile,
+  loop_do,  ///< do
+  repeat,
+  endrepeat,
+  leave_loop,  ///< break
+  next_turn,   ///< continue
+  cycle,       ///< sinumerik CYCLE…( )
+  modal_cycle  ///< sinumerik MCALL; without a label its end
+};
+
+// The values are not zeroed for each line: `count` says how many there are.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
+struct Flow {
+  static constexpr std::size_t kMostArguments = 30;
+  FlowKind kind = FlowKind::none;
+  Name label;  ///< a whole number, or a name in lower case
+  std::size_t count = 0;
+  std::uint32_t given = 0;                    ///< sinumerik: bit n: value n is not left out
+  double repeats = 1.0;                       ///< sinumerik: P
+  std::array<double, kMostArguments> values;  ///< arguments, condition or returned value
+};
+
+/// One line of a program, split into words. Reused from line to line: no allocation.
+class Block {
+ public:
+  static constexpr std::size_t kMostWords = 128;
+
+  Block() = default;
+  Block(const Block&) = delete;
+  Block& operator=(const Block&) = delete;
+  ~Block() = default;
+
+  void reset(std::uint32_t line) noexcept {
+    line_ = line;
+    count_ = 0;
+    deleted_ = false;
+    end_mark_ = false;
+    flow_.kind = FlowKind::none;
+    shown_ = words_.data();
+  }
+  /// Has the words of another line with the same text, as long as that has them.
+  void take_words(const Block& other) noexcept {
+    count_ = other.count_;
+    deleted_ = other.deleted_;
+    shown_ = other.shown_;
+  }
+  /// A new word to be filled: nothing is known of it but that it has no qualifier and was not
+  /// calculated. nullptr when the block is full.
+  [[nodiscard]] Word* add() noexcept {
+    if (count_ == kMostWords) {
+      return nullptr;
+    }
+    Word& word = words_[count_++];
+    word.qualifier = Qualifier::none;
+    word.calculated = false;
+    return &word;
+  }
+  /// False when the block is full.
+  bool push(const Word& word) noexcept {
+    if (count_ == kMostWords) {
+      return false;
+    }
+    words_[count_++] = word;
+    return true;
+  }
+  [[nodiscard]] std::span<const Word> words() const noexcept { return {shown_, count_}; }
+  [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
+
+  /// The line begins with the block-delete mark `/`.
+  [[nodiscard]] bool deleted() const noexcept { return deleted_; }
+  void set_deleted() noexcept { deleted_ = true; }
+  /// The line is the closing `%`.
+  [[nodiscard]] bool end_mark() const noexcept { return end_mark_; }
+  void set_end_mark() noexcept { end_mark_ = true; }
+  /// The line's O-word.
+  [[nodiscard]] const Flow& flow() const noexcept { return flow_; }
+  [[nodiscard]] Flow& flow() noexcept { return flow_; }
+
+ private:
+  std::uint32_t line_ = 0;
+  std::size_t count_ = 0;
+  bool deleted_ = false;
+  bool end_mark_ = false;
+  Flow flow_;
+  std::array<Word, kMostWords> words_{};
+  const Word* shown_ = words_.data();  ///< its own words, or another block's
+};
+
+}  // namespace steadyrest::nc::read

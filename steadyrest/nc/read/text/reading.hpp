@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include <steadyrest/nc/read/text/dialect.hpp>
+#include <steadyrest/nc/read/text/refused.hpp>
+#include <steadyrest/nc/read/text/typed_values.hpp>
+#include <steadyrest/nc/read/text/values.hpp>
+
+namespace steadyrest::nc::read {
+
+/// What the reading of one line needs to know of the program's, and says of the line.
+struct Reading {
+  Dialect dialect;
+  Values* values = nullptr;             ///< nullptr: expressions are refused
+  TypedValues* typed_values = nullptr;  ///< of sinumerik
+  bool numbers_alone = false;           ///< no value was asked for or set
+  Refused refused = {};
+
+  /// Keeps why a line is refused; false.
+  bool refuse(std::uint32_t line, std::string_view word, std::string_view reason,
+              std::string_view text);
+};
+
+}  // namespace steadyrest::nc::read

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/rewrite/prove/verify.hpp>
+#include <steadyrest/nc/rewrite/text/plan_file.hpp>
+#include <steadyrest/nc/rewrite/text/settings.hpp>
+#include <steadyrest/nc/rewrite/walk/walk.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// One correction in the text.
+struct Insertion {
+  std::uint32_t line = 0;           ///< its first line in the changed program
+  std::uint32_t original_line = 0;  ///< the line of the original before which it stands
+  char axis = 'Z';
+  double time_s = 0.0;     ///< when the machine gets there
+  double planned_s = 0.0;  ///< when the plan wants it
+  double delta_um = 0.0;   ///< by how much the axis is moved here
+  double total_um = 0.0;   ///< what stands from here on
+  Site site = Site::none;
+};
+
+struct Compensated {
+  std::vector<Insertion> insertions;
+  std::size_t inserted_lines = 0;
+  double program_s = 0.0;
+  Proof proof;
+};
+
+/// Writes `program` with the plan's corrections to `output`: reads, writes beside `output`, proves
+/// what was written with verify(), renames. On any refusal `output` is as it was.
+///
+/// `output` may be `program` itself. Memory does not grow with the program.
+[[nodiscard]] kernel::outcome::Result<Compensated> compensate(
+    const std::string& program, const std::string& output, const Plan& plan,
+    const interpret::Config& config, const kernel::machine::Machine& machine,
+    const Settings& settings);
+
+}  // namespace steadyrest::nc::rewrite

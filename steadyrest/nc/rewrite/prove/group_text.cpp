@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/nc/rewrite/prove/group_text.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+constexpr std::uint32_t bit(std::size_t axis) noexcept {
+  return std::uint32_t{1} << axis;
+}
+
+}  // namespace
+
+Change GroupText::change(std::size_t axis, double from_mm, double to_mm) const {
+  const Walk::Before& before = walk_->before();
+  return {.letter = plan_.axes[axis].letter,
+          .from_mm = from_mm,
+          .to_mm = to_mm,
+          .unit_mm = before.unit_mm,
+          .active_offset = before.active_offset,
+          .incremental = before.incremental};
+}
+
+void GroupText::behind_the_line_before(std::size_t axis, double stands_mm) {
+  if ((off_ & bit(axis)) != 0) {
+    text_ += change_text(settings_, change(axis, 0.0, stands_mm), "\n");
+  }
+  if ((noted_ & bit(axis)) != 0) {
+    text_ += renote_text(settings_, plan_.axes[axis].letter, "\n");
+  }
+  off_ &= ~bit(axis);
+  noted_ &= ~bit(axis);
+}
+
+void GroupText::stays(std::size_t axis, double stands_mm) {
+  behind_the_line_before(axis, stands_mm);
+  const char letter = plan_.axes[axis].letter;
+  if (stands_mm != 0.0 && walk_->sets_offset(letter) && !walk_->ends() &&
+      walk_->frame(letter) == Frame::kept) {
+    text_ += check_text(settings_, letter, "\n");
+    noted_ |= bit(axis);
+  }
+}
+
+void GroupText::goes_off(std::size_t axis, double stands_mm) {
+  behind_the_line_before(axis, stands_mm);
+  text_ += change_text(settings_, change(axis, stands_mm, 0.0), "\n");
+  off_ |= walk_->ends() ? 0U : bit(axis);
+}
+
+void GroupText::changes(std::size_t axis, double from_mm, double to_mm, Site site) {
+  behind_the_line_before(axis, from_mm);
+  const Change change = this->change(axis, from_mm, to_mm);
+  text_ += change_text(settings_, change, "\n");
+  if (site == Site::clearance) {
+    text_ += restate_text(settings_.method, change, walk_->units_said(),
+                          walk_->before().position[plan_.axes[axis].index], "\n");
+  }
+}
+
+}  // namespace steadyrest::nc::rewrite

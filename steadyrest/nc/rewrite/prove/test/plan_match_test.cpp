@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/nc/rewrite/prove/plan_match.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using ::testing::HasSubstr;
+using Changes = std::vector<WrittenChange>;
+
+/// Sums of displacement in um at these seconds, against corrections in um at those.
+class PlanMatch : public ::testing::Test {
+ protected:
+  PlanMatch() { settings_.window_s = 10.0; }
+  void plan(std::vector<PlannedStep> steps) { axis_.steps = std::move(steps); }
+  std::string fault(const std::vector<std::pair<double, double>>& written) const {
+    Changes changes;
+    for (const auto& [time_s, um] : written) {
+      changes.push_back({.line = 7, .stands_mm = um * 1e-3, .unit_mm = 1.0, .time_s = time_s});
+    }
+    const auto found = mismatch(axis_, settings_, changes);
+    return found ? found->what : "";
+  }
+  AxisPlan axis_;
+  Settings settings_;
+};
+
+TEST_F(PlanMatch, EveryStepHasItsChangeWithinTheWindow) {
+  plan({{60, 10}, {120, 20}});
+  EXPECT_EQ(fault({{55, -10}, {130, -20}}), "");
+  EXPECT_THAT(fault({{55, -10}, {131, -20}}), HasSubstr("acts at 131.0 s"));
+  EXPECT_THAT(fault({{55, -10}}), HasSubstr("planned at 120.0 s is missing"));
+  EXPECT_THAT(fault({{55, -10}, {120, -20}, {121, -10}}), HasSubstr("wants no such"));
+}
+
+TEST_F(PlanMatch, StepsThatMeetAtOnePlaceMayCancelThere) {
+  plan({{60, 10}, {65, 0}});
+  EXPECT_EQ(fault({}), "");
+  EXPECT_EQ(fault({{58, -10}, {66, 0}}), "");
+  plan({{60, 10}, {81, 0}});
+  EXPECT_THAT(fault({}), HasSubstr("planned at 60.0 s is missing"));
+  EXPECT_EQ(fault({{70, -10}, {71, 0}}), "");
+}
+
+TEST_F(PlanMatch, TheSameSumMayComeAgain) {
+  plan({{60, 10}, {62, 0}, {200, 10}});
+  EXPECT_EQ(fault({{200, -10}}), "");
+  EXPECT_EQ(fault({{60, -10}, {62, 0}, {200, -10}}), "");
+  EXPECT_THAT(fault({{60, -10}}), HasSubstr("missing"));
+  plan({{60, 10}, {62, 0}, {64, 10}});
+  EXPECT_EQ(fault({{61, -10}}), "");
+}
+
+TEST_F(PlanMatch, WhatTheControlCannotTakeIsNotMissing) {
+  settings_.method = Method::fanuc;
+  plan({{60, 0.4}, {100, 0.8}, {200, 1.2}, {300, 1.6}});
+  EXPECT_EQ(fault({{100, -1}, {300, -2}}), "");
+  EXPECT_THAT(fault({{100, -1}}), HasSubstr("300.0 s is missing"));
+}
+
+TEST_F(PlanMatch, NoStepIsPassedOverBehindALaterChange) {
+  plan({{60, 10}, {61, 0}, {300, 10}, {301, 0}, {302, 5}});
+  EXPECT_EQ(fault({{302, -5}}), "");
+  EXPECT_THAT(fault({{60, -5}}), HasSubstr("acts at 60.0 s"));
+}
+
+}  // namespace
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/rewrite/prove/travel.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using interpret::Move;
+
+std::string over_travel(const kernel::machine::Machine& machine, char letter, const Reach& original,
+                        const Reach& corrected) {
+  constexpr double kRounding_mm = 1e-9;
+  const auto axis = std::ranges::find_if(machine.axes, [letter](const auto& one) {
+    return one.name.size() == 1 && one.name[0] == letter && !one.rotary;
+  });
+  if (axis == machine.axes.end()) {
+    return {};
+  }
+  const auto fault = [letter](double to_mm, double end_mm, double own_mm) {
+    return fmt::format(
+        "the correction takes {} to {:.4f} mm, over the end of its travel at {:g} mm; "
+        "without it {} goes to {:.4f} mm (machine coordinates)",
+        letter, to_mm, end_mm, letter, own_mm);
+  };
+  if (corrected.high_mm > axis->max_mm + kRounding_mm &&
+      original.high_mm <= axis->max_mm + kRounding_mm) {
+    return fault(corrected.high_mm, axis->max_mm, original.high_mm);
+  }
+  if (corrected.low_mm < axis->min_mm - kRounding_mm &&
+      original.low_mm >= axis->min_mm - kRounding_mm) {
+    return fault(corrected.low_mm, axis->min_mm, original.low_mm);
+  }
+  return {};
+}
+
+std::string over_travel(const kernel::machine::Machine& machine, const Plan& plan,
+                        const Move& original, const Move& corrected) {
+  std::string fault;
+  for (std::size_t i = 0; fault.empty() && i < plan.axes.size(); ++i) {
+    const AxisPlan& axis = plan.axes[i];
+    fault = over_travel(machine, axis.letter, reach_of(original, axis.index),
+                        reach_of(corrected, axis.index));
+  }
+  return fault;
+}
+
+}  // namespace steadyrest::nc::rewrite

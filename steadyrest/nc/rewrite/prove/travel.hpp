@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/plan/check/reach.hpp>
+#include <steadyrest/nc/rewrite/text/plan_file.hpp>
+#include <steadyrest/nc/rewrite/text/settings.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using plan::Reach;
+using plan::reach_of;
+
+inline constexpr std::string_view kAgainstTravel =
+    "leave room for the correction: move the work offset or the program, or plan without this axis";
+
+/// The fault when a correction takes a linear axis over an end of its travel that the original move
+/// keeps; empty when there is none. What is over the end without the correction is the program's
+/// own affair, or shows that the work offset is not the machine's.
+[[nodiscard]] std::string over_travel(const kernel::machine::Machine& machine, char letter,
+                                      const Reach& original, const Reach& corrected);
+/// The same for a pair of moves and all axes of a plan.
+[[nodiscard]] std::string over_travel(const kernel::machine::Machine& machine, const Plan& plan,
+                                      const interpret::Move& original,
+                                      const interpret::Move& corrected);
+
+}  // namespace steadyrest::nc::rewrite

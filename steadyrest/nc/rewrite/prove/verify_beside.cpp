@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/rewrite/prove/text_pair.hpp>
+#include <steadyrest/nc/rewrite/prove/travel.hpp>
+#include <steadyrest/nc/rewrite/prove/verify_beside.hpp>
+#include <steadyrest/nc/rewrite/prove/window.hpp>
+#include <steadyrest/nc/rewrite/text/place_of_head.hpp>
+#include <steadyrest/nc/rewrite/text/tag.hpp>
+#include <steadyrest/nc/rewrite/walk/survey.hpp>
+#include <steadyrest/nc/rewrite/walk/walk.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+class Prover {
+ public:
+  Prover(const std::string& original, const std::string& changed, const Plan& plan,
+         const kernel::machine::Machine& machine, const Settings& settings)
+      : original_(original),
+        changed_(changed),
+        plan_(plan),
+        axis_(plan.axes.front()),
+        machine_(machine),
+        settings_(settings) {}
+
+  Result<Proved> run(const interpret::Config& config, const KnownTimes* known, bool timed) {
+    timed_ = timed;
+    start_known_ = config.start_known;
+    PlainSurvey plain(config.dialect);
+    auto text = compare_text(original_, changed_, plain, plan_, settings_);
+    auto surveyed = survey(original_, config, plain);
+    if (!text || !surveyed) {
+      return std::unexpected(text ? surveyed.error() : text.error());
+    }
+    text_ = std::move(*text);
+    if (!surveyed->subprogram_files.empty()) {
+      return std::unexpected(subprogram_may_use_it());
+    }
+    auto walk = Walk::make(original_, config, *surveyed, settings_);
+    auto window = Window::make(known, machine_, plan_, settings_, original_);
+    if (!walk || !window) {
+      return std::unexpected(walk ? window.error() : walk.error());
+    }
+    while (!refusal_ && (*walk)->step()) {
+      line(**walk, **window);
+      if (timed_) {
+        (*window)->feed(**walk);
+      }
+    }
+    if (refusal_) {
+      return std::unexpected(*refusal_);
+    }
+    if (const auto report = (*walk)->take(); !report.refused.empty()) {
+      return std::unexpected(interpret::first_refusal(report, original_));
+    }
+    if (timed_) {
+      const auto total = (*window)->finish();
+      if (!total) {
+        return std::unexpected(total.error());
+      }
+      proof_.program_s = *total;
+    }
+    proof_.inserted_lines = text_.lines.size();
+    at_end();
+    if (!refusal_) {
+      run_changed(config);
+    }
+    if (refusal_) {
+      return std::unexpected(*refusal_);
+    }
+    return Proved{.proof = proof_, .switchable = surveyed->other != nullptr};
+  }
+
+ private:
+  void refuse(std::uint32_t line, std::string what) {
+    if (!refusal_) {
+      refusal_ = Refusal{Kind::bad_input, original_, line, std::move(what),
+                         "make the changed program anew"};
+    }
+  }
+
+  /// A subprogram that is not looked into may use the parameter itself.
+  [[nodiscard]] Refusal subprogram_may_use_it() const {
+    return {
+        Kind::bad_input, original_, 0U,
+        fmt::format("a subprogram may use {} itself",
+                    settings_.method == Method::r_parameter
+                        ? fmt::format("R{}", settings_.r_parameter)
+                        : "the temperature compensation"),
+        fmt::format("{}, or one file without subprograms of others", against_own_use(settings_))};
+  }
+
+  [[nodiscard]] std::string text_to(double to_mm) const {
+    return change_text(settings_,
+                       {.letter = axis_.letter,
+                        .from_mm = stands_mm_,
+                        .to_mm = to_mm,
+                        .unit_mm = 1.0,
+                        .active_offset = 0,
+                        .incremental = false},
+                       "\n");
+  }
+
+  void line(const Walk& walk, Window& window) {
+    if (const auto group = text_.groups.find(walk.line()); group != text_.groups.end()) {
+      change(walk, window, group->second);
+      text_.groups.erase(group);
+    }
+    proof_.moves += walk.moves().size();
+    proof_.corrected += stands_mm_ == 0.0 ? 0U : walk.moves().size();
+    if (start_known_ && stands_mm_ != 0.0) {
+      travel(walk);
+    }
+  }
+
+  void travel(const Walk& walk) {
+    for (const interpret::Move& move : walk.moves()) {
+      const Reach own = reach_of(move, axis_.index);
+      auto fault =
+          over_travel(machine_, axis_.letter, own,
+                      {.low_mm = own.low_mm + stands_mm_, .high_mm = own.high_mm + stands_mm_});
+      if (!fault.empty() && !refusal_) {
+        refusal_ = Refusal{Kind::bad_input, original_, walk.line(), std::move(fault),
+                           std::string(kAgainstTravel)};
+      }
+    }
+  }
+
+  void change(const Walk& walk, Window& window, const std::string& group) {
+    ++proof_.changes;
+    if (walk.ends() && walk.may_write(axis_.index) && group == text_to(0.0)) {
+      stands_mm_ = 0.0;
+      return;
+    }
+    for (const PlannedStep& step : axis_.steps) {
+      const double to_mm = correction_mm(settings_, 1.0, step.displacement_um);
+      if (group != text_to(to_mm)) {
+        continue;
+      }
+      const Site site = walk.site(axis_.letter, axis_.index);
+      if (site != Site::rapid && site != Site::clearance) {
+        refuse(walk.line(), fmt::format("a correction of {} begins before a line that is no safe "
+                                        "place for it",
+                                        axis_.letter));
+      }
+      if (timed_) {
+        window.ask(0, {.line = walk.line(), .stands_mm = to_mm, .unit_mm = 1.0, .time_s = 0.0});
+      }
+      stands_mm_ = to_mm;
+      return;
+    }
+    refuse(walk.line(), fmt::format("the inserted lines before this line belong to no step of the "
+                                    "plan: {}",
+                                    group.substr(0, group.find('\n'))));
+  }
+
+  void at_end() {
+    if (timed_ && !text_.groups.empty()) {
+      refuse(text_.groups.begin()->first, "inserted lines that are never executed");
+    }
+    if (stands_mm_ != 0.0) {
+      refuse(0, fmt::format("a correction of {} is left at the end", axis_.letter));
+    }
+  }
+
+  /// Lines that are right in themselves may stand where the control does not read them: before the
+  /// name of the program, behind its end.
+  void run_changed(const interpret::Config& config) {
+    class Nothing final : public interpret::Sink {
+      void on_move(const interpret::Move& /*move*/) override {}
+      void on_event(const interpret::Event& /*event*/) override {}
+    } nothing;
+    const auto report = interpret::run_file(changed_, config, nothing);
+    if (!report || !report->refused.empty()) {
+      refusal_ = report ? interpret::first_refusal(*report, changed_) : report.error();
+    } else if (report->moves != proof_.moves) {
+      refuse(0, "makes more or fewer moves than the original");
+    }
+  }
+
+  const std::string& original_;
+  const std::string& changed_;
+  const Plan& plan_;
+  const AxisPlan& axis_;
+  const kernel::machine::Machine& machine_;
+  const Settings& settings_;
+  bool timed_ = true;
+  bool start_known_ = false;
+  Inserted text_;
+  double stands_mm_ = 0.0;
+  std::optional<Refusal> refusal_;
+  Proof proof_;
+};
+
+}  // namespace
+
+Result<Proved> verify_beside(const std::string& original, const std::string& changed,
+                             const Plan& plan, const interpret::Config& config,
+                             const kernel::machine::Machine& machine, const Settings& settings,
+                             const KnownTimes* known, bool timed) {
+  return Prover(original, changed, plan, machine, settings).run(config, known, timed);
+}
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <steadyrest/nc/rewrite/prove/verify_moves.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// verify() for a correction that the machine adds beside the program (an R-parameter).
+///
+/// The blocks are the original's, byte for byte, so the moves are; what is proved is where the
+/// value is written and which one. Every group of inserted lines must be, character for character,
+/// what belongs to a planned step, at a rapid or a clearance of the original, in its window; the
+/// value is zero from the head to the first and from the end on.
+[[nodiscard]] kernel::outcome::Result<Proved> verify_beside(
+    const std::string& original, const std::string& changed, const Plan& plan,
+    const interpret::Config& config, const kernel::machine::Machine& machine,
+    const Settings& settings, const KnownTimes* known, bool timed);
+
+}  // namespace steadyrest::nc::rewrite

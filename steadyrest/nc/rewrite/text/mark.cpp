@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/rewrite/text/mark.hpp>
+#include <steadyrest/nc/rewrite/text/settings.hpp>
+#include <steadyrest/nc/rewrite/text/source_lines.hpp>
+#include <steadyrest/nc/rewrite/text/tag.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+constexpr std::string_view kBegin = "STEADYREST head told ";
+constexpr std::string_view kSum = "sum";
+constexpr std::string_view kPlain = "-_./+,:";
+
+bool is_plain(char c) noexcept {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         kPlain.find(c) != std::string_view::npos;
+}
+
+std::string decoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned byte = 0;
+    if (text[i] == '=' && i + 2 < text.size() &&
+        std::from_chars(&text[i + 1], &text[i + 1] + 2, byte, 16).ptr == &text[i + 1] + 2) {
+      out += static_cast<char>(byte);
+      i += 2;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+/// FNV-1a over the words as they are written.
+std::string sum_of(const std::vector<Told>& told) {
+  constexpr std::uint32_t kBasis = 2166136261U;
+  constexpr std::uint32_t kPrime = 16777619U;
+  std::uint32_t sum = kBasis;
+  for (const Told& one : told) {
+    for (const char c : told_as_text(one) + " ") {
+      sum = (sum ^ static_cast<unsigned char>(c)) * kPrime;
+    }
+  }
+  return fmt::format("{:08x}", sum);
+}
+
+void read_line(std::string_view text, std::vector<Told>& told) {
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(text.size(), word.size() + 1));
+    if (word.starts_with("--")) {
+      told.push_back({.name = decoded(word.substr(2)), .value = {}});
+    } else if (!word.empty() && !told.empty()) {
+      told.back().value = decoded(word);
+    }
+  }
+}
+
+}  // namespace
+
+std::string told_as_text(const Told& one) {
+  std::string text = "--" + one.name + (one.value.empty() ? "" : " ");
+  for (const char c : one.value) {
+    text += is_plain(c)
+                ? std::string(1, c)
+                : fmt::format("={:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  }
+  return text;
+}
+
+std::string mark_text(const Way& way, std::vector<Told> told, std::string_view ending) {
+  if (told.empty()) {
+    return {};
+  }
+  told.push_back({.name = std::string{kSum}, .value = sum_of(told)});
+  const bool sinumerik = of_sinumerik(way.method);
+  std::string text;
+  std::string line;
+  const auto put = [&] {
+    if (!line.empty()) {
+      text += fmt::format("{}{}{}{}{}", sinumerik ? ";" : "(", kBegin, line, sinumerik ? "" : ")",
+                          ending);
+      line.clear();
+    }
+  };
+  for (const Told& one : told) {
+    const std::string word = told_as_text(one);
+    if (line.size() + 1 + word.size() > kLongestTold) {
+      put();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  put();
+  return text;
+}
+
+kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed) {
+  auto lines = SourceLines::open(changed);
+  if (!lines) {
+    return std::unexpected(lines.error());
+  }
+  std::vector<Told> told;
+  bool inserted = false;
+  while (lines->next()) {
+    std::string_view line = lines->line();
+    const bool round = line.starts_with('(') && line.ends_with(')');
+    const bool is_mark = (round || line.starts_with(';')) && line.substr(1).starts_with(kBegin);
+    if (is_mark) {
+      line.remove_prefix(1 + kBegin.size());
+      line.remove_suffix(round ? 1 : 0);
+      read_line(line, told);
+    } else if (!told.empty()) {
+      break;  // it is in one piece
+    }
+    inserted = inserted || is_mark || is_inserted(lines->line());
+  }
+  Told sum;
+  if (!told.empty()) {
+    sum = std::move(told.back());
+    told.pop_back();
+  }
+  if (inserted && (sum.name != kSum || sum.value != sum_of(told))) {
+    return std::unexpected(
+        kernel::outcome::Refusal{kernel::outcome::Kind::bad_input, changed, 0,
+                                 "what its head tells of how it was made is missing or was changed",
+                                 std::string(kAgainstOtherLines)});
+  }
+  return told;
+}
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/rewrite/text/writing.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// What the program was made with, in the comments that its head begins with, so that verify need
+/// not be told again: `(STEADYREST head told --dialect linuxcnc --window-s 60 --sum 51f0c9a3)`. The
+/// sum is over the others, against a slip of the hand: nothing else in the program would show it.
+struct Told {
+  std::string name;   ///< of an option, without its dashes
+  std::string value;  ///< empty for a flag
+  bool operator==(const Told&) const = default;
+};
+
+/// Longest comment that every control reads, LinuxCNC's 255 less what is before and behind.
+inline constexpr std::size_t kLongestTold = 200;
+
+/// As it is written: whatever is not a letter, a digit or one of `-_./+,:` is =XX; a % would
+/// end the program on a fanuc.
+[[nodiscard]] std::string told_as_text(const Told& one);
+[[nodiscard]] std::string mark_text(const Way& way, std::vector<Told> told,
+                                    std::string_view ending);
+/// Empty for a program without inserted lines. Refused: a mark that is not what was written, and
+/// inserted lines without one, as earlier versions wrote them.
+[[nodiscard]] kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed);
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/rewrite/text/linuxcnc_text.hpp>
+#include <steadyrest/nc/rewrite/text/settings.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+Result<void> check_plan(const Plan& plan, const Settings& settings,
+                        const interpret::Config& config) {
+  constexpr std::size_t kMostSteps = 10'000;
+  const auto refuse = [&](std::string what, std::string to_do) {
+    return std::unexpected(
+        Refusal{Kind::bad_input, plan.file, 0, std::move(what), std::move(to_do)});
+  };
+  for (const AxisPlan& axis : plan.axes) {
+    if (config.axes.find(axis.letter) == std::string::npos) {
+      return refuse(fmt::format("the machine has no axis {}; it has {}", axis.letter, config.axes),
+                    "plan for an axis that the machine has");
+    }
+    if (settings.method != Method::linuxcnc && axis.letter >= 'U' && axis.letter <= 'W') {
+      return refuse(fmt::format("{} is an increment in this dialect", axis.letter),
+                    "plan for X, Y or Z");
+    }
+    if (beside_program(settings.method) && plan.axes.size() > 1) {
+      return refuse("corrections of several axes, but one variable to write them to",
+                    "plan for one axis");
+    }
+    if (settings.method == Method::linuxcnc && !offset_note(settings, axis.letter)) {
+      return refuse(
+          fmt::format("corrections of {} on a machine with the axes {}: the note of what is "
+                      "corrected needs two axes that the machine has not, for each axis",
+                      axis.letter, settings.axes),
+          "plan without this axis");
+    }
+    if (axis.steps.size() > kMostSteps) {
+      return refuse(fmt::format("{} corrections of {}; at most {} are allowed", axis.steps.size(),
+                                axis.letter, kMostSteps),
+                    "plan with a larger share of the tolerance");
+    }
+    for (const PlannedStep& step : axis.steps) {
+      if (std::abs(step.displacement_um) * 1e-3 > settings.clamp_mm + kHalfDigit_mm) {
+        return refuse(
+            fmt::format(
+                "a correction of {} by {:g} um at {:g} min; the machine file allows {:g} um",
+                axis.letter, -step.displacement_um, step.time_s / 60.0, settings.clamp_mm * 1e3),
+            "raise envelope.max_offset_mm if the machine may be moved that far, or plan again");
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> check_total(const Plan& plan, double program_s) {
+  if (std::abs(plan.total_s - program_s) <= std::max(kFit_s, kFitShare * program_s)) {
+    return {};
+  }
+  return std::unexpected(
+      Refusal{Kind::bad_input, plan.file, 0,
+              fmt::format("the plan is for {:.1f} s, the program takes {:.1f} s on this machine; "
+                          "2 % or 30 s of difference are allowed",
+                          plan.total_s, program_s),
+              "make the plan from this program and this machine file"});
+}
+
+std::string whole_head(const Plan& plan, const Settings& settings) {
+  std::string letters;
+  for (const AxisPlan& axis : plan.axes) {
+    letters += axis.steps.empty() ? std::string{} : std::string(1, axis.letter);
+  }
+  return mark_text(settings, settings.told, "\n") + head_text(settings, letters, "\n");
+}
+
+interpret::Config with_unknown_offsets(interpret::Config config, const Way& way) {
+  constexpr double kOwn_mm = 0.375;
+  const auto none = [](const interpret::Axes& axes) { return axes == interpret::Axes{}; };
+  if (config.start_known) {
+    return config;
+  }
+  if (none(config.external) && config.dialect == read::Dialect::fanuc && config.external_offset &&
+      !way.external_offset_free) {
+    std::fill_n(config.external.begin(), 3, kOwn_mm);
+  }
+  double own_mm = 0.0;
+  const auto fill = [&own_mm](interpret::Axes& axes) {
+    own_mm += kOwn_mm;
+    std::fill_n(axes.begin(), 3, own_mm);
+  };
+  if (std::ranges::all_of(config.work_offset, none)) {
+    std::ranges::for_each(config.work_offset, fill);
+  }
+  fill(config.tool_offset);
+  if (config.dialect != read::Dialect::sinumerik) {
+    fill(config.g92);
+    config.g92_on = true;
+  }
+  return config;
+}
+
+}  // namespace steadyrest::nc::rewrite

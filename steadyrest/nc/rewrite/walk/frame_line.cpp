@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/rewrite/walk/frame_line.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char letter,
+                                                 const std::string& program) {
+  const auto refuse = [&](std::string what, std::string to_do) {
+    return kernel::outcome::Refusal{kernel::outcome::Kind::bad_input, program, frame.line,
+                                    std::move(what), std::move(to_do)};
+  };
+  const bool end = frame.ends;
+  if (frame.frame == Frame::measured) {
+    return refuse(fmt::format("measures another work offset (G10 L20) while a correction of {} "
+                              "stands",
+                              letter),
+                  "measure before the first correction, or leave this axis out of the plan");
+  }
+  if (frame.frame == Frame::stored) {
+    return refuse(fmt::format("stores the place of the machine (G28.1, G30.1) while a correction "
+                              "of {} stands: it would stay there after the program",
+                              letter),
+                  "store it before the first correction, or leave this axis out of the plan");
+  }
+  if (!frame.may_write) {
+    constexpr std::string_view kWhere =
+        "in a subprogram, a loop, cutter compensation, a rotated frame, in diameters (G7) or as "
+        "block delete decides";
+    return end ? refuse(
+                     fmt::format("the program ends {}: the correction cannot be taken off", kWhere),
+                     "end the program at its top level")
+               : refuse(fmt::format("the work offset changes {} while a correction stands", kWhere),
+                        "change it at the top level, without /");
+  }
+  if (frame.moves_axis && frame.frame == Frame::changed) {
+    return refuse(fmt::format("the work offset changes in a line that moves {} while a correction "
+                              "stands",
+                              letter),
+                  "change the work offset in a line of its own");
+  }
+  return std::nullopt;
+}
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/nc/interpret/parameters/codes.hpp>
+#include <steadyrest/nc/interpret/state/step.hpp>
+#include <steadyrest/nc/rewrite/walk/said.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using interpret::GGroup;
+using interpret::MGroup;
+using interpret::ModeMask;
+
+namespace {
+
+ModeMask of_g(double code, bool sinumerik) noexcept {
+  if (sinumerik && (code == 70.0 || code == 71.0 || code == 700.0 || code == 710.0)) {
+    return mode(GGroup::units);
+  }
+  if (sinumerik && code >= 500.0 && code < 600.0) {
+    return mode(GGroup::work_offset);
+  }
+  const auto found = interpret::group_of_g(static_cast<int>(std::lround(code * 10.0)));
+  return found.known && found.group != GGroup::non_modal ? mode(found.group) : 0;
+}
+
+ModeMask of_m(double code) noexcept {
+  const auto found = interpret::group_of_m(static_cast<int>(code));
+  if (!found.known) {
+    return 0;
+  }
+  switch (found.group) {
+    case MGroup::tool_change:
+      return interpret::kToolMode;
+    case MGroup::spindle:
+      return interpret::kSpindleMode;
+    case MGroup::coolant:
+      return interpret::kCoolantMode;
+    case MGroup::override_switch:
+      return interpret::kOverrideMode;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+void Said::look(const read::Word& word) {
+  switch (word.letter) {
+    case 'G':
+      modes_ |= of_g(word.value, sinumerik_) & ~lost_;
+      break;
+    case 'M':
+      if (word.value == 70.0 || word.value == 73.0) {
+        lost_ |= ~modes_;
+      }
+      modes_ |= of_m(word.value) & ~lost_;
+      break;
+    case 'F':
+      modes_ |= interpret::kFeedMode & ~lost_;
+      break;
+    case 'S':
+      modes_ |= interpret::kSpeedMode & ~lost_;
+      break;
+    default:
+      break;
+  }
+}
+
+void Said::take(Taken taken) {
+  if (!taken_) {
+    taken_ = std::move(taken);
+  }
+}
+
+void Said::look(const interpret::Asked& asked, std::uint32_t known, std::uint32_t active,
+                std::uint32_t line) {
+  if (taken_ || !asked.any) {
+    return;
+  }
+  if (!has(mode(GGroup::work_offset))) {
+    active = ~interpret::Asked::kShift;
+  }
+  if (!asked.value.empty()) {
+    take({.line = line,
+          .what =
+              fmt::format("uses {}, whose value at the start is the control's own", asked.value)});
+  } else if (const std::uint32_t unknown = asked.positions & ~known; unknown != 0) {
+    const char axis = interpret::kAxisLetters[static_cast<std::size_t>(std::countr_zero(unknown))];
+    take({.line = line,
+          .what = fmt::format("uses the position of {}, which the program has not sent to a place "
+                              "in the work offset yet",
+                              axis)});
+  } else if (!has(asked.modes)) {
+    take({.line = line, .what = "uses a mode of the control that the program has not set itself"});
+  } else if ((asked.offsets_set & interpret::Asked::kShift) != 0) {
+    take({.line = line,
+          .what = "sets the shift of G92 by its numbers (#5211 ...): a correction would bring them "
+                  "into force",
+          .to_do = "set the shift by G92"});
+  } else if ((asked.offsets_set & active) != 0) {
+    take({.line = line,
+          .what = "sets the work offset in force by its numbers (#5221 ...): a correction would "
+                  "bring them into force",
+          .to_do = "set it by G10 L2"});
+  }
+}
+
+}  // namespace steadyrest::nc::rewrite

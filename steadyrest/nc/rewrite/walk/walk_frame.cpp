@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <steadyrest/nc/interpret/state/step.hpp>
+#include <steadyrest/nc/rewrite/walk/walk.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+using interpret::Step;
+
+Frame Walk::frame(char letter) const {
+  const Frame own = frame_alone(letter);
+  return other_ == nullptr || !together() ? own : std::max(own, other_->frame_alone(letter));
+}
+
+Frame Walk::frame_alone(char letter) const {
+  if (facts_.reference) {
+    return Frame::stored;
+  }
+  const interpret::State& now = run_->state();
+  if (now.active_offset != before_.active_offset || now.work_offset_on != before_.work_offset_on ||
+      facts_.settable) {
+    return Frame::changed;
+  }
+  if (!facts_.data || (facts_.axes & Step::bit(letter)) == 0) {
+    return Frame::kept;
+  }
+  if (facts_.data_form == 20.0) {
+    return of_active() ? Frame::kept : Frame::measured;
+  }
+  return of_active() ? Frame::changed : Frame::kept;
+}
+
+/// Of a G10: it is about the work offset in force.
+bool Walk::of_active() const noexcept {
+  return facts_.data_set <= 0.0 ||
+         facts_.data_set == static_cast<double>(run_->state().active_offset) + 1.0;
+}
+
+/// What the program may not do where the head sets the external offset to 0, in G90.
+void Walk::look_for_external() {
+  if (facts_.axes != 0 && !said_.has(mode(interpret::GGroup::distance))) {
+    said_.take({.line = line_or_call(),
+                .what = "programs an axis before the program has said G90 or G91: the head, which "
+                        "takes the external offset off in G90, would change what this does",
+                .to_do = "say G90 (or G91) before it"});
+  }
+  if (facts_.data && facts_.data_set == 0.0) {
+    said_.take({.line = line_or_call(),
+                .what = "sets the external offset itself: external_offset_free is not so",
+                .to_do = "use a work offset (G10 L2 P1 ...), or set external_offset_free = false"});
+  }
+}
+
+bool Walk::sets_offset(char letter) const noexcept {
+  return sets_offset_alone(letter) ||
+         (other_ != nullptr && together() && other_->sets_offset_alone(letter));
+}
+
+bool Walk::sets_offset_alone(char letter) const noexcept {
+  const bool measures = facts_.data && facts_.data_form == 20.0 && of_active() &&
+                        (facts_.axes & Step::bit(letter)) != 0;
+  return facts_.shifts || measures;
+}
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <steadyrest/kernel/machine/thermal.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::passport {
+
+/// The text of a machine file, or of a passport alone, with its thermal sections replaced by these;
+/// at its end where it has none. Everything else stays byte for byte; comments within the replaced
+/// sections go. What comes out is read again before it is given back.
+///
+/// Refused: what the reader refuses, and thermal values that are not written as sections.
+[[nodiscard]] kernel::outcome::Result<std::string> with_thermal(
+    std::string_view text, const std::string& file, const kernel::machine::Thermal& thermal);
+
+}  // namespace steadyrest::passport

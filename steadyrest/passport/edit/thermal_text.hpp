@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <steadyrest/kernel/machine/thermal.hpp>
+
+namespace steadyrest::passport {
+
+/// The sections `[thermal]` … as a machine file has them; read back they give the same values to
+/// nine digits.
+[[nodiscard]] std::string thermal_text(const kernel::machine::Thermal& thermal);
+
+}  // namespace steadyrest::passport

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <set>
+
+#include <steadyrest/kernel/override/gray.hpp>
+#include <steadyrest/kernel/override/table.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/passport/file/override_table.hpp>
+
+namespace steadyrest::passport {
+namespace {
+
+using kernel::machine::Coding;
+using kernel::machine::OverrideTable;
+
+constexpr std::size_t kMaxSteps = 2001;
+
+bool even_steps(const OverrideKeys& keys, const Given& given, Faults& faults, OverrideTable& out) {
+  if (keys.coding != Coding::binary) {
+    faults.add(given.at({"binary_max_percent"}),
+               fmt::format("{} has binary_max_percent, but its coding is gray", given.section),
+               "write coding = \"binary\", or give the steps as percent = [ … ]");
+    return false;
+  }
+  const double ratio = keys.binary_max / keys.binary_step;
+  const double whole = std::round(ratio);
+  if (std::abs(ratio - whole) > 1e-6 || whole < 1 || whole + 1 > static_cast<double>(kMaxSteps)) {
+    faults.add(given.at({"binary_step_percent", "binary_max_percent"}),
+               fmt::format("{} has {} steps from 0 to its largest value; allowed is a whole number "
+                           "from 1 to {}",
+                           given.section, shown(ratio), kMaxSteps - 1),
+               "choose a binary_step_percent that divides binary_max_percent");
+    return false;
+  }
+  const auto steps = static_cast<std::size_t>(whole);
+  for (std::size_t i = 0; i <= steps; ++i) {
+    out.ratio.push_back(keys.binary_max * static_cast<double>(i) / whole);
+    out.code.push_back(static_cast<std::uint32_t>(i));
+  }
+  return true;
+}
+
+bool rising(const OverrideKeys& keys, const Given& given, Faults& faults) {
+  for (std::size_t i = 1; i < keys.percent.size(); ++i) {
+    if (keys.percent[i] < keys.percent[i - 1]) {
+      faults.add(given.at({"percent"}),
+                 fmt::format("{} percent falls from {} to {} at entry {}", given.section,
+                             shown(kernel::units::percent_from_ratio(keys.percent[i - 1])),
+                             shown(kernel::units::percent_from_ratio(keys.percent[i])), i + 1),
+                 "list the steps in rising order, with codes = [ … ] in the same order");
+      return false;
+    }
+  }
+  return true;
+}
+
+bool default_codes(const OverrideKeys& keys, const Given& given, Faults& faults,
+                   OverrideTable& out) {
+  for (std::size_t i = 0; i < keys.percent.size(); ++i) {
+    const double percent = kernel::units::percent_from_ratio(keys.percent[i]);
+    if (keys.coding == Coding::gray) {
+      out.code.push_back(kernel::override::sinumerik_code(i));
+    } else if (std::abs(percent - std::round(percent)) < 1e-9) {
+      out.code.push_back(static_cast<std::uint32_t>(std::lround(percent)));
+    } else {
+      faults.add(given.at({"percent"}),
+                 fmt::format("{} percent has {}, and a binary word is a whole percent",
+                             given.section, shown(percent)),
+                 "add codes = [ … ], or use binary_max_percent with binary_step_percent");
+      return false;
+    }
+  }
+  return true;
+}
+
+bool distinct(const Given& given, Faults& faults, const OverrideTable& out) {
+  std::set<std::uint32_t> seen;
+  for (const std::uint32_t code : out.code) {
+    if (!seen.insert(code).second) {
+      faults.add(given.at({"codes", "percent"}),
+                 fmt::format("{} has the code {} twice", given.section, code),
+                 "give each step its own code");
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Neighbours of a Gray switch differ in one bit; where they do not, a code is mistyped.
+bool gray_neighbours(const Given& given, Faults& faults, const OverrideTable& out) {
+  for (std::size_t i = 1; out.coding == Coding::gray && i < out.code.size(); ++i) {
+    const std::uint32_t before = out.code[i - 1];
+    const std::uint32_t here = out.code[i];
+    if (std::popcount(before ^ here) != 1) {
+      faults.add(
+          given.at({"codes"}),
+          fmt::format("{} has the Gray codes {} = {:05b} and {} = {:05b} side by side, which "
+                      "differ in {} bits",
+                      given.section, before, before, here, here, std::popcount(before ^ here)),
+          "correct the codes (neighbours differ in one bit), or write coding = \"binary\"");
+      return false;
+    }
+  }
+  return true;
+}
+
+bool listed_steps(const OverrideKeys& keys, const Given& given, Faults& faults,
+                  OverrideTable& out) {
+  if (given.has("binary_step_percent")) {
+    faults.add(given.at({"binary_step_percent"}),
+               fmt::format("{} has binary_step_percent without binary_max_percent", given.section),
+               "remove it, or give binary_max_percent instead of percent");
+    return false;
+  }
+  if (keys.percent.size() > kMaxSteps) {
+    faults.add(given.at({"percent"}),
+               fmt::format("{} has {} steps; at most {} are possible", given.section,
+                           keys.percent.size(), kMaxSteps),
+               "leave out steps");
+    return false;
+  }
+  if (!rising(keys, given, faults)) {
+    return false;
+  }
+  if (given.has("codes")) {
+    if (keys.codes.size() != keys.percent.size()) {
+      faults.add(given.at({"codes"}),
+                 fmt::format("{} has {} codes for {} steps", given.section, keys.codes.size(),
+                             keys.percent.size()),
+                 "give one code for each entry of percent");
+      return false;
+    }
+    out.code = keys.codes;
+  } else if (!default_codes(keys, given, faults, out)) {
+    return false;
+  }
+  out.ratio = keys.percent;
+  return distinct(given, faults, out) && gray_neighbours(given, faults, out);
+}
+
+}  // namespace
+
+bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
+                   OverrideTable& out) {
+  const bool even = given.has("binary_max_percent");
+  if (even == given.has("percent")) {
+    faults.add(even ? given.at({"binary_max_percent"}) : given.line,
+               fmt::format("{} has {} percent {} binary_max_percent", given.section,
+                           even ? "both" : "neither", even ? "and" : "nor"),
+               "give one of the two: the list of steps, or the largest value of even steps");
+    return false;
+  }
+  if (even && given.has("codes")) {
+    faults.add(given.at({"codes"}),
+               fmt::format("{} has codes, but no percent that they could belong to", given.section),
+               "remove codes: with binary_max_percent the word is the number of the step");
+    return false;
+  }
+  OverrideTable table;
+  table.coding = keys.coding;
+  table.scan_period_s = keys.scan_period_s;
+  table.dead_time_s = keys.dead_time_s;
+  table.latched_word = keys.latched_word;
+  table.layer_may_exceed_panel = keys.layer_may_exceed_panel;
+  table.max_ratio = keys.max_ratio;
+  if (!(even ? even_steps(keys, given, faults, table) : listed_steps(keys, given, faults, table))) {
+    return false;
+  }
+  if (table.ratio.back() <= 0.0) {
+    faults.add(given.at({"percent"}), fmt::format("{} knows no step above 0 %", given.section),
+               "list the steps of the switch");
+    return false;
+  }
+  // The envelope builds its table from this value later; what it would refuse is refused here, with
+  // its line.
+  if (const auto made = kernel::override::Table::make(table); !made) {
+    faults.add(given.line, fmt::format("{}: {}", given.section, made.error().what),
+               made.error().to_do);
+    return false;
+  }
+  out = std::move(table);
+  return true;
+}
+
+OverrideTable rapid_from_feed(const OverrideTable& feed) {
+  OverrideTable rapid = feed;
+  for (double& ratio : rapid.ratio) {
+    ratio = std::min(ratio, 1.0);
+  }
+  rapid.max_ratio = std::min(feed.max_ratio, 1.0);
+  return rapid;
+}
+
+OverrideTable without_override() {
+  OverrideTable table;
+  table.coding = Coding::binary;
+  table.ratio = {1.0};
+  table.code = {100};
+  table.max_ratio = 1.0;
+  return table;
+}
+
+}  // namespace steadyrest::passport

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/passport/file/consistency.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
+
+namespace steadyrest::passport {
+namespace {
+
+using kernel::machine::Axis;
+using kernel::machine::Machine;
+
+Machine good() {
+  const auto machine = read(STEADYREST_SOURCE_DIR "/examples/machines/vmc-840d.toml");
+  EXPECT_TRUE(machine);
+  return machine.value_or(Machine{});
+}
+
+struct Case {
+  const char* name;
+  std::function<void(Machine&)> spoil;
+  std::string_view check;
+  Severity severity;
+};
+
+std::vector<Case> cases() {
+  return {
+      {"gains", [](Machine& m) { m.axes[1].servo_gain_1_s = 55; }, "servo_gain", Severity::warning},
+      {"forward", [](Machine& m) { m.axes[0].feed_forward = 1; }, "feed_forward",
+       Severity::warning},
+      {"swings",
+       [](Machine& m) {
+         for (Axis& axis : m.axes) {
+           axis.velocity_lag_s = 0.03;
+         }
+       },
+       "servo_gain", Severity::warning},
+      {"unstable", [](Machine& m) { m.control.servo_period_s = 0.1; }, "servo_gain",
+       Severity::error},
+      {"drive", [](Machine& m) { m.axes[0].drive_acceleration_mm_s2 = 1000; }, "drive_acceleration",
+       Severity::warning},
+      {"stuck", [](Machine& m) { m.axes[0].friction.breakaway_mm_s2 = 7000; }, "friction",
+       Severity::error},
+      {"rapid", [](Machine& m) { m.control.rapid_mm_s = 5000; }, "path_limits", Severity::note},
+      {"no100", [](Machine& m) { m.feed_override.ratio[18] = 0.99; }, "override_100",
+       Severity::error},
+      {"no0", [](Machine& m) { m.feed_override.ratio[0] = 0.005; }, "override_0",
+       Severity::warning},
+      {"clipped", [](Machine& m) { m.spindle_override.max_ratio = 0.9; }, "override_max",
+       Severity::error},
+      {"steps_above_max", [](Machine& m) { m.feed_override.max_ratio = 1.1; }, "override_max",
+       Severity::warning},
+      {"blind", [](Machine& m) { m.axes[2].encoder.count_mm = 0.006; }, "contour_limit",
+       Severity::error},
+      {"backlash", [](Machine& m) { m.axes[2].backlash_mm = 0.021; }, "contour_limit",
+       Severity::warning},
+      {"apart",
+       [](Machine& m) {
+         m.contour.max_ratio = 0.2;
+         m.envelope.min_feed_ratio = 0.5;
+       },
+       "envelope", Severity::error},
+      {"narrow", [](Machine& m) { m.contour.max_ratio = 1.5; }, "envelope", Severity::note},
+      {"no100_spindle", [](Machine& m) { m.envelope.max_spindle_ratio = 0.9; }, "envelope",
+       Severity::error},
+      {"stale", [](Machine& m) { m.envelope.stale_after_s = 0.001; }, "stale", Severity::error},
+      {"no_spindle_switch",
+       [](Machine& m) {
+         m.chatter.enabled = true;
+         m.spindle_override.ratio = {1.0};
+       },
+       "chatter", Severity::error},
+      {"slow", [](Machine& m) { m.feed_override.dead_time_s = 1.0; }, "override_delay",
+       Severity::warning},
+  };
+}
+
+class Consistency : public testing::TestWithParam<Case> {};
+
+TEST_P(Consistency, FindsTheOneThingThatWasSpoilt) {
+  Machine machine = good();
+  GetParam().spoil(machine);
+  const auto found = findings(machine);
+  ASSERT_FALSE(found.empty());
+  for (const Finding& finding : found) {
+    EXPECT_EQ(finding.check, GetParam().check) << finding.what;
+    EXPECT_EQ(finding.severity, GetParam().severity) << finding.what;
+    EXPECT_FALSE(finding.to_do.empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Spoilt, Consistency, testing::ValuesIn(cases()),
+                         [](const testing::TestParamInfo<Case>& at) { return at.param.name; });
+
+TEST(ConsistencyOfAGoodMachine, FindsNothing) {
+  EXPECT_TRUE(findings(good()).empty());
+}
+
+}  // namespace
+}  // namespace steadyrest::passport

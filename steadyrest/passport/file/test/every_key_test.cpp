@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <numbers>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/passport/keys/schema.hpp>
+
+// Every key of the schema at a value of its own, and the field of the machine that it must reach.
+namespace steadyrest::passport {
+namespace {
+
+using kernel::machine::Axis;
+using kernel::machine::Chatter;
+using kernel::machine::Coding;
+using kernel::machine::Compensation;
+using kernel::machine::CompensationMethod;
+using kernel::machine::ContourStrategy;
+using kernel::machine::Control;
+using kernel::machine::Dialect;
+using kernel::machine::Machine;
+using kernel::machine::Mode;
+using kernel::machine::OverrideTable;
+using kernel::machine::PortKind;
+using kernel::machine::Simulation;
+using kernel::machine::SpeedLaw;
+
+constexpr std::string_view kFull = R"(name = "Full"
+port = "sim"
+mode = "advise"
+[control]
+dialect = "linuxcnc"
+interpolator_period_ms = 6
+servo_period_ms = 3
+max_path_acceleration_mm_s2 = 1001
+max_path_jerk_mm_s3 = 1002
+max_feed_mm_min = 60180
+rapid_mm_min = 60240
+look_ahead_blocks = 105
+corner_tolerance_mm = 0.06
+junction_deviation_mm = 0.07
+tool_change_s = 8
+centripetal_share = 0.51
+blend_share = 0.22
+blend_gap_cycles = 3
+min_block_cycles = 4
+merge_share = 0.55
+junction_share = 0.56
+corner_acceleration_share = 0.57
+stop_between_rapid_and_feed = true
+[[axis]]
+name = "X"
+servo_gain_1_s = 11
+feed_forward = 0.12
+velocity_lag_ms = 13
+max_feed_mm_min = 840
+max_acceleration_mm_s2 = 15
+max_jerk_mm_s3 = 16
+drive_acceleration_mm_s2 = 17
+backlash_um = 18
+min_mm = -19
+max_mm = 20
+[axis.encoder]
+count_um = 21
+line_error_um = 22
+line_period_um = 23
+phase_error_um = [0.5, -0.25, -0.5, 0.25]
+line_table_first = -7
+line_table_um = [1.5, 0, -20.5]
+clock_ns = 230
+[axis.friction]
+coulomb_mm_s2 = 24
+breakaway_mm_s2 = 25
+stribeck_mm_s = 26
+viscous_1_s = 27
+[[axis]]
+name = "Y"
+servo_gain_m_min_mm = 6
+max_feed_mm_min = 60
+max_acceleration_mm_s2 = 1
+[[axis]]
+name = "B"
+servo_gain_1_s = 11
+max_speed_deg_s = 180
+max_acceleration_deg_s2 = 360
+max_jerk_deg_s3 = 540
+drive_acceleration_deg_s2 = 720
+backlash_deg = 0.9
+min_deg = -90
+max_deg = 45
+[axis.encoder]
+count_deg = 0.18
+line_error_deg = 0.36
+line_period_deg = 1.8
+phase_error_deg = [0.09, 0, 0, -0.09]
+line_table_periodic = true
+line_table_deg = [0.018, 0, -0.018, 0]
+clock_ns = 0
+[axis.friction]
+coulomb_deg_s2 = 18
+breakaway_deg_s2 = 36
+stribeck_deg_s = 54
+[override.feed]
+coding = "binary"
+percent = [0, 50, 100]
+codes = [7, 8, 9]
+scan_period_ms = 31
+dead_time_ms = 32
+latched_word = false
+layer_may_exceed_panel = true
+max_percent = 133
+[override.rapid]
+coding = "binary"
+binary_max_percent = 80
+binary_step_percent = 20
+[override.spindle]
+coding = "gray"
+percent = [60, 100]
+[spindle]
+max_rpm = 2460
+min_rpm = 60
+acceleration_rpm_s = 120
+inertia_kg_m2 = 43
+rated_power_kw = 44
+max_torque_n_m = 45
+rated_torque_n_m = 42
+speed_tolerance_percent = 47
+[contour]
+enabled = false
+strategy = "combined"
+limit_um = 51
+target_um = 50
+min_percent = 52
+max_percent = 53
+weight_contour = 54
+weight_feed = 55
+margin_percent = 56
+[chatter]
+enabled = true
+law = "random"
+amplitude_rpm = 180
+period_s = 0.57
+mean_percent = 58
+feed_per_tooth_min_percent = 59
+feed_per_tooth_max_percent = 160
+m_code_on = 138
+m_code_off = 139
+seed = 73
+[envelope]
+min_feed_percent = 61
+max_feed_percent = 162
+feed_fall_percent_s = 63
+feed_rise_percent_s = 64
+min_spindle_percent = 65
+max_spindle_percent = 166
+spindle_slew_percent_s = 67
+max_offset_um = 68
+offset_slew_um_s = 69
+stale_after_ms = 70
+[simulation]
+seed = 71
+position_noise_um = 72
+thermal_tau_error_percent = [73, -74]
+thermal_gain_error_percent = [75]
+room_c = 26
+room_swing_k = 7.7
+room_noise_k = 0.78
+room_start_h = 7.9
+sensor_noise_k = 0.80
+probe_noise_um = 81
+[thermal]
+[[thermal.axis]]
+name = "Z"
+[[thermal.axis.mode]]
+tau_min = 15
+polynomial_um = [1]
+[[thermal.axis.ambient]]
+sensor = "room"
+gain_um_k = 2
+)";
+
+Machine full() {
+  const auto machine = parse(kFull, "full.toml");
+  EXPECT_TRUE(machine) << kernel::outcome::text(machine.error());
+  return machine.value_or(Machine{});
+}
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(EveryKey, TopAndControl) {
+  const Machine m = full();
+  EXPECT_EQ(m.name, "Full");
+  EXPECT_EQ(m.port, PortKind::sim);
+  EXPECT_EQ(m.mode, Mode::advise);
+  const Control& c = m.control;
+  EXPECT_EQ(c.dialect, Dialect::linuxcnc);
+  EXPECT_DOUBLE_EQ(c.interpolator_period_s, 0.006);
+  EXPECT_DOUBLE_EQ(c.servo_period_s, 0.003);
+  EXPECT_DOUBLE_EQ(c.max_path_acceleration_mm_s2, 1001);
+  EXPECT_DOUBLE_EQ(c.max_path_jerk_mm_s3, 1002);
+  EXPECT_DOUBLE_EQ(c.max_feed_mm_s, 1003);
+  EXPECT_DOUBLE_EQ(c.rapid_mm_s, 1004);
+  EXPECT_EQ(c.look_ahead_blocks, 105U);
+  EXPECT_DOUBLE_EQ(c.corner_tolerance_mm, 0.06);
+  EXPECT_DOUBLE_EQ(c.junction_deviation_mm, 0.07);
+  EXPECT_DOUBLE_EQ(c.tool_change_s, 8);
+}
+
+TEST(EveryKey, PathPlanner) {
+  const Control c = full().control;
+  EXPECT_DOUBLE_EQ(c.centripetal_share, 0.51);
+  EXPECT_DOUBLE_EQ(c.blend_share, 0.22);
+  EXPECT_DOUBLE_EQ(c.blend_gap_cycles, 3);
+  EXPECT_DOUBLE_EQ(c.min_block_cycles, 4);
+  EXPECT_DOUBLE_EQ(c.merge_share, 0.55);
+  EXPECT_DOUBLE_EQ(c.junction_share, 0.56);
+  EXPECT_DOUBLE_EQ(c.corner_acceleration_share, 0.57);
+  EXPECT_TRUE(c.stop_between_rapid_and_feed);
+}
+
+TEST(EveryKey, LinearAxis) {
+  const Axis x = full().axes[0];
+  EXPECT_DOUBLE_EQ(x.servo_gain_1_s, 11);
+  EXPECT_DOUBLE_EQ(x.feed_forward, 0.12);
+  EXPECT_DOUBLE_EQ(x.velocity_lag_s, 0.013);
+  EXPECT_DOUBLE_EQ(x.max_speed_mm_s, 14);
+  EXPECT_DOUBLE_EQ(x.max_acceleration_mm_s2, 15);
+  EXPECT_DOUBLE_EQ(x.max_jerk_mm_s3, 16);
+  EXPECT_DOUBLE_EQ(x.drive_acceleration_mm_s2, 17);
+  EXPECT_DOUBLE_EQ(x.backlash_mm, 0.018);
+  EXPECT_DOUBLE_EQ(x.min_mm, -19);
+  EXPECT_DOUBLE_EQ(x.max_mm, 20);
+  EXPECT_DOUBLE_EQ(x.encoder.count_mm, 0.021);
+  EXPECT_DOUBLE_EQ(x.encoder.line_error_mm, 0.022);
+  EXPECT_DOUBLE_EQ(x.encoder.line_period_mm, 0.023);
+  EXPECT_DOUBLE_EQ(x.encoder.clock_s, 230e-9);
+  ASSERT_EQ(x.encoder.phase_error_mm.size(), 4U);
+  EXPECT_DOUBLE_EQ(x.encoder.phase_error_mm[1], -0.00025);
+  EXPECT_EQ(x.encoder.line_table_first, -7);
+  EXPECT_FALSE(x.encoder.line_table_periodic);
+  ASSERT_EQ(x.encoder.line_table_mm.size(), 3U);
+  EXPECT_DOUBLE_EQ(x.encoder.line_table_mm[2], -0.0205);
+  EXPECT_DOUBLE_EQ(x.friction.coulomb_mm_s2, 24);
+  EXPECT_DOUBLE_EQ(x.friction.breakaway_mm_s2, 25);
+  EXPECT_DOUBLE_EQ(x.friction.stribeck_mm_s, 26);
+  EXPECT_DOUBLE_EQ(x.friction.viscous_1_s, 27);
+  EXPECT_DOUBLE_EQ(full().axes[1].servo_gain_1_s, 100);
+}
+
+TEST(EveryKey, RotaryAxis) {
+  const Axis b = full().axes[3];
+  ASSERT_EQ(b.name, "B");
+  EXPECT_TRUE(b.rotary);
+  EXPECT_DOUBLE_EQ(b.max_speed_mm_s, kPi);
+  EXPECT_DOUBLE_EQ(b.max_acceleration_mm_s2, 2 * kPi);
+  EXPECT_DOUBLE_EQ(b.max_jerk_mm_s3, 3 * kPi);
+  EXPECT_DOUBLE_EQ(b.drive_acceleration_mm_s2, 4 * kPi);
+  EXPECT_DOUBLE_EQ(b.backlash_mm, kPi / 200);
+  EXPECT_DOUBLE_EQ(b.min_mm, -kPi / 2);
+  EXPECT_DOUBLE_EQ(b.max_mm, kPi / 4);
+  EXPECT_DOUBLE_EQ(b.encoder.count_mm, kPi / 1000);
+  EXPECT_DOUBLE_EQ(b.encoder.line_error_mm, kPi / 500);
+  EXPECT_DOUBLE_EQ(b.encoder.line_period_mm, kPi / 100);
+  EXPECT_EQ(b.encoder.clock_s, 0.0);
+  ASSERT_EQ(b.encoder.phase_error_mm.size(), 4U);
+  EXPECT_DOUBLE_EQ(b.encoder.phase_error_mm[3], -kPi / 2000.0);
+  EXPECT_TRUE(b.encoder.line_table_periodic);
+  ASSERT_EQ(b.encoder.line_table_mm.size(), 4U);
+  EXPECT_DOUBLE_EQ(b.encoder.line_table_mm[0], kPi / 10000.0);
+  EXPECT_DOUBLE_EQ(b.friction.coulomb_mm_s2, kPi / 10);
+  EXPECT_DOUBLE_EQ(b.friction.breakaway_mm_s2, kPi / 5);
+  EXPECT_DOUBLE_EQ(b.friction.stribeck_mm_s, 0.3 * kPi);
+}
+
+TEST(EveryKey, Overrides) {
+  const Machine m = full();
+  const OverrideTable& feed = m.feed_override;
+  EXPECT_EQ(feed.coding, Coding::binary);
+  EXPECT_EQ(feed.ratio, (std::vector{0.0, 0.5, 1.0}));
+  EXPECT_EQ(feed.code, (std::vector{7U, 8U, 9U}));
+  EXPECT_DOUBLE_EQ(feed.scan_period_s, 0.031);
+  EXPECT_DOUBLE_EQ(feed.dead_time_s, 0.032);
+  EXPECT_FALSE(feed.latched_word);
+  EXPECT_TRUE(feed.layer_may_exceed_panel);
+  EXPECT_DOUBLE_EQ(feed.max_ratio, 1.33);
+  EXPECT_EQ(m.rapid_override.code, (std::vector{0U, 1U, 2U, 3U, 4U}));
+  EXPECT_DOUBLE_EQ(m.rapid_override.ratio[3], 0.6);
+  EXPECT_EQ(m.spindle_override.coding, Coding::gray);
+  EXPECT_EQ(m.spindle_override.code, (std::vector{1U, 3U}));
+}
+
+TEST(EveryKey, SpindleContourEnvelopeSimulation) {
+  const Machine m = full();
+  EXPECT_DOUBLE_EQ(m.spindle.max_rev_s, 41);
+  EXPECT_DOUBLE_EQ(m.spindle.min_rev_s, 1);
+  EXPECT_DOUBLE_EQ(m.spindle.acceleration_rev_s2, 2);
+  EXPECT_DOUBLE_EQ(m.spindle.inertia_kg_m2, 43);
+  EXPECT_DOUBLE_EQ(m.spindle.rated_power_w, 44000);
+  EXPECT_DOUBLE_EQ(m.spindle.max_torque_n_m, 45);
+  EXPECT_DOUBLE_EQ(m.spindle.rated_torque_n_m, 42);
+  EXPECT_DOUBLE_EQ(m.spindle.speed_tolerance_ratio, 0.47);
+  EXPECT_FALSE(m.contour.enabled);
+  EXPECT_EQ(m.contour.strategy, ContourStrategy::combined);
+  EXPECT_DOUBLE_EQ(m.contour.limit_mm, 0.051);
+  EXPECT_DOUBLE_EQ(m.contour.target_mm, 0.050);
+  EXPECT_DOUBLE_EQ(m.contour.min_ratio, 0.52);
+  EXPECT_DOUBLE_EQ(m.contour.max_ratio, 0.53);
+  EXPECT_DOUBLE_EQ(m.contour.weight_contour, 54);
+  EXPECT_DOUBLE_EQ(m.contour.weight_feed, 55);
+  EXPECT_DOUBLE_EQ(m.contour.margin, 0.56);
+  EXPECT_DOUBLE_EQ(m.envelope.min_feed_ratio, 0.61);
+  EXPECT_DOUBLE_EQ(m.envelope.max_feed_ratio, 1.62);
+  EXPECT_DOUBLE_EQ(m.envelope.feed_fall_1_s, 0.63);
+  EXPECT_DOUBLE_EQ(m.envelope.feed_rise_1_s, 0.64);
+  EXPECT_DOUBLE_EQ(m.envelope.min_spindle_ratio, 0.65);
+  EXPECT_DOUBLE_EQ(m.envelope.max_spindle_ratio, 1.66);
+  EXPECT_DOUBLE_EQ(m.envelope.spindle_slew_1_s, 0.67);
+  EXPECT_DOUBLE_EQ(m.envelope.max_offset_mm, 0.068);
+  EXPECT_DOUBLE_EQ(m.envelope.offset_slew_mm_s, 0.069);
+  EXPECT_DOUBLE_EQ(m.envelope.stale_after_s, 0.070);
+  EXPECT_EQ(m.simulation.seed, 71U);
+  EXPECT_DOUBLE_EQ(m.simulation.position_noise_mm, 0.072);
+}
+
+TEST(EveryKey, HeatOfTheSimulatedMachine) {
+  const Simulation s = full().simulation;
+  EXPECT_EQ(s.thermal_tau_error_ratio, (std::vector{0.73, -0.74}));
+  EXPECT_EQ(s.thermal_gain_error_ratio, (std::vector{0.75}));
+  EXPECT_DOUBLE_EQ(s.room_c, 26);
+  EXPECT_DOUBLE_EQ(s.room_swing_k, 7.7);
+  EXPECT_DOUBLE_EQ(s.room_noise_k, 0.78);
+  EXPECT_DOUBLE_EQ(s.room_start_s, 7.9 * 3600);
+  EXPECT_DOUBLE_EQ(s.sensor_noise_k, 0.8);
+  EXPECT_DOUBLE_EQ(s.probe_noise_mm, 0.081);
+}
+
+TEST(EveryKey, Chatter) {
+  const auto chatter = full().chatter;
+  EXPECT_TRUE(chatter.enabled);
+  EXPECT_EQ(chatter.law, SpeedLaw::random);
+  EXPECT_DOUBLE_EQ(chatter.amplitude_rev_s, 3);
+  EXPECT_DOUBLE_EQ(chatter.period_s, 0.57);
+  EXPECT_DOUBLE_EQ(chatter.mean_ratio, 0.58);
+  EXPECT_DOUBLE_EQ(chatter.min_feed_per_tooth_ratio, 0.59);
+  EXPECT_DOUBLE_EQ(chatter.max_feed_per_tooth_ratio, 1.6);
+  EXPECT_EQ(chatter.m_code_on, 138U);
+  EXPECT_EQ(chatter.m_code_off, 139U);
+  EXPECT_EQ(chatter.seed, 73U);
+  std::string text(kFull);
+  text.replace(text.find("amplitude_rpm = 180"), 19, "amplitude_percent = 18");
+  const auto percent = parse(text, "percent.toml");
+  ASSERT_TRUE(percent);
+  EXPECT_DOUBLE_EQ(percent->chatter.amplitude_ratio, 0.18);
+}
+
+// The keys belong to methods that exclude one another.
+TEST(EveryKey, Compensation) {
+  const auto with = [](std::string_view dialect, std::string_view section) {
+    std::string text(kFull);
+    text.replace(text.find("dialect = \"linuxcnc\""), 20, dialect);
+    const auto machine = parse(text + "\n[compensation]\n" + std::string(section), "full.toml");
+    EXPECT_TRUE(machine) << section << kernel::outcome::text(machine.error());
+    return machine.value_or(Machine{}).compensation;
+  };
+  using Method = CompensationMethod;
+  EXPECT_EQ(full().compensation.method, Method::by_dialect);
+  EXPECT_EQ(with("dialect = \"linuxcnc\"", "method = \"linuxcnc\"").method, Method::linuxcnc);
+  const auto fanuc = with("dialect = \"fanuc\"", "method = \"fanuc\"\nexternal_offset_free = true");
+  EXPECT_EQ(fanuc.method, Method::fanuc);
+  EXPECT_TRUE(fanuc.external_offset_free);
+  EXPECT_EQ(with("dialect = \"fanuc\"", "method = \"haas\"").method, Method::haas);
+  constexpr std::string_view kSinumerik = "dialect = \"sinumerik\"";
+  const auto parameter = with(kSinumerik, "method = \"r_parameter\"\nr_parameter = 0");
+  EXPECT_EQ(parameter.method, Method::r_parameter);
+  EXPECT_EQ(with(kSinumerik, "method = \"r_parameter\"\nr_parameter = 74").r_parameter, 74U);
+  const auto data = with(kSinumerik, "method = \"setting_data\"\nsign = -1");
+  EXPECT_EQ(data.method, Method::setting_data);
+  EXPECT_EQ(data.sign, -1);
+  EXPECT_FALSE(data.cleared_after_abort);
+  EXPECT_TRUE(with(kSinumerik, "method = \"setting_data\"\nsign = 1\ncleared_after_abort = true")
+                  .cleared_after_abort);
+  EXPECT_EQ(with(kSinumerik, "method = \"frame_fine\"").method, Method::frame_fine);
+  EXPECT_EQ(fanuc.least_increment_mm, 1e-3);
+  EXPECT_EQ(with("dialect = \"fanuc\"", "least_increment_um = 0.1").least_increment_mm, 1e-4);
+  EXPECT_EQ(compensation_keys().size(), 6U) << "a key is not tried here";
+}
+
+template <class S>
+void expect_all_tried(std::span<const Key<S>> keys) {
+  for (const Key<S>& key : keys) {
+    if (key.name == "amplitude_percent") {
+      continue;  // cannot stand beside amplitude_rpm; EveryKey.Chatter tries it
+    }
+    const std::string line = "\n" + std::string(key.name) + " = ";
+    EXPECT_TRUE(("\n" + std::string(kFull)).find(line) != std::string::npos)
+        << key.name << " is not tried here";
+  }
+}
+
+TEST(EveryKey, IsTriedHere) {
+  expect_all_tried(top_keys());
+  expect_all_tried(control_keys());
+  expect_all_tried(axis_keys());
+  expect_all_tried(encoder_keys());
+  expect_all_tried(friction_keys());
+  expect_all_tried(override_keys());
+  expect_all_tried(spindle_keys());
+  expect_all_tried(contour_keys());
+  expect_all_tried(chatter_keys());
+  expect_all_tried(envelope_keys());
+  expect_all_tried(simulation_keys());
+}
+
+}  // namespace
+}  // namespace steadyrest::passport

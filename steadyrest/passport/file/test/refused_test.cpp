@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/passport/text/text_check.hpp>
+
+namespace steadyrest::passport {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path kCorpus = fs::path(STEADYREST_SOURCE_DIR) / "tests" / "refused" / "machine";
+
+std::vector<std::string> corpus() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(kCorpus)) {
+    if (entry.path().extension() == ".toml") {
+      names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// What the first line of a file promises: `# refuse LINE: a piece of the message`.
+struct Promise {
+  std::size_t line = 0;
+  std::string piece;
+};
+
+Promise promise_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string first;
+  std::getline(in, first);
+  constexpr std::string_view kHead = "# refuse ";
+  const std::size_t colon = first.find(": ");
+  if (!first.starts_with(kHead) || colon == std::string::npos || first.size() == colon + 2) {
+    ADD_FAILURE() << path << " does not begin with `# refuse LINE: message`";
+    return {};
+  }
+  return {std::stoul(first.substr(kHead.size())), first.substr(colon + 2)};
+}
+
+class RefusedMachineFile : public testing::TestWithParam<std::string> {};
+
+TEST_P(RefusedMachineFile, NamesItsFault) {
+  const fs::path path = kCorpus / (GetParam() + ".toml");
+  const Promise promise = promise_of(path);
+  const AllFaults result = read_all_faults(path.string());
+  ASSERT_FALSE(result) << "was accepted";
+  const kernel::outcome::Refusal& fault = result.error().front();
+  EXPECT_EQ(fault.kind, kernel::outcome::Kind::bad_input);
+  EXPECT_EQ(fault.file, path.string());
+  EXPECT_EQ(fault.line, promise.line) << kernel::outcome::text(fault);
+  EXPECT_THAT(kernel::outcome::text(fault), HasSubstr(promise.piece));
+  EXPECT_FALSE(fault.to_do.empty());
+  for (const kernel::outcome::Refusal& other : result.error()) {
+    EXPECT_EQ(&other, &fault) << "one fault makes another message: "
+                              << kernel::outcome::text(other);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, RefusedMachineFile, testing::ValuesIn(corpus()),
+                         [](const testing::TestParamInfo<std::string>& at) {
+                           std::string name = at.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(RefusedMachineFiles, AreAtLeastThirtyFive) {
+  EXPECT_GE(corpus().size(), 35U);
+}
+
+std::string refusal_of(std::string_view text) {
+  const auto result = parse(text, "given.toml");
+  return result ? "accepted" : kernel::outcome::text(result.error());
+}
+
+TEST(RefusedMachineText, EmptyFile) {
+  EXPECT_THAT(refusal_of(""), HasSubstr("given.toml: the file is empty"));
+  EXPECT_THAT(refusal_of(" \n\n\t"), HasSubstr("the file is empty"));
+}
+
+TEST(RefusedMachineText, BinaryFile) {
+  EXPECT_THAT(refusal_of(std::string_view("\x7f"
+                                          "ELF\x02\x01\x01\0\0\0",
+                                          10)),
+              HasSubstr("given.toml:1: byte 0x7f is not text"));
+  EXPECT_THAT(refusal_of(std::string_view("name = \"a\"\n\0\0", 13)),
+              HasSubstr("given.toml:2: byte 0x00 is not text"));
+  EXPECT_THAT(refusal_of("\xff\xfe"
+                         "n\0"),
+              HasSubstr("given.toml:1: byte 0xff is not UTF-8"));
+}
+
+TEST(RefusedMachineText, EndsInTheMiddleOfACharacter) {
+  EXPECT_THAT(refusal_of("# µm \xc2"), HasSubstr("byte 0xc2 is not UTF-8"));
+  EXPECT_THAT(refusal_of("# \xe2\x82"), HasSubstr("byte 0xe2 is not UTF-8"));
+}
+
+/// A file of the given size that takes no room on the disk.
+class SparseFile {
+ public:
+  explicit SparseFile(std::uintmax_t bytes)
+      : path_(fs::path(testing::TempDir()) / "steadyrest-large.toml") {
+    std::ofstream(path_) << "name = \"large\"\n";
+    fs::resize_file(path_, bytes);
+  }
+  SparseFile(const SparseFile&) = delete;
+  SparseFile& operator=(const SparseFile&) = delete;
+  ~SparseFile() { fs::remove(path_); }
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+TEST(RefusedMachineText, LargeFileWithoutReadingItWhole) {
+  const SparseFile file(200U << 20U);
+  const auto result = read(file.path());
+  ASSERT_FALSE(result);
+  EXPECT_THAT(kernel::outcome::text(result.error()), HasSubstr("larger than 16 MB"));
+}
+
+TEST(RefusedMachineText, FileThatNeverEnds) {
+  const auto result = read("/dev/zero");
+  ASSERT_FALSE(result);
+  EXPECT_THAT(kernel::outcome::text(result.error()), HasSubstr("larger than 16 MB"));
+}
+
+TEST(RefusedMachineText, NoFileAndAFolder) {
+  EXPECT_THAT(kernel::outcome::text(read("no/such/file.toml").error()),
+              HasSubstr("no/such/file.toml: cannot be opened: No such file"));
+  EXPECT_THAT(kernel::outcome::text(read(kCorpus.string()).error()), HasSubstr("is a folder"));
+}
+
+TEST(RefusedMachineText, NestingThatWouldExhaustTheStack) {
+  std::string keys;
+  for (int i = 0; i < 1'000'000; ++i) {
+    keys += "a.";
+  }
+  EXPECT_THAT(refusal_of(keys + "a = 1\n"), HasSubstr("more than 16 dots"));
+  EXPECT_THAT(refusal_of("a = " + std::string(1'000'000, '[')), HasSubstr("given.toml:1:"));
+  std::string tables;
+  for (int i = 0; i < 100'000; ++i) {
+    tables += "{a=";
+  }
+  EXPECT_THAT(refusal_of("a = " + tables), HasSubstr("given.toml:1:"));
+}
+
+TEST(RefusedMachineText, ShowsAllFaultsInTheOrderOfTheirLines) {
+  const AllFaults result = parse_all_faults(
+      "nmae = \"x\"\n[control]\ndialect = 3\n[contour]\nlimit_mm = 1\n", "given.toml");
+  ASSERT_FALSE(result);
+  const auto& list = result.error();
+  ASSERT_EQ(list.size(), 5U);  // two of the five concern the file as a whole
+  EXPECT_TRUE(std::is_sorted(list.begin(), list.end(),
+                             [](const auto& a, const auto& b) { return a.line < b.line; }));
+  EXPECT_EQ(list[2].line, 1U);
+  EXPECT_EQ(list[3].line, 3U);
+  EXPECT_EQ(list[4].line, 5U);
+}
+
+}  // namespace
+}  // namespace steadyrest::passport

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include <steadyrest/passport/keys/schema.hpp>
+
+namespace steadyrest::passport {
+namespace {
+
+using kernel::machine::Axis;
+using kernel::machine::Chatter;
+using kernel::machine::Coding;
+using kernel::machine::Contour;
+using kernel::machine::ContourStrategy;
+using kernel::machine::Control;
+using kernel::machine::Dialect;
+using kernel::machine::Encoder;
+using kernel::machine::Envelope;
+using kernel::machine::Friction;
+using kernel::machine::Machine;
+using kernel::machine::Mode;
+using kernel::machine::PortKind;
+using kernel::machine::Simulation;
+using kernel::machine::SpeedLaw;
+using kernel::machine::Spindle;
+
+using std::string_view;
+
+constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "modbus", "opcua", "replay"};
+/// Those that have an adapter; a file with another is refused.
+constexpr auto kBuiltPorts = std::span(kPorts).first<1>();
+constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
+constexpr std::array<string_view, 3> kDialects = {"linuxcnc", "fanuc", "sinumerik"};
+constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
+constexpr std::array<string_view, 3> kStrategies = {"contour_priority", "feed_priority",
+                                                    "combined"};
+constexpr std::array<string_view, 7> kLaws = {"constant", "square", "pulse", "triangle",
+                                              "sine",     "random", "stop"};
+template <class S, auto Member>
+Choice<S> choice(std::span<const string_view> words) {
+  using Enum = std::remove_cvref_t<decltype(std::declval<S&>().*Member)>;
+  return {words, [](S& section, std::size_t i) { section.*Member = static_cast<Enum>(i); },
+          [](const S& section) { return static_cast<std::size_t>(section.*Member); }};
+}
+
+template <class Enum, std::size_t N>
+string_view pick(const std::array<string_view, N>& words, Enum value) noexcept {
+  const auto i = static_cast<std::size_t>(value);
+  return i < N ? words[i] : "?";
+}
+
+constexpr auto kMust = Need::mandatory;
+constexpr auto kMay = Need::optional;
+constexpr auto kLinear = For::linear;
+constexpr auto kRotary = For::rotary;
+
+}  // namespace
+
+std::span<const Key<Machine>> top_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Machine>{"name", &Machine::name, 1, 80, "What the machine is called in reports."},
+      Key<Machine>{
+          "port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
+          "How the machine is reached. `sim`, the simulated machine, is the only way so far."},
+      Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
+                   "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Control>> control_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Control>{"dialect", choice<Control, &Control::dialect>(kDialects), 0, 0,
+                   "Language of the control's NC programs.", kMust},
+      Key<Control>{"interpolator_period_ms", &Control::interpolator_period_s, 0.05, 100,
+                   "The interpolator gives a new set-point this often; a whole multiple of "
+                   "`servo_period_ms`."},
+      Key<Control>{"servo_period_ms", &Control::servo_period_s, 0.05, 100,
+                   "Period of the position control loop."},
+      Key<Control>{"max_path_acceleration_mm_s2", &Control::max_path_acceleration_mm_s2, 1, 1e6,
+                   "Limit of the acceleration along the path, on top of the axes' own."},
+      Key<Control>{"max_path_jerk_mm_s3", &Control::max_path_jerk_mm_s3, 1, 1e9,
+                   "Limit of the jerk along the path, on top of the axes' own."},
+      Key<Control>{"max_feed_mm_min", &Control::max_feed_mm_s, 1, 1e6,
+                   "Largest path feed that the control accepts."},
+      Key<Control>{"rapid_mm_min", &Control::rapid_mm_s, 1, 1e6,
+                   "Path speed of G0, on top of the axes' own limits."},
+      Key<Control>{"look_ahead_blocks", &Control::look_ahead_blocks, 1, 10000,
+                   "Number of blocks that the control sees ahead."},
+      Key<Control>{"corner_tolerance_mm", &Control::corner_tolerance_mm, 0, 10,
+                   "Rounding tolerance of G64 without its own value; 0 stays on the exact path."},
+      Key<Control>{"junction_deviation_mm", &Control::junction_deviation_mm, 0, 1,
+                   "Bound on the speed through a corner of the exact path."},
+      Key<Control>{"tool_change_s", &Control::tool_change_s, 0, 3600,
+                   "How long one tool change takes."},
+      Key<Control>{"centripetal_share", &Control::centripetal_share, 0.1, 0.999,
+                   "Share of the axes' acceleration that arcs may use across the path."},
+      Key<Control>{"blend_share", &Control::blend_share, 0.01, 0.5,
+                   "A corner arc takes at most this share of each of its neighbours."},
+      Key<Control>{
+          "blend_gap_cycles", &Control::blend_gap_cycles, 0, 1000,
+          "What a corner arc leaves of the line before it keeps the arc's acceleration when "
+          "it is shorter than this many interpolator periods."},
+      Key<Control>{"min_block_cycles", &Control::min_block_cycles, 0, 1000,
+                   "A block takes at least this many interpolator periods."},
+      Key<Control>{"merge_share", &Control::merge_share, 0, 1,
+                   "Lines become one while all points lie within this share of the tolerance that "
+                   "the program gives; 0 = never."},
+      Key<Control>{"junction_share", &Control::junction_share, 0.001, 1,
+                   "Share of the axes' acceleration that a corner of the exact path may use in one "
+                   "interpolator period."},
+      Key<Control>{"corner_acceleration_share", &Control::corner_acceleration_share, 0.01, 1,
+                   "Continuous mode: share of the acceleration that is left beside a corner which "
+                   "could not be rounded, and before a stop."},
+      Key<Control>{"stop_between_rapid_and_feed", &Control::stop_between_rapid_and_feed, 0, 0,
+                   "The control stops between G0 and a feed move."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Axis>> axis_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Axis>{"name", &Axis::name, 1, 1, "One of X Y Z U V W (linear) or A B C (rotary).", kMust},
+      Key<Axis>{"servo_gain_1_s", &Axis::servo_gain_1_s, 1, 1000,
+                "Gain of the position loop: speed over following error.", kMust},
+      Key<Axis>{"servo_gain_m_min_mm", &Axis::servo_gain_1_s, 0.06, 60,
+                "The same in the unit of SINUMERIK MD32200: 1 (m/min)/mm = 16.667 1/s.", kMust},
+      Key<Axis>{"feed_forward", &Axis::feed_forward, 0, 1.5,
+                "Weight of the velocity feed-forward: 0 none, 1 full."},
+      Key<Axis>{"velocity_lag_ms", &Axis::velocity_lag_s, 0, 500,
+                "First-order lag of the closed velocity loop."},
+      Key<Axis>{"max_feed_mm_min", &Axis::max_speed_mm_s, 1, 1e6, "Largest speed of the axis.",
+                kMust, kLinear},
+      Key<Axis>{"max_speed_deg_s", &Axis::max_speed_mm_s, 0.01, 1e5, "Largest speed of the axis.",
+                kMust, kRotary},
+      Key<Axis>{"max_acceleration_mm_s2", &Axis::max_acceleration_mm_s2, 1, 1e6,
+                "Largest acceleration that the control plans with.", kMust, kLinear},
+      Key<Axis>{"max_acceleration_deg_s2", &Axis::max_acceleration_mm_s2, 0.1, 1e6,
+                "Largest acceleration that the control plans with.", kMust, kRotary},
+      Key<Axis>{"max_jerk_mm_s3", &Axis::max_jerk_mm_s3, 1, 1e9,
+                "Largest jerk that the control plans with.", kMay, kLinear},
+      Key<Axis>{"max_jerk_deg_s3", &Axis::max_jerk_mm_s3, 1, 1e9,
+                "Largest jerk that the control plans with.", kMay, kRotary},
+      Key<Axis>{"drive_acceleration_mm_s2", &Axis::drive_acceleration_mm_s2, 1, 1e6,
+                "What the drive can do at its current limit; the servo saturates there.", kMay,
+                kLinear},
+      Key<Axis>{"drive_acceleration_deg_s2", &Axis::drive_acceleration_mm_s2, 0.1, 1e6,
+                "What the drive can do at its current limit; the servo saturates there.", kMay,
+                kRotary},
+      Key<Axis>{"backlash_um", &Axis::backlash_mm, 0, 5000, "Lost motion at a reversal.", kMay,
+                kLinear},
+      Key<Axis>{"backlash_deg", &Axis::backlash_mm, 0, 10, "Lost motion at a reversal.", kMay,
+                kRotary},
+      Key<Axis>{"min_mm", &Axis::min_mm, -1e6, 1e6, "Lower end of travel, machine coordinates.",
+                kMay, kLinear},
+      Key<Axis>{"max_mm", &Axis::max_mm, -1e6, 1e6, "Upper end of travel.", kMay, kLinear},
+      Key<Axis>{"min_deg", &Axis::min_mm, -1e8, 1e8, "Lower end of travel, machine coordinates.",
+                kMay, kRotary},
+      Key<Axis>{"max_deg", &Axis::max_mm, -1e8, 1e8, "Upper end of travel.", kMay, kRotary},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Encoder>> encoder_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Encoder>{"count_um", &Encoder::count_mm, 0, 1000,
+                   "Length of one count after ×4 decoding; 0 = ideal.", kMay, kLinear},
+      Key<Encoder>{"count_deg", &Encoder::count_mm, 0, 10,
+                   "Angle of one count after ×4 decoding; 0 = ideal.", kMay, kRotary},
+      Key<Encoder>{"line_error_um", &Encoder::line_error_mm, 0, 1000,
+                   "Amplitude of the error that repeats with each line.", kMay, kLinear},
+      Key<Encoder>{"line_error_deg", &Encoder::line_error_mm, 0, 10,
+                   "Amplitude of the error that repeats with each line.", kMay, kRotary},
+      Key<Encoder>{"line_period_um", &Encoder::line_period_mm, 0.001, 1e5, "Length of one line.",
+                   kMay, kLinear},
+      Key<Encoder>{"line_period_deg", &Encoder::line_period_mm, 1e-6, 360, "Angle of one line.",
+                   kMay, kRotary},
+      Key<Encoder>{"clock_ns", &Encoder::clock_s, 0, 1e6,
+                   "Period of the clock that stamps the edges with their time; 0 = the counter "
+                   "gives no time stamps."},
+      Key<Encoder>{"phase_error_um", &Encoder::phase_error_mm, -1000, 1000,
+                   "Calibration: where the four edges of a line stand off, line number mod 4 = 0, "
+                   "1, 2, 3; their sum is 0 and each is less than a count.",
+                   kMay, kLinear, 4},
+      Key<Encoder>{"phase_error_deg", &Encoder::phase_error_mm, -10, 10,
+                   "Calibration: where the four edges of a line stand off, line number mod 4 = 0, "
+                   "1, 2, 3; their sum is 0 and each is less than a count.",
+                   kMay, kRotary, 4},
+      Key<Encoder>{"line_table_first", &Encoder::line_table_first, -1e12, 1e12,
+                   "Calibration: number of the edge that the table begins with."},
+      Key<Encoder>{"line_table_periodic", &Encoder::line_table_periodic, 0, 0,
+                   "Calibration: the table is one revolution and repeats."},
+      Key<Encoder>{
+          "line_table_um", &Encoder::line_table_mm, -1000, 1000,
+          "Calibration: where each edge stands off besides, at most 1 048 576 of them, "
+          "each less than a count; 0 = not known. `steadyrest motion calibrate` writes it.",
+          kMay, kLinear, kMaxLineTable},
+      Key<Encoder>{
+          "line_table_deg", &Encoder::line_table_mm, -10, 10,
+          "Calibration: where each edge stands off besides, at most 1 048 576 of them, "
+          "each less than a count; 0 = not known. `steadyrest motion calibrate` writes it.",
+          kMay, kRotary, kMaxLineTable},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Friction>> friction_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Friction>{"coulomb_mm_s2", &Friction::coulomb_mm_s2, 0, 1e5,
+                    "Sliding friction as an acceleration: force over moved mass.", kMay, kLinear},
+      Key<Friction>{"coulomb_deg_s2", &Friction::coulomb_mm_s2, 0, 1e6,
+                    "Sliding friction as an acceleration: torque over moved inertia.", kMay,
+                    kRotary},
+      Key<Friction>{"breakaway_mm_s2", &Friction::breakaway_mm_s2, 0, 1e5,
+                    "Friction at the start of motion; not below the sliding friction.", kMay,
+                    kLinear},
+      Key<Friction>{"breakaway_deg_s2", &Friction::breakaway_mm_s2, 0, 1e6,
+                    "Friction at the start of motion; not below the sliding friction.", kMay,
+                    kRotary},
+      Key<Friction>{"stribeck_mm_s", &Friction::stribeck_mm_s, 1e-6, 1e3,
+                    "Speed over which the breakaway part falls off.", kMay, kLinear},
+      Key<Friction>{"stribeck_deg_s", &Friction::stribeck_mm_s, 1e-6, 1e4,
+                    "Speed over which the breakaway part falls off.", kMay, kRotary},
+      Key<Friction>{"viscous_1_s", &Friction::viscous_1_s, 0, 1e4,
+                    "Friction that grows with speed."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<OverrideKeys>> override_keys() noexcept {
+  using O = OverrideKeys;
+  static const std::array kKeys = {
+      Key<O>{"coding", choice<O, &O::coding>(kCodings), 0, 0, "How the switch's word is coded."},
+      Key<O>{"percent", &O::percent, 0, 1000,
+             "The values of the steps, first step first, never falling. Either this or "
+             "`binary_max_percent`."},
+      Key<O>{
+          "codes", &O::codes, 0, 65535,
+          "The word of each step, as many as `percent`, all different. Without it: the Gray code "
+          "of 1, 2, 3 … (`gray`), the percent itself (`binary`)."},
+      Key<O>{"binary_max_percent", &O::binary_max, 1, 1000,
+             "Binary switch with even steps from 0 to this value; the word is the number of the "
+             "step."},
+      Key<O>{"binary_step_percent", &O::binary_step, 0.05, 50,
+             "Size of those steps; at most 2001 steps."},
+      Key<O>{"scan_period_ms", &O::scan_period_s, 0.05, 10000,
+             "The PLC (or whatever reads the switch) looks at the word this often."},
+      Key<O>{"dead_time_ms", &O::dead_time_s, 0, 10000,
+             "From that look until the interpolator acts."},
+      Key<O>{"latched_word", &O::latched_word, 0, 0,
+             "A written word takes effect as a whole; if not, the layer walks the neighbours."},
+      Key<O>{"layer_may_exceed_panel", &O::layer_may_exceed_panel, 0, 0,
+             "The layer may ask for more than the operator's switch. The panel's 0 always stops."},
+      Key<O>{"max_percent", &O::max_ratio, 1, 1000, "The control clips at this value."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Spindle>> spindle_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Spindle>{"max_rpm", &Spindle::max_rev_s, 1, 1e6, "Largest speed."},
+      Key<Spindle>{"min_rpm", &Spindle::min_rev_s, 0, 1e6, "Smallest speed."},
+      Key<Spindle>{"acceleration_rpm_s", &Spindle::acceleration_rev_s2, 1, 1e6,
+                   "How fast the drive changes the speed."},
+      Key<Spindle>{"inertia_kg_m2", &Spindle::inertia_kg_m2, 1e-7, 1e4,
+                   "Moment of inertia of rotor, chuck and tool."},
+      Key<Spindle>{"rated_power_kw", &Spindle::rated_power_w, 0.001, 1e4, "Rated power."},
+      Key<Spindle>{"max_torque_n_m", &Spindle::max_torque_n_m, 0.001, 1e6, "Largest torque."},
+      Key<Spindle>{"rated_torque_n_m", &Spindle::rated_torque_n_m, 0.001, 1e6,
+                   "RMS torque that the motor bears for ever (S1); `max_torque_n_m` without it."},
+      Key<Spindle>{"speed_tolerance_percent", &Spindle::speed_tolerance_ratio, 0, 100,
+                   "Band of the control's speed monitor about its set-point (MD35150 on an 840D); "
+                   "0: the control has none."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Contour>> contour_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Contour>{"enabled", &Contour::enabled, 0, 0, "Whether the contour room corrects at all."},
+      Key<Contour>{"strategy", choice<Contour, &Contour::strategy>(kStrategies), 0, 0,
+                   "What comes first: the smallest error, the highest feed within the limit, or a "
+                   "weighted sum of both."},
+      Key<Contour>{"limit_um", &Contour::limit_mm, 0.01, 1e5, "Largest contour error allowed."},
+      Key<Contour>{"target_um", &Contour::target_mm, 0, 1e5,
+                   "Contour priority: errors below this count as equal."},
+      Key<Contour>{"min_percent", &Contour::min_ratio, 0, 1000,
+                   "The layer never asks for less than this share of the programmed feed."},
+      Key<Contour>{"max_percent", &Contour::max_ratio, 0.1, 1000, "Nor for more than this."},
+      Key<Contour>{"weight_contour", &Contour::weight_contour, 0, 1000,
+                   "Combined strategy: weight of the contour error."},
+      Key<Contour>{"weight_feed", &Contour::weight_feed, 0, 1000,
+                   "Combined strategy: weight of the feed."},
+      Key<Contour>{"margin_percent", &Contour::margin, 0, 90,
+                   "Share of the limit kept in reserve against what the model does not know."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Chatter>> chatter_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Chatter>{"enabled", &Chatter::enabled, 0, 0,
+                   "Whether the spindle's speed may be modulated at all."},
+      Key<Chatter>{
+          "law", choice<Chatter, &Chatter::law>(kLaws), 0, 0,
+          "Shape of the modulation: a square wave, a pulse up for a quarter of the period, "
+          "a triangle, a sine, random, a brief fall (`stop`), or `constant` for none."},
+      Key<Chatter>{"amplitude_percent", &Chatter::amplitude_ratio, 0, 90,
+                   "Swing to either side of the mean speed. Either this or `amplitude_rpm`."},
+      Key<Chatter>{"amplitude_rpm", &Chatter::amplitude_rev_s, 0, 1e5,
+                   "The same as a speed; 0 = `amplitude_percent` counts."},
+      Key<Chatter>{"period_s", &Chatter::period_s, 0.02, 600, "Time of one whole swing."},
+      Key<Chatter>{"mean_percent", &Chatter::mean_ratio, 10, 200,
+                   "Mean speed as a share of the programmed one."},
+      Key<Chatter>{"feed_per_tooth_min_percent", &Chatter::min_feed_per_tooth_ratio, 1, 100,
+                   "Smallest feed per tooth as a share of the programmed one: bounds the swing "
+                   "upwards."},
+      Key<Chatter>{"feed_per_tooth_max_percent", &Chatter::max_feed_per_tooth_ratio, 100, 1000,
+                   "Largest feed per tooth: the feed follows when the spindle slows down."},
+      Key<Chatter>{"m_code_on", &Chatter::m_code_on, 0, 9999,
+                   "M word that switches the modulation on in the program; 0 = it is always on and "
+                   "the program has no say."},
+      Key<Chatter>{"m_code_off", &Chatter::m_code_off, 0, 9999, "M word that switches it off."},
+      Key<Chatter>{"seed", &Chatter::seed, 0, 9007199254740992.0, "Seed of the random law."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Envelope>> envelope_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Envelope>{"min_feed_percent", &Envelope::min_feed_ratio, 0, 1000,
+                    "Smallest feed override that is ever written."},
+      Key<Envelope>{"max_feed_percent", &Envelope::max_feed_ratio, 1, 1000,
+                    "Largest feed override that is ever written."},
+      Key<Envelope>{"feed_fall_percent_s", &Envelope::feed_fall_1_s, 0.1, 1e6,
+                    "How fast the feed override may fall."},
+      Key<Envelope>{"feed_rise_percent_s", &Envelope::feed_rise_1_s, 0.1, 1e6,
+                    "How fast it may rise."},
+      Key<Envelope>{"min_spindle_percent", &Envelope::min_spindle_ratio, 0, 1000,
+                    "Smallest spindle override that is ever written."},
+      Key<Envelope>{"max_spindle_percent", &Envelope::max_spindle_ratio, 1, 1000,
+                    "Largest spindle override that is ever written."},
+      Key<Envelope>{"spindle_slew_percent_s", &Envelope::spindle_slew_1_s, 0.1, 1e6,
+                    "How fast the spindle override may change."},
+      Key<Envelope>{"max_offset_um", &Envelope::max_offset_mm, 0, 10000,
+                    "Largest axis offset that is ever written."},
+      Key<Envelope>{"offset_slew_um_s", &Envelope::offset_slew_mm_s, 0.001, 1e6,
+                    "How fast an axis offset may change."},
+      Key<Envelope>{"stale_after_ms", &Envelope::stale_after_s, 0.1, 60000,
+                    "Older input is not acted on."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Simulation>> simulation_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Simulation>{"seed", &Simulation::seed, 0, 9007199254740992.0,
+                      "Seed of all noise: same seed, same bytes out."},
+      Key<Simulation>{"position_noise_um", &Simulation::position_noise_mm, 0, 1000,
+                      "RMS of what disturbs the true position (vibration, load)."},
+      Key<Simulation>{
+          "thermal_tau_error_percent", &Simulation::thermal_tau_error_ratio, -90, 1000,
+          "By how much the true time constants are longer than the thermal passport's: a value for "
+          "each mode, then each ambient input, axis by axis; the last one holds for the rest.",
+          kMay, For::any, 72},
+      Key<Simulation>{
+          "thermal_gain_error_percent", &Simulation::thermal_gain_error_ratio, -100, 1000,
+          "By how much the true levels and ambient gains are larger than the passport's, likewise.",
+          kMay, For::any, 72},
+      Key<Simulation>{"room_c", &Simulation::room_c, -20, 60, "Mean temperature of the room."},
+      Key<Simulation>{"room_swing_k", &Simulation::room_swing_k, 0, 30,
+                      "Amplitude of the room over a day, warmest at 15 o'clock."},
+      Key<Simulation>{"room_noise_k", &Simulation::room_noise_k, 0, 10,
+                      "RMS of what doors and draughts add, with a correlation time of 10 min."},
+      Key<Simulation>{"room_start_h", &Simulation::room_start_s, 0, 24,
+                      "Time of day at which the simulation begins."},
+      Key<Simulation>{"sensor_noise_k", &Simulation::sensor_noise_k, 0, 10,
+                      "RMS of one reading of a temperature sensor."},
+      Key<Simulation>{"probe_noise_um", &Simulation::probe_noise_mm, 0, 1000,
+                      "RMS of one reading of the probe that re-zeroes the thermal model."},
+  };
+  return kKeys;
+}
+
+string_view word(PortKind port) noexcept {
+  return pick(kPorts, port);
+}
+string_view word(Mode mode) noexcept {
+  return pick(kModes, mode);
+}
+string_view word(Dialect dialect) noexcept {
+  return pick(kDialects, dialect);
+}
+string_view word(Coding coding) noexcept {
+  return pick(kCodings, coding);
+}
+string_view word(ContourStrategy strategy) noexcept {
+  return pick(kStrategies, strategy);
+}
+string_view word(SpeedLaw law) noexcept {
+  return pick(kLaws, law);
+}
+
+}  // namespace steadyrest::passport

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <steadyrest/passport/keys/section_reader.hpp>
+
+namespace steadyrest::passport {
+namespace {
+
+constexpr std::size_t kShownCharacters = 40;
+
+std::string_view type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "a whole number";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
+  }
+}
+
+}  // namespace
+
+std::string cut(std::string_view text) {
+  if (text.size() <= kShownCharacters) {
+    return std::string(text);
+  }
+  std::size_t end = kShownCharacters;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+    --end;  // not in the middle of a character
+  }
+  return std::string(text.substr(0, end)) + "…";
+}
+
+std::string shown(double value) {
+  return fmt::format("{:.10g}", value);
+}
+
+std::string shown(const toml::node& node) {
+  if (const auto* text = node.as_string()) {
+    return fmt::format("\"{}\"", cut(text->get()));
+  }
+  if (const auto* integer = node.as_integer()) {
+    return fmt::format("{}", integer->get());
+  }
+  if (const auto* number = node.as_floating_point()) {
+    return shown(number->get());
+  }
+  if (const auto* boolean = node.as_boolean()) {
+    return boolean->get() ? "true" : "false";
+  }
+  return std::string(type_name(node));
+}
+
+std::size_t line_of(const toml::source_region& source) {
+  return source.begin.line;
+}
+
+void ValueReader::wrong_type(const toml::node& node, std::string_view needed,
+                             std::string_view way) const {
+  faults_.add(
+      line_of(node.source()),
+      fmt::format("{} = {} is {}; {} is needed", key_, shown(node), type_name(node), needed),
+      std::string(way));
+}
+
+bool ValueReader::in_range(const toml::node& node, double value) const {
+  if (std::isfinite(value) && value >= min_ && value <= max_) {
+    return true;
+  }
+  const std::string_view unit = unit_of(key_).shown;
+  const std::string range =
+      fmt::format("{} … {}{}{}", shown(min_), shown(max_), unit.empty() ? "" : " ", unit);
+  faults_.add(line_of(node.source()),
+              fmt::format("{} = {} is {}; allowed is {}", key_, shown(node),
+                          std::isfinite(value) ? "out of range" : "not a finite number", range),
+              std::isfinite(value)
+                  ? "give a value in that range"
+                  : "give a finite value; leave the key out where there is no limit");
+  return false;
+}
+
+bool ValueReader::number(const toml::node& node, double& out) const {
+  if (!node.is_integer() && !node.is_floating_point()) {
+    const std::string_view unit = unit_of(key_).shown;
+    wrong_type(node, unit.empty() ? "a number" : fmt::format("a number in {}", unit),
+               "write the bare number, without quotes and without its unit");
+    return false;
+  }
+  const double value = node.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
+  if (!in_range(node, value)) {
+    return false;
+  }
+  out = value;
+  return true;
+}
+
+bool ValueReader::integer(const toml::node& node, std::int64_t& out) const {
+  const auto* value = node.as_integer();
+  if (value == nullptr) {
+    wrong_type(node, "a whole number", "write it without point, exponent and quotes");
+    return false;
+  }
+  if (!in_range(node, static_cast<double>(value->get()))) {
+    return false;
+  }
+  out = value->get();
+  return true;
+}
+
+bool ValueReader::boolean(const toml::node& node, bool& out) const {
+  const auto* value = node.as_boolean();
+  if (value == nullptr) {
+    wrong_type(node, "true or false", "write true or false, without quotes");
+    return false;
+  }
+  out = value->get();
+  return true;
+}
+
+bool ValueReader::text(const toml::node& node, std::string& out) const {
+  const auto* value = node.as_string();
+  if (value == nullptr) {
+    wrong_type(node, "a text", "put it into quotes");
+    return false;
+  }
+  const std::string& text = value->get();
+  if (static_cast<double>(text.size()) < min_ || static_cast<double>(text.size()) > max_) {
+    faults_.add(line_of(node.source()),
+                fmt::format("{} = {} has {} characters; allowed are {} … {}", key_, shown(node),
+                            text.size(), shown(min_), shown(max_)),
+                "shorten or fill it");
+    return false;
+  }
+  if (std::any_of(text.begin(), text.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; })) {
+    faults_.add(line_of(node.source()), fmt::format("{} has a control character", key_),
+                "write one line of plain text");
+    return false;
+  }
+  out = text;
+  return true;
+}
+
+bool ValueReader::choice(const toml::node& node, std::span<const std::string_view> words,
+                         std::size_t& out) const {
+  std::string allowed;
+  for (const std::string_view word : words) {
+    allowed += allowed.empty() ? "" : ", ";
+    allowed += word;
+  }
+  const auto* value = node.as_string();
+  if (value == nullptr) {
+    wrong_type(node, fmt::format("one of {}", allowed), "put one of these words into quotes");
+    return false;
+  }
+  const auto found = std::find(words.begin(), words.end(), value->get());
+  if (found == words.end()) {
+    const std::string_view close = kernel::outcome::nearest(value->get(), words);
+    faults_.add(line_of(node.source()),
+                fmt::format("{} = {} is not known; allowed is {}{}", key_, shown(node),
+                            words.size() > 1 ? "one of " : "only ", allowed),
+                words.size() == 1 ? fmt::format("write \"{}\"", words.front())
+                : close.empty()   ? "choose one of them"
+                                  : fmt::format("write \"{}\" if that is meant", close));
+    return false;
+  }
+  out = static_cast<std::size_t>(found - words.begin());
+  return true;
+}
+
+const toml::array* ValueReader::list(const toml::node& node, std::string_view of) const {
+  const auto* array = node.as_array();
+  if (array == nullptr) {
+    wrong_type(node, fmt::format("a list of {}", of), "write [first, second, …]");
+    return nullptr;
+  }
+  if (array->empty() || array->size() > max_entries_) {
+    faults_.add(
+        line_of(node.source()),
+        fmt::format("{} has {} entries; allowed are 1 … {}", key_, array->size(), max_entries_),
+        "give a list of that length");
+    return nullptr;
+  }
+  return array;
+}
+
+bool ValueReader::numbers(const toml::node& node, std::vector<double>& out) const {
+  const toml::array* array = list(node, "numbers");
+  if (array == nullptr) {
+    return false;
+  }
+  out.reserve(array->size());
+  for (const toml::node& element : *array) {
+    double value = 0.0;
+    if (!number(element, value)) {
+      return false;
+    }
+    out.push_back(value);
+  }
+  return true;
+}
+
+bool ValueReader::integers(const toml::node& node, std::vector<std::uint32_t>& out) const {
+  const toml::array* array = list(node, "whole numbers");
+  if (array == nullptr) {
+    return false;
+  }
+  for (const toml::node& element : *array) {
+    std::int64_t value = 0;
+    if (!integer(element, value)) {
+      return false;
+    }
+    out.push_back(static_cast<std::uint32_t>(value));
+  }
+  return true;
+}
+
+}  // namespace steadyrest::passport

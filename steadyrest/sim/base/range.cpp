@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <steadyrest/sim/base/range.hpp>
+
+namespace steadyrest::sim {
+
+kernel::outcome::Refusal refusal(std::string what) {
+  return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), "correct the machine file"};
+}
+
+kernel::outcome::Result<void> in_range(std::string_view owner,
+                                       std::initializer_list<Range> ranges) {
+  for (const Range& r : ranges) {
+    if (!(r.value >= r.low && r.value <= r.high)) {
+      return std::unexpected(refusal(
+          fmt::format("{}: {} is {}; allowed is {} to {}", owner, r.name, r.value, r.low, r.high)));
+    }
+  }
+  return {};
+}
+
+}  // namespace steadyrest::sim

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+#include <zlib.h>
+
+#include <steadyrest/table/clock.hpp>
+#include <steadyrest/thermal/offline/log/log_table.hpp>
+
+namespace steadyrest::thermal::offline {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using table::Fault;
+
+constexpr std::size_t kMaxBytes = 512U << 20U;
+
+struct Unit {
+  std::string_view ending;
+  Quantity quantity;
+  double factor;
+  double offset;
+};
+constexpr std::array kUnits = {
+    Unit{"_um", Quantity::displacement, 1e-3, 0.0},
+    Unit{"_mm", Quantity::displacement, 1.0, 0.0},
+    Unit{"_c", Quantity::temperature, 1.0, 0.0},
+    Unit{"_k", Quantity::temperature, 1.0, -273.15},
+    Unit{"_f", Quantity::temperature, 5.0 / 9.0, -160.0 / 9.0},
+};
+struct Named {
+  std::string_view name;
+  Quantity quantity;
+  double factor;
+};
+constexpr std::array kNamed = {
+    Named{"time_s", Quantity::time, 1.0},
+    Named{"t_s", Quantity::time, 1.0},
+    Named{"time_ms", Quantity::time, 1e-3},
+    Named{"t_ms", Quantity::time, 1e-3},
+    Named{"time_min", Quantity::time, 60.0},
+    Named{"t_min", Quantity::time, 60.0},
+    Named{"time_h", Quantity::time, 3600.0},
+    Named{"t_h", Quantity::time, 3600.0},
+    Named{"spindle_rpm", Quantity::speed, 1 / 60.0},
+    Named{"speed_rpm", Quantity::speed, 1 / 60.0},
+};
+
+LogColumn column_named(std::string_view name) {
+  LogColumn out;
+  out.name = std::string(name);
+  const std::string low = table::lower(name);
+  if (const auto* found = std::ranges::find(kNamed, low, &Named::name); found != kNamed.end()) {
+    out.quantity = found->quantity;
+    out.factor = found->factor;
+    return out;
+  }
+  for (const Unit& unit : kUnits) {
+    if (low.size() > unit.ending.size() && low.ends_with(unit.ending)) {
+      out.quantity = unit.quantity;
+      out.factor = unit.factor;
+      out.offset = unit.offset;
+      return out;
+    }
+  }
+  return out;
+}
+
+/// An absent value, as loggers write it.
+bool absent(std::string_view field) {
+  const std::string low = table::lower(field);
+  return low.empty() || low == "nan" || low == "-" || low == "null" || low == "na" || low == "n/a";
+}
+
+class TableReader final : public table::Sink {
+ public:
+  explicit TableReader(const table::Format& format) : format_(format) {}
+
+  std::optional<Fault> head(const table::Head& head) override {
+    out_.head_line = head.line;
+    for (const std::string& name : head.name) {
+      all_.push_back(column_named(name));
+    }
+    if (auto fault = find_clock(head)) {
+      return fault;
+    }
+    for (const auto& [quantity, what, to_do] :
+         {Needed{Quantity::speed, "the spindle's speed", "name one column spindle_rpm"},
+          Needed{Quantity::displacement, "a displacement",
+                 "name the displacements with their unit: ch1_um, z_um, x_mm"}}) {
+      const auto count = std::ranges::count(all_, quantity, &LogColumn::quantity);
+      if (count == 0 || (count > 1 && quantity != Quantity::displacement)) {
+        return wrong_number(count, what, to_do);
+      }
+    }
+    return head.twice();
+  }
+
+  std::optional<Fault> row(const table::Row& row) override {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      LogColumn& column = all_[i];
+      if (column.quantity == Quantity::other || (column.quantity == Quantity::time && i == time_)) {
+        continue;
+      }
+      double value = std::numeric_limits<double>::quiet_NaN();
+      if (!absent(row.field(i))) {
+        const auto number = row.number(i);
+        if (!number) {
+          return number.error();
+        }
+        value = *number;
+      }
+      column.value.push_back(column.factor * value + column.offset);
+    }
+    const auto t_s = clock_->seconds(row);
+    if (!t_s) {
+      return t_s.error();
+    }
+    all_[time_].value.push_back(*t_s);
+    out_.line.push_back(row.line());
+    return std::nullopt;
+  }
+
+  LogTable take() {
+    for (LogColumn& column : all_) {
+      if (column.quantity != Quantity::other) {
+        out_.column.push_back(std::move(column));
+      } else if (!column.name.empty()) {
+        out_.passed_over.push_back(column.name);
+      }
+    }
+    return std::move(out_);
+  }
+
+ private:
+  struct Needed {
+    Quantity quantity;
+    std::string_view what;
+    std::string_view to_do;
+  };
+
+  static Fault wrong_number(std::ptrdiff_t count, std::string_view what, std::string_view to_do) {
+    return {0,
+            count == 0 ? fmt::format("the head has no column for {}", what)
+                       : fmt::format("the head has {} columns for {}", count, what),
+            std::string(to_do)};
+  }
+
+  /// One column of a known name, or what else tells the time of a row.
+  std::optional<Fault> find_clock(const table::Head& head) {
+    const auto count = std::ranges::count(all_, Quantity::time, &LogColumn::quantity);
+    std::optional<std::size_t> own;
+    double factor = 1.0;
+    if (count > 0) {
+      const auto found = std::ranges::find(all_, Quantity::time, &LogColumn::quantity);
+      own = static_cast<std::size_t>(found - all_.begin());
+      factor = found->factor;
+    }
+    clock_ = table::Clock::of(head, format_, own, factor, table::Epoch::unix);
+    if (count > 1 || !clock_) {
+      return wrong_number(count, "a time",
+                          "name one column time_s (or t_s, time_min), or give stamps as "
+                          "2026-11-22T23:47:06");
+    }
+    if (!clock_->column()) {  // the rows themselves
+      all_.emplace_back();
+      all_.back().name = "row";
+    }
+    time_ = clock_->column().value_or(all_.size() - 1);
+    out_.stamped = head.stamped && clock_->column() == head.stamped;
+    all_[time_].quantity = Quantity::time;
+    return std::nullopt;
+  }
+
+  const table::Format& format_;
+  std::vector<LogColumn> all_;
+  std::size_t time_ = 0;
+  std::optional<table::Clock> clock_;
+  LogTable out_;
+};
+
+struct CloseGzip {
+  void operator()(gzFile file) const noexcept { gzclose_r(file); }
+};
+
+}  // namespace
+
+Result<std::string> read_packed(const std::string& path) {
+  const auto refuse = [&](Kind kind, std::string what, std::string to_do) {
+    return std::unexpected(Refusal{kind, path, 0, std::move(what), std::move(to_do)});
+  };
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return refuse(Kind::bad_input, "is a folder", "give a log as CSV, or CSV packed by gzip");
+  }
+  const std::unique_ptr<gzFile_s, CloseGzip> in(gzopen(path.c_str(), "rb"));
+  if (in == nullptr) {
+    return refuse(Kind::bad_input, "cannot be read", "give the path of a log");
+  }
+  std::string out;
+  constexpr unsigned kBlock = 1U << 18U;
+  int got = 1;
+  while (got > 0 && out.size() <= kMaxBytes) {
+    const std::size_t before = out.size();
+    out.resize(before + kBlock);
+    got = gzread(in.get(), out.data() + before, kBlock);
+    out.resize(before + static_cast<std::size_t>(std::max(got, 0)));
+  }
+  int state = Z_OK;
+  gzerror(in.get(), &state);
+  if (got < 0 || (state != Z_OK && state != Z_STREAM_END)) {
+    return refuse(Kind::bad_input, "is packed, and cut off or damaged",
+                  "copy it again, or unpack what can be read");
+  }
+  if (out.size() > kMaxBytes) {
+    return refuse(Kind::bad_input, fmt::format("is larger than {} MB", kMaxBytes >> 20U),
+                  "log less often: a row in 15 s is enough");
+  }
+  return out;
+}
+
+Result<LogTable> parse_log_table(std::string_view text, const std::string& file,
+                                 const table::Format& format) {
+  const auto refuse = [&](const Fault& fault) {
+    return std::unexpected(Refusal{Kind::bad_input, file, fault.line, fault.what, fault.to_do});
+  };
+  TableReader table(format);
+  table::RowReader rows(format, table);
+  if (const auto fault = table::read_rows(text, rows)) {
+    return refuse(*fault);
+  }
+  if (!rows.has_head()) {
+    return refuse({0, "the log is empty", "give a CSV with a head and rows"});
+  }
+  LogTable out = table.take();
+  out.notes = rows.notes();
+  return out;
+}
+
+}  // namespace steadyrest::thermal::offline

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/thermal/offline/log/log_table.hpp>
+#include <steadyrest/thermal/offline/log/measured.hpp>
+
+namespace steadyrest::thermal::offline {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using table::Fault;
+using table::shown;
+
+enum class Field : std::uint8_t {
+  part,
+  axis,
+  transition,
+  time,
+  stamp,
+  deviation,
+  tolerance,
+  passed_over
+};
+
+struct Known {
+  std::string_view name;
+  Field field;
+  double factor;  ///< into s or mm
+};
+constexpr std::array kKnown = {
+    Known{"part", Field::part, 0.0},
+    Known{"axis", Field::axis, 0.0},
+    Known{"transition", Field::transition, 0.0},
+    Known{"time_min", Field::time, 60.0},
+    Known{"time_s", Field::time, 1.0},
+    Known{"time_h", Field::time, 3600.0},
+    Known{"deviation_um", Field::deviation, 1e-3},
+    Known{"deviation_mm", Field::deviation, 1.0},
+    Known{"tolerance_um", Field::tolerance, 1e-3},
+    Known{"tolerance_mm", Field::tolerance, 1.0},
+};
+
+class Reader final : public table::Sink {
+ public:
+  explicit Reader(const std::optional<table::Stamp>& started) : started_(started) {}
+
+  std::optional<Fault> head(const table::Head& head) override {
+    for (const std::string& name : head.name) {
+      const bool stamp = head.stamped == column_.size();
+      if (name.empty() || stamp) {
+        column_.push_back({"time", stamp ? Field::stamp : Field::passed_over, 1.0});
+        continue;
+      }
+      const auto* known = std::ranges::find(kKnown, name, &Known::name);
+      if (known == kKnown.end()) {
+        return Fault{0, fmt::format("the column {} is not known", shown(name)),
+                     "part, transition, time_min, deviation_um, tolerance_um and axis are; "
+                     "units stand at the end of the name"};
+      }
+      if (has(known->field)) {
+        return Fault{0, fmt::format("there are two columns for {}", shown(name)),
+                     "leave one of them"};
+      }
+      column_.push_back(*known);
+    }
+    if (!has(Field::deviation)) {
+      return Fault{0, "there is no column deviation_um", "give the measured deviations in µm"};
+    }
+    if (has(Field::transition) || has(Field::time)) {  // stamps say when it was gauged
+      for (Known& column : column_) {
+        column.field = column.field == Field::stamp ? Field::passed_over : column.field;
+      }
+    }
+    if (static_cast<int>(has(Field::transition)) + static_cast<int>(has(Field::time)) +
+            static_cast<int>(has(Field::stamp)) !=
+        1) {
+      return Fault{0, "give exactly one of the columns transition, time_min or stamps",
+                   "say in which transition, or how many minutes after the start, it was cut"};
+    }
+    if (has(Field::stamp) && !started_) {
+      return Fault{head.line + 1, "the parts have stamps, but not when the plan's work began",
+                   "give --started 2026-11-22T23:47:06, or time_min since then"};
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Fault> row(const table::Row& row) override {
+    if (out_.size() >= kMostMeasured) {
+      return Fault{row.line(), fmt::format("more than {} rows", kMostMeasured),
+                   "give fewer parts at once"};
+    }
+    Measured part;
+    part.line = row.line();
+    for (std::size_t i = 0; i < column_.size(); ++i) {
+      if (auto fault = put(part, row, i)) {
+        return fault;
+      }
+    }
+    out_.push_back(std::move(part));
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::vector<Measured> take() { return std::move(out_); }
+
+ private:
+  [[nodiscard]] bool has(Field field) const {
+    return std::ranges::find(column_, field, &Known::field) != column_.end();
+  }
+
+  std::optional<Fault> put(Measured& part, const table::Row& row, std::size_t i) {
+    const std::string_view field = row.field(i);
+    switch (column_[i].field) {
+      case Field::part:
+        part.part = shown(field);
+        return std::nullopt;
+      case Field::axis:
+        part.axis = std::string(field);
+        return std::nullopt;
+      case Field::transition:
+        part.transition = std::string(field);
+        return field.empty() ? std::optional(Fault{row.line(), "the transition is empty",
+                                                   "write its number, from 1, or its name"})
+                             : std::nullopt;
+      case Field::passed_over:
+        return std::nullopt;
+      case Field::stamp:
+        return since_start(row, i, part.time_s);
+      case Field::time:
+        return number(row, i, 0.0, 1e8, part.time_s);
+      case Field::deviation:
+        return number(row, i, -kLargestDeviation_mm, kLargestDeviation_mm, part.deviation_mm);
+      case Field::tolerance:
+        return number(row, i, 1e-5, 100.0, part.tolerance_mm);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Fault> since_start(const table::Row& row, std::size_t i, double& to_s) const {
+    const auto stamp = table::stamp_of(row.field(i));
+    if (!stamp || stamp->zoned != started_->zoned) {
+      return Fault{row.line(),
+                   fmt::format("\"{}\" is no date with a time {} a zone", shown(row.field(i)),
+                               started_->zoned ? "and" : "without"),
+                   "write each stamp as --started, 2026-11-22T23:47:06"};
+    }
+    to_s = static_cast<double>(stamp->whole_s - started_->whole_s) + stamp->fraction_s -
+           started_->fraction_s;
+    if (!(to_s >= 0.0)) {
+      return Fault{row.line(), fmt::format("{} is before --started", shown(row.field(i))),
+                   "give the stamp when the plan's work began"};
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Fault> number(const table::Row& row, std::size_t i, double least, double most,
+                              double& to) const {
+    const Known& column = column_[i];
+    const auto value = row.number(i);
+    if (!value) {
+      return value.error();
+    }
+    to = *value * column.factor;
+    if (to < least || to > most) {
+      return Fault{row.line(),
+                   fmt::format("{} = {} cannot be; {:.6g} … {:.6g} can", column.name,
+                               shown(row.field(i)), least / column.factor, most / column.factor),
+                   "look at the unit"};
+    }
+    return std::nullopt;
+  }
+
+  const std::optional<table::Stamp>& started_;
+  std::vector<Known> column_;
+  std::vector<Measured> out_;
+};
+
+}  // namespace
+
+Result<std::vector<Measured>> parse_measured(std::string_view text, const std::string& file,
+                                             const MeasuredFormat& format) {
+  Reader reader(format.started);
+  table::RowReader rows(format.table, reader);
+  auto fault = table::read_rows(text, rows);
+  std::vector<Measured> out = reader.take();
+  if (!fault && out.empty()) {
+    fault = Fault{0, "there is no measured part in it",
+                  "give a CSV with the columns part, transition or time_min, deviation_um"};
+  }
+  if (fault) {
+    return std::unexpected(Refusal{Kind::bad_input, file, fault->line, fault->what, fault->to_do});
+  }
+  return out;
+}
+
+Result<std::vector<Measured>> read_measured(const std::string& path, const MeasuredFormat& format) {
+  auto text = read_packed(path);
+  if (!text) {
+    text.error().to_do =
+        "give the path of a CSV of measured parts, with part, transition or "
+        "time_min, deviation_um";
+    return std::unexpected(std::move(text.error()));
+  }
+  return parse_measured(*text, path, format);
+}
+
+}  // namespace steadyrest::thermal::offline

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <steadyrest/thermal/offline/log/log.hpp>
+
+namespace steadyrest::thermal::offline {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr int kRows = 400;
+
+struct Row {
+  double time_s = 0.0;
+  double speed_rpm = 0.0;
+  std::string z;
+  std::string t;
+};
+
+/// A row each minute; `change` may alter it.
+std::string log_text(const std::function<void(int, Row&)>& change = {},
+                     const std::string& head = "time_s,spindle_rpm,z_um,t1_c") {
+  std::string out = head + "\n";
+  for (int i = 0; i < kRows; ++i) {
+    Row row{60.0 * i, i < 100 ? 1500.0 : 0.0, fmt::format("{:.4f}", 0.1 * i),
+            fmt::format("{:.3f}", 20.0 + 0.01 * i)};
+    if (change) {
+      change(i, row);
+    }
+    out += fmt::format("{},{},{},{}\n", row.time_s, row.speed_rpm, row.z, row.t);
+  }
+  return out;
+}
+
+Log parsed(const std::string& text) {
+  auto log = parse_log(text, "day.csv");
+  EXPECT_TRUE(log.has_value()) << log.error().what;
+  return log ? *log : Log{};
+}
+
+TEST(ThermalLog, IsReadInInnerUnits) {
+  const Log log = parsed(log_text());
+  ASSERT_EQ(log.rows(), 400U);
+  EXPECT_EQ(log.time_s[3], 180.0);
+  EXPECT_EQ(log.speed_rev_s[3], 25.0);
+  ASSERT_EQ(log.displacement.size(), 1U);
+  EXPECT_EQ(log.displacement[0].name, "z_um");
+  EXPECT_NEAR(log.displacement[0].value[10], 1e-3, 1e-12);
+  ASSERT_EQ(log.temperature.size(), 1U);
+  EXPECT_NEAR(log.temperature[0].value[10], 20.1, 1e-12);
+  EXPECT_THAT(log.gap, IsEmpty());
+  EXPECT_THAT(log.notes, IsEmpty());
+}
+
+TEST(ThermalLog, UnitsAreConvertedByName) {
+  const auto other = [](int i, Row& row) {
+    row.time_s = i;
+    row.z = fmt::format("{:.7f}", 0.0001 * i);
+    row.t = fmt::format("{:.3f}", 68.0 + 0.018 * i);
+  };
+  const Log a = parsed(log_text());
+  const Log c = parsed(log_text(other, "t_min,spindle_rpm,z_mm,t1_f"));
+  for (std::size_t i = 0; i < a.rows(); ++i) {
+    EXPECT_NEAR(c.time_s[i], a.time_s[i], 1e-9);
+    EXPECT_NEAR(c.displacement[0].value[i], a.displacement[0].value[i], 1e-9);
+    EXPECT_NEAR(c.temperature[0].value[i], a.temperature[0].value[i], 1e-3);
+  }
+}
+
+TEST(ThermalLog, PackedIsThePlainOne) {
+  const fs::path path = fs::temp_directory_path() / "steadyrest_thermal_log_test.csv.gz";
+  const std::string text = log_text();
+  const gzFile out = gzopen(path.c_str(), "wb");
+  ASSERT_EQ(gzwrite(out, text.data(), static_cast<unsigned>(text.size())),
+            static_cast<int>(text.size()));
+  gzclose(out);
+  const auto log = read_log(path.string());
+  fs::remove(path);
+  ASSERT_TRUE(log.has_value()) << log.error().what;
+  EXPECT_EQ(log->displacement[0].value, parsed(text).displacement[0].value);
+}
+
+TEST(ThermalLog, AnAbsentSensorIsLeftOutAndSaidSo) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.t = i % 3 == 0 ? row.t : "NaN"; }));
+  EXPECT_THAT(log.temperature, IsEmpty());
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:1: t1_c has no value in 66 %")));
+}
+
+TEST(ThermalLog, ShortHolesOfATemperatureAreBridged) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.t = i > 20 && i < 28 ? "" : row.t; }));
+  ASSERT_EQ(log.temperature.size(), 1U);
+  EXPECT_NEAR(log.temperature[0].value[25], 20.25, 1e-9);
+  EXPECT_THAT(log.notes, IsEmpty());
+}
+
+TEST(ThermalLog, HolesOfADisplacementStayHoles) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.z = i == 30 ? "" : row.z; }));
+  EXPECT_TRUE(std::isnan(log.displacement[0].value[30]));
+  EXPECT_FALSE(std::isnan(log.displacement[0].value[31]));
+}
+
+TEST(ThermalLog, AStuckProbeCountsForNothingWhileItIsStuck) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.z = i > 260 ? "6.0000" : row.z; }));
+  ASSERT_EQ(log.displacement.size(), 1U);
+  EXPECT_FALSE(std::isnan(log.displacement[0].value[260]));
+  EXPECT_TRUE(std::isnan(log.displacement[0].value[300]));
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:263: z_um is stuck")));
+  const Log rest = parsed(log_text([](int i, Row& row) { row.z = i > 290 ? "9.0000" : row.z; }));
+  EXPECT_FALSE(std::isnan(rest.displacement[0].value[350])) << "under two hours may be rest";
+  EXPECT_THAT(rest.notes, IsEmpty());
+}
+
+TEST(ThermalLog, ACoarseSensorIsNotStuck) {
+  const Log log =
+      parsed(log_text([](int i, Row& row) { row.t = fmt::format("{:.1f}", 20.0 + 0.001 * i); }));
+  ASSERT_EQ(log.temperature.size(), 1U);
+  EXPECT_FALSE(std::isnan(log.temperature[0].value[100]));
+}
+
+TEST(ThermalLog, AGapIsFoundAndSaid) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.time_s += i < 50 ? 0.0 : 1800.0; }));
+  EXPECT_THAT(log.gap, ElementsAre(50U));
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:52: 31.0 min are missing")));
+}
+
+TEST(ThermalLog, ThreeRowsBehindAGapVouchForTheirTimes) {
+  const auto behind = [](int rows) {
+    return parse_log(
+        log_text([rows](int i, Row& row) { row.time_s += i < kRows - rows ? 0.0 : 3e5; }), "d.csv");
+  };
+  ASSERT_TRUE(behind(3).has_value());
+  ASSERT_FALSE(behind(2).has_value());
+  EXPECT_EQ(behind(2).error().line, 400U);
+}
+
+TEST(ThermalLog, MinutesCountFromTheFirstStamp) {
+  EXPECT_EQ(parsed(log_text({}, "time_s,spindle_rpm,z_um,t1_c")).origin_s, 0.0);
+  std::string text = "when,spindle_rpm,z_um\n";
+  for (int i = 0; i < 60; ++i) {
+    text += fmt::format("1970-01-02T10:{:02}:00Z,0,{}\n", i, 3 * i);
+  }
+  EXPECT_EQ(parsed(text).origin_s, 34.0 * 3600.0);
+}
+
+TEST(ThermalLog, RowsThatStandTwiceAreTakenOnce) {
+  std::string text = log_text();
+  const std::size_t at = text.find("\n600,") + 1;
+  const std::string row = text.substr(at, text.find('\n', at) + 1 - at);
+  text.insert(at, row);
+  const Log log = parsed(text);
+  EXPECT_EQ(log.rows(), 400U);
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:13: 1 rows stand twice")));
+}
+
+TEST(ThermalLog, SingleReadingsThatCannotBeAreLeftOut) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.z = i == 40 ? "99999" : row.z; }));
+  EXPECT_TRUE(std::isnan(log.displacement[0].value[40]));
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:42: z_um = 99999 cannot be")));
+}
+
+TEST(ThermalLog, ReadingsThatNoMachineCanHaveAreLeftOutAndCounted) {
+  const Log half_an_hour = parsed(log_text([](int i, Row& row) {
+    if (i >= 100 && i < 130) {
+      row.t = "95";
+    }
+  }));
+  EXPECT_TRUE(std::isnan(half_an_hour.temperature[0].value[110]));
+  EXPECT_EQ(half_an_hour.temperature[0].value[130], 21.3);
+  EXPECT_THAT(half_an_hour.notes,
+              ElementsAre(HasSubstr("day.csv:102: t1_c cannot be believed in 30 "
+                                    "rows, from this one (95 °C)"),
+                          HasSubstr("t1_c has holes of more than 10 min")));
+  const Log now_and_then = parsed(log_text([](int i, Row& row) {
+    if (i % 40 == 7) {
+      row.t = "85";
+    }
+  }));
+  EXPECT_NEAR(now_and_then.temperature[0].value[47], 20.47, 1e-9) << "bridged";
+  EXPECT_THAT(now_and_then.notes,
+              ElementsAre(HasSubstr("day.csv:9: t1_c cannot be believed in 10")));
+}
+
+TEST(ThermalLog, AStepThatNoMachineCanMakeIsLeftOut) {
+  const Log log = parsed(log_text([](int i, Row& row) {
+    if (i >= 100 && i < 130) {
+      row.t = "60";
+    }
+  }));
+  EXPECT_TRUE(std::isnan(log.temperature[0].value[110]));
+  EXPECT_THAT(log.notes,
+              ElementsAre(HasSubstr("cannot be believed in 30 rows"), HasSubstr("has holes")));
+  const Log dead = parsed(log_text([](int /*i*/, Row& row) { row.t = "149.9"; }));
+  EXPECT_TRUE(dead.temperature.empty());
+}
+
+TEST(ThermalLog, AWrongFirstReadingDoesNotSpeakForTheOthers) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.t = i == 0 ? "60" : row.t; }));
+  ASSERT_EQ(log.temperature.size(), 1U);
+  EXPECT_TRUE(std::isnan(log.temperature[0].value[0]));
+  EXPECT_EQ(log.temperature[0].value[1], 20.01);
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:2: t1_c cannot be believed in 1 rows"),
+                                     HasSubstr("has holes")));
+}
+
+TEST(ThermalLog, RowsThatAreHoursApartAreAWrongUnit) {
+  const auto spread = [](double factor) {
+    return parse_log(log_text([factor](int, Row& row) { row.time_s *= factor; }), "day.csv");
+  };
+  EXPECT_TRUE(spread(10.0).has_value());
+  const auto wrong = spread(1000.0);
+  ASSERT_FALSE(wrong.has_value());
+  EXPECT_THAT(wrong.error().what, HasSubstr("1000.0 min apart in time_s"));
+  EXPECT_THAT(wrong.error().to_do, HasSubstr("unit"));
+}
+
+TEST(ThermalLog, ATimeThatCannotBeIsNamedWithItsRow) {
+  const auto log = parse_log(log_text([](int i, Row& row) {
+                               if (i == kRows - 1) {
+                                 row.time_s = 1e300;
+                               }
+                             }),
+                             "day.csv");
+  ASSERT_FALSE(log.has_value());
+  EXPECT_EQ(log.error().line, 401U);
+  EXPECT_THAT(log.error().what, HasSubstr("time_s = 1e+300 is no time"));
+}
+
+TEST(ThermalLog, ADisplacementThatHardlyMovesMayHaveAnotherUnit) {
+  const Log log =
+      parsed(log_text([](int i, Row& row) { row.z = fmt::format("{:.6f}", 0.0001 * i); }));
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("z_um moves by 0.0399 µm in all")));
+}
+
+TEST(ThermalLog, ColumnsWithoutAUnitArePassedOverAndNamed) {
+  const Log log = parsed(log_text({}, "time_s,spindle_rpm,z_um,load"));
+  EXPECT_THAT(log.temperature, IsEmpty());
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:1: columns whose names end in no unit")));
+}
+
+TEST(ThermalLog, NoFileIsRefused) {
+  EXPECT_FALSE(read_log("/no/such/log.csv").has_value());
+  EXPECT_FALSE(read_log("/tmp").has_value());
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Each file says `refuse LINE: words of the refusal` in its first line, which is a comment; empty
+/// and packed ones cannot.
+TEST(ThermalLogCorpus, EveryFileIsRefusedWhereItSays) {
+  std::set<fs::path> files;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(STEADYREST_SOURCE_DIR) / "tests/refused/thermal-log")) {
+    files.insert(entry.path());
+  }
+  EXPECT_GE(files.size(), 40U);
+  for (const fs::path& file : files) {
+    SCOPED_TRACE(file.filename());
+    const auto log = read_log(file.string());
+    ASSERT_FALSE(log.has_value());
+    EXPECT_EQ(log.error().file, file.string());
+    EXPECT_FALSE(log.error().to_do.empty());
+    if (file.extension() == ".gz") {
+      EXPECT_THAT(log.error().what, HasSubstr("cut off or damaged"));
+      continue;
+    }
+    const std::string text = text_of(file);
+    const std::size_t at = text.find("refuse ");
+    if (at == std::string::npos) {
+      EXPECT_TRUE(text.empty());
+      continue;
+    }
+    const std::string said = text.substr(at + 7, text.find('\n', at) - at - 7);
+    const std::size_t colon = said.find(": ");
+    EXPECT_EQ(log.error().line, std::stoul(said)) << log.error().what;
+    EXPECT_THAT(log.error().what, HasSubstr(said.substr(colon + 2)));
+  }
+}
+
+/// 40.1 h of a spindle unit (shared/data/thermal).
+TEST(ThermalLog, TheRecordedSpindleUnitIsReadWhole) {
+  const char* data = std::getenv("STEADYREST_SHARED_DATA");
+  const fs::path path = fs::path(data != nullptr ? data : STEADYREST_SOURCE_DIR "/../shared/data") /
+                        "thermal/spindle_unit.csv.gz";
+  if (!fs::exists(path)) {
+    GTEST_SKIP() << "no recorded data";
+  }
+  const auto log = read_log(path.string());
+  ASSERT_TRUE(log.has_value()) << log.error().what;
+  EXPECT_EQ(log->rows(), 9625U);
+  EXPECT_NEAR(log->hours(), 40.1, 0.01);
+  EXPECT_EQ(log->displacement.size(), 5U);
+  EXPECT_EQ(log->temperature.size(), 16U);
+  EXPECT_THAT(log->gap, IsEmpty());
+  EXPECT_THAT(log->notes, IsEmpty());
+}
+
+}  // namespace
+}  // namespace steadyrest::thermal::offline

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/thermal/offline/plan/curve.hpp>
+
+namespace steadyrest::thermal::offline {
+
+/// How the corrections are chosen.
+struct PlanRequest {
+  double tolerance_mm = 0.010;  ///< Δ where a transition has none of its own
+  double share = 1.0;           ///< k; Δ_k = k·Δ
+  double max_offset_mm = 0.1;   ///< no sum of corrections goes beyond it
+  double min_interval_s = 1.0;  ///< from one correction that is not zero to the next
+  /// Instants are rounded to whole multiples of it since the beginning; 0 = not. The residual may
+  /// then pass the band by half of it times the slope.
+  double resolution_s = 0.0;
+  /// Corrections of 2·Δ_k, so that what is left swings from +Δ_k to −Δ_k: half as many places.
+  bool whole_band = false;
+};
+
+/// A row of the system R: {n; {t_j}; {δ_j}}. δ_j is corrected at the START of interval j.
+struct PlannedTransition {
+  std::string name;
+  double tolerance_mm = 0.0;
+  std::vector<double> interval_s;
+  std::vector<double> delta_mm;
+};
+
+struct AxisCorrections {
+  std::string name;
+  std::vector<PlannedTransition> transition;
+  double largest_mm = 0.0;           ///< |displacement| without corrections
+  double largest_residual_mm = 0.0;  ///< |displacement| that is left
+  double largest_offset_mm = 0.0;    ///< |sum of corrections|
+  std::size_t corrections = 0;
+};
+
+/// The compensation block: where the displacement less the corrections so far reaches ±Δ_k it is
+/// corrected by Δ_k (heating: +, cooling: −), and what is left is carried from transition to
+/// transition. At the border of a stricter transition as many Δ_k are taken as bring it inside.
+/// Instants are roots of the closed form. Source: Marusich 2012, blocks 3 to 5, loops A to C.
+///
+/// What reaches the border at a transition's start, or is rounded onto it, is corrected by the
+/// transition's first δ.
+///
+/// Refused: tolerances that are not positive, corrections beyond `max_offset_mm`, corrections that
+/// follow one another within `min_interval_s`, and a plan that would not hold its band.
+[[nodiscard]] kernel::outcome::Result<AxisCorrections> plan_corrections(const std::string& name,
+                                                                        const Curve& curve,
+                                                                        const Cyclogram& cyclogram,
+                                                                        const PlanRequest& request);
+
+}  // namespace steadyrest::thermal::offline

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/thermal/offline/plan/plan.hpp>
+
+namespace steadyrest::thermal::offline {
+namespace {
+
+using kernel::machine::ThermalAxis;
+using kernel::machine::ThermalMode;
+
+// The one-mode curve that gives the paper's example: τ 53.475 min, levels 35.2245 and 49.0785 µm.
+online::ThermalModel paper() {
+  ThermalAxis axis;
+  ThermalMode mode;
+  mode.tau_s = 53.475 * 60.0;
+  mode.speed_rev_s = {0.0, 10.0, 20.0, 30.0};
+  mode.level_mm = {0.0, 0.0352245, 0.0490785, 0.0420};
+  axis.mode = {mode};
+  return *online::ThermalModel::make(axis);
+}
+
+Cyclogram stages(const std::vector<std::pair<double, double>>& minutes_and_speed) {
+  Cyclogram out;
+  for (const auto& [minutes, speed] : minutes_and_speed) {
+    Transition t;
+    t.minutes = minutes;
+    t.seconds = 60.0 * minutes;
+    t.speed_rev_s = speed;
+    out.transition.push_back(t);
+  }
+  return out;
+}
+
+AxisCorrections planned(const online::ThermalModel& model, const Cyclogram& cyclogram,
+                        const PlanRequest& request) {
+  const auto plan = plan_corrections("Z", curve_of(model, cyclogram), cyclogram, request);
+  EXPECT_TRUE(plan) << kernel::outcome::text(plan.error());
+  return plan.value_or(AxisCorrections{});
+}
+
+std::vector<double> whole_minutes(const std::vector<double>& seconds) {
+  std::vector<double> out;
+  out.reserve(seconds.size());
+  for (const double s : seconds) {
+    out.push_back(std::round(s / 60.0));
+  }
+  return out;
+}
+
+using List = std::vector<double>;
+
+// Marusich 2012, eq. (1), line by line.
+TEST(Plan, IsThePapersSystemR) {
+  const auto cyclogram = stages({{60, 10}, {60, 20}, {60, 30}, {60, 20}, {60, 30}});
+  const auto plan = planned(paper(), cyclogram, {});
+  ASSERT_EQ(plan.transition.size(), 5U);
+  EXPECT_EQ(whole_minutes(plan.transition[0].interval_s), (List{18, 27, 15}));
+  EXPECT_EQ(plan.transition[0].delta_mm, (List{0.0, 0.010, 0.010}));
+  EXPECT_EQ(whole_minutes(plan.transition[1].interval_s), (List{15, 40, 5}));
+  EXPECT_EQ(plan.transition[1].delta_mm, (List{0.0, 0.010, 0.010}));
+  for (int i = 2; i < 5; ++i) {
+    EXPECT_EQ(whole_minutes(plan.transition[static_cast<std::size_t>(i)].interval_s), (List{60}));
+    EXPECT_EQ(plan.transition[static_cast<std::size_t>(i)].delta_mm, (List{0.0}));
+  }
+  EXPECT_EQ(plan.corrections, 4U);
+  EXPECT_NEAR(plan.largest_offset_mm, 0.040, 1e-12);
+  EXPECT_LE(plan.largest_residual_mm, 0.010 + 1e-9);
+}
+
+TEST(Plan, MirrorsForCoolingWhatItDidForHeating) {
+  const auto cyclogram = stages({{240, 20}, {600, 0}});
+  const auto plan = planned(paper(), cyclogram, {});
+  const double sum =
+      std::accumulate(plan.transition[1].delta_mm.begin(), plan.transition[1].delta_mm.end(), 0.0);
+  EXPECT_LT(sum, -0.029) << "what was put on while it was heating is taken off";
+  for (const double delta : plan.transition[1].delta_mm) {
+    EXPECT_LE(delta, 0.0);
+  }
+  EXPECT_LE(plan.largest_residual_mm, 0.010 + 1e-9);
+  // −10 µm is reached first: from δ = 48.5, corrected by 40, the residual falls from 8.5 to −10.
+  const double start = 0.0490785 * (1.0 - std::exp(-240.0 / 53.475));
+  EXPECT_NEAR(plan.transition[1].interval_s[0] / 60.0, 53.475 * std::log(start / 0.030), 1e-6);
+}
+
+TEST(Plan, TheWholeBandNeedsHalfAsManyPlaces) {
+  const auto cyclogram = stages({{600, 20}});
+  PlanRequest request;
+  request.tolerance_mm = 0.004;
+  const auto single = planned(paper(), cyclogram, request);
+  request.whole_band = true;
+  const auto twice = planned(paper(), cyclogram, request);
+  EXPECT_EQ(single.corrections, 12U) << "floor(49.07 / 4)";
+  EXPECT_EQ(twice.corrections, 6U) << "at 4, 12, 20 … 44 µm";
+  EXPECT_LE(twice.largest_residual_mm, 0.004 + 1e-9);
+}
+
+TEST(Plan, ShareAndTolerancePerTransitionNarrowTheBand) {
+  auto cyclogram = stages({{60, 20}, {60, 20}});
+  cyclogram.transition[1].tolerance_mm = 0.004;
+  PlanRequest request;
+  request.tolerance_mm = 0.020;
+  request.share = 0.5;
+  const auto plan = planned(paper(), cyclogram, request);
+  EXPECT_EQ(plan.transition[0].delta_mm[1], 0.010);
+  EXPECT_NE(plan.transition[1].delta_mm[0], 0.0) << "what the wide band left is beyond the narrow";
+  EXPECT_DOUBLE_EQ(plan.transition[1].tolerance_mm, 0.004);
+  for (std::size_t i = 1; i < plan.transition[1].delta_mm.size(); ++i) {
+    EXPECT_NEAR(plan.transition[1].delta_mm[i], 0.002, 1e-15);
+  }
+}
+
+// Whatever the modes do, what is left stays in the band and the intervals fill their transitions.
+TEST(Plan, HoldsTheBandForRandomMachinesAndCyclograms) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int run = 0; run < 200; ++run) {
+    ThermalAxis axis;
+    for (int i = 0; i < 3; ++i) {
+      ThermalMode mode;
+      mode.tau_s = 60.0 * std::pow(10.0, 0.5 + 2.0 * unit(random));
+      mode.rest_tau_s = mode.tau_s * (0.5 + unit(random));
+      mode.polynomial_mm = {0.02 * (unit(random) - 0.5), 0.01 * (unit(random) - 0.5)};
+      axis.mode.push_back(mode);
+    }
+    Cyclogram cyclogram;
+    for (int i = 0; i < 8; ++i) {
+      Transition t;
+      t.seconds = 7200.0 * unit(random);
+      t.speed_rev_s = unit(random) < 0.3 ? 0.0 : 80.0 * unit(random);
+      t.tolerance_mm = 0.004 + 0.006 * unit(random);
+      cyclogram.transition.push_back(t);
+    }
+    const auto model = online::ThermalModel::make(axis);
+    ASSERT_TRUE(model);
+    const Curve curve = curve_of(*model, cyclogram);
+    PlanRequest request;
+    request.max_offset_mm = 1.0;
+    request.min_interval_s = 0.0;
+    request.whole_band = run % 2 == 1;
+    const auto plan = plan_corrections("X", curve, cyclogram, request);
+    ASSERT_TRUE(plan) << kernel::outcome::text(plan.error());
+    double corrected = 0.0;
+    for (std::size_t i = 0; i < plan->transition.size(); ++i) {
+      const auto& row = plan->transition[i];
+      ASSERT_EQ(row.interval_s.size(), row.delta_mm.size());
+      EXPECT_NEAR(std::accumulate(row.interval_s.begin(), row.interval_s.end(), 0.0),
+                  cyclogram.transition[i].seconds, 1e-6);
+      double at = curve.piece[i].start_s;
+      for (std::size_t j = 0; j < row.interval_s.size(); ++j) {
+        corrected += row.delta_mm[j];
+        for (double share = 1e-6; share < 1.0; share += 0.05) {
+          const double t = at + share * row.interval_s[j];
+          ASSERT_LE(std::abs(curve.at(t) - corrected), row.tolerance_mm + 1e-8)
+              << "run " << run << " transition " << i << " at " << t;
+        }
+        at += row.interval_s[j];
+      }
+    }
+  }
+}
+
+TEST(Plan, InstantsCanBeWholeMinutes) {
+  PlanRequest request;
+  request.resolution_s = 60.0;
+  const auto plan = planned(paper(), stages({{60, 10}, {60, 20}}), request);
+  EXPECT_EQ(plan.transition[0].interval_s, (List{18.0 * 60.0, 27.0 * 60.0, 15.0 * 60.0}));
+  EXPECT_EQ(plan.transition[1].interval_s, (List{15.0 * 60.0, 40.0 * 60.0, 5.0 * 60.0}));
+  EXPECT_GT(plan.largest_residual_mm, 0.010) << "said as it is";
+  EXPECT_LT(plan.largest_residual_mm, 0.0105);
+}
+
+// 10 µm of 40 are reached at τ·ln(4/3): the first transition ends there, in the second it rises on.
+TEST(Plan, ABorderReachedAtATransitionsEndIsCorrectedAtTheNextOnesStart) {
+  ThermalAxis axis;
+  ThermalMode mode;
+  mode.tau_s = 1800.0;
+  mode.speed_rev_s = {0.0, 10.0};
+  mode.level_mm = {0.0, 0.040};
+  axis.mode = {mode};
+  const auto model = *online::ThermalModel::make(axis);
+  const double reached_min = 30.0 * std::log(4.0 / 3.0);
+  for (const double later_min : {-1e-12, 0.0, 1e-12, 1e-9, 1e-6}) {
+    for (const bool whole_band : {false, true}) {
+      PlanRequest request;
+      request.whole_band = whole_band;
+      const auto plan = planned(model, stages({{reached_min + later_min, 10}, {4, 10}}), request);
+      ASSERT_EQ(plan.transition.size(), 2U);
+      EXPECT_EQ(plan.corrections, 1U) << later_min;
+      EXPECT_EQ(plan.transition[1].delta_mm, (List{whole_band ? 0.020 : 0.010})) << later_min;
+      EXPECT_LE(plan.largest_residual_mm, 0.010 + 1e-8);
+      // Where it falls again there is nothing to correct.
+      EXPECT_EQ(planned(model, stages({{reached_min, 10}, {4, 0}}), request).corrections, 0U);
+    }
+  }
+}
+
+// The band is passed at most by what half a minute of the steepest slope is, 35.2 µm / 53.5 min.
+TEST(Plan, EveryToleranceOfTheSweepHasItsPlan) {
+  const auto cyclogram = stages({{60, 10}, {60, 20}, {60, 20}, {60, 20}, {60, 20}});
+  const double half_minute_mm = 0.5 * 0.0352245 / 53.475;
+  for (int i = 0; i <= 360; ++i) {
+    PlanRequest request;
+    request.tolerance_mm = 1e-3 * (2.0 + 0.05 * i);
+    for (const double resolution_s : {0.0, 60.0}) {
+      request.resolution_s = resolution_s;
+      const auto plan = planned(paper(), cyclogram, request);
+      EXPECT_LE(plan.largest_residual_mm,
+                request.tolerance_mm + 1e-8 + (resolution_s > 0.0 ? half_minute_mm : 0.0))
+          << request.tolerance_mm;
+      EXPECT_EQ(plan.corrections,
+                static_cast<std::size_t>(std::floor(plan.largest_mm / request.tolerance_mm)));
+    }
+  }
+}
+
+// 0.4 s behind the start, on the narrow band that already took a correction there.
+TEST(Plan, ACrossingJustBehindACorrectedStartBelongsToIt) {
+  auto cyclogram = stages({{30, 20}, {60, 20}});
+  const auto curve = curve_of(paper(), cyclogram);
+  PlanRequest request;
+  request.tolerance_mm = 0.5 * curve.at(1800.0 + 0.4);
+  cyclogram.transition[0].tolerance_mm = 0.1;
+  const auto plan = planned(paper(), cyclogram, request);
+  ASSERT_EQ(plan.transition.size(), 2U);
+  ASSERT_EQ(plan.transition[1].delta_mm.size(), 2U);
+  EXPECT_DOUBLE_EQ(plan.transition[1].delta_mm[0], 2.0 * request.tolerance_mm);
+  EXPECT_LE(plan.largest_residual_mm, 0.1);
+}
+
+// Up to 12 µm within 4 s, at 0 again after 23 s: both crossings are rounded onto the start.
+TEST(Plan, WhatCancelsInTheRoundingIsNoCorrection) {
+  ThermalAxis axis;
+  for (const auto& [tau_s, level_mm] : {std::pair{2.0, 0.020}, {20.0, -0.029}}) {
+    ThermalMode mode;
+    mode.tau_s = tau_s;
+    mode.speed_rev_s = {0.0, 10.0};
+    mode.level_mm = {0.0, level_mm};
+    axis.mode.push_back(mode);
+  }
+  PlanRequest request;
+  request.resolution_s = 60.0;
+  const auto plan = planned(*online::ThermalModel::make(axis), stages({{60, 10}}), request);
+  ASSERT_EQ(plan.transition.size(), 1U);
+  EXPECT_EQ(plan.transition[0].delta_mm, (List{0.0}));
+  EXPECT_EQ(plan.corrections, 0U);
+}
+
+TEST(Plan, BeyondTheMachinesClampIsRefused) {
+  PlanRequest request;
+  request.max_offset_mm = 0.035;
+  const auto cyclogram = stages({{600, 20}});
+  const auto plan = plan_corrections("Z", curve_of(paper(), cyclogram), cyclogram, request);
+  ASSERT_FALSE(plan);
+  const std::string text = kernel::outcome::text(plan.error());
+  EXPECT_NE(text.find("40.0 µm, more than the 35.0 µm"), std::string::npos) << text;
+}
+
+TEST(Plan, CorrectionsWithoutEndAreRefused) {
+  PlanRequest request;
+  request.tolerance_mm = 1e-6;
+  const auto cyclogram = stages({{600, 20}});
+  EXPECT_FALSE(plan_corrections("Z", curve_of(paper(), cyclogram), cyclogram, request));
+  request.tolerance_mm = 0.0;
+  EXPECT_FALSE(plan_corrections("Z", curve_of(paper(), cyclogram), cyclogram, request));
+}
+
+}  // namespace
+}  // namespace steadyrest::thermal::offline

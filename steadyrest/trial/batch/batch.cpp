@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <steadyrest/sim/heat/thermal_growth.hpp>
+#include <steadyrest/thermal/online/offset_governor.hpp>
+#include <steadyrest/trial/batch/batch.hpp>
+#include <steadyrest/trial/batch/believed_axis.hpp>
+#include <steadyrest/trial/batch/text_shifts.hpp>
+
+namespace steadyrest::trial::batch {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+
+constexpr double kStep_s = 1.0;
+constexpr std::uint64_t kStepsOfPoint = 20;
+
+/// Largest and RMS of what is added.
+class Sum {
+ public:
+  void add(double error_mm) noexcept {
+    largest_mm_ = std::max(largest_mm_, error_mm);
+    squares_ += error_mm * error_mm;
+    ++count_;
+  }
+  [[nodiscard]] Error error() const noexcept {
+    return {.largest_mm = largest_mm_,
+            .rms_mm = count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0.0};
+  }
+
+ private:
+  double largest_mm_ = 0.0;
+  double squares_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+/// Transitions one after the other, asked for with rising time.
+class Clockwork {
+ public:
+  explicit Clockwork(const std::vector<nc::plan::Transition>& cyclogram) : cyclogram_(cyclogram) {}
+  const nc::plan::Transition* at(double time_s) noexcept {
+    while (now_ < cyclogram_.size() &&
+           time_s >= cyclogram_[now_].start_s + cyclogram_[now_].seconds) {
+      ++now_;
+    }
+    return now_ < cyclogram_.size() ? &cyclogram_[now_] : nullptr;
+  }
+
+ private:
+  const std::vector<nc::plan::Transition>& cyclogram_;
+  std::size_t now_ = 0;
+};
+
+class Day {
+ public:
+  Day(const Job& job, sim::ThermalGrowth growth, thermal::online::OffsetGovernor governor,
+      std::vector<BelievedAxis> axes, Trace original)
+      : job_(job),
+        growth_(std::move(growth)),
+        governor_(std::move(governor)),
+        axes_(std::move(axes)),
+        original_(std::move(original)),
+        cyclogram_(thermal::offline::cyclogram_of(job.cyclogram, job.program)) {
+    for (const BelievedAxis& axis : axes_) {
+      out_.axis.push_back(axis.name());
+    }
+    const kernel::machine::Thermal& thermal = job.machine.thermal;
+    out_.band_mm = thermal.share[thermal.level] * job.tolerance_mm;
+    out_.program_s = cyclogram_.total_s();
+    sensors_ = thermal.sensors().size();
+    govern({}, false, growth_.read_room_c());
+    governor_.zero_here();
+  }
+
+  Result<Batch> run() {
+    for (number_ = 1; number_ <= job_.parts; ++number_) {
+      if (auto done = part(); !done) {
+        return std::unexpected(done.error());
+      }
+      const bool is_break = job_.break_after > 0 && number_ % job_.break_after == 0;
+      if (number_ < job_.parts) {
+        rest(job_.pause_s + (is_break ? job_.break_s : 0.0));
+      }
+      job_.progress(static_cast<double>(number_) / job_.parts);
+    }
+    for (std::size_t way = 0; way < kWays; ++way) {
+      out_.error[way] = whole_[way].error();
+    }
+    out_.total_s = growth_.time_s();
+    return std::move(out_);
+  }
+
+ private:
+  Result<void> part() {
+    Part now;
+    now.start_s = growth_.time_s();
+    for (BelievedAxis& axis : axes_) {
+      // The zero has just been set before the first.
+      now.probe_mm.push_back(
+          number_ == 1 ? 0.0 : growth_.read_probe_mm(growth_.displacement_mm(axis.index())));
+      if (number_ > 1) {
+        axis.measure(now.probe_mm.back());
+        // The probe finds what the offset has left.
+        governor_.measure(axis.row(), {.displacement_mm = now.probe_mm.back() + offset_mm(axis),
+                                       .sd_mm = job_.machine.simulation.probe_noise_mm});
+      }
+    }
+    const auto text = corrected();
+    if (!text) {
+      return std::unexpected(text.error());
+    }
+    now.corrections = text->insertions;
+    cut(*text, now);
+    now.at_end_mm = growth_.displacement_mm(axes_.front().index());
+    out_.part.push_back(std::move(now));
+    return {};
+  }
+
+  /// The text of this part, from what is believed now.
+  Result<ShiftedProgram> corrected() const {
+    nc::rewrite::Plan plan;
+    plan.file = job_.program;
+    plan.total_s = out_.program_s;
+    for (const BelievedAxis& axis : axes_) {
+      auto steps = axis.plan(cyclogram_, job_.tolerance_mm);
+      if (!steps) {
+        return std::unexpected(steps.error());
+      }
+      if (!steps->steps.empty()) {
+        plan.axes.push_back(*std::move(steps));
+      }
+    }
+    if (plan.axes.empty()) {
+      return ShiftedProgram{.shift = {}, .total_s = original_.total_s, .insertions = 0};
+    }
+    return shifted_program(job_.program, original_, plan, job_.config, job_.machine, job_.settings);
+  }
+
+  void cut(const ShiftedProgram& text, Part& now) {
+    Clockwork clockwork(job_.cyclogram);
+    std::array<Sum, kWays> sums;
+    std::size_t shift = 0;
+    const auto steps = static_cast<std::uint64_t>(std::ceil(out_.program_s / kStep_s));
+    for (std::uint64_t i = 0; i < steps; ++i) {
+      const double time_s = (static_cast<double>(i) + 1.0) * kStep_s;
+      const nc::plan::Transition* transition = clockwork.at(time_s - 0.5 * kStep_s);
+      const bool cuts = transition != nullptr && transition->load() == nc::plan::Load::cutting;
+      step(transition, cuts);
+      while (shift < text.shift.size() && text.shift[shift].time_s <= time_s) {
+        ++shift;
+      }
+      const auto left = errors(shift > 0 ? text.shift[shift - 1].mm : nc::interpret::Axes{});
+      if (cuts) {
+        for (std::size_t way = 0; way < kWays; ++way) {
+          sums[way].add(left[way]);
+          whole_[way].add(left[way]);
+        }
+      }
+      note(shift > 0 ? text.shift[shift - 1].mm : nc::interpret::Axes{}, cuts);
+    }
+    for (std::size_t way = 0; way < kWays; ++way) {
+      now.error[way] = sums[way].error();
+    }
+  }
+
+  void rest(double seconds) {
+    const auto steps = static_cast<std::uint64_t>(std::round(seconds / kStep_s));
+    const std::uint32_t part = std::exchange(number_, 0U);
+    for (std::uint64_t i = 0; i < steps; ++i) {
+      step(nullptr, false);
+      note({}, false);
+    }
+    number_ = part;
+  }
+
+  /// One second of the machine and of what is believed of it.
+  void step(const nc::plan::Transition* transition, bool cuts) {
+    const double speed_rev_s = transition != nullptr ? transition->speed_rev_s : 0.0;
+    const double feed_mm_s = transition != nullptr ? transition->path_speed_mm_s() : 0.0;
+    const double share = cuts ? transition->cut_share() : 0.0;
+    const bool coolant = transition != nullptr && transition->coolant;
+    const double room_c = growth_.read_room_c();
+    const sim::ThermalGrowth::Input heat{
+        .speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = share, .coolant = coolant};
+    growth_.update(heat);
+    for (BelievedAxis& axis : axes_) {
+      axis.update(kStep_s,
+                  {.speed_rev_s = speed_rev_s,
+                   .feed_mm_s = feed_mm_s,
+                   .cutting = cuts,
+                   .cutting_share = share,
+                   .coolant = coolant},
+                  room_c);
+    }
+    govern(heat, cuts, room_c);
+    ++step_;
+  }
+
+  /// The frame that the layer gets of this second.
+  void govern(const sim::ThermalGrowth::Input& machine, bool cuts, double room_c) {
+    kernel::signal::Frame frame;
+    frame.time_s = growth_.time_s();
+    frame.cycle = step_;
+    frame.axis_count = static_cast<std::uint8_t>(job_.machine.axes.size());
+    frame.spindle_actual_rev_s = machine.speed_rev_s;
+    frame.path_speed_mm_s = machine.feed_mm_s;
+    feeds_due_ += machine.cutting;
+    const bool feeds = feeds_due_ >= 0.5;
+    feeds_due_ -= feeds ? 1.0 : 0.0;
+    frame.motion = feeds ? kernel::signal::Motion::feed : kernel::signal::Motion::idle;
+    frame.coolant = machine.coolant;
+    std::fill_n(frame.temperature_c.begin(), sensors_, room_c);
+    governor_.update(frame, kernel::outcome::Reason::none, cuts);
+  }
+
+  [[nodiscard]] double offset_mm(const BelievedAxis& axis) const noexcept {
+    return governor_.output().request.offset_mm[axis.row()];
+  }
+
+  std::array<double, kWays> errors(const nc::interpret::Axes& text_mm) const {
+    std::array<double, kWays> squares{};
+    for (const BelievedAxis& axis : axes_) {
+      const double grown = growth_.displacement_mm(axis.index());
+      squares[0] += grown * grown;
+      squares[1] += std::pow(grown + text_mm[axis.column()], 2);
+      squares[2] += std::pow(grown + offset_mm(axis), 2);
+    }
+    for (double& value : squares) {
+      value = std::sqrt(value);
+    }
+    return squares;
+  }
+
+  void note(const nc::interpret::Axes& text_mm, bool cuts) {
+    if (step_ % kStepsOfPoint != 0) {
+      return;
+    }
+    const BelievedAxis& axis = axes_.front();
+    const double grown = growth_.displacement_mm(axis.index());
+    out_.point.push_back(
+        {.time_s = growth_.time_s(),
+         .part = number_,
+         .cutting = cuts,
+         .displacement_mm = grown,
+         .left_mm = {grown, grown + text_mm[axis.column()], grown + offset_mm(axis)},
+         .model_mm = axis.displacement_mm(),
+         .model_sd_mm = axis.sd_mm(),
+         .room_c = growth_.room_c()});
+  }
+
+  const Job& job_;
+  sim::ThermalGrowth growth_;
+  thermal::online::OffsetGovernor governor_;
+  std::size_t sensors_ = 0;
+  std::vector<BelievedAxis> axes_;
+  Trace original_;
+  thermal::offline::Cyclogram cyclogram_;
+  Batch out_;
+  std::array<Sum, kWays> whole_;
+  std::uint32_t number_ = 0;
+  std::uint64_t step_ = 0;
+  double feeds_due_ = 0.0;  ///< feed moves that the frames have not shown yet, in seconds
+};
+
+Result<std::vector<BelievedAxis>> believed(const Job& job) {
+  std::vector<BelievedAxis> out;
+  for (std::size_t i = 0; i < job.machine.thermal.axis.size(); ++i) {
+    const std::string& name = job.machine.thermal.axis[i].name;
+    const bool moved = std::ranges::any_of(
+        job.machine.axes, [&](const auto& axis) { return axis.present && axis.name == name; });
+    if (!moved) {
+      continue;
+    }
+    auto axis = BelievedAxis::make(job.machine, i);
+    if (!axis) {
+      return std::unexpected(axis.error());
+    }
+    out.push_back(*std::move(axis));
+  }
+  if (out.empty()) {
+    return std::unexpected(
+        Refusal{Kind::bad_input, job.machine.file, 0,
+                "the machine file has no thermal displacement of one of its axes",
+                "add [[thermal.axis]] with the name of an axis: steadyrest thermal fit writes it"});
+  }
+  return out;
+}
+
+}  // namespace
+
+double Batch::improvement(Way way) const noexcept {
+  return error[0].largest_mm / std::max(error[static_cast<std::size_t>(way)].largest_mm, 1e-9);
+}
+
+std::size_t Batch::worse(Way way) const noexcept {
+  return static_cast<std::size_t>(std::ranges::count_if(part, [&](const Part& p) {
+    return p.error[static_cast<std::size_t>(way)].largest_mm > p.error[0].largest_mm;
+  }));
+}
+
+Result<Batch> run(const Job& job) {
+  auto axes = believed(job);
+  if (!axes) {
+    return std::unexpected(axes.error());
+  }
+  auto growth = sim::ThermalGrowth::make(
+      {.passport = job.machine.thermal, .simulation = job.machine.simulation, .period_s = kStep_s});
+  if (!growth) {
+    return std::unexpected(growth.error());
+  }
+  auto original = trace(job.program, job.config, job.machine);
+  if (!original) {
+    return std::unexpected(original.error());
+  }
+  // It gets a frame a second here, each of them fresh.
+  kernel::machine::Machine slow = job.machine;
+  slow.envelope.stale_after_s = std::max(slow.envelope.stale_after_s, kStep_s);
+  auto governor = thermal::online::OffsetGovernor::make(slow);
+  if (!governor) {
+    return std::unexpected(governor.error());
+  }
+  return Day(job, *std::move(growth), *std::move(governor), *std::move(axes), *std::move(original))
+      .run();
+}
+
+}  // namespace steadyrest::trial::batch

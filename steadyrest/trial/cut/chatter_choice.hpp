@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/chatter/offline/plan/planner.hpp>
+#include <steadyrest/chatter/online/modulator.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/plan/path/planned_path.hpp>
+#include <steadyrest/sim/panel/operator_panel.hpp>
+#include <steadyrest/supervisor/listening_stage.hpp>
+
+namespace steadyrest::trial::cut {
+
+/// What the layer will do against chatter at one of the program's spindle speeds.
+struct ChatterChoice {
+  double speed_rev_s = 0.0;  ///< programmed, magnitude
+  chatter::offline::PlanDecision decision = chatter::offline::PlanDecision::nothing;
+  chatter::online::Modulation modulation;  ///< what the modulator is to run
+  /// Where the operator's spindle switch has to stand at least for it: the layer does not exceed
+  /// it.
+  double switch_ratio = 1.0;
+  std::vector<std::string> notes;  ///< of the planner, in words
+};
+
+/// Spindle speeds at which the program cuts (G1–G3), rev/s, magnitudes, rising; those of G96 change
+/// on the way and are left out.
+[[nodiscard]] std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path);
+
+/// Asks the planner for each of the speeds. At most `kMostSpeeds`; refuses more, and what the
+/// planner refuses.
+[[nodiscard]] kernel::outcome::Result<std::vector<ChatterChoice>> choose(
+    const chatter::offline::Process& process, const kernel::machine::Machine& machine,
+    const std::vector<double>& speeds_rev_s, double depth_mm,
+    const std::function<void(double share, std::string_view what)>& progress);
+
+inline constexpr std::size_t kMostSpeeds = 32;
+
+/// The choice for a programmed speed; nullptr where there was none to make.
+[[nodiscard]] const ChatterChoice* choice_for(const std::vector<ChatterChoice>& choices,
+                                              double programmed_rev_s) noexcept;
+
+/// The ear of the layer: detector and planner's table of the process at the override's steps, as
+/// far as the operator's switch at 100 % lets the layer go. Refuses what they refuse.
+[[nodiscard]] kernel::outcome::Result<supervisor::ListeningStage> listener_for(
+    const chatter::offline::Process& process, const kernel::machine::Machine& machine,
+    const std::vector<double>& speeds_rev_s, double depth_mm, double sensor_rate_hz);
+
+/// The operator turns the spindle switch up for them before the program starts, where 100 % is not
+/// enough.
+[[nodiscard]] std::vector<sim::OperatorAction> operator_for(
+    const std::vector<ChatterChoice>& choices, const kernel::machine::Machine& machine);
+
+/// The machine with a modulator that is always on and waits for a choice: constant, at 100 %.
+[[nodiscard]] kernel::machine::Machine with_modulator(kernel::machine::Machine machine);
+
+}  // namespace steadyrest::trial::cut

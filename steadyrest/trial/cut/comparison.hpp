@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/trial/cut/recorder.hpp>
+#include <steadyrest/trial/cut/report_data.hpp>
+
+namespace steadyrest::trial::cut {
+
+/// The two records side by side, as the report shows them. The texts of the worst lines are read
+/// from the program's file; where it cannot be read they stay empty.
+[[nodiscard]] ReportData compare(const std::filesystem::path& program,
+                                 const kernel::machine::Machine& machine, const Recorder& without,
+                                 const Recorder& with);
+
+}  // namespace steadyrest::trial::cut

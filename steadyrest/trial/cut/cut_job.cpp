@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/sim/simulated_machine.hpp>
+#include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/trial/cut/cut_job.hpp>
+#include <steadyrest/trial/cut/motion_score.hpp>
+
+namespace steadyrest::trial::cut {
+namespace {
+
+using contour::online::ContourError;
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::Result;
+using kernel::signal::Frame;
+using kernel::signal::Point;
+
+constexpr double kStandstillLimit_s = 600.0;
+constexpr std::uint64_t kCyclesBetweenProgress = 4096;
+
+Point first_three(const kernel::signal::AxisValues& values) {
+  return {values[0], values[1], values[2]};
+}
+
+/// The measuring of the true tool, cycle by cycle.
+class TrueError {
+ public:
+  static Result<TrueError> make(const kernel::machine::Machine& machine) {
+    ContourError::Config config;
+    config.servo_gain_1_s = std::ranges::min(machine.axes, {}, [](const auto& axis) {
+                              return axis.servo_gain_1_s;
+                            }).servo_gain_1_s;
+    auto error = ContourError::make(config);
+    if (!error) {
+      return std::unexpected(error.error());
+    }
+    return TrueError(*error);
+  }
+
+  ContourError::Output update(const Frame& frame, const sim::Truth& truth) noexcept {
+    ContourError::Input input = contour::online::contour_input(frame);
+    input.command_mm = first_three(truth.program_mm);
+    input.actual_mm = first_three(truth.tool_mm);
+    return error_.update(input);
+  }
+
+ private:
+  explicit TrueError(const ContourError& error) : error_(error) {}
+  ContourError error_;
+};
+
+/// The piece of path that the tool is on; none where it is on none.
+const kernel::signal::PathSegment* segment_of(const Frame& frame,
+                                              const ContourError::Output& error) {
+  const bool on_path = error.from_path && error.foot_index < frame.path.size();
+  return on_path ? &frame.path[error.foot_index] : nullptr;
+}
+
+/// The motion that a sample counts for: a cut is one where the control cuts and the tool is there.
+/// Just after a rapid the tool still lags on the rapid's path and leaves no surface.
+kernel::signal::Motion motion_of(const Frame& frame, const kernel::signal::PathSegment* segment) {
+  const bool cuts = frame.motion == kernel::signal::Motion::feed;
+  return cuts && segment != nullptr ? segment->motion : frame.motion;
+}
+
+Sample sample_of(const Frame& frame, const sim::Truth& truth, const ContourError::Output& error,
+                 kernel::outcome::Reason reason) {
+  const kernel::signal::PathSegment* const segment = segment_of(frame, error);
+  const bool arc = segment != nullptr && segment->geometry == kernel::signal::Geometry::arc;
+  return {.time_s = frame.time_s,
+          .position_mm = first_three(truth.tool_mm),
+          .path_position_mm = frame.path_position_mm,
+          .contour_error_mm = error.valid ? error.error_mm : 0.0,
+          .tracking_error_mm = error.tracking_error_mm,
+          .feed_ratio = frame.feed.effective_ratio,
+          .path_speed_mm_s = frame.path_speed_mm_s,
+          .arc_radius_mm = arc ? segment->radius_mm : 0.0,
+          .arc_length_mm = arc ? segment->length_mm : 0.0,
+          .line = segment != nullptr ? segment->line : frame.program_line,
+          .motion = motion_of(frame, segment),
+          .reason = reason};
+}
+
+/// Ten simulated minutes without path, dwell or end: the part will never be finished.
+class Standstill {
+ public:
+  [[nodiscard]] bool too_long(const Frame& frame) {
+    if (frame.path_position_mm != position_mm_ || frame.program_line != line_) {
+      position_mm_ = frame.path_position_mm;
+      line_ = frame.program_line;
+      since_s_ = frame.time_s;
+    }
+    return frame.time_s - since_s_ > kStandstillLimit_s;
+  }
+
+ private:
+  double position_mm_ = -1.0;
+  std::uint32_t line_ = 0;
+  double since_s_ = 0.0;
+};
+
+double length_of(const nc::plan::PlannedPath& path) {
+  return path.segments.empty() ? 0.0
+                               : path.segments.back().position_mm + path.segments.back().length_mm;
+}
+
+/// The product's own layer, acting.
+Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
+    const Job& job, const kernel::port::Capability& capability) {
+  auto made = supervisor::Supervisor::make(job.machine, capability);
+  if (!made) {
+    return std::unexpected(made.error());
+  }
+  auto layer = std::make_shared<supervisor::Supervisor>(std::move(*made));
+  layer->set_mode(kernel::machine::Mode::act);
+  if (job.listener && !layer->listen(*job.listener)) {
+    return std::unexpected(Refusal{
+        Kind::bad_input, "", 0, "chatter cannot be answered: the machine has no spindle override",
+        "give [override.spindle], or take --chatter machine"});
+  }
+  return layer;
+}
+
+/// The readings of the probe that the thermal room gets.
+class Probed {
+ public:
+  explicit Probed(const kernel::machine::Machine& machine) : machine_(machine) {}
+
+  void look(const Sample& sample, const supervisor::Supervisor& layer, Recorder& record) {
+    const auto& thermal = layer.estimates().thermal;
+    if (!thermal || thermal->probed.reading.number == number_) {
+      return;
+    }
+    const auto& [reading, verdict] = thermal->probed;
+    number_ = reading.number;
+    record.add_probe({.time_s = sample.time_s,
+                      .line = line_,
+                      .axis = reading.axis < machine_.axes.size() ? machine_.axes[reading.axis].name
+                                                                  : std::string{},
+                      .displacement_um = kernel::units::um_from_mm(reading.displacement_mm),
+                      .innovation_um = kernel::units::um_from_mm(verdict.innovation_mm),
+                      .band_um = kernel::units::um_from_mm(gate_sd_ * verdict.innovation_sd_mm),
+                      .reason = verdict.reason});
+  }
+  /// The line in hand, of which the next cycle may bring the reading.
+  void pass(const Sample& sample) noexcept {
+    line_ = sample.motion == kernel::signal::Motion::probe ? sample.line : line_;
+  }
+
+ private:
+  const kernel::machine::Machine& machine_;
+  double gate_sd_ = thermal::online::StateFilter::Config{}.gate_sd;
+  std::uint64_t number_ = 0;
+  std::uint32_t line_ = 0;
+};
+
+Layer layer_of(const std::shared_ptr<supervisor::Supervisor>& layer, const Job& job) {
+  return [layer, choices = job.choices, now = 0.0, begun = false](Frame& frame) mutable {
+    if (!choices.empty() && frame.spindle_programmed_rev_s != now) {
+      now = frame.spindle_programmed_rev_s;
+      const ChatterChoice* choice = choice_for(choices, now);
+      // What has no choice keeps the programmed speed; a machine without a spindle override has no
+      // modulator that could be told.
+      [[maybe_unused]] const bool told = layer->modulate(
+          choice != nullptr ? choice->modulation
+                            : chatter::online::Modulation{.law = chatter::online::Law::constant});
+    }
+    const kernel::signal::Command command = layer->update(frame);
+    if (auto* const heat = layer->thermal(); heat != nullptr && !std::exchange(begun, true)) {
+      heat->zero_here();  // the simulated machine begins where the part's zero was set
+    }
+    frame.axis = layer->frame().axis;
+    return command;
+  };
+}
+
+Result<std::unique_ptr<sim::SimulatedMachine>> machine_of(const Job& job) {
+  return sim::SimulatedMachine::make(
+      {.machine = job.machine,
+       .path = job.path,
+       .operator_actions = job.with_layer ? operator_for(job.choices, job.machine)
+                                          : std::vector<sim::OperatorAction>{},
+       .cutting = job.cutting});
+}
+
+Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& layer,
+                 const OnSample& on_sample, MotionScore* motion = nullptr,
+                 VibrationRecord* vibration = nullptr) {
+  auto error = TrueError::make(job.machine);
+  if (!error) {
+    return std::unexpected(error.error());
+  }
+  Standstill standstill;
+  const double length_mm = std::max(length_of(*job.path), 1e-9);
+  while (!machine.finished()) {
+    auto frame = machine.read();
+    if (!frame) {
+      return std::unexpected(frame.error());
+    }
+    auto reason = kernel::outcome::Reason::none;
+    if (layer) {
+      const kernel::signal::Command command = layer(*frame);
+      reason = command.feed_reason;
+      if (command.write) {
+        if (auto written = machine.write(command); !written) {
+          return std::unexpected(written.error());
+        }
+      }
+    }
+    if (motion != nullptr) {
+      motion->add(*frame, machine.truth().motor_mm_s, machine.truth().motor_mm_s2);
+    }
+    if (vibration != nullptr && machine.cutting() != nullptr) {
+      vibration->add(frame->time_s, frame->spindle_actual_rev_s, machine.cutting()->cycle());
+    }
+    on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()), reason));
+    if (standstill.too_long(*frame)) {
+      return std::unexpected(Refusal{Kind::bad_input, "", frame->program_line,
+                                     "the cut stands still for ten simulated minutes in this line",
+                                     "look for an override of 0 % or a very long dwell"});
+    }
+    if (frame->cycle % kCyclesBetweenProgress == 0) {
+      job.progress(frame->path_position_mm / length_mm);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Recorder> run(const Job& job) {
+  auto machine = machine_of(job);
+  if (!machine) {
+    return std::unexpected(machine.error());
+  }
+  Layer layer;
+  std::shared_ptr<supervisor::Supervisor> supervisor;
+  if (job.with_layer) {
+    auto made = make_supervisor(job, (*machine)->capability());
+    if (!made) {
+      return std::unexpected(made.error());
+    }
+    supervisor = std::move(*made);
+    layer = layer_of(supervisor, job);
+  }
+  Recorder record({.limit_mm = job.machine.contour.limit_mm,
+                   .cycle_s = job.machine.control.interpolator_period_s});
+  auto motion = MotionScore::make(job.machine);
+  if (!motion) {
+    return std::unexpected(motion.error());
+  }
+  VibrationRecord vibration;
+  Probed probed(job.machine);
+  const auto done = cut(
+      job, **machine, layer,
+      [&](const Sample& sample) {
+        record.add(sample);
+        if (supervisor) {
+          probed.look(sample, *supervisor, record);
+          probed.pass(sample);
+        }
+        if (supervisor && supervisor->estimates().heard) {
+          const auto& heard = *supervisor->estimates().heard;
+          record.add_heard({.time_s = sample.time_s,
+                            .frequency_hz = heard.frequency_hz,
+                            .spindle_ratio = heard.request.ratio});
+        }
+      },
+      layer ? &*motion : nullptr, &vibration);
+  if (!done) {
+    return std::unexpected(done.error());
+  }
+  if (layer) {
+    record.set_motion(motion->figures());
+  }
+  if (job.cutting) {
+    record.set_vibration(std::move(vibration));
+  }
+  return record;
+}
+
+Result<void> run(const Job& job, const Layer& layer, const OnSample& on_sample) {
+  auto machine = machine_of(job);
+  if (!machine) {
+    return std::unexpected(machine.error());
+  }
+  return cut(job, **machine, layer, on_sample);
+}
+
+}  // namespace steadyrest::trial::cut

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/path.hpp>
+#include <steadyrest/motion/online/estimator/backward_difference.hpp>
+#include <steadyrest/trial/cut/report_data.hpp>
+
+namespace steadyrest::trial::cut {
+
+/// Judges the estimates of the axes' motion that stand in the frames against what the simulated
+/// machine really did, beside the backward difference of the same counts.
+///
+/// Each cycle of the cut counts, standstill and rapids included, at zero lag: error = estimate −
+/// truth at the cycle's end, on the side of the encoder. Coverage: share of the cycles in which
+/// |error| ≤ the bound given, of those that gave one.
+class MotionScore {
+ public:
+  static kernel::outcome::Result<MotionScore> make(const kernel::machine::Machine& machine);
+
+  void add(const kernel::signal::Frame& frame, const kernel::signal::AxisValues& velocity_mm_s,
+           const kernel::signal::AxisValues& acceleration_mm_s2) noexcept;
+
+  /// Of the axes that have an encoder with counts.
+  [[nodiscard]] std::vector<MotionFigures> figures() const;
+
+ private:
+  struct Sums {
+    double velocity = 0.0;
+    double acceleration = 0.0;
+  };
+  struct Axis {
+    std::string name;
+    std::size_t index = 0;
+    double count_mm = 0.0;
+    motion::online::BackwardDifference difference;
+    std::size_t samples = 0;
+    Sums estimate_squares{};
+    Sums difference_squares{};
+    std::array<std::size_t, 2> bounded{};  ///< of velocity, of acceleration
+    std::array<std::size_t, 2> kept{};
+  };
+
+  MotionScore() = default;
+
+  std::vector<Axis> axes_;
+};
+
+}  // namespace steadyrest::trial::cut

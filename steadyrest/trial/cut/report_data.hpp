@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/signal/path.hpp>
+
+/// What `cut` has to show, in the units of people: the report is a border.
+namespace steadyrest::trial::cut {
+
+/// What a tool that vibrates in the cut left and bore; over all the time in the cut.
+struct VibrationFigures {
+  double rms_um = 0.0;           ///< of the displacement about its mean, both axes together
+  double peak_um = 0.0;          ///< largest displacement from rest
+  double unforced_rms_um = 0.0;  ///< of what does not repeat from tooth to tooth: chatter
+  double force_peak_n = 0.0;     ///< on the tool, in the plane
+  double power_peak_w = 0.0;     ///< at the spindle
+  double chip_peak_um = 0.0;
+  /// The finished wall (in milling with one): mean place, > 0: too much is cut off …
+  std::optional<double> surface_error_um;
+  std::optional<double> surface_range_um;  ///< … and highest less lowest place
+};
+
+/// One stretch of the vibration's course.
+struct VibrationPoint {
+  double time_s = 0.0;
+  double peak_um = 0.0;
+  double unforced_um = 0.0;  ///< RMS
+  double speed_rpm = 0.0;    ///< of the spindle, mean
+};
+
+/// Figures of one run, taken over every control cycle. Errors over cutting motion (G1–G3) alone: a
+/// rapid leaves no surface.
+struct Figures {
+  double cycle_time_s = 0.0;
+  double cutting_time_s = 0.0;
+  double contour_error_max_mm = 0.0;  ///< magnitude
+  double contour_error_rms_mm = 0.0;
+  double tracking_error_max_mm = 0.0;
+  double over_limit_s = 0.0;
+  std::size_t samples = 0;  ///< in the cut
+  std::size_t samples_over_limit = 0;
+  std::size_t override_changes = 0;
+};
+
+/// One sample of the thinned trace; in order of time.
+struct TracePoint {
+  double time_s = 0.0;
+  double path_mm = 0.0;  ///< commanded path length since the program's start
+  kernel::signal::Point position_mm{};
+  double contour_error_um = 0.0;   ///< signed
+  double tracking_error_um = 0.0;  ///< distance from the commanded to the true point
+  double override_percent = 100.0;
+  double feed_mm_min = 0.0;
+  std::uint32_t line = 0;
+  bool cutting = false;  ///< G1–G3; only then does an error count
+};
+
+/// How long the override stood where it stood for one reason.
+struct ReasonTime {
+  kernel::outcome::Reason reason = kernel::outcome::Reason::none;
+  double seconds = 0.0;
+};
+
+/// How far the velocity and acceleration of one axis, as estimated from its encoder, are from the
+/// truth; beside them the backward difference of the same counts. Rotary axes: rad, not mm.
+struct MotionFigures {
+  std::string axis;
+  double velocity_rms_mm_s = 0.0;
+  double acceleration_rms_mm_s2 = 0.0;
+  double difference_velocity_rms_mm_s = 0.0;
+  double difference_acceleration_rms_mm_s2 = 0.0;
+  double velocity_coverage_ratio = 1.0;  ///< share of cycles in which the bound held; NaN: no bound
+  double acceleration_coverage_ratio = 1.0;
+};
+
+/// A reading of the probe, and what the thermal room made of it.
+struct ProbeFigures {
+  double time_s = 0.0;
+  std::uint32_t line = 0;
+  std::string axis;
+  double displacement_um = 0.0;  ///< of the axis from where it should be
+  double innovation_um = 0.0;    ///< of it, what the forecast did not know
+  double band_um = 0.0;          ///< within which it is taken
+  kernel::outcome::Reason reason = kernel::outcome::Reason::none;
+};
+
+struct Run {
+  Figures figures;
+  std::vector<TracePoint> trace;
+  std::vector<ReasonTime> reasons;
+  // Designated initialisers may leave these out.
+  // NOLINTBEGIN(readability-redundant-member-init)
+  std::optional<VibrationFigures> vibration = {};  ///< where the cut of a process was simulated
+  std::vector<VibrationPoint> vibration_course = {};
+  // NOLINTEND(readability-redundant-member-init)
+};
+
+/// Why a feed would hold the limit on a line.
+enum class HeldBy : std::uint8_t {
+  closed_form,  ///< radius and servo, contour/offline/closed_form.hpp
+  record,       ///< the recorded error, taken as growing with the square of the feed
+  driven        ///< the line kept the limit at it
+};
+
+/// One line of the program with the largest error on it (signed) and what was driven there; NaN
+/// where a run has none.
+struct WorstLine {
+  std::uint32_t line = 0;
+  std::string text;
+  double without_um = 0.0;
+  double with_um = 0.0;
+  double feed_without_mm_min = std::numeric_limits<double>::quiet_NaN();
+  double feed_with_mm_min = std::numeric_limits<double>::quiet_NaN();
+  double radius_mm = std::numeric_limits<double>::quiet_NaN();         ///< NaN: straight
+  double hold_feed_mm_min = std::numeric_limits<double>::quiet_NaN();  ///< NaN: any feed holds
+  HeldBy held_by = HeldBy::driven;
+};
+
+struct OverrideStep {
+  std::uint32_t code = 0;
+  double percent = 100.0;
+};
+
+/// Everything in the report but how it was made (provenance.hpp).
+struct ReportData {
+  std::string program;
+  std::string machine;
+  std::string strategy;  ///< as people read it
+  double limit_um = 10.0;
+  std::vector<OverrideStep> override_table;
+  Run without;
+  Run with;
+  std::vector<WorstLine> worst_lines;  ///< the worst with the layer and without it
+  std::vector<MotionFigures> motion;   ///< of the run with the layer; axes with counts alone
+  std::vector<ProbeFigures> probes;    ///< of the run with the layer
+};
+
+}  // namespace steadyrest::trial::cut

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer in closed loop: NC text → planner → simulated machine ⇄ supervisor, judged by the true
+// contour error.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/trial/cut/cut_job.hpp>
+
+namespace steadyrest::trial::cut {
+namespace {
+
+using kernel::machine::ContourStrategy;
+using kernel::machine::Machine;
+
+const std::string kExamples = STEADYREST_SOURCE_DIR "/examples/";
+
+Machine machine_of(const std::string& name) {
+  return passport::read(kExamples + "machines/" + name).value();
+}
+
+Job job_of(const std::string& program, const Machine& machine, nc::read::Dialect dialect) {
+  nc::interpret::Config config;
+  config.dialect = dialect;
+  nc::plan::PathBuilder builder(machine);
+  const auto report =
+      nc::interpret::run_file(kExamples + "programs/" + program, config, builder).value();
+  EXPECT_TRUE(report.refused.empty());
+  return {.machine = machine,
+          .path = std::make_shared<const nc::plan::PlannedPath>(builder.take().value()),
+          .with_layer = true};
+}
+
+Figures cut_with_layer(const std::string& program, const Machine& machine,
+                       nc::read::Dialect dialect = nc::read::Dialect::sinumerik) {
+  return run(job_of(program, machine, dialect)).value().figures();
+}
+
+double share_over(const Figures& figures) {
+  return static_cast<double>(figures.samples_over_limit) / static_cast<double>(figures.samples);
+}
+
+/// Samples of the circle's last three of five turns.
+std::vector<Sample> settled(const Machine& machine) {
+  constexpr double kEntry_mm = 12.0 + 2 * 62.9;  // straight, two turns
+  constexpr double kExit_mm = 12.0 + 5 * 62.8 - 1.0;
+  const auto record = run(job_of("circle-r10.mpf", machine, nc::read::Dialect::sinumerik));
+  std::vector<Sample> samples;
+  double offset_mm = -1.0;
+  for (const Sample& sample : record.value().trace()) {
+    if (offset_mm < 0.0 && sample.motion == kernel::signal::Motion::feed) {
+      offset_mm = sample.path_position_mm;
+    }
+    const double along_mm = sample.path_position_mm - offset_mm;
+    if (offset_mm >= 0.0 && along_mm > kEntry_mm && along_mm < kExit_mm) {
+      samples.push_back(sample);
+    }
+  }
+  return samples;
+}
+
+/// Feed priority on the paper's circle: the closed form allows 1343 of 4000 mm/min, so the largest
+/// step is 30 %.
+void expect_settled_at_30_percent(const std::string& machine) {
+  const auto samples = settled(machine_of(machine));
+  ASSERT_GT(samples.size(), 1000U);
+  double last_change_s = samples.front().time_s - 0.5;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_LE(std::abs(samples[i].contour_error_mm), 0.010);
+    EXPECT_NEAR(samples[i].feed_ratio, 0.30, 1e-9);
+    if (i > 0 && samples[i].feed_ratio != samples[i - 1].feed_ratio) {
+      EXPECT_GE(samples[i].time_s - last_change_s, 0.5);
+      last_change_s = samples[i].time_s;
+    }
+  }
+}
+
+TEST(LayerOnTheCircle, SettlesAtTheLargestStepThatTheClosedFormAllows) {
+  expect_settled_at_30_percent("ideal-k50.toml");
+}
+
+TEST(LayerOnTheCircle, SettlesThereOnTheMachineWithFrictionAndBacklashToo) {
+  expect_settled_at_30_percent("vmc-840d.toml");
+}
+
+TEST(LayerOnTheCircle, ThreeStrategiesGiveThreeRows) {
+  Machine machine = machine_of("vmc-840d.toml");
+  machine.contour.strategy = ContourStrategy::contour_priority;
+  const Figures contour = cut_with_layer("circle-r10.mpf", machine);
+  machine.contour.strategy = ContourStrategy::combined;
+  const Figures combined = cut_with_layer("circle-r10.mpf", machine);
+  machine.contour.strategy = ContourStrategy::feed_priority;
+  const Figures feed = cut_with_layer("circle-r10.mpf", machine);
+  // The least error costs the most time, and the other way round.
+  EXPECT_LT(contour.contour_error_rms_mm, 0.5 * combined.contour_error_rms_mm);
+  EXPECT_LT(combined.contour_error_rms_mm, 0.7 * feed.contour_error_rms_mm);
+  EXPECT_GT(contour.cycle_time_s, 1.3 * combined.cycle_time_s);
+  EXPECT_GT(combined.cycle_time_s, 1.2 * feed.cycle_time_s);
+}
+
+TEST(LayerOnThePocket, KeepsTheLimitInAllButOneSampleInAThousand) {
+  for (const double limit_mm : {0.010, 0.020}) {
+    Machine machine = machine_of("vmc-840d.toml");
+    machine.contour.limit_mm = limit_mm;
+    const Figures figures = cut_with_layer("rib-pocket.mpf", machine);
+    EXPECT_LE(share_over(figures), 0.001) << limit_mm;
+    EXPECT_GT(figures.samples, 30'000U);
+  }
+}
+
+TEST(LayerOnThePocket, TakesTheTimeOverTheLimitDownFivefoldOnASlowServoWithTwoHundredSteps) {
+  const Machine machine = machine_of("linuxcnc-mill.toml");
+  ASSERT_GT(machine.feed_override.ratio.size(), 64U);
+  Job job = job_of("rib-pocket.ngc", machine, nc::read::Dialect::linuxcnc);
+  const Figures with = run(job).value().figures();
+  job.with_layer = false;
+  const Figures without = run(job).value().figures();
+  EXPECT_LT(with.over_limit_s, 0.2 * without.over_limit_s);
+  EXPECT_LT(with.contour_error_max_mm, 0.1 * without.contour_error_max_mm);
+}
+
+TEST(LayerOnThePocket, FallsInTimeWhereTheWordWalksFromNeighbourToNeighbour) {
+  const Machine machine = machine_of("mill-802d.toml");
+  ASSERT_FALSE(machine.feed_override.latched_word);
+  Job job = job_of("rib-pocket.mpf", machine, nc::read::Dialect::sinumerik);
+  const Figures with = run(job).value().figures();
+  job.with_layer = false;
+  const Figures without = run(job).value().figures();
+  EXPECT_LT(with.contour_error_max_mm, 0.15 * without.contour_error_max_mm);
+}
+
+}  // namespace
+}  // namespace steadyrest::trial::cut
