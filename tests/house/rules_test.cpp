@@ -56,6 +56,11 @@ std::vector<std::string> found(const std::string& path, const std::string& body)
   return found(file(path, body));
 }
 
+/// Of a file on a shelf of the chatter room's offline half.
+std::vector<std::string> shelved(const std::string& path, const std::string& body) {
+  return found({path, std::string(kSpdx) + body + "\nnamespace steadyrest::chatter::offline {}\n"});
+}
+
 TEST(Floors, ALowerFloorMayBeIncluded) {
   EXPECT_THAT(
       found("steadyrest/contour/online/x.hpp", "#include <steadyrest/kernel/port/port.hpp>"),
@@ -146,6 +151,55 @@ TEST(Halves, OnlineNeverIncludesOffline) {
   EXPECT_THAT(
       found("steadyrest/contour/offline/x.hpp", "#include <steadyrest/contour/online/y.hpp>"),
       IsEmpty());
+}
+
+TEST(Shelves, IncludeTheirOwnAndLowerOnes) {
+  const std::string include = "#include <steadyrest/chatter/offline/";
+  EXPECT_THAT(shelved("steadyrest/chatter/offline/depth/x.hpp", include + "cycle/y.hpp>"),
+              IsEmpty());
+  EXPECT_THAT(shelved("steadyrest/chatter/offline/depth/x.hpp", include + "depth/y.hpp>"),
+              IsEmpty());
+  EXPECT_THAT(shelved("steadyrest/chatter/offline/cycle/x.cpp", include + "depth/y.hpp>"),
+              ElementsAre("shelf:2"));
+}
+
+TEST(Shelves, WhatLiesBesideThemIsAboveThemAll) {
+  EXPECT_THAT(found("steadyrest/sim/x.hpp", "#include <steadyrest/sim/panel/y.hpp>"), IsEmpty());
+  const SourceFile lower{"steadyrest/sim/panel/x.hpp",
+                         std::string(kSpdx) +
+                             "#include <steadyrest/sim/y.hpp>\nnamespace steadyrest::sim {}\n"};
+  EXPECT_THAT(found(lower), ElementsAre("shelf:2"));
+}
+
+TEST(Shelves, TestsMayUseTheHelpersOfOtherTests) {
+  const SourceFile test{"steadyrest/sim/axis/test/x_test.cpp",
+                        std::string(kSpdx) + "#include <steadyrest/sim/test/rig.hpp>\n"};
+  EXPECT_THAT(found(test), IsEmpty());
+}
+
+TEST(Shelves, ShareTheNamespaceOfTheirPlace) {
+  const std::string text(kSpdx);
+  EXPECT_THAT(found({"steadyrest/sim/axis/x.hpp", text + "namespace steadyrest::sim {}\n"}),
+              IsEmpty());
+  EXPECT_THAT(found({"steadyrest/sim/axis/x.hpp", text + "namespace steadyrest::sim::heat {}\n"}),
+              IsEmpty());
+  EXPECT_THAT(found({"steadyrest/sim/axis/x.hpp", text + "namespace steadyrest::nc {}\n"}),
+              ElementsAre("namespace:2", "namespace:1"));
+}
+
+TEST(Crowded, AFolderHoldsNoMoreThanOneCanLookThrough) {
+  std::vector<SourceFile> tree;
+  for (char c = 'a'; c < 'a' + 15; ++c) {
+    for (const char* ending : {".hpp", ".cpp"}) {
+      tree.push_back({std::string("steadyrest/nc/") + c + ending, ""});
+    }
+  }
+  EXPECT_THAT(check_crowded(tree), IsEmpty());
+  tree.push_back({"steadyrest/nc/test/z_test.cpp", ""});
+  EXPECT_THAT(check_crowded(tree), IsEmpty());
+  tree.push_back({"steadyrest/nc/z.hpp", ""});
+  ASSERT_EQ(check_crowded(tree).size(), 1U);
+  EXPECT_EQ(check_crowded(tree).front().path, "steadyrest/nc");
 }
 
 TEST(InCycle, HeadersOfLocksStreamsAndClocksAreRefused) {
