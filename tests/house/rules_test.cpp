@@ -66,8 +66,11 @@ TEST(Floors, ALowerFloorMayBeIncluded) {
       found("steadyrest/contour/online/x.hpp", "#include <steadyrest/kernel/port/port.hpp>"),
       IsEmpty());
   EXPECT_THAT(
-      found("steadyrest/nc/read/x.hpp", "#include <steadyrest/nc/interpret/state/move.hpp>"),
+      found("steadyrest/nc/plan/x.hpp", "#include <steadyrest/nc/interpret/state/move.hpp>"),
       IsEmpty());
+  EXPECT_THAT(
+      found("steadyrest/nc/read/x.hpp", "#include <steadyrest/nc/interpret/state/move.hpp>"),
+      ElementsAre("floor:2"));
   EXPECT_THAT(found("steadyrest/apps/cli/x.cpp", "#include <steadyrest/adapters/replay/x.hpp>"),
               IsEmpty());
 }
