@@ -168,9 +168,9 @@ TEST(Shelves, IncludeTheirOwnAndLowerOnes) {
 
 TEST(Shelves, WhatLiesBesideThemIsAboveThemAll) {
   EXPECT_THAT(found("steadyrest/sim/x.hpp", "#include <steadyrest/sim/panel/y.hpp>"), IsEmpty());
-  const SourceFile lower{"steadyrest/sim/panel/x.hpp",
-                         std::string(kSpdx) +
-                             "#include <steadyrest/sim/y.hpp>\nnamespace steadyrest::sim {}\n"};
+  const SourceFile lower{
+      "steadyrest/sim/panel/x.hpp",
+      std::string(kSpdx) + "#include <steadyrest/sim/y.hpp>\nnamespace steadyrest::sim {}\n"};
   EXPECT_THAT(found(lower), ElementsAre("shelf:2"));
 }
 
