@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Every library is Debian's own package; what each is for stands in README.md.
+# Every library is Debian's own package; docs/dependencies.md says what each is for.
 find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
