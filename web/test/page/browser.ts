@@ -28,7 +28,7 @@ export interface OpenPage {
   close: () => Promise<void>;
 }
 
-/** The template filled as steadyrest/apps/report fills it. */
+/** The template filled as steadyrest/apps/page/shared fills it. */
 export function fill(report: object): string {
   const json = JSON.stringify(report).replaceAll('<', '\\u003c');
   return template().replace('"@STEADYREST_REPORT_DATA@"', () => json);

@@ -13,7 +13,7 @@ namespace steadyrest::nc::read {
 
 /// What the reading of one line needs to know of the program's, and says of the line.
 struct Reading {
-  Dialect dialect;
+  Dialect dialect = Dialect::linuxcnc;
   Values* values = nullptr;             ///< nullptr: expressions are refused
   TypedValues* typed_values = nullptr;  ///< of sinumerik
   bool numbers_alone = false;           ///< no value was asked for or set
