@@ -19,6 +19,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/time/segment_timer.hpp>
@@ -138,8 +139,7 @@ void measure(const std::string& name, const std::string& from, const std::string
 
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::atoi(argv[1]) : 10;
-  const char* const set = std::getenv("STEADYREST_SHARED_DATA");
-  const std::string data = set != nullptr ? set : STEADYREST_SOURCE_DIR "/../shared/data";
+  const std::string data = steadyrest::kernel::file::testing::shared_data();
   std::string folder = std::filesystem::temp_directory_path() / "compensate-XXXXXX";
   if (::mkdtemp(folder.data()) == nullptr) {
     return 1;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include <benchmark/benchmark.h>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 #include <steadyrest/nc/read/text/line_source.hpp>
@@ -33,9 +33,8 @@ std::string generated() {
 }
 
 std::string shared(const char* name) {
-  const char* const folder = std::getenv("STEADYREST_SHARED_DATA");
-  const std::string root = folder != nullptr ? folder : STEADYREST_SOURCE_DIR "/../shared/data";
-  std::ifstream in(root + "/nc/" + name, std::ios::binary);
+  std::ifstream in(steadyrest::kernel::file::testing::shared_data() / "nc" / name,
+                   std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

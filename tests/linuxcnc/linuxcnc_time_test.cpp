@@ -4,7 +4,6 @@
 // measure.sh on 21 November 2026 with the limits of examples/machines/linuxcnc-mill.toml.
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -15,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/time/program_timer.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -79,8 +79,7 @@ std::string real_text(const std::string& path) {
 }
 
 TEST(ProgramTimeAgainstLinuxCnc, RealProgramsAgreeWithTheRecordedFigures) {
-  const char* set = std::getenv("STEADYREST_SHARED_DATA");
-  const std::string data = set != nullptr ? set : STEADYREST_SOURCE_DIR "/../shared/data";
+  const std::string data = kernel::file::testing::shared_data();
   const std::vector<std::pair<std::string, double>> recorded = {
       {data + "/nc/cncjs/circle.gcode", 9.795},
       {data + "/nc/cncjs/arc-ijk.gcode", 15.429},

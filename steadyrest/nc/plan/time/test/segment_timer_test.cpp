@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/test/moves.hpp>
 #include <steadyrest/nc/plan/time/program_timer.hpp>
@@ -104,11 +105,10 @@ class Both final : public interpret::Sink {
 };
 
 std::vector<std::string> shared_programs() {
-  const char* const folder = std::getenv("STEADYREST_SHARED_DATA");
-  const std::string root = folder != nullptr ? folder : STEADYREST_SOURCE_DIR "/../shared/data";
   std::vector<std::string> found;
   std::error_code absent;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root + "/nc", absent)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           kernel::file::testing::shared_data() / "nc", absent)) {
     if (entry.is_regular_file() && entry.path().extension() != ".MPF") {
       found.push_back(entry.path().string());
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
 #include <steadyrest/nc/rewrite/walk/plain_survey.hpp>
@@ -97,11 +97,10 @@ TEST(PlainSurvey, FindsTheToolChangesThatTheRunFinds) {
 }
 
 TEST(PlainSurvey, AgreesWithTheRunOnRealPrograms) {
-  const char* const set = std::getenv("STEADYREST_SHARED_DATA");
-  const std::string root = set != nullptr ? set : STEADYREST_SOURCE_DIR "/../shared/data";
   const Workshop shop;
   int compared = 0;
-  for (const std::string& folder : {root + "/nc", std::string{STEADYREST_SOURCE_DIR "/examples"},
+  for (const std::string& folder : {(kernel::file::testing::shared_data() / "nc").string(),
+                                    std::string{STEADYREST_SOURCE_DIR "/examples"},
                                     std::string{STEADYREST_SOURCE_DIR "/tests/accepted/nc"},
                                     std::string{"/usr/share/linuxcnc"}}) {
     std::error_code absent;

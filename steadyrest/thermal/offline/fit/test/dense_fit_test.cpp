@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/thermal/offline/fit/identify.hpp>
 #include <steadyrest/thermal/offline/fit/structure_fit.hpp>
 #include <steadyrest/thermal/offline/plan/replay.hpp>
@@ -102,9 +103,7 @@ TEST(DenseFit, ManyTemperaturesThatEachTellALittleAreAllTaken) {
 // The targets for hours kept back, on the last of the recorded pairs: fitted to the first
 // 32 h, free and with an hourly probe; and from the first hour of each of its runs the fourth.
 TEST(DenseFit, RecordedHoursThatChoseNothingAreForecast) {
-  const char* data = std::getenv("STEADYREST_SHARED_DATA");
-  const fs::path path = fs::path(data != nullptr ? data : STEADYREST_SOURCE_DIR "/../shared/data") /
-                        "thermal/spindle_unit.csv.gz";
+  const fs::path path = kernel::file::testing::shared_data() / "thermal/spindle_unit.csv.gz";
   const auto log = read_log(path.string());
   if (!log) {
     GTEST_SKIP() << "no recorded data";

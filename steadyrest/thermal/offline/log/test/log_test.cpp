@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/thermal/offline/log/log.hpp>
 
 namespace steadyrest::thermal::offline {
@@ -294,18 +294,15 @@ TEST(ThermalLogCorpus, EveryFileIsRefusedWhereItSays) {
   }
 }
 
-/// 40.1 h of a spindle unit (shared/data/thermal).
+/// 40.1 h of a spindle unit, whole or every twentieth row.
 TEST(ThermalLog, TheRecordedSpindleUnitIsReadWhole) {
-  const char* data = std::getenv("STEADYREST_SHARED_DATA");
-  const fs::path path = fs::path(data != nullptr ? data : STEADYREST_SOURCE_DIR "/../shared/data") /
-                        "thermal/spindle_unit.csv.gz";
-  if (!fs::exists(path)) {
-    GTEST_SKIP() << "no recorded data";
-  }
-  const auto log = read_log(path.string());
+  const fs::path whole = kernel::file::testing::shared_data() / "thermal/spindle_unit.csv.gz";
+  const bool is_whole = fs::exists(whole);
+  const auto log =
+      read_log((is_whole ? whole : kernel::file::testing::excerpt("spindle-unit")).string());
   ASSERT_TRUE(log.has_value()) << log.error().what;
-  EXPECT_EQ(log->rows(), 9625U);
-  EXPECT_NEAR(log->hours(), 40.1, 0.01);
+  EXPECT_EQ(log->rows(), is_whole ? 9625U : 482U);
+  EXPECT_NEAR(log->hours(), 40.1, 0.02);
   EXPECT_EQ(log->displacement.size(), 5U);
   EXPECT_EQ(log->temperature.size(), 16U);
   EXPECT_THAT(log->gap, IsEmpty());

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
@@ -21,16 +20,13 @@ using kernel::outcome::Reason;
 using kernel::signal::kMaxTemperatures;
 using online::SensorWatch;
 
-/// Nothing where the recorded data is not there.
-std::optional<Log> recorded() {
-  const char* const data = std::getenv("STEADYREST_SHARED_DATA");
-  const auto path =
-      std::filesystem::path(data != nullptr ? data : STEADYREST_SOURCE_DIR "/../shared/data") /
-      "thermal/spindle_unit.csv.gz";
-  if (!std::filesystem::exists(path)) {
-    return std::nullopt;
-  }
-  return read_log(path.string()).value();
+/// The whole log where it is at hand, else every twentieth row of it.
+Log recorded() {
+  const auto whole = kernel::file::testing::shared_data() / "thermal/spindle_unit.csv.gz";
+  return read_log((std::filesystem::exists(whole) ? whole
+                                                  : kernel::file::testing::excerpt("spindle-unit"))
+                      .string())
+      .value();
 }
 
 /// Runs the log; `change` may falsify a reading of a sensor.
@@ -51,11 +47,7 @@ void run(const Log& log, Change change, See see) {
 }
 
 TEST(SensorWatch, BelievesEveryReadingOfAMachineThatWasRecorded) {
-  const auto found = recorded();
-  if (!found) {
-    GTEST_SKIP() << "no recorded data";
-  }
-  const Log& log = *found;
+  const Log log = recorded();
   ASSERT_GE(log.temperature.size(), kMaxTemperatures);
   std::size_t doubted = 0;
   run(
@@ -65,11 +57,7 @@ TEST(SensorWatch, BelievesEveryReadingOfAMachineThatWasRecorded) {
 }
 
 TEST(SensorWatch, FindsEachSensorOfTheRecordedMachineThatStopsInTheMiddle) {
-  const auto found = recorded();
-  if (!found) {
-    GTEST_SKIP() << "no recorded data";
-  }
-  const Log& log = *found;
+  const Log log = recorded();
   const std::size_t from = log.time_s.size() / 2;
   for (std::size_t stopped = 0; stopped < kMaxTemperatures; ++stopped) {
     double at_s = 0.0;
