@@ -66,18 +66,37 @@ function(steadyrest_room)
   endif()
 endfunction()
 
-# The test frameworks, parsed once for all tests: most tests compile in less time than their headers take. Code that is
-# optimised otherwise needs its own copy. It is an executable, since it must be compiled as those are that use it.
-function(steadyrest_test_headers target)
-  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${target}.cpp CONTENT "")
+# Out of a precompiled header g++ 12 warns of its own library: what it inlines there it takes for ours (compare GCC bug
+# 105651). clang and AddressSanitizer look after the bounds.
+set(steadyrest_pch_false_positives -Wno-array-bounds -Wno-stringop-overflow)
+
+# Headers parsed once for all that share them, where they take longer than the code: the test frameworks, and what reads
+# options and writes JSON. Code that is optimised otherwise needs its own copy. It is an executable, since it must be
+# compiled as those are that use it.
+# steadyrest_headers(target HEADERS <a> … DEPENDS … OPTIONS …)
+function(steadyrest_headers target)
+  cmake_parse_arguments(H "" "" "HEADERS;DEPENDS;OPTIONS" ${ARGN})
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${target}.cpp CONTENT "int main() {}\n")
   add_executable(${target} ${CMAKE_BINARY_DIR}/${target}.cpp)
-  target_link_libraries(${target} PRIVATE steadyrest_flags steadyrest_rapidcheck GTest::gtest GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${target} PRIVATE STEADYREST_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  target_compile_options(${target} PRIVATE ${ARGN} $<$<CXX_COMPILER_ID:Clang>:-Xclang;-fno-pch-timestamp>)
-  target_precompile_headers(${target} PRIVATE <gmock/gmock.h> <gtest/gtest.h> <rapidcheck.h>)
+  target_link_libraries(${target} PRIVATE steadyrest_flags ${H_DEPENDS})
+  target_compile_options(${target} PRIVATE ${H_OPTIONS} $<$<CXX_COMPILER_ID:Clang>:-Xclang;-fno-pch-timestamp>)
+  target_precompile_headers(${target} PRIVATE ${H_HEADERS})
 endfunction()
-steadyrest_test_headers(steadyrest_test_headers)
-steadyrest_test_headers(steadyrest_test_headers_not_hot ${steadyrest_not_hot_options})
+set(test_frameworks steadyrest_rapidcheck GTest::gtest GTest::gmock GTest::gtest_main)
+set(test_headers <gmock/gmock.h> <gtest/gtest.h> <rapidcheck.h>)
+set(text_headers <fmt/format.h> <nlohmann/json.hpp>)
+steadyrest_headers(steadyrest_test_headers HEADERS ${test_headers} DEPENDS ${test_frameworks})
+steadyrest_headers(steadyrest_test_headers_not_hot HEADERS ${test_headers} ${text_headers}
+  DEPENDS ${test_frameworks} fmt::fmt nlohmann_json::nlohmann_json OPTIONS ${steadyrest_not_hot_options})
+steadyrest_headers(steadyrest_program_headers HEADERS <CLI/CLI.hpp> ${text_headers}
+  DEPENDS CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json OPTIONS ${steadyrest_not_hot_options})
+
+# Code of the program itself, which is not hot.
+function(steadyrest_program_code target)
+  steadyrest_not_hot(${target})
+  target_compile_options(${target} PRIVATE "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:${steadyrest_pch_false_positives}>")
+  target_precompile_headers(${target} REUSE_FROM steadyrest_program_headers)
+endfunction()
 
 # All test executables of the label `threads`: what ThreadSanitizer is worth building for.
 add_custom_target(threads_tests)
@@ -94,9 +113,7 @@ function(steadyrest_test)
   target_link_libraries(${target} PRIVATE ${T_DEPENDS} steadyrest_flags steadyrest_rapidcheck
     GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE STEADYREST_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  # Out of a precompiled header g++ 12 warns of its own library: what it inlines there it takes for ours (compare GCC bug
-  # 105651). clang and AddressSanitizer look after the bounds.
-  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-array-bounds;-Wno-stringop-overflow>)
+  target_compile_options(${target} PRIVATE "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:${steadyrest_pch_false_positives}>")
   if(T_NOT_HOT)
     steadyrest_not_hot(${target})
     target_precompile_headers(${target} REUSE_FROM steadyrest_test_headers_not_hot)

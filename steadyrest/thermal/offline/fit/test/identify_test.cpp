@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
+#include <initializer_list>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -16,7 +15,6 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-namespace fs = std::filesystem;
 using test::KnownMachine;
 using test::log_of;
 using testing::HasSubstr;
