@@ -109,6 +109,25 @@ bool is_fit(const ContourError::Input& input) noexcept {
          (input.path.empty() || input.path_index < input.path.size());
 }
 
+/// The error at the foot, with its signs.
+void measure(const Point& actual_mm, const Nearest& foot, const geometry::Station& here,
+             const Point& plane_normal, ContourError::Output& output) noexcept {
+  const Point offset = geometry::subtract(actual_mm, foot.point_mm);
+  const double left = geometry::dot(offset, geometry::cross(plane_normal, here.tangent));
+  const double inward = geometry::dot(offset, here.curvature_1_mm);
+  output.valid = true;
+  output.complete = foot.complete;
+  output.left_mm = left < 0.0 ? -foot.distance_mm : foot.distance_mm;
+  output.curvature_1_mm = geometry::norm(here.curvature_1_mm);
+  output.error_mm = output.curvature_1_mm == 0.0 ? output.left_mm
+                    : inward < 0.0               ? -foot.distance_mm
+                                                 : foot.distance_mm;
+  output.foot_mm = foot.point_mm;
+  output.tangent = here.tangent;
+  output.foot_index = foot.index;
+  output.foot_position_mm = foot.position_mm;
+}
+
 kernel::outcome::Refusal refuse(const char* what, const char* to_do) {
   return {kernel::outcome::Kind::bad_input, {}, 0, what, to_do};
 }
@@ -144,11 +163,8 @@ void ContourError::remember(const Input& input) noexcept {
   state_.count = std::min(state_.count + 1, kHistory);
 }
 
-ContourError::Output ContourError::update(const Input& input) noexcept {
-  Output output;
-  if (!is_fit(input)) {
-    return output;
-  }
+/// Takes the commanded point and the lag on to this sample; the time since the last one.
+double ContourError::advance(const Input& input) noexcept {
   const bool has_path = !input.path.empty();
   const double elapsed_s =
       state_.started ? std::clamp(input.time_s - state_.time_s, 0.0, 1.0) : 0.0;
@@ -163,27 +179,40 @@ ContourError::Output ContourError::update(const Input& input) noexcept {
   state_.time_s = input.time_s;
   state_.from_path = has_path;
   remember(input);
+  return elapsed_s;
+}
 
+/// Where the foot may stand, by what the servo lag permits, and where it is looked for first.
+ContourError::Window ContourError::window(const Input& input, double tracking_error_mm,
+                                          double elapsed_s) const noexcept {
+  const double back = std::max(2.5 * state_.lag_mm, 1.2 * tracking_error_mm) + config_.reserve_mm;
+  const double ahead = 0.25 * tracking_error_mm + config_.reserve_mm;
+  const double commanded = state_.from_path ? input.path_position_mm : state_.travelled_mm;
+  Window out;
+  out.low_mm = commanded - back;
+  out.high_mm = commanded + ahead;
+  out.knows_foot = state_.foot_position_mm >= out.low_mm && state_.foot_position_mm <= out.high_mm;
+  out.guess_mm = out.knows_foot
+                     ? state_.foot_position_mm + elapsed_s * std::abs(input.path_speed_mm_s)
+                     : commanded - tracking_error_mm;
+  return out;
+}
+
+ContourError::Output ContourError::update(const Input& input) noexcept {
+  Output output;
+  if (!is_fit(input)) {
+    return output;
+  }
+  const double elapsed_s = advance(input);
   output.tracking_error_mm = geometry::distance(input.command_mm, input.actual_mm);
-  const double back =
-      std::max(2.5 * state_.lag_mm, 1.2 * output.tracking_error_mm) + config_.reserve_mm;
-  const double ahead = 0.25 * output.tracking_error_mm + config_.reserve_mm;
-  const double commanded = has_path ? input.path_position_mm : state_.travelled_mm;
-  const double low = commanded - back;
-  const double high = commanded + ahead;
-  const bool knows_foot = state_.foot_position_mm >= low && state_.foot_position_mm <= high;
-  const double guess = knows_foot
-                           ? state_.foot_position_mm + elapsed_s * std::abs(input.path_speed_mm_s)
-                           : commanded - output.tracking_error_mm;
-
+  const Window in = window(input, output.tracking_error_mm, elapsed_s);
   Nearest foot;
   geometry::Station here;
-  if (has_path) {
-    const std::size_t hint = knows_foot ? state_.foot_index : input.path_index;
-    foot = nearest_in_window(PathPieces(input.path), input.actual_mm, low, high, hint, guess,
-                             kMaxFeet);
-    const PathSegment& segment = input.path[foot.index];
-    here = geometry::station_at(segment, foot.u);
+  if (state_.from_path) {
+    const std::size_t hint = in.knows_foot ? state_.foot_index : input.path_index;
+    foot = nearest_in_window(PathPieces(input.path), input.actual_mm, in.low_mm, in.high_mm, hint,
+                             in.guess_mm, kMaxFeet);
+    here = geometry::station_at(input.path[foot.index], foot.u);
     here.tangent = direction_at(input.path, foot, here);
     output.from_path = true;
   } else {
@@ -191,27 +220,14 @@ ContourError::Output ContourError::update(const Input& input) noexcept {
       return output;
     }
     const TrailPieces trail(state_);
-    foot = nearest_in_window(trail, input.actual_mm, low, high, trail.size() - 1, guess, kMaxFeet);
+    foot = nearest_in_window(trail, input.actual_mm, in.low_mm, in.high_mm, trail.size() - 1,
+                             in.guess_mm, kMaxFeet);
     here.tangent =
         geometry::unit(geometry::subtract(trail.end(foot.index), trail.start(foot.index)));
   }
   state_.foot_position_mm = foot.position_mm;
   state_.foot_index = foot.index;
-
-  const Point offset = geometry::subtract(input.actual_mm, foot.point_mm);
-  const double left = geometry::dot(offset, geometry::cross(config_.plane_normal, here.tangent));
-  const double inward = geometry::dot(offset, here.curvature_1_mm);
-  output.valid = true;
-  output.complete = foot.complete;
-  output.left_mm = left < 0.0 ? -foot.distance_mm : foot.distance_mm;
-  output.curvature_1_mm = geometry::norm(here.curvature_1_mm);
-  output.error_mm = output.curvature_1_mm == 0.0 ? output.left_mm
-                    : inward < 0.0               ? -foot.distance_mm
-                                                 : foot.distance_mm;
-  output.foot_mm = foot.point_mm;
-  output.tangent = here.tangent;
-  output.foot_index = foot.index;
-  output.foot_position_mm = foot.position_mm;
+  measure(input.actual_mm, foot, here, config_.plane_normal, output);
   return output;
 }
 

@@ -103,8 +103,19 @@ class ContourError {
   }
 
  private:
+  /// Of the path, by its length.
+  struct Window {
+    double low_mm = 0.0;
+    double high_mm = 0.0;
+    double guess_mm = 0.0;    ///< where the foot is likely to be
+    bool knows_foot = false;  ///< the last foot lies within
+  };
+
   explicit ContourError(const Config& config) noexcept : config_(config) {}
+  double advance(const Input& input) noexcept;
   void remember(const Input& input) noexcept;
+  [[nodiscard]] Window window(const Input& input, double tracking_error_mm,
+                              double elapsed_s) const noexcept;
 
   Config config_;
   State state_;

@@ -300,6 +300,16 @@ FeedGovernor::Output FeedGovernor::withdraw(Reason reason, Output output) noexce
   return output;
 }
 
+/// For how long the speed has not followed the override.
+void FeedGovernor::watch_effect(const Frame& frame, double dt) noexcept {
+  const double wished = frame.feed.effective_ratio * frame.programmed_feed_mm_s;
+  const bool follows = frame.path_speed_mm_s > 0.95 * wished ||
+                       std::abs(frame.path_speed_mm_s - state_.speed_mm_s) > 0.01 * wished;
+  state_.idle_effect_s =
+      frame.motion == Motion::feed && !follows ? state_.idle_effect_s + std::max(0.0, dt) : 0.0;
+  state_.speed_mm_s = frame.path_speed_mm_s;
+}
+
 FeedGovernor::Output FeedGovernor::update(const Frame& frame) noexcept {
   if (!config_.machine.contour.enabled) {
     return {};
@@ -340,12 +350,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame) noexcept {
   observe(frame, error, dt);
   output.path_known = state_.last.path_known = look(frame, error);
 
-  const double wished = frame.feed.effective_ratio * frame.programmed_feed_mm_s;
-  const bool follows = frame.path_speed_mm_s > 0.95 * wished ||
-                       std::abs(frame.path_speed_mm_s - state_.speed_mm_s) > 0.01 * wished;
-  state_.idle_effect_s =
-      frame.motion == Motion::feed && !follows ? state_.idle_effect_s + std::max(0.0, dt) : 0.0;
-  state_.speed_mm_s = frame.path_speed_mm_s;
+  watch_effect(frame, dt);
 
   if (is_locked(frame.motion)) {
     output = withdraw(Reason::withdrawn_thread, output);

@@ -155,6 +155,7 @@ class FeedGovernor {
                double dt) noexcept;
   void refresh_model(double dt) noexcept;
   void follow_envelope(const kernel::signal::Frame& frame, double dt) noexcept;
+  void watch_effect(const kernel::signal::Frame& frame, double dt) noexcept;
   bool look(const kernel::signal::Frame& frame, const ContourError::Output& error) noexcept;
   void extrapolate(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
@@ -162,8 +163,13 @@ class FeedGovernor {
   [[nodiscard]] Outset outset(const kernel::signal::Frame& frame) const noexcept;
   [[nodiscard]] double limit_mm() const noexcept;
   [[nodiscard]] double stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept;
+  struct Search;
   Choice largest_admissible(const Outset& outset, std::size_t top, Output& output) noexcept;
   void look_for_objective(const Outset& outset, Output& output) noexcept;
+  [[nodiscard]] std::size_t wanted_candidate(const Outset& outset, Output& output) noexcept;
+  [[nodiscard]] std::size_t reachable_candidate(std::size_t wanted) const noexcept;
+  [[nodiscard]] kernel::outcome::Reason reason(const Choice& choice, bool no_effect, bool falls,
+                                               std::size_t wanted) const noexcept;
   void decide(const kernel::signal::Frame& frame, Output& output) noexcept;
   Output withdraw(kernel::outcome::Reason reason, Output output) noexcept;
 

@@ -61,71 +61,101 @@ double FeedGovernor::stretch_end_mm(const LookAhead& path, const Outset& outset)
   return end;
 }
 
-FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std::size_t top,
-                                                      Output& output) noexcept {
-  const LookAhead& path = state_.last.path_known ? ahead_ : guess_;
-  const double limit = limit_mm();
-  const double in_force = forecast_.floor_ratio(state_.envelope_ratio);
-  const double room =
-      state_.time_s - state_.fallen_s < config_.pause_s ? kRiseRoomInPause : kRiseRoom;
-  RatioPlan plan;
-  plan.start = state_.envelope_ratio;
-  plan.floor = candidate_.front();
-  plan.hold_s = decision_s_;
-  Choice choice;
-  std::size_t spent = 0;
-  const auto may_go_on = [&] { return spent < search_steps_; };
-  const auto forecast = [&](const RatioPlan& of, double most_mm, const Forecast::Trace* trace) {
-    const Forecast::Result result = forecast_.run(path, outset, of, most_mm, true, trace, nullptr);
+/// The search for the largest admissible step, with what its forecasts took so far.
+struct FeedGovernor::Search {
+  Search(const FeedGovernor& governor, const Outset& from, Output& into) noexcept
+      : of(governor),
+        path(governor.state_.last.path_known ? governor.ahead_ : governor.guess_),
+        outset(from),
+        output(into),
+        limit_mm(governor.limit_mm()),
+        in_force(governor.forecast_.floor_ratio(governor.state_.envelope_ratio)) {
+    plan.start = of.state_.envelope_ratio;
+    plan.floor = of.candidate_.front();
+    plan.hold_s = of.decision_s_;
+  }
+
+  Forecast::Result forecast(const RatioPlan& tried, double most_mm,
+                            const Forecast::Trace* trace) noexcept {
+    const Forecast::Result result =
+        of.forecast_.run(path, outset, tried, most_mm, true, trace, nullptr);
     spent += count(result, output);
     return result;
-  };
-  const auto search = [&](const Forecast::Trace* trace) {
-    const auto admissible = [&](std::size_t c) {
-      plan.target = candidate_[c];
-      const Forecast::Result result = forecast(plan, limit, trace);
-      if (!result.kept) {
+  }
+
+  /// May the step be taken and, where it is a rise, be held?
+  bool admissible(std::size_t c, const Forecast::Trace* trace) noexcept {
+    plan.target = of.candidate_[c];
+    const Forecast::Result result = forecast(plan, limit_mm, trace);
+    if (!result.kept) {
+      return false;
+    }
+    const bool rises = of.candidate_[c] > in_force + kSameRatio;
+    if (rises && trace == nullptr) {
+      const bool pauses = of.state_.time_s - of.state_.fallen_s < of.config_.pause_s;
+      const double room_mm = (pauses ? kRiseRoomInPause : kRiseRoom) * limit_mm;
+      RatioPlan lasting = plan;
+      lasting.hold_s = of.config_.pause_s;
+      const Forecast::Result held = forecast(lasting, room_mm, nullptr);
+      const bool lasts = held.kept || held.broken_mm >= of.stretch_end_mm(path, outset);
+      if (std::abs(result.error_mm) > room_mm || !lasts) {
+        choice.held_back = choice.held_back || lasts;
         return false;
       }
-      const bool rises = candidate_[c] > in_force + kSameRatio;
-      if (rises && trace == nullptr) {
-        RatioPlan lasting = plan;
-        lasting.hold_s = config_.pause_s;
-        const Forecast::Result held = forecast(lasting, room * limit, nullptr);
-        const bool lasts = held.kept || held.broken_mm >= stretch_end_mm(path, outset);
-        if (std::abs(result.error_mm) > room * limit || !lasts) {
-          choice.held_back = choice.held_back || lasts;
-          return false;
-        }
-      }
-      choice.forecast = result;  // the last one that is admissible is the largest
-      return true;
-    };
-    const auto above = std::ranges::upper_bound(candidate_, in_force + kSameRatio);
+    }
+    choice.forecast = result;  // the last one that is admissible is the largest
+    return true;
+  }
+
+  /// Among the candidates up to `top`; false where none is admissible, not even the lowest.
+  bool find(std::size_t top, const Forecast::Trace* trace) noexcept {
+    const auto may_go_on = [&] { return spent < of.search_steps_; };
+    const auto is_admissible = [&](std::size_t c) { return admissible(c, trace); };
+    const auto& candidate = of.candidate_;
+    const auto above = std::ranges::upper_bound(candidate, in_force + kSameRatio);
     const auto start =
-        static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - candidate_.begin() - 1, 0));
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - candidate.begin() - 1, 0));
     // What the fall alone gives is no bound that slower steps keep too: all of them must be tried.
-    const bool all = trace != nullptr || candidate_.size() <= config_.exhaustive_steps;
-    const auto found = all ? first_admissible_below(top, admissible, may_go_on)
-                           : largest_admissible_near(start, top, admissible, may_go_on);
+    const bool all = trace != nullptr || candidate.size() <= of.config_.exhaustive_steps;
+    const auto found = all ? first_admissible_below(top, is_admissible, may_go_on)
+                           : largest_admissible_near(start, top, is_admissible, may_go_on);
     choice.candidate = found.value_or(0);
     return found.has_value();
-  };
-  if (search(nullptr)) {
-    return choice;
   }
-  // Not even the fall keeps the limit: what it gives at each place is what can be had.
-  plan.target = candidate_.front();
-  choice.candidate = 0;
-  choice.floor = true;
-  choice.forecast = forecast_.run(path, outset, plan, limit, false, nullptr, &trace_);
-  spent += count(choice.forecast, output);
-  for (std::size_t i = 0; i < trace_.count; ++i) {
-    double& error = trace_.error_mm[i];
-    error = error * kTraceRoom + kTraceRoomMm;
+
+  /// Chooses the fall; the trace receives what it gives at each place, with a little room.
+  void fall(Forecast::Trace& trace) noexcept {
+    plan.target = of.candidate_.front();
+    choice.candidate = 0;
+    choice.floor = true;
+    choice.forecast = of.forecast_.run(path, outset, plan, limit_mm, false, nullptr, &trace);
+    spent += count(choice.forecast, output);
+    for (std::size_t i = 0; i < trace.count; ++i) {
+      double& error = trace.error_mm[i];
+      error = error * kTraceRoom + kTraceRoomMm;
+    }
   }
-  search(&trace_);
-  return choice;
+
+  const FeedGovernor& of;
+  const LookAhead& path;
+  const Outset& outset;
+  Output& output;
+  double limit_mm;
+  double in_force;  ///< ratio of the step in force
+  RatioPlan plan;
+  Choice choice;
+  std::size_t spent = 0;  ///< forecast steps
+};
+
+FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std::size_t top,
+                                                      Output& output) noexcept {
+  Search search(*this, outset, output);
+  if (!search.find(top, nullptr)) {
+    // Not even the fall keeps the limit: what it gives at each place is what can be had.
+    search.fall(trace_);
+    search.find(top, &trace_);
+  }
+  return search.choice;
 }
 
 /// Goes on with the objective's search as far as its share of the cycle goes.
@@ -157,8 +187,57 @@ void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noex
   }
 }
 
+/// The candidate that the strategy would have: with feed priority the fastest.
+std::size_t FeedGovernor::wanted_candidate(const Outset& outset, Output& output) noexcept {
+  std::size_t candidate = candidate_.size() - 1;
+  if (config_.machine.contour.strategy == ContourStrategy::feed_priority) {
+    return candidate;
+  }
+  if (state_.objective.done() && state_.time_s >= state_.next_objective_s) {
+    state_.objective.begin(candidate_.size(), config_.exhaustive_steps);
+    state_.next_objective_s = state_.time_s + config_.objective_s;
+  }
+  look_for_objective(outset, output);
+  while (candidate > 0 && candidate_[candidate] > state_.wanted_ratio + kSameRatio) {
+    --candidate;
+  }
+  return candidate;
+}
+
+/// The highest candidate up to `wanted` that the override can rise to within one decision.
+std::size_t FeedGovernor::reachable_candidate(std::size_t wanted) const noexcept {
+  const double soon =
+      state_.envelope_ratio + forecast_.timing().rise_1_s * decision_s_ + kSameRatio;
+  std::size_t top = 0;
+  while (top < wanted && candidate_[top] <= soon) {
+    ++top;
+  }
+  return top;
+}
+
+Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
+                            std::size_t wanted) const noexcept {
+  if (choice.floor) {
+    return Reason::contour_feed_floor;
+  }
+  if (no_effect) {
+    return Reason::contour_no_effect;
+  }
+  if (!state_.last.path_known) {
+    return Reason::contour_path_unknown;
+  }
+  if (choice.held_back) {
+    return Reason::contour_hysteresis;
+  }
+  if (falls) {
+    return Reason::contour_limit;
+  }
+  const bool by_objective = config_.machine.contour.strategy != ContourStrategy::feed_priority;
+  return by_objective && choice.candidate == wanted ? Reason::contour_objective
+                                                    : Reason::contour_within_limit;
+}
+
 void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
-  const auto& contour = config_.machine.contour;
   if (!state_.last.path_known) {
     extrapolate(frame);
     if (guess_.empty()) {
@@ -169,25 +248,9 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   }
   fill_pending(frame);
   const Outset from = outset(frame);
-  std::size_t wanted = candidate_.size() - 1;
-  if (contour.strategy != ContourStrategy::feed_priority) {
-    if (state_.objective.done() && state_.time_s >= state_.next_objective_s) {
-      state_.objective.begin(candidate_.size(), config_.exhaustive_steps);
-      state_.next_objective_s = state_.time_s + config_.objective_s;
-    }
-    look_for_objective(from, output);
-    while (wanted > 0 && candidate_[wanted] > state_.wanted_ratio + kSameRatio) {
-      --wanted;
-    }
-  }
-  const double soon =
-      state_.envelope_ratio + forecast_.timing().rise_1_s * decision_s_ + kSameRatio;
-  std::size_t top = 0;
-  while (top < wanted && candidate_[top] <= soon) {
-    ++top;
-  }
+  const std::size_t wish = wanted_candidate(from, output);
   const bool no_effect = state_.idle_effect_s > 0.1;
-  Choice choice = largest_admissible(from, top, output);
+  Choice choice = largest_admissible(from, reachable_candidate(wish), output);
   const double before = state_.last.request.ratio;
   if (no_effect && !state_.last.path_known && candidate_[choice.candidate] > before) {
     // The error seen is not the override's doing; nothing may be concluded from it upwards.
@@ -207,21 +270,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
     state_.fallen_s = state_.time_s;
   }
   output.request.ratio = ratio;
-  if (choice.floor) {
-    output.request.reason = Reason::contour_feed_floor;
-  } else if (no_effect) {
-    output.request.reason = Reason::contour_no_effect;
-  } else if (!state_.last.path_known) {
-    output.request.reason = Reason::contour_path_unknown;
-  } else if (choice.held_back) {
-    output.request.reason = Reason::contour_hysteresis;
-  } else if (falls) {
-    output.request.reason = Reason::contour_limit;
-  } else if (contour.strategy != ContourStrategy::feed_priority && choice.candidate == wanted) {
-    output.request.reason = Reason::contour_objective;
-  } else {
-    output.request.reason = Reason::contour_within_limit;
-  }
+  output.request.reason = reason(choice, no_effect, falls, wish);
 }
 
 }  // namespace steadyrest::contour::online

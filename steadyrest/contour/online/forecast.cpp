@@ -186,45 +186,46 @@ double Forecast::planned(const RatioPlan& plan, double t_s) const noexcept {
                         : std::max(plan.floor, plan.target - timing_.fall_1_s * falling);
 }
 
-// One step of plan, servos and error; its locals are the state.
-// NOLINTNEXTLINE(readability-function-size)
-Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, const RatioPlan& plan,
-                               double limit_mm, bool stop_early, const Trace* trace,
-                               Trace* record) const noexcept {
-  Result result;
-  const double h = timing_.step_s;
-  const double change_s = plan.target > plan.start ? (plan.target - plan.start) / timing_.rise_1_s
-                                                   : (plan.start - plan.target) / timing_.fall_1_s;
-  const double held_until_s = timing_.dead_s + timing_.scan_s + change_s + plan.hold_s;
-  const double fall_s = std::max(0.0, plan.target - plan.floor) / timing_.fall_1_s;
+/// The state of one forecast, and its step in three parts: control, servos, contour.
+struct Forecast::Walk {
+  Walk(const Forecast& forecast, const LookAhead& cells, const Outset& from) noexcept
+      : of(forecast),
+        path(cells),
+        outset(from),
+        s(from.position_mm),
+        v(from.speed_mm_s),
+        at(from.command_cell),
+        cell(&cells.cell(at)),
+        command(on_cell(*cell, s - cell->position_mm)),
+        velocity(geometry::scale(
+            geometry::add_scaled(cell->tangent, cell->curvature_1_mm, s - cell->position_mm), v)),
+        servo(from.servo),
+        foot(cells, std::min(from.foot_cell, at)) {}
 
-  double s = outset.position_mm;
-  double v = outset.speed_mm_s;
-  std::size_t at = outset.command_cell;
-  const Cell* cell = &path.cell(at);
-  Point command = on_cell(*cell, s - cell->position_mm);
-  Point velocity = geometry::scale(
-      geometry::add_scaled(cell->tangent, cell->curvature_1_mm, s - cell->position_mm), v);
-  ServoState servo = outset.servo;
-  FootTracker foot(path, std::min(outset.foot_cell, at));
-  double worst = 0.0;
-  std::size_t trace_at = 0;
-  const double brake_s = v / std::max(1.0, cell->acceleration_mm_s2);
-  const double horizon_s = held_until_s + fall_s + brake_s + timing_.settle_s;
-  const std::size_t count = std::min(kMaxSteps, static_cast<std::size_t>(std::ceil(horizon_s / h)));
-  if (record != nullptr) {
-    record->count = 0;
+  /// Until the override has done all that the plan says, and all has settled.
+  [[nodiscard]] std::size_t steps(const RatioPlan& plan) const noexcept {
+    const Timing& timing = of.timing_;
+    const double change_s = plan.target > plan.start ? (plan.target - plan.start) / timing.rise_1_s
+                                                     : (plan.start - plan.target) / timing.fall_1_s;
+    const double held_until_s = timing.dead_s + timing.scan_s + change_s + plan.hold_s;
+    const double fall_s = std::max(0.0, plan.target - plan.floor) / timing.fall_1_s;
+    const double brake_s = v / std::max(1.0, cell->acceleration_mm_s2);
+    const double horizon_s = held_until_s + fall_s + brake_s + timing.settle_s;
+    return std::min(kMaxSteps, static_cast<std::size_t>(std::ceil(horizon_s / timing.step_s)));
   }
 
-  for (std::size_t n = 1; n <= count; ++n) {
-    const double t = h * static_cast<double>(n);
-    double ratio = n <= pending_count_ ? pending_[n - 1] : 0.0;
-    if (t > timing_.dead_s) {
-      ratio = std::max(ratio, floor_ratio(planned(plan, t)));
+  /// The ratio that acts in step n, which ends at `t_s`.
+  [[nodiscard]] double ratio_in(std::size_t n, double t_s, const RatioPlan& plan) const noexcept {
+    double ratio = n <= of.pending_count_ ? of.pending_[n - 1] : 0.0;
+    if (t_s > of.timing_.dead_s) {
+      ratio = std::max(ratio, of.floor_ratio(of.planned(plan, t_s)));
     }
-    ratio = std::min(ratio, outset.panel_ratio);
+    return std::min(ratio, outset.panel_ratio);
+  }
 
-    // The control's speed.
+  /// The control's speed; false: nothing is known of what follows.
+  bool advance(double ratio) noexcept {
+    const double h = of.timing_.step_s;
     const auto target_of = [&](const Cell& c) {
       const double share = c.cutting ? ratio : c.rapid ? outset.rapid_ratio : 1.0;
       return std::min(c.cap_mm_s, c.feed_mm_s * share);
@@ -243,7 +244,7 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
     const Cell& ahead = path.cell(next);
     if (left < 0.0) {
       if (!path.complete()) {
-        break;  // nothing is known of what follows
+        return false;
       }
       s1 += left;
       v1 = 0.0;
@@ -267,17 +268,22 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
       s = path.cell(at).position_mm;
       v1 = 0.0;
     }
+    v = v1;
     cell = &path.cell(at);
+    return true;
+  }
 
-    // The servos.
+  /// The servos follow the commanded point; the actual one.
+  Point follow() noexcept {
+    const double h = of.timing_.step_s;
     const double delta = s - cell->position_mm;
     const Point before = command;
     command = on_cell(*cell, delta);
     const Point tangent = geometry::add_scaled(cell->tangent, cell->curvature_1_mm, delta);
-    const Point velocity1 = geometry::scale(tangent, v1);
+    const Point velocity1 = geometry::scale(tangent, v);
     Point actual;
     for (std::size_t i = 0; i < 3; ++i) {
-      const AxisStep& step = step_[i];
+      const AxisStep& step = of.step_[i];
       const double mean = (command[i] - before[i]) / h;
       const double change = velocity1[i] - velocity[i];
       const double e = servo.error_mm[i];
@@ -288,20 +294,11 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
       actual[i] = command[i] - servo.error_mm[i];
     }
     velocity = velocity1;
-    v = v1;
+    return actual;
+  }
 
-    // The contour.
-    const Near near = foot.update(actual, at);
-    const Cell& under = path.cell(foot.cell());
-    result.steps = n;
-    if (!under.cutting || t <= timing_.dead_s) {
-      continue;
-    }
-    if (record != nullptr) {
-      record->position_mm[record->count] = s;
-      record->error_mm[record->count] = std::sqrt(near.squared);
-      ++record->count;
-    }
+  /// Keeps the largest error; false: it is above what is allowed here.
+  bool judge(const Near& near, const Cell& under, double limit_mm, const Trace* trace) noexcept {
     if (near.squared > worst) {
       worst = near.squared;
       const double inward = geometry::dot(near.offset, under.curvature_1_mm);
@@ -317,17 +314,61 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
         allowed = std::max(allowed, trace->error_mm[trace_at]);
       }
     }
-    if (near.squared > allowed * allowed) {
-      if (result.kept) {
-        result.broken_mm = under.position_mm + near.delta;
-      }
-      result.kept = false;
-      if (stop_early) {
-        break;
-      }
+    if (!(near.squared > allowed * allowed)) {
+      return true;
+    }
+    if (result.kept) {
+      result.broken_mm = under.position_mm + near.delta;
+    }
+    result.kept = false;
+    return false;
+  }
+
+  const Forecast& of;
+  const LookAhead& path;
+  const Outset& outset;
+  double s;  ///< commanded path length
+  double v;  ///< commanded path speed
+  std::size_t at;
+  const Cell* cell;  ///< of the commanded point
+  Point command;
+  Point velocity;
+  ServoState servo;
+  FootTracker foot;
+  double worst = 0.0;  ///< error squared
+  std::size_t trace_at = 0;
+  Result result;
+};
+
+Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, const RatioPlan& plan,
+                               double limit_mm, bool stop_early, const Trace* trace,
+                               Trace* record) const noexcept {
+  Walk walk(*this, path, outset);
+  const std::size_t count = walk.steps(plan);
+  if (record != nullptr) {
+    record->count = 0;
+  }
+  for (std::size_t n = 1; n <= count; ++n) {
+    const double t = timing_.step_s * static_cast<double>(n);
+    if (!walk.advance(walk.ratio_in(n, t, plan))) {
+      break;
+    }
+    const Near near = walk.foot.update(walk.follow(), walk.at);
+    const Cell& under = path.cell(walk.foot.cell());
+    walk.result.steps = n;
+    if (!under.cutting || t <= timing_.dead_s) {
+      continue;
+    }
+    if (record != nullptr) {
+      record->position_mm[record->count] = walk.s;
+      record->error_mm[record->count] = std::sqrt(near.squared);
+      ++record->count;
+    }
+    if (!walk.judge(near, under, limit_mm, trace) && stop_early) {
+      break;
     }
   }
-  return result;
+  return walk.result;
 }
 
 }  // namespace steadyrest::contour::online

@@ -32,6 +32,13 @@ double arc_cell_mm(const PathSegment& segment, double curvature_1_mm) noexcept {
   return std::clamp(std::min(by_third, 0.2 / std::max(curvature_1_mm, 1e-9)), 0.002, 1.0);
 }
 
+/// Is the next cell's direction another than that which `before` ends with?
+bool breaks(const Cell& before, const Cell& next) noexcept {
+  const Point out = geometry::add_scaled(before.tangent, before.curvature_1_mm, before.length_mm);
+  return geometry::dot(out, next.tangent) <
+         kCornerCosine * geometry::norm(out) * geometry::norm(next.tangent);
+}
+
 }  // namespace
 
 LookAhead::LookAhead(const kernel::machine::Machine& machine)
@@ -110,85 +117,95 @@ void LookAhead::append(Cell cell, double joint_limit_mm_s) noexcept {
   }
 }
 
-// NOLINTNEXTLINE(readability-function-size): one segment
+/// At the path's end: a piece of no length whose speed is the limit there.
+void LookAhead::append_stop() noexcept {
+  complete_ = true;
+  if (empty()) {
+    return;
+  }
+  Cell stop = cell(last_ - 1);
+  const double length = stop.length_mm;
+  stop.point_mm = geometry::add_scaled(geometry::add_scaled(stop.point_mm, stop.tangent, length),
+                                       stop.curvature_1_mm, 0.5 * length * length);
+  stop.tangent = geometry::add_scaled(stop.tangent, stop.curvature_1_mm, length);
+  stop.curvature_1_mm = {};
+  stop.position_mm += length;
+  stop.length_mm = 0.0;
+  stop.corner = false;
+  append(stop, 0.0);
+}
+
+/// The next piece of an arc, so short that the cell's parabola follows it.
+void LookAhead::take_from_arc(const PathSegment& segment, Cell& cell) noexcept {
+  const double left = segment.length_mm - next_offset_mm_;
+  const geometry::Station here =
+      geometry::station_at(segment, geometry::parameter_at(segment, next_offset_mm_));
+  const double wish = arc_cell_mm(segment, geometry::norm(here.curvature_1_mm));
+  cell.length_mm = left <= wish ? left : std::min(wish, 0.5 * left);
+  cell.point_mm = here.point_mm;
+  cell.tangent = here.tangent;
+  cell.curvature_1_mm = here.curvature_1_mm;
+  cell.acceleration_mm_s2 = arc_acceleration(segment);
+  next_offset_mm_ += cell.length_mm;
+  joint_mm_s_ = kInfinite;
+  if (cell.length_mm >= left) {
+    joint_mm_s_ = segment.exit_speed_limit_mm_s;
+    next_offset_mm_ = 0.0;
+    ++next_segment_;
+  }
+}
+
+/// A line, and the short ones behind it that one chord stands for.
+void LookAhead::take_lines(PathView path, Cell& cell, int& segments) noexcept {
+  const PathSegment& segment = path[next_segment_];
+  cell.point_mm = segment.start_mm;
+  const Point direction = geometry::unit(geometry::subtract(segment.end_mm, segment.start_mm));
+  Point end = segment.end_mm;
+  double length = segment.length_mm;
+  joint_mm_s_ = segment.exit_speed_limit_mm_s;
+  ++next_segment_;
+  while (length < kChordMm && next_segment_ < path.size() && segments > 0) {
+    const PathSegment& next = path[next_segment_];
+    const Point turned = geometry::unit(geometry::subtract(next.end_mm, next.start_mm));
+    if (next.geometry != Geometry::line || next.motion != segment.motion ||
+        next.feed_mm_s != segment.feed_mm_s || length + next.length_mm > kChordMm ||
+        geometry::dot(direction, turned) < 1.0 - 0.5 * kChordTurn * kChordTurn) {
+      break;
+    }
+    cell.cap_mm_s = std::min({cell.cap_mm_s, next.speed_limit_mm_s, joint_mm_s_});
+    length += next.length_mm;
+    end = next.end_mm;
+    joint_mm_s_ = next.exit_speed_limit_mm_s;
+    ++next_segment_;
+    --segments;
+  }
+  const Point chord = geometry::subtract(end, cell.point_mm);
+  cell.length_mm = length;
+  // A chord over short lines is a little shorter than they are: its "tangent" is, too.
+  cell.tangent = length > 0.0 ? geometry::scale(chord, 1.0 / length) : Point{};
+  cell.acceleration_mm_s2 = line_acceleration(cell.tangent);
+}
+
 bool LookAhead::add_next(PathView path, int& segments) noexcept {
   if (next_segment_ >= path.size()) {
     if (!complete_) {
-      complete_ = true;
-      Cell stop = last_ > first_ ? cell(last_ - 1) : Cell{};
-      if (last_ > first_) {
-        // A piece of no length whose speed is the limit at the path's end.
-        const double length = stop.length_mm;
-        stop.point_mm =
-            geometry::add_scaled(geometry::add_scaled(stop.point_mm, stop.tangent, length),
-                                 stop.curvature_1_mm, 0.5 * length * length);
-        stop.tangent = geometry::add_scaled(stop.tangent, stop.curvature_1_mm, length);
-        stop.curvature_1_mm = {};
-        stop.position_mm += length;
-        stop.length_mm = 0.0;
-        stop.corner = false;
-        append(stop, 0.0);
-      }
+      append_stop();
     }
     return false;
   }
   const PathSegment& segment = path[next_segment_];
+  const double joint = joint_mm_s_;
   Cell cell;
   describe(cell, segment);
-  const double joint = joint_mm_s_;
   cell.position_mm = segment.position_mm + next_offset_mm_;
   --segments;
   if (segment.geometry == Geometry::arc && segment.length_mm > 0.0) {
-    const double left = segment.length_mm - next_offset_mm_;
-    const geometry::Station here =
-        geometry::station_at(segment, geometry::parameter_at(segment, next_offset_mm_));
-    const double curvature = geometry::norm(here.curvature_1_mm);
-    const double wish = arc_cell_mm(segment, curvature);
-    cell.length_mm = left <= wish ? left : std::min(wish, 0.5 * left);
-    cell.point_mm = here.point_mm;
-    cell.tangent = here.tangent;
-    cell.curvature_1_mm = here.curvature_1_mm;
-    cell.acceleration_mm_s2 = arc_acceleration(segment);
-    next_offset_mm_ += cell.length_mm;
-    joint_mm_s_ = kInfinite;
-    if (cell.length_mm >= left) {
-      joint_mm_s_ = segment.exit_speed_limit_mm_s;
-      next_offset_mm_ = 0.0;
-      ++next_segment_;
-    }
+    take_from_arc(segment, cell);
   } else {
-    cell.point_mm = segment.start_mm;
-    const Point direction = geometry::unit(geometry::subtract(segment.end_mm, segment.start_mm));
-    Point end = segment.end_mm;
-    double length = segment.length_mm;
-    joint_mm_s_ = segment.exit_speed_limit_mm_s;
-    ++next_segment_;
-    while (length < kChordMm && next_segment_ < path.size() && segments > 0) {
-      const PathSegment& next = path[next_segment_];
-      const Point turned = geometry::unit(geometry::subtract(next.end_mm, next.start_mm));
-      if (next.geometry != Geometry::line || next.motion != segment.motion ||
-          next.feed_mm_s != segment.feed_mm_s || length + next.length_mm > kChordMm ||
-          geometry::dot(direction, turned) < 1.0 - 0.5 * kChordTurn * kChordTurn) {
-        break;
-      }
-      cell.cap_mm_s = std::min({cell.cap_mm_s, next.speed_limit_mm_s, joint_mm_s_});
-      length += next.length_mm;
-      end = next.end_mm;
-      joint_mm_s_ = next.exit_speed_limit_mm_s;
-      ++next_segment_;
-      --segments;
-    }
-    const Point chord = geometry::subtract(end, cell.point_mm);
-    cell.length_mm = length;
-    // A chord over short lines is a little shorter than they are: its "tangent" is, too.
-    cell.tangent = length > 0.0 ? geometry::scale(chord, 1.0 / length) : Point{};
-    cell.acceleration_mm_s2 = line_acceleration(cell.tangent);
+    take_lines(path, cell, segments);
   }
-  if (last_ > first_) {
-    const Cell& before = this->cell(last_ - 1);
-    const Point out = geometry::add_scaled(before.tangent, before.curvature_1_mm, before.length_mm);
-    cell.corner = geometry::dot(out, cell.tangent) <
-                  kCornerCosine * geometry::norm(out) * geometry::norm(cell.tangent);
+  if (!empty()) {
+    cell.corner = breaks(this->cell(last_ - 1), cell);
   }
   append(cell, joint);
   return true;

@@ -73,7 +73,11 @@ class LookAhead {
 
  private:
   [[nodiscard]] Cell& at(std::size_t i) noexcept;
+  /// `segments`: those that this cycle may still read. False at the path's end.
   bool add_next(kernel::signal::PathView path, int& segments) noexcept;
+  void append_stop() noexcept;
+  void take_from_arc(const kernel::signal::PathSegment& segment, Cell& cell) noexcept;
+  void take_lines(kernel::signal::PathView path, Cell& cell, int& segments) noexcept;
   [[nodiscard]] double line_acceleration(const kernel::signal::Point& direction) const noexcept;
   [[nodiscard]] double arc_acceleration(const kernel::signal::PathSegment& segment) const noexcept;
   void describe(Cell& cell, const kernel::signal::PathSegment& segment) const noexcept;

@@ -17,6 +17,13 @@ constexpr bool is_probe(int motion) noexcept {
   return motion >= 382 && motion <= 385;
 }
 
+/// G10 L2 or L20 for the work offset in force.
+bool sets_active_offset(const Step& step, const State& state) noexcept {
+  return step.code(GGroup::non_modal) == 100 && step.has('L') &&
+         (step['L'] == 2.0 || step['L'] == 20.0) && step.has('P') &&
+         (step['P'] == 0.0 || step['P'] == static_cast<double>(state.active_offset + 1));
+}
+
 }  // namespace
 
 // What comes before G40 to G42 in the order of execution meets the compensation of before the
@@ -25,35 +32,40 @@ bool Interpreter::check_cutter(const Step& step) {
   const int code = step.code(GGroup::cutter);
   const bool before = state_.cutter_side != 0;
   const bool behind = code == 400 ? false : code != kNoCode || before;
+  return (!before || cutter_permits_what_comes_before(step)) &&
+         (!behind || cutter_permits_what_comes_behind(step));
+}
+
+bool Interpreter::cutter_permits_what_comes_before(const Step& step) {
+  const int code = step.code(GGroup::cutter);
   const auto forbid = [&](char letter, int word, std::string_view what) {
     return refuse_code(step, letter, word, kForbidden, what);
   };
-  if (before) {
-    if (code > 400) {
-      return forbid('G', code / 10, "cutter radius compensation while it is on already");
-    }
-    const int io = step.code(MGroup::io);
-    const int override_switch = step.code(MGroup::override_switch);
-    const int plane = step.code(GGroup::plane);
-    if (step.code(MGroup::tool_change) == 6) {
-      return forbid('M', 6, "a tool change while cutter radius compensation is on");
-    }
-    if (io != kNoCode) {
-      return forbid('M', io, "an output or input while cutter radius compensation is on");
-    }
-    if (override_switch != kNoCode) {
-      return forbid('M', override_switch,
-                    "an override switch while cutter radius compensation is on");
-    }
-    if (plane != kNoCode && (plane == 170   ? Plane::xy
-                             : plane == 180 ? Plane::zx
-                                            : Plane::yz) != state_.plane) {
-      return forbid('G', plane / 10, "another plane while cutter radius compensation is on");
-    }
+  if (code > 400) {
+    return forbid('G', code / 10, "cutter radius compensation while it is on already");
   }
-  if (!behind) {
-    return true;
+  const int io = step.code(MGroup::io);
+  const int override_switch = step.code(MGroup::override_switch);
+  const int plane = step.code(GGroup::plane);
+  if (step.code(MGroup::tool_change) == 6) {
+    return forbid('M', 6, "a tool change while cutter radius compensation is on");
   }
+  if (io != kNoCode) {
+    return forbid('M', io, "an output or input while cutter radius compensation is on");
+  }
+  if (override_switch != kNoCode) {
+    return forbid('M', override_switch,
+                  "an override switch while cutter radius compensation is on");
+  }
+  if (plane != kNoCode && (plane == 170   ? Plane::xy
+                           : plane == 180 ? Plane::zx
+                                          : Plane::yz) != state_.plane) {
+    return forbid('G', plane / 10, "another plane while cutter radius compensation is on");
+  }
+  return true;
+}
+
+bool Interpreter::cutter_permits_what_comes_behind(const Step& step) {
   struct Rule {
     bool broken;
     int code;
@@ -64,18 +76,19 @@ bool Interpreter::check_cutter(const Step& step) {
   const int length = step.code(GGroup::tool_length);
   const int path = step.code(GGroup::path_mode);
   const int retract = step.code(GGroup::retract);
-  const bool data =
-      non_modal == 100 && step.has('L') && (step['L'] == 2.0 || step['L'] == 20.0) &&
-      step.has('P') &&
-      (step['P'] == 0.0 || step['P'] == static_cast<double>(state_.active_offset + 1));
   const bool clears = (non_modal == 921 || non_modal == 922) && state_.g92 != Axes{};
   const bool shifts = clears || (non_modal == 923 && state_.g92 != state_.g92_stored);
+  if (shifts) {  // the control takes it and goes on from another place
+    return refuse_code(step, 'G', 92, "cutter_comp_shift",
+                       "an axis offset that goes or comes while cutter radius compensation is on");
+  }
   const std::array rules = {
       Rule{length != kNoCode, length, "another tool length while cutter radius compensation is on"},
       Rule{work != kNoCode, work, "a work offset while cutter radius compensation is on"},
       Rule{path != kNoCode, path, "a path mode while cutter radius compensation is on"},
       Rule{retract != kNoCode, retract, "a retract mode while cutter radius compensation is on"},
-      Rule{data, 100, "new data of the active work offset while cutter radius compensation is on"},
+      Rule{sets_active_offset(step, state_), 100,
+           "new data of the active work offset while cutter radius compensation is on"},
       Rule{non_modal == 280 || non_modal == 281 || non_modal == 300 || non_modal == 301, non_modal,
            "a reference point while cutter radius compensation is on"},
       Rule{non_modal == 520 || non_modal == 920, non_modal,
@@ -88,13 +101,9 @@ bool Interpreter::check_cutter(const Step& step) {
       Rule{motion_now_ == 330 || motion_now_ == 331 || motion_now_ == 760, motion_now_,
            "threading while cutter radius compensation is on"},
   };
-  if (shifts) {  // the control takes it and goes on from another place
-    return refuse_code(step, 'G', 92, "cutter_comp_shift",
-                       "an axis offset that goes or comes while cutter radius compensation is on");
-  }
   for (const Rule& rule : rules) {
     if (rule.broken) {
-      return forbid('G', rule.code / 10, rule.text);
+      return refuse_code(step, 'G', rule.code / 10, kForbidden, rule.text);
     }
   }
   return true;

@@ -121,6 +121,8 @@ class Interpreter {
   bool check_unused(const Step& step);
   bool check_values(const Step& step);
   bool check_cutter(const Step& step);
+  bool cutter_permits_what_comes_before(const Step& step);
+  bool cutter_permits_what_comes_behind(const Step& step);
 
   // execution
   bool act(const Step& step);
@@ -169,6 +171,8 @@ class Interpreter {
   void emit_thread(const Axes& end, double pitch_mm);
   struct ThreadCycle;
   bool thread_cycle(const Step& step);
+  bool read_thread_cycle(const Step& step, ThreadCycle& cycle);
+  bool thread_is_possible(const Step& step, const ThreadCycle& cycle);
   void thread_pass(const ThreadCycle& cycle, double depth_mm);
   bool spline(const Step& step);
   bool cubic(const Step& step);
@@ -183,7 +187,10 @@ class Interpreter {
   bool arc_fault(const Step& step, ArcFault fault);
   bool cycle(const Step& step);
   struct Hole;
+  bool check_cycle(const Step& step);
   bool remember_cycle(const Step& step);
+  bool measure_hole(const Step& step, Hole& hole);
+  void go_to_hole(const Step& step, const Hole& hole, double height_mm);
   bool drill(const Step& step, const Hole& hole);
   bool peck(const Step& step, const Hole& hole);
   bool tap(const Step& step, const Hole& hole);

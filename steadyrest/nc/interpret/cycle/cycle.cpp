@@ -15,6 +15,10 @@ constexpr double kMostMoves = 1e6;
 /// G73 and G83 return to this height above the bottom of the last peck: 0.254 mm or 0.010 in.
 constexpr double kPeckClearance_mm = 0.254;
 
+double repeats_of(const Step& step) noexcept {
+  return step.has('L') ? step['L'] : 1.0;
+}
+
 }  // namespace
 
 // Sticky words: they stay while the same cycle goes on from block to block.
@@ -69,7 +73,7 @@ bool Interpreter::remember_cycle(const Step& step) {
   return true;
 }
 
-bool Interpreter::cycle(const Step& step) {
+bool Interpreter::check_cycle(const Step& step) {
   for (const char letter : std::string_view{"ABCUVW"}) {
     if (step.has(letter)) {
       return refuse(step, letter, "axis_in_cycle", "this axis cannot move in a canned cycle");
@@ -79,65 +83,87 @@ bool Interpreter::cycle(const Step& step) {
     return refuse_code(step, 'G', motion_now_ / 10, "cycle_in_inverse_time",
                        "a canned cycle while inverse-time feed (G93) is in force");
   }
-  const double repeats = step.has('L') ? step['L'] : 1.0;
-  if (repeats < 1.0) {
+  if (repeats_of(step) < 1.0) {
     return refuse(step, 'L', "out_of_range", "the number of repeats (L) is at least 1");
   }
-  if (!has_feed(step) || !remember_cycle(step)) {
-    return false;
-  }
-  const PlaneAxes axes = axes_of(state_.plane);
+  return has_feed(step);
+}
+
+// The levels of the hole by the sticky words; refused where they are in the wrong order or too many
+// moves would follow from them.
+bool Interpreter::measure_hole(const Step& step, Hole& hole) {
   const CycleMemory& memory = state_.cycle;
   const double unit = state_.unit_mm;
-  const double initial = memory.initial * unit;
-  Hole hole{.axes = axes, .retract_mm = 0.0, .bottom_mm = 0.0, .clear_mm = 0.0};
-  hole.retract_mm = memory.retract * unit + (state_.incremental ? initial : 0.0);
+  hole.initial_mm = memory.initial * unit;
+  hole.retract_mm = memory.retract * unit + (state_.incremental ? hole.initial_mm : 0.0);
   hole.bottom_mm = memory.bottom * unit + (state_.incremental ? hole.retract_mm : 0.0);
   if (hole.retract_mm < hole.bottom_mm) {
-    return refuse(step, step.has('R') ? 'R' : kNormalLetters[axes.normal], "retract_below_bottom",
+    return refuse(step, step.has('R') ? 'R' : kNormalLetters[hole.axes.normal],
+                  "retract_below_bottom",
                   "the retract plane (R) lies below the bottom of the hole");
   }
+  const double high = std::max(hole.initial_mm, hole.retract_mm);
+  hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
   const double depth = hole.retract_mm - hole.bottom_mm;
   const bool pecks = motion_now_ == 730 || motion_now_ == 830;
-  const double moves = repeats * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
+  const double moves = repeats_of(step) * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
   if (!(moves <= kMostMoves)) {
     return refuse(step, step.has('L') ? 'L' : 'Q', "out_of_range",
                   "a cycle of more than a million moves");
   }
-  state_.motion = motion_now_;
-  const double high = std::max(initial, hole.retract_mm);
-  const bool lifts = config_.dialect != read::Dialect::fanuc;  // FANUC first goes over the hole
-  if (lifts && initial < hole.retract_mm) {
-    emit_normal(MoveKind::rapid, axes.normal, hole.retract_mm);
+  return true;
+}
+
+// Over the next hole at the given height, then down to the retract plane.
+void Interpreter::go_to_hole(const Step& step, const Hole& hole, double height_mm) {
+  Axes over = state_.position;
+  for (const std::size_t axis : {hole.axes.first, hole.axes.second}) {
+    if (step.has(kAxisLetters[axis])) {
+      const double value = component(step, axis);
+      over[axis] = state_.incremental ? over[axis] + value : value;
+    }
   }
-  hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
+  if (step.polar) {
+    over[0] = state_.position[0];
+    over[1] = state_.position[1];
+    polar_point(step, over);
+  }
+  over[hole.axes.normal] = height_mm;
+  emit(MoveKind::rapid, over);
+  if (height_mm != hole.retract_mm) {
+    emit_normal(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
+  }
+}
+
+bool Interpreter::cycle(const Step& step) {
+  if (!check_cycle(step) || !remember_cycle(step)) {
+    return false;
+  }
+  Hole hole{.axes = axes_of(state_.plane),
+            .initial_mm = 0.0,
+            .retract_mm = 0.0,
+            .bottom_mm = 0.0,
+            .clear_mm = 0.0};
+  if (!measure_hole(step, hole)) {
+    return false;
+  }
+  state_.motion = motion_now_;
+  const bool lifts = config_.dialect != read::Dialect::fanuc;  // FANUC first goes over the hole
+  if (lifts && hole.initial_mm < hole.retract_mm) {
+    emit_normal(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
+  }
   const PathMode path_mode = state_.path_mode;
   state_.path_mode = PathMode::exact_path;
   // LinuxCNC lifts to the clearance first where the cycle goes on without its G word.
   const bool goes_on = step.code(GGroup::motion) == kNoCode;
-  double height = state_.position[axes.normal];
+  double height = state_.position[hole.axes.normal];
   if (lifts) {
     height = std::max(height, goes_on ? hole.clear_mm : hole.retract_mm);
   }
+  const double repeats = repeats_of(step);
   bool accepted = true;
   for (double repeat = 0.0; repeat < repeats && accepted; repeat += 1.0) {
-    Axes over = state_.position;
-    for (const std::size_t axis : {axes.first, axes.second}) {
-      if (step.has(kAxisLetters[axis])) {
-        const double value = component(step, axis);
-        over[axis] = state_.incremental ? over[axis] + value : value;
-      }
-    }
-    if (step.polar) {
-      over[0] = state_.position[0];
-      over[1] = state_.position[1];
-      polar_point(step, over);
-    }
-    over[axes.normal] = height;
-    emit(MoveKind::rapid, over);
-    if (height != hole.retract_mm) {
-      emit_normal(MoveKind::rapid, axes.normal, hole.retract_mm);
-    }
+    go_to_hole(step, hole, height);
     accepted = drill(step, hole);
     height = hole.clear_mm;
   }

@@ -10,6 +10,10 @@ namespace {
 
 constexpr double kMostPasses = 100'000.0;
 
+double word_or(const Step& step, char letter, double otherwise) noexcept {
+  return step.has(letter) ? step[letter] : otherwise;
+}
+
 }  // namespace
 
 bool Interpreter::spindle_turns(const Step& step) {
@@ -67,19 +71,21 @@ bool Interpreter::thread(const Step& step) {
 
 struct Interpreter::ThreadCycle {
   double pitch_mm;
-  double peak_mm;   ///< I: from the drive line to the thread's peak
-  double first_mm;  ///< J: depth of the first pass
-  double full_mm;   ///< K
-  double end_mm;    ///< Z
-  double slope;     ///< tan of the compound slide's angle
-  double taper_mm;  ///< E
+  double peak_mm;     ///< I: from the drive line to the thread's peak
+  double first_mm;    ///< J: depth of the first pass
+  double full_mm;     ///< K
+  double end_mm;      ///< Z
+  double slope;       ///< tan of the compound slide's angle
+  double taper_mm;    ///< E
+  double degression;  ///< R
+  double springs;     ///< H: passes at full depth behind the first one there
   bool entry;
   bool exit;
   double start_mm;  ///< where Z stands
   double drive_mm;  ///< where X stands
 };
 
-bool Interpreter::thread_cycle(const Step& step) {
+bool Interpreter::read_thread_cycle(const Step& step, ThreadCycle& cycle) {
   for (const char letter : std::string_view{"PIJK"}) {
     if (!step.has(letter)) {
       return refuse_code(step, 'G', 76, "cycle_word_missing",
@@ -93,40 +99,47 @@ bool Interpreter::thread_cycle(const Step& step) {
   }
   const double unit = state_.unit_mm;
   const double across = state_.diameter ? 0.5 * unit : unit;
-  const double ends = step.has('L') ? step['L'] : 0.0;
-  ThreadCycle cycle{.pitch_mm = step['P'] * unit,
-                    .peak_mm = step['I'] * across,
-                    .first_mm = step['J'] * across,
-                    .full_mm = step['K'] * across,
-                    .end_mm = state_.position[2],
-                    .slope = std::tan((step.has('Q') ? step['Q'] : 0.0) * std::numbers::pi / 180.0),
-                    .taper_mm = (step.has('E') ? step['E'] : 0.0) * unit,
-                    .entry = ends == 1.0 || ends == 3.0,
-                    .exit = ends == 2.0 || ends == 3.0,
-                    .start_mm = state_.position[2],
-                    .drive_mm = state_.position[0]};
-  const double degression = step.has('R') ? step['R'] : 1.0;
-  const double springs = step.has('H') ? step['H'] : 0.0;
-  const double angle = step.has('Q') ? step['Q'] : 0.0;
+  const double ends = word_or(step, 'L', 0.0);
+  cycle = {.pitch_mm = step['P'] * unit,
+           .peak_mm = step['I'] * across,
+           .first_mm = step['J'] * across,
+           .full_mm = step['K'] * across,
+           .end_mm = state_.position[2],
+           .slope = std::tan(word_or(step, 'Q', 0.0) * std::numbers::pi / 180.0),
+           .taper_mm = word_or(step, 'E', 0.0) * unit,
+           .degression = word_or(step, 'R', 1.0),
+           .springs = word_or(step, 'H', 0.0),
+           .entry = ends == 1.0 || ends == 3.0,
+           .exit = ends == 2.0 || ends == 3.0,
+           .start_mm = state_.position[2],
+           .drive_mm = state_.position[0]};
+  return thread_is_possible(step, cycle);
+}
+
+bool Interpreter::thread_is_possible(const Step& step, const ThreadCycle& cycle) {
+  const double springs = cycle.springs;
   const auto wrong = [&](bool is, char letter, std::string_view text) {
     return is && !refuse(step, letter, "out_of_range", text);
   };
-  if (wrong(!(cycle.pitch_mm > 0.0), 'P', "a pitch (P) that is not above zero") ||
-      wrong(cycle.peak_mm == 0.0, 'I', "G76 with I zero: it tells inside from outside") ||
-      wrong(!(cycle.first_mm > 0.0), 'J', "the first depth (J) must be above zero") ||
-      wrong(!(cycle.full_mm > cycle.first_mm), 'K', "the full depth (K) must be above J") ||
-      wrong(!(degression >= 1.0), 'R', "the degression of depth (R) is at least 1") ||
-      wrong(springs < 0.0 || springs > 1000.0 || springs != std::floor(springs), 'H',
-            "the number of spring passes (H) is a whole number from 0") ||
-      wrong(ends > 3.0, 'L', "the tapered ends (L) are 0 to 3") ||
-      wrong(!(std::abs(angle) < 80.0), 'Q', "the angle of the compound slide (Q) is below 80") ||
-      wrong((cycle.entry || cycle.exit) && !(cycle.taper_mm > 0.0), 'L',
-            "tapered ends need the length of the taper (E above zero)") ||
-      wrong(!(std::pow(cycle.full_mm / cycle.first_mm, degression) < kMostPasses), 'J',
-            "a thread of more than 100000 passes")) {
-    return false;
-  }
-  if (!spindle_turns(step)) {
+  return !(wrong(!(cycle.pitch_mm > 0.0), 'P', "a pitch (P) that is not above zero") ||
+           wrong(cycle.peak_mm == 0.0, 'I', "G76 with I zero: it tells inside from outside") ||
+           wrong(!(cycle.first_mm > 0.0), 'J', "the first depth (J) must be above zero") ||
+           wrong(!(cycle.full_mm > cycle.first_mm), 'K', "the full depth (K) must be above J") ||
+           wrong(!(cycle.degression >= 1.0), 'R', "the degression of depth (R) is at least 1") ||
+           wrong(springs < 0.0 || springs > 1000.0 || springs != std::floor(springs), 'H',
+                 "the number of spring passes (H) is a whole number from 0") ||
+           wrong(word_or(step, 'L', 0.0) > 3.0, 'L', "the tapered ends (L) are 0 to 3") ||
+           wrong(!(std::abs(word_or(step, 'Q', 0.0)) < 80.0), 'Q',
+                 "the angle of the compound slide (Q) is below 80") ||
+           wrong((cycle.entry || cycle.exit) && !(cycle.taper_mm > 0.0), 'L',
+                 "tapered ends need the length of the taper (E above zero)") ||
+           wrong(!(std::pow(cycle.full_mm / cycle.first_mm, cycle.degression) < kMostPasses), 'J',
+                 "a thread of more than 100000 passes"));
+}
+
+bool Interpreter::thread_cycle(const Step& step) {
+  ThreadCycle cycle{};
+  if (!read_thread_cycle(step, cycle) || !spindle_turns(step)) {
     return false;
   }
   Axes end;
@@ -136,10 +149,10 @@ bool Interpreter::thread_cycle(const Step& step) {
   cycle.end_mm = end[2];
   double pass = 1.0;
   for (double depth = cycle.first_mm; depth < cycle.full_mm;
-       depth = cycle.first_mm * std::pow(++pass, 1.0 / degression)) {
+       depth = cycle.first_mm * std::pow(++pass, 1.0 / cycle.degression)) {
     thread_pass(cycle, depth);
   }
-  for (double spring = 0.0; spring <= springs; spring += 1.0) {
+  for (double spring = 0.0; spring <= cycle.springs; spring += 1.0) {
     thread_pass(cycle, cycle.full_mm);
   }
   Axes out = state_.position;

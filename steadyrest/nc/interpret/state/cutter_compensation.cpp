@@ -218,9 +218,69 @@ CutterCompensation::Fault CutterCompensation::entry_arc(const Move& move, PlaneP
   return Fault::none;
 }
 
+// The first compensated move, an arc: from where the tool stands to the offset of the arc's end.
+CutterCompensation::Fault CutterCompensation::enter_on_arc(const Move& move, const Axes& programmed,
+                                                           PlanePoint end) {
+  const PlanePoint from = point(programmed);
+  current_ = from;
+  if (length(between(from, point(move.end))) <= tool_.radius_mm) {
+    return Fault::entry_too_short;
+  }
+  PlanePoint moved;
+  if (const Fault fault = entry_arc(move, end, moved); fault != Fault::none) {
+    return fault;
+  }
+  start_ = from;
+  entered_ = true;
+  if (lathe_ && tool_.orientation != 0 && tool_.orientation != 9) {
+    Move first = move;  // the edge's own point goes to its place first
+    first.kind = MoveKind::linear;
+    first.end = programmed;
+    first.centre_mm = {};
+    first.normal = {};
+    first.turns = 0;
+    static_cast<void>(wait(first, {}, 0.0));
+  }
+  Move offset = move;
+  put(offset.end, end);
+  offset.centre_mm[axes_.first] = moved.first;
+  offset.centre_mm[axes_.second] = moved.second;
+  current_ = end;
+  return wait(offset, {}, 0.0);
+}
+
+// The corner before an arc: what waits ends at it, or goes out and is joined to the arc.
+CutterCompensation::Fault CutterCompensation::turn_into_arc(const Move& move,
+                                                            const Axes& programmed,
+                                                            bool tool_inside, bool inch) {
+  const PlanePoint from = point(programmed);
+  const PlanePoint centre{.first = move.centre_mm[axes_.first],
+                          .second = move.centre_mm[axes_.second]};
+  const PlanePoint across = unit(between(from, centre));
+  PlanePoint direction = left_of(across);  // clockwise
+  if (move.turns > 0) {
+    direction = {.first = -direction.first, .second = -direction.second};
+  }
+  const double turn = turn_between(from_tool(unit(between(from, current_))), direction, tool_.side);
+  const Corner corner = kind_of(turn, !tool_inside);
+  if (corner == Corner::concave) {
+    if (waiting_.empty() || stopped_) {
+      return Fault::after_stop;
+    }
+    PlanePoint meet;
+    const Fault fault = arc_corner(move, from, meet);
+    return fault != Fault::none ? fault : meet_at(meet, inch);
+  }
+  release();
+  start_ = current_;
+  if (corner == Corner::convex) {
+    join(move, programmed, to_tool(direction));
+  }
+  return Fault::none;
+}
+
 CutterCompensation::Fault CutterCompensation::arc(const Move& move, const Axes& programmed,
                                                   bool inch) {
-  const PlanePoint from = point(programmed);
   const PlanePoint to = point(move.end);
   const PlanePoint centre{.first = move.centre_mm[axes_.first],
                           .second = move.centre_mm[axes_.second]};
@@ -231,58 +291,16 @@ CutterCompensation::Fault CutterCompensation::arc(const Move& move, const Axes& 
   if (circle.tool_inside && circle.radius <= 0.0) {
     return Fault::arc_too_small;
   }
+  if (!entered_) {
+    return enter_on_arc(move, programmed, end);
+  }
+  if (const Fault fault = turn_into_arc(move, programmed, circle.tool_inside, inch);
+      fault != Fault::none) {
+    return fault;
+  }
   Move offset = move;
   put(offset.end, end);
-  if (!entered_) {
-    current_ = from;
-    if (length(between(from, to)) <= tool_.radius_mm) {
-      return Fault::entry_too_short;
-    }
-    PlanePoint moved;
-    if (const Fault fault = entry_arc(move, end, moved); fault != Fault::none) {
-      return fault;
-    }
-    start_ = from;
-    entered_ = true;
-    if (lathe_ && tool_.orientation != 0 && tool_.orientation != 9) {
-      Move first = move;  // the edge's own point goes to its place first
-      first.kind = MoveKind::linear;
-      first.end = programmed;
-      first.centre_mm = {};
-      first.normal = {};
-      first.turns = 0;
-      static_cast<void>(wait(first, {}, 0.0));
-    }
-    offset.centre_mm[axes_.first] = moved.first;
-    offset.centre_mm[axes_.second] = moved.second;
-    current_ = end;
-    return wait(offset, {}, 0.0);
-  }
-  const PlanePoint across = unit(between(from, centre));
-  PlanePoint direction = left_of(across);  // clockwise
-  if (move.turns > 0) {
-    direction = {.first = -direction.first, .second = -direction.second};
-  }
-  const double turn = turn_between(from_tool(unit(between(from, current_))), direction, tool_.side);
-  const Corner corner = kind_of(turn, !circle.tool_inside);
-  const double angle = swept(from, to, centre, move.turns);
-  if (corner == Corner::concave) {
-    if (waiting_.empty() || stopped_) {
-      return Fault::after_stop;
-    }
-    PlanePoint meet;
-    Fault fault = arc_corner(move, from, meet);
-    fault = fault != Fault::none ? fault : meet_at(meet, inch);
-    if (fault != Fault::none) {
-      return fault;
-    }
-  } else {
-    release();
-    start_ = current_;
-    if (corner == Corner::convex) {
-      join(move, programmed, to_tool(direction));
-    }
-  }
+  const double angle = swept(point(programmed), to, centre, move.turns);
   current_ = end;
   return wait(offset, {}, angle);
 }
@@ -316,83 +334,6 @@ CutterCompensation::Fault CutterCompensation::meet_at(PlanePoint meet, bool inch
   release();
   start_ = meet;
   return Fault::none;
-}
-
-CutterCompensation::Fault CutterCompensation::wait(const Move& move, PlanePoint direction,
-                                                   double angle) {
-  if (waiting_.size() >= kMostWaiting || overflow_) {
-    return Fault::too_many_waiting;
-  }
-  const bool turns_corner =
-      move.kind == MoveKind::arc || direction.first != 0.0 || direction.second != 0.0;
-  stopped_ = stopped_ && !turns_corner;
-  waiting_.emplace_back(
-      WaitingMove{.move = move, .direction = direction, .angle = angle, .in_plane = true});
-  return Fault::none;
-}
-
-void CutterCompensation::on_move(const Move& move) {
-  if (waiting_.empty()) {
-    send(move);
-  } else if (waiting_.size() < kMostWaiting) {
-    waiting_.emplace_back(
-        WaitingMove{.move = move, .direction = {}, .angle = 0.0, .in_plane = false});
-  } else {
-    overflow_ = true;
-  }
-}
-
-void CutterCompensation::on_event(const Event& event) {
-  if (event.kind == EventKind::end) {
-    release();
-  }
-  if (waiting_.empty()) {
-    out_->on_event(event);
-  } else if (waiting_.size() < kMostWaiting) {
-    waiting_.emplace_back(event);
-  } else {
-    overflow_ = true;
-  }
-}
-
-void CutterCompensation::release() {
-  for (const Waiting& one : waiting_) {
-    if (const auto* const event = std::get_if<Event>(&one); event != nullptr) {
-      out_->on_event(*event);
-    } else {
-      send(std::get<WaitingMove>(one).move);
-    }
-  }
-  waiting_.clear();
-}
-
-// The tool's own point of a lathe tool lies beside its edge's centre.
-void CutterCompensation::send(const Move& move) {
-  Move out = move;
-  if (active() && out.kind != MoveKind::dwell) {
-    constexpr auto kShift = [](int orientation, int a, int b, int c, int x, int y, int z) {
-      return orientation == a || orientation == b || orientation == c   ? -1.0
-             : orientation == x || orientation == y || orientation == z ? 1.0
-                                                                        : 0.0;
-    };
-    if (lathe_) {
-      const double shift_x = tool_.radius_mm * kShift(tool_.orientation, 1, 2, 6, 3, 4, 8);
-      const double shift_z = tool_.radius_mm * kShift(tool_.orientation, 2, 3, 7, 1, 4, 5);
-      out.end[0] += shift_x;
-      out.end[2] += shift_z;
-      out.centre_mm[0] += out.kind == MoveKind::arc ? shift_x : 0.0;
-      out.centre_mm[2] += out.kind == MoveKind::arc ? shift_z : 0.0;
-    }
-  }
-  if (out.kind == MoveKind::dwell) {
-    out.end = machine_;
-  }
-  out.start = machine_;
-  if (out.kind == MoveKind::arc) {
-    out.centre_mm[axes_.normal] = machine_[axes_.normal];
-  }
-  machine_ = out.end;
-  out_->on_move(out);
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -105,6 +105,8 @@ class CutterCompensation final : public Sink {
   void join(const Move& move, const Axes& programmed, PlanePoint normal);
   Fault meet_at(PlanePoint meet, bool inch);
   Fault entry_arc(const Move& move, PlanePoint end, PlanePoint& centre) const;
+  Fault enter_on_arc(const Move& move, const Axes& programmed, PlanePoint end);
+  Fault turn_into_arc(const Move& move, const Axes& programmed, bool tool_inside, bool inch);
 
   Fault wait(const Move& move, PlanePoint direction, double angle);
   void release();

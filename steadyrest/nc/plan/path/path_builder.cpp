@@ -6,7 +6,6 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/state/spline_curve.hpp>
-#include <steadyrest/nc/plan/path/corner.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/plan/path/spline_lines.hpp>
 
@@ -39,6 +38,12 @@ constexpr std::size_t kMostMerged = 512;
 
 bool others_move(const PathSegment& s) {
   return s.other_start != s.other_end;
+}
+
+bool may_be_rounded(const Piece& before, const Piece& after) {
+  return before.tolerance_mm > 0.0 && !others_move(before.segment) && !others_move(after.segment) &&
+         before.plan.per_revolution == after.plan.per_revolution && !before.plan.locked &&
+         !after.plan.locked;
 }
 
 }  // namespace
@@ -128,10 +133,8 @@ void PathStream::accept() {
 
 /// Puts a tangential arc into the corner between the held piece and `next`.
 bool PathStream::round_corner(Piece& next) {
-  Piece& held = places_[held_];
-  if (!(held.tolerance_mm > 0.0) || others_move(held.segment) || others_move(next.segment) ||
-      held.plan.per_revolution != next.plan.per_revolution || held.plan.locked ||
-      next.plan.locked) {
+  const Piece& held = places_[held_];
+  if (!may_be_rounded(held, next)) {
     return false;
   }
   const Point in = xyz_of(held.end_direction);
@@ -163,43 +166,55 @@ bool PathStream::round_corner(Piece& next) {
       corner->taken_before_mm <= 10.0 * kShortest_mm) {
     return false;
   }
+  set_corner(*corner, held, next);
+  pieces_.limit(corner_, pieces_.limits().circle(corner->radius_mm, plane));
+  put_in_corner(*corner, goal, next);
+  return true;
+}
+
+/// The arc's piece: what it does not have of its own is that of the slower neighbour.
+void PathStream::set_corner(const CornerArc& corner, const Piece& held, const Piece& next) {
+  const Piece& like = held.plan.feed_mm_s <= next.plan.feed_mm_s ? held : next;
   Piece& arc = corner_;
-  arc.plan = slower == held.plan.feed_mm_s ? held.plan : next.plan;
+  arc.plan = like.plan;
   arc.plan.rapid = held.plan.rapid && next.plan.rapid;
-  const PathSegment& like = slower == held.plan.feed_mm_s ? held.segment : next.segment;
   arc.segment = {.geometry = Geometry::arc,
                  .motion = arc.plan.rapid ? Motion::rapid : Motion::feed,
-                 .speed_modulation = like.speed_modulation,
+                 .speed_modulation = like.segment.speed_modulation,
                  .line = held.segment.line,
-                 .start_mm = corner->start_mm,
-                 .end_mm = corner->end_mm,
-                 .centre_mm = corner->centre_mm,
-                 .axis = corner->axis,
-                 .radius_mm = corner->radius_mm,
-                 .radius_end_mm = corner->radius_mm,
-                 .sweep_rad = corner->sweep_rad,
+                 .start_mm = corner.start_mm,
+                 .end_mm = corner.end_mm,
+                 .centre_mm = corner.centre_mm,
+                 .axis = corner.axis,
+                 .radius_mm = corner.radius_mm,
+                 .radius_end_mm = corner.radius_mm,
+                 .sweep_rad = corner.sweep_rad,
                  .other_start = held.segment.other_end,
                  .other_end = held.segment.other_end,
-                 .length_mm = corner->radius_mm * corner->sweep_rad,
-                 .feed_mm_s = like.feed_mm_s};
+                 .length_mm = corner.radius_mm * corner.sweep_rad,
+                 .feed_mm_s = like.segment.feed_mm_s};
   arc.nominal_mm = arc.segment.length_mm;
-  pieces_.limit(arc, pieces_.limits().circle(corner->radius_mm, plane));
-  shorten(held, corner->taken_before_mm);
-  held.segment.end_mm = corner->start_mm;
+}
+
+/// Makes room for the arc between the held piece and `next`; hands over the held piece and the arc.
+void PathStream::put_in_corner(const CornerArc& corner, double goal_mm_s, Piece& next) {
+  Piece& held = places_[held_];
+  Piece& arc = corner_;
+  shorten(held, corner.taken_before_mm);
+  held.segment.end_mm = corner.start_mm;
   const auto& control = machine_.control;
   const double gap = control.blend_gap_cycles * control.interpolator_period_s *
-                     std::min(goal, arc.plan.speed_limit_mm_s);
+                     std::min(goal_mm_s, arc.plan.speed_limit_mm_s);
   if (held.segment.length_mm < gap) {
     held.plan.acceleration_mm_s2 =
         std::min(held.plan.acceleration_mm_s2, arc.plan.acceleration_mm_s2);
   }
-  shorten(next, corner->taken_after_mm);
-  next.segment.start_mm = corner->end_mm;
+  shorten(next, corner.taken_after_mm);
+  next.segment.start_mm = corner.end_mm;
   release(std::min(held.plan.speed_limit_mm_s, arc.plan.speed_limit_mm_s));
   arc.segment.exit_speed_limit_mm_s =
       std::min(arc.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s);
   emit(arc);
-  return true;
 }
 
 /// Takes path length from either end of a piece; the caller moves the end.

@@ -10,6 +10,7 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/plan/path/corner.hpp>
 #include <steadyrest/nc/plan/path/piece.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
@@ -56,6 +57,8 @@ class PathStream final : public interpret::Sink {
   void accept();
   void join(Piece& next);
   bool round_corner(Piece& next);
+  void set_corner(const CornerArc& corner, const Piece& held, const Piece& next);
+  void put_in_corner(const CornerArc& corner, double goal_mm_s, Piece& next);
   static void shorten(Piece& piece, double taken_mm);
   bool merge(const Piece& next);
   bool split_flat_arc(const interpret::Move& move);

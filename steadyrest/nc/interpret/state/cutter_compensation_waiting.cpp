@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/nc/interpret/state/cutter_compensation.hpp>
+
+// The moves and events that wait for the next move, and how they go out.
+namespace steadyrest::nc::interpret {
+
+CutterCompensation::Fault CutterCompensation::wait(const Move& move, PlanePoint direction,
+                                                   double angle) {
+  if (waiting_.size() >= kMostWaiting || overflow_) {
+    return Fault::too_many_waiting;
+  }
+  const bool turns_corner =
+      move.kind == MoveKind::arc || direction.first != 0.0 || direction.second != 0.0;
+  stopped_ = stopped_ && !turns_corner;
+  waiting_.emplace_back(
+      WaitingMove{.move = move, .direction = direction, .angle = angle, .in_plane = true});
+  return Fault::none;
+}
+
+void CutterCompensation::on_move(const Move& move) {
+  if (waiting_.empty()) {
+    send(move);
+  } else if (waiting_.size() < kMostWaiting) {
+    waiting_.emplace_back(
+        WaitingMove{.move = move, .direction = {}, .angle = 0.0, .in_plane = false});
+  } else {
+    overflow_ = true;
+  }
+}
+
+void CutterCompensation::on_event(const Event& event) {
+  if (event.kind == EventKind::end) {
+    release();
+  }
+  if (waiting_.empty()) {
+    out_->on_event(event);
+  } else if (waiting_.size() < kMostWaiting) {
+    waiting_.emplace_back(event);
+  } else {
+    overflow_ = true;
+  }
+}
+
+void CutterCompensation::release() {
+  for (const Waiting& one : waiting_) {
+    if (const auto* const event = std::get_if<Event>(&one); event != nullptr) {
+      out_->on_event(*event);
+    } else {
+      send(std::get<WaitingMove>(one).move);
+    }
+  }
+  waiting_.clear();
+}
+
+// The tool's own point of a lathe tool lies beside its edge's centre.
+void CutterCompensation::send(const Move& move) {
+  Move out = move;
+  if (active() && out.kind != MoveKind::dwell) {
+    constexpr auto kShift = [](int orientation, int a, int b, int c, int x, int y, int z) {
+      return orientation == a || orientation == b || orientation == c   ? -1.0
+             : orientation == x || orientation == y || orientation == z ? 1.0
+                                                                        : 0.0;
+    };
+    if (lathe_) {
+      const double shift_x = tool_.radius_mm * kShift(tool_.orientation, 1, 2, 6, 3, 4, 8);
+      const double shift_z = tool_.radius_mm * kShift(tool_.orientation, 2, 3, 7, 1, 4, 5);
+      out.end[0] += shift_x;
+      out.end[2] += shift_z;
+      out.centre_mm[0] += out.kind == MoveKind::arc ? shift_x : 0.0;
+      out.centre_mm[2] += out.kind == MoveKind::arc ? shift_z : 0.0;
+    }
+  }
+  if (out.kind == MoveKind::dwell) {
+    out.end = machine_;
+  }
+  out.start = machine_;
+  if (out.kind == MoveKind::arc) {
+    out.centre_mm[axes_.normal] = machine_[axes_.normal];
+  }
+  machine_ = out.end;
+  out_->on_move(out);
+}
+
+}  // namespace steadyrest::nc::interpret
