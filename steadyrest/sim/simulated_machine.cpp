@@ -120,7 +120,7 @@ Result<void> SimulatedMachine::write(const kernel::signal::Command& command) noe
     return std::unexpected(Refusal{Kind::bad_input,
                                    {},
                                    0,
-                                   "a command that is not to be written was handed to the port",
+                                   "the port was handed a command in a mode that does not write",
                                    "write only in mode act"});
   }
   command_ = command;

@@ -114,7 +114,7 @@ Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double ma
   }
   if (max_error_mm == radius_mm) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "the largest error is as large as the radius",
+                                   "the largest error is not below the radius",
                                    "give an error below the radius"});
   }
   const double share = max_error_mm / radius_mm;

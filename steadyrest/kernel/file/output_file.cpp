@@ -250,10 +250,10 @@ Result<void> OutputFile::commit() {
 }
 
 Refusal OutputFile::refusal(int error) const {
-  return {Kind::unavailable, name_, 0, std::string{"cannot be written: "} + std::strerror(error),
+  return {Kind::unavailable, name_, 0, std::string{"write failed: "} + std::strerror(error),
           place_.kind == Place::Kind::file
-              ? "check the folder, the rights and the disk space; what was there is untouched"
-              : "check who reads it and the disk space"};
+              ? "check the folder, its permissions and the disk space; the old content is untouched"
+              : "check the program that reads it, and the disk space"};
 }
 
 Result<void> put_in_place(std::span<OutputFile> settled) {

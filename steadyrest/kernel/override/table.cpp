@@ -37,7 +37,7 @@ Check check_ratios(const std::vector<double>& ratio) {
     if (i > 0 && ratio[i] < ratio[i - 1]) {
       return refusal(fmt::format("override step {} has ratio {}, less than {} of the step before",
                                  i, ratio[i], ratio[i - 1]),
-                     "list the steps by rising ratio");
+                     "list the steps in rising order");
     }
   }
   return std::nullopt;
@@ -75,7 +75,7 @@ Check check_scalars(const Table::Config& config) {
     if (!std::isfinite(time_s) || time_s < 0.0) {
       return refusal(
           fmt::format("a time of an override table is {} s; allowed is finite and ≥ 0", time_s),
-          "correct scan period and dead time");
+          "correct the scan period and the dead time");
     }
   }
   return std::nullopt;

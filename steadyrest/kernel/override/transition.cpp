@@ -18,11 +18,11 @@ outcome::Refusal not_walkable(const Table& table, std::size_t from, std::size_t 
           .file = {},
           .line = 0,
           .what = fmt::format(
-              "override codes {:#b} ({:g} %) and {:#b} ({:g} %) differ in {} bits: a reader that "
-              "sees the bits change one after another reads a value outside of the two",
+              "override codes {:#b} ({:g} %) and {:#b} ({:g} %) differ in {} bits: a PLC that sees "
+              "them change one by one reads a value that is neither",
               table.code(from), 100.0 * table.ratio(from), table.code(to), 100.0 * table.ratio(to),
               std::popcount(table.code(from) ^ table.code(to))),
-          .to_do = "use a port that latches the word as a whole, or a Gray table"};
+          .to_do = "use a port that latches the whole word, or a Gray table"};
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ CuttingEdges CuttingEdges::make(const Cutting& cut, std::size_t least_steps) {
 kernel::outcome::Result<void> check(const Cutting& cut) {
   const auto teeth = static_cast<double>(cut.teeth);
   if (cut.modes.empty()) {
-    return std::unexpected(refusal("the cut has no mode that could vibrate"));
+    return std::unexpected(refusal("the cut has no vibration mode"));
   }
   for (const CuttingMode& mode : cut.modes) {
     if (auto ok = in_range("mode", {{"frequency_hz", mode.frequency_hz, 1e-3, 1e6},
@@ -150,7 +150,7 @@ kernel::outcome::Result<void> check(const Cutting& cut) {
   }
   if ((!cut.pitch_rad.empty() && cut.pitch_rad.size() != cut.teeth) ||
       (!cut.runout_mm.empty() && cut.runout_mm.size() != cut.teeth)) {
-    return std::unexpected(refusal("pitch and runout need one value for each tooth"));
+    return std::unexpected(refusal("pitch and runout need one value per tooth"));
   }
   constexpr double kMost = 1e9;
   return in_range("cut", {{"teeth", teeth, 1.0, cut.turning ? 1.0 : 100.0},

@@ -129,7 +129,8 @@ TEST(RowReader, DecidesTheDecimalMarkByTheWholeFile) {
   EXPECT_THAT(said_by("a;b\n1,234;1\n2,345;12,5\n").rows,
               ElementsAre(ElementsAre(1.234, 1.0), ElementsAre(2.345, 12.5)));
   const Said neither = said_by("a;b\n7;1\n1,234;22,345\n");
-  EXPECT_THAT(neither.fault, HasSubstr("3: a comma could be the decimal mark or group digits"));
+  EXPECT_THAT(neither.fault,
+              HasSubstr("3: the comma may be a decimal mark or a thousands separator"));
   EXPECT_THAT(neither.to_do, HasSubstr("--decimal comma"));
   Format comma;
   comma.decimal = Decimal::comma;
@@ -209,7 +210,7 @@ TEST(RowReader, ReadsStampsWithADate) {
 }
 
 TEST(RowReader, RefusesWhatIsNoText) {
-  EXPECT_EQ(said_by("\x1f\x8b-").fault, "0: is compressed by gzip");
+  EXPECT_EQ(said_by("\x1f\x8b-").fault, "0: is gzip-compressed");
   EXPECT_EQ(said_by(std::string("a,b\n1,\0", 7)).fault, "0: is not text in UTF-8");
   EXPECT_EQ(said_by("a,a\n1,2\n").fault, "1: the column a stands twice");
   EXPECT_THAT(said_by("a\x01,b\n1,2\n").fault, HasSubstr("1: the header has control characters"));

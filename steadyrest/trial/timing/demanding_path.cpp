@@ -155,7 +155,7 @@ Result<std::shared_ptr<const nc::plan::PlannedPath>> demanding_path(const Machin
   if (!plane) {
     return std::unexpected(Refusal{Kind::bad_input, machine.file, 0,
                                    "the machine has fewer than two of the axes X, Y, Z",
-                                   "describe the axes that contour together"});
+                                   "add the axes that contour together"});
   }
   nc::plan::PathBuilder builder(machine);
   Pen pen(machine, *plane, builder);

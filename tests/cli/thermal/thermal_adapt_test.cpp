@@ -93,7 +93,7 @@ TEST(ThermalAdapt, SaysWhenTheModelNoLongerFitsAndKeepsItsGains) {
   EXPECT_NE(text_of_file(scratch.at("new.toml")).find("levels_um = [0, 35.2245, 49.0785]"),
             std::string::npos);
   const Finished shown = run_line(adapt(scratch, csv));
-  EXPECT_NE(shown.out.find("identify it anew"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("fit it again"), std::string::npos) << shown.out;
 }
 
 TEST(ThermalAdapt, NamesAnOutlierAndLeavesItOut) {

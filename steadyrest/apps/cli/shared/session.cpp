@@ -58,7 +58,8 @@ bool print_json(const Json& json) {
 }
 
 int unwritten() {
-  fmt::print(stderr, "{}: the answer cannot be written to stdout; check disk space and pipe\n",
+  fmt::print(stderr,
+             "{}: failed to write the answer to stdout; check the disk space and the pipe\n",
              kName);
   return kFailed;
 }
