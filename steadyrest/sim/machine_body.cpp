@@ -18,7 +18,7 @@ using kernel::signal::Motion;
 
 Result<void> check(const Machine& machine) {
   if (machine.axes.empty() || machine.axes.size() > kernel::signal::kMaxAxes) {
-    return std::unexpected(refusal(fmt::format("machine has {} axes; allowed is 1 to {}",
+    return std::unexpected(refusal(fmt::format("machine has {} axes; allowed: 1 to {}",
                                                machine.axes.size(), kernel::signal::kMaxAxes)));
   }
   const kernel::machine::Control& c = machine.control;

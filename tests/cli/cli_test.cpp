@@ -78,8 +78,7 @@ TEST(Cli, APortThatIsNotBuiltIsRefused) {
     for (const std::string& line : {"doctor --machine " + machine,
                                     "cut examples/programs/circle-r10.ngc --machine " + machine}) {
       expect_refused(
-          line,
-          fmt::format("port = \"{}\" is not known; allowed is only sim; write \"sim\"", port));
+          line, fmt::format("port = \"{}\" is unknown; allowed: only sim; write \"sim\"", port));
     }
   }
 }

@@ -25,7 +25,7 @@ std::optional<Refusal> outside(std::string_view what, double value, double low, 
     return std::nullopt;
   }
   return Refusal{Kind::bad_input, "", 0,
-                 fmt::format("{} = {:.10g}; allowed is {} {:.10g} … {:.10g}", what, value,
+                 fmt::format("{} = {:.10g}; allowed: {} {:.10g} … {:.10g}", what, value,
                              low_allowed ? "from" : "above", low, high),
                  "give a value in that range"};
 }

@@ -17,7 +17,7 @@ outcome::Refusal refusal(const char* name, double value, const char* allowed) {
   return {.kind = outcome::Kind::bad_input,
           .file = {},
           .line = 0,
-          .what = fmt::format("envelope: {} is {}; allowed is {}", name, value, allowed),
+          .what = fmt::format("envelope: {} is {}; allowed: {}", name, value, allowed),
           .to_do = "correct the envelope in the machine file"};
 }
 

@@ -31,7 +31,7 @@ Check check_ratios(const std::vector<double>& ratio) {
   for (std::size_t i = 0; i < ratio.size(); ++i) {
     if (!std::isfinite(ratio[i]) || ratio[i] < 0.0) {
       return refusal(
-          fmt::format("override step {} has ratio {}; allowed is a finite ratio ≥ 0", i, ratio[i]),
+          fmt::format("override step {} has ratio {}; allowed: a finite ratio ≥ 0", i, ratio[i]),
           "correct the value");
     }
     if (i > 0 && ratio[i] < ratio[i - 1]) {
@@ -68,13 +68,13 @@ Check check_codes(const Table::Config& config) {
 
 Check check_scalars(const Table::Config& config) {
   if (std::isnan(config.max_ratio) || config.max_ratio <= 0.0) {
-    return refusal(fmt::format("max_ratio of an override is {}; allowed is > 0", config.max_ratio),
+    return refusal(fmt::format("max_ratio of an override is {}; allowed: > 0", config.max_ratio),
                    "give the ratio at which the control clips");
   }
   for (const double time_s : {config.scan_period_s, config.dead_time_s}) {
     if (!std::isfinite(time_s) || time_s < 0.0) {
       return refusal(
-          fmt::format("a time of an override table is {} s; allowed is finite and ≥ 0", time_s),
+          fmt::format("a time of an override table is {} s; allowed: finite and ≥ 0", time_s),
           "correct the scan period and the dead time");
     }
   }

@@ -56,7 +56,7 @@ outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config)
         .kind = outcome::Kind::bad_input,
         .file = {},
         .line = 0,
-        .what = fmt::format("scan period is {} s; allowed is finite and ≥ 0", config.scan_period_s),
+        .what = fmt::format("scan period is {} s; allowed: finite and ≥ 0", config.scan_period_s),
         .to_do = "give the period at which the override word is read"});
   }
   if (!config.latched) {

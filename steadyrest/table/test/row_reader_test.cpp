@@ -204,7 +204,7 @@ TEST(RowReader, ReadsStampsWithADate) {
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00Z,1\n2026-11-22 10:00:01,2\n").fault,
               HasSubstr("3: the stamp \"2026-11-22 10:00:01\" has not a zone"));
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00,1\n5,2\n").fault,
-              HasSubstr("3: \"5\" is no date with a time"));
+              HasSubstr("3: \"5\" is not a date and time"));
   EXPECT_THAT(said_by("t_s,z\n1,1\n2026-11-22 10:00:00,2\n").fault,
               HasSubstr("3: t_s = \"2026-11-22 10:00:00\" is not a finite number"));
 }
@@ -212,7 +212,7 @@ TEST(RowReader, ReadsStampsWithADate) {
 TEST(RowReader, RefusesWhatIsNoText) {
   EXPECT_EQ(said_by("\x1f\x8b-").fault, "0: is gzip-compressed");
   EXPECT_EQ(said_by(std::string("a,b\n1,\0", 7)).fault, "0: is not text in UTF-8");
-  EXPECT_EQ(said_by("a,a\n1,2\n").fault, "1: the column a stands twice");
+  EXPECT_EQ(said_by("a,a\n1,2\n").fault, "1: the column a appears twice");
   EXPECT_THAT(said_by("a\x01,b\n1,2\n").fault, HasSubstr("1: the header has control characters"));
   for (const char* value : {"nan", "inf", "0x10", "1 um", "1e999", "\"\"", "--1", "1e", "open"}) {
     EXPECT_THAT(said_by(fmt::format("a,b\n1,2\n3,{}\n", value)).fault, HasSubstr("3: b")) << value;

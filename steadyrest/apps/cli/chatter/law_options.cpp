@@ -66,7 +66,7 @@ Result<double> rational(double rvf, double passes_per_rev) {
       }
     }
   }
-  return bad(fmt::format("a modulation period of {:.6g} tooth passes; allowed are {:.3g} … {}", q,
+  return bad(fmt::format("a modulation period of {:.6g} tooth passes; allowed: {:.3g} … {}", q,
                          1.0 / kMostLawPeriods, kMostPasses),
              "give a shorter period or a larger RVF");
 }

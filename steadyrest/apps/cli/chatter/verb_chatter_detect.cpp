@@ -77,7 +77,7 @@ std::optional<Refusal> unfit(const Options& options) {
     }
   }
   if (options.teeth && (*options.teeth < 1 || *options.teeth > 64)) {
-    return bad(fmt::format("--teeth {}; allowed are 1 … 64", *options.teeth),
+    return bad(fmt::format("--teeth {}; allowed: 1 … 64", *options.teeth),
                "give the number of teeth, 1 in turning");
   }
   if (!options.teeth && options.process.empty()) {

@@ -100,7 +100,7 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
   if (const double turns = winding(process, most_depth_mm); turns > kMostWinding) {
     return refusal(
         fmt::format("at a depth of {:.6g} mm a helical edge winds {:.4g} times round the "
-                    "tool; allowed are {:g} turns, {:.4g} mm",
+                    "tool; allowed: {:g} turns, {:.4g} mm",
                     most_depth_mm, turns, kMostWinding, most_depth_mm * kMostWinding / turns),
         "give a smaller depth, or check diameter_mm and helix_deg of [tool]");
   }

@@ -27,7 +27,7 @@ std::optional<Refusal> fault(const LobeMapConfig& config) {
   const std::vector<double>& depth = config.depth_mm;
   if (config.speed_rev_s.size() > kMostPoints / std::max<std::size_t>(depth.size(), 1)) {
     return Refusal{Kind::bad_input, "", 0,
-                   fmt::format("a map of {} speeds × {} depths; allowed are {} points",
+                   fmt::format("a map of {} speeds × {} depths; allowed: {} points",
                                config.speed_rev_s.size(), depth.size(), kMostPoints),
                    "give fewer steps; the border is refined between them"};
   }

@@ -31,7 +31,7 @@ std::optional<Refusal> out_of(const Range& range) {
   if (range.value >= range.least && range.value <= range.most) {
     return std::nullopt;
   }
-  return bad(fmt::format("{} = {:.10g}; allowed is from {:g} to {:g}", range.what, range.value,
+  return bad(fmt::format("{} = {:.10g}; allowed: from {:g} to {:g}", range.what, range.value,
                          range.least, range.most),
              "give a value in that range");
 }

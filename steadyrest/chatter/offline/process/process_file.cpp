@@ -177,10 +177,9 @@ class FileReader {
       return;
     }
     if (list->empty() || list->size() > kMostModes) {
-      faults_.add(
-          line_of(node->source()),
-          fmt::format("{} has {} entries; allowed are 1 … {}", name, list->size(), kMostModes),
-          "give those that matter for the cut");
+      faults_.add(line_of(node->source()),
+                  fmt::format("{} has {} entries; allowed: 1 … {}", name, list->size(), kMostModes),
+                  "give those that matter for the cut");
       return;
     }
     for (const toml::node& element : *list) {

@@ -71,13 +71,13 @@ class FrfSink final : public table::Sink {
                              table::shown(column[1].name), table::shown(column[2].name)));
     }
     if (column[0].unit != "hz") {
-      return Fault{0, fmt::format("frequency in \"{}\"; allowed is Hz", column[0].unit),
+      return Fault{0, fmt::format("frequency in \"{}\"; allowed: Hz", column[0].unit),
                    "write frequency_hz"};
     }
     const auto* const unit = std::ranges::find(kUnits, column[1].unit, &Unit::name);
     if (unit == kUnits.end() ||
         (polar_ ? column[2].unit != "deg" : column[2].unit != column[1].unit)) {
-      return bad(fmt::format(R"(units "{}" and "{}"; allowed are m/N, mm/N, um/N, of acceleration )"
+      return bad(fmt::format(R"(units "{}" and "{}"; allowed: m/N, mm/N, um/N, of acceleration )"
                              "m/s2/N, mm/s2/N, g/N, of velocity m/s/N, mm/s/N{}",
                              table::shown(column[1].unit), table::shown(column[2].unit),
                              polar_ ? " and deg" : ", the same in both"));
@@ -116,7 +116,7 @@ class FrfSink final : public table::Sink {
       }
       coherence = *read;
       if (coherence < 0.0 || coherence > 1.0 + 1e-6) {
-        return Fault{row.line(), fmt::format("coherence {:g}; allowed is 0 … 1", coherence),
+        return Fault{row.line(), fmt::format("coherence {:g}; allowed: 0 … 1", coherence),
                      "give the coherence as a ratio, or leave the column out"};
       }
     }

@@ -168,13 +168,13 @@ class UffReader {
                    "export over frequency in Hz");
       }
       if (axis == &response && !response_scale(*axis)) {
-        return bad(fmt::format("ordinate of type {} in \"{}\"; allowed are displacement (8), "
+        return bad(fmt::format("ordinate of type {} in \"{}\"; allowed: displacement (8), "
                                "velocity (11) and acceleration (12) in m, mm, um, their rates, g",
                                axis->kind, axis->unit),
                    "export with SI units");
       }
       if (axis == &force && !force_scale(*axis)) {
-        return bad(fmt::format("denominator of type {} in \"{}\"; allowed is force (13) in N, kN",
+        return bad(fmt::format("denominator of type {} in \"{}\"; allowed: force (13) in N, kN",
                                axis->kind, axis->unit),
                    "export the response to a force");
       }
@@ -210,7 +210,7 @@ class UffReader {
                  "export real and imaginary part");
     }
     if (head[1] < 1 || static_cast<std::size_t>(head[1]) > kMostPoints) {
-      return bad(fmt::format("{} values; allowed are 1 … {}", head[1], kMostPoints),
+      return bad(fmt::format("{} values; allowed: 1 … {}", head[1], kMostPoints),
                  "export the response again");
     }
     count_ = static_cast<std::size_t>(head[1]);

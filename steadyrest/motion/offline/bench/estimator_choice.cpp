@@ -94,7 +94,7 @@ std::optional<Refusal> unfit_limit(std::string_view what, double value) {
   if (value > 0.0) {
     return std::nullopt;
   }
-  return refuse(fmt::format("{} = {:.10g}; allowed is a number above 0", what, value),
+  return refuse(fmt::format("{} = {:.10g}; allowed: a number above 0", what, value),
                 "give the limit of the axis, or leave it out");
 }
 
@@ -102,7 +102,7 @@ std::optional<Refusal> unfit_amount(std::string_view what, double value) {
   if (value >= 0.0 && std::isfinite(value)) {
     return std::nullopt;
   }
-  return refuse(fmt::format("{} = {:.10g}; allowed is a finite number from 0", what, value),
+  return refuse(fmt::format("{} = {:.10g}; allowed: a finite number from 0", what, value),
                 "give a value in that range");
 }
 

@@ -25,7 +25,7 @@ std::optional<Refusal> unfit(std::initializer_list<Given> values) {
     if (!std::isfinite(given.value) || given.value <= 0.0) {
       return Refusal{
           Kind::bad_input, "", 0,
-          fmt::format("{} = {:.10g}; allowed is a finite number above 0", given.what, given.value),
+          fmt::format("{} = {:.10g}; allowed: a finite number above 0", given.what, given.value),
           "give a value above 0"};
     }
   }

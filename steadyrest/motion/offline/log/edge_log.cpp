@@ -44,7 +44,7 @@ std::expected<std::int64_t, Fault> count_of(const Row& row, std::size_t column) 
   if (std::abs(*real) > static_cast<double>(kMaxCount)) {
     return std::unexpected(Fault{
         row.line(),
-        fmt::format("count = {} is out of range; allowed is ±{}", table::shown(field), kMaxCount),
+        fmt::format("count = {} is out of range; allowed: ±{}", table::shown(field), kMaxCount),
         std::string(kRepair)});
   }
   if (*real != std::trunc(*real)) {
@@ -147,7 +147,7 @@ class EdgeLogReader::Parser final : public table::Sink {
     }
     if (std::abs(*t_s) > kMaxTime_s) {
       return Fault{row.line(),
-                   fmt::format("t_s = {:g} is out of range; allowed is ±{:g} s", *t_s, kMaxTime_s),
+                   fmt::format("t_s = {:g} is out of range; allowed: ±{:g} s", *t_s, kMaxTime_s),
                    std::string(kRepair)};
     }
     const auto count = count_of(row, count_);

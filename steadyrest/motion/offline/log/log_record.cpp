@@ -19,7 +19,7 @@ std::optional<Refusal> outside(const char* what, double value, bool zero_allowed
     return std::nullopt;
   }
   return Refusal{Kind::bad_input, "", 0,
-                 fmt::format("{} = {:.10g}; allowed is a finite number {} 0", what, value,
+                 fmt::format("{} = {:.10g}; allowed: a finite number {} 0", what, value,
                              zero_allowed ? "from" : "above"),
                  "give a value in that range"};
 }
@@ -68,11 +68,10 @@ std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& con
   if (!(last - first < allowed)) {
     return Refusal{
         Kind::bad_input, log.file, log.longest_step_line,
-        fmt::format(
-            "{} rows span {:.6g} s, which is {:.3g} control cycles; allowed are {:.3g}. The "
-            "time goes on by {:.6g} s before this row",
-            log.rows.size(), log.rows.back().t_s - log.rows.front().t_s, last - first, allowed,
-            log.longest_step_s),
+        fmt::format("{} rows span {:.6g} s, which is {:.3g} control cycles; allowed: {:.3g}. The "
+                    "time goes on by {:.6g} s before this row",
+                    log.rows.size(), log.rows.back().t_s - log.rows.front().t_s, last - first,
+                    allowed, log.longest_step_s),
         "look for a wrong time stamp, or split the log"};
   }
   if (last < first) {

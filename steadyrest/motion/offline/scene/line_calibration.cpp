@@ -36,10 +36,9 @@ kernel::outcome::Result<LineTable> table_for(const Record& record,
   const std::uint64_t more =
       static_cast<std::uint64_t>(range.last) - static_cast<std::uint64_t>(range.first);
   if (range.last < range.first || more >= LineTable::kMaxLines) {
-    return refuse(
-        fmt::format("the table would go from line {} to line {}; allowed are 1 … {} lines",
-                    range.first, range.last, LineTable::kMaxLines),
-        "give a range A:B of lines with A ≤ B, or the counts of one revolution");
+    return refuse(fmt::format("the table would go from line {} to line {}; allowed: 1 … {} lines",
+                              range.first, range.last, LineTable::kMaxLines),
+                  "give a range A:B of lines with A ≤ B, or the counts of one revolution");
   }
   out.first_line = range.first;
   out.lines = static_cast<std::size_t>(more) + 1;
@@ -81,7 +80,7 @@ kernel::outcome::Result<LineCalibration> calibrate_lines(const Record& record,
     return refuse("there is no edge in the record", "record the axis while it moves");
   }
   if (config.passes < 1 || config.passes > kMaxPasses) {
-    return refuse(fmt::format("passes = {}; allowed is 1 … {}", config.passes, kMaxPasses),
+    return refuse(fmt::format("passes = {}; allowed: 1 … {}", config.passes, kMaxPasses),
                   "give a value in that range");
   }
   auto table = table_for(record, config);

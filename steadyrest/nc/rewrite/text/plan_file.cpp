@@ -80,7 +80,7 @@ class PlanReader {
       const auto line = 1 + static_cast<std::size_t>(std::ranges::count(seen, '\n'));
       return refuse("not JSON", "write the plan as JSON; see nc/rewrite/README.md", line);
     }
-    return twice.empty() || refuse_key(twice, "a key that stands twice", "leave one of them");
+    return twice.empty() || refuse_key(twice, "a key that appears twice", "keep one of them");
   }
 
   bool root() {

@@ -74,7 +74,7 @@ class ClockMaker {
         ++twice;
         first_twice = first_twice == 0 ? line : first_twice;
       } else if (t == out_.time_s.back()) {
-        return Fault{line, fmt::format("{} stands twice, with different values", shown(t)),
+        return Fault{line, fmt::format("{} appears twice, with different values", shown(t)),
                      "give each row its own time, with enough digits"};
       } else {
         return runs_back(t, line);
@@ -82,7 +82,7 @@ class ClockMaker {
     }
     if (twice > 0) {
       out_.notes.push_back(
-          {first_twice, fmt::format("{} rows stand twice", twice), "each was taken once"});
+          {first_twice, fmt::format("{} rows appear twice", twice), "each was used once"});
     }
     return out_.row.size() >= kLeastRows
                ? std::nullopt

@@ -228,10 +228,10 @@ TEST(Planner, SaysWhichOptionIsOutOfRange) {
   };
   PlanOptions options;
   options.least_probability = 1.1;
-  EXPECT_EQ(what(options), "probability in % = 110; allowed is from 0 to 100");
+  EXPECT_EQ(what(options), "probability in % = 110; allowed: from 0 to 100");
   options = {};
   options.uncertainty.samples = 5000;
-  EXPECT_EQ(what(options), "number of possible cuts = 5000; allowed is from 1 to 4096");
+  EXPECT_EQ(what(options), "number of possible cuts = 5000; allowed: from 1 to 4096");
   options = {};
   options.most_depth_mm = 0.5;
   EXPECT_EQ(what(options), "borders are to be sought up to 0.5 mm, the wanted depth is 1");

@@ -101,7 +101,7 @@ TEST(SignalFile, RefusesTextByLine) {
   expect_refused("t_s,value\n0,1\n", "1 samples");
   expect_refused("# x\ntime,value\n0,1\n", "t_s is missing", 2);
   expect_refused("t_s,val\n0,1\n", "value is missing", 1);
-  expect_refused("t_s,value,t_s\n0,1,0\n", "t_s stands twice", 1);
+  expect_refused("t_s,value,t_s\n0,1,0\n", "t_s appears twice", 1);
   expect_refused(head + "0.003\n", "the row has 1 fields, the header 2", 5);
   expect_refused(head + "0.003,4,5\n", "3 fields", 5);
   expect_refused(head + "0.003,nan\n", "value = \"nan\" is not a finite number", 5);

@@ -164,7 +164,7 @@ TEST(ThermalLog, RowsThatStandTwiceAreTakenOnce) {
   text.insert(at, row);
   const Log log = parsed(text);
   EXPECT_EQ(log.rows(), 400U);
-  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:13: 1 rows stand twice")));
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:13: 1 rows appear twice")));
 }
 
 TEST(ThermalLog, SingleReadingsThatCannotBeAreLeftOut) {
