@@ -176,7 +176,7 @@ TEST(LogSpelling, ChatterFitReadsAccelerance) {
     EXPECT_NEAR(fit["modes"][0][key], wanted, 1e-5 * wanted) << key;
   }
   const Finished said = run_line("chatter fit " + log + " --axis x");
-  EXPECT_THAT(said.out, HasSubstr("acceleration per force, taken as displacement by −1/ω²"));
+  EXPECT_THAT(said.out, HasSubstr("acceleration per force, converted to displacement by −1/ω²"));
   EXPECT_THAT(said.out, HasSubstr("coherence below 0.8"));
 }
 

@@ -50,7 +50,7 @@ TEST(ChatterPlan, NamesTheBestSpeedsOfTheSpindle) {
     EXPECT_EQ(radius["stable"], true) << rpm;
   }
   EXPECT_THAT(run_line(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1").out,
-              HasSubstr("best speeds of the spindle"));
+              HasSubstr("best spindle speeds"));
 }
 
 TEST(ChatterPlan, KeepsWhatIsStable) {

@@ -120,7 +120,7 @@ TEST(ThermalAdapt, OfThreePartsOutliersCountForTheLevelAndTheGainsStay) {
             std::string::npos);
   const Finished shown = run_line(adapt(scratch, far));
   EXPECT_NE(shown.out.find("outlier: line 3, part b, -900.0 µm"), std::string::npos) << shown.out;
-  EXPECT_NE(shown.out.find("Outliers count for the level"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("Outliers count towards the level"), std::string::npos) << shown.out;
   EXPECT_NE(shown.out.find("3 parts are too few"), std::string::npos) << shown.out;
 }
 
@@ -165,7 +165,7 @@ TEST(ThermalAdapt, APlanThatNamesNoWorkStillGivesTheLevel) {
 TEST(ThermalAdapt, RefusesWhatDoesNotFitThePlan) {
   const Scratch scratch;
   expect_refused(adapt(scratch, ""), "no measured part");
-  expect_refused(adapt(scratch, "part,time_min,deviation_um\n1,301,3\n"), "behind the plan's end");
+  expect_refused(adapt(scratch, "part,time_min,deviation_um\n1,301,3\n"), "after the plan's end");
   expect_refused(adapt(scratch, "part,transition,deviation_um\n1,6,3\n"), "no transition 6");
   expect_refused(adapt(scratch, "part,transition,deviation_um\n1,stage 9,3\n"),
                  "no transition stage 9");

@@ -186,7 +186,7 @@ TEST(ThermalFit, AnHourIsEnoughWithTheTimeConstantsOfALongerTest) {
 TEST(ThermalForecast, RefusesALogBesideACyclogram) {
   expect_refused("thermal forecast --machine examples/paper-thermal/machine.toml --log " + kLog +
                      " --cyclogram examples/paper-thermal/cyclogram.toml",
-                 "inputs recorded");
+                 "already has the inputs");
 }
 
 }  // namespace
