@@ -160,8 +160,7 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
       request.from_s = log->origin_s + 60.0 * *options.from_min;
     }
     if (request.rezero_s > 0.0 && !request.channel) {
-      return refused(refusal(options.log,
-                             fmt::format("the log has no measurement of {}", axis.name),
+      return refused(refusal(options.log, fmt::format("{} is not measured in the log", axis.name),
                              fmt::format("name its column: --channel z_um={}", axis.name)));
     }
     auto points = offline::replay(axis, *log, request);
@@ -172,7 +171,7 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
     axes.push_back({axis.name, axis.noise_mm, std::move(*points), worth});
   }
   if (axes.empty()) {
-    return refused(refusal(options.machine, "the passport has none of the axes you named",
+    return refused(refusal(options.machine, "the passport has none of the axes that are named",
                            "choose an axis of the passport"));
   }
   if (!options.output.empty()) {

@@ -119,15 +119,15 @@ Result<Level> level_of(const ThermalPlanFile& plan, const Thermal& passport) {
     return refuse(plan.plan.file, 0,
                   fmt::format("level {} has no share; [thermal] shares of the machine file has {}",
                               number, passport.share.size()),
-                  "give the machine file the plan was made with");
+                  "give the machine file that the plan was made with");
   }
   const Level out{static_cast<std::uint32_t>(number),
                   passport.share[static_cast<std::size_t>(number)]};
   if (plan.share && std::abs(*plan.share - out.share) > 1e-9) {
     return refuse(plan.plan.file, 0,
-                  fmt::format("the plan's k = {} differs from the machine file's {} for level {}",
+                  fmt::format("the plan's k = {} is not the machine file's {} of level {}",
                               *plan.share, out.share, out.number),
-                  "plan again with the current machine file");
+                  "plan again with the machine file as it is now");
   }
   return out;
 }
@@ -262,7 +262,7 @@ Result<std::optional<ThermalJob>> work_of(const Options& options, const ThermalP
     return refuse(plan.plan.file, 0,
                   fmt::format("the plan lasts {:.2f} min, {} {:.2f} min", plan.plan.total_s / 60.0,
                               job->cyclogram.file, total_s / 60.0),
-                  "give the cyclogram or the program the plan was made for");
+                  "give the cyclogram or the program that the plan was made for");
   }
   return std::optional(std::move(*job));
 }
@@ -350,7 +350,7 @@ void add_verb_thermal_adapt(Session& session) {
                    "thermal adapt examples/paper-thermal/plan.json --measured "
                    "examples/paper-thermal/measured.csv");
   auto options = std::make_shared<Options>();
-  verb.reads("plan", options->plan, "PLAN.json the parts were cut with")->required();
+  verb.reads("plan", options->plan, "PLAN.json that the parts were made with")->required();
   verb.reads("--measured", options->measured,
              "CSV: part; transition, time_min or stamps; deviation_um (tool position minus correct "
              "position); optionally tolerance_um, axis")
