@@ -119,7 +119,7 @@ TEST(LogSpelling, MotionEstimateKnowsCyclesFromEdges) {
   const std::string rest = " --count-mm 0.001 --cycle-hz 1000 -o " + scratch.at("out.csv");
   expect_refused("motion estimate " + log + " --input edges" + rest, "--input ticks");
   expect_refused("motion calibrate " + log + " --count-mm 0.001 -o " + scratch.at("out.toml"),
-                 "is no log of edges");
+                 "is not a log of edges");
   expect_refused("motion estimate examples/logs/sine-edges.csv --input ticks" + rest,
                  "--input edges");
   EXPECT_EQ(answer_of("motion estimate " + log + " --input ticks" + rest)["ticks"], 500);

@@ -42,7 +42,7 @@ SpeedTable::Advice found(double ratio, double speed_rev_s, Reason reason) noexce
 
 kernel::outcome::Result<SpeedTable> SpeedTable::make(Config config) {
   if (config.speed_rev_s.size() != config.limit_depth_mm.size()) {
-    return std::unexpected(refuse("there are not as many depths as speeds"));
+    return std::unexpected(refuse("the numbers of depths and speeds differ"));
   }
   if (!within(config.speed_rev_s, std::numeric_limits<double>::min()) ||
       std::ranges::adjacent_find(config.speed_rev_s, std::greater_equal<>{}) !=

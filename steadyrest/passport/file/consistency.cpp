@@ -220,7 +220,7 @@ void chatter(const Machine& machine, List& out) {
   });
   if (within < 2) {
     out.push_back({Severity::error, "chatter",
-                   "[chatter] is enabled, but the spindle's override has no two steps within "
+                   "[chatter] is enabled, but the spindle override has fewer than two steps within "
                    "[envelope]",
                    "give [override.spindle], or set enabled = false in [chatter]"});
   }

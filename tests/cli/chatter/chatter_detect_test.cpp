@@ -194,10 +194,10 @@ TEST(ChatterDetect, Refuses) {
   const std::string whole = wav(cut(false));
   expect_refused(detect(scratch.file("cut.wav", whole.substr(0, whole.size() / 2)),
                         " --teeth 2 --speed-rpm 5000"),
-                 "the file is cut off");
+                 "the file is truncated");
   expect_refused(detect(scratch.file("text.wav", "t_s,value\n")), "is not RIFF");
   expect_refused(detect(scratch.file("gap.csv", "t_s,value\n0,1\n0.001,1\n0.002,1\n0.004,1\n")),
-                 "gap.csv:5: t_s goes on by 0.002 s");
+                 "gap.csv:5: t_s advances by 0.002 s");
   expect_refused(detect(scratch.file("none.csv", "t_s,speed_rpm\n0,1\n")),
                  "none.csv:1: the column value is missing");
   expect_refused(detect(scratch.file("short.csv", "t_s,value,speed_rpm\n0,1,60\n0.001,1,60\n")),

@@ -273,7 +273,7 @@ void add_options(Verb& verb, Options& o) {
   verb.add_option("--speed-rpm", o.speed_rpm, "Programmed spindle speed")->required();
   verb.add_option("--depth-mm", o.depth_mm, "Depth of cut you want")->required();
   verb.add_option("--probability-percent", o.probability_percent,
-                  "Share of the sampled cuts that must be stable")
+                  "Share of the possible cuts that must be stable")
       ->capture_default_str();
   verb.add_option("--frequency-sigma-percent", o.frequency_percent,
                   "Standard deviation of the natural frequencies")
@@ -284,9 +284,9 @@ void add_options(Verb& verb, Options& o) {
   verb.add_option("--coefficient-sigma-percent", o.coefficient_percent,
                   "Standard deviation of Kt and of Kr")
       ->capture_default_str();
-  verb.add_option("--samples", o.plan.uncertainty.samples, "Number of sampled cuts")
+  verb.add_option("--samples", o.plan.uncertainty.samples, "Number of possible cuts")
       ->capture_default_str();
-  verb.add_option("--seed", o.plan.uncertainty.seed, "Seed for the sampled cuts")
+  verb.add_option("--seed", o.plan.uncertainty.seed, "Seed for the possible cuts")
       ->capture_default_str();
   verb.add_option("--growth", o.plan.most_growth,
                   "Largest growth of a vibration within one period of the law, as a factor")

@@ -56,7 +56,7 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
           Refusal{Kind::bad_input, "", 0,
                   fmt::format("RVF {} has no principal period of {} tooth passes or less",
                               config.modulation.rvf, kMostPasses),
-                  "take RVF = teeth/q with whole q, or a ratio of small whole numbers"});
+                  "use RVF = teeth/q with whole q, or a ratio of small whole numbers"});
     }
   }
   if (auto refusal =

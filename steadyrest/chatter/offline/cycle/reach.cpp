@@ -25,8 +25,8 @@ constexpr double kMostDepth_mm = 1e5;   ///< of all machines
 constexpr int kHalvings = 80;
 
 constexpr const char* kCheck =
-    "give what the machine does, and check frequency_hz, mass_kg or stiffness_N_um and the "
-    "coefficients of the process file";
+    "give what the machine really does, and check frequency_hz, mass_kg or stiffness_N_um and the "
+    "coefficients in the process file";
 
 double passes_per_rev(const Process& process) noexcept {
   return process.even_pitch() ? static_cast<double>(process.tool.teeth) : 1.0;
@@ -99,8 +99,8 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
   }
   if (const double turns = winding(process, most_depth_mm); turns > kMostWinding) {
     return refusal(
-        fmt::format("at a depth of {:.6g} mm a helical edge winds {:.4g} times round the "
-                    "tool; allowed: {:g} turns, {:.4g} mm",
+        fmt::format("at a depth of {:.6g} mm a helical edge winds {:.4g} times around the tool; "
+                    "allowed: {:g} turns, {:.4g} mm",
                     most_depth_mm, turns, kMostWinding, most_depth_mm * kMostWinding / turns),
         "give a smaller depth, or check diameter_mm and helix_deg of [tool]");
   }

@@ -193,8 +193,9 @@ Result<BorderLine> border_line(const Process& process, const BorderLineConfig& c
   const std::vector<double>& speed = config.speed_rev_s;
   const bool rises = std::ranges::adjacent_find(speed, std::ranges::greater_equal{}) == speed.end();
   if (speed.empty() || !rises) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0, "the speeds of the border do not rise",
-                                   "give at least one speed, rising"});
+    return std::unexpected(Refusal{Kind::bad_input, "", 0,
+                                   "the border speeds are not in rising order",
+                                   "give one speed or more, in rising order"});
   }
   return Line(process, config).run(progress);
 }

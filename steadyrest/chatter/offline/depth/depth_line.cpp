@@ -40,7 +40,7 @@ double least_decay_1_s(const Process& process) {
 Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
                                   const Modulation& modulation, double most_depth_mm) {
   if (process.modes.empty()) {
-    return refusal("the process has no mode", "name at least one mode that vibrates");
+    return refusal("the process has no mode", "give at least one vibration mode");
   }
   if (!(speed_rev_s > 0.0) || !std::isfinite(speed_rev_s)) {
     return refusal(fmt::format("speed {} rev/s; allowed: above 0", speed_rev_s),

@@ -32,7 +32,7 @@ std::optional<Refusal> fault(const LobeMapConfig& config) {
                    "give fewer steps; the border is refined between them"};
   }
   if (depth.empty() || !(depth.front() >= 0.0) || !(depth.back() > 0.0)) {
-    return Refusal{Kind::bad_input, "", 0, "depths must start at 0 or above and reach above 0",
+    return Refusal{Kind::bad_input, "", 0, "depths must start at 0 or above and end above 0",
                    "give rising depths"};
   }
   for (std::size_t i = 1; i < depth.size(); ++i) {

@@ -96,7 +96,7 @@ void AlternativeCheck::reject_unlikely(Alternative& a) const {
   a.probability = probability(a, depth_mm_);
   if (*a.probability < options_->least_probability) {
     a.reasons.push_back(
-        fmt::format("only {:.0f} % of the possible cuts are stable; {:.0f} % are wanted",
+        fmt::format("only {:.0f} % of the possible cuts are stable; {:.0f} % must be",
                     100.0 * *a.probability, 100.0 * options_->least_probability));
   }
 }
@@ -108,8 +108,8 @@ void AlternativeCheck::reject_below_depth(Alternative& a) const {
                     a.limit_depth_mm ? fmt::format(" from {:.4g} mm on", *a.limit_depth_mm) : ""));
   } else if (a.limit_depth_mm && *a.limit_depth_mm < depth_mm_) {
     a.reasons.push_back(
-        fmt::format("stable again at this depth, but unstable from {:.4g} mm on, which the tool "
-                    "passes on its way in",
+        fmt::format("stable again at this depth, but unstable from {:.4g} mm on, and the tool "
+                    "passes through that on its way in",
                     *a.limit_depth_mm));
   }
 }
@@ -195,10 +195,10 @@ void AlternativeCheck::reject_unstable_as_written(Alternative& law) const {
   cycle->set_depth(depth_mm_);
   law.written_log_radius = stability(*cycle, {}).log_radius;
   if (*law.written_log_radius >= 0.0) {
-    law.reasons.push_back(fmt::format(
-        "stable as the law has it (ln ρ {:.3g}), but unstable as the override writes it "
-        "(ln ρ {:.3g})",
-        law.log_radius.value_or(0.0), *law.written_log_radius));
+    law.reasons.push_back(
+        fmt::format("stable under the ideal law (ln ρ {:.3g}), but unstable as the override writes "
+                    "it (ln ρ {:.3g})",
+                    law.log_radius.value_or(0.0), *law.written_log_radius));
     return;
   }
   const double grown = log_growth_seen(*cycle);

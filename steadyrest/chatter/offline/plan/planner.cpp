@@ -262,8 +262,9 @@ std::string words(const Alternative& a) {
 
 void Planner::explain_nothing(const AlternativeCheck& check) {
   if (out_.helping_ratio) {
-    note(fmt::format("no law helps at {:.4g} mm; a constant {:.4g} % does, which was not asked for",
-                     depth_, 100.0 * *out_.helping_ratio));
+    note(fmt::format(
+        "no law helps at {:.4g} mm; a constant {:.4g} % does, but only laws were asked for", depth_,
+        100.0 * *out_.helping_ratio));
     return;
   }
   const Alternative* deepest = nullptr;
@@ -275,17 +276,17 @@ void Planner::explain_nothing(const AlternativeCheck& check) {
   }
   if (deepest != nullptr) {
     out_.likely_depth_mm = check.likely_depth_mm(*deepest);
-    note(fmt::format(
-        "nothing helps at {:.4g} mm; the deepest border is {:.4g} mm, with {}; up to {:.3g} mm it "
-        "is stable for {:.0f} % of the possible cuts",
-        depth_, *deepest->limit_depth_mm, words(*deepest), out_.likely_depth_mm,
-        100.0 * options_.least_probability));
+    note(
+        fmt::format("nothing helps at {:.4g} mm; the deepest border is {:.4g} mm, with {}; up to "
+                    "{:.3g} mm it is stable for {:.0f} % of the possible cuts",
+                    depth_, *deepest->limit_depth_mm, words(*deepest), out_.likely_depth_mm,
+                    100.0 * options_.least_probability));
   }
   if (out_.chatter_frequency_hz) {
     const double per_pass =
         *out_.chatter_frequency_hz / (static_cast<double>(process_.tool.teeth) * speed_);
     note(
-        fmt::format("the vibration of {:.0f} Hz makes {:.2f} waves between two teeth; a law that "
+        fmt::format("the {:.0f} Hz vibration makes {:.2f} waves between two teeth; a law that "
                     "breaks its rhythm needs an amplitude of about {:.0f} %",
                     *out_.chatter_frequency_hz, per_pass, 50.0 / per_pass));
   }
@@ -314,15 +315,14 @@ void Planner::explain(const AlternativeCheck& check) {
                              ? out_.chosen.ratio
                              : out_.chosen.demand.written_ratio.back();
   if (highest > 1.0 + kSame && !machine_.spindle_override.layer_may_exceed_panel) {
-    note(
-        fmt::format("the panel's spindle override must stand at {:.4g} % or above: the layer may "
-                    "not exceed it",
-                    100.0 * highest));
+    note(fmt::format(
+        "the spindle override on the panel must be {:.4g} % or more: the layer may not exceed it",
+        100.0 * highest));
   }
   if (out_.decision == PlanDecision::law && machine_.spindle_override.dead_time_s > 0.0) {
     note(
-        fmt::format("the override acts {:.0f} ms late: the law is shifted and a withdrawal waits "
-                    "for that long",
+        fmt::format("the override acts {:.0f} ms late: the law is shifted by that, and a "
+                    "withdrawal takes that much longer",
                     1e3 * machine_.spindle_override.dead_time_s));
   }
 }

@@ -53,7 +53,7 @@ class FileReader {
     }
     check_diameter(cut, tool);
     if (root.get("mode") == nullptr && root.get("frf") == nullptr) {
-      faults_.add(0, "there is no mode: nothing can vibrate",
+      faults_.add(0, "there is no mode: nothing vibrates",
                   "add one [[mode]] for each mode of tool and workpiece, or a measured [[frf]]");
     }
     each(root, "mode", [this](const toml::table& table) { mode(table); });
@@ -79,7 +79,7 @@ class FileReader {
     if (table == nullptr) {
       faults_.add(line_of(node->source()),
                   fmt::format("{} = {} is not a section", name, passport::shown(*node)),
-                  fmt::format("write {} on a line of its own, its keys below", head));
+                  fmt::format("write {} on a separate line, with its keys below", head));
       return {};
     }
     return SectionReader<S>(faults_, keys, head).read(*table, out);
@@ -115,9 +115,9 @@ class FileReader {
   void check_length(const Given& tool, std::string_view key, const std::vector<double>& list) {
     if (!list.empty() && tool.has("teeth") && list.size() != process_.tool.teeth) {
       faults_.add(tool.at({key}),
-                  fmt::format("{} has {} entries, the tool {} teeth", key, list.size(),
+                  fmt::format("{} has {} entries; the tool has {} teeth", key, list.size(),
                               process_.tool.teeth),
-                  "give one entry for each tooth");
+                  "give one entry per tooth");
     }
   }
 
@@ -158,7 +158,7 @@ class FileReader {
     }
     if (process_.cut.process_damping_n_mm != 0.0) {
       faults_.add(cut.at({"process_damping_N_mm"}),
-                  "process_damping_N_mm without diameter_mm, which makes the cutting speed",
+                  "process_damping_N_mm without diameter_mm, which sets the cutting speed",
                   "add diameter_mm = … to [tool]");
     }
   }
@@ -173,13 +173,13 @@ class FileReader {
     const toml::array* list = node->as_array();
     if (list == nullptr) {
       faults_.add(line_of(node->source()), fmt::format("{} is not a list of sections", name),
-                  fmt::format("write [[{}]] with double brackets, once for each", name));
+                  fmt::format("write [[{}]] with double brackets, one per entry", name));
       return;
     }
     if (list->empty() || list->size() > kMostModes) {
       faults_.add(line_of(node->source()),
                   fmt::format("{} has {} entries; allowed: 1 … {}", name, list->size(), kMostModes),
-                  "give those that matter for the cut");
+                  "keep those that matter for the cut");
       return;
     }
     for (const toml::node& element : *list) {
@@ -187,7 +187,7 @@ class FileReader {
       if (table == nullptr) {
         faults_.add(line_of(element.source()),
                     fmt::format("{} = {} is not a section", name, passport::shown(element)),
-                    fmt::format("write [[{}]] on a line of its own, its keys below", name));
+                    fmt::format("write [[{}]] on a separate line, with its keys below", name));
         return;
       }
       read(*table);
@@ -292,7 +292,7 @@ ProcessOrFaults parse_process_all_faults(std::string_view text, const std::strin
   Process process;
   if (auto refusal = passport::unfit_text(text)) {
     refusal->file = file;
-    refusal->to_do = "give a process file: TOML in plain UTF-8, as those in examples/processes/";
+    refusal->to_do = "give a process file: TOML in plain UTF-8, like those in examples/processes/";
     faults.list.push_back(std::move(*refusal));
   } else {
     process = parse_toml(text, faults);

@@ -62,12 +62,12 @@ class FrfSink final : public table::Sink {
       column.push_back(column_of(name));
     }
     if (column.size() < 3) {
-      return bad(fmt::format("the head has {} columns; 3 are needed", column.size()));
+      return bad(fmt::format("the header has {} columns; 3 are needed", column.size()));
     }
     polar_ = column[1].name == "magnitude";
     if (column[0].name != "frequency" || (!polar_ && column[1].name != "real") ||
         column[2].name != (polar_ ? "phase" : "imag")) {
-      return bad(fmt::format("the head is {},{},{}", table::shown(column[0].name),
+      return bad(fmt::format("the header is {},{},{}", table::shown(column[0].name),
                              table::shown(column[1].name), table::shown(column[2].name)));
     }
     if (column[0].unit != "hz") {
@@ -88,7 +88,7 @@ class FrfSink final : public table::Sink {
       if (column[i].name == "coherence" && !coherence_) {
         coherence_ = i;
       } else if (!head.name[i].empty()) {
-        return bad(fmt::format("the column {} is not known", table::shown(head.name[i])));
+        return bad(fmt::format("the column {} is unknown", table::shown(head.name[i])));
       }
     }
     return std::nullopt;
@@ -129,7 +129,7 @@ class FrfSink final : public table::Sink {
     const std::complex<double> h = displacement_of(measured, value[0], out_.measured_order);
     if (!possible(h)) {
       return Fault{row.line(), fmt::format("the response at {} Hz is out of range", value[0]),
-                   "check the unit in the head"};
+                   "check the unit in the header"};
     }
     out_.frequency_hz.push_back(value[0]);
     out_.compliance_mm_n.push_back(h);

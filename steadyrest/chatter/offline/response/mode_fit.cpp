@@ -302,8 +302,9 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
   if (data.w.size() < static_cast<Index>(kLeastPoints) || most < 1 || most > 16) {
     return std::unexpected(Refusal{
         Kind::bad_input, "", 0,
-        fmt::format("{} points in the band for up to {} modes; needed are {} and 1 … 16 modes",
-                    data.w.size(), most, kLeastPoints),
+        fmt::format(
+            "{} points in the band for up to {} modes; {} points are needed, and 1 … 16 modes",
+            data.w.size(), most, kLeastPoints),
         "give more of the response or fewer modes"});
   }
   Model model;
@@ -335,9 +336,9 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
     }
   }
   if (!best) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "no mode with a positive mass explains the response",
-                                   "check the sign and the unit, and that it is a drive point"});
+    return std::unexpected(
+        Refusal{Kind::bad_input, "", 0, "no mode with a positive mass explains the response",
+                "check the sign and the unit, and that this is a drive-point response"});
   }
   best->criterion = criterion;
   return *best;

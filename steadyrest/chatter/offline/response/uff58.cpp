@@ -133,7 +133,7 @@ class UffReader {
     return {Kind::bad_input, file_, at_, std::move(what), std::move(to_do)};
   }
   [[nodiscard]] Refusal truncated() const {
-    return bad("the file ends within a dataset", "it is cut off; export it again");
+    return bad("the file ends within a dataset", "it is truncated; export it again");
   }
 
   std::optional<Refusal> dataset() {
@@ -150,7 +150,7 @@ class UffReader {
     if (function != kFrequencyResponse) {
       return bad(
           fmt::format("function type {}; a frequency response is {}", function, kFrequencyResponse),
-          "export frequency responses alone");
+          "export only frequency responses");
     }
     if (auto fault = form()) {
       return fault;
@@ -192,7 +192,7 @@ class UffReader {
       const auto value = i < words.size() ? number(words[i]) : std::nullopt;
       if (!value || std::abs(*value) > 1e9 || *value != std::floor(*value)) {
         return bad("a whole number is missing in this record",
-                   "the file may be cut off here; export it again");
+                   "the file may be truncated here; export it again");
       }
       out[i] = static_cast<int>(*value);
     }
@@ -223,7 +223,7 @@ class UffReader {
     first_hz_ = field(3);
     step_hz_ = field(4);
     if (even_ && !(first_hz_ >= 0.0 && step_hz_ > 0.0)) {
-      return bad("even abscissa without a first frequency and a step above 0",
+      return bad("even abscissa spacing without a first frequency and a step above 0",
                  "export the response again");
     }
     return std::nullopt;
@@ -283,12 +283,12 @@ class UffReader {
       if (trimmed(line_) == "-1") {
         return bad(
             fmt::format("the data end after {} of {} points", values.size() / per_point, count_),
-            "the file is cut off; export it again");
+            "the file is truncated; export it again");
       }
       for (const std::string_view word : words_of(line_)) {
         const auto value = number(word);
         if (!value) {
-          return bad(fmt::format("\"{}\" is no number", word.substr(0, 40)),
+          return bad(fmt::format("\"{}\" is not a number", word.substr(0, 40)),
                      "export the response again");
         }
         values.push_back(*value);

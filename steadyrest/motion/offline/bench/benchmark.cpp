@@ -260,7 +260,7 @@ Result<std::vector<std::string>> chosen_estimators(const BenchConfig& config) {
     if (std::ranges::find(known, name) == known.end()) {
       return std::unexpected(Refusal{Kind::bad_input, "", 0,
                                      fmt::format("there is no estimator \"{}\"", name),
-                                     fmt::format("give some of {}", fmt::join(known, ","))});
+                                     fmt::format("choose from {}", fmt::join(known, ","))});
     }
   }
   return config.estimators;
@@ -280,8 +280,8 @@ Result<std::vector<SceneChoice>> chosen_scenes(const BenchConfig& config) {
       const bool folder = wanted.starts_with("recorded") && config.recorded_folder.empty();
       return std::unexpected(
           Refusal{Kind::bad_input, "", 0, fmt::format("there is no scene \"{}\"", wanted),
-                  folder ? "name the folder of the logs with --recorded"
-                         : fmt::format("give some of {}", fmt::join(names, ","))});
+                  folder ? "name the folder with the logs with --recorded"
+                         : fmt::format("choose from {}", fmt::join(names, ","))});
     }
   }
   std::vector<SceneChoice> out;

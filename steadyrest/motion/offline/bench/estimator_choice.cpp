@@ -148,11 +148,11 @@ EstimatorResult make_estimator(std::string_view name, const EstimatorSetup& setu
   }
   if (setup.lag_s > 0.0 && !choice->takes_lag) {
     return std::unexpected(
-        *refuse(fmt::format("the estimator {} takes no lag", name), "leave the lag out"));
+        *refuse(fmt::format("the estimator {} takes no lag", name), "leave out the lag"));
   }
   if (!setup.has_edges && choice->needs_edges) {
     return std::unexpected(*refuse(fmt::format("the estimator {} needs edges", name),
-                                   "give a log of edges, or take another estimator"));
+                                   "give a log of edges, or choose another estimator"));
   }
   if (choice->needs_acceleration && !std::isfinite(setup.max_acceleration_mm_s2)) {
     return std::unexpected(

@@ -96,20 +96,18 @@ std::optional<Refusal> other_kind(const EdgeLog& log, LogInput input, double cyc
   if (input == LogInput::edges && steps.even > kMostRows && steps.other > kFewRows &&
       (steps.standing > kFewRows || steps.on_grid > kMostRows ||
        counts_are_rounded(log, steps.median_s))) {
-    return Refusal{
-        Kind::bad_input, log.file, 0,
-        fmt::format("is no log of edges: its rows are {:.6g} ms apart, and {:.0f} % of them do not "
-                    "step by one count",
-                    1e3 * steps.median_s, 100.0 * (1.0 - steps.by_one)),
-        "a row for each cycle is --input ticks; calibrating takes a row for each edge"};
+    return Refusal{Kind::bad_input, log.file, 0,
+                   fmt::format("is not a log of edges: its rows are {:.6g} ms apart, and {:.0f} % "
+                               "of them do not step by one count",
+                               1e3 * steps.median_s, 100.0 * (1.0 - steps.by_one)),
+                   "one row per cycle is --input ticks; calibration needs one row per edge"};
   }
   if (input == LogInput::ticks && steps.by_one > kMostRows && steps.of_cycle < 0.5) {
-    return Refusal{
-        Kind::bad_input, log.file, 0,
-        fmt::format("is no log of cycles: {:.0f} % of its rows step by one count, and they are not "
-                    "{:.6g} ms apart but {:.6g} ms (median)",
-                    100.0 * steps.by_one, 1e3 / cycle_hz, 1e3 * steps.median_s),
-        "a row for each edge is --input edges; for cycles give --cycle-hz as they were logged"};
+    return Refusal{Kind::bad_input, log.file, 0,
+                   fmt::format("is not a log of cycles: {:.0f} % of its rows step by one count, "
+                               "and they are not {:.6g} ms apart but {:.6g} ms (median)",
+                               100.0 * steps.by_one, 1e3 / cycle_hz, 1e3 * steps.median_s),
+                   "one row per edge is --input edges; for cycles give --cycle-hz as logged"};
   }
   return std::nullopt;
 }

@@ -66,13 +66,12 @@ std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& con
   const double allowed = std::min(static_cast<double>(config.max_ticks),
                                   kFreeTicks + kTicksPerRow * static_cast<double>(log.rows.size()));
   if (!(last - first < allowed)) {
-    return Refusal{
-        Kind::bad_input, log.file, log.longest_step_line,
-        fmt::format("{} rows span {:.6g} s, which is {:.3g} control cycles; allowed: {:.3g}. The "
-                    "time goes on by {:.6g} s before this row",
-                    log.rows.size(), log.rows.back().t_s - log.rows.front().t_s, last - first,
-                    allowed, log.longest_step_s),
-        "look for a wrong time stamp, or split the log"};
+    return Refusal{Kind::bad_input, log.file, log.longest_step_line,
+                   fmt::format("{} rows span {:.6g} s, or {:.3g} control cycles; allowed: {:.3g}. "
+                               "Time advances by {:.6g} s before this row",
+                               log.rows.size(), log.rows.back().t_s - log.rows.front().t_s,
+                               last - first, allowed, log.longest_step_s),
+                   "look for a wrong time stamp, or split the log"};
   }
   if (last < first) {
     return std::nullopt;

@@ -77,7 +77,7 @@ std::size_t lines_learnt(const LineTable& table) {
 kernel::outcome::Result<LineCalibration> calibrate_lines(const Record& record,
                                                          const LineCalibrationConfig& config) {
   if (record.edges.empty()) {
-    return refuse("there is no edge in the record", "record the axis while it moves");
+    return refuse("the record has no edge", "record the axis while it moves");
   }
   if (config.passes < 1 || config.passes > kMaxPasses) {
     return refuse(fmt::format("passes = {}; allowed: 1 … {}", config.passes, kMaxPasses),

@@ -39,10 +39,10 @@ kernel::outcome::Result<MotionBound> MotionBound::make(const Config& config) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0, what, to_do});
   };
   if (!(config.cycle_s >= 1e-6 && config.cycle_s <= 1.0)) {
-    return refuse("the cycle is outside of 1e-6 … 1 s", "give the control's cycle time in s");
+    return refuse("the cycle is outside 1e-6 … 1 s", "give the control's cycle time in s");
   }
   if (!(config.clock_s >= 0.0 && config.clock_s <= config.cycle_s)) {
-    return refuse("the clock's period is outside of 0 … one cycle",
+    return refuse("the clock period is outside 0 … one cycle",
                   "give the period of the time stamps in s");
   }
   if (!(config.max_speed_mm_s > 0.0 && config.max_acceleration_mm_s2 > 0.0 &&

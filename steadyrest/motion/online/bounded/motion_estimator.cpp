@@ -37,7 +37,7 @@ bool in_range(double value, double low, double high) {
 kernel::outcome::Result<MotionEstimator> MotionEstimator::make(const Config& config) {
   if (!in_range(config.count_mm, 1e-9, 1e3)) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "the count's length is outside of 1e-9 … 1000 mm",
+                                   "the length of a count is outside 1e-9 … 1000 mm",
                                    "give the length of one count after ×4 decoding in mm"});
   }
   if (std::isnan(config.line_error_mm) || config.line_error_mm > config.count_mm) {
@@ -47,7 +47,7 @@ kernel::outcome::Result<MotionEstimator> MotionEstimator::make(const Config& con
   }
   if (!in_range(config.lag_s, 0.0,
                 static_cast<double>(LagSmoother::kMostTicks) * config.cycle_s * 1.001)) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0, "the lag is outside of 0 … 32 cycles",
+    return std::unexpected(Refusal{Kind::bad_input, "", 0, "the lag is outside 0 … 32 cycles",
                                    "give a lag of no more than 32 cycles"});
   }
   const auto bound = MotionBound::make({config.cycle_s, config.clock_s, config.max_speed_mm_s,

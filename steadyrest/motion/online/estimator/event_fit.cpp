@@ -19,7 +19,7 @@ kernel::outcome::Result<EventFit> EventFit::make(const Config& config) {
   if (!(config.count_mm > 0.0) || !(config.timeout_s > 0.0) || !(config.window_s >= 0.0) ||
       !(config.line_error_counts >= 0.0)) {
     return std::unexpected(
-        refuse_config("count, timeout, window or line error of the fit is negative or nothing"));
+        refuse_config("count, timeout, window or line error of the fit is negative or zero"));
   }
   if (config.degree < 1 || config.degree > 3) {
     return std::unexpected(refuse_config("degree of the fit is not within 1…3"));

@@ -32,7 +32,7 @@ kernel::outcome::Result<LineTable> LineTable::make(const Config& config) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0, what, to_do});
   };
   if (!(config.count_mm > 0.0) || !std::isfinite(config.count_mm)) {
-    return refuse("the count's length is not positive", "give the length of one count in mm");
+    return refuse("the length of a count is not positive", "give the length of one count in mm");
   }
   if (config.lines > kMaxLines) {
     return refuse("the table has more than 1 048 576 lines",
@@ -44,7 +44,7 @@ kernel::outcome::Result<LineTable> LineTable::make(const Config& config) {
   }
   if (!(config.learn >= 0.0 && config.learn <= 1.0) || !(config.max_span_s > 0.0) ||
       !(config.max_rms_counts > 0.0)) {
-    return refuse("the learning rate is outside of 0 … 1, or a limit is not positive",
+    return refuse("the learning rate is outside 0 … 1, or a limit is not positive",
                   "use the defaults");
   }
   return LineTable(config);
