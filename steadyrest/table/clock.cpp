@@ -67,8 +67,8 @@ std::expected<double, Fault> Clock::stamped(const Row& row) {
   } else if (zoned_ != stamp->zoned) {
     return std::unexpected(
         Fault{row.line(),
-              fmt::format("the stamp \"{}\" {} a time zone, the first row's {}", shown(field),
-                          stamp->zoned ? "has" : "has not", zoned_ ? "has" : "has not"),
+              fmt::format("the stamp \"{}\" {} time zone, the first row's {}", shown(field),
+                          stamp->zoned ? "has a" : "has no", zoned_ ? "does" : "does not"),
               "write every stamp with its time zone, or none"});
   }
   return static_cast<double>(stamp->whole_s - epoch_s_) + stamp->fraction_s;

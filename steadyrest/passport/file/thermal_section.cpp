@@ -71,7 +71,7 @@ void check(const Thermal& thermal, const Given& given, Faults& faults) {
     faults.add(
         given.at({"level", "shares"}),
         fmt::format("level = {}, but there are {} shares", thermal.level, thermal.share.size()),
-        fmt::format("choose a level of 0 … {}", thermal.share.size() - 1));
+        fmt::format("choose a level, 0 … {}", thermal.share.size() - 1));
   }
 }
 

@@ -202,7 +202,7 @@ TEST(RowReader, ReadsStampsWithADate) {
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00+01:00,1\n2026-11-22T09:00:01.000001Z,2\n").time_s,
               ElementsAre(32400.0, DoubleEq(32401.000001)));
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00Z,1\n2026-11-22 10:00:01,2\n").fault,
-              HasSubstr("3: the stamp \"2026-11-22 10:00:01\" has not a zone"));
+              HasSubstr("3: the stamp \"2026-11-22 10:00:01\" has no time zone"));
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00,1\n5,2\n").fault,
               HasSubstr("3: \"5\" is not a date and time"));
   EXPECT_THAT(said_by("t_s,z\n1,1\n2026-11-22 10:00:00,2\n").fault,

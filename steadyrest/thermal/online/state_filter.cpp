@@ -48,12 +48,12 @@ Result<StateFilter> StateFilter::make(const Config& config) {
     return std::unexpected(std::move(model.error()));
   }
   if (!usable(config)) {
-    return std::unexpected(Refusal{
-        Kind::bad_input,
-        {},
-        0,
-        "the filter of " + config.axis.name + " cannot be set up",
-        "give standard deviations ≥ 0, a gate > 0, and limits of the scale on either side of 1"});
+    return std::unexpected(
+        Refusal{Kind::bad_input,
+                {},
+                0,
+                "the filter for " + config.axis.name + " has bad settings",
+                "give standard deviations ≥ 0, a gate > 0, and scale limits on either side of 1"});
   }
   return StateFilter(config, std::move(*model));
 }

@@ -60,7 +60,7 @@ Result<ThermalModel> ThermalModel::make(const Config& config) {
     return std::unexpected(Refusal{Kind::bad_input,
                                    {},
                                    0,
-                                   "the thermal passport of " + config.name + " cannot be used",
+                                   "the thermal passport of " + config.name + " is incomplete",
                                    "give each mode a positive time constant and either a rising "
                                    "table of levels or a polynomial"});
   }

@@ -170,8 +170,8 @@ TEST(ThermalAdapt, RefusesWhatDoesNotFitThePlan) {
   expect_refused(adapt(scratch, "part,transition,deviation_um\n1,stage 9,3\n"),
                  "no transition stage 9");
   expect_refused(adapt(scratch, "part,axis,transition,deviation_um\n1,X,1,3\n"), "no axis X");
-  expect_refused(adapt(scratch, "part,time_min,deviation\n1,30,3\n"), "deviation is not known");
-  expect_refused(adapt(scratch, "part,time_min,deviation_mm\n1,30,3\n"), "look at the unit");
+  expect_refused(adapt(scratch, "part,time_min,deviation\n1,30,3\n"), "deviation is unknown");
+  expect_refused(adapt(scratch, "part,time_min,deviation_mm\n1,30,3\n"), "check the unit");
   expect_refused("thermal adapt " + kPlan, "--measured");
   expect_refused("thermal adapt nosuch.json --measured x.csv", "give the path of a plan (JSON)");
   expect_refused("thermal adapt examples --measured x.csv", "is a folder; give the path of a plan");

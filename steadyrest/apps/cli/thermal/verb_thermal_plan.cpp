@@ -222,7 +222,7 @@ Outcome run(const Options& options) {
     return refused(Refusal{
         Kind::bad_input, options.thermal.machine, 0,
         fmt::format("level {} has no share; [thermal] shares has {}", level, passport.share.size()),
-        fmt::format("choose a level from 0 to {}", passport.share.size() - 1)});
+        fmt::format("choose a level, 0 … {}", passport.share.size() - 1)});
   }
   thermal::offline::PlanRequest request;
   request.tolerance_mm = mm_from_um(options.tolerance_um);

@@ -223,7 +223,7 @@ class UffReader {
     first_hz_ = field(3);
     step_hz_ = field(4);
     if (even_ && !(first_hz_ >= 0.0 && step_hz_ > 0.0)) {
-      return bad("even abscissa spacing without a first frequency and a step above 0",
+      return bad("even abscissa without a first frequency and a step above 0",
                  "export the response again");
     }
     return std::nullopt;

@@ -241,14 +241,14 @@ Result<bool> PieceMaker::make(const Move& move, Piece& out) const {
     return refuse("a feed move without a feed above 0", "give F before or in this block");
   }
   if (out.plan.per_revolution && out.segment.feed_mm_s == 0.0) {
-    return refuse("a feed per revolution without a running spindle", "start the spindle before");
+    return refuse("a feed per revolution without a running spindle", "start the spindle first");
   }
   limit(out);
   if (!std::isfinite(out.plan.speed_limit_mm_s) && !std::isfinite(out.plan.feed_mm_s)) {
-    return refuse("a rapid move of axes that have no speed limit", "give max_speed of the axes");
+    return refuse("a rapid move of axes without a speed limit", "give max_speed of the axes");
   }
   if (!std::isfinite(out.plan.acceleration_mm_s2)) {
-    return refuse("a move of axes that have no acceleration limit",
+    return refuse("a move of axes without an acceleration limit",
                   "give max_acceleration of the axes");
   }
   if (s.geometry == Geometry::arc) {

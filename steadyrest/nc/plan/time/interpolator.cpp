@@ -44,8 +44,7 @@ Result<Interpolator> Interpolator::make(const Machine& machine, const PathWindow
   if (!(taps <= 10000.0)) {
     return std::unexpected(Refusal{Kind::bad_input, machine.file, 0,
                                    "the jerk limits ask for an averaging time of " +
-                                       std::to_string(taps) +
-                                       " periods, at most 10000 are possible",
+                                       std::to_string(taps) + " periods; the most is 10000",
                                    "raise max_jerk or lower max_acceleration"});
   }
   return Interpolator(machine, path, static_cast<std::size_t>(taps),

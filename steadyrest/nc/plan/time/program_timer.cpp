@@ -205,7 +205,7 @@ Result<ProgramTime> ProgramTimer::take() {
                                    {},
                                    0,
                                    "the program takes longer than 30 days",
-                                   "look for a feed or a dwell of the wrong unit"});
+                                   "look for a feed or a dwell in the wrong unit"});
   }
   ProgramTime& time = runner_->time;
   if (time.tools.size() > 1 && time.tools.front().seconds == 0.0) {

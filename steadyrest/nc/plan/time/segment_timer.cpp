@@ -363,7 +363,7 @@ Result<SegmentTimer::Timed> SegmentTimer::take_cyclogram() {
                                    {},
                                    0,
                                    "the program takes longer than 30 days",
-                                   "look for a feed or a dwell of the wrong unit"});
+                                   "look for a feed or a dwell in the wrong unit"});
   }
   return Timed{runner_->time_s(), runner_->cyclogram()};
 }

@@ -63,10 +63,10 @@ Result<std::vector<Chosen>> Schedule::choose() const {
           Kind::bad_input,
           {},
           0,
-          fmt::format("no safe place for the correction of {} planned at {:.1f} s lies within "
-                      "{:g} s of it",
-                      plan_.letter, step.time_s, window_s_),
-          "widen --window-s, or give the program a retract with an absolute G0 there"});
+          fmt::format(
+              "no safe place for the correction of {} planned at {:.1f} s within {:g} s of it",
+              plan_.letter, step.time_s, window_s_),
+          "widen --window-s, or add a retract with an absolute G0 there"});
     }
     chosen.push_back({*place, step});
   }

@@ -330,7 +330,7 @@ const Walk::Unsaid* Walk::unsaid(char letter, std::size_t index) const {
 const Walk::Unsaid* Walk::missing(std::size_t index) const noexcept {
   static constexpr Unsaid kDistance{"whether positions are absolute (G90)", "write G90 before it"};
   static constexpr Unsaid kOffset{"which work offset is active",
-                                  "write G54 (or the one that is meant) before it, or give the "
+                                  "write G54 (or the one you mean) before it, or give the "
                                   "control's variable file (--variables)"};
   static constexpr Unsaid kRotation{"whether a rotation is stored in the work offset",
                                     "give the control's variable file (--variables)"};

@@ -74,7 +74,7 @@ class Planner {
     const double band = request_.share * tolerance_mm;
     if (!(band > 0.0)) {
       return refuse(fmt::format("transition {} has no tolerance", i + 1),
-                    "give the plan a tolerance, or the transition its own");
+                    "give the plan or the transition a tolerance");
     }
     PlannedTransition row;
     row.name = cyclogram_.transition[i].name;
@@ -98,7 +98,7 @@ class Planner {
         continue;
       }
       if (piece.start_s + at_s - corrected_s_ < request_.min_interval_s) {
-        return refuse(fmt::format("corrections of {} would follow one another within {:.3g} s",
+        return refuse(fmt::format("corrections of {} would come within {:.3g} s of each other",
                                   place(i, at_s), piece.start_s + at_s - corrected_s_),
                       "give a wider tolerance or a lower level");
       }
@@ -181,7 +181,7 @@ class Planner {
     if (std::abs(corrected_mm_) > request_.max_offset_mm + kReached_mm) {
       return refuse(
           fmt::format(
-              "{} would be corrected by {:.1f} µm, more than the {:.1f} µm that the machine allows",
+              "{} would be corrected by {:.1f} µm, more than the {:.1f} µm the machine allows",
               place(i, at_s), std::abs(corrected_mm_) * 1e3, request_.max_offset_mm * 1e3),
           "let the machine cool down or warm up first, or raise [thermal] max_offset_um");
     }

@@ -70,7 +70,7 @@ TEST(PlanFile, NamesTheKeyThatIsMeant) {
   EXPECT_EQ(to_do(R"({"transitions": [{"n": 1, "tmin": [9], "delta_um": [3]}]})"),
             "write t_min if that is what you mean");
   EXPECT_EQ(to_do(R"({"transitions": [{"n": 1, "paint": [9], "delta_um": [3]}]})"),
-            "n, t_min, delta_um and name are");
+            "use n, t_min, delta_um and name");
 }
 
 TEST(PlanFile, RefusesAFileThatIsNotThere) {
