@@ -77,7 +77,7 @@ class FileReader {
     if (table == nullptr) {
       faults_.add(line_of(node->source()),
                   fmt::format("{} = {} is not a section", name, shown(*node)),
-                  fmt::format("write {} on a line of its own, its keys below", shown_name));
+                  fmt::format("write {} on a separate line, with its keys below", shown_name));
     }
     return table;
   }
@@ -126,7 +126,7 @@ class FileReader {
       } else {
         faults_.add(line_of(element.source()),
                     fmt::format("axis = {} is not a section", shown(element)),
-                    "write [[axis]] on a line of its own, its keys below");
+                    "write [[axis]] on a separate line, with its keys below");
         return;
       }
     }

@@ -153,8 +153,7 @@ std::string reference_page() {
                  "\nBelow its axis, at most four: the surroundings add gain·(lagged temperature − "
                  "reference).\n",
                  thermal_ambient_keys());
-  out += section("`[envelope]`",
-                 "\nThe last step before any write. There is no way to switch it off.\n",
+  out += section("`[envelope]`", "\nThe last step before any write. It is always on.\n",
                  envelope_keys());
   out += section("`[simulation]`", "\nUsed only by the simulated machine.\n", simulation_keys());
   return out;

@@ -140,7 +140,7 @@ void read_thermal(const toml::table& root, Thermal& out, Faults& faults) {
   const toml::table* table = node->as_table();
   if (table == nullptr) {
     faults.add(line_of(node->source()), "thermal is not a section",
-               "write [thermal] on a line of its own, its keys below");
+               "write [thermal] on a separate line, with its keys below");
     return;
   }
   const std::size_t before = faults.list.size();
