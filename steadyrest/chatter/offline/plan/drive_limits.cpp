@@ -83,7 +83,9 @@ DriveLimits::DriveLimits(const kernel::machine::Machine& machine, const Process&
       table_(machine.spindle_override),
       envelope_(machine.envelope),
       options_(options),
+      // N·mm per revolution to W·s per revolution.
       power_per_rev_w_s_(1e-3 * work_per_rev_n_mm(process, depth_mm)) {
+  // [spindle] rated_torque_n_m is optional and then means the peak torque.
   if (!std::isfinite(spindle_.rated_torque_n_m)) {
     spindle_.rated_torque_n_m = spindle_.max_torque_n_m;
   }
@@ -145,6 +147,7 @@ DriveLimits::Shape DriveLimits::shape(const Modulation& modulation) const {
     const double next = out.at[(i + 1) % kPhases];
     double slope = std::abs(next - out.at[i]) * static_cast<double>(kPhases);
     double value = std::max(next, out.at[i]);
+    // In closed form: differences over a step would fall short of the greatest slope.
     if (modulation.law == Law::sine) {
       slope = kTurn * std::abs(std::cos(kTurn * static_cast<double>(i) / kPhases));
       value = out.at[i];
@@ -191,6 +194,7 @@ void DriveLimits::check_levels(double speed, const Modulation& m, const Shape& s
   }
   double worst = 0.0;
   for (const double value : s.at) {
+    // The modulator rounds each phase to the nearest step; between steps the law is a staircase.
     const double want = 1.0 + m.rva * value;
     const double step = *std::ranges::min_element(
         steps, {}, [want](double ratio) { return std::abs(ratio - want); });
@@ -221,6 +225,7 @@ double DriveLimits::step_ratio(const DriveDemand& demand) const noexcept {
 void DriveLimits::check_sweep(double speed, const Modulation& m, const Shape& s,
                               DriveDemand& out) const {
   const double frequency = m.rvf * speed;
+  // d(ratio)/dt in 1/s; times the speed it is rev/s².
   const double ratio_rate = m.rva * frequency * s.steepest;
   out.acceleration_rev_s2 = ratio_rate * speed;
   const auto too_fast = [&](DriveLimit limit, const char* who, double have) {
@@ -238,17 +243,20 @@ void DriveLimits::check_sweep(double speed, const Modulation& m, const Shape& s,
     too_fast(DriveLimit::walk, "the override, at one step per scan, delivers",
              step_ratio(out) / table_.scan_period_s * speed);
   }
+  // J·ω·dω/dt with ω = 2π·n·(1 + RVA·S): the shape's part, max (1 + RVA·S)·|S′|, follows below.
   const double turning = kTurn * kTurn * spindle_.inertia_kg_m2 * m.rva * frequency * speed * speed;
   out.power_w = turning * s.steep_power + cutting_power_w(speed);
   const double cutting = power_per_rev_w_s_ / kTurn;
   const double swing = kTurn * spindle_.inertia_kg_m2 * m.rva * frequency * speed;
   out.torque_n_m = swing * s.steepest + cutting;
+  // The swing averages to 0 over a period and is uncorrelated with the constant cutting torque.
   out.rms_torque_n_m = std::sqrt(swing * swing * s.steep_square + cutting * cutting);
 }
 
 void DriveLimits::check_jumps(double speed, const Modulation& m, const Shape& s,
                               DriveDemand& out) const {
   const double jump = m.rva * (s.high - s.low);
+  // In ratio per second. The slowest of drive, envelope and walked word sets the ramp.
   double rate = std::min(spindle_.acceleration_rev_s2 / speed, envelope_.spindle_slew_1_s);
   if (!table_.latched_word && out.written_ratio.size() > 1) {
     rate = std::min(rate, step_ratio(out) / table_.scan_period_s);
