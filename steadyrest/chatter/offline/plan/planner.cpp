@@ -97,6 +97,8 @@ void Planner::choose(PlanDecision decision, const Alternative& chosen) {
 void Planner::steps(const AlternativeCheck& check) {
   std::vector<double> ratios = limits_.writable(speed_);
   if (std::ranges::none_of(ratios, [](double r) { return std::abs(r - 1.0) < kSame; })) {
+    // The programmed speed is judged even where the table has no step of 100 %: it is what the
+    // others are measured against.
     ratios.push_back(1.0);
   }
   std::ranges::sort(ratios);
@@ -114,6 +116,7 @@ const Alternative* Planner::best_step() const {
   for (const Alternative& a : out_.alternatives) {
     highest = a.accepted() ? std::max(highest, *a.probability) : highest;
   }
+  // Shares that differ by a sample or so are the same within what so few samples can tell.
   const double tie = kTie / static_cast<double>(options_.uncertainty.samples);
   const Alternative* best = nullptr;
   for (const Alternative& a : out_.alternatives) {
@@ -160,12 +163,15 @@ std::vector<double> Planner::frequencies(Modulation law) const {
     if (!most) {
       return {};
     }
+    // The fastest first: slow laws let a vibration grow within the period.
     for (double rvf = *most; rvf >= options_.least_rvf * (1.0 - kSame); rvf /= kNextFrequency) {
       wanted.push_back(rvf);
     }
   }
   std::vector<double> out;
   for (const double rvf : wanted) {
+    // A whole number of passes in a period, rounded to the slower side, which the drive follows all
+    // the more; else the solver has no principal period.
     const double rounded = per_rev / std::max(1.0, std::ceil(per_rev / rvf - 1e-6));
     law.rvf = rounded;
     if ((out.empty() || out.back() != rounded) && limits_.modulated(speed_, law).possible()) {
@@ -211,6 +217,8 @@ Alternative Planner::best_of(const AlternativeCheck& check, Modulation law) cons
       least = log_radius;
       out = a;
     }
+    // Slower ones grow more: after a few stable frequencies were rejected the rest is not worth its
+    // time.
     if (judged == kMostJudged) {
       break;
     }
@@ -284,6 +292,8 @@ void Planner::explain_nothing(const AlternativeCheck& check) {
   }
   if (out_.chatter_frequency_hz) {
     const double per_pass =
+        // Waves between two teeth. A law breaks their rhythm when it shifts them by about half a
+        // wave, hence the 50 % over them.
         *out_.chatter_frequency_hz / (static_cast<double>(process_.tool.teeth) * speed_);
     note(
         fmt::format("the {:.0f} Hz vibration makes {:.2f} waves between two teeth; a law that "
