@@ -94,6 +94,7 @@ Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
   OffsetGovernor made;
   made.max_offset_mm_ = std::min(thermal.max_offset_mm, machine.envelope.max_offset_mm);
   made.slope_mm_s_ = std::min(thermal.slope_mm_s, machine.envelope.offset_slew_mm_s);
+  // Never slower than in the cut (0 = not given), never faster than the envelope.
   made.retract_slope_mm_s_ = std::min(std::max(thermal.retract_slope_mm_s, thermal.slope_mm_s),
                                       machine.envelope.offset_slew_mm_s);
   made.sensors_ = sensors.size();
@@ -102,6 +103,7 @@ Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
   for (std::size_t i = 0; i < axes; ++i) {
     const auto of =
         std::ranges::find(thermal.axis, machine.axes[i].name, &machine::ThermalAxis::name);
+    // Offsets are lengths; a displacement of no machine axis is only forecast.
     if (of == thermal.axis.end() || machine.axes[i].rotary) {
       continue;
     }
@@ -143,6 +145,8 @@ void OffsetGovernor::step(double elapsed_s, const Running& running) noexcept {
 void OffsetGovernor::step() noexcept {
   if (state_.pending_s > 0.0) {
     Running mean = state_.drive;
+    // Mean over the pending time: levels are of the speed, and between two hand-overs it may have
+    // changed in every cycle.
     mean.speed_rev_s = state_.turned_rev / state_.pending_s;
     mean.feed_mm_s = state_.path_mm / state_.pending_s;
     step(state_.pending_s, mean);
@@ -162,12 +166,15 @@ void OffsetGovernor::drive_on(const Frame& frame) noexcept {
   state_.unwatched_s += elapsed_s;
   if (elapsed_s > kGap_s) {
     step();
+    // Nobody knows what was done: counted as standstill.
     step(elapsed_s, {});
   } else {
     state_.pending_s += elapsed_s;
     state_.turned_rev += elapsed_s * state_.drive.speed_rev_s;
     state_.path_mm += elapsed_s * state_.drive.feed_mm_s;
   }
+  // A change between cutting and air, coolant or standstill ends the pending time, since these
+  // enter as states and have no mean.
   if (first || elapsed_s > kGap_s || state_.pending_s >= kHold_s ||
       !same_class(state_.drive, drive)) {
     step();
@@ -202,12 +209,14 @@ Reason OffsetGovernor::fault(const Axis& axis, const Frame& frame) const noexcep
 Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
                             double step_s) const noexcept {
   const Reason faulty = fault(axis, frame);
+  // In the cut even a faulty forecast is only held: fading would mark the surface.
   const bool held = must_hold(frame.motion) || (faulty != Reason::none && tool_in_cut);
   if (held) {
     return faulty != Reason::none ? faulty : Reason::thermal_held;
   }
   const double whole = axis.reference_mm - axis.filter.displacement_mm();
   const double within = std::clamp(whole, -max_offset_mm_, max_offset_mm_);
+  // A correction nobody vouches for goes out once the tool is clear.
   const double wish = faulty == Reason::none ? within : 0.0;
   const bool slowly = tool_in_cut || feeds(frame.motion) || faulty != Reason::none;
   const double step_mm = (slowly ? slope_mm_s_ : retract_slope_mm_s_) * step_s;
@@ -225,6 +234,8 @@ Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
 
 /// The reading of a frame whose number is new.
 void OffsetGovernor::probe(const Frame& frame) noexcept {
+  // The first frame after a start may show an old reading; with which offset it was made is not
+  // known.
   const bool fresh = probe_watched_ && frame.probe.number != probe_number_;
   probe_watched_ = true;
   probe_number_ = frame.probe.number;
@@ -255,6 +266,7 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
   const double elapsed_s = state_.in_force ? frame.time_s - state_.time_s : 0.0;
   const double step_s = std::clamp(elapsed_s, 0.0, max_step_s_);
   state_.in_force = true;
+  // Before the probe: a reading is of now, so the filters must have come to now.
   drive_on(frame);
   probe(frame);
   output_.request.reason = axes_.empty() ? Reason::none : Reason::thermal_correcting;
@@ -274,6 +286,7 @@ void OffsetGovernor::yield_to(const AxisValues& standing_mm) noexcept {
   for (Axis& axis : axes_) {
     const double stands = standing_mm[axis.index];
     if (std::isfinite(stands)) {
+      // Between 0 and what stands: what others let through is the most that is on the machine.
       axis.offset_mm = std::clamp(axis.offset_mm, std::min(0.0, stands), std::max(0.0, stands));
     }
     output_.request.offset_mm[axis.index] = axis.offset_mm;
@@ -284,6 +297,8 @@ void OffsetGovernor::yield_to(const AxisValues& standing_mm) noexcept {
 void OffsetGovernor::zero_here() noexcept {
   step();
   for (Axis& axis : axes_) {
+    // The zero was touched off with the offset on the machine: r = δ + o makes the present wish o
+    // itself.
     axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm();
   }
 }
