@@ -48,6 +48,7 @@ void CycleMonitor::update(double t_s) noexcept {
   const bool first = !started_;
   if (!first && t_s <= last_s_) {
     ++report_.backwards;
+    // One or two stamps that lie back are bad stamps; three are a clock that was set.
     if (++in_a_row_ < kClockWasSet) {
       return;
     }
@@ -75,6 +76,7 @@ void CycleMonitor::learn(double period_s) noexcept {
     return;
   }
   std::array<double, kLearn> sorted = first_;
+  // The median: a few missed cycles among the first must not shift the nominal period.
   std::nth_element(sorted.begin(), sorted.begin() + kLearn / 2, sorted.end());
   report_.nominal_period_s = sorted[kLearn / 2];
   for (const double period : first_) {
@@ -101,6 +103,7 @@ void CycleMonitor::count(double period_s) noexcept {
   const double deviation = period_s - report_.nominal_period_s;
   ++report_.periods;
   const double step = deviation - mean_;
+  // Welford, on deviations: squares of whole periods would lose the jitter's digits.
   mean_ += step / static_cast<double>(report_.periods);
   squares_ += step * (deviation - mean_);
   if (has_previous_) {
@@ -162,6 +165,7 @@ CycleMonitor::Report CycleMonitor::report() const noexcept {
   if (pairs_ > 0 && squares_ > 0.0) {
     const auto pairs = static_cast<double>(pairs_);
     const double covariance =
+        // E(p·p′) − m·E(p) − m·E(p′) + m².
         (products_ - mean_ * (sum_first_ + sum_second_)) / pairs + mean_ * mean_;
     out.period_correlation = std::clamp(covariance / (squares_ / n), -1.0, 1.0);
   }

@@ -39,9 +39,12 @@ double WorstCaseDifference::shown_error_mm(std::size_t longest) const noexcept {
     for (std::size_t j = 1; j < l; ++j) {
       const double age_s = now.t_s - back(j).t_s;
       const double off_chord = std::abs(back(j).x_mm - now.x_mm + slope * age_s);
+      // How far a sample lies off the chord beyond what acceleration L could bend the path: that
+      // much must be error of position.
       most = std::max(most, off_chord - 0.5 * limit * age_s * (window_s - age_s));
     }
   }
+  // Sample and chord may each be off by half of it.
   return 0.5 * most;
 }
 

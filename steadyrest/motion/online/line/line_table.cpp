@@ -64,6 +64,7 @@ std::ptrdiff_t LineTable::index(std::int64_t line) const noexcept {
   std::int64_t i = line - config_.first_line;
   if (config_.periodic) {
     i %= n;
+    // The sign of % follows the dividend.
     i += i < 0 ? n : 0;
   }
   return i >= 0 && i < n ? static_cast<std::ptrdiff_t>(i) : -1;
@@ -90,11 +91,14 @@ float LineTable::sigma_mm(std::int64_t line) const noexcept {
 
 void LineTable::learn(double t_s, std::int64_t line, std::int8_t direction, bool lost) noexcept {
   if (fit_.breaks(t_s, line, direction, lost)) {
+    // Lines near the end of a run would never be the middle of a full window; shorter windows reach
+    // them.
     for (std::size_t half = fit_.longest_tail(); half >= LineFit::kLeast; --half) {
       take(fit_.tail(half));
     }
     fit_.clear();
   }
+  // The corrected position goes in: what is learnt is only what is left.
   take(fit_.push(t_s, static_cast<double>(line) * config_.count_mm + correction_mm(line), line,
                  direction));
 }
@@ -161,6 +165,7 @@ void LineTable::settle() noexcept {
     }
   }
   for (std::size_t p = 0; p < 4; ++p) {
+    // A phase nobody saw has no mean; then nothing can be moved without shifting the scale.
     if (n[p] <= 0.0) {
       return;
     }
