@@ -104,6 +104,7 @@ outcome::Result<Table> Table::make(const Config& config) {
   }
   Table table;
   for (double& ratio : filled.ratio) {
+    // What the control clips is not there to be asked for.
     ratio = std::min(ratio, filled.max_ratio);
   }
   for (std::size_t i = 0; i < filled.code.size(); ++i) {
@@ -152,6 +153,7 @@ std::optional<std::size_t> Table::floor_step(double ratio) const noexcept {
   if (above == ratio_.begin()) {
     return std::nullopt;
   }
+  // Of equal steps the lowest, so that a search always gives the same code.
   const auto lowest = std::ranges::lower_bound(ratio_, *(above - 1));
   return static_cast<std::size_t>(lowest - ratio_.begin());
 }

@@ -68,6 +68,7 @@ outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config)
 }
 
 void Stepper::pass(double step_s) noexcept {
+  // Only good time counts: no fault of a clock may shorten the wait.
   if (state_.written && std::isfinite(step_s) && step_s > 0.0) {
     state_.stood_s += step_s;
     state_.changed = false;
@@ -79,6 +80,7 @@ std::size_t Stepper::update(std::size_t target) noexcept {
   target = std::min(target, steps_ - 1);
   if (config_.latched) {
     place(target);
+    // One neighbour per scan, so that at most one bit moves while anyone looks.
   } else if (target != state_.step && settled()) {
     place(target > state_.step ? state_.step + 1 : state_.step - 1);
   }

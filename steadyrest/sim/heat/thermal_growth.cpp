@@ -154,12 +154,14 @@ ThermalGrowth::ThermalGrowth(const Config& config)
                                   .lagged_c = room_c_});
     }
     axis.drift_decay = decay(period_s_, from.drift_tau_s);
+    // So that the process keeps its RMS once it has settled.
     axis.drift_fresh_mm = config.drift_mm * std::sqrt(1.0 - axis.drift_decay * axis.drift_decay);
     axis_.push_back(std::move(axis));
   }
 }
 
 void ThermalGrowth::room() noexcept {
+  // sin(x + ¼ turn) = cos x: warmest at 15:00.
   const double turns = (simulation_.room_start_s + time_s_ - kWarmest_s) / kDay_s;
   room_c_ = simulation_.room_c + simulation_.room_swing_k * portable::sin_turn(turns + 0.25);
   if (simulation_.room_noise_k > 0.0) {
@@ -190,6 +192,7 @@ void ThermalGrowth::update(const Input& input) noexcept {
     }
   }
   ++periods_;
+  // Counted, not summed: a day of tenths of a second would drift.
   time_s_ = static_cast<double>(periods_) * period_s_;
   room();
 }

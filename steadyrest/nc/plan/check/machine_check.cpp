@@ -71,6 +71,7 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
 }
 
 bool MachineCheck::placed(const Move& move, std::size_t axis) const noexcept {
+  // Tool lengths act in Z, on a lathe in X too.
   const bool by_tool = axis == 2 || (axis == 0 && lathe_);
   const bool length = known_.tools || !tool_came_ || !by_tool;
   if ((move.machine_axes >> axis & 1U) != 0) {  // SUPA keeps the tool's length
@@ -150,6 +151,7 @@ void MachineCheck::check_feed(const Move& move) {
   if (feed_mm_s <= most_mm_s * (1.0 + kRounding) || feed_mm_s == feed_warned_mm_s_) {
     return;
   }
+  // Once for each feed, not for each block.
   feed_warned_mm_s_ = feed_mm_s;
   warn(move.line, What::feed, 0,
        fmt::format("the feed of {:.9g} mm/min is more than the {} can do here, {:.9g} mm/min",

@@ -62,6 +62,7 @@ double line_length(const PathSegment& s, const std::array<bool, kMaxAxes>& rotar
     const double delta = s.other_end[i] - s.other_start[i];
     (rotary[i + 3] ? angle : linear) += delta * delta;
   }
+  // Rotary motion alone: a feed in mm/min then means degrees per minute.
   linear = std::sqrt(linear);
   return linear > kShortest_mm ? linear : kernel::units::deg_from_rad(std::sqrt(angle));
 }
@@ -101,6 +102,7 @@ void set_arc(PathSegment& s, const Move& move) {
   to = add_scaled(to, s.axis, -s.rise_mm);
   s.radius_mm = norm(from);
   s.radius_end_mm = norm(to);
+  // Digits of the program: an arc that nearly closes is a circle, not a spiral.
   if (std::abs(s.radius_end_mm - s.radius_mm) < kSameRadius_mm) {
     s.radius_end_mm = s.radius_mm;
   }
