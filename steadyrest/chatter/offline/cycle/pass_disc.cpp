@@ -15,7 +15,6 @@ using Lanes = PassMatrix::Lanes;
 constexpr std::size_t kLanes = PassMatrix::kLanes;
 constexpr std::size_t kStep = 2 * kLanes;  ///< of the terms: each point of the rim gives two
 constexpr std::size_t kMostTerms = 64;
-// Aliasing folds term n + k onto k: the series is only right if the last ones have died away.
 constexpr std::size_t kTail = 3;      ///< terms that must have died away
 constexpr double kLeastTerm = 1e-13;  ///< over 1, or over the rim's largest by …
 constexpr double kRounding = 3e-16;   ///< … this
@@ -109,8 +108,6 @@ bool PassDisc::sample(std::size_t terms) {
       const double angle =
           2.0 * std::numbers::pi * (static_cast<double>(j + i) + 0.5) / static_cast<double>(terms);
       back[j + i] = std::polar(1.0, -angle);
-      // Half steps off the real axis, so that the conjugate half of the circle brings no point
-      // twice.
       z[i] = center_mm_ + radius_mm_ * std::conj(back[j + i]);
     }
     pass_->values(z, lanes.data());
@@ -122,7 +119,6 @@ bool PassDisc::sample(std::size_t terms) {
     }
   }
   largest = std::sqrt(largest);
-  // Also catches NaN.
   if (!(largest < kMostOnRim)) {
     terms_ = 0;
     return false;
@@ -138,12 +134,9 @@ bool PassDisc::sample(std::size_t terms) {
         v[j] = {v[j].real() * back[j].real() - v[j].imag() * back[j].imag(),
                 v[j].real() * back[j].imag() + v[j].imag() * back[j].real()};
       }
-      // The mean of Re(v·e^{−ikφ}) over the half circle is that over the whole: the functions are
-      // real on the real axis.
       number_[f * terms + k] = sum / static_cast<double>(points);
     }
   }
-  // Terms below the rounding of the values on the rim say nothing.
   const double least = std::max(kLeastTerm, kRounding * largest);
   const auto size = [&](std::size_t k) {
     double most = 0.0;
