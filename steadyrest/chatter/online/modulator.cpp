@@ -206,8 +206,6 @@ void Modulator::choose_step(double ratio, const Limits& limits, double floor) no
 void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swing& swing,
                             bool slewed, Output& output) noexcept {
   const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
-  // What was asked of the feed may not be in force yet: the larger of both decides how slow the
-  // spindle may turn.
   const double feed = std::max(feed_in_force(frame), state_.coming_feed.most());
   const double floor = coupled ? feed / config_.max_feed_per_tooth_ratio : 0.0;
   choose_step(state_.ratio, limits, floor);
@@ -221,7 +219,6 @@ void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swin
     output.spindle.reason = Reason::chatter_feed_late;
   } else if (swing.narrowed) {
     output.spindle.reason = Reason::chatter_swing_narrowed;
-    // A law with jumps always ramps; for it this is no limit worth telling.
   } else if (slewed && !jumps(state_.modulation.law)) {
     output.spindle.reason = Reason::chatter_drive_limit;
   } else {
@@ -248,8 +245,6 @@ void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) no
     return;
   }
   const double slowest =
-      // The slowest the spindle is, will be, or was lately asked to be: the feed must be down
-      // before, and stay down until no lower speed is on its way.
       std::max(std::min({ahead, actual, state_.coming_spindle.least()}), spindle_.ratio(lowest_));
   double cap = std::min(config_.max_feed_per_tooth_ratio * slowest, config_.max_feed_ratio);
   const double panel = frame.feed.panel_ratio;
@@ -338,8 +333,6 @@ Modulator::Output Modulator::update(const Frame& frame) noexcept {
   }
   const Swing fitted = swing(within, speed_rev_s);
   const double now = std::clamp(goal(fitted, state_.phase), within.low, within.high);
-  // Whichever is slower, in ratio per cycle: asking for more would only lag and break the coupling
-  // to the feed.
   const double reach = dt_s * std::min(config_.slew_1_s, config_.acceleration_rev_s2 / speed_rev_s);
   const double moved = std::clamp(now, state_.ratio - reach, state_.ratio + reach);
   state_.ratio = std::clamp(moved, within.low, within.high);

@@ -105,8 +105,8 @@ AxisServo::AxisServo(const Config& config, const Encoder& encoder) noexcept
   // compiler.
   integral_share_ = friction_.present() ? 1.0 - portable::exp(-h / config.integral_s) : 0.0;
   if (lag_s_ > 0.0) {
+    // ẋ = v, τ·v̇ = −k·x − v over one step h.
     const Matrix m =
-        // ẋ = v, τ·v̇ = −k·x − v over one step h.
         exponential({.xx = 0.0, .xv = h, .vx = -gain_1_s_ * h / lag_s_, .vv = -h / lag_s_});
     step_ = {.h_s = h, .rate_1_s = 1.0 / h, .xx = m.xx, .xv = m.xv, .vx = m.vx, .vv = m.vv};
   } else {

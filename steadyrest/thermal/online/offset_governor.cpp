@@ -94,7 +94,6 @@ Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
   OffsetGovernor made;
   made.max_offset_mm_ = std::min(thermal.max_offset_mm, machine.envelope.max_offset_mm);
   made.slope_mm_s_ = std::min(thermal.slope_mm_s, machine.envelope.offset_slew_mm_s);
-  // Never slower than in the cut (0 = not given), never faster than the envelope.
   made.retract_slope_mm_s_ = std::min(std::max(thermal.retract_slope_mm_s, thermal.slope_mm_s),
                                       machine.envelope.offset_slew_mm_s);
   made.sensors_ = sensors.size();
@@ -209,14 +208,12 @@ Reason OffsetGovernor::fault(const Axis& axis, const Frame& frame) const noexcep
 Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
                             double step_s) const noexcept {
   const Reason faulty = fault(axis, frame);
-  // In the cut even a faulty forecast is only held: fading would mark the surface.
   const bool held = must_hold(frame.motion) || (faulty != Reason::none && tool_in_cut);
   if (held) {
     return faulty != Reason::none ? faulty : Reason::thermal_held;
   }
   const double whole = axis.reference_mm - axis.filter.displacement_mm();
   const double within = std::clamp(whole, -max_offset_mm_, max_offset_mm_);
-  // A correction nobody vouches for goes out once the tool is clear.
   const double wish = faulty == Reason::none ? within : 0.0;
   const bool slowly = tool_in_cut || feeds(frame.motion) || faulty != Reason::none;
   const double step_mm = (slowly ? slope_mm_s_ : retract_slope_mm_s_) * step_s;
@@ -266,7 +263,6 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
   const double elapsed_s = state_.in_force ? frame.time_s - state_.time_s : 0.0;
   const double step_s = std::clamp(elapsed_s, 0.0, max_step_s_);
   state_.in_force = true;
-  // Before the probe: a reading is of now, so the filters must have come to now.
   drive_on(frame);
   probe(frame);
   output_.request.reason = axes_.empty() ? Reason::none : Reason::thermal_correcting;
@@ -286,7 +282,6 @@ void OffsetGovernor::yield_to(const AxisValues& standing_mm) noexcept {
   for (Axis& axis : axes_) {
     const double stands = standing_mm[axis.index];
     if (std::isfinite(stands)) {
-      // Between 0 and what stands: what others let through is the most that is on the machine.
       axis.offset_mm = std::clamp(axis.offset_mm, std::min(0.0, stands), std::max(0.0, stands));
     }
     output_.request.offset_mm[axis.index] = axis.offset_mm;
@@ -297,8 +292,6 @@ void OffsetGovernor::yield_to(const AxisValues& standing_mm) noexcept {
 void OffsetGovernor::zero_here() noexcept {
   step();
   for (Axis& axis : axes_) {
-    // The zero was touched off with the offset on the machine: r = δ + o makes the present wish o
-    // itself.
     axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm();
   }
 }

@@ -76,9 +76,9 @@ void DepthTracker::sort() {
     return std::abs(a.xi - b.xi) < kSame * std::abs(a.xi);
   };
   roots_.erase(std::unique(roots_.begin(), roots_.end(), same), roots_.end());
+  // Zeros far outside cannot become dominant within the next step and only cost evaluations;
+  // verified() finds them if they come near.
   const double most =
-      // Zeros far outside cannot become dominant within the next step and only cost evaluations;
-      // verified() finds them if they come near.
       roots_.empty() ? kMostXi : std::min(kMostXi, kFollowed * std::abs(roots_[0].xi));
   std::erase_if(roots_, [most](const Root& r) { return std::abs(r.xi) > most; });
   if (roots_.size() > kMostRoots) {

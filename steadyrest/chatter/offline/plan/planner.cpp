@@ -291,9 +291,9 @@ void Planner::explain_nothing(const AlternativeCheck& check) {
                     100.0 * options_.least_probability));
   }
   if (out_.chatter_frequency_hz) {
+    // Waves between two teeth. A law breaks their rhythm when it shifts them by about half a
+    // wave, hence the 50 % over them.
     const double per_pass =
-        // Waves between two teeth. A law breaks their rhythm when it shifts them by about half a
-        // wave, hence the 50 % over them.
         *out_.chatter_frequency_hz / (static_cast<double>(process_.tool.teeth) * speed_);
     note(
         fmt::format("the {:.0f} Hz vibration makes {:.2f} waves between two teeth; a law that "

@@ -120,8 +120,8 @@ double SpeedProfile::time_s(double angle_rad) const noexcept {
   if (!parts_.empty()) {
     const double within = angle_rad - periods * period_rad_;
     const Part& at = part(within);
+    // Angle over the mean speed, which on a ramp is the mean of its ends.
     return periods * parts_.back().time_s + at.time_s +
-           // Angle over the mean speed, which on a ramp is the mean of its ends.
            2.0 * (within - at.angle_rad) / (at.from_rad_s + speed_rad_s(within));
   }
   return (periods + phase(angle_rad - periods * period_rad_)) * period_rad_ / mean_rad_s_;

@@ -201,8 +201,8 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
     const double total = before[j] + r[j];
     const double inverse = 1.0 / total;
     normalised[j] = nu2[j] * inverse;
+    // Capped: one surprise must not rule a model out for good.
     likelihood[j] =
-        // Capped: one surprise must not rule a model out for good.
         exp_of_minus(0.5 * std::min(normalised[j], kCap)) * std::sqrt(inverse * kInverseTwoPi);
     // What of ν² is the lines' own: less the model's variance and the clock's, times n since a
     // group averages n lines.

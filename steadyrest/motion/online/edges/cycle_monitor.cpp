@@ -164,8 +164,8 @@ CycleMonitor::Report CycleMonitor::report() const noexcept {
   out.tick_rms_s = out.period_rms_s / std::numbers::sqrt2;
   if (pairs_ > 0 && squares_ > 0.0) {
     const auto pairs = static_cast<double>(pairs_);
+    // E(p·p′) − m·E(p) − m·E(p′) + m².
     const double covariance =
-        // E(p·p′) − m·E(p) − m·E(p′) + m².
         (products_ - mean_ * (sum_first_ + sum_second_)) / pairs + mean_ * mean_;
     out.period_correlation = std::clamp(covariance / (squares_ / n), -1.0, 1.0);
   }

@@ -240,9 +240,9 @@ class Identification {
     for (std::size_t modes = 1; modes <= most; ++modes) {
       Structure s;
       for (std::size_t i = 0; i < modes; ++i) {
+        // Starting points only, in s: about 35 min for one mode, from about 15 min on by
+        // factors of 5 for several.
         s.mode.push_back(
-            // Starting points only, in s: about 35 min for one mode, from about 15 min on by
-            // factors of 5 for several.
             {60.0 * std::pow(5.0, static_cast<double>(i) + (modes == 1 ? 2.2 : 1.7)), 0.0});
       }
       out.push_back(std::move(s));
