@@ -80,8 +80,8 @@ std::size_t Stepper::update(std::size_t target) noexcept {
   target = std::min(target, steps_ - 1);
   if (config_.latched) {
     place(target);
-    // One neighbour per scan, so that at most one bit moves while anyone looks.
   } else if (target != state_.step && settled()) {
+    // One neighbour per scan, so that at most one bit moves while anyone looks.
     place(target > state_.step ? state_.step + 1 : state_.step - 1);
   }
   return state_.step;
