@@ -33,6 +33,7 @@ class TrueError {
  public:
   static Result<TrueError> make(const kernel::machine::Machine& machine) {
     ContourError::Config config;
+    // The slowest axis lags most.
     config.servo_gain_1_s = std::ranges::min(machine.axes, {}, [](const auto& axis) {
                               return axis.servo_gain_1_s;
                             }).servo_gain_1_s;

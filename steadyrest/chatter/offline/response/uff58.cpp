@@ -18,6 +18,7 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+// Codes of universal file dataset 58: function type, axis data types, ordinate data type.
 constexpr int kFrequencyResponse = 4;
 constexpr int kFrequency = 18;
 constexpr int kDisplacement = 8;
@@ -234,6 +235,7 @@ class UffReader {
     if (auto fault = integers(std::span(&axis.kind, 1))) {
       return fault;
     }
+    // By column, not by word: the label before the unit may be blank or contain blanks.
     constexpr std::size_t kUnitAt = 47;
     const std::string_view unit =
         line_.size() > kUnitAt ? trimmed(line_.substr(kUnitAt, 20)) : std::string_view();
@@ -274,6 +276,8 @@ class UffReader {
   }
 
   std::optional<Refusal> data(const Axis& response, double scale) {
+    // Real, imaginary; over uneven frequencies with the frequency in front. Values per line vary
+    // with the number type, so values are counted, not lines.
     const std::size_t per_point = even_ ? 2 : 3;
     std::vector<double> values;
     while (values.size() < count_ * per_point) {
@@ -314,6 +318,7 @@ class UffReader {
                    "export with rising frequencies");
       }
       last = f;
+      // Division by (iω)² or iω: at 0 Hz acceleration and velocity say nothing of displacement.
       if (f <= 0.0) {
         continue;
       }

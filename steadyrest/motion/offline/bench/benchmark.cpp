@@ -198,6 +198,7 @@ class SceneRun {
       for (std::size_t k = 0; k < record.truth.size(); ++k) {
         const double v = std::abs(record.truth[k].velocity_mm_s);
         if (scene_.scored[i][k] != 0 && v > ErrorCurve::kAtSpeed_mm_s) {
+          // A stamp is off by half a clock tick, hence the position by half of v·clock.
           const MotionError e =
               landau_bound(0.5 * v * scene_.setup.clock_s, scene_.setup.max_jerk_mm_s3);
           sum2.velocity_mm_s += e.velocity_mm_s * e.velocity_mm_s;

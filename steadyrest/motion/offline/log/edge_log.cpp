@@ -253,6 +253,8 @@ class EdgeLogReader::Parser final : public table::Sink {
     const LogRow& before = log_.rows[rows - 1];
     const std::int64_t step = rows == 1 ? 0 : before.count - log_.rows[rows - 2].count;
     const std::int64_t off = std::abs(next.count - (before.count + step));
+    // A number cut off is still a number. The time may be cut only in the last column; the count is
+    // believed where it continues the last step.
     const bool time_may_be_cut = clock_->column() && *clock_->column() + 1 == all_;
     return next.t_s >= before.t_s && off <= std::abs(step) / 2 + 2 &&
            (!time_may_be_cut || time_size >= time_size_);

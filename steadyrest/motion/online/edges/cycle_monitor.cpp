@@ -161,6 +161,7 @@ CycleMonitor::Report CycleMonitor::report() const noexcept {
   const auto n = static_cast<double>(out.periods);
   out.mean_period_s = out.nominal_period_s + mean_;
   out.period_rms_s = std::sqrt(squares_ / n);
+  // A period is the difference of two ticks, each with σ_t: σ_p = √2·σ_t if they wander apart.
   out.tick_rms_s = out.period_rms_s / std::numbers::sqrt2;
   if (pairs_ > 0 && squares_ > 0.0) {
     const auto pairs = static_cast<double>(pairs_);
@@ -173,11 +174,13 @@ CycleMonitor::Report CycleMonitor::report() const noexcept {
   return out;
 }
 
+// README, "Jitter": RMS of v̂ − v without its constant lag, ticks independent with σ_t.
 double velocity_jitter_error_mm_s(double velocity_mm_s, double acceleration_mm_s2, double period_s,
                                   double tick_rms_s) noexcept {
   return std::numbers::sqrt2 * tick_rms_s * std::abs(velocity_mm_s / period_s - acceleration_mm_s2);
 }
 
+// Second difference of the ticks: weights 1, −2, 1, hence √6.
 double acceleration_jitter_error_mm_s2(double velocity_mm_s, double period_s,
                                        double tick_rms_s) noexcept {
   return std::sqrt(6.0) * tick_rms_s * std::abs(velocity_mm_s) / (period_s * period_s);

@@ -21,6 +21,7 @@ constexpr double kUnseen =
     0.2;  ///< share of the lines' error that neighbours have in common: it is not learnt
 constexpr int kKnownAfter = 6;  ///< passages
 
+// Four lines to a signal period. & 3 is right for negative lines too, where % would not be.
 std::size_t phase_of(std::int64_t line) noexcept {
   return static_cast<std::size_t>(line & 3);
 }
@@ -171,6 +172,8 @@ void LineTable::settle() noexcept {
     }
     sum[p] /= n[p];
   }
+  // Each phase's mean moves from the lines to the phase, but not what all four share: that is
+  // scale.
   const double common = 0.25 * (sum[0] + sum[1] + sum[2] + sum[3]);
   for (std::size_t i = 0; i < error_mm_.size(); ++i) {
     const std::size_t phase = phase_of(config_.first_line + static_cast<std::int64_t>(i));

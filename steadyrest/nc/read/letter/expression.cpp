@@ -40,6 +40,7 @@ enum class Expression::Operator : unsigned char {
   one
 };
 
+// LinuxCNC 2.9: five levels, all from left to right, so that 2 ** 3 ** 2 is 64.
 constexpr std::array<Sign<Expression::Operator>, 15> Expression::kSigns = {{
     {"**", Operator::power, 5},
     {"*", Operator::times, 4},
@@ -144,6 +145,7 @@ bool Expression::apply(Operator op, double& left, double right) {
   const double apart = std::abs(a - right);  // NaN behind 4 MOD 0: neither EQ nor NE
   switch (op) {
     case Operator::power:
+      // std::pow would return NaN.
       if (a < 0.0 && right != std::floor(right)) {
         return fail("not_finite", "a negative number to a power that is not whole");
       }
@@ -159,6 +161,7 @@ bool Expression::apply(Operator op, double& left, double right) {
       left = a / right;
       break;
     case Operator::modulo:
+      // rs274's MOD is never negative; std::fmod takes the dividend's sign.
       left = std::fmod(a, right);
       left += left < 0.0 ? std::abs(right) : 0.0;
       break;

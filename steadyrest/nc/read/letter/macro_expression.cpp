@@ -218,6 +218,7 @@ bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
       return false;
     }
     out = (name == "ACOS" ? std::acos(x) : std::asin(x)) / kDegree;
+    // FANUC, parameter 6004#0 = 0: ASIN gives 270° to 90°. ACOS is never negative.
     out += out < 0.0 ? 360.0 : 0.0;
   } else if (name == "SQRT") {
     if (!domain(x >= 0.0, "SQRT of a negative number")) {
@@ -231,6 +232,7 @@ bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
       return fail("function_not_interpreted",
                   "ROUND in this word: its rounding increment is unknown");
     }
+    // Inside a word ROUND rounds to the least increment of its address, not to a whole number.
     out = std::round(x / increment_) * increment_;
   } else if (name == "FIX") {
     out = std::trunc(x);
@@ -276,6 +278,7 @@ bool MacroExpression::arc_tangent(double y, double& out) {
     return fail("out_of_domain", "ATAN of two zeros");
   }
   out = (pair ? std::atan2(y, x) : std::atan(y)) / kDegree;
+  // Likewise 0° to 360°; ATAN of one value keeps −90° to 90°.
   out += pair && out < 0.0 ? 360.0 : 0.0;
   return true;
 }

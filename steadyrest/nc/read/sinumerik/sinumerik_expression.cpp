@@ -50,6 +50,7 @@ enum class SinumerikExpression::Operator : unsigned char {
   gt
 };
 
+// Priorities of "Job Planning". Unlike in C, comparisons bind last, even after AND and OR.
 constexpr std::array<Sign<SinumerikExpression::Operator>, 18> SinumerikExpression::kSigns = {{
     {"*", Operator::times, 8},
     {"/", Operator::over, 8},

@@ -128,6 +128,7 @@ bool SinumerikLine::item() {
   if (block_.flow().kind != FlowKind::none) {
     return repeats(word_begin);
   }
+  // One letter is an address, two or more are a name: X1, but TRANS.
   const bool name_follows = at_ + 1 != end_ && (is_letter(at_[1]) || at_[1] == '_');
   if (name_follows || *at_ == '_') {
     return named(word_begin);

@@ -148,6 +148,7 @@ class Rewriter {
   void look(Walk& walk, Clock& clock) {
     constexpr std::uint32_t kEvery = 1U << 14U;
     if (walk.line() % kEvery == 0) {
+      // Two passes over the program, timing and proof: half the progress each.
       progress(0.5 * walk.line() / std::max(survey_.end_line, 1U), "timing");
     }
     for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) {

@@ -228,6 +228,8 @@ class LogMaker {
       }
       from = to;
     }
+    // A coarse sensor in a steady room repeats itself for hours as well. Only one that otherwise
+    // changes often, or never does, is stuck.
     const bool living = static_cast<double>(changes) > kLively * static_cast<double>(lived);
     const bool dead = lived == 0;
     if (stuck.empty() || (!living && !dead)) {
@@ -236,6 +238,7 @@ class LogMaker {
     double hours = 0.0;
     for (const auto& [from, to] : stuck) {
       hours += (log_.time_s[to - 1] - log_.time_s[from]) / 3600.0;
+      // The first reading of a run was live when it was taken; only its repetitions are not.
       std::fill(channel.value.begin() + static_cast<std::ptrdiff_t>(from) + (from == 0 ? 0 : 1),
                 channel.value.begin() + static_cast<std::ptrdiff_t>(to), kNan);
     }
