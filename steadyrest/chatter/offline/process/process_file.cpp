@@ -134,6 +134,7 @@ class FileReader {
           "give the angle from each tooth to the one in front of it");
       return;
     }
+    // Rounded degrees: spread what is missing, so that the teeth close the turn exactly.
     for (double& angle : pitch) {
       angle *= kTurn / sum;
     }
@@ -238,6 +239,7 @@ class FileReader {
     const double w = kTurn * keys.frequency_hz;
     out.frequency_hz = keys.frequency_hz;
     out.damping_ratio = keys.damping_ratio;
+    // m = k/ω²; N/mm are 1000 N/m.
     out.mass_kg = given.has("mass_kg") ? keys.mass_kg : 1000.0 * keys.stiffness_n_mm / (w * w);
     if (given.has("angle_deg")) {
       out.shape = {std::cos(keys.angle_rad), std::sin(keys.angle_rad)};

@@ -115,6 +115,7 @@ class ProgramTimer::Runner final : public PathReceiver {
         tools_seen_ = i + 1;
       }
     }
+    // A starved period waits for the reader, not for the machine: it is no machine time.
     if (!interpolator_->starved()) {
       account(s, period);
     }
