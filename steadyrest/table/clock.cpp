@@ -63,6 +63,7 @@ std::expected<double, Fault> Clock::stamped(const Row& row) {
   }
   if (rows_++ == 0) {
     zoned_ = stamp->zoned;
+    // From midnight of the first day, so that seconds keep their digits in a double.
     epoch_s_ = epoch_ == Epoch::unix ? 0 : stamp->whole_s / kDay_s * kDay_s;
   } else if (zoned_ != stamp->zoned) {
     return std::unexpected(

@@ -117,6 +117,7 @@ std::expected<double, Fault> NumberReader::with_comma(std::string_view field, st
         "use the same decimal mark throughout, and no thousands separators"});
   }
   comma_line_ = comma_line_ == 0 ? line : comma_line_;
+  // 1,234 may be either; one 12,5 in the file proves the comma a decimal mark.
   proved_ = proved_ || decimal_ == Decimal::comma || !could_group(field);
   return *value;
 }

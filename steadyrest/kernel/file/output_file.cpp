@@ -115,6 +115,7 @@ Result<void> OutputFile::make_beside() {
   }
   struct ::stat before{};
   const bool replaces = place_.exists && ::stat(place_.path.c_str(), &before) == 0;
+  // A process's mask can be read only by setting it.
   const mode_t mask = ::umask(0);
   ::umask(mask);
   if (replaces && (before.st_uid != ::geteuid() || before.st_gid != ::getegid())) {

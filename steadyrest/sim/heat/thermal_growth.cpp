@@ -18,6 +18,7 @@ using kernel::machine::ThermalMode;
 using kernel::outcome::Result;
 
 constexpr double kDay_s = 24.0 * 3600.0;
+// The room is warmest at 15:00; its noise has a correlation time of 10 min (README).
 constexpr double kWarmest_s = 15.0 * 3600.0;
 constexpr double kDraught_s = 600.0;
 constexpr double kReference_rev_s = 1000.0 / 60.0;  ///< unit of a polynomial's speed
@@ -87,6 +88,7 @@ double decay(double period_s, double tau_s) noexcept {
 double level_mm(const ThermalMode& m, double speed_rev_s) noexcept {
   if (m.level_mm.empty()) {
     const double n = speed_rev_s / kReference_rev_s;
+    // No constant term: a spindle at rest makes no heat.
     double power = n;
     double level = 0.0;
     for (const double coefficient : m.polynomial_mm) {
@@ -178,6 +180,7 @@ void ThermalGrowth::update(const Input& input) noexcept {
       const double cut = 1.0 + input.cutting * (m.cutting_ratio - 1.0);
       const double settles = level_mm(m, speed) * cut * (input.coolant ? m.coolant_ratio : 1.0) +
                              m.feed_s * input.feed_mm_s;
+      // q' = G/τ − q/τ, exact over a period of constant inputs.
       const double left = speed > 0.0 ? body.turning_decay : body.resting_decay;
       body.warmth_mm = body.warmth_mm * left + settles * (1.0 - left);
       axis.displacement_mm += body.warmth_mm;

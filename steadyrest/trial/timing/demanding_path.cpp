@@ -32,6 +32,7 @@ struct Plane {
 };
 
 std::optional<Plane> plane_of(const Machine& machine) {
+  // G17, G18 (Z before X), G19.
   constexpr std::array<Plane, 3> kPlanes{{{.axis = {0, 1}, .normal = 2},
                                           {.axis = {2, 0}, .normal = 1},
                                           {.axis = {1, 2}, .normal = 0}}};

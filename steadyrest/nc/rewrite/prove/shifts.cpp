@@ -114,12 +114,14 @@ std::string Shifts::one_axis(std::size_t axis, const Move& before, const Differe
   if (!same(start_mm, shift_[axis])) {
     return "a move begins where the one before it did not end";
   }
+  // An axis that is not programmed, or by an increment, keeps what it had.
   const bool may_keep = (frames.acts_at_once & bit(axis)) == 0 &&
                         (frames.incremental || same(before.start[axis], before.end[axis]));
   double error_mm = std::abs(end_mm - wanted[axis]);
   if (may_keep) {
     error_mm = std::min(error_mm, std::abs(end_mm - start_mm));
   }
+  // A move to machine coordinates must end where the original does.
   if (frames.machine) {
     error_mm = std::min(error_mm, std::abs(end_mm));
   }
