@@ -215,6 +215,7 @@ void LineSpectrum::finish() noexcept {
   const double left = std::sqrt(std::abs(power_[std::max(peak_, first_bin_ + 1) - 1]));
   const double right = std::sqrt(std::abs(power_[std::min(peak_ + 1, n_ / 2 - 1)]));
   const double ratio = here > 0.0 ? std::min(1.0, std::max(left, right) / here) : 0.5;
+  // Of a line between two bins under a Hann window: exact for a single line.
   const double offset = (2.0 * ratio - 1.0) / (ratio + 1.0);
   const double sign = right >= left ? 1.0 : -1.0;
   out_.frequency_hz = (static_cast<double>(peak_) + sign * offset) * bin_hz_;

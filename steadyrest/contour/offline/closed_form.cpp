@@ -49,6 +49,8 @@ struct Shares {
   double tracking = 0.0;
 };
 
+// G(jω) = (k + a·jω)/(k − τω² + jω) of the axis law; g = |G|² is the squared ratio of actual to
+// commanded radius. At a = τ = 0 this is ε = R − R/√(1 + q²) with q = ω/k.
 Shares shares(const Servo& servo, double w) {
   const double k = servo.gain_1_s;
   const double a = servo.feed_forward;
@@ -118,6 +120,8 @@ Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double ma
                                    "give an error below the radius"});
   }
   const double share = max_error_mm / radius_mm;
+  // R′ = R ∓ ε: g − 1 = (1 ∓ ε/R)² − 1, written without the 1 that would swallow a small share.
+  // With velocity lag the circle may come out too large first.
   const double too_small = crossing(servo, -share * (2.0 - share));
   const double too_large = crossing(servo, share * (2.0 + share));
   const double w = std::min(too_small, too_large);

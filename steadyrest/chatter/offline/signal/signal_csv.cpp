@@ -94,6 +94,7 @@ class SignalSink final : public table::Sink {
       }
     }
     out_.start_s = time_s_.front();
+    // Over the whole record: one step has only the digits of its stamps.
     out_.rate_hz = static_cast<double>(steps.size()) / (time_s_.back() - time_s_.front());
     if (auto fault = unfit_rate(out_.rate_hz)) {
       return std::unexpected(std::move(*fault));

@@ -46,6 +46,7 @@ OrFault<WavFormat> format_of(std::string_view bytes, std::size_t at, std::size_t
         "re-save the recording as WAV"});
   }
   std::uint32_t tag = little_endian(bytes, at, 2);
+  // WAVE_FORMAT_EXTENSIBLE: the tag proper is the start of the sub-format's GUID.
   if (tag == 0xFFFEU && size >= kExtensible) {
     tag = little_endian(bytes, at + kSubFormat, 2);
   }
@@ -138,6 +139,7 @@ OrFault<RecordedSignal> parse_wav_signal(std::string_view bytes) {
     } else if (name == "data" && format) {
       return samples_of(bytes, body, size, *format);
     }
+    // RIFF pads chunks to even lengths and does not count the padding.
     at = body + size + size % 2;
   }
   return std::unexpected(

@@ -75,6 +75,7 @@ bool counts_are_rounded(const EdgeLog& log, double median_s) {
     if (!even || counts[0] * counts[1] <= 0.0 || counts[1] * counts[2] <= 0.0) {
       continue;  // lost rows, a turn, standstill
     }
+    // The mean of both neighbours: a constant acceleration drops out.
     const double speed = 0.5 * (counts[0] / step_s[0] + counts[2] / step_s[2]);
     const double off = counts[1] - speed * step_s[1];
     square += off * off;

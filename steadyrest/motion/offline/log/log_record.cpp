@@ -42,6 +42,7 @@ online::Tick tick_in(double t_s, std::int64_t count, double count_mm) {
 /// The passage from one cell to another, seen as its last edge.
 online::Edge edge_to(const LogRow& row, std::int64_t from, double count_mm) {
   const bool up = row.count > from;
+  // Line k is the border between cells k − 1 and k.
   const std::int64_t line = up ? row.count : row.count + 1;
   const std::int64_t lost = std::abs(row.count - from) - 1;
   return {row.t_s, static_cast<double>(line) * count_mm, line,
