@@ -18,7 +18,7 @@ using kernel::signal::Motion;
 
 Result<void> check(const Machine& machine) {
   if (machine.axes.empty() || machine.axes.size() > kernel::signal::kMaxAxes) {
-    return std::unexpected(refusal(fmt::format("machine has {} axes; allowed is 1 to {}",
+    return std::unexpected(refusal(fmt::format("machine has {} axes; allowed: 1 to {}",
                                                machine.axes.size(), kernel::signal::kMaxAxes)));
   }
   const kernel::machine::Control& c = machine.control;
@@ -183,6 +183,7 @@ void MachineBody::watch(std::uint64_t heartbeat) noexcept {
     heartbeat_ = heartbeat;
     heartbeat_time_s_ = time_s_;
   }
+  // 0: no layer has ever written.
   alive_ = heartbeat_ != 0 && time_s_ - heartbeat_time_s_ <= watchdog_s_;
 }
 
@@ -227,6 +228,7 @@ void MachineBody::latch(std::size_t axis, std::uint32_t periods_left) noexcept {
     return;
   }
   const double t_s = time_s_ - periods_left * servo_period_s_ - edge->before_end_s;
+  // The counter's clock stamps an edge with the tick that has begun.
   counter.edge_s = std::floor(t_s / counter.clock_s) * counter.clock_s;
   counter.direction = edge->direction;
 }

@@ -32,7 +32,7 @@ Result<std::unique_ptr<SimulatedMachine>> SimulatedMachine::make(const Config& c
     return std::unexpected(refusal("the simulated machine has no planned path"));
   }
   if (config.periods_per_cycle == 0) {
-    return std::unexpected(refusal("periods_per_cycle is 0; allowed is 1 or more"));
+    return std::unexpected(refusal("periods_per_cycle is 0; allowed: 1 or more"));
   }
   auto body =
       MachineBody::make({.machine = config.machine, .operator_actions = config.operator_actions});
@@ -120,7 +120,7 @@ Result<void> SimulatedMachine::write(const kernel::signal::Command& command) noe
     return std::unexpected(Refusal{Kind::bad_input,
                                    {},
                                    0,
-                                   "a command that is not to be written was handed to the port",
+                                   "the port was handed a command in a mode that does not write",
                                    "write only in mode act"});
   }
   command_ = command;

@@ -43,8 +43,8 @@ std::expected<double, Fault> Clock::seconds(const Row& row) {
       break;
   }
   if (factor_ == 0.0) {
-    return std::unexpected(Fault{row.line(), "the rate of the samples is not known",
-                                 "give --sample-hz, the samples in a second"});
+    return std::unexpected(Fault{row.line(), "the sample rate is unknown",
+                                 "give --sample-hz, the samples per second"});
   }
   auto value = row.number(*column_);
   if (value) {
@@ -58,18 +58,19 @@ std::expected<double, Fault> Clock::stamped(const Row& row) {
   const auto stamp = stamp_of(field);
   if (!stamp) {
     return std::unexpected(Fault{row.line(),
-                                 fmt::format("\"{}\" is no date with a time", shown(field)),
+                                 fmt::format("\"{}\" is not a date and time", shown(field)),
                                  "write each stamp as in the first row, 2026-11-22T23:47:06.5"});
   }
   if (rows_++ == 0) {
     zoned_ = stamp->zoned;
+    // From midnight of the first day, so that seconds keep their digits in a double.
     epoch_s_ = epoch_ == Epoch::unix ? 0 : stamp->whole_s / kDay_s * kDay_s;
   } else if (zoned_ != stamp->zoned) {
     return std::unexpected(
         Fault{row.line(),
-              fmt::format("the stamp \"{}\" {} a zone, the first row's {}", shown(field),
-                          stamp->zoned ? "has" : "has not", zoned_ ? "has" : "has not"),
-              "write all stamps with their zone, or none"});
+              fmt::format("the stamp \"{}\" {} time zone, the first row's {}", shown(field),
+                          stamp->zoned ? "has a" : "has no", zoned_ ? "does" : "does not"),
+              "write every stamp with its time zone, or none"});
   }
   return static_cast<double>(stamp->whole_s - epoch_s_) + stamp->fraction_s;
 }

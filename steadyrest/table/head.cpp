@@ -78,8 +78,8 @@ std::optional<Fault> Head::twice(std::string_view only) const {
     const auto before = std::span(name).first(i);
     const bool counts = only.empty() ? !name[i].empty() : name[i] == only;
     if (counts && std::ranges::find(before, name[i]) != before.end()) {
-      return Fault{line, fmt::format("the column {} stands twice", shown(name[i])),
-                   "give each column its own name"};
+      return Fault{line, fmt::format("the column {} appears twice", shown(name[i])),
+                   "give each column a different name"};
     }
   }
   return std::nullopt;
@@ -140,7 +140,7 @@ std::optional<Fault> add_units(const std::vector<std::string_view>& fields, std:
     }
     if (!own.empty()) {
       return Fault{line, fmt::format("the unit of {} is \"{}\"", shown(name), shown(fields[i])),
-                   "give the name and the row of units the same unit"};
+                   "make the unit in the name agree with the row of units"};
     }
     name += "_" + unit;
   }

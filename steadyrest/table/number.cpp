@@ -86,7 +86,7 @@ std::expected<double, Fault> NumberReader::read(std::string_view field, std::str
               ? fmt::format("{} = \"{}\" has a point; --decimal comma is given", name, shown(field))
               : fmt::format("{} = \"{}\" has a point, line {} a comma", name, shown(field),
                             comma_line_),
-          "write all decimals with the same mark"});
+          "use the same decimal mark throughout"});
     }
   }
   return *value;
@@ -99,7 +99,7 @@ std::expected<double, Fault> NumberReader::with_comma(std::string_view field, st
       field.find('.') != std::string_view::npos) {
     return std::unexpected(
         Fault{line, fmt::format("{} = \"{}\" is not a finite number", name, shown(field)),
-              "write one decimal mark and no groups of digits"});
+              "write one decimal mark and no thousands separators"});
   }
   std::ranges::copy(field, text.begin());
   std::ranges::replace(std::span(text).first(field.size()), ',', '.');
@@ -114,9 +114,10 @@ std::expected<double, Fault> NumberReader::with_comma(std::string_view field, st
             ? fmt::format("{} = \"{}\" has a comma; --decimal point is given", name, shown(field))
             : fmt::format("{} = \"{}\" has a comma, line {} a point", name, shown(field),
                           point_line_),
-        "write all decimals with the same mark and no groups of digits"});
+        "use the same decimal mark throughout, and no thousands separators"});
   }
   comma_line_ = comma_line_ == 0 ? line : comma_line_;
+  // 1,234 may be either; one 12,5 in the file proves the comma a decimal mark.
   proved_ = proved_ || decimal_ == Decimal::comma || !could_group(field);
   return *value;
 }
@@ -125,9 +126,10 @@ std::optional<Fault> NumberReader::unproved() const {
   if (comma_line_ == 0 || proved_) {
     return std::nullopt;
   }
-  return Fault{comma_line_,
-               "a comma could be the decimal mark or group digits, here and in the whole file",
-               "say --decimal comma, or export numbers with a decimal point"};
+  return Fault{
+      comma_line_,
+      "the comma may be a decimal mark or a thousands separator, here and throughout the file",
+      "give --decimal comma, or export numbers with a decimal point"};
 }
 
 }  // namespace steadyrest::table

@@ -138,7 +138,7 @@ std::optional<Fault> RowReader::line(std::string_view text) {
 std::optional<Fault> RowReader::overrun() {
   if (format_.rows_are_samples &&
       std::ranges::find(format_.columns, "sample"sv) == format_.columns.end()) {
-    return Fault{line_, "the sampler overran: samples are missing here, nobody knows how many",
+    return Fault{line_, "the sampler overran: an unknown number of samples is missing here",
                  "sample with halsampler -t and name its first column sample"};
   }
   if (notes_.size() < kMostNotes) {
@@ -150,17 +150,17 @@ std::optional<Fault> RowReader::overrun() {
 
 std::optional<Fault> RowReader::take_head(std::string_view text) {
   if (text.find('\r') != std::string_view::npos) {
-    return Fault{line_, "the lines end with a carriage return alone",
+    return Fault{line_, "the lines end with a bare carriage return",
                  "save the log with LF or CR LF as line ends"};
   }
   if (std::ranges::any_of(text, is_control)) {
-    return Fault{line_, "the header has control characters: this is no text", "give a text file"};
+    return Fault{line_, "the header has control characters: this is not text", "give a text file"};
   }
   const std::string_view first = field_of(text.substr(0, text.find_first_of(",;\t ")));
   if (!first.empty() &&
       (like_a_number(first) || stamp_of(field_of(text.substr(0, text.find_first_of(",;\t")))))) {
     return Fault{line_, fmt::format("there is no header before \"{}\"", shown(text)),
-                 "name the columns in a first line without # before it, or with --columns"};
+                 "name the columns in a first line without a leading #, or with --columns"};
   }
   head_text_ = std::string(text);
   head_.line = line_;
@@ -190,7 +190,7 @@ std::optional<Fault> RowReader::take_named(std::string_view text) {
     }
     have_names_ = true;
     if (std::ranges::none_of(fields_, holds_value)) {
-      notes_.push_back({line_, "the header is passed over", "the columns are those of --columns"});
+      notes_.push_back({line_, "the header is skipped", "--columns names the columns"});
       return std::nullopt;
     }
     units_may_follow_ = false;
@@ -199,7 +199,7 @@ std::optional<Fault> RowReader::take_named(std::string_view text) {
   return Fault{
       line_,
       fmt::format("--columns names {} columns, the row has {}: \"{}\"", wanted, best, shown(text)),
-      "name each column, - for one that is to be passed over"};
+      "name each column, with - for one to skip"};
 }
 
 /// The first line behind the head: the units, or the first row. Now the separator can be told.
@@ -235,7 +235,7 @@ std::optional<Fault> RowReader::give_head() {
   std::optional<Fault> fault;
   if (head_.name.size() > kMostColumns) {
     fault = Fault{0, fmt::format("{} columns; {} are allowed", head_.name.size(), kMostColumns),
-                  "leave out what is not needed"};
+                  "leave out the columns you do not need"};
   } else {
     fault = sink_.head(head_);
   }
@@ -259,8 +259,8 @@ std::optional<Fault> RowReader::take_row(std::string_view text) {
     return Fault{line_,
                  fmt::format("the row has {} fields, the header {}: \"{}\"", fields_.size(),
                              head_.name.size(), shown(trimmed(text))),
-                 "give each row a field for each column; where a comma parts them, decimals have a "
-                 "point"};
+                 "give each row one field per column; in a comma-separated file, write decimals "
+                 "with a point"};
   }
   return sink_.row(Row(*this, line_, fields_));
 }
@@ -303,12 +303,12 @@ std::optional<Fault> fault_of_kind(std::string_view first_bytes) {
     std::string_view to_do;
   };
   static constexpr std::array kKinds{
-      Kind{"\x1f\x8b"sv, "is compressed by gzip", "unpack it: zcat LOG.gz > LOG"},
+      Kind{"\x1f\x8b"sv, "is gzip-compressed", "unpack it: zcat LOG.gz > LOG"},
       Kind{"\xfd"
            "7zXZ"sv,
-           "is compressed by xz", "unpack it: xzcat LOG.xz > LOG"},
-      Kind{"\x28\xb5\x2f\xfd"sv, "is compressed by zstd", "unpack it: zstdcat LOG.zst > LOG"},
-      Kind{"BZh"sv, "is compressed by bzip2", "unpack it: bzcat LOG.bz2 > LOG"},
+           "is xz-compressed", "unpack it: xzcat LOG.xz > LOG"},
+      Kind{"\x28\xb5\x2f\xfd"sv, "is zstd-compressed", "unpack it: zstdcat LOG.zst > LOG"},
+      Kind{"BZh"sv, "is bzip2-compressed", "unpack it: bzcat LOG.bz2 > LOG"},
       Kind{"PK\x03\x04"sv, "is a zip archive", "unpack it first"},
       Kind{"\xff\xfe"sv, "is UTF-16 text", "save it as UTF-8"},
       Kind{"\xfe\xff"sv, "is UTF-16 text", "save it as UTF-8"},

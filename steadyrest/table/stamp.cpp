@@ -115,6 +115,7 @@ std::optional<Stamp> stamp_of(std::string_view field) noexcept {
     return std::nullopt;
   }
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
+  // Whole seconds and fraction apart: one double since 1970 resolves 0.2 µs.
   out.whole_s = 86'400 * days + 3600LL * hour + 60LL * (minute - ahead_min) + second;
   return out;
 }

@@ -78,8 +78,7 @@ TEST(Cli, APortThatIsNotBuiltIsRefused) {
     for (const std::string& line : {"doctor --machine " + machine,
                                     "cut examples/programs/circle-r10.ngc --machine " + machine}) {
       expect_refused(
-          line,
-          fmt::format("port = \"{}\" is not known; allowed is only sim; write \"sim\"", port));
+          line, fmt::format("port = \"{}\" is unknown; allowed: only sim; write \"sim\"", port));
     }
   }
 }
@@ -98,7 +97,7 @@ TEST(Cli, SaysSoWhenStdoutTakesNothing) {
   const Finished finished = run_on_full_disk(
       {"contour", "limit", "--radius-mm", "10", "--kv-1-s", "50", "--max-error-mm", "1", "--json"});
   EXPECT_EQ(finished.code, 1);
-  EXPECT_THAT(finished.err, HasSubstr("cannot be written to stdout"));
+  EXPECT_THAT(finished.err, HasSubstr("failed to write the answer to stdout"));
 }
 
 TEST(ContourLimit, GivesTheFeedForAnError) {

@@ -119,7 +119,7 @@ TEST(LogSpelling, MotionEstimateKnowsCyclesFromEdges) {
   const std::string rest = " --count-mm 0.001 --cycle-hz 1000 -o " + scratch.at("out.csv");
   expect_refused("motion estimate " + log + " --input edges" + rest, "--input ticks");
   expect_refused("motion calibrate " + log + " --count-mm 0.001 -o " + scratch.at("out.toml"),
-                 "is no log of edges");
+                 "is not a log of edges");
   expect_refused("motion estimate examples/logs/sine-edges.csv --input ticks" + rest,
                  "--input edges");
   EXPECT_EQ(answer_of("motion estimate " + log + " --input ticks" + rest)["ticks"], 500);
@@ -176,7 +176,7 @@ TEST(LogSpelling, ChatterFitReadsAccelerance) {
     EXPECT_NEAR(fit["modes"][0][key], wanted, 1e-5 * wanted) << key;
   }
   const Finished said = run_line("chatter fit " + log + " --axis x");
-  EXPECT_THAT(said.out, HasSubstr("acceleration per force, taken as displacement by −1/ω²"));
+  EXPECT_THAT(said.out, HasSubstr("acceleration per force, converted to displacement by −1/ω²"));
   EXPECT_THAT(said.out, HasSubstr("coherence below 0.8"));
 }
 

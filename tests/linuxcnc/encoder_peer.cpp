@@ -187,7 +187,7 @@ int run(const Options& options) {
     fmt::print(stderr, "encoder_peer: {} base periods saw more than one count\n", missed);
   }
   out.close();
-  return out ? 0 : refuse(options.out + ": cannot be written");
+  return out ? 0 : refuse(options.out + ": write failed");
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ function run(layer: boolean, samples: number): Run {
   };
   const sentences: Record<string, string> = {
     none: 'Nothing to correct.',
-    contour_within_limit: 'The largest step that keeps the contour limit.',
+    contour_within_limit: 'Highest feed step that holds the contour limit.',
   };
   const list: ReasonTime[] = [...reasons].map(([reason, seconds]) => ({
     reason,
@@ -267,7 +267,7 @@ export function makeReport(samples: number): Report {
         innovation_um: 2.94,
         band_um: 5.21,
         reason: 'thermal_reading_taken',
-        sentence: "A reading has corrected the thermal model's state.",
+        sentence: "A probe reading re-zeroed the thermal model.",
       },
     ],
     motion: ['X', 'Y'].map((axis) => ({

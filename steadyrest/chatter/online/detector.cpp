@@ -97,11 +97,13 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
     return out_;
   }
   const double turn_share = input.speed_rev_s / config_.sample_rate_hz;
+  // Fewer than four samples in a revolution: no order can be told from another.
   if (!(turn_share > 0.0 && turn_share < 0.25)) {
     out_.reason = Reason::input_out_of_range;
     return out_;
   }
   follow_speed(input);
+  // Before everything else: the spectrum and the energies look at what the filter leaves.
   const OrderFilter::Output forced =
       filter_.update(input.value, state_.angle_rev, input.speed_rev_s,
                      state_.speed_spread >= kSteady, state_.hold);
@@ -113,6 +115,8 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   const double tooth_hz = static_cast<double>(config_.teeth) * state_.mean_speed_rev_s;
   const bool gaps = tooth_hz > kWideBins * spectrum_.resolution_hz();
   const bool steady = state_.speed_spread < kSteady;
+  // At constant speed whatever is left of the tooth orders is not looked at. Where they lie closer
+  // than a line is wide nothing would remain, and while the speed moves they sweep.
   const double guard_hz = gaps && steady ? kGuardBins * spectrum_.resolution_hz() : 0.0;
   if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz);
       lines.fresh && !share_.busy()) {
@@ -131,10 +135,13 @@ void Detector::follow_speed(const Input& input) noexcept {
     state_.mean_speed_rev_s = input.speed_rev_s;
     state_.angle_rev = std::isnan(input.angle_rev) ? 0.0 : input.angle_rev;
   } else if (std::isnan(input.angle_rev)) {
+    // No angle is given: the speed is integrated. Its error only turns all orders together, and
+    // slowly; the filter follows.
     state_.angle_rev += input.speed_rev_s / config_.sample_rate_hz;
   } else {
     state_.angle_rev = input.angle_rev;
   }
+  // Memory of half a window: mean and spread belong to what the spectrum sees.
   const double keep = 2.0 / static_cast<double>(spectrum_.length());
   state_.mean_speed_rev_s += keep * (input.speed_rev_s - state_.mean_speed_rev_s);
   const double off = std::abs(input.speed_rev_s / state_.mean_speed_rev_s - 1.0);
@@ -145,6 +152,7 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
                              double turn_share) noexcept {
   state_.forced_energy += turn_share * (forced.forced_energy - state_.forced_energy);
   state_.tooth_energy += turn_share * (forced.tooth_energy - state_.tooth_energy);
+  // A plain mean until the memory is full, then exponential.
   const double slow = std::max(turn_share / kSlowRev, turn_share / (state_.seen_rev + turn_share));
   state_.seen_rev = std::min(state_.seen_rev + turn_share, kSlowRev);
   state_.slow_energy += slow * (forced.tooth_energy - state_.slow_energy);
@@ -166,6 +174,7 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
   if (entered && calm && state_.settled_rev > pause_rev) {
     state_.opened = true;
     state_.seen_rev = 0.0;
+    // A new cut brings new forced vibration: what was learnt about the last one is dropped.
     filter_.open(state_.speed_spread >= kSteady);
     state_.settled_rev = 0.0;
     state_.settled = 0;
@@ -179,6 +188,8 @@ bool Detector::witnessed(double line_energy, double order) const noexcept {
   if (!revolution_.known) {
     return true;
   }
+  // E(x(t) − x(t − T))² of a line of this energy is 2·E·(1 − cos 2π·order), half of which is what
+  // RevolutionSpread takes: a line on a spindle order changes nothing from turn to turn.
   const double expected = line_energy * (1.0 - std::cos(kTurn * order));
   return revolution_.changed_energy >= kWitnessShare * expected;
 }
@@ -186,6 +197,7 @@ bool Detector::witnessed(double line_energy, double order) const noexcept {
 Detector::Kind Detector::kind_of(double frequency_hz) const noexcept {
   const double tooth_hz = static_cast<double>(config_.teeth) * state_.mean_speed_rev_s;
   const double order = frequency_hz / tooth_hz;
+  // Period doubling has its lines at odd multiples of half the tooth-passing frequency.
   const double from_half_hz = std::abs(order - std::floor(order) - 0.5) * tooth_hz;
   return from_half_hz < 0.5 * spectrum_.resolution_hz() ? Kind::flip : Kind::hopf;
 }
@@ -293,6 +305,7 @@ void Detector::learn(double line_energy, bool suspect) noexcept {
   const double hop_s = kHop * static_cast<double>(spectrum_.length()) / config_.sample_rate_hz;
   const double rise = out_.free_ratio - state_.floor_free;
   const double free_s = rise > 0.0 ? kFreeRiseS : kFreeFallS;
+  // Quick up, slow down: what a stable cut has shown once it may show again.
   state_.floor_free += state_.judged_s > kFreeLearnS ? std::min(hop_s / free_s, 1.0) * rise : 0.0;
   if (suspect) {
     return;

@@ -47,7 +47,10 @@ FreeShare::FreeShare(const Config& config, std::size_t block)
       angle_(2 * kBlocks * block) {
   const auto n = static_cast<double>(taps_.size());
   for (std::size_t i = 0; i < taps_.size(); ++i) {
+    // Hann, scaled to a sum of 1.
     taps_[i] = (1.0 - std::cos(kTurn * (static_cast<double>(i) + 0.5) / n)) / n;
+    // White noise of energy 1 leaves Σ taps² in the shifted band; twice that for the conjugate band
+    // of a real signal.
     out_.noise_share += 2.0 * taps_[i] * taps_[i];
   }
 }
@@ -55,6 +58,7 @@ FreeShare::FreeShare(const Config& config, std::size_t block)
 const FreeShare::Output& FreeShare::update(double value, double angle_rev) noexcept {
   out_.fresh = false;
   value_[head_] = value;
+  // Only whole orders are asked of it, so whole turns are dropped before they cost digits.
   angle_[head_] = angle_rev - std::floor(angle_rev);
   head_ = head_ + 1 == value_.size() ? 0 : head_ + 1;
   seen_ = std::min(seen_ + 1, kBlocks * block_);
@@ -101,6 +105,7 @@ void FreeShare::ask(double frequency_hz, double speed_rev_s, std::size_t samples
 void FreeShare::choose_orders(double speed_rev_s) noexcept {
   constexpr double kHalf = 0.5 * static_cast<double>(kMostOrders) - 1.0;
   const auto teeth = static_cast<double>(config_.teeth);
+  // All spindle orders only where enough of them fit into the columns to cover the least band.
   stride_ = teeth > kHalf || kHalf * speed_rev_s < kLeastBand ? config_.teeth : 1;
   const double spacing_hz = speed_rev_s * static_cast<double>(stride_);
   const double at = frequency_hz_ / spacing_hz;
@@ -131,6 +136,7 @@ void FreeShare::shift() noexcept {
     std::array<double, 4> tap{};
     for (std::size_t row = low; row <= high; ++row) {
       tap[row - low] = taps_[at_ - row * block_];
+      // Each sample falls into up to four overlapping windows.
       z_[row] += tap[row - low] * value_[ring] * turned_;
     }
     for (std::size_t k = 0; k < orders_; ++k) {
@@ -166,6 +172,7 @@ void FreeShare::off(Column& column, Span span) const noexcept {
 }
 
 void FreeShare::add(const Column& column, Span span) noexcept {
+  // As many columns as rows would explain anything.
   if (columns_ == kColumns || columns_ + kSpare >= span.size()) {
     return;
   }
@@ -181,6 +188,7 @@ void FreeShare::add(const Column& column, Span span) noexcept {
   const double whole = energy(left);
   off(left, span);
   const double rest = energy(left);
+  // A column that the others nearly give would only bring in noise.
   if (whole > 1e-6 * static_cast<double>(span.size()) && rest > kSame * whole) {
     const double scale = 1.0 / std::sqrt(rest);
     for (std::size_t i = span.first; i < span.last; ++i) {
@@ -231,12 +239,16 @@ void FreeShare::solve_rate() noexcept {
       num += times(std::conj(instrument[i]), next[i]);
       den += times(std::conj(instrument[i]), now[i]);
     }
+    // IV estimate a = ⟨w, z[n+1]⟩/⟨w, z[n]⟩: with w = z[n−4] the noise of z[n] is not correlated
+    // with it, with w = z itself it is and damps a.
     const Complex a = std::norm(den) > 0.0 ? num / den : Complex(1.0, 0.0);
     const double growth = rate * std::log(std::max(std::abs(a), 1e-6));
     out_.growth_1_s = p == 0 ? growth : out_.growth_1_s;
     const double decay = std::clamp(-growth, kLeastDecay, kFastestDecay);
     poles_[p] = std::polar(std::exp(-decay / rate), std::arg(a));
   }
+  // The mode hardly changes from one question to the next: its last answer is tried as well, and
+  // the pole that leaves least counts.
   poles_[2] = std::polar(best_size_, kTurn * (best_hz_ - frequency_hz_) / rate);
   pole_ = 0;
   out_.off_teeth = out_.off_spindle = std::numeric_limits<double>::max();
@@ -267,6 +279,7 @@ void FreeShare::mode() noexcept {
     for (std::size_t i = span.first; i < span.last; ++i) {
       sum += std::norm(rest[i]);
     }
+    // Per degree of freedom, so that more columns do not look better by their number alone.
     return 2.0 * sum / static_cast<double>(span.size() - columns_);
   };
   while (at_ < 2 * orders_ && is_tooth(at_ % orders_) != (at_ < orders_)) {

@@ -33,6 +33,7 @@ kernel::outcome::Result<LineSpectrum> LineSpectrum::make(const Config& config) {
   if (!(config.lowest_hz >= 0.0 && config.lowest_hz <= 0.25 * config.sample_rate_hz)) {
     return std::unexpected(refuse("lowest frequency is not within 0…¼ of the sample rate"));
   }
+  // A power of 2 for the butterflies; the window comes out within a factor √2 of what was asked.
   const double wanted = std::log2(config.window_s * config.sample_rate_hz);
   const auto bits = static_cast<unsigned>(std::clamp(std::lround(wanted), 6L, 15L));
   return LineSpectrum(config, std::size_t{1} << bits);
@@ -52,6 +53,7 @@ LineSpectrum::LineSpectrum(const Config& config, std::size_t n)
   const auto bits = static_cast<unsigned>(std::countr_zero(n));
   for (std::size_t i = 0; i < n; ++i) {
     const double phase = kTurn * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    // Hann: its side lobes fall fast, so a strong tooth order does not cover a weak line.
     window_[i] = 0.5 * (1.0 - std::cos(phase));
     std::uint32_t r = 0;
     for (unsigned b = 0; b < bits; ++b) {
@@ -124,6 +126,7 @@ void LineSpectrum::transform() noexcept {
     const std::complex<double> w = twiddle_[within * (n_ / (2 * half_))];
     const std::complex<double> a = bins_[low];
     const std::complex<double> b = bins_[low + half_];
+    // Written out: std::complex's product tests for NaN.
     const std::complex<double> t(w.real() * b.real() - w.imag() * b.imag(),
                                  w.real() * b.imag() + w.imag() * b.real());
     bins_[low] = a + t;
@@ -145,6 +148,7 @@ void LineSpectrum::transform() noexcept {
 
 void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
   const auto n = static_cast<double>(n_);
+  // Energy of a real line over both of its bins, the window's own energy taken out.
   const double scale = 2.0 / (kHannEnergy * n * n);
   const std::size_t end = std::min(n_ / 2, at_ + kCopy);
   for (; at_ < end; ++at_) {
@@ -152,6 +156,8 @@ void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
     const bool skipped =
         guard_hz > 0.0 && std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) <= guard_hz;
     const double p = scale * std::norm(bins_[at_]);
+    // Kept with its sign turned: the interpolation of a peak beside a gap still needs the
+    // neighbour.
     power_[at_] = skipped ? -p : p;
     if (!skipped) {
       sum_ += p;
@@ -187,6 +193,8 @@ void LineSpectrum::noise() noexcept {
   count_ = 0;
   if (++pass_ == kNoisePasses) {
     step_ = Step::lines;
+    // Clipping takes the noise's own peaks as well: its mean comes out too small by a known factor.
+    // Never 0, it is divided by.
     level_ = std::max(kClipBias * level_, std::numeric_limits<double>::min());
   }
 }
@@ -207,6 +215,7 @@ void LineSpectrum::finish() noexcept {
   const double left = std::sqrt(std::abs(power_[std::max(peak_, first_bin_ + 1) - 1]));
   const double right = std::sqrt(std::abs(power_[std::min(peak_ + 1, n_ / 2 - 1)]));
   const double ratio = here > 0.0 ? std::min(1.0, std::max(left, right) / here) : 0.5;
+  // Of a line between two bins under a Hann window: exact for a single line.
   const double offset = (2.0 * ratio - 1.0) / (ratio + 1.0);
   const double sign = right >= left ? 1.0 : -1.0;
   out_.frequency_hz = (static_cast<double>(peak_) + sign * offset) * bin_hz_;

@@ -66,6 +66,7 @@ bool Modulator::change(const Modulation& modulation) noexcept {
     return false;
   }
   const Modulation& now = state_.modulation;
+  // The phase stays: a law that begins anew would jump.
   if (modulation.law != now.law || modulation.seed != now.seed) {
     law_ = SpeedLaw(modulation.law, modulation.seed);
   }
@@ -117,6 +118,8 @@ bool Modulator::wanted(const Frame& frame) const noexcept {
 
 Modulator::Limits Modulator::limits(const Frame& frame) const noexcept {
   const double speed_rev_s = std::abs(frame.spindle_programmed_rev_s);
+  // The last term: above it the feed per tooth would fall below its band, since the feed can go no
+  // higher.
   double high = std::min({spindle_.ratio(highest_), config_.max_rev_s / speed_rev_s,
                           feed_top_ratio_ / config_.min_feed_per_tooth_ratio});
   if (!spindle_.layer_may_exceed_panel()) {
@@ -124,6 +127,8 @@ Modulator::Limits Modulator::limits(const Frame& frame) const noexcept {
   }
   high = std::max(high, spindle_.ratio(lowest_));
   const double low = std::max(spindle_.ratio(lowest_), config_.min_rev_s / speed_rev_s);
+  // Contradicting limits leave one point, the upper one: the panel and the spindle's maximum come
+  // first.
   return {.low = std::min(low, high), .high = high};
 }
 
@@ -151,6 +156,7 @@ double Modulator::goal(const Swing& swing, double phase) const noexcept {
 /// From now until the feed could answer; turns that the law makes on the way count.
 double Modulator::lowest_goal_ahead(const Swing& swing) const noexcept {
   const double from = state_.phase;
+  // In periods. Between the two ends the law may turn at a corner, or a sine at its minimum.
   const double turn = feed_delay_s_ / state_.modulation.period_s;
   double lowest = std::min(law_.at(from), law_.at(from + turn));
   const auto passes = [&](double phase) { return phase - from - std::floor(phase - from) <= turn; };
@@ -163,6 +169,7 @@ double Modulator::lowest_goal_ahead(const Swing& swing) const noexcept {
     lowest = -1.0;
   }
   const double ratio = swing.mean + swing.amplitude * lowest;
+  // While it fades in, the swing will be larger by the time the feed answers.
   const double fade = std::min(1.0, state_.fade + feed_delay_s_ / config_.fade_s);
   return 1.0 + (ratio < 1.0 ? fade : state_.fade) * (ratio - 1.0);
 }
@@ -190,6 +197,7 @@ void Modulator::choose_step(double ratio, const Limits& limits, double floor) no
   const double from = spindle_.ratio(state_.step);
   const double to = spindle_.ratio(nearest);
   const double room = config_.hysteresis * std::abs(to - from);
+  // Hysteresis: noise around the middle between two steps must not move the word.
   if (std::abs(ratio - to) + room < std::abs(ratio - from)) {
     state_.step = nearest;
   }
@@ -271,6 +279,8 @@ void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) no
       return;
     }
   }
+  // Rising needs a little room above the step, falling does not: noise in the actual speed must not
+  // make it toggle.
   const std::size_t settled =
       std::min(*down, feed_->floor_step(kRoomToRise * cap + kRatioTolerance).value_or(*down));
   state_.feed_step =
@@ -281,6 +291,7 @@ void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) no
 }
 
 Modulator::Output Modulator::withdraw(Reason reason) noexcept {
+  // At once, without fading: the envelope's slew takes the override back.
   state_.fade = 0.0;
   state_.stepped = false;
   state_.fed = false;
@@ -338,6 +349,7 @@ Modulator::Output Modulator::update(const Frame& frame) noexcept {
   const double later = std::clamp(lowest_goal_ahead(fitted), within.low, within.high);
   const double ahead = std::min({now, later, state_.ratio});
   const double step_ahead = spindle_.ratio(spindle_.nearest_step(ahead).value_or(0));
+  // The feed first: what it is asked now bounds what the spindle may be asked.
   ask_feed(frame, std::min(ahead, std::max(step_ahead, spindle_.ratio(lowest_))), output);
   ask_spindle(frame, within, fitted, slewed, output);
   return output;

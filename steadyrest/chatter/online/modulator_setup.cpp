@@ -40,7 +40,7 @@ Result<void> check(const Modulator::Config& c) {
   constexpr double kMost = 1e9;
   if (!fit(c.modulation)) {
     return std::unexpected(
-        refuse("the modulation's law, amplitude, period or mean is out of its range",
+        refuse("the law, amplitude, period or mean of the modulation is out of range",
                "correct law, amplitude, period_s and mean_percent of [chatter]"));
   }
   for (const Range& r :
@@ -57,9 +57,9 @@ Result<void> check(const Modulator::Config& c) {
         Range{"hysteresis", c.hysteresis, 0.0, 0.5},
         Range{"max_step_s", c.max_step_s, 1e-6, 1e3}}) {
     if (!(r.value >= r.min && r.value <= r.max)) {
-      return std::unexpected(refuse(fmt::format("modulator: {} = {:g} is outside of {:g} … {:g}",
-                                                r.name, r.value, r.min, r.max),
-                                    "correct [chatter] or [envelope]"));
+      return std::unexpected(refuse(
+          fmt::format("modulator: {} = {:g} is outside {:g} … {:g}", r.name, r.value, r.min, r.max),
+          "correct [chatter] or [envelope]"));
     }
   }
   return {};
@@ -84,12 +84,12 @@ Result<Modulator> Modulator::make(const Config& config) {
   const auto highest = spindle->floor_step(config.max_ratio);
   if (!lowest || !highest ||
       spindle->ratio(*highest) <= spindle->ratio(*lowest) + kRatioTolerance) {
-    return std::unexpected(refuse(
-        fmt::format("the spindle's override has no two steps within {:g} … {:g} %: there is "
-                    "nothing to modulate with",
-                    100.0 * config.min_ratio, 100.0 * config.max_ratio),
-        "give [override.spindle] and an [envelope] that holds some of its steps, or set enabled = "
-        "false in [chatter]"));
+    return std::unexpected(
+        refuse(fmt::format("the spindle override has fewer than two steps within {:g} … {:g} %: "
+                           "there is nothing to modulate with",
+                           100.0 * config.min_ratio, 100.0 * config.max_ratio),
+               "give [override.spindle] and an [envelope] that contains some of its steps, or set "
+               "enabled = false in [chatter]"));
   }
   std::optional<Table> feed;
   if (!config.feed_table.ratio.empty()) {

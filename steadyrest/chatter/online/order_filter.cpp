@@ -70,6 +70,7 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
   const double cos_step = std::cos(angle);
   const double sin_step = std::sin(angle);
   const double unrest = turn_share * turn_share;
+  // q goes with 1/memory²: a memory shorter by `quick` has quick² the unrest.
   const double quick = config_.tooth_memory_rev / config_.moving_memory_rev;
   const double tooth_unrest = moving ? unrest * quick * quick : unrest;
   double cos_k = 1.0;
@@ -80,6 +81,7 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
   std::size_t used = 0;
   for (; used < orders_.size() && orders_[used].order * turn_share < kHighest; ++used) {
     Order& o = orders_[used];
+    // cos kθ and sin kθ by rotation: one sine and cosine a sample instead of one for each order.
     while (at < o.order) {  // at most one turn more for each order left out
       const double next = cos_k * cos_step - sin_k * sin_step;
       sin_k = sin_k * cos_step + cos_k * sin_step;
@@ -102,6 +104,7 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
       o.c += gain * out.residual * o.cos;
       o.s += gain * out.residual * o.sin;
     }
+    // Half: over a revolution cos² and sin² average to ½.
     o.p -= 0.5 * gain * o.p;
     const double energy = 0.5 * (o.c * o.c + o.s * o.s);
     out.forced_energy += i == 0 ? 0.0 : energy;

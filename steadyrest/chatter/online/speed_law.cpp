@@ -81,12 +81,14 @@ SpeedLaw::SpeedLaw(Law law, std::uint64_t seed) noexcept : law_(law) {
       }
       double largest = 0.0;
       for (std::size_t k = 0; k < kRandomKnots; ++k) {
+        // Mean 0 first, then scaled to ±1: the amplitude is then that of the largest swing.
         knot_[k] -= mean;
         largest = std::max(largest, std::abs(knot_[k]));
       }
       for (std::size_t k = 0; k < kRandomKnots; ++k) {
         knot_[k] /= largest;
       }
+      // Periodic without a jump at the end of the period.
       knot_[kRandomKnots] = knot_[0];
       for (std::size_t k = 0; k < kRandomKnots; ++k) {
         knot_integral_[k + 1] = knot_integral_[k] + 0.5 * (knot_[k] + knot_[k + 1]) / kKnots;
@@ -134,6 +136,7 @@ double SpeedLaw::integral(double phase) const noexcept {
     case Law::stop:
       return -pulse_integral(u, kStopShare);
     case Law::triangle:
+      // Antiderivative of the triangle with value 0 at both ends.
       return u < 0.25   ? 2.0 * u * u
              : u < 0.75 ? 0.25 - 2.0 * (u - 0.5) * (u - 0.5)
                         : 2.0 * (1.0 - u) * (1.0 - u);

@@ -42,7 +42,7 @@ SpeedTable::Advice found(double ratio, double speed_rev_s, Reason reason) noexce
 
 kernel::outcome::Result<SpeedTable> SpeedTable::make(Config config) {
   if (config.speed_rev_s.size() != config.limit_depth_mm.size()) {
-    return std::unexpected(refuse("there are not as many depths as speeds"));
+    return std::unexpected(refuse("the numbers of depths and speeds differ"));
   }
   if (!within(config.speed_rev_s, std::numeric_limits<double>::min()) ||
       std::ranges::adjacent_find(config.speed_rev_s, std::greater_equal<>{}) !=
@@ -103,6 +103,7 @@ SpeedTable::Advice SpeedTable::ask(const Question& question) const noexcept {
 
 SpeedTable::Advice SpeedTable::from_table(const Question& question) const noexcept {
   const double here_mm = limit_depth_mm(question.programmed_rev_s * question.ratio);
+  // Without a depth nothing is plenty: the deepest step wins.
   const double plenty_mm = question.depth_mm > 0.0
                                ? config_.reserve * std::max(question.depth_mm, here_mm)
                                : std::numeric_limits<double>::infinity();
@@ -129,9 +130,11 @@ SpeedTable::Advice SpeedTable::from_table(const Question& question) const noexce
 }
 
 SpeedTable::Advice SpeedTable::from_rule(const Question& question) const noexcept {
+  // Speed at which one wave fits between two teeth; at 1/k of it, k do.
   const double waves_rev_s = question.frequency_hz / static_cast<double>(config_.teeth);
   const double here = question.programmed_rev_s * question.ratio;
   const double here_waves = waves_rev_s / here;
+  // A step only helps if it is nearer to whole waves than the present speed.
   const double here_off = std::abs(here_waves - std::max(1.0, std::round(here_waves)));
   Advice best;
   double best_way = std::numeric_limits<double>::infinity();
@@ -143,6 +146,7 @@ SpeedTable::Advice SpeedTable::from_rule(const Question& question) const noexcep
     if (permitted(ratio, speed) && std::abs(ratio - question.ratio) >= kSameRatio &&
         miss < kRuleReach && miss * k < std::min(kRuleWaves, here_off) && way < best_way) {
       best = found(ratio, speed, Reason::chatter_rule_speed);
+      // Bounded before the cast: a tiny speed gives a k beyond an unsigned.
       best.waves = static_cast<unsigned>(std::min(k, 1e6));
       best_way = way;
     }

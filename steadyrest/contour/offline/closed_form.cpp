@@ -25,7 +25,7 @@ std::optional<Refusal> outside(std::string_view what, double value, double low, 
     return std::nullopt;
   }
   return Refusal{Kind::bad_input, "", 0,
-                 fmt::format("{} = {:.10g}; allowed is {} {:.10g} … {:.10g}", what, value,
+                 fmt::format("{} = {:.10g}; allowed: {} {:.10g} … {:.10g}", what, value,
                              low_allowed ? "from" : "above", low, high),
                  "give a value in that range"};
 }
@@ -49,6 +49,8 @@ struct Shares {
   double tracking = 0.0;
 };
 
+// G(jω) = (k + a·jω)/(k − τω² + jω) of the axis law; g = |G|² is the squared ratio of actual to
+// commanded radius. At a = τ = 0 this is ε = R − R/√(1 + q²) with q = ω/k.
 Shares shares(const Servo& servo, double w) {
   const double k = servo.gain_1_s;
   const double a = servo.feed_forward;
@@ -114,10 +116,12 @@ Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double ma
   }
   if (max_error_mm == radius_mm) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "the largest error is as large as the radius",
+                                   "the largest error is not below the radius",
                                    "give an error below the radius"});
   }
   const double share = max_error_mm / radius_mm;
+  // R′ = R ∓ ε: g − 1 = (1 ∓ ε/R)² − 1, written without the 1 that would swallow a small share.
+  // With velocity lag the circle may come out too large first.
   const double too_small = crossing(servo, -share * (2.0 - share));
   const double too_large = crossing(servo, share * (2.0 + share));
   const double w = std::min(too_small, too_large);

@@ -115,6 +115,7 @@ Result<void> OutputFile::make_beside() {
   }
   struct ::stat before{};
   const bool replaces = place_.exists && ::stat(place_.path.c_str(), &before) == 0;
+  // A process's mask can be read only by setting it.
   const mode_t mask = ::umask(0);
   ::umask(mask);
   if (replaces && (before.st_uid != ::geteuid() || before.st_gid != ::getegid())) {
@@ -250,10 +251,10 @@ Result<void> OutputFile::commit() {
 }
 
 Refusal OutputFile::refusal(int error) const {
-  return {Kind::unavailable, name_, 0, std::string{"cannot be written: "} + std::strerror(error),
+  return {Kind::unavailable, name_, 0, std::string{"write failed: "} + std::strerror(error),
           place_.kind == Place::Kind::file
-              ? "check the folder, the rights and the disk space; what was there is untouched"
-              : "check who reads it and the disk space"};
+              ? "check the folder, its permissions and the disk space; the old content is untouched"
+              : "check the program that reads it, and the disk space"};
 }
 
 Result<void> put_in_place(std::span<OutputFile> settled) {

@@ -58,7 +58,7 @@ Result<Place> of_existing(const std::string& name, const struct ::stat& found) {
     return refuse(name, Kind::bad_input, "is a folder", "name a file in it");
   }
   if (S_ISBLK(found.st_mode)) {
-    return refuse(name, Kind::bad_input, "is a disk", "name a file");
+    return refuse(name, Kind::bad_input, "is a block device", "name a file");
   }
   if (is_standard_output(found)) {
     return Place{Place::Kind::standard_output, name, true};
@@ -86,18 +86,18 @@ Result<Place> place_of(const std::string& name) {
   const auto file = resolved(name);
   if (!file) {
     return refuse(name, Kind::unavailable,
-                  "cannot be written: its folder cannot be reached: " + file.error().message(),
-                  "make the folder first, or name another");
+                  "is not writable: its folder is out of reach: " + file.error().message(),
+                  "create the folder first, or name another");
   }
   place.path = *file;
   const bool nobody = place.exists && (found.st_mode & 0222U) == 0;
   if (nobody || (place.exists && ::access(file->c_str(), W_OK) != 0)) {
-    return refuse(name, Kind::unavailable, "cannot be written: the file is write-protected",
-                  "give it write permission, or name another; what was there is untouched");
+    return refuse(name, Kind::unavailable, "is not writable: the file is write-protected",
+                  "give it write permission, or name another file; the old content is untouched");
   }
   if (::access(file->parent_path().c_str(), W_OK | X_OK) != 0) {
     return refuse(name, Kind::unavailable,
-                  "cannot be written: its folder: " + std::generic_category().message(errno),
+                  "is not writable: its folder: " + std::generic_category().message(errno),
                   "give the folder write permission, or name another");
   }
   return place;
@@ -123,17 +123,17 @@ Result<MadeFolders> MadeFolders::make(const fs::path& folder) {
     made.keep();
     if (why != EEXIST) {  // `a/.` is there once `a` is
       return refuse(name, Kind::bad_input,
-                    "the folder cannot be made: " + std::generic_category().message(why),
+                    "failed to create the folder: " + std::generic_category().message(why),
                     "name another folder");
     }
   }
   if (!fs::is_directory(whole, error)) {
     return refuse(name, Kind::bad_input,
-                  "the folder cannot be made: " + std::generic_category().message(ENOTDIR),
+                  "failed to create the folder: " + std::generic_category().message(ENOTDIR),
                   "name another folder");
   }
   if (::access(whole.c_str(), W_OK | X_OK) != 0) {
-    return refuse(name, Kind::bad_input, "the folder cannot be written",
+    return refuse(name, Kind::bad_input, "the folder is not writable",
                   "give it write permission, or name another folder");
   }
   return out;

@@ -55,7 +55,8 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
 std::string meant(std::string_view word, std::span<const std::string_view> candidates,
                   std::string otherwise) {
   const std::string_view close = nearest(word, candidates);
-  return close.empty() ? std::move(otherwise) : "write " + std::string(close) + " if that is meant";
+  return close.empty() ? std::move(otherwise)
+                       : "write " + std::string(close) + " if that is what you mean";
 }
 
 }  // namespace steadyrest::kernel::outcome

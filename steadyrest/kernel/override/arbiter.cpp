@@ -15,6 +15,7 @@ Reason graver(Reason a, Reason b) noexcept {
   if (a == Reason::none || b == Reason::none) {
     return a == Reason::none ? b : a;
   }
+  // Lower numbers are graver: input faults come before withdrawals.
   return std::min(a, b);
 }
 
@@ -37,6 +38,7 @@ void withdraw(Request& decision, const Request& request) noexcept {
 
 bool beats(const signal::SpindleRequest& challenger, const signal::SpindleRequest& holder) {
   const bool chatter = challenger.room == signal::Room::chatter;
+  // Stability hangs on the exact speed: a compromise with another room would serve neither.
   if (chatter != (holder.room == signal::Room::chatter)) {
     return chatter;
   }
@@ -89,6 +91,7 @@ void SpindleArbiter::add(std::span<const signal::SpindleRequest> requests) noexc
 }
 
 void OffsetArbiter::add(const signal::OffsetRequest& request) noexcept {
+  // Even from an unfit request: taking the tool as in the cut is the safe side.
   sum_.tool_in_cut = sum_.tool_in_cut || request.tool_in_cut;
   if (!std::ranges::all_of(request.offset_mm, [](double mm) { return std::isfinite(mm); })) {
     withdrawn_ = graver(withdrawn_, Reason::input_not_finite);
@@ -116,6 +119,7 @@ void OffsetArbiter::add(std::span<const signal::OffsetRequest> requests) noexcep
 signal::OffsetRequest OffsetArbiter::decision() const noexcept {
   signal::OffsetRequest decision = sum_;
   if (!std::ranges::all_of(sum_.offset_mm, [](double mm) { return std::isfinite(mm); })) {
+    // Finite summands may overflow.
     decision.reason = Reason::input_out_of_range;
   } else if (withdrawn_ != Reason::none) {
     decision.reason = withdrawn_;

@@ -29,6 +29,7 @@ outcome::Result<Channel> Channel::make(const Config& config) {
   if (!lowest || table->ratio(*lowest) > config.max_ratio + kRatioTolerance) {
     return std::unexpected(no_step_between(config));
   }
+  // The next step up: ratios are rounded down to a step, and the floor must hold after that.
   auto envelope = RatioEnvelope::make({.min_ratio = table->ratio(*lowest),
                                        .max_ratio = config.max_ratio,
                                        .fall_1_s = config.fall_1_s,
@@ -73,6 +74,7 @@ void Channel::see_panel(const signal::OverrideState& panel) noexcept {
 void Channel::take_back(const State& before) noexcept {
   const RatioEnvelope::State now = envelope_.state();
   restore(before);
+  // What was seen of the panel is true whether or not the word arrived.
   if (now.panel_seen) {
     see_panel({.panel_ratio = now.panel_ratio, .panel_code_known = true});
   }

@@ -17,7 +17,7 @@ outcome::Refusal refusal(const char* name, double value, const char* allowed) {
   return {.kind = outcome::Kind::bad_input,
           .file = {},
           .line = 0,
-          .what = fmt::format("envelope: {} is {}; allowed is {}", name, value, allowed),
+          .what = fmt::format("envelope: {} is {}; allowed: {}", name, value, allowed),
           .to_do = "correct the envelope in the machine file"};
 }
 
@@ -35,6 +35,7 @@ double toward(double from, double target, double fall, double rise) noexcept {
 
 /// Time that is no time gives no credit.
 double credit_s(double step_s, double max_step_s) noexcept {
+  // A clock that jumps must not buy a jump of the override.
   return std::isfinite(step_s) ? std::clamp(step_s, 0.0, max_step_s) : 0.0;
 }
 
@@ -69,6 +70,7 @@ Reason RatioEnvelope::see_panel(const signal::OverrideState& panel) noexcept {
   state_.panel_ratio = panel.panel_ratio;
   if (!state_.panel_seen) {
     state_.panel_seen = true;
+    // The first panel value seen is where the machine is.
     state_.ratio = panel.panel_ratio;
   }
   return Reason::none;

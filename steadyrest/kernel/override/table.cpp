@@ -31,13 +31,13 @@ Check check_ratios(const std::vector<double>& ratio) {
   for (std::size_t i = 0; i < ratio.size(); ++i) {
     if (!std::isfinite(ratio[i]) || ratio[i] < 0.0) {
       return refusal(
-          fmt::format("override step {} has ratio {}; allowed is a finite ratio ≥ 0", i, ratio[i]),
+          fmt::format("override step {} has ratio {}; allowed: a finite ratio ≥ 0", i, ratio[i]),
           "correct the value");
     }
     if (i > 0 && ratio[i] < ratio[i - 1]) {
       return refusal(fmt::format("override step {} has ratio {}, less than {} of the step before",
                                  i, ratio[i], ratio[i - 1]),
-                     "list the steps by rising ratio");
+                     "list the steps in rising order");
     }
   }
   return std::nullopt;
@@ -68,14 +68,14 @@ Check check_codes(const Table::Config& config) {
 
 Check check_scalars(const Table::Config& config) {
   if (std::isnan(config.max_ratio) || config.max_ratio <= 0.0) {
-    return refusal(fmt::format("max_ratio of an override is {}; allowed is > 0", config.max_ratio),
+    return refusal(fmt::format("max_ratio of an override is {}; allowed: > 0", config.max_ratio),
                    "give the ratio at which the control clips");
   }
   for (const double time_s : {config.scan_period_s, config.dead_time_s}) {
     if (!std::isfinite(time_s) || time_s < 0.0) {
       return refusal(
-          fmt::format("a time of an override table is {} s; allowed is finite and ≥ 0", time_s),
-          "correct scan period and dead time");
+          fmt::format("a time of an override table is {} s; allowed: finite and ≥ 0", time_s),
+          "correct the scan period and the dead time");
     }
   }
   return std::nullopt;
@@ -104,6 +104,7 @@ outcome::Result<Table> Table::make(const Config& config) {
   }
   Table table;
   for (double& ratio : filled.ratio) {
+    // What the control clips is not there to be asked for.
     ratio = std::min(ratio, filled.max_ratio);
   }
   for (std::size_t i = 0; i < filled.code.size(); ++i) {
@@ -152,6 +153,7 @@ std::optional<std::size_t> Table::floor_step(double ratio) const noexcept {
   if (above == ratio_.begin()) {
     return std::nullopt;
   }
+  // Of equal steps the lowest, so that a search always gives the same code.
   const auto lowest = std::ranges::lower_bound(ratio_, *(above - 1));
   return static_cast<std::size_t>(lowest - ratio_.begin());
 }

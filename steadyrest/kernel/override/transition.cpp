@@ -18,11 +18,11 @@ outcome::Refusal not_walkable(const Table& table, std::size_t from, std::size_t 
           .file = {},
           .line = 0,
           .what = fmt::format(
-              "override codes {:#b} ({:g} %) and {:#b} ({:g} %) differ in {} bits: a reader that "
-              "sees the bits change one after another reads a value outside of the two",
+              "override codes {:#b} ({:g} %) and {:#b} ({:g} %) differ in {} bits: a PLC that sees "
+              "them change one by one reads a value that is neither",
               table.code(from), 100.0 * table.ratio(from), table.code(to), 100.0 * table.ratio(to),
               std::popcount(table.code(from) ^ table.code(to))),
-          .to_do = "use a port that latches the word as a whole, or a Gray table"};
+          .to_do = "use a port that latches the whole word, or a Gray table"};
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config)
         .kind = outcome::Kind::bad_input,
         .file = {},
         .line = 0,
-        .what = fmt::format("scan period is {} s; allowed is finite and ≥ 0", config.scan_period_s),
+        .what = fmt::format("scan period is {} s; allowed: finite and ≥ 0", config.scan_period_s),
         .to_do = "give the period at which the override word is read"});
   }
   if (!config.latched) {
@@ -68,6 +68,7 @@ outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config)
 }
 
 void Stepper::pass(double step_s) noexcept {
+  // Only good time counts: no fault of a clock may shorten the wait.
   if (state_.written && std::isfinite(step_s) && step_s > 0.0) {
     state_.stood_s += step_s;
     state_.changed = false;
@@ -80,6 +81,7 @@ std::size_t Stepper::update(std::size_t target) noexcept {
   if (config_.latched) {
     place(target);
   } else if (target != state_.step && settled()) {
+    // One neighbour per scan, so that at most one bit moves while anyone looks.
     place(target > state_.step ? state_.step + 1 : state_.step - 1);
   }
   return state_.step;

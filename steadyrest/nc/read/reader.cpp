@@ -42,7 +42,7 @@ bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) 
                            "% closes a program that did not begin with one");
   }
   return reading_.refuse(number, text, "misplaced_percent",
-                         "% stands alone in its line, as the first and last line of the program");
+                         "% must be alone on its line, as the first and last line of the program");
 }
 
 bool Reader::read(std::string_view line, std::uint32_t number, std::size_t ending_length,

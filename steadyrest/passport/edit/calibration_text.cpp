@@ -213,14 +213,14 @@ kernel::outcome::Result<std::string> edited(std::string_view text, const std::st
   for (const toml::table* table : {section, old}) {
     if (table != nullptr && (table->is_inline() || text[places.at(table->source().begin)] != '[')) {
       return refuse(file, line_of(table->source()),
-                    "the axis or its encoder is written in one line or with dotted keys",
-                    "write [[axis]] and [axis.encoder] as sections of their own");
+                    "the axis or its encoder is written inline or with dotted keys",
+                    "write [[axis]] and [axis.encoder] as separate sections");
     }
   }
   std::string out = applied(text, edits_for(text, *section, old, key_values(encoder, rotary)));
   if (!says(out, root, axis, calibration_text(encoder, rotary))) {
-    return refuse(file, 0, "the calibration cannot be put in without changing something else",
-                  "write the calibration to a file of its own and put it in by hand");
+    return refuse(file, 0, "inserting the calibration would change something else",
+                  "write the calibration to a separate file and paste it in by hand");
   }
   if (const auto machine = parse(out, file); !machine) {
     return std::unexpected(machine.error());
@@ -240,7 +240,7 @@ kernel::outcome::Result<const Axis*> axis_in(const Machine& machine, const std::
     return refuse(file, 0,
                   fmt::format("axis {} has a count of {} mm (rad), not of {}", found->name,
                               shown(found->encoder.count_mm), shown(count_mm)),
-                  "give the count that the machine file has");
+                  "give the count from the machine file");
   }
   return &*found;
 }
@@ -267,7 +267,7 @@ kernel::outcome::Result<Encoder> fragment(std::string_view text, const std::stri
     return std::unexpected(std::move(faults.list.front()));
   }
   if (std::abs(out.count_mm - count_mm) > kSameCount * count_mm) {
-    return refuse(file, 0, "is for another count", "give the count that it was learnt with");
+    return refuse(file, 0, "is for another count", "give the count it was learnt with");
   }
   return out;
 }
@@ -301,8 +301,8 @@ kernel::outcome::Result<std::string> with_calibration(std::string_view text,
   try {
     return edited(text, file, axis, encoder, (*found)->rotary);
   } catch (const std::exception& error) {
-    return refuse(file, 0, fmt::format("cannot be edited: {}", error.what()),
-                  "write the calibration to a file of its own and put it in by hand");
+    return refuse(file, 0, fmt::format("not editable: {}", error.what()),
+                  "write the calibration to a separate file and paste it in by hand");
   }
 }
 

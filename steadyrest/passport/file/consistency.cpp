@@ -48,11 +48,11 @@ void servo_gains(const Machine& machine, List& out) {
   constexpr double kSpeed_mm_s = 1000.0 / 60.0;
   out.push_back(
       {Severity::warning, "servo_gain",
-       fmt::format("the servo gains differ: {} has {:.4g} 1/s, {} has {:.4g} 1/s; that alone is "
+       fmt::format("the servo gains differ: {} has {:.4g} 1/s, {} has {:.4g} 1/s; that alone costs "
                    "{:.1f} µm on a 45° line at 1000 mm/min",
                    (*low)->name, k_low, (*high)->name, k_high,
                    kernel::units::um_from_mm(kSpeed_mm_s / 2.0 * (1.0 / k_low - 1.0 / k_high))),
-       "set axes that contour together to one gain"});
+       "set axes that contour together to the same gain"});
 }
 
 void feed_forward(const Machine& machine, List& out) {
@@ -62,7 +62,7 @@ void feed_forward(const Machine& machine, List& out) {
   });
   if (differ) {
     out.push_back({Severity::warning, "feed_forward", "the axes' feed-forward weights differ",
-                   "set axes that contour together to one weight"});
+                   "set axes that contour together to the same weight"});
   }
 }
 
@@ -71,21 +71,22 @@ void drives(const Machine& machine, List& out) {
     if (axis.drive_acceleration_mm_s2 < axis.max_acceleration_mm_s2) {
       out.push_back(
           {Severity::warning, "drive_acceleration",
-           fmt::format("axis {} plans with more acceleration than its drive has", axis.name),
+           fmt::format("axis {} plans with more acceleration than its drive delivers", axis.name),
            "lower max_acceleration below drive_acceleration, or the drive saturates"});
     }
     if (axis.friction.breakaway_mm_s2 >= axis.drive_acceleration_mm_s2) {
       out.push_back(
           {Severity::error, "friction",
-           fmt::format("axis {} cannot move: its friction is not below what the drive has",
-                       axis.name),
+           fmt::format(
+               "axis {} is unable to move: its friction is not below what the drive delivers",
+               axis.name),
            "correct [axis.friction] or drive_acceleration"});
     }
     if (axis.velocity_lag_s * axis.servo_gain_1_s >= 1.0) {
       out.push_back({Severity::warning, "servo_gain",
-                     fmt::format("axis {} swings: gain times velocity lag is {:.2f}", axis.name,
+                     fmt::format("axis {} oscillates: gain times velocity lag is {:.2f}", axis.name,
                                  axis.velocity_lag_s * axis.servo_gain_1_s),
-                     "lower servo_gain or velocity_lag; 0.25 is where overshoot begins"});
+                     "lower servo_gain or velocity_lag; overshoot begins at 0.25"});
     }
     if (machine.control.servo_period_s * axis.servo_gain_1_s >= 1.0) {
       out.push_back({Severity::error, "servo_gain",
@@ -108,7 +109,7 @@ void path_limits(const Machine& machine, List& out) {
     if (std::isfinite(value) && value > reach * (1.0 + 1e-9)) {
       out.push_back({Severity::note, "path_limits",
                      fmt::format("{} is more than all axes together can do", key),
-                     "leave it out or lower it; the axes' own limits hold"});
+                     "leave it out or lower it; the axes' own limits apply"});
     }
   };
   beyond("rapid_mm_min", machine.control.rapid_mm_s, std::sqrt(speed2));
@@ -124,12 +125,11 @@ bool has_ratio(const OverrideTable& table, double ratio) {
 
 void override_table(std::string_view name, const OverrideTable& table, List& out) {
   if (!has_ratio(table, 1.0)) {
-    out.push_back(
-        {Severity::error, "override_100",
-         fmt::format("[override.{}] has no step of 100 %: the layer could not hand back the "
-                     "programmed value",
-                     name),
-         "list every step of the switch"});
+    out.push_back({Severity::error, "override_100",
+                   fmt::format("[override.{}] has no 100 % step: the layer has no way to hand back "
+                               "the programmed value",
+                               name),
+                   "list every step of the switch"});
   }
   if (table.max_ratio < 1.0) {
     out.push_back({Severity::error, "override_max",
@@ -152,7 +152,7 @@ void overrides(const Machine& machine, List& out) {
   }
   override_table("spindle", machine.spindle_override, out);
   if (!has_ratio(machine.feed_override, 0.0)) {
-    out.push_back({Severity::warning, "override_0", "[override.feed] has no step of 0 %",
+    out.push_back({Severity::warning, "override_0", "[override.feed] has no 0 % step",
                    "list it if the switch has one: the operator stops the feed with it"});
   }
 }
@@ -164,21 +164,19 @@ void contour_limit(const Machine& machine, List& out) {
   }
   for (const Axis* axis : contouring(machine)) {
     if (machine.contour.limit_mm < 2.0 * axis->encoder.count_mm) {
-      out.push_back(
-          {Severity::error, "contour_limit",
-           fmt::format("the contour limit of {:.4g} µm is finer than axis {} can see: one "
-                       "count is {:.4g} µm",
-                       kernel::units::um_from_mm(machine.contour.limit_mm), axis->name,
-                       kernel::units::um_from_mm(axis->encoder.count_mm)),
-           "set limit_um to at least two counts"});
+      out.push_back({Severity::error, "contour_limit",
+                     fmt::format("the contour limit of {:.4g} µm is below the resolution of axis "
+                                 "{}: one count is {:.4g} µm",
+                                 kernel::units::um_from_mm(machine.contour.limit_mm), axis->name,
+                                 kernel::units::um_from_mm(axis->encoder.count_mm)),
+                     "set limit_um to two counts or more"});
     }
     if (machine.contour.limit_mm < 0.5 * axis->backlash_mm) {
-      out.push_back(
-          {Severity::warning, "contour_limit",
-           fmt::format("the contour limit of {:.4g} µm is below half the backlash of axis "
-                       "{}: no feed keeps it at a reversal",
-                       kernel::units::um_from_mm(machine.contour.limit_mm), axis->name),
-           "compensate the backlash in the control or raise limit_um"});
+      out.push_back({Severity::warning, "contour_limit",
+                     fmt::format("the contour limit of {:.4g} µm is below half the backlash of "
+                                 "axis {}: no feed holds it at a reversal",
+                                 kernel::units::um_from_mm(machine.contour.limit_mm), axis->name),
+                     "compensate the backlash in the control or raise limit_um"});
     }
   }
 }
@@ -192,7 +190,7 @@ void envelope(const Machine& machine, List& out) {
   } else if (contour.max_ratio > envelope.max_feed_ratio ||
              contour.min_ratio < envelope.min_feed_ratio) {
     out.push_back({Severity::note, "envelope", "[contour] may ask for feeds that [envelope] clamps",
-                   "narrow min_percent … max_percent if that is not meant"});
+                   "narrow min_percent … max_percent unless you mean that"});
   }
   if (envelope.min_feed_ratio > 1.0 || envelope.max_feed_ratio < 1.0) {
     out.push_back({Severity::error, "envelope", "[envelope] does not allow 100 % feed",
@@ -203,9 +201,10 @@ void envelope(const Machine& machine, List& out) {
                    "let min_spindle_percent … max_spindle_percent contain 100"});
   }
   if (envelope.stale_after_s < machine.control.interpolator_period_s) {
-    out.push_back({Severity::error, "stale",
-                   "stale_after_ms is shorter than one interpolator period: every input is too old",
-                   "set stale_after_ms to several periods"});
+    out.push_back(
+        {Severity::error, "stale",
+         "stale_after_ms is shorter than one interpolator period: every input would be stale",
+         "set stale_after_ms to several periods"});
   }
 }
 
@@ -221,7 +220,7 @@ void chatter(const Machine& machine, List& out) {
   });
   if (within < 2) {
     out.push_back({Severity::error, "chatter",
-                   "[chatter] is enabled, but the spindle's override has no two steps within "
+                   "[chatter] is enabled, but the spindle override has fewer than two steps within "
                    "[envelope]",
                    "give [override.spindle], or set enabled = false in [chatter]"});
   }
@@ -231,10 +230,10 @@ void tempo(const Machine& machine, List& out) {
   const double delay_s = machine.feed_override.scan_period_s + machine.feed_override.dead_time_s;
   if (delay_s > 0.5) {
     out.push_back({Severity::warning, "override_delay",
-                   fmt::format("a feed override takes up to {:.2f} s to act: features shorter than "
-                               "that are corrected only from the path ahead",
+                   fmt::format("a feed override takes up to {:.2f} s to act: shorter features are "
+                               "corrected only from the path ahead",
                                delay_s),
-                   "find a faster way to the override if there is one"});
+                   "use a faster path to the override if there is one"});
   }
 }
 

@@ -34,7 +34,7 @@ void ordered(const Given& given, Faults& faults, std::string_view low_key, doubl
       fmt::format("{} has {} = {} above {} = {}{}", given.section, low_key,
                   shown(low_unit.from_inner(low)), high_key, shown(high_unit.from_inner(high)),
                   given.has(low_key) && given.has(high_key) ? "" : " (one is the default)"),
-      fmt::format("give {} that is not above {}", low_key, high_key));
+      fmt::format("give {} no higher than {}", low_key, high_key));
 }
 
 /// Errors of a whole count would put one line beyond its neighbour.
@@ -44,11 +44,10 @@ void below_a_count(const Encoder& encoder, std::span<const double> errors, const
       errors, [&](double error) { return !(std::abs(error) < encoder.count_mm); });
   if (worst != errors.end()) {
     const std::string_view key = given.has(um) ? um : deg;
-    faults.add(
-        given.at({key}),
-        fmt::format("{} has the error {} {} in {}, which is not less than one count", given.section,
-                    shown(unit_of(key).from_inner(*worst)), unit_of(key).shown, key),
-        "check the count's length and calibrate again");
+    faults.add(given.at({key}),
+               fmt::format("{} has the error {} {} in {}, one count or more", given.section,
+                           shown(unit_of(key).from_inner(*worst)), unit_of(key).shown, key),
+               "check the length of a count and calibrate again");
   }
 }
 
@@ -62,7 +61,7 @@ void calibration(const Encoder& encoder, const Given& given, Faults& faults) {
         phase.size() != 4
             ? fmt::format("{} has {} phase errors; 4 are needed", given.section, phase.size())
             : fmt::format("{} has phase errors whose sum is not 0", given.section),
-        "give the four errors of steadyrest motion calibrate");
+        "give the four errors from `steadyrest motion calibrate`");
     return;
   }
   below_a_count(encoder, phase, given, faults, "phase_error_um", "phase_error_deg");
@@ -70,7 +69,7 @@ void calibration(const Encoder& encoder, const Given& given, Faults& faults) {
   const std::size_t lines = encoder.line_table_mm.size();
   if (encoder.line_table_periodic && (lines == 0 || lines % 4 != 0)) {
     faults.add(given.at({"line_table_periodic"}),
-               fmt::format("{} has a periodic table of {} lines; a revolution is a multiple of 4",
+               fmt::format("{} has a periodic table of {} lines; a revolution has a multiple of 4",
                            given.section, lines),
                "give four times the encoder's lines per revolution");
   }
@@ -115,8 +114,8 @@ void contradictions(const Encoder& encoder, const Given& given, Faults& faults) 
 void contradictions(const Friction& friction, const Given& given, Faults& faults) {
   if (friction.breakaway_mm_s2 < friction.coulomb_mm_s2) {
     faults.add(given.at({"breakaway_mm_s2", "breakaway_deg_s2", "coulomb_mm_s2", "coulomb_deg_s2"}),
-               fmt::format("{} has a breakaway friction below its sliding friction", given.section),
-               "give a breakaway value that is at least the coulomb value");
+               fmt::format("{} has breakaway friction below its sliding friction", given.section),
+               "give a breakaway value no lower than the coulomb value");
   }
 }
 
@@ -141,8 +140,8 @@ void contradictions(const Contour& contour, const Given& given, Faults& faults) 
 void contradictions(const Chatter& chatter, const Given& given, Faults& faults) {
   if (given.has("amplitude_percent") && chatter.amplitude_rev_s > 0.0) {
     faults.add(given.at({"amplitude_rpm"}),
-               fmt::format("{} has the amplitude in percent and in rev/min", given.section),
-               "give one of amplitude_percent and amplitude_rpm");
+               fmt::format("{} has the amplitude both in percent and in rev/min", given.section),
+               "give amplitude_percent or amplitude_rpm, not both");
   }
   const bool is_on = chatter.m_code_on != 0;
   if (is_on != (chatter.m_code_off != 0) || (is_on && chatter.m_code_on == chatter.m_code_off)) {
@@ -168,7 +167,7 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
   needs(method == Method::setting_data, "sign", given.has("sign"));
   if (given.has("sign") && compensation.sign == 0) {
     faults.add(given.at({"sign"}), fmt::format("{} has sign = 0", given.section),
-               "write 1 or -1, as the axis moves when the setting data becomes positive");
+               "write 1 or -1: the direction the axis moves when the setting data goes positive");
   }
   if (compensation.external_offset_free && method != Method::fanuc) {
     needs(false, "external_offset_free", true);
@@ -179,8 +178,9 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
     faults.add(
         given.at({"cleared_after_abort"}),
         fmt::format("{} has method = \"{}\" and cleared_after_abort", given.section, word(method)),
-        method == Method::fanuc ? "remove it, or write external_offset_free = true if so"
-                                : "remove it");
+        method == Method::fanuc
+            ? "remove it, or write external_offset_free = true if that is the case"
+            : "remove it");
   }
   if (method == Method::linuxcnc) {
     needs(false, "least_increment_um", given.has("least_increment_um"));
@@ -192,7 +192,7 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
     faults.add(given.at({"least_increment_um"}),
                fmt::format("{} has least_increment_um = {:g}", given.section,
                            compensation.least_increment_mm * 1e3),
-               "write a multiple of 0.01; 1 where the control's increment system is IS-B");
+               "write a multiple of 0.01; it is 1 if the control's increment system is IS-B");
   }
 }
 

@@ -77,7 +77,7 @@ class FileReader {
     if (table == nullptr) {
       faults_.add(line_of(node->source()),
                   fmt::format("{} = {} is not a section", name, shown(*node)),
-                  fmt::format("write {} on a line of its own, its keys below", shown_name));
+                  fmt::format("write {} on a separate line, with its keys below", shown_name));
     }
     return table;
   }
@@ -111,7 +111,7 @@ class FileReader {
   void axes(const toml::table& root) {
     const toml::node* node = root.get("axis");
     if (node == nullptr) {
-      faults_.add(0, "there is no [[axis]]", "add one [[axis]] for each axis, at least two");
+      faults_.add(0, "there is no [[axis]]", "add one [[axis]] for each axis, two at least");
       return;
     }
     const toml::array* list = node->as_array();
@@ -126,7 +126,7 @@ class FileReader {
       } else {
         faults_.add(line_of(element.source()),
                     fmt::format("axis = {} is not a section", shown(element)),
-                    "write [[axis]] on a line of its own, its keys below");
+                    "write [[axis]] on a separate line, with its keys below");
         return;
       }
     }
@@ -150,8 +150,8 @@ class FileReader {
         contradictions(out, given, faults_);
       } else {
         faults_.add(given.at({"name"}),
-                    fmt::format("name = {} is no axis", shown(*table.get("name"))),
-                    "allowed is one of X, Y, Z, U, V, W (linear), A, B, C (rotary)");
+                    fmt::format("name = {} is not an axis", shown(*table.get("name"))),
+                    "use one of X, Y, Z, U, V, W (linear), A, B, C (rotary)");
       }
     }
     if (const toml::table* encoder = table_at(table, "encoder", "[axis.encoder]")) {
@@ -172,7 +172,7 @@ class FileReader {
                     [&](const Axis& axis) { return !name.empty() && axis.name == name; });
     if (seen) {
       faults_.add(given.at({"name"}), fmt::format("there are two axes {}", name),
-                  "give each axis its own name");
+                  "give each axis a different name");
     }
   }
 
@@ -185,11 +185,10 @@ class FileReader {
       stand_ins();
     }
     if (machine_.axes.size() > kernel::signal::kMaxAxes) {
-      faults_.add(
-          line,
-          fmt::format("the machine has {} axes, X, Y and Z counted; at most {} are possible",
-                      machine_.axes.size(), kernel::signal::kMaxAxes),
-          "leave out axes that do not take part in contouring");
+      faults_.add(line,
+                  fmt::format("the machine has {} axes, counting X, Y and Z; the most is {}",
+                              machine_.axes.size(), kernel::signal::kMaxAxes),
+                  "leave out axes that take no part in contouring");
     }
     std::sort(machine_.axes.begin(), machine_.axes.end(), [](const Axis& a, const Axis& b) {
       return kAxisOrder.find(a.name) < kAxisOrder.find(b.name);
@@ -230,7 +229,7 @@ class FileReader {
     faults_.add(method ? line_of(method.node()->source()) : 0,
                 fmt::format("[compensation] has method = \"{}\", but the control's dialect is {}",
                             word(machine_.compensation.method), word(machine_.control.dialect)),
-                fmt::format("choose a method of that dialect; \"{}\" is for {}",
+                fmt::format("choose a method for that dialect; \"{}\" is for {}",
                             word(machine_.compensation.method), word(needed)));
   }
 
@@ -245,9 +244,8 @@ class FileReader {
                     fmt::format("{} has {} entries; the thermal passport has {} modes and ambient "
                                 "inputs",
                                 key, errors.size(), terms),
-                    terms == 0
-                        ? "remove it, or add [[thermal.axis]]"
-                        : "give one for each of them, or fewer: the last holds for the rest");
+                    terms == 0 ? "remove it, or add [[thermal.axis]]"
+                               : "give one for each, or fewer: the last applies to the rest");
       }
     };
     if (faults_.list.size() == before) {
@@ -260,9 +258,9 @@ class FileReader {
     const toml::table* table = table_at(root, "override", "[override.feed]");
     const bool absent = root.get("override") == nullptr;
     if (absent || (table != nullptr && table->get("feed") == nullptr)) {
-      faults_.add(absent ? 0 : line_of(table->source()), "there is no [override.feed]",
-                  "add the table of the feed override switch: coding and percent, or "
-                  "binary_max_percent");
+      faults_.add(
+          absent ? 0 : line_of(table->source()), "there is no [override.feed]",
+          "add the table of the feed override switch: coding and percent, or binary_max_percent");
     }
     if (table == nullptr) {
       return;
@@ -272,9 +270,9 @@ class FileReader {
       if (std::find(kNames.begin(), kNames.end(), name.str()) == kNames.end()) {
         const std::string_view close = kernel::outcome::nearest(name.str(), kNames);
         faults_.add(line_of(name.source()), fmt::format("[override] has no {}", name.str()),
-                    close.empty() ? "allowed are [override.feed], [override.rapid] and "
-                                    "[override.spindle]"
-                                  : fmt::format("write [override.{}] if that is meant", close));
+                    close.empty()
+                        ? "use [override.feed], [override.rapid] or [override.spindle]"
+                        : fmt::format("write [override.{}] if that is what you mean", close));
       }
     }
     const bool feed = override_at(*table, "feed", machine_.feed_override);
@@ -337,7 +335,7 @@ std::string unreadable(const std::string& path, std::string& text) {
   text.resize(kMaxFileBytes + 1);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  return in.bad() ? "cannot be read to its end" : "";
+  return in.bad() ? "reading stopped before its end" : "";
 }
 
 kernel::outcome::Result<Machine> first_fault(AllFaults&& all) {

@@ -27,11 +27,12 @@ bool even_steps(const OverrideKeys& keys, const Given& given, Faults& faults, Ov
   const double ratio = keys.binary_max / keys.binary_step;
   const double whole = std::round(ratio);
   if (std::abs(ratio - whole) > 1e-6 || whole < 1 || whole + 1 > static_cast<double>(kMaxSteps)) {
-    faults.add(given.at({"binary_step_percent", "binary_max_percent"}),
-               fmt::format("{} has {} steps from 0 to its largest value; allowed is a whole number "
-                           "from 1 to {}",
-                           given.section, shown(ratio), kMaxSteps - 1),
-               "choose a binary_step_percent that divides binary_max_percent");
+    faults.add(
+        given.at({"binary_step_percent", "binary_max_percent"}),
+        fmt::format(
+            "{} has {} steps from 0 to its largest value; allowed: a whole number from 1 to {}",
+            given.section, shown(ratio), kMaxSteps - 1),
+        "choose a binary_step_percent that divides binary_max_percent");
     return false;
   }
   const auto steps = static_cast<std::size_t>(whole);
@@ -49,7 +50,7 @@ bool rising(const OverrideKeys& keys, const Given& given, Faults& faults) {
                  fmt::format("{} percent falls from {} to {} at entry {}", given.section,
                              shown(kernel::units::percent_from_ratio(keys.percent[i - 1])),
                              shown(kernel::units::percent_from_ratio(keys.percent[i])), i + 1),
-                 "list the steps in rising order, with codes = [ … ] in the same order");
+                 "list the steps in rising order, and codes = [ … ] in the same order");
       return false;
     }
   }
@@ -66,7 +67,7 @@ bool default_codes(const OverrideKeys& keys, const Given& given, Faults& faults,
       out.code.push_back(static_cast<std::uint32_t>(std::lround(percent)));
     } else {
       faults.add(given.at({"percent"}),
-                 fmt::format("{} percent has {}, and a binary word is a whole percent",
+                 fmt::format("{} percent has {}, but a binary word is a whole percent",
                              given.section, shown(percent)),
                  "add codes = [ … ], or use binary_max_percent with binary_step_percent");
       return false;
@@ -81,7 +82,7 @@ bool distinct(const Given& given, Faults& faults, const OverrideTable& out) {
     if (!seen.insert(code).second) {
       faults.add(given.at({"codes", "percent"}),
                  fmt::format("{} has the code {} twice", given.section, code),
-                 "give each step its own code");
+                 "give each step a different code");
       return false;
     }
   }
@@ -96,9 +97,9 @@ bool gray_neighbours(const Given& given, Faults& faults, const OverrideTable& ou
     if (std::popcount(before ^ here) != 1) {
       faults.add(
           given.at({"codes"}),
-          fmt::format("{} has the Gray codes {} = {:05b} and {} = {:05b} side by side, which "
-                      "differ in {} bits",
-                      given.section, before, before, here, here, std::popcount(before ^ here)),
+          fmt::format(
+              "{} has adjacent Gray codes {} = {:05b} and {} = {:05b} that differ in {} bits",
+              given.section, before, before, here, here, std::popcount(before ^ here)),
           "correct the codes (neighbours differ in one bit), or write coding = \"binary\"");
       return false;
     }
@@ -116,9 +117,9 @@ bool listed_steps(const OverrideKeys& keys, const Given& given, Faults& faults,
   }
   if (keys.percent.size() > kMaxSteps) {
     faults.add(given.at({"percent"}),
-               fmt::format("{} has {} steps; at most {} are possible", given.section,
-                           keys.percent.size(), kMaxSteps),
-               "leave out steps");
+               fmt::format("{} has {} steps; the most is {}", given.section, keys.percent.size(),
+                           kMaxSteps),
+               "leave out some steps");
     return false;
   }
   if (!rising(keys, given, faults)) {
@@ -129,7 +130,7 @@ bool listed_steps(const OverrideKeys& keys, const Given& given, Faults& faults,
       faults.add(given.at({"codes"}),
                  fmt::format("{} has {} codes for {} steps", given.section, keys.codes.size(),
                              keys.percent.size()),
-                 "give one code for each entry of percent");
+                 "give one code per entry of percent");
       return false;
     }
     out.code = keys.codes;
@@ -149,13 +150,12 @@ bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
     faults.add(even ? given.at({"binary_max_percent"}) : given.line,
                fmt::format("{} has {} percent {} binary_max_percent", given.section,
                            even ? "both" : "neither", even ? "and" : "nor"),
-               "give one of the two: the list of steps, or the largest value of even steps");
+               "give one of them: the list of steps, or the largest value of even steps");
     return false;
   }
   if (even && given.has("codes")) {
-    faults.add(given.at({"codes"}),
-               fmt::format("{} has codes, but no percent that they could belong to", given.section),
-               "remove codes: with binary_max_percent the word is the number of the step");
+    faults.add(given.at({"codes"}), fmt::format("{} has codes but no percent", given.section),
+               "remove codes: with binary_max_percent the word is the step number");
     return false;
   }
   OverrideTable table;
@@ -169,7 +169,7 @@ bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
     return false;
   }
   if (table.ratio.back() <= 0.0) {
-    faults.add(given.at({"percent"}), fmt::format("{} knows no step above 0 %", given.section),
+    faults.add(given.at({"percent"}), fmt::format("{} has no step above 0 %", given.section),
                "list the steps of the switch");
     return false;
   }

@@ -91,14 +91,14 @@ constexpr std::string_view kOpening =
     R"(<!-- Made from steadyrest/passport/keys/schema.cpp; do not edit. `cmake --build --preset release --target machine_reference` writes it. -->
 # The machine file
 
-One TOML file is the machine's passport. Whatever the machine is reached through reads the same file; `port` is the
-only difference, and `sim`, the simulated machine, the only one so far. Start from one of [`examples/machines/`](../examples/machines) and check yours with
+One TOML file is the machine's passport. A simulated and a real machine read the same file; only `port` differs, and
+`sim`, the simulated machine, is the only port so far. Start from one of [`examples/machines/`](../examples/machines) and check yours with
 
     steadyrest doctor --machine examples/machines/vmc-840d.toml
 
-A key's name ends in its unit. Where a quantity has keys in two units, give one of them. What has no default is mandatory;
-what is misspelt, has the wrong unit or type, is out of range, repeated, or contradicts another value is refused with file, line,
-the value seen, what is allowed and what to do. Nothing is repaired silently. `inf` and `nan` are never allowed: where there is no
+A key's name ends in its unit. Where a quantity has keys in two units, give one of them. A key without a default is mandatory.
+A key that is misspelt, has the wrong unit or type, is out of range, repeated, or contradicts another is refused with file, line,
+the value seen, what is allowed and what to do. Nothing is repaired silently. `inf` and `nan` are never allowed: if there is no
 limit, leave the key out. UTF-8, at most {} MB.
 )";
 
@@ -106,13 +106,13 @@ limit, leave the key out. UTF-8, at most {} MB.
 
 std::string reference_page() {
   std::string out = fmt::format(fmt::runtime(kOpening), kMaxFileBytes >> 20U);
-  out += section("Top level", "\nStands above all sections.\n", top_keys());
+  out += section("Top level", "\nThese come before any section.\n", top_keys());
   out += section("`[control]`", "\nHow the control plans motion. Mandatory.\n", control_keys());
-  out += section(
-      "`[[axis]]`",
-      "\nOnce for each axis, at least two, at most eight with X, Y and Z counted. A machine "
-      "without X, Y or Z (a\nlathe's Y) gets an ideal stand-in that cannot move.\n",
-      axis_keys());
+  out +=
+      section("`[[axis]]`",
+              "\nOnce for each axis: at least two, at most eight counting X, Y and Z. A machine "
+              "without X, Y or Z (a lathe has\nno Y) gets an ideal stand-in that does not move.\n",
+              axis_keys());
   out += section("`[axis.encoder]`", "\nBelow its `[[axis]]`.\n", encoder_keys());
   out += section("`[axis.friction]`",
                  "\nBelow its `[[axis]]`. f(v) = sign(v)·(coulomb + (breakaway − "
@@ -121,42 +121,41 @@ std::string reference_page() {
                  friction_keys());
   out += section(
       "`[override.feed]`, `[override.rapid]`, `[override.spindle]`",
-      "\nThe override switches as this machine has them: read them from the control, never from "
+      "\nThe override switches of this machine. Read them from its control; never copy them from "
       "another machine.\n`[override.feed]` is mandatory and needs `percent` or "
-      "`binary_max_percent`. "
-      "Without `[override.rapid]` the feed\nswitch acts on rapids, never above 100 %; without "
-      "`[override.spindle]` the spindle stays at 100 %. Steps of equal percent\nare allowed "
-      "(unused positions); Gray codes of neighbours differ in one bit.\n",
+      "`binary_max_percent`. Without `[override.rapid]` the feed\nswitch also acts on rapids, but "
+      "never above 100 %; without `[override.spindle]` the spindle stays at 100 %. Steps of\nequal "
+      "percent are allowed (unused positions); Gray codes of neighbours differ in one bit.\n",
       override_keys());
   out += section("`[spindle]`", "", spindle_keys());
+  out += section("`[contour]`", "\nThe limits of contour correction.\n", contour_keys());
   out +=
-      section("`[contour]`", "\nWhat the correction of contour errors may do.\n", contour_keys());
-  out += section("`[chatter]`",
-                 "\nHow the spindle's speed is modulated against chatter. With `enabled` the "
-                 "program may\nhold the two M words; without it they are refused like any other "
-                 "unknown M word.\n",
-                 chatter_keys());
-  out += section("`[compensation]`",
-                 "\nHow `program compensate` writes corrections into the programs of this machine: "
-                 "[nc/rewrite](../steadyrest/nc/rewrite/README.md)\nhas the texts and the "
-                 "reasons. The command line may say otherwise.\n",
-                 compensation_keys());
-  out +=
-      section("`[thermal]`",
-              "\nWhat heat does to the machine: [thermal](../steadyrest/thermal/README.md) has the "
-              "law.\n`thermal fit` writes the sections below from a log.\n",
-              thermal_keys());
-  out += section("`[[thermal.axis]]`", "\nOnce for each displaced axis.\n", thermal_axis_keys());
+      section("`[chatter]`",
+              "\nSpindle-speed modulation against chatter. If `enabled` is true the program may "
+              "use the two M words;\notherwise they are refused like any other unknown M word.\n",
+              chatter_keys());
+  out += section(
+      "`[compensation]`",
+      "\nHow `program compensate` writes corrections into programs for this machine. The blocks it "
+      "writes, and why, are in\n[nc/rewrite](../steadyrest/nc/rewrite/README.md). Options on the "
+      "command line take precedence.\n",
+      compensation_keys());
+  out += section("`[thermal]`",
+                 "\nThermal behaviour. The law is in [thermal](../steadyrest/thermal/README.md); "
+                 "`thermal fit` writes the sections below\nfrom a log.\n",
+                 thermal_keys());
+  out += section("`[[thermal.axis]]`", "\nOnce for each axis that drifts.\n", thermal_axis_keys());
   out += section("`[[thermal.axis.mode]]`",
-                 "\nBelow its axis: x' = (G(n) − x)/τ, the displacement is the sum. One to four.\n",
+                 "\nBelow its axis, one to four: x' = (G(n) − x)/τ. The displacement is the sum of "
+                 "the modes.\n",
                  thermal_mode_keys());
   out += section("`[[thermal.axis.ambient]]`",
-                 "\nBelow its axis: what the surroundings add, gain·(lagged temperature − "
-                 "reference). At most four.\n",
+                 "\nBelow its axis, at most four: the surroundings add gain·(lagged temperature − "
+                 "reference).\n",
                  thermal_ambient_keys());
-  out += section("`[envelope]`", "\nThe last step before any write. It cannot be switched off.\n",
+  out += section("`[envelope]`", "\nThe last step before any write. It is always on.\n",
                  envelope_keys());
-  out += section("`[simulation]`", "\nFor the simulated machine alone.\n", simulation_keys());
+  out += section("`[simulation]`", "\nUsed only by the simulated machine.\n", simulation_keys());
   return out;
 }
 

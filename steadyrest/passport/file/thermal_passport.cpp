@@ -48,7 +48,7 @@ Result<Thermal> parse_thermal_passport(std::string_view text, const std::string&
   }
   if (thermal.axis.empty()) {
     return std::unexpected(Refusal{Kind::bad_input, file, 0, "there is no [[thermal.axis]]",
-                                   "add the thermal passport: steadyrest thermal fit writes it"});
+                                   "add the thermal passport: `steadyrest thermal fit` writes it"});
   }
   return thermal;
 }

@@ -40,27 +40,27 @@ void each(const toml::table& parent, std::string_view name, std::string_view hea
 void check(const ThermalMode& mode, const Given& given, Faults& faults) {
   if (mode.level_mm.size() != mode.speed_rev_s.size()) {
     faults.add(given.at({"levels_um", "speeds_rpm"}),
-               fmt::format("{} levels_um stand beside {} speeds_rpm", mode.level_mm.size(),
+               fmt::format("{} levels_um for {} speeds_rpm", mode.level_mm.size(),
                            mode.speed_rev_s.size()),
-               "give one level for each speed");
+               "give one level per speed");
   }
   if (mode.level_mm.empty() == mode.polynomial_mm.empty()) {
     faults.add(given.at({"polynomial_um"}),
                mode.level_mm.empty() ? "the mode has no levels"
-                                     : "the mode has a table of levels and a polynomial",
+                                     : "the mode has both a table of levels and a polynomial",
                "give either speeds_rpm and levels_um, or polynomial_um");
   }
   if (std::ranges::adjacent_find(mode.speed_rev_s, std::ranges::greater_equal{}) !=
       mode.speed_rev_s.end()) {
-    faults.add(given.at({"speeds_rpm"}), "speeds_rpm do not rise",
-               "write them from the lowest to the highest, each once");
+    faults.add(given.at({"speeds_rpm"}), "speeds_rpm are not in rising order",
+               "write them from lowest to highest, each once");
   }
 }
 
 void check(const Thermal& thermal, const Given& given, Faults& faults) {
   if (std::ranges::adjacent_find(thermal.share, std::ranges::less{}) != thermal.share.end()) {
     faults.add(given.at({"shares"}), "shares rise from one level to the next",
-               "a higher level is the stricter one: write them falling");
+               "a higher level is stricter: write them in falling order");
   }
   if (thermal.retract_slope_mm_s > 0.0 && thermal.retract_slope_mm_s < thermal.slope_mm_s) {
     faults.add(given.at({"retract_slope_um_min", "slope_um_min"}),
@@ -71,7 +71,7 @@ void check(const Thermal& thermal, const Given& given, Faults& faults) {
     faults.add(
         given.at({"level", "shares"}),
         fmt::format("level = {}, but there are {} shares", thermal.level, thermal.share.size()),
-        fmt::format("choose a level of 0 … {}", thermal.share.size() - 1));
+        fmt::format("choose a level, 0 … {}", thermal.share.size() - 1));
   }
 }
 
@@ -140,7 +140,7 @@ void read_thermal(const toml::table& root, Thermal& out, Faults& faults) {
   const toml::table* table = node->as_table();
   if (table == nullptr) {
     faults.add(line_of(node->source()), "thermal is not a section",
-               "write [thermal] on a line of its own, its keys below");
+               "write [thermal] on a separate line, with its keys below");
     return;
   }
   const std::size_t before = faults.list.size();

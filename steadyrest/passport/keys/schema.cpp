@@ -57,10 +57,10 @@ constexpr auto kRotary = For::rotary;
 
 std::span<const Key<Machine>> top_keys() noexcept {
   static const std::array kKeys = {
-      Key<Machine>{"name", &Machine::name, 1, 80, "What the machine is called in reports."},
+      Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
       Key<Machine>{
           "port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
-          "How the machine is reached. `sim`, the simulated machine, is the only way so far."},
+          "The port to the machine. `sim`, the simulated machine, is the only one so far."},
       Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
                    "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
   };
@@ -71,46 +71,44 @@ std::span<const Key<Control>> control_keys() noexcept {
   static const std::array kKeys = {
       Key<Control>{"dialect", choice<Control, &Control::dialect>(kDialects), 0, 0,
                    "Language of the control's NC programs.", kMust},
-      Key<Control>{"interpolator_period_ms", &Control::interpolator_period_s, 0.05, 100,
-                   "The interpolator gives a new set-point this often; a whole multiple of "
-                   "`servo_period_ms`."},
+      Key<Control>{
+          "interpolator_period_ms", &Control::interpolator_period_s, 0.05, 100,
+          "Time between set-points from the interpolator; a whole multiple of `servo_period_ms`."},
       Key<Control>{"servo_period_ms", &Control::servo_period_s, 0.05, 100,
-                   "Period of the position control loop."},
+                   "Period of the position loop."},
       Key<Control>{"max_path_acceleration_mm_s2", &Control::max_path_acceleration_mm_s2, 1, 1e6,
-                   "Limit of the acceleration along the path, on top of the axes' own."},
+                   "Acceleration limit along the path, in addition to the axes' own."},
       Key<Control>{"max_path_jerk_mm_s3", &Control::max_path_jerk_mm_s3, 1, 1e9,
-                   "Limit of the jerk along the path, on top of the axes' own."},
+                   "Jerk limit along the path, in addition to the axes' own."},
       Key<Control>{"max_feed_mm_min", &Control::max_feed_mm_s, 1, 1e6,
                    "Largest path feed that the control accepts."},
       Key<Control>{"rapid_mm_min", &Control::rapid_mm_s, 1, 1e6,
-                   "Path speed of G0, on top of the axes' own limits."},
+                   "G0 speed along the path, in addition to the axes' own limits."},
       Key<Control>{"look_ahead_blocks", &Control::look_ahead_blocks, 1, 10000,
-                   "Number of blocks that the control sees ahead."},
+                   "Number of blocks the control looks ahead."},
       Key<Control>{"corner_tolerance_mm", &Control::corner_tolerance_mm, 0, 10,
-                   "Rounding tolerance of G64 without its own value; 0 stays on the exact path."},
+                   "Rounding tolerance of a G64 without a value; 0 stays on the exact path."},
       Key<Control>{"junction_deviation_mm", &Control::junction_deviation_mm, 0, 1,
-                   "Bound on the speed through a corner of the exact path."},
-      Key<Control>{"tool_change_s", &Control::tool_change_s, 0, 3600,
-                   "How long one tool change takes."},
+                   "Speed limit through a corner of the exact path."},
+      Key<Control>{"tool_change_s", &Control::tool_change_s, 0, 3600, "Time for one tool change."},
       Key<Control>{"centripetal_share", &Control::centripetal_share, 0.1, 0.999,
                    "Share of the axes' acceleration that arcs may use across the path."},
       Key<Control>{"blend_share", &Control::blend_share, 0.01, 0.5,
                    "A corner arc takes at most this share of each of its neighbours."},
-      Key<Control>{
-          "blend_gap_cycles", &Control::blend_gap_cycles, 0, 1000,
-          "What a corner arc leaves of the line before it keeps the arc's acceleration when "
-          "it is shorter than this many interpolator periods."},
+      Key<Control>{"blend_gap_cycles", &Control::blend_gap_cycles, 0, 1000,
+                   "If the line left over before a corner arc is shorter than this many "
+                   "interpolator periods, it keeps the arc's acceleration."},
       Key<Control>{"min_block_cycles", &Control::min_block_cycles, 0, 1000,
                    "A block takes at least this many interpolator periods."},
       Key<Control>{"merge_share", &Control::merge_share, 0, 1,
-                   "Lines become one while all points lie within this share of the tolerance that "
-                   "the program gives; 0 = never."},
+                   "Lines are merged while all points lie within this share of the program's "
+                   "tolerance; 0 = never."},
       Key<Control>{"junction_share", &Control::junction_share, 0.001, 1,
                    "Share of the axes' acceleration that a corner of the exact path may use in one "
                    "interpolator period."},
       Key<Control>{"corner_acceleration_share", &Control::corner_acceleration_share, 0.01, 1,
-                   "Continuous mode: share of the acceleration that is left beside a corner which "
-                   "could not be rounded, and before a stop."},
+                   "Continuous mode: share of the acceleration left next to an unrounded corner, "
+                   "and before a stop."},
       Key<Control>{"stop_between_rapid_and_feed", &Control::stop_between_rapid_and_feed, 0, 0,
                    "The control stops between G0 and a feed move."},
   };
@@ -121,7 +119,7 @@ std::span<const Key<Axis>> axis_keys() noexcept {
   static const std::array kKeys = {
       Key<Axis>{"name", &Axis::name, 1, 1, "One of X Y Z U V W (linear) or A B C (rotary).", kMust},
       Key<Axis>{"servo_gain_1_s", &Axis::servo_gain_1_s, 1, 1000,
-                "Gain of the position loop: speed over following error.", kMust},
+                "Position loop gain: speed over following error.", kMust},
       Key<Axis>{"servo_gain_m_min_mm", &Axis::servo_gain_1_s, 0.06, 60,
                 "The same in the unit of SINUMERIK MD32200: 1 (m/min)/mm = 16.667 1/s.", kMust},
       Key<Axis>{"feed_forward", &Axis::feed_forward, 0, 1.5,
@@ -141,10 +139,10 @@ std::span<const Key<Axis>> axis_keys() noexcept {
       Key<Axis>{"max_jerk_deg_s3", &Axis::max_jerk_mm_s3, 1, 1e9,
                 "Largest jerk that the control plans with.", kMay, kRotary},
       Key<Axis>{"drive_acceleration_mm_s2", &Axis::drive_acceleration_mm_s2, 1, 1e6,
-                "What the drive can do at its current limit; the servo saturates there.", kMay,
+                "What the drive delivers at its current limit; the servo saturates there.", kMay,
                 kLinear},
       Key<Axis>{"drive_acceleration_deg_s2", &Axis::drive_acceleration_mm_s2, 0.1, 1e6,
-                "What the drive can do at its current limit; the servo saturates there.", kMay,
+                "What the drive delivers at its current limit; the servo saturates there.", kMay,
                 kRotary},
       Key<Axis>{"backlash_um", &Axis::backlash_mm, 0, 5000, "Lost motion at a reversal.", kMay,
                 kLinear},
@@ -175,30 +173,27 @@ std::span<const Key<Encoder>> encoder_keys() noexcept {
       Key<Encoder>{"line_period_deg", &Encoder::line_period_mm, 1e-6, 360, "Angle of one line.",
                    kMay, kRotary},
       Key<Encoder>{"clock_ns", &Encoder::clock_s, 0, 1e6,
-                   "Period of the clock that stamps the edges with their time; 0 = the counter "
-                   "gives no time stamps."},
+                   "Period of the clock that time-stamps the edges; 0 = no time stamps."},
       Key<Encoder>{"phase_error_um", &Encoder::phase_error_mm, -1000, 1000,
-                   "Calibration: where the four edges of a line stand off, line number mod 4 = 0, "
-                   "1, 2, 3; their sum is 0 and each is less than a count.",
+                   "Calibration: position errors of the four edges of a line, edge number mod 4 = "
+                   "0, 1, 2, 3; their sum is 0 and each is less than a count.",
                    kMay, kLinear, 4},
       Key<Encoder>{"phase_error_deg", &Encoder::phase_error_mm, -10, 10,
-                   "Calibration: where the four edges of a line stand off, line number mod 4 = 0, "
-                   "1, 2, 3; their sum is 0 and each is less than a count.",
+                   "Calibration: position errors of the four edges of a line, edge number mod 4 = "
+                   "0, 1, 2, 3; their sum is 0 and each is less than a count.",
                    kMay, kRotary, 4},
       Key<Encoder>{"line_table_first", &Encoder::line_table_first, -1e12, 1e12,
-                   "Calibration: number of the edge that the table begins with."},
+                   "Calibration: number of the first edge in the table."},
       Key<Encoder>{"line_table_periodic", &Encoder::line_table_periodic, 0, 0,
-                   "Calibration: the table is one revolution and repeats."},
-      Key<Encoder>{
-          "line_table_um", &Encoder::line_table_mm, -1000, 1000,
-          "Calibration: where each edge stands off besides, at most 1 048 576 of them, "
-          "each less than a count; 0 = not known. `steadyrest motion calibrate` writes it.",
-          kMay, kLinear, kMaxLineTable},
-      Key<Encoder>{
-          "line_table_deg", &Encoder::line_table_mm, -10, 10,
-          "Calibration: where each edge stands off besides, at most 1 048 576 of them, "
-          "each less than a count; 0 = not known. `steadyrest motion calibrate` writes it.",
-          kMay, kRotary, kMaxLineTable},
+                   "Calibration: the table covers one revolution and repeats."},
+      Key<Encoder>{"line_table_um", &Encoder::line_table_mm, -1000, 1000,
+                   "Calibration: further position error of each edge, at most 1 048 576 entries, "
+                   "each less than a count; 0 = unknown. `steadyrest motion calibrate` writes it.",
+                   kMay, kLinear, kMaxLineTable},
+      Key<Encoder>{"line_table_deg", &Encoder::line_table_mm, -10, 10,
+                   "Calibration: further position error of each edge, at most 1 048 576 entries, "
+                   "each less than a count; 0 = unknown. `steadyrest motion calibrate` writes it.",
+                   kMay, kRotary, kMaxLineTable},
   };
   return kKeys;
 }
@@ -217,9 +212,9 @@ std::span<const Key<Friction>> friction_keys() noexcept {
                     "Friction at the start of motion; not below the sliding friction.", kMay,
                     kRotary},
       Key<Friction>{"stribeck_mm_s", &Friction::stribeck_mm_s, 1e-6, 1e3,
-                    "Speed over which the breakaway part falls off.", kMay, kLinear},
+                    "Speed over which the breakaway part decays.", kMay, kLinear},
       Key<Friction>{"stribeck_deg_s", &Friction::stribeck_mm_s, 1e-6, 1e4,
-                    "Speed over which the breakaway part falls off.", kMay, kRotary},
+                    "Speed over which the breakaway part decays.", kMay, kRotary},
       Key<Friction>{"viscous_1_s", &Friction::viscous_1_s, 0, 1e4,
                     "Friction that grows with speed."},
   };
@@ -229,27 +224,26 @@ std::span<const Key<Friction>> friction_keys() noexcept {
 std::span<const Key<OverrideKeys>> override_keys() noexcept {
   using O = OverrideKeys;
   static const std::array kKeys = {
-      Key<O>{"coding", choice<O, &O::coding>(kCodings), 0, 0, "How the switch's word is coded."},
+      Key<O>{"coding", choice<O, &O::coding>(kCodings), 0, 0, "Coding of the switch's word."},
       Key<O>{"percent", &O::percent, 0, 1000,
-             "The values of the steps, first step first, never falling. Either this or "
+             "The value of each step, from the first step up, never falling. Either this or "
              "`binary_max_percent`."},
-      Key<O>{
-          "codes", &O::codes, 0, 65535,
-          "The word of each step, as many as `percent`, all different. Without it: the Gray code "
-          "of 1, 2, 3 … (`gray`), the percent itself (`binary`)."},
+      Key<O>{"codes", &O::codes, 0, 65535,
+             "The word of each step: one per entry of `percent`, all different. By default the "
+             "Gray code of 1, 2, 3 … (`gray`) or the percent itself (`binary`)."},
       Key<O>{"binary_max_percent", &O::binary_max, 1, 1000,
-             "Binary switch with even steps from 0 to this value; the word is the number of the "
-             "step."},
+             "Binary switch with even steps from 0 to this value; the word is the step number."},
       Key<O>{"binary_step_percent", &O::binary_step, 0.05, 50,
-             "Size of those steps; at most 2001 steps."},
+             "Size of those steps; 2001 steps at most."},
       Key<O>{"scan_period_ms", &O::scan_period_s, 0.05, 10000,
-             "The PLC (or whatever reads the switch) looks at the word this often."},
+             "How often the PLC (or whatever reads the switch) scans the word."},
       Key<O>{"dead_time_ms", &O::dead_time_s, 0, 10000,
-             "From that look until the interpolator acts."},
+             "Time from that scan until the interpolator acts."},
       Key<O>{"latched_word", &O::latched_word, 0, 0,
-             "A written word takes effect as a whole; if not, the layer walks the neighbours."},
+             "A written word takes effect all at once; if not, the layer steps through "
+             "neighbouring codes."},
       Key<O>{"layer_may_exceed_panel", &O::layer_may_exceed_panel, 0, 0,
-             "The layer may ask for more than the operator's switch. The panel's 0 always stops."},
+             "The layer may ask for more than the operator's switch. 0 on the panel always stops."},
       Key<O>{"max_percent", &O::max_ratio, 1, 1000, "The control clips at this value."},
   };
   return kKeys;
@@ -260,16 +254,16 @@ std::span<const Key<Spindle>> spindle_keys() noexcept {
       Key<Spindle>{"max_rpm", &Spindle::max_rev_s, 1, 1e6, "Largest speed."},
       Key<Spindle>{"min_rpm", &Spindle::min_rev_s, 0, 1e6, "Smallest speed."},
       Key<Spindle>{"acceleration_rpm_s", &Spindle::acceleration_rev_s2, 1, 1e6,
-                   "How fast the drive changes the speed."},
+                   "Rate at which the drive changes the speed."},
       Key<Spindle>{"inertia_kg_m2", &Spindle::inertia_kg_m2, 1e-7, 1e4,
                    "Moment of inertia of rotor, chuck and tool."},
       Key<Spindle>{"rated_power_kw", &Spindle::rated_power_w, 0.001, 1e4, "Rated power."},
       Key<Spindle>{"max_torque_n_m", &Spindle::max_torque_n_m, 0.001, 1e6, "Largest torque."},
       Key<Spindle>{"rated_torque_n_m", &Spindle::rated_torque_n_m, 0.001, 1e6,
-                   "RMS torque that the motor bears for ever (S1); `max_torque_n_m` without it."},
+                   "Continuous RMS torque of the motor (S1); default `max_torque_n_m`."},
       Key<Spindle>{"speed_tolerance_percent", &Spindle::speed_tolerance_ratio, 0, 100,
-                   "Band of the control's speed monitor about its set-point (MD35150 on an 840D); "
-                   "0: the control has none."},
+                   "Tolerance band of the control's speed monitor (MD35150 on an 840D); 0: the "
+                   "control has none."},
   };
   return kKeys;
 }
@@ -354,29 +348,31 @@ std::span<const Key<Envelope>> envelope_keys() noexcept {
 std::span<const Key<Simulation>> simulation_keys() noexcept {
   static const std::array kKeys = {
       Key<Simulation>{"seed", &Simulation::seed, 0, 9007199254740992.0,
-                      "Seed of all noise: same seed, same bytes out."},
+                      "Seed for all noise: same seed, same output, byte for byte."},
       Key<Simulation>{"position_noise_um", &Simulation::position_noise_mm, 0, 1000,
-                      "RMS of what disturbs the true position (vibration, load)."},
+                      "RMS disturbance of the true position (vibration, load)."},
       Key<Simulation>{
           "thermal_tau_error_percent", &Simulation::thermal_tau_error_ratio, -90, 1000,
-          "By how much the true time constants are longer than the thermal passport's: a value for "
-          "each mode, then each ambient input, axis by axis; the last one holds for the rest.",
+          "How much longer the true time constants are than the thermal passport's: one value for "
+          "each mode, then each ambient input, axis by axis; the last applies to the rest.",
           kMay, For::any, 72},
-      Key<Simulation>{
-          "thermal_gain_error_percent", &Simulation::thermal_gain_error_ratio, -100, 1000,
-          "By how much the true levels and ambient gains are larger than the passport's, likewise.",
-          kMay, For::any, 72},
-      Key<Simulation>{"room_c", &Simulation::room_c, -20, 60, "Mean temperature of the room."},
+      Key<Simulation>{"thermal_gain_error_percent", &Simulation::thermal_gain_error_ratio, -100,
+                      1000,
+                      "How much larger the true levels and ambient gains are than the passport's, "
+                      "in the same order.",
+                      kMay, For::any, 72},
+      Key<Simulation>{"room_c", &Simulation::room_c, -20, 60, "Mean shop temperature."},
       Key<Simulation>{"room_swing_k", &Simulation::room_swing_k, 0, 30,
-                      "Amplitude of the room over a day, warmest at 15 o'clock."},
-      Key<Simulation>{"room_noise_k", &Simulation::room_noise_k, 0, 10,
-                      "RMS of what doors and draughts add, with a correlation time of 10 min."},
+                      "Amplitude of the shop temperature over a day, warmest at 15:00."},
+      Key<Simulation>{
+          "room_noise_k", &Simulation::room_noise_k, 0, 10,
+          "RMS temperature change from doors and draughts, with a correlation time of 10 min."},
       Key<Simulation>{"room_start_h", &Simulation::room_start_s, 0, 24,
-                      "Time of day at which the simulation begins."},
+                      "Time of day at the start of the simulation."},
       Key<Simulation>{"sensor_noise_k", &Simulation::sensor_noise_k, 0, 10,
-                      "RMS of one reading of a temperature sensor."},
+                      "RMS noise of a temperature reading."},
       Key<Simulation>{"probe_noise_um", &Simulation::probe_noise_mm, 0, 1000,
-                      "RMS of one reading of the probe that re-zeroes the thermal model."},
+                      "RMS noise of a probe reading that re-zeroes the thermal model."},
   };
   return kKeys;
 }

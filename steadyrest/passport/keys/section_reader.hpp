@@ -148,7 +148,7 @@ class SectionReader {
     for (const Key<S>& other : keys_) {
       if (other.name != key.name && other.field == key.field && given_.has(other.name)) {
         faults_.add(line,
-                    fmt::format("{} has both {} and {}, which are one quantity", section_,
+                    fmt::format("{} has both {} and {}, which are the same quantity", section_,
                                 other.name, key.name),
                     "keep one of them");
         return true;
@@ -216,7 +216,7 @@ class SectionReader {
     for (const Key<S>& key : keys_) {
       if (key.need == Need::mandatory && fits(key) && !any_unit_given(key) && first_unit(key)) {
         faults_.add(given_.line,
-                    fmt::format("{} has no {}, which it must have", section_, key.name),
+                    fmt::format("{} has no {}, which is mandatory", section_, key.name),
                     fmt::format("add {} = …; {}", key.name, key.meaning));
       }
     }
@@ -276,11 +276,10 @@ class SectionReader {
     for (const Key<S>& key : keys_) {
       if (fits(key) && stem_of(key.name) == stem_of(name)) {
         const std::string_view unit = unit_of(key.name).shown;
-        faults_.add(
-            line,
-            fmt::format("{} = {}: {} has this quantity in {}, which stands in the key's name",
-                        cut(name), shown(node), section_, unit.empty() ? "no unit" : unit),
-            fmt::format("write {} = …", key.name));
+        faults_.add(line,
+                    fmt::format("{} = {}: {} has this quantity in {}, as the key's name says",
+                                cut(name), shown(node), section_, unit.empty() ? "no unit" : unit),
+                    fmt::format("write {} = …", key.name));
         return true;
       }
     }

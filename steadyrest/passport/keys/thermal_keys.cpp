@@ -13,21 +13,21 @@ using kernel::machine::ThermalMode;
 std::span<const Key<Thermal>> thermal_keys() noexcept {
   static const std::array kKeys = {
       Key<Thermal>{"enabled", &Thermal::enabled, 0, 0,
-                   "The layer moves the axes on line against the displacement that it forecasts."},
-      Key<Thermal>{"shares", &Thermal::share, 0.01, 1,
-                   "Shares k of the tolerance that heat may take, level by level, falling: k0, k1, "
-                   "k2, k3.",
-                   Need::optional, For::any, 8},
+                   "The layer offsets the axes on line to cancel the forecast drift."},
+      Key<Thermal>{
+          "shares", &Thermal::share, 0.01, 1,
+          "Share k of the tolerance allowed for drift, level by level, falling: k0, k1, k2, k3.",
+          Need::optional, For::any, 8},
       Key<Thermal>{"level", &Thermal::level, 0, 7, "The level in force."},
       Key<Thermal>{"max_offset_um", &Thermal::max_offset_mm, 0, 1000,
-                   "No thermal correction goes beyond it."},
+                   "Limit of any thermal correction."},
       Key<Thermal>{"slope_um_min", &Thermal::slope_mm_s, 0.001, 1000,
-                   "How fast the on-line correction may change."},
-      Key<Thermal>{"retract_slope_um_min", &Thermal::retract_slope_mm_s, 0, 60'000,
-                   "The same while no tool is in the cut (rapids, tool changes and what follows "
-                   "them standing); 0 = `slope_um_min`. The envelope's `offset_slew_um_s` holds."},
-      Key<Thermal>{"state_s", &Thermal::state_s, -1e12, 1e12,
-                   "Time in the log at which the modes had their `state_um`."},
+                   "Largest rate of change of the on-line correction."},
+      Key<Thermal>{
+          "retract_slope_um_min", &Thermal::retract_slope_mm_s, 0, 60'000,
+          "The same while no tool is in the cut (rapids, tool changes and any standstill after "
+          "them); 0 = `slope_um_min`. The envelope's `offset_slew_um_s` still applies."},
+      Key<Thermal>{"state_s", &Thermal::state_s, -1e12, 1e12, "Log time of the `state_um` values."},
   };
   return kKeys;
 }
@@ -35,26 +35,25 @@ std::span<const Key<Thermal>> thermal_keys() noexcept {
 std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalAxis>{"name", &ThermalAxis::name, 1, 32,
-                       "The axis that it displaces, or the name of a displacement that no axis "
-                       "corrects.",
+                       "The axis that drifts, or the name of a displacement that no axis corrects.",
                        Need::mandatory},
-      Key<ThermalAxis>{"noise_um", &ThermalAxis::noise_mm, 0, 1000, "RMS of one reading."},
+      Key<ThermalAxis>{"noise_um", &ThermalAxis::noise_mm, 0, 1000, "RMS noise of a reading."},
       Key<ThermalAxis>{"drift_um", &ThermalAxis::drift_mm, 0, 1000,
-                       "RMS of what the model does not know, a first-order process."},
+                       "RMS of the unmodelled part, a first-order process."},
       Key<ThermalAxis>{"drift_tau_min", &ThermalAxis::drift_tau_s, 0.1, 1e5,
                        "Time constant of that process."},
       Key<ThermalAxis>{"drift_state_um", &ThermalAxis::drift_state_mm, -1e5, 1e5,
-                       "What it had come to at `state_s`."},
-      Key<ThermalAxis>{"zero_um", &ThermalAxis::zero_mm, -1e6, 1e6,
-                       "What the gauge of the log shows where nothing displaces the machine; only "
-                       "forecasts of that log go by it."},
-      Key<ThermalAxis>{"max_speed_rpm", &ThermalAxis::max_speed_rev_s, 0, 1e6,
-                       "Fastest spindle speed that was fitted; 0 = not known. No forecast beyond "
-                       "1.2 times that."},
+                       "Its value at `state_s`."},
+      Key<ThermalAxis>{
+          "zero_um", &ThermalAxis::zero_mm, -1e6, 1e6,
+          "The gauge reading in the log at zero displacement; only forecasts of that log use it."},
+      Key<ThermalAxis>{
+          "max_speed_rpm", &ThermalAxis::max_speed_rev_s, 0, 1e6,
+          "Fastest spindle speed in the fit; 0 = unknown. No forecast beyond 1.2 times that."},
       Key<ThermalAxis>{
           "covariance", &ThermalAxis::covariance, -1e12, 1e12,
-          "Lower triangle, row by row, of the covariance of the linear parameters (µm, "
-          "µm/K): for each mode its levels or coefficients, then the ambient gains.",
+          "Lower triangle, row by row, of the covariance of the linear parameters (µm, µm/K): the "
+          "levels or coefficients of each mode, then the ambient gains.",
           Need::optional, For::any, 65536},
   };
   return kKeys;
@@ -63,28 +62,29 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
 std::span<const Key<ThermalMode>> thermal_mode_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalMode>{"tau_min", &ThermalMode::tau_s, 0.01, 1e5,
-                       "Time constant while the spindle turns.", Need::mandatory},
+                       "Time constant with the spindle turning.", Need::mandatory},
       Key<ThermalMode>{"rest_tau_min", &ThermalMode::rest_tau_s, 0, 1e5,
-                       "Time constant while it stands; 0 = `tau_min`."},
+                       "Time constant with the spindle stopped; 0 = `tau_min`."},
       Key<ThermalMode>{"speeds_rpm", &ThermalMode::speed_rev_s, 0, 1e6,
                        "Spindle speeds of the table of levels, rising.", Need::optional, For::any,
                        kMaxThermalLevels},
       Key<ThermalMode>{"levels_um", &ThermalMode::level_mm, -1e4, 1e4,
-                       "Displacement that the mode settles at, by speed; straight between them.",
+                       "Displacement the mode settles at, for each speed; linear between them.",
                        Need::optional, For::any, kMaxThermalLevels},
       Key<ThermalMode>{"polynomial_um", &ThermalMode::polynomial_mm, -1e6, 1e6,
-                       "Instead of a table: coefficients of n, n², …, n in 1000 rev/min.",
+                       "Instead of a table: coefficients of n, n², …, with n in 1000 rev/min.",
                        Need::optional, For::any, 8},
-      Key<ThermalMode>{"cutting_percent", &ThermalMode::cutting_ratio, 0, 10000,
-                       "Of the level, while feed moves are made."},
+      Key<ThermalMode>{
+          "cutting_percent", &ThermalMode::cutting_ratio, 0, 10000,
+          "Level during feed moves, relative to the level otherwise; 100 = no change."},
       Key<ThermalMode>{"coolant_percent", &ThermalMode::coolant_ratio, 0, 10000,
-                       "Of the level, with coolant."},
+                       "Level with coolant on, relative to the level without it; 100 = no change."},
       Key<ThermalMode>{"feed_um_m_min", &ThermalMode::feed_s, -1e4, 1e4,
-                       "Added to the level for each m/min of feed."},
+                       "Added to the level per m/min of feed."},
       Key<ThermalMode>{"tau_sd_percent", &ThermalMode::tau_sd_ratio, 0, 1000,
                        "Standard deviation of the time constant."},
       Key<ThermalMode>{"state_um", &ThermalMode::state_mm, -1e5, 1e5,
-                       "The mode's displacement at `state_s`."},
+                       "Displacement of the mode at `state_s`."},
   };
   return kKeys;
 }
@@ -92,15 +92,15 @@ std::span<const Key<ThermalMode>> thermal_mode_keys() noexcept {
 std::span<const Key<ThermalAmbient>> thermal_ambient_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalAmbient>{"sensor", &ThermalAmbient::sensor, 1, 32,
-                          "Column of the temperature in a log.", Need::mandatory},
+                          "Temperature column in the log.", Need::mandatory},
       Key<ThermalAmbient>{"tau_min", &ThermalAmbient::tau_s, 0, 1e5,
-                          "Time by which the machine lags behind it; 0 = none."},
+                          "Lag of the machine behind it; 0 = none."},
       Key<ThermalAmbient>{"gain_um_k", &ThermalAmbient::gain_mm_k, -1e4, 1e4,
-                          "Displacement for each kelvin.", Need::mandatory},
+                          "Displacement per kelvin.", Need::mandatory},
       Key<ThermalAmbient>{"reference_c", &ThermalAmbient::reference_c, -50, 150,
-                          "Temperature at which it displaces nothing."},
+                          "Temperature at zero displacement."},
       Key<ThermalAmbient>{"state_c", &ThermalAmbient::state_c, -50, 150,
-                          "The lagged temperature at `state_s`."},
+                          "Lagged temperature at `state_s`."},
   };
   return kKeys;
 }

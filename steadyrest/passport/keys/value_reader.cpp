@@ -80,11 +80,10 @@ bool ValueReader::in_range(const toml::node& node, double value) const {
   const std::string range =
       fmt::format("{} … {}{}{}", shown(min_), shown(max_), unit.empty() ? "" : " ", unit);
   faults_.add(line_of(node.source()),
-              fmt::format("{} = {} is {}; allowed is {}", key_, shown(node),
+              fmt::format("{} = {} is {}; allowed: {}", key_, shown(node),
                           std::isfinite(value) ? "out of range" : "not a finite number", range),
-              std::isfinite(value)
-                  ? "give a value in that range"
-                  : "give a finite value; leave the key out where there is no limit");
+              std::isfinite(value) ? "give a value in that range"
+                                   : "give a finite value; leave the key out if there is no limit");
   return false;
 }
 
@@ -92,7 +91,7 @@ bool ValueReader::number(const toml::node& node, double& out) const {
   if (!node.is_integer() && !node.is_floating_point()) {
     const std::string_view unit = unit_of(key_).shown;
     wrong_type(node, unit.empty() ? "a number" : fmt::format("a number in {}", unit),
-               "write the bare number, without quotes and without its unit");
+               "write the bare number, without quotes or unit");
     return false;
   }
   const double value = node.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
@@ -106,7 +105,7 @@ bool ValueReader::number(const toml::node& node, double& out) const {
 bool ValueReader::integer(const toml::node& node, std::int64_t& out) const {
   const auto* value = node.as_integer();
   if (value == nullptr) {
-    wrong_type(node, "a whole number", "write it without point, exponent and quotes");
+    wrong_type(node, "a whole number", "write it without decimal point, exponent or quotes");
     return false;
   }
   if (!in_range(node, static_cast<double>(value->get()))) {
@@ -129,13 +128,13 @@ bool ValueReader::boolean(const toml::node& node, bool& out) const {
 bool ValueReader::text(const toml::node& node, std::string& out) const {
   const auto* value = node.as_string();
   if (value == nullptr) {
-    wrong_type(node, "a text", "put it into quotes");
+    wrong_type(node, "a text", "put it in quotes");
     return false;
   }
   const std::string& text = value->get();
   if (static_cast<double>(text.size()) < min_ || static_cast<double>(text.size()) > max_) {
     faults_.add(line_of(node.source()),
-                fmt::format("{} = {} has {} characters; allowed are {} … {}", key_, shown(node),
+                fmt::format("{} = {} has {} characters; allowed: {} … {}", key_, shown(node),
                             text.size(), shown(min_), shown(max_)),
                 "shorten or fill it");
     return false;
@@ -159,18 +158,18 @@ bool ValueReader::choice(const toml::node& node, std::span<const std::string_vie
   }
   const auto* value = node.as_string();
   if (value == nullptr) {
-    wrong_type(node, fmt::format("one of {}", allowed), "put one of these words into quotes");
+    wrong_type(node, fmt::format("one of {}", allowed), "put one of these words in quotes");
     return false;
   }
   const auto found = std::find(words.begin(), words.end(), value->get());
   if (found == words.end()) {
     const std::string_view close = kernel::outcome::nearest(value->get(), words);
     faults_.add(line_of(node.source()),
-                fmt::format("{} = {} is not known; allowed is {}{}", key_, shown(node),
+                fmt::format("{} = {} is unknown; allowed: {}{}", key_, shown(node),
                             words.size() > 1 ? "one of " : "only ", allowed),
                 words.size() == 1 ? fmt::format("write \"{}\"", words.front())
                 : close.empty()   ? "choose one of them"
-                                  : fmt::format("write \"{}\" if that is meant", close));
+                                  : fmt::format("write \"{}\" if that is what you mean", close));
     return false;
   }
   out = static_cast<std::size_t>(found - words.begin());
@@ -186,7 +185,7 @@ const toml::array* ValueReader::list(const toml::node& node, std::string_view of
   if (array->empty() || array->size() > max_entries_) {
     faults_.add(
         line_of(node.source()),
-        fmt::format("{} has {} entries; allowed are 1 … {}", key_, array->size(), max_entries_),
+        fmt::format("{} has {} entries; allowed: 1 … {}", key_, array->size(), max_entries_),
         "give a list of that length");
     return nullptr;
   }

@@ -94,7 +94,7 @@ std::optional<Refusal> unfit_text(std::string_view text) {
     return Refusal{
         Kind::bad_input, "", 0,
         fmt::format("larger than {} MB; a machine file has a few kB", kMaxFileBytes >> 20U),
-        "give the machine file, not a program or a log"};
+        "give a machine file, not a program or a log"};
   }
   if (std::all_of(text.begin(), text.end(),
                   [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; })) {

@@ -101,8 +101,11 @@ AxisServo::AxisServo(const Config& config, const Encoder& encoder) noexcept
                          std::max(1.0, std::ceil(period_s_ / config.drive_period_s - 1e-9)));
   const double h = period_s_ / steps_;
   friction_ = Friction(config.axis.friction, h);
+  // Exact step of Ti·d̂˙ = f − d̂. portable::exp, as everywhere here: the same bytes with every
+  // compiler.
   integral_share_ = friction_.present() ? 1.0 - portable::exp(-h / config.integral_s) : 0.0;
   if (lag_s_ > 0.0) {
+    // ẋ = v, τ·v̇ = −k·x − v over one step h.
     const Matrix m =
         exponential({.xx = 0.0, .xv = h, .vx = -gain_1_s_ * h / lag_s_, .vv = -h / lag_s_});
     step_ = {.h_s = h, .rate_1_s = 1.0 / h, .xx = m.xx, .xv = m.xv, .vx = m.vx, .vv = m.vv};
@@ -131,6 +134,7 @@ double AxisServo::nominal(const Piece& piece, double held_mm, double& x, double&
   const double p = piece.slope_mm_s;
   const double q = piece.curvature_mm_s2;
   const double beta = lag_gain_ * q * inverse_gain_s_;
+  // held_mm is δ, the encoder's error, held through the servo period.
   const double alpha = (lag_gain_ * p + lag_s_ * q - beta) * inverse_gain_s_ + held_mm;
   const double y = x - (piece.start_mm - alpha);
   const double start_mm_s = lag_s_ > 0.0 ? v : p - beta - gain_1_s_ * y;
@@ -160,6 +164,7 @@ void AxisServo::limited(const Piece& piece, double held_mm, State& s) const noex
   double x = x0;
   double v = v0;
   const double start = nominal(piece, held_mm, x, v);
+  // What the drive must give: the nominal acceleration and what it takes against friction.
   const double wanted = (v - v0) * step_.rate_1_s + s.disturbance_mm_s2;
   const double drive = std::clamp(wanted, -drive_mm_s2_, drive_mm_s2_);
   s.saturated = s.saturated || drive != wanted;
@@ -173,6 +178,7 @@ void AxisServo::limited(const Piece& piece, double held_mm, State& s) const noex
   s.velocity_mm_s = v1;
   s.acceleration_mm_s2 = (v1 - v0) * step_.rate_1_s;
   s.drive_mm_s2 = drive;
+  // What the drive gave and the axis did not show: the integral part follows it.
   const double friction = drive - s.acceleration_mm_s2;
   s.disturbance_mm_s2 += integral_share_ * (friction - s.disturbance_mm_s2);
 }
@@ -194,6 +200,7 @@ const AxisServo::State& AxisServo::update(double command_mm, double command_mm_s
   const double held = state_.encoder_mm - state_.motor_mm;
   double base = state_.command_mm;
   double curvature = (command_mm_s - state_.command_mm_s) / period_s_;
+  // The parabola through both commanded positions whose slope changes by what the velocity does.
   double slope = (command_mm - base) / period_s_ - 0.5 * curvature * period_s_;
   state_.saturated = false;
   if (linear_) {
@@ -207,6 +214,8 @@ const AxisServo::State& AxisServo::update(double command_mm, double command_mm_s
     move_table(state_);
   } else {
     if (holds(command_mm, command_mm_s)) {
+      // Arrived: the loop holds where it is, so that stiction, count size and integral part
+      // together do not hunt.
       base = state_.encoder_mm;
       slope = curvature = 0.0;
     }

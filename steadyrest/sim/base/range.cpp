@@ -16,7 +16,7 @@ kernel::outcome::Result<void> in_range(std::string_view owner,
   for (const Range& r : ranges) {
     if (!(r.value >= r.low && r.value <= r.high)) {
       return std::unexpected(refusal(
-          fmt::format("{}: {} is {}; allowed is {} to {}", owner, r.name, r.value, r.low, r.high)));
+          fmt::format("{}: {} is {}; allowed: {} to {}", owner, r.name, r.value, r.low, r.high)));
     }
   }
   return {};

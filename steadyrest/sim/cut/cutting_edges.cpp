@@ -11,6 +11,7 @@ namespace steadyrest::sim {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+// A helical edge is cut into slices that lag by at most this angle.
 constexpr double kSliceLag_rad = 0.05;
 constexpr std::size_t kMostSlices = 64;
 constexpr double kSameCell = 1e-9;
@@ -43,6 +44,9 @@ EdgeCell milling_cell(const Cutting& cut, double angle, double step) {
     cell.rubbing[i] =
         cut.edge_tangential_n_mm * cell.tangent[i] + cut.edge_radial_n_mm * cell.normal[i];
   }
+  // An edge that enters or leaves between two points is shared between them by the hat function, so
+  // that zeroth and first moments are kept: second order in the step. The cut may begin at angle
+  // 0, hence the second turn.
   for (const double turn : {0.0, -kTurn}) {
     const double from = (cut.entry_rad - angle - turn) / step;
     const double to = (cut.exit_rad - angle - turn) / step;
@@ -88,6 +92,7 @@ std::size_t table_of(CuttingEdges& out, std::vector<double>& fractions, const Cu
 
 CuttingEdges CuttingEdges::make(const Cutting& cut, std::size_t least_steps) {
   CuttingEdges out;
+  // A whole number of steps per tooth: with even pitch the next tooth meets the surface at a point.
   out.steps = (least_steps + cut.teeth - 1) / cut.teeth * cut.teeth;
   out.step_rad = kTurn / static_cast<double>(out.steps);
   const double helix = cut.turning ? 0.0 : cut.helix_rad;
@@ -121,6 +126,7 @@ CuttingEdges CuttingEdges::make(const Cutting& cut, std::size_t least_steps) {
     const double between = own[e] - own[front];
     const double whole = std::floor(between + kSameCell);
     const double t = std::max(0.0, between - whole);
+    // With uneven pitch it meets it between points, where the cubic reads it.
     edge.front_exact = t < 2.0 * kSameCell;
     edge.front_weight = cubic(edge.front_exact ? 0.0 : t);
     edge.front_cell = whole < 0.0 ? out.steps - 1 : 0;
@@ -131,7 +137,7 @@ CuttingEdges CuttingEdges::make(const Cutting& cut, std::size_t least_steps) {
 kernel::outcome::Result<void> check(const Cutting& cut) {
   const auto teeth = static_cast<double>(cut.teeth);
   if (cut.modes.empty()) {
-    return std::unexpected(refusal("the cut has no mode that could vibrate"));
+    return std::unexpected(refusal("the cut has no vibration mode"));
   }
   for (const CuttingMode& mode : cut.modes) {
     if (auto ok = in_range("mode", {{"frequency_hz", mode.frequency_hz, 1e-3, 1e6},
@@ -150,7 +156,7 @@ kernel::outcome::Result<void> check(const Cutting& cut) {
   }
   if ((!cut.pitch_rad.empty() && cut.pitch_rad.size() != cut.teeth) ||
       (!cut.runout_mm.empty() && cut.runout_mm.size() != cut.teeth)) {
-    return std::unexpected(refusal("pitch and runout need one value for each tooth"));
+    return std::unexpected(refusal("pitch and runout need one value per tooth"));
   }
   constexpr double kMost = 1e9;
   return in_range("cut", {{"teeth", teeth, 1.0, cut.turning ? 1.0 : 100.0},

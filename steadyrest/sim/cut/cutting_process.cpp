@@ -33,6 +33,8 @@ double fastest_hz(const Cutting& cut) {
 
 double steps_for(const CuttingProcess::Config& config) {
   const Cutting& cut = config.cut;
+  // Steps are even in angle: at the slowest speed one takes longest, and there they must be fine
+  // enough.
   const double by_modes = config.steps_per_period * fastest_hz(cut) / config.slowest_rev_s;
   const double arc = cut.turning ? kTurn : std::max(cut.exit_rad - cut.entry_rad, 1e-6);
   return std::max(
@@ -60,6 +62,8 @@ CuttingProcess::CuttingProcess(const Config& config, CuttingEdges edges)
     : cut_(config.cut),
       keeps_contact_(config.keeps_contact),
       edges_(std::move(edges)),
+      // A circle of diameter D falls off by s²/D at the distance s along its tangent; in turning
+      // the surface is flat along the feed.
       drop_1_mm_(config.cut.turning || config.keeps_contact ? 0.0 : 1.0 / config.cut.diameter_mm),
       modes_(config.cut.modes.size()),
       steps_(config.cut.modes.size()),
@@ -99,6 +103,8 @@ void CuttingProcess::set_period(double period_s) noexcept {
     for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t k = 0; k < 2; ++k) {
         const double both = 1000.0 / mode.mass_kg * shape_[m][i] * shape_[m][k];
+        // X from a force at the step's end: the force is a straight line within the step, and only
+        // its end is unknown.
         answer_[i][k] += both * steps_[m].position.g1;
         answer_rate_[i][k] += both * steps_[m].velocity.g1;
       }
@@ -115,6 +121,7 @@ void CuttingProcess::lay_surface(double feed_per_tooth_mm) noexcept {
       const std::size_t step = (cell_ + 2 * edges_.steps - back) % edges_.steps;
       const std::size_t cell =
           (step + 1000 * edges_.steps - edge.shift % edges_.steps) % edges_.steps;
+      // Going back in angle, the feed the tool had when it was there.
       const double feed = feed_mm_ - feed_1_rad * edges_.step_rad * static_cast<double>(back);
       surface_[edge.trace + cell] = {feed * cells[cell].normal[0] + edge.runout_mm, feed};
     }
@@ -130,6 +137,7 @@ CuttingProcess::Surface CuttingProcess::surface(const Edge& edge, std::size_t ce
   }
   Surface out;
   at = at == 0 ? edges_.steps - 1 : at - 1;
+  // The tooth in front passed between two cells: interpolated over its neighbours.
   for (const double weight : edge.front_weight) {
     out.reach_mm += weight * trace[at].reach_mm;
     out.feed_mm += weight * trace[at].feed_mm;
@@ -232,6 +240,7 @@ std::array<double, 2> CuttingProcess::solve(const Motion& free) const noexcept {
       }
     }
   }
+  // 2 × 2 by Cramer's rule.
   const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   return {(right[0] * m[1][1] - right[1] * m[0][1]) / det,
           (m[0][0] * right[1] - m[1][0] * right[0]) / det};
@@ -246,6 +255,8 @@ void CuttingProcess::finish(const Motion& now, Output& out) noexcept {
     const double chip = active.gap_mm + across;
     // Where the feed leads out of the material there is no earlier surface to keep.
     const bool keeps = !keeps_contact_ && chip <= 0.0 && cell.normal[0] > -1e-9;
+    // An edge in the air leaves the surface of the tooth in front: regeneration goes back over
+    // several teeth.
     surface_[active.write] = keeps ? active.left : Surface{active.still_mm + across, feed_mm_};
     if (active.tip && cell.wall) {
       out.wall = true;
@@ -259,6 +270,7 @@ void CuttingProcess::finish(const Motion& now, Output& out) noexcept {
     out.torque_n_m +=
         b * (dot(cell.cutting, cell.tangent) * chip + dot(cell.rubbing, cell.tangent));
   }
+  // Force in N times the radius in mm.
   out.torque_n_m *= 0.5e-3 * cut_.diameter_mm;
 }
 
@@ -281,6 +293,7 @@ CuttingProcess::Output CuttingProcess::step(const Input& input) noexcept {
   turn_to(input.feed_direction);
   set_period(1.0 / (speed * static_cast<double>(edges_.steps)));
   damping_n_s_mm2_ = cut_.process_damping_n_mm / (std::numbers::pi * cut_.diameter_mm * speed);
+  // Before the cell moves on: the surface must be there when the first tooth reads it.
   if (input.in_cut && !in_cut_) {
     lay_surface(input.feed_per_tooth_mm);
   }
@@ -294,8 +307,12 @@ CuttingProcess::Output CuttingProcess::step(const Input& input) noexcept {
   const Motion free = free_motion();
   if (in_cut_) {
     gather();
+    // First guess with the last step's force: which edges cut depends on the displacement, and that
+    // on which edges cut.
     touch(moved(free, force_).x);
     force_ = solve(free);
+    // Until the set of cutting edges agrees with itself, or a few times: near contact it may flip
+    // for ever.
     for (int i = 1; i < kMostSolutions && touch(moved(free, force_).x); ++i) {
       force_ = solve(free);
     }

@@ -62,6 +62,8 @@ void CuttingVibration::take(const CuttingProcess::Output& now) noexcept {
     cycle_.square_mm2_s[i] += x[i] * x[i] * dt;
     if (kept_ == pass_mm_.size()) {
       const double change = x[i] - before[i];
+      // (x(θ) − x(θ − pitch))/√2: forced vibration repeats and drops out, regenerative does not.
+      // The half keeps the RMS of what does not repeat.
       cycle_.unforced_mm2_s += 0.5 * change * change * dt;
     }
   }
@@ -88,11 +90,13 @@ void CuttingVibration::take(const CuttingProcess::Output& now) noexcept {
 void CuttingVibration::sense(const CuttingProcess::Output& now,
                              const std::array<double, 2>& direction) noexcept {
   const auto& v = now.velocity_mm_s;
+  // From the feed's frame to the machine's X and Y.
   const double along_x = direction[0] * v[0] - direction[1] * v[1];
   const double along_y = direction[1] * v[0] + direction[0] * v[1];
   const double reading = along_x + along_y;
   const double dt = now.period_s;
   while (next_sample_s_ < dt && samples_.size() < samples_.capacity()) {
+    // Steps are even in angle, samples in time.
     samples_.push_back(last_mm_s_ + (reading - last_mm_s_) * next_sample_s_ / dt);
     next_sample_s_ += 1.0 / rate_hz_;
   }

@@ -17,6 +17,7 @@ ModalStep modal_step(const CuttingMode& mode, double period_s) noexcept {
   const double c = fall * portable::sin_turn(turns + 0.25);
   const double s = fall * portable::sin_turn(turns) / damped;
   ModalStep out;
+  // Free vibration over the period: exact, so the step need not be small against it.
   out.position.q = c + damping * s;
   out.position.v = s;
   out.velocity.q = -w * w * s;

@@ -18,6 +18,7 @@ using kernel::machine::ThermalMode;
 using kernel::outcome::Result;
 
 constexpr double kDay_s = 24.0 * 3600.0;
+// The room is warmest at 15:00; its noise has a correlation time of 10 min (README).
 constexpr double kWarmest_s = 15.0 * 3600.0;
 constexpr double kDraught_s = 600.0;
 constexpr double kReference_rev_s = 1000.0 / 60.0;  ///< unit of a polynomial's speed
@@ -87,6 +88,7 @@ double decay(double period_s, double tau_s) noexcept {
 double level_mm(const ThermalMode& m, double speed_rev_s) noexcept {
   if (m.level_mm.empty()) {
     const double n = speed_rev_s / kReference_rev_s;
+    // No constant term: a spindle at rest makes no heat.
     double power = n;
     double level = 0.0;
     for (const double coefficient : m.polynomial_mm) {
@@ -154,12 +156,14 @@ ThermalGrowth::ThermalGrowth(const Config& config)
                                   .lagged_c = room_c_});
     }
     axis.drift_decay = decay(period_s_, from.drift_tau_s);
+    // So that the process keeps its RMS once it has settled.
     axis.drift_fresh_mm = config.drift_mm * std::sqrt(1.0 - axis.drift_decay * axis.drift_decay);
     axis_.push_back(std::move(axis));
   }
 }
 
 void ThermalGrowth::room() noexcept {
+  // sin(x + ¼ turn) = cos x: warmest at 15:00.
   const double turns = (simulation_.room_start_s + time_s_ - kWarmest_s) / kDay_s;
   room_c_ = simulation_.room_c + simulation_.room_swing_k * portable::sin_turn(turns + 0.25);
   if (simulation_.room_noise_k > 0.0) {
@@ -176,6 +180,7 @@ void ThermalGrowth::update(const Input& input) noexcept {
       const double cut = 1.0 + input.cutting * (m.cutting_ratio - 1.0);
       const double settles = level_mm(m, speed) * cut * (input.coolant ? m.coolant_ratio : 1.0) +
                              m.feed_s * input.feed_mm_s;
+      // q' = G/τ − q/τ, exact over a period of constant inputs.
       const double left = speed > 0.0 ? body.turning_decay : body.resting_decay;
       body.warmth_mm = body.warmth_mm * left + settles * (1.0 - left);
       axis.displacement_mm += body.warmth_mm;
@@ -190,6 +195,7 @@ void ThermalGrowth::update(const Input& input) noexcept {
     }
   }
   ++periods_;
+  // Counted, not summed: a day of tenths of a second would drift.
   time_s_ = static_cast<double>(periods_) * period_s_;
   room();
 }

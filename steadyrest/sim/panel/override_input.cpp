@@ -37,6 +37,7 @@ kernel::outcome::Result<OverrideInput> OverrideInput::make(const Config& config)
 OverrideInput::OverrideInput(const Config& config, kernel::override::Table table,
                              std::size_t capacity)
     : table_(std::move(table)),
+      // Nothing can be scanned faster than the machine is simulated.
       scan_s_(std::max(config.period_s, table_.scan_period_s())),
       dead_s_(table_.dead_time_s()),
       watchdog_s_(config.watchdog_s),
@@ -59,8 +60,11 @@ void OverrideInput::read_panel(const Input& input) noexcept {
 /// Takes the layer's word as the wires show it at this scan.
 void OverrideInput::read_layer(const Input& input) noexcept {
   const std::uint32_t changing = seen_word_ ^ input.layer_code;
+  // The lowest bit that changes.
   const std::uint32_t lowest = changing & (~changing + 1U);
   const bool race = !table_.latched_word() && input.layer_masks && masked_ && changing != lowest;
+  // Several bits on the wires at once: one scan sees the first of them alone, the next the whole
+  // word. This is what the walk protects against.
   seen_word_ = race && !racing_ ? seen_word_ ^ lowest : input.layer_code;
   racing_ = race && !racing_;
 }
@@ -71,6 +75,7 @@ double OverrideInput::decide(const Input& input) noexcept {
   const bool was_masked = masked_;
   masked_ = input.layer_masks && alive && step.has_value();
   const double panel = state_.panel_ratio;
+  // The operator's 0 stops, whatever the layer asks.
   if (panel <= 0.0) {
     handing_back_ = false;
     return 0.0;
@@ -80,6 +85,7 @@ double OverrideInput::decide(const Input& input) noexcept {
     const double layer = table_.ratio(*step);
     return table_.layer_may_exceed_panel() ? layer : std::min(layer, panel);
   }
+  // When the mask drops, the value rises to the panel's by a ramp, but falls to it at once.
   handing_back_ = (handing_back_ || was_masked) && decided_ + rise_ < panel;
   return handing_back_ ? decided_ + rise_ : panel;
 }
@@ -102,6 +108,7 @@ kernel::signal::OverrideState OverrideInput::update(const Input& input) noexcept
     heartbeat_ = input.heartbeat;
     heartbeat_time_s_ = input.time_s;
   }
+  // Scans by number: adding up periods would drift against the machine's time.
   const double number = std::floor(input.time_s / scan_s_ + kTimeTolerance);
   if (number > scanned_) {
     scanned_ = number;

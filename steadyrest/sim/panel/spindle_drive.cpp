@@ -29,6 +29,7 @@ struct Ramp {
       from = corner;
     }
     if (from < to) {
+      // At constant power n² rises evenly: d(n²)/dt = P/(2π²J).
       const double needed = (to * to - from * from) / power;
       if (needed >= time_s) {
         from = std::sqrt(from * from + power * time_s);

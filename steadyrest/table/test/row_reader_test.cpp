@@ -129,7 +129,8 @@ TEST(RowReader, DecidesTheDecimalMarkByTheWholeFile) {
   EXPECT_THAT(said_by("a;b\n1,234;1\n2,345;12,5\n").rows,
               ElementsAre(ElementsAre(1.234, 1.0), ElementsAre(2.345, 12.5)));
   const Said neither = said_by("a;b\n7;1\n1,234;22,345\n");
-  EXPECT_THAT(neither.fault, HasSubstr("3: a comma could be the decimal mark or group digits"));
+  EXPECT_THAT(neither.fault,
+              HasSubstr("3: the comma may be a decimal mark or a thousands separator"));
   EXPECT_THAT(neither.to_do, HasSubstr("--decimal comma"));
   Format comma;
   comma.decimal = Decimal::comma;
@@ -201,17 +202,17 @@ TEST(RowReader, ReadsStampsWithADate) {
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00+01:00,1\n2026-11-22T09:00:01.000001Z,2\n").time_s,
               ElementsAre(32400.0, DoubleEq(32401.000001)));
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00Z,1\n2026-11-22 10:00:01,2\n").fault,
-              HasSubstr("3: the stamp \"2026-11-22 10:00:01\" has not a zone"));
+              HasSubstr("3: the stamp \"2026-11-22 10:00:01\" has no time zone"));
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00,1\n5,2\n").fault,
-              HasSubstr("3: \"5\" is no date with a time"));
+              HasSubstr("3: \"5\" is not a date and time"));
   EXPECT_THAT(said_by("t_s,z\n1,1\n2026-11-22 10:00:00,2\n").fault,
               HasSubstr("3: t_s = \"2026-11-22 10:00:00\" is not a finite number"));
 }
 
 TEST(RowReader, RefusesWhatIsNoText) {
-  EXPECT_EQ(said_by("\x1f\x8b-").fault, "0: is compressed by gzip");
+  EXPECT_EQ(said_by("\x1f\x8b-").fault, "0: is gzip-compressed");
   EXPECT_EQ(said_by(std::string("a,b\n1,\0", 7)).fault, "0: is not text in UTF-8");
-  EXPECT_EQ(said_by("a,a\n1,2\n").fault, "1: the column a stands twice");
+  EXPECT_EQ(said_by("a,a\n1,2\n").fault, "1: the column a appears twice");
   EXPECT_THAT(said_by("a\x01,b\n1,2\n").fault, HasSubstr("1: the header has control characters"));
   for (const char* value : {"nan", "inf", "0x10", "1 um", "1e999", "\"\"", "--1", "1e", "open"}) {
     EXPECT_THAT(said_by(fmt::format("a,b\n1,2\n3,{}\n", value)).fault, HasSubstr("3: b")) << value;

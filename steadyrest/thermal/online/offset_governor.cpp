@@ -102,6 +102,7 @@ Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
   for (std::size_t i = 0; i < axes; ++i) {
     const auto of =
         std::ranges::find(thermal.axis, machine.axes[i].name, &machine::ThermalAxis::name);
+    // Offsets are lengths; a displacement of no machine axis is only forecast.
     if (of == thermal.axis.end() || machine.axes[i].rotary) {
       continue;
     }
@@ -143,6 +144,8 @@ void OffsetGovernor::step(double elapsed_s, const Running& running) noexcept {
 void OffsetGovernor::step() noexcept {
   if (state_.pending_s > 0.0) {
     Running mean = state_.drive;
+    // Mean over the pending time: levels are of the speed, and between two hand-overs it may have
+    // changed in every cycle.
     mean.speed_rev_s = state_.turned_rev / state_.pending_s;
     mean.feed_mm_s = state_.path_mm / state_.pending_s;
     step(state_.pending_s, mean);
@@ -162,12 +165,15 @@ void OffsetGovernor::drive_on(const Frame& frame) noexcept {
   state_.unwatched_s += elapsed_s;
   if (elapsed_s > kGap_s) {
     step();
+    // Nobody knows what was done: counted as standstill.
     step(elapsed_s, {});
   } else {
     state_.pending_s += elapsed_s;
     state_.turned_rev += elapsed_s * state_.drive.speed_rev_s;
     state_.path_mm += elapsed_s * state_.drive.feed_mm_s;
   }
+  // A change between cutting and air, coolant or standstill ends the pending time, since these
+  // enter as states and have no mean.
   if (first || elapsed_s > kGap_s || state_.pending_s >= kHold_s ||
       !same_class(state_.drive, drive)) {
     step();
@@ -225,6 +231,8 @@ Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
 
 /// The reading of a frame whose number is new.
 void OffsetGovernor::probe(const Frame& frame) noexcept {
+  // The first frame after a start may show an old reading; with which offset it was made is not
+  // known.
   const bool fresh = probe_watched_ && frame.probe.number != probe_number_;
   probe_watched_ = true;
   probe_number_ = frame.probe.number;

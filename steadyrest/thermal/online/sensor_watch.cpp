@@ -38,6 +38,7 @@ bool usable(const SensorWatch::Sensor& s) noexcept {
 
 void SensorWatch::update(double elapsed_s, std::size_t sensors,
                          Temperatures& temperature_c) noexcept {
+  // A clock that jumps back must not shorten the waits.
   const double elapsed = elapsed_s >= 0.0 && std::isfinite(elapsed_s) ? elapsed_s : 0.0;
   for (std::size_t i = 0; i < std::min(sensors, temperature_c.size()); ++i) {
     Sensor& sensor = state_.sensor[i];
@@ -61,6 +62,8 @@ bool SensorWatch::can_be(Sensor& sensor, double elapsed_s, double temperature_c)
   if (!sensor.seen) {
     return true;
   }
+  // Follows only while it is believed: after a step it waits where it was until the machine could
+  // have come that far.
   if (!sensor.away) {
     const double reach = kRate_k_s * elapsed_s;
     sensor.follower_c += std::clamp(temperature_c - sensor.follower_c, -reach, reach);
@@ -99,9 +102,11 @@ void SensorWatch::live(Sensor& sensor, double elapsed_s, double temperature_c) n
     ++sensor.excursions;
     ++state_.excursions;
   }
+  // Excursions of the other sensors only.
   const std::uint64_t others = state_.excursions - sensor.excursions;
   if (temperature_c != sensor.value_c) {
     if (sensor.fault != Reason::thermal_sensor_stuck) {
+      // Learnt only from times when it was alive, or a stuck sensor would teach its own silence.
       sensor.longest_s = std::max(sensor.longest_s, sensor.same_s);
     }
     sensor.value_c = temperature_c;

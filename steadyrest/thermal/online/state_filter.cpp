@@ -20,6 +20,7 @@ constexpr double kUpper999 = 3.0902;   ///< N(0,1) keeps below it in 99.9 %
 
 /// 99.9 % point of χ² with n degrees of freedom; Wilson and Hilferty 1931, within 2 % from n = 4.
 double chi_square_999(double n) noexcept {
+  // The cube root of χ²/n is nearly normal.
   const double root = 1.0 - 2.0 / (9.0 * n) + kUpper999 * std::sqrt(2.0 / (9.0 * n));
   return n * root * root * root;
 }
@@ -48,12 +49,12 @@ Result<StateFilter> StateFilter::make(const Config& config) {
     return std::unexpected(std::move(model.error()));
   }
   if (!usable(config)) {
-    return std::unexpected(Refusal{
-        Kind::bad_input,
-        {},
-        0,
-        "the filter of " + config.axis.name + " cannot be set up",
-        "give standard deviations ≥ 0, a gate > 0, and limits of the scale on either side of 1"});
+    return std::unexpected(
+        Refusal{Kind::bad_input,
+                {},
+                0,
+                "the filter for " + config.axis.name + " has bad settings",
+                "give standard deviations ≥ 0, a gate > 0, and scale limits on either side of 1"});
   }
   return StateFilter(config, std::move(*model));
 }
@@ -66,6 +67,7 @@ StateFilter::StateFilter(const Config& config, ThermalModel model)
 void StateFilter::reset() noexcept {
   model_.reset();
   state_ = {};
+  // The modes begin at 0 with no variance: a cold machine is known exactly.
   state_.covariance[kBias][kBias] = config_.start_sd_mm * config_.start_sd_mm;
   state_.covariance[kGain][kGain] = config_.gain_sd_ratio * config_.gain_sd_ratio;
 }
@@ -93,6 +95,7 @@ double StateFilter::update(double elapsed_s, const Drive& drive) noexcept {
   std::array<double, kMaxThermalModes> after_mm = model_.state().mode_mm;
   std::array<double, kMaxThermalModes> gained_mm{};
   for (std::size_t i = 0; i < modes_; ++i) {
+    // (1 − a)·G, the level's part of the step.
     gained_mm[i] = after_mm[i] - left[i] * before_mm[i];
     after_mm[i] += (state_.gain - 1.0) * gained_mm[i];
   }
@@ -110,6 +113,8 @@ void StateFilter::spread(double elapsed_s, const std::array<double, kMaxThermalM
     const bool walks = axis.drift_mm == 0.0;
     bias_step_ = {.elapsed_s = elapsed_s,
                   .left = walks ? 1.0 : std::exp(-elapsed_s / axis.drift_tau_s),
+                  // d²·(1 − e^(−2h/τ)) by expm1: at a millisecond of some hours the difference
+                  // would lose all digits.
                   .variance_mm2 = walks
                                       ? config_.walk_mm_sqrt_s * config_.walk_mm_sqrt_s * elapsed_s
                                       : -axis.drift_mm * axis.drift_mm *
@@ -119,6 +124,8 @@ void StateFilter::spread(double elapsed_s, const std::array<double, kMaxThermalM
   const double gain = p[kGain][kGain];
   for (std::size_t i = 0; i < modes_; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
+      // In place: the modes' block first, while their covariances with the gain are still the old
+      // ones; then those with bias and gain.
       p[i][j] = left[i] * left[j] * p[i][j] + left[i] * gained_mm[j] * p[i][kGain] +
                 gained_mm[i] * left[j] * p[j][kGain] + gained_mm[i] * gained_mm[j] * gain;
       p[j][i] = p[i][j];
@@ -177,6 +184,7 @@ StateFilter::Verdict StateFilter::measure(const Reading& reading) noexcept {
   const double innovation = reading.displacement_mm - displacement_mm();
   Verdict verdict{.innovation_mm = innovation, .innovation_sd_mm = std::sqrt(s)};
   const double e = innovation / verdict.innovation_sd_mm;
+  // Outliers count too, clipped: one says nothing, several in a row say that the model is wrong.
   state_.innovation[state_.readings % kWindow] = std::clamp(e, -config_.gate_sd, config_.gate_sd);
   ++state_.readings;
   if (std::abs(e) > config_.gate_sd) {
@@ -194,6 +202,7 @@ StateFilter::Verdict StateFilter::measure(const Reading& reading) noexcept {
     for (std::size_t j = 0; j < kStates; ++j) {
       p[i][j] -= with_reading[i] * with_reading[j] / s;
     }
+    // Rounding of the subtraction must not make a variance negative.
     p[i][i] = std::max(p[i][i], 0.0);
   }
   verdict.reason = Reason::thermal_reading_taken;

@@ -44,6 +44,7 @@ double by_polynomial(const ThermalMode& mode, double speed_rev_s) noexcept {
   const double n = speed_rev_s / kReference_rev_s;
   double level = 0.0;
   for (const double coefficient : std::views::reverse(mode.polynomial_mm)) {
+    // Horner without a constant term: a polynomial gives 0 at standstill.
     level = (level + coefficient) * n;
   }
   return level;
@@ -60,7 +61,7 @@ Result<ThermalModel> ThermalModel::make(const Config& config) {
     return std::unexpected(Refusal{Kind::bad_input,
                                    {},
                                    0,
-                                   "the thermal passport of " + config.name + " cannot be used",
+                                   "the thermal passport of " + config.name + " is incomplete",
                                    "give each mode a positive time constant and either a rising "
                                    "table of levels or a polynomial"});
   }
@@ -71,6 +72,8 @@ ThermalModel::ThermalModel(Config config) : config_(std::move(config)) {
   for (std::size_t j = 0; j < config_.ambient.size(); ++j) {
     const auto& ambient = config_.ambient[j];
     const auto end = lag_decay_.begin() + static_cast<std::ptrdiff_t>(lags_);
+    // Inputs with the same lag share one exponential: a passport with all temperatures has three
+    // lags and dozens of inputs.
     const auto found = std::find_if(lag_decay_.begin(), end, [&ambient](const Decay& decay) {
       return decay.tau_s == ambient.tau_s;
     });
@@ -86,6 +89,7 @@ ThermalModel::ThermalModel(Config config) : config_(std::move(config)) {
 
 void ThermalModel::reset() noexcept {
   state_.mode_mm.fill(0.0);
+  // Not 0 °C: the first reading of a sensor counts as its settled value.
   state_.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
   ambient_mm_ = 0.0;
 }
@@ -97,10 +101,12 @@ void ThermalModel::restore(const State& state) noexcept {
 
 double ThermalModel::level_mm(std::size_t mode, const Drive& drive) const noexcept {
   const ThermalMode& m = config_.mode[mode];
+  // Heat does not ask for the direction of rotation.
   const double n = std::abs(drive.speed_rev_s);
   double level = m.level_mm.empty() ? by_polynomial(m, n) : by_table(m, n);
   level *= drive.cutting ? 1.0 + drive.cutting_share * (m.cutting_ratio - 1.0) : 1.0;
   level *= drive.coolant ? m.coolant_ratio : 1.0;
+  // The ratios are of the speed's part alone.
   return level + m.feed_s * drive.feed_mm_s;
 }
 
@@ -110,6 +116,7 @@ double ThermalModel::tau_s(std::size_t mode, const Drive& drive) const noexcept 
 }
 
 double ThermalModel::kept(Decay& decay, double tau_s, double elapsed_s) noexcept {
+  // Steps mostly come at one period, so the exponential is made once.
   if (decay.tau_s != tau_s || decay.elapsed_s != elapsed_s) {
     const double factor = tau_s > 0.0 ? std::exp(-elapsed_s / tau_s) : 0.0;
     decay = {.tau_s = tau_s, .elapsed_s = elapsed_s, .factor = factor};
@@ -124,6 +131,8 @@ void ThermalModel::sum_up_ambient() noexcept {
   for (std::size_t j = 0; j < config_.ambient.size(); j += part.size()) {
     for (std::size_t k = 0; k < part.size(); ++k) {
       const double away_mm = gain_mm_k_[j + k] * (state_.ambient_c[j + k] - reference_c_[j + k]);
+      // A sensor that was never seen displaces nothing. Slots beyond the inputs have gain 0 or NaN
+      // temperatures and fall out here as well.
       part[k] += std::isfinite(away_mm) ? away_mm : 0.0;
     }
   }
@@ -141,6 +150,7 @@ void ThermalModel::lag(double elapsed_s, const Drive& drive) noexcept {
     const double temperature = drive.ambient_c[j];
     const double lagged = state_.ambient_c[j];
     const double next = temperature + (lagged - temperature) * left_[j];
+    // The first reading counts as settled; a lost sensor keeps its last lagged value.
     const double seen = std::isfinite(lagged) ? next : temperature;
     state_.ambient_c[j] = std::isfinite(temperature) ? seen : lagged;
   }
@@ -156,6 +166,7 @@ double ThermalModel::update(double elapsed_s, const Drive& drive) noexcept {
   for (std::size_t i = 0; i < config_.mode.size(); ++i) {
     const double level = level_mm(i, drive);
     double& x = state_.mode_mm[i];
+    // Exact for constant inputs, whatever the step.
     x = level + (x - level) * decay(i, elapsed_s, drive);
   }
   if (!config_.ambient.empty()) {

@@ -283,10 +283,10 @@ Result<std::vector<BelievedAxis>> believed(const Job& job) {
     out.push_back(*std::move(axis));
   }
   if (out.empty()) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, job.machine.file, 0,
-                "the machine file has no thermal displacement of one of its axes",
-                "add [[thermal.axis]] with the name of an axis: steadyrest thermal fit writes it"});
+    return std::unexpected(Refusal{
+        Kind::bad_input, job.machine.file, 0,
+        "the machine file has no [[thermal.axis]] for any of its axes",
+        "add [[thermal.axis]] with the name of an axis: `steadyrest thermal fit` writes it"});
   }
   return out;
 }

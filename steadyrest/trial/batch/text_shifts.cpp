@@ -164,7 +164,7 @@ Result<ShiftedProgram> shifted_program(const std::string& program, const Trace& 
     return std::unexpected(Refusal{Kind::unavailable, program, 0,
                                    fmt::format("the corrected text makes {} moves, the program {}",
                                                changed->end.size(), original.end.size()),
-                                   "report this: it is an error of the layer"});
+                                   "please report this: it is a bug in Steadyrest"});
   }
   return ShiftedProgram{.shift = nc::rewrite::beside_program(settings.method)
                                      ? of_insertions(*done, plan)

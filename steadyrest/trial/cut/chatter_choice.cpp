@@ -78,11 +78,12 @@ Result<std::vector<ChatterChoice>> choose(
     const std::vector<double>& speeds_rev_s, double depth_mm,
     const std::function<void(double share, std::string_view what)>& progress) {
   if (speeds_rev_s.size() > kMostSpeeds) {
-    return std::unexpected(Refusal{
-        Kind::bad_input, "", 0,
-        fmt::format("the program cuts at {} spindle speeds; the planner takes {}",
-                    speeds_rev_s.size(), kMostSpeeds),
-        "plan each cut by `chatter plan`, or set law and amplitude in [chatter] of the machine"});
+    return std::unexpected(
+        Refusal{Kind::bad_input, "", 0,
+                fmt::format("the program cuts at {} spindle speeds; the planner takes {}",
+                            speeds_rev_s.size(), kMostSpeeds),
+                "plan each cut with `chatter plan`, or set law and amplitude in [chatter] of the "
+                "machine file"});
   }
   std::vector<ChatterChoice> choices;
   const auto count = static_cast<double>(speeds_rev_s.size());

@@ -33,6 +33,7 @@ class TrueError {
  public:
   static Result<TrueError> make(const kernel::machine::Machine& machine) {
     ContourError::Config config;
+    // The slowest axis lags most.
     config.servo_gain_1_s = std::ranges::min(machine.axes, {}, [](const auto& axis) {
                               return axis.servo_gain_1_s;
                             }).servo_gain_1_s;
@@ -121,8 +122,8 @@ Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
   layer->set_mode(kernel::machine::Mode::act);
   if (job.listener && !layer->listen(*job.listener)) {
     return std::unexpected(Refusal{
-        Kind::bad_input, "", 0, "chatter cannot be answered: the machine has no spindle override",
-        "give [override.spindle], or take --chatter machine"});
+        Kind::bad_input, "", 0, "the machine has no spindle override to act against chatter with",
+        "add [override.spindle], or use --chatter machine"});
   }
   return layer;
 }
@@ -222,8 +223,8 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
     on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()), reason));
     if (standstill.too_long(*frame)) {
       return std::unexpected(Refusal{Kind::bad_input, "", frame->program_line,
-                                     "the cut stands still for ten simulated minutes in this line",
-                                     "look for an override of 0 % or a very long dwell"});
+                                     "no motion for ten simulated minutes in this line",
+                                     "look for a 0 % override or a very long dwell"});
     }
     if (frame->cycle % kCyclesBetweenProgress == 0) {
       job.progress(frame->path_position_mm / length_mm);

@@ -53,6 +53,7 @@ void VibrationRecord::add(double time_s, double spindle_rev_s,
                     .spindle_rev_s = spindle_rev_s,
                     .cycles = 1};
   if (course_.empty() || course_.back().cycles >= per_stretch_) {
+    // However long the cut, the record keeps its size: neighbours merge.
     if (course_.size() == max_points_) {
       halve();
     }

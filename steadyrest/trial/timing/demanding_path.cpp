@@ -32,6 +32,7 @@ struct Plane {
 };
 
 std::optional<Plane> plane_of(const Machine& machine) {
+  // G17, G18 (Z before X), G19.
   constexpr std::array<Plane, 3> kPlanes{{{.axis = {0, 1}, .normal = 2},
                                           {.axis = {2, 0}, .normal = 1},
                                           {.axis = {1, 2}, .normal = 0}}};
@@ -155,7 +156,7 @@ Result<std::shared_ptr<const nc::plan::PlannedPath>> demanding_path(const Machin
   if (!plane) {
     return std::unexpected(Refusal{Kind::bad_input, machine.file, 0,
                                    "the machine has fewer than two of the axes X, Y, Z",
-                                   "describe the axes that contour together"});
+                                   "add the axes that contour together"});
   }
   nc::plan::PathBuilder builder(machine);
   Pen pen(machine, *plane, builder);

@@ -22,13 +22,13 @@ double fall_s(const Machine& machine) {
 }
 
 std::string remedy(const LayerTiming& timing, const Machine& machine) {
-  constexpr std::string_view kAlways = "lengthen interpolator_period_ms or take a faster computer";
+  constexpr std::string_view kAlways = "lengthen interpolator_period_ms or use a faster computer";
   if (timing.decisions == 0 || fall_s(machine) <= kLongFall_s) {
     return std::string(kAlways);
   }
   return fmt::format(
-      "raise feed_fall_percent_s or contour.min_percent, so that forecasts are shorter (the fall "
-      "takes {:.2g} s), {}",
+      "raise feed_fall_percent_s or contour.min_percent to shorten the forecasts (the fall takes "
+      "{:.2g} s), {}",
       fall_s(machine), kAlways);
 }
 
@@ -44,9 +44,11 @@ std::vector<Finding> judge(const LayerTiming& timing, const Machine& machine) {
       "the layer takes {:.0f} µs of a control cycle of {:.0f} µs (p99.9 of {} {})", 1e6 * took_s,
       1e6 * timing.cycle_s, timing.decisions > 0 ? timing.decisions : timing.cycles,
       timing.decisions > 0 ? "decisions" : "cycles");
-  what += overruns ? ": it would miss cycles"
-                   : fmt::format(", more than {:.0f} % of it: little is left for port and system",
-                                 1e2 * kMostShare);
+  what += overruns
+              ? ": it would miss cycles"
+              : fmt::format(
+                    ", more than {:.0f} % of it: too little is left for the port and the system",
+                    1e2 * kMostShare);
   return {{overruns ? Severity::error : Severity::warning, "cycle_time", std::move(what),
            remedy(timing, machine)}};
 }

@@ -75,6 +75,7 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
                                 .slowest_rev_s = slowest_rev_s(settings),
                                 .steps_per_period = settings.steps_per_period,
                                 .keeps_contact = true};
+  // Runout and edge forces force vibration; they do not change its growth.
   config.cut.runout_mm.clear();
   config.cut.edge_radial_n_mm = 0.0;
   config.cut.edge_tangential_n_mm = 0.0;
@@ -114,11 +115,13 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
         steps = 0;
         square = 0.0;
         if (size < 1e-30 || size > 1e30) {
+          // Keeps it within a double over any number of turns.
           cut->scale(kDisturbance_mm / size);
           scaled += std::log(size / kDisturbance_mm);
         }
       }
     }
+    // The first half is left for the start to die away.
     if (2.0 * block > blocks && count > 0.0) {
       log_size.push_back(sum / count);
     }

@@ -149,11 +149,12 @@ TEST(ChatterDetect, WithProcessAndDepthSaysWhatThePlannerSays) {
   EXPECT_EQ(event["decision"], plan["decision"]);
   EXPECT_NEAR(event["advised_override_percent"], plan["override_percent"][0], 1e-9);
   EXPECT_NEAR(event["advised_speed_rpm"], plan["speed_rpm"], 1e-9);
-  EXPECT_THAT(run_line(line).out, HasSubstr("better, by the planner"));
+  EXPECT_THAT(run_line(line).out, HasSubstr("better speed, by the planner"));
   const json rule = answer_of(kExample + " --teeth 2");
   EXPECT_EQ(rule["advice_by"], "rule of thumb");
   EXPECT_TRUE(rule["events"].at(0)["decision"].is_null());
-  EXPECT_THAT(run_line(kExample + " --teeth 2").out, HasSubstr("better, by the rule of thumb"));
+  EXPECT_THAT(run_line(kExample + " --teeth 2").out,
+              HasSubstr("better speed, by the rule of thumb"));
 }
 
 TEST(ChatterDetect, AdvisesNothingBeyondTheSpindle) {
@@ -179,12 +180,12 @@ TEST(ChatterDetect, Refuses) {
     return "chatter detect " + signal + kMachine + rest;
   };
   const std::string silent = scratch.file("silent.csv", csv(cut(false), false));
-  expect_refused(detect(silent), "silent.csv: has no speed of the spindle");
+  expect_refused(detect(silent), "silent.csv: has no spindle speed");
   expect_refused(detect(silent, " --teeth 2 --speed-rpm 0"), "--speed-rpm 0 is not above 0");
   expect_refused(detect(silent, " --teeth 2 --speed-rpm nan"), "--speed-rpm nan");
   expect_refused(detect(silent, " --teeth 2 --speed-rpm 9000"), "above the spindle's 8000");
-  expect_refused(kExample + " --teeth 2 --speed-rpm 5000", "has a column speed_rpm");
-  expect_refused(kExample, "the number of teeth is not known");
+  expect_refused(kExample + " --teeth 2 --speed-rpm 5000", "has a speed_rpm column");
+  expect_refused(kExample, "the number of teeth is unknown");
   expect_refused(kExample + " --teeth 0", "--teeth 0");
   expect_refused(kExample + " --teeth 65", "--teeth 65");
   expect_refused(kExample + " --teeth 2 --depth-mm 1", "--depth-mm without --process");
@@ -193,10 +194,10 @@ TEST(ChatterDetect, Refuses) {
   const std::string whole = wav(cut(false));
   expect_refused(detect(scratch.file("cut.wav", whole.substr(0, whole.size() / 2)),
                         " --teeth 2 --speed-rpm 5000"),
-                 "the file is cut off");
+                 "the file is truncated");
   expect_refused(detect(scratch.file("text.wav", "t_s,value\n")), "is not RIFF");
   expect_refused(detect(scratch.file("gap.csv", "t_s,value\n0,1\n0.001,1\n0.002,1\n0.004,1\n")),
-                 "gap.csv:5: t_s goes on by 0.002 s");
+                 "gap.csv:5: t_s advances by 0.002 s");
   expect_refused(detect(scratch.file("none.csv", "t_s,speed_rpm\n0,1\n")),
                  "none.csv:1: the column value is missing");
   expect_refused(detect(scratch.file("short.csv", "t_s,value,speed_rpm\n0,1,60\n0.001,1,60\n")),

@@ -82,7 +82,7 @@ TEST(ChatterRadius, MovesAPeriodToWholeToothPassesAndSaysSo) {
   EXPECT_NEAR(moved["rvf"], 0.1234567891, 0.005 * 0.1234567891);
   EXPECT_LT(moved["passes"], 200);
   EXPECT_THAT(run_line(kPoint + " --law sine --rva 0.1 --rvf 0.1234567891").out,
-              HasSubstr("RVF moved from 0.123457"));
+              HasSubstr("RVF changed from 0.123457"));
 }
 
 TEST(ChatterRadius, ShowsAShortTableToPeople) {
@@ -107,10 +107,10 @@ TEST(ChatterRadius, RefusesBadUsage) {
   expect_refused(kSlot + " --speed-rpm nan --depth-mm 1", "--speed-rpm nan");
   expect_refused(kSlot + " --speed-rpm 5000 --depth-mm -1", "--depth-mm -1 is not above 0");
   expect_refused(kPoint + " --law saw --rva 0.1 --rvf 0.1", "saw");
-  expect_refused(kPoint + " --rva 0.1 --rvf 0.1", "without its law");
-  expect_refused(sine + " --rvf 0.1", "without an amplitude");
-  expect_refused(sine + " --rva 0.1", "without a period");
-  expect_refused(sine + " --rva 1 --rvf 0.1", "must lie between 0 and 1");
+  expect_refused(kPoint + " --rva 0.1 --rvf 0.1", "without a law");
+  expect_refused(sine + " --rvf 0.1", "needs an amplitude");
+  expect_refused(sine + " --rva 0.1", "needs a period");
+  expect_refused(sine + " --rva 1 --rvf 0.1", "must be between 0 and 1");
   expect_refused(sine + " --rva nan --rvf 0.1", "--rva nan is not a finite number");
   expect_refused(sine + " --amplitude-rpm 6000 --rvf 0.1", "1.2 of the mean speed");
   expect_refused(sine + " --rva 0.1 --rvf 0", "--rvf 0");
@@ -197,18 +197,18 @@ TEST(ChatterLobes, RefusesBadUsage) {
   const Scratch scratch;
   const std::string out = " -o " + scratch.at("map.csv");
   expect_refused(speeds + " --depths-mm 0:1:3");
-  expect_refused(speeds + " --depths-mm 0:1" + out, "three with colons");
-  expect_refused(speeds + " --depths-mm 0:1:2:3" + out, "three with colons");
-  expect_refused(speeds + " --depths-mm 0:x:2" + out, "three with colons");
+  expect_refused(speeds + " --depths-mm 0:1" + out, "three separated by colons");
+  expect_refused(speeds + " --depths-mm 0:1:2:3" + out, "three separated by colons");
+  expect_refused(speeds + " --depths-mm 0:x:2" + out, "three separated by colons");
   expect_refused(speeds + " --depths-mm 0:1:0" + out, "STEPS");
   expect_refused(speeds + " --depths-mm 0:1:2.5" + out, "STEPS");
   expect_refused(speeds + " --depths-mm 1:0:5" + out, "TO is not above FROM");
-  expect_refused(speeds + " --depths-mm -1:1:5" + out, "least value allowed is 0");
-  expect_refused(speeds + " --depths-mm 0:inf:5" + out, "three with colons");
+  expect_refused(speeds + " --depths-mm -1:1:5" + out, "smallest value allowed is 0");
+  expect_refused(speeds + " --depths-mm 0:inf:5" + out, "three separated by colons");
   expect_refused(speeds + " --depths-mm 0" + out, "depths");
-  expect_refused(kLobes + " --speeds-rpm 0:1000:3 --depths-mm 0:1:3" + out, "least value");
+  expect_refused(kLobes + " --speeds-rpm 0:1000:3 --depths-mm 0:1:3" + out, "smallest value");
   expect_refused(speeds + " --depths-mm 0:1:3 --law sine --rva 0.1 --period-s 1" + out,
-                 "over several speeds");
+                 "with several speeds");
   EXPECT_EQ(run_line(speeds + " --depths-mm 0:1:3 -o no/such/map.csv").code, 1);
 }
 

@@ -53,7 +53,7 @@ TEST(CutBatch, RefusesWhatMakesNoBatch) {
   expect_refused(
       "cut examples/programs/circle-r10.ngc --machine "
       "examples/machines/linuxcnc-mill.toml --batch 3",
-      "no thermal displacement of one of its axes");
+      "no [[thermal.axis]] for any of its axes");
   expect_refused(kShort + " --pause-min 3", "--batch");
   expect_refused(kShort + " --batch 3 --break-min 30", "--break-after");
   expect_refused(kShort + " --batch 0", "--batch");

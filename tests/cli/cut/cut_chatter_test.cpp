@@ -146,7 +146,7 @@ TEST(CutChatter, WithoutAProcessItCutsAir) {
 TEST(CutChatter, ShowsPeopleTheVibrationAndTheChoice) {
   const Finished finished = run_line(at_depth(1.0));
   ASSERT_EQ(finished.code, 0) << finished.err;
-  EXPECT_THAT(finished.out, HasSubstr("chatter: not from tooth to tooth, RMS"));
+  EXPECT_THAT(finished.out, HasSubstr("chatter (not tooth-periodic), RMS"));
   EXPECT_THAT(finished.out, HasSubstr("S5000: override 110 %"));
 }
 
@@ -176,7 +176,7 @@ TEST(CutChatter, RefusesWhatCannotBeCut) {
       scratch.file("still.mpf", "N10 G71 G90 G94\nN20 G1 X10 F1000\nN30 M30\n");
   refuses(
       "cut " + still + " --machine examples/machines/vmc-840d.toml" + kProcess + " --depth-mm 1",
-      "a spindle that stands still");
+      "with the spindle stopped");
 }
 
 TEST(CutChatter, AMachineWithoutASpindleOverrideCanBeAskedToo) {

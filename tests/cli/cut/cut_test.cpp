@@ -95,14 +95,14 @@ TEST(Cut, ShowsATableToPeople) {
   EXPECT_THAT(finished.out, HasSubstr("without the layer"));
   EXPECT_THAT(finished.out, HasSubstr("contour error, largest"));
   EXPECT_THAT(finished.out, HasSubstr("over the limit of 10.0 µm"));
-  EXPECT_THAT(finished.out, Not(HasSubstr("error of the motion"))) << "ideal encoders have none";
+  EXPECT_THAT(finished.out, Not(HasSubstr("motion estimate error"))) << "ideal encoders have none";
 }
 
 TEST(Cut, ShowsPeopleALineForEachAxisWhoseMotionIsEstimated) {
   const std::string line = "cut " + kCircle + " --machine examples/machines/vmc-840d.toml";
   const Finished finished = run_line(line);
   ASSERT_EQ(finished.code, 0) << finished.err;
-  EXPECT_THAT(finished.out, HasSubstr("error of the motion seen, RMS"));
+  EXPECT_THAT(finished.out, HasSubstr("motion estimate error, RMS"));
   for (const json& axis : answer_of(line)["motion"]) {
     const auto both = [&](const std::string& of) {
       return fmt::format("{:.3g} mm/s, {:.3g} mm/s²", axis[of + "velocity_rms_mm_s"].get<double>(),

@@ -139,7 +139,7 @@ TEST_P(Outputs, StayAsTheyWereWhenTheDiskIsFull) {
   for (const long bytes : {0L, 40L}) {
     folder_.place(old);
     EXPECT_EQ(run(folder_.command(), {.largest_file = bytes}), 1);
-    EXPECT_THAT(err_, HasSubstr("cannot be written: File too large"));
+    EXPECT_THAT(err_, HasSubstr("write failed: File too large"));
     EXPECT_EQ(folder_.results(), old);
   }
   folder_.clear();
@@ -157,13 +157,13 @@ TEST_P(Outputs, TakeTheirPlacesTogetherOrNot) {
   }
   folder_.place(old);
   EXPECT_EQ(run(folder_.command(), {.largest_file = static_cast<long>(largest / 2)}), 1);
-  EXPECT_THAT(err_, HasSubstr("cannot be written: File too large"));
+  EXPECT_THAT(err_, HasSubstr("write failed: File too large"));
   EXPECT_EQ(folder_.results(), old);
 }
 
 TEST_P(Outputs, AreKeptWhenStdoutIsClosed) {
   EXPECT_EQ(run(folder_.command(), {.out = Process::Stdout::closed_pipe}), 1);
-  EXPECT_THAT(err_, HasSubstr("the answer cannot be written to stdout"));
+  EXPECT_THAT(err_, HasSubstr("failed to write the answer to stdout"));
   EXPECT_EQ(folder_.results().size(), folder_.outputs().size());
 }
 
@@ -183,7 +183,7 @@ TEST_P(Outputs, ThatCannotBeAreRefusedBeforeTheWork) {
       EXPECT_EQ(run(folder_.command({{option.flag, "folder"}})), 2);
       EXPECT_THAT(err_, HasSubstr("folder: is a folder; name a file"));
       EXPECT_EQ(run(folder_.command({{option.flag, "no/such/out.csv"}})), 1);
-      EXPECT_THAT(err_, HasSubstr("no/such/out.csv: cannot be written"));
+      EXPECT_THAT(err_, HasSubstr("no/such/out.csv: is not writable"));
     } else {
       EXPECT_EQ(run(folder_.command({{option.flag, "examples/CMakeLists.txt/x"}})), 2);
     }

@@ -47,7 +47,7 @@ TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
   const auto unwritten =
       run_line("program compensate " + kProgram + kPlan + " -o " + scratch.at("none/x.ngc"));
   EXPECT_EQ(unwritten.code, 1);
-  EXPECT_THAT(unwritten.err, HasSubstr("cannot be written"));
+  EXPECT_THAT(unwritten.err, HasSubstr("not writable"));
   expect_refused(
       "program compensate examples/programs/rib-pocket.mpf --dialect sinumerik" + kPlan + to,
       "--r-parameter");

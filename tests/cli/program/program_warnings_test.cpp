@@ -79,15 +79,15 @@ TEST(ProgramWarnings, AreThoseOfEachVerbThatHasTheMachine) {
     EXPECT_THAT(
         warned(answer_of(line + " --variables " + variables(scratch))),
         ElementsAre(
-            HasSubstr("3: cuts while the spindle stands: no S"),
-            HasSubstr("4: S30000 is outside of the spindle's 0 … 24000 rev/min"),
+            HasSubstr("3: cuts with the spindle stopped: no S"),
+            HasSubstr("4: S30000 is outside the spindle's 0 … 24000 rev/min"),
             HasSubstr("5: the move takes X to 536.603 mm, outside of its travel -500 … 500"),
             HasSubstr("5: the feed of 20000 mm/min is more than the axes can do here"),
             HasSubstr("9: the move takes X to 507.321 mm"),
             HasSubstr("10: a rapid takes X to 501.000 mm")))
         << "the circle of line 7 reaches X499, the arc of line 9 bulges beyond its ends";
     EXPECT_THAT(warned(answer_of(line)),
-                ElementsAre(HasSubstr("3: cuts while"), HasSubstr("4: S30000"),
+                ElementsAre(HasSubstr("3: cuts with"), HasSubstr("4: S30000"),
                             HasSubstr("5: the feed"), HasSubstr("10: a rapid takes X")))
         << "without the work offset only machine coordinates are known";
     EXPECT_THAT(run_line(line).out, HasSubstr("warning: line 10: a rapid takes X to 501.000 mm"));
@@ -121,10 +121,9 @@ TEST(ProgramWarnings, CutSaysWhenTheOverrideHasNoEffect) {
         fmt::format("G21 G90 G17\nS1000 M3\nG0 X0 Y0\nG1 X200 F{}\nX10\nM2\n", feed_mm_min));
     return warned(answer_of("cut " + program + " --machine " + kMill));
   };
-  EXPECT_THAT(cut(60000),
-              ElementsAre(HasSubstr("4: the feed override's next step, 99.5 %, changes nothing for "
-                                    "100 % of the cut"),
-                          HasSubstr("4: the feed of 60000 mm/min")));
+  EXPECT_THAT(cut(60000), ElementsAre(HasSubstr("4: the next step of the feed override, 99.5 %, "
+                                                "changes nothing for 100 % of the cut"),
+                                      HasSubstr("4: the feed of 60000 mm/min")));
   EXPECT_THAT(cut(6000), IsEmpty());
 }
 

@@ -93,7 +93,7 @@ TEST(ThermalAdapt, SaysWhenTheModelNoLongerFitsAndKeepsItsGains) {
   EXPECT_NE(text_of_file(scratch.at("new.toml")).find("levels_um = [0, 35.2245, 49.0785]"),
             std::string::npos);
   const Finished shown = run_line(adapt(scratch, csv));
-  EXPECT_NE(shown.out.find("identify it anew"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("fit it again"), std::string::npos) << shown.out;
 }
 
 TEST(ThermalAdapt, NamesAnOutlierAndLeavesItOut) {
@@ -120,7 +120,7 @@ TEST(ThermalAdapt, OfThreePartsOutliersCountForTheLevelAndTheGainsStay) {
             std::string::npos);
   const Finished shown = run_line(adapt(scratch, far));
   EXPECT_NE(shown.out.find("outlier: line 3, part b, -900.0 µm"), std::string::npos) << shown.out;
-  EXPECT_NE(shown.out.find("Outliers count for the level"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("Outliers count towards the level"), std::string::npos) << shown.out;
   EXPECT_NE(shown.out.find("3 parts are too few"), std::string::npos) << shown.out;
 }
 
@@ -165,13 +165,13 @@ TEST(ThermalAdapt, APlanThatNamesNoWorkStillGivesTheLevel) {
 TEST(ThermalAdapt, RefusesWhatDoesNotFitThePlan) {
   const Scratch scratch;
   expect_refused(adapt(scratch, ""), "no measured part");
-  expect_refused(adapt(scratch, "part,time_min,deviation_um\n1,301,3\n"), "behind the plan's end");
+  expect_refused(adapt(scratch, "part,time_min,deviation_um\n1,301,3\n"), "after the plan's end");
   expect_refused(adapt(scratch, "part,transition,deviation_um\n1,6,3\n"), "no transition 6");
   expect_refused(adapt(scratch, "part,transition,deviation_um\n1,stage 9,3\n"),
                  "no transition stage 9");
   expect_refused(adapt(scratch, "part,axis,transition,deviation_um\n1,X,1,3\n"), "no axis X");
-  expect_refused(adapt(scratch, "part,time_min,deviation\n1,30,3\n"), "deviation is not known");
-  expect_refused(adapt(scratch, "part,time_min,deviation_mm\n1,30,3\n"), "look at the unit");
+  expect_refused(adapt(scratch, "part,time_min,deviation\n1,30,3\n"), "deviation is unknown");
+  expect_refused(adapt(scratch, "part,time_min,deviation_mm\n1,30,3\n"), "check the unit");
   expect_refused("thermal adapt " + kPlan, "--measured");
   expect_refused("thermal adapt nosuch.json --measured x.csv", "give the path of a plan (JSON)");
   expect_refused("thermal adapt examples --measured x.csv", "is a folder; give the path of a plan");

@@ -162,11 +162,12 @@ TEST(ThermalFit, TheProgramOfTheTestIsAccepted) {
 TEST(ThermalFit, SaysHowLongTheTestMustRun) {
   const Scratch scratch;
   const std::string short_log = scratch.file("short.csv", beginning(90));
-  expect_refused("thermal fit " + short_log + " --modes 2", "run 120 min at least");
+  expect_refused("thermal fit " + short_log + " --modes 2",
+                 "run at one speed for 120 min at least");
   expect_refused("thermal fit " + kLog + " --channel x_um=X", "no displacement x_um");
   expect_refused("thermal fit " + kLog + " --ambient t9_c", "no temperature t9_c");
   expect_refused("thermal fit " + project_file("tests/refused/thermal-log/clock-runs-back.csv"),
-                 "runs back");
+                 "runs backwards");
 }
 
 TEST(ThermalFit, AnHourIsEnoughWithTheTimeConstantsOfALongerTest) {
@@ -186,7 +187,7 @@ TEST(ThermalFit, AnHourIsEnoughWithTheTimeConstantsOfALongerTest) {
 TEST(ThermalForecast, RefusesALogBesideACyclogram) {
   expect_refused("thermal forecast --machine examples/paper-thermal/machine.toml --log " + kLog +
                      " --cyclogram examples/paper-thermal/cyclogram.toml",
-                 "inputs recorded");
+                 "already has the inputs");
 }
 
 }  // namespace

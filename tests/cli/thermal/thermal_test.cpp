@@ -190,7 +190,7 @@ gain_um_k = 1
   const std::string line = "thermal forecast --machine " + passport + " --cyclogram " + work;
   const auto untold = answer_of(line);
   ASSERT_EQ(untold["notes"].size(), 1U);
-  EXPECT_NE(untold["notes"][0].get<std::string>().find("motor_c counts as staying"),
+  EXPECT_NE(untold["notes"][0].get<std::string>().find("motor_c is assumed to stay"),
             std::string::npos);
   EXPECT_TRUE(answer_of(line + " --ambient motor_c=21")["notes"].empty());
 }
@@ -240,7 +240,7 @@ TEST(Thermal, RefusesWhatItCannotForecast) {
   const std::string machine = " --machine examples/paper-thermal/machine.toml";
   const std::string fast =
       scratch.file("fast.toml", "[[transition]]\nminutes = 10\nspeed_rpm = 2500\n");
-  expect_refused("thermal forecast" + machine + " --cyclogram " + fast, "known up to 2000 rpm");
+  expect_refused("thermal forecast" + machine + " --cyclogram " + fast, "covers up to 2000 rpm");
   expect_refused("thermal forecast" + machine, "--cyclogram");
   expect_refused("thermal forecast" + kPaper + " --axis X", "no [[thermal.axis]] X");
   expect_refused("thermal forecast" + kPaper + " --ambient t1=20", "knows a sensor t1");

@@ -28,7 +28,7 @@ std::unexpected<Refusal> bad(std::string what, std::string to_do) {
 
 Result<double> amplitude(const LawOptions& o, double speed_rpm) {
   if (!o.rva && !o.amplitude_rpm && !o.amplitude_percent) {
-    return bad(fmt::format("--law {} without an amplitude", o.law),
+    return bad(fmt::format("--law {} needs an amplitude", o.law),
                "give --rva, --amplitude-percent or --amplitude-rpm");
   }
   const double rva = o.rva             ? *o.rva
@@ -36,15 +36,15 @@ Result<double> amplitude(const LawOptions& o, double speed_rpm) {
                                        : kernel::units::ratio_from_percent(*o.amplitude_percent);
   if (!(rva > 0.0 && rva < 1.0)) {
     return bad(
-        fmt::format("the amplitude is {:.6g} of the mean speed; it must lie between 0 and 1", rva),
-        "the spindle may neither stand nor turn back; 0.1 … 0.3 is usual");
+        fmt::format("the amplitude is {:.6g} of the mean speed; it must be between 0 and 1", rva),
+        "the spindle must not stop or reverse; 0.1 … 0.3 is usual");
   }
   return rva;
 }
 
 Result<double> frequency(const LawOptions& o, double speed_rpm) {
   if (!o.rvf && !o.period_s) {
-    return bad(fmt::format("--law {} without a period", o.law), "give --rvf or --period-s");
+    return bad(fmt::format("--law {} needs a period", o.law), "give --rvf or --period-s");
   }
   if (o.rvf && !(*o.rvf > 0.0 && std::isfinite(*o.rvf))) {
     return bad(fmt::format("--rvf {}", *o.rvf), "give a ratio above 0, 0.01 … 0.5 is usual");
@@ -66,7 +66,7 @@ Result<double> rational(double rvf, double passes_per_rev) {
       }
     }
   }
-  return bad(fmt::format("a modulation period of {:.6g} tooth passes; allowed are {:.3g} … {}", q,
+  return bad(fmt::format("a modulation period of {:.6g} tooth passes; allowed: {:.3g} … {}", q,
                          1.0 / kMostLawPeriods, kMostPasses),
              "give a shorter period or a larger RVF");
 }
@@ -76,22 +76,20 @@ Result<double> rational(double rvf, double passes_per_rev) {
 void add_law_options(Verb& verb, LawOptions& options) {
   verb.add_option(
           "--law", options.law,
-          "Modulation of the spindle speed: constant, square, pulse, triangle, sine, random "
-          "or stop")
+          "Spindle speed modulation: constant, square, pulse, triangle, sine, random or stop")
       ->check([](const std::string& word) {
-        return chatter::online::law_of(word) ? std::string{} : word + " is no law";
+        return chatter::online::law_of(word) ? std::string{} : word + " is not a law";
       });
-  auto* rva = verb.add_option("--rva", options.rva, "Amplitude over the mean speed, 0 … 1");
+  auto* rva = verb.add_option("--rva", options.rva, "Amplitude over mean speed, 0 … 1");
   auto* rpm = verb.add_option("--amplitude-rpm", options.amplitude_rpm,
-                              "In its place: the amplitude in rev/min")
+                              "Alternatively, the amplitude in rev/min")
                   ->excludes(rva);
   verb.add_option("--amplitude-percent", options.amplitude_percent,
-                  "In its place: the amplitude in % of the mean speed")
+                  "Alternatively, the amplitude in % of the mean speed")
       ->excludes(rva)
       ->excludes(rpm);
-  auto* rvf = verb.add_option("--rvf", options.rvf,
-                              "Frequency of the modulation over that of the rotation");
-  verb.add_option("--period-s", options.period_s, "In its place: the period in s")->excludes(rvf);
+  auto* rvf = verb.add_option("--rvf", options.rvf, "Modulation frequency over rotation frequency");
+  verb.add_option("--period-s", options.period_s, "Alternatively, the period in s")->excludes(rvf);
   verb.add_option("--seed", options.seed, "Seed of the random law")->capture_default_str();
 }
 
@@ -100,7 +98,7 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
   const bool numbers = options.rva || options.rvf || options.amplitude_rpm ||
                        options.amplitude_percent || options.period_s;
   if (options.law.empty() && numbers) {
-    return bad("a modulation without its law", "give --law, for example --law sine");
+    return bad("a modulation without a law", "give --law, for example --law sine");
   }
   if (!options.modulated()) {
     return out;
@@ -155,7 +153,7 @@ std::string law_text(const ChosenLaw& chosen, double speed_rpm) {
       "{} ±{:.4g} % ({:.4g} rpm) every {:.4g} s (RVA {:.4g}, RVF {:.6g})", name, 100.0 * m.rva,
       m.rva * speed_rpm, 1.0 / (m.rvf * kernel::units::rev_s_from_rpm(speed_rpm)), m.rva, m.rvf);
   if (chosen.wanted_rvf) {
-    out += fmt::format("; RVF moved from {:.6g} to a whole number of tooth passes",
+    out += fmt::format("; RVF changed from {:.6g} to give a whole number of tooth passes",
                        *chosen.wanted_rvf);
   }
   return out;

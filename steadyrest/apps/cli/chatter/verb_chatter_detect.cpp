@@ -77,14 +77,14 @@ std::optional<Refusal> unfit(const Options& options) {
     }
   }
   if (options.teeth && (*options.teeth < 1 || *options.teeth > 64)) {
-    return bad(fmt::format("--teeth {}; allowed are 1 … 64", *options.teeth),
+    return bad(fmt::format("--teeth {}; allowed: 1 … 64", *options.teeth),
                "give the number of teeth, 1 in turning");
   }
   if (!options.teeth && options.process.empty()) {
-    return bad("the number of teeth is not known", "give --teeth N or --process FILE");
+    return bad("the number of teeth is unknown", "give --teeth N or --process FILE");
   }
   if (options.depth_mm && options.process.empty()) {
-    return bad("--depth-mm without --process", "give the process file, or leave the depth out");
+    return bad("--depth-mm without --process", "give the process file, or leave out the depth");
   }
   return std::nullopt;
 }
@@ -94,11 +94,11 @@ std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
                                  offline::RecordedSignal& signal) {
   std::vector<double>& speed = signal.speed_rev_s;
   if (!speed.empty() && options.speed_rpm) {
-    return bad("has a column speed_rpm, and --speed-rpm is given", "leave --speed-rpm out",
+    return bad("has a speed_rpm column, and --speed-rpm is given too", "leave out --speed-rpm",
                options.signal);
   }
   if (speed.empty() && !options.speed_rpm) {
-    return bad("has no speed of the spindle", "give --speed-rpm N, or CSV with a column speed_rpm",
+    return bad("has no spindle speed", "give --speed-rpm N, or a CSV with a speed_rpm column",
                options.signal);
   }
   if (options.speed_rpm) {
@@ -271,7 +271,7 @@ std::string better_words(const Event& event) {
                        law.rvf);
   }
   if (event.plan && event.plan->decision == offline::PlanDecision::keep) {
-    return "none: the process file says that it is stable";
+    return "none: by the process file the cut is stable";
   }
   return "none";
 }
@@ -282,7 +282,7 @@ Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>
   answer.json["advice_by"] = adviser(options);
   answer.json["events"] = Json::array();
   Table table({"from", "to", "frequency", "type", "at",
-               fmt::format("better, by the {}", adviser(options))});
+               fmt::format("better speed, by the {}", adviser(options))});
   for (const Event& event : events) {
     const auto& advice = event.advice;
     const bool better = advice.speed_rev_s > 0.0;
@@ -338,9 +338,9 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
     return refused(detector.error());
   }
   if (signal->value.size() < detector->window()) {
-    return refused(bad(fmt::format("has {} samples; one spectrum takes {}", signal->value.size(),
+    return refused(bad(fmt::format("has {} samples; one spectrum needs {}", signal->value.size(),
                                    detector->window()),
-                       "give a longer recording, some tenths of a second", options.signal));
+                       "give a longer recording: a few tenths of a second", options.signal));
   }
   auto events = events_of(*signal, *detector, progress);
   std::optional<AskedPlans> plans;
@@ -386,7 +386,7 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_chatter_detect(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
   Verb& verb = session.verb(
-      group, "detect", "Where a recorded vibration or sound chatters, and the better speed",
+      group, "detect", "Find chatter in a recorded vibration or sound, and a better speed",
       "chatter detect examples/logs/slot-chatter.csv --machine examples/machines/vmc-840d.toml "
       "--teeth 2\n"
       "  steadyrest chatter detect examples/logs/slot-chatter.csv --machine "
@@ -397,20 +397,20 @@ void add_verb_chatter_detect(Session& session) {
       ->required();
   add_machine_option(verb, options->machine);
   CLI::Option* const teeth =
-      verb.add_option("--teeth", options->teeth, "Teeth of the tool, 1 in turning");
+      verb.add_option("--teeth", options->teeth, "Number of teeth, 1 in turning");
   add_log_options(verb, options->format);
   verb.reads("--process", options->process,
-             "Process file (TOML): with --depth-mm the better speed is what chatter plan "
-             "says, without it the deepest override step; without a process it is a rule of "
-             "thumb, whole waves between two teeth")
+             "Process file (TOML). With --depth-mm the better speed comes from `chatter plan`; "
+             "without it, it is the deepest override step. With no process file it follows the "
+             "rule of thumb: whole waves between two teeth")
       ->excludes(teeth);
   verb.also_reads([options] { return offline::response_files(options->process); });
   verb.add_option("--speed-rpm", options->speed_rpm,
-                  "Spindle speed in rev/min of a signal without the column");
+                  "Spindle speed in rev/min, for a signal without a speed_rpm column");
   verb.add_option("--programmed-rpm", options->programmed_rpm,
-                  "Spindle speed at override 100 %; without it that of the signal");
+                  "Spindle speed at 100 % override; default: the signal's");
   verb.add_option("--depth-mm", options->depth_mm,
-                  "Axial depth of the cut, for --process; without it the deepest step is advised");
+                  "Axial depth of cut, for --process; without it the deepest step is advised");
   verb.reports(options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }

@@ -69,9 +69,8 @@ Answer answer_of(const offline::ModeFit& fit, const Options& options) {
                  {"noise_um_N", 1e3 * fit.noise_mm_n},
                  {"criterion", fit.criterion},
                  {"points", fit.points}};
-  answer.text =
-      table.text() + fmt::format("not explained: {:.3g} % of the response (RMS), {} points\n",
-                                 100.0 * fit.residual, fit.points);
+  answer.text = table.text() + fmt::format("residual: {:.3g} % of the response (RMS), {} points\n",
+                                           100.0 * fit.residual, fit.points);
   return answer;
 }
 
@@ -83,7 +82,7 @@ void put_response(Answer& answer, const std::string& file, const offline::Frf& f
   const auto order = static_cast<std::size_t>(frf.measured_order);
   Json one = {{"file", file}, {"measured", kMeasured[order]}, {"points", frf.frequency_hz.size()}};
   if (order > 0) {
-    answer.text += fmt::format("{}: {} per force, taken as displacement by {}\n", file,
+    answer.text += fmt::format("{}: {} per force, converted to displacement by {}\n", file,
                                kMeasured[order], order == 1 ? "1/(iω)" : "−1/ω²");
   }
   if (!frf.coherence.empty()) {
@@ -154,26 +153,28 @@ Outcome run(const Options& options) {
 void add_verb_chatter_fit(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
   Verb& verb = session.verb(
-      group, "fit", "Modes out of measured frequency responses of the tool tip (tap test)",
+      group, "fit", "Fit modes to measured frequency responses of the tool tip (tap test)",
       "chatter fit examples/processes/tap-922hz.csv --axis x -o modes.toml --report out/tap");
   auto options = std::make_shared<Options>();
   verb.reads("frf", options->files,
-             "Responses of one point and direction: CSV (frequency_hz, real and imag or "
-             "magnitude and phase, coherence if recorded; displacement, velocity or "
-             "acceleration per N, unit in the head) or universal file format 58")
+             "Responses at one point in one direction: CSV (frequency_hz, real and imag or "
+             "magnitude and phase, coherence if recorded; displacement, velocity or acceleration "
+             "per N, unit in the header) or universal file format 58")
       ->required();
-  verb.add_option("--axis", options->axis, "Direction of the measurement: x or y")
+  verb.add_option("--axis", options->axis, "Direction of measurement: x or y")
       ->required()
       ->check(CLI::IsMember({"x", "y"}));
   verb.add_option("--modes", options->fit.order,
-                  "Number of modes, 1 … 16; without it by the criterion")
+                  "Number of modes, 1 … 16; chosen by the criterion by default")
       ->check(within(1, 16));
   add_log_options(verb, options->format, false);
-  verb.add_option("--from-hz", options->fit.least_frequency_hz, "Leave out what lies below");
-  verb.add_option("--to-hz", options->fit.most_frequency_hz, "Leave out what lies above");
+  verb.add_option("--from-hz", options->fit.least_frequency_hz,
+                  "Ignore everything below this frequency");
+  verb.add_option("--to-hz", options->fit.most_frequency_hz,
+                  "Ignore everything above this frequency");
   verb.writes("-o,--output", options->output,
               "Write the modes to this file (TOML: [[mode]] sections for a process file)",
-              toml_content("a file of modes alone (TOML: [[mode]])", {"mode"}));
+              toml_content("a file with nothing but modes (TOML: [[mode]])", {"mode"}));
   verb.reports(options->report);
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }

@@ -114,8 +114,8 @@ Result<ChosenLaw> law_of(const Options& options, const offline::Process& process
                          const std::vector<double>& speeds_rpm) {
   if (speeds_rpm.size() > 1 && (options.law.period_s || options.law.amplitude_rpm)) {
     return std::unexpected(
-        Refusal{Kind::bad_input, "", 0, "--period-s or --amplitude-rpm over several speeds",
-                "give --rvf and --rva or --amplitude-percent, which hold at each of them"});
+        Refusal{Kind::bad_input, "", 0, "--period-s or --amplitude-rpm with several speeds",
+                "give --rvf, and --rva or --amplitude-percent: they apply at every speed"});
   }
   return chosen_law(options.law, process, speeds_rpm.front());
 }
@@ -146,7 +146,7 @@ Answer answer_of(const Made& made, const ChosenLaw& law, const Options& options)
   Table table;
   table.row({"points", fmt::format("{}", map.log_radius.size())})
       .row({"time", fmt::format("{:.3g} s", made.seconds)})
-      .row({"points of the border",
+      .row({"border points",
             fmt::format("{}{}", points,
                         line.settled ? "" : ", not smooth everywhere: give more speeds")});
   if (lowest) {
@@ -193,11 +193,11 @@ std::string point_text(const Json& point) {
 std::optional<Refusal> unfit(const Options& options) {
   if (options.speed_rpm.has_value() != options.depth_mm.has_value()) {
     return Refusal{Kind::bad_input, "", 0, "--speed-rpm and --depth-mm belong together",
-                   "give both, the cut that is wanted, or neither"};
+                   "give both, for the cut you want, or neither"};
   }
   if (!options.speed_rpm && !options.machine.empty()) {
     return Refusal{Kind::bad_input, "", 0, "--machine without --speed-rpm and --depth-mm",
-                   "give the programmed speed, of which the override steps are shares"};
+                   "give the programmed speed: the override steps are shares of it"};
   }
   if (options.speed_rpm && !(*options.speed_rpm > 0.0 && std::isfinite(*options.speed_rpm))) {
     return not_allowed("--speed-rpm", *options.speed_rpm, "above 0");
@@ -318,11 +318,11 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_chatter_lobes(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  Verb& verb =
-      session.verb(group, "lobes", "Stability over speed and depth, and the border of each speed",
-                   "chatter lobes examples/processes/slot-922hz.toml --speeds-rpm 5000:15000:101 "
-                   "--depths-mm 0:5:51 -o lobes.csv --speed-rpm 5000 --depth-mm 1 "
-                   "--machine examples/machines/vmc-840d.toml --report out/lobes");
+  Verb& verb = session.verb(
+      group, "lobes", "Map stability over speed and depth, with the border at each speed",
+      "chatter lobes examples/processes/slot-922hz.toml --speeds-rpm 5000:15000:101 "
+      "--depths-mm 0:5:51 -o lobes.csv --speed-rpm 5000 --depth-mm 1 "
+      "--machine examples/machines/vmc-840d.toml --report out/lobes");
   auto options = std::make_shared<Options>();
   verb.reads("process", options->process, "Process file (TOML): tool, cut and modes")->required();
   verb.also_reads([options] { return offline::response_files(options->process); });
@@ -331,17 +331,17 @@ void add_verb_chatter_lobes(Session& session) {
       ->required();
   verb.add_option("--depths-mm", options->depths_mm, "Axial depths of cut as FROM:TO:STEPS")
       ->required();
-  verb.add_option("--speed-rpm", options->speed_rpm,
-                  "Spindle speed of the wanted cut; with --depth-mm the answer says how stable it "
-                  "is");
-  verb.add_option("--depth-mm", options->depth_mm, "Axial depth of the wanted cut");
+  verb.add_option(
+      "--speed-rpm", options->speed_rpm,
+      "Spindle speed of the cut you want; with --depth-mm the answer says how stable it is");
+  verb.add_option("--depth-mm", options->depth_mm, "Axial depth of the cut you want");
   verb.reads("--machine", options->machine,
              "Machine file (TOML), for the override steps in the report");
   add_law_options(verb, options->law);
   verb.writes("-o,--output", options->output,
-              "The map (CSV: speed_rpm,depth_mm,spectral_radius); the border, refined between "
-              "these speeds until it is smooth, goes to OUT.border.csv (speed_rpm,depth_mm; no "
-              "row where all depths of the map are stable)",
+              "Write the map here (CSV: speed_rpm,depth_mm,spectral_radius). The border, refined "
+              "between these speeds until it is smooth, goes to OUT.border.csv "
+              "(speed_rpm,depth_mm; no row where every depth in the map is stable)",
               map_files)
       ->required();
   verb.reports(options->report);

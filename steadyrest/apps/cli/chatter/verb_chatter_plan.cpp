@@ -128,7 +128,7 @@ std::string text_of(const BestSpeeds& best, const Options& options, double most_
   const auto depth = [&](const std::optional<double>& limit) {
     return limit ? fmt::format("{:.3f}", *limit) : fmt::format("> {:.3g}", most_depth_mm);
   };
-  Table table({"best speeds of the spindle", "border, mm",
+  Table table({"best spindle speeds", "border, mm",
                fmt::format("border within ±{:.3g} %, mm", kSigmas * options.frequency_percent)});
   for (const offline::BestSpeed& one : best) {
     table.row({fmt::format("{:.0f} rpm", units::rpm_from_rev_s(one.speed_rev_s)),
@@ -223,8 +223,8 @@ Outcome run(Options options, Progress& progress) {
   for (const std::string& word : options.laws) {
     const auto law = chatter::online::law_of(word);
     if (!law || *law == Law::constant) {
-      return refused(Refusal{Kind::bad_input, "", 0, fmt::format("--laws: {} is no law", word),
-                             "give some of triangle, sine, square, pulse, stop, random"});
+      return refused(Refusal{Kind::bad_input, "", 0, fmt::format("--laws: {} is not a law", word),
+                             "choose from triangle, sine, square, pulse, stop, random"});
     }
     plan.laws.push_back(*law);
   }
@@ -242,7 +242,7 @@ Outcome run(Options options, Progress& progress) {
   if (!found) {
     return refused(found.error());
   }
-  progress.update(1.0, "the best speeds of the spindle");
+  progress.update(1.0, "the best spindle speeds");
   const auto best = offline::best_speeds(
       *process, {.min_rev_s = machine->spindle.min_rev_s,
                  .max_rev_s = machine->spindle.max_rev_s,
@@ -271,7 +271,7 @@ void add_options(Verb& verb, Options& o) {
   verb.also_reads([&o] { return offline::response_files(o.process); });
   add_machine_option(verb, o.machine);
   verb.add_option("--speed-rpm", o.speed_rpm, "Programmed spindle speed")->required();
-  verb.add_option("--depth-mm", o.depth_mm, "Wanted depth of cut")->required();
+  verb.add_option("--depth-mm", o.depth_mm, "Depth of cut you want")->required();
   verb.add_option("--probability-percent", o.probability_percent,
                   "Share of the possible cuts that must be stable")
       ->capture_default_str();
@@ -286,28 +286,26 @@ void add_options(Verb& verb, Options& o) {
       ->capture_default_str();
   verb.add_option("--samples", o.plan.uncertainty.samples, "Number of possible cuts")
       ->capture_default_str();
-  verb.add_option("--seed", o.plan.uncertainty.seed, "Of the possible cuts")->capture_default_str();
+  verb.add_option("--seed", o.plan.uncertainty.seed, "Seed for the possible cuts")
+      ->capture_default_str();
   verb.add_option("--growth", o.plan.most_growth,
-                  "Largest growth of a vibration within a law's period, as a factor")
+                  "Largest growth of a vibration within one period of the law, as a factor")
       ->capture_default_str();
   verb.add_option("--most-depth-mm", o.plan.most_depth_mm,
-                  "Borders are sought up to here; five times the wanted depth without it");
+                  "Search borders down to this depth; default: five times --depth-mm");
   verb.add_option("--laws", o.laws,
-                  "Some of triangle,sine,square,pulse,stop,random; all but random without it")
+                  "Laws to try: triangle,sine,square,pulse,stop,random; default: all but random")
       ->delimiter(',');
   verb.add_option("--rva", o.plan.rva,
-                  "Amplitudes over the mean speed; by the override's steps "
-                  "without it")
+                  "Amplitudes over mean speed; default: from the override's steps")
       ->delimiter(',');
   verb.add_option("--rvf", o.plan.rvf,
-                  "Frequencies of the law over that of the rotation; what the "
-                  "drive can follow without it")
+                  "Law frequencies over rotation frequency; default: those the drive can follow")
       ->delimiter(',');
-  verb.add_option("--least-rvf", o.plan.least_rvf, "Slowest law that is tried")
-      ->capture_default_str();
-  verb.add_flag("--laws-only", o.laws_only, "Plan a law even where an override step is enough");
+  verb.add_option("--least-rvf", o.plan.least_rvf, "Slowest law to try")->capture_default_str();
+  verb.add_flag("--laws-only", o.laws_only, "Plan a law even if an override step is enough");
   verb.add_flag("--leave-speed-band", o.leave_speed_band,
-                "Laws may leave the tolerance band of the control's speed monitor");
+                "Allow laws to leave the tolerance band of the control's speed monitor");
   verb.reports(o.report);
 }
 
@@ -316,7 +314,7 @@ void add_options(Verb& verb, Options& o) {
 void add_verb_chatter_plan(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
   Verb& verb = session.verb(
-      group, "plan", "The override step or the speed law that keeps a cut stable",
+      group, "plan", "Choose the override step or speed law that keeps a cut stable",
       "chatter plan examples/processes/slot-922hz.toml --machine "
       "examples/machines/vmc-840d.toml --speed-rpm 5000 --depth-mm 1 --report out/plan");
   auto options = std::make_shared<Options>();

@@ -41,14 +41,15 @@ Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
   table.row({"cut", found.stable ? std::string("stable")
                                  : fmt::format("unstable ({})", offline::name(found.type))});
   const bool constant = law.modulation.law == chatter::online::Law::constant;
-  table.row({constant ? "spectral radius of a pass" : "spectral radius of a modulation period",
+  table.row({constant ? "spectral radius per pass" : "spectral radius per modulation period",
              fmt::format("{:.6g}", std::exp(found.log_radius))});
   table.row({"its logarithm", fmt::format("{:.6g}", found.log_radius)});
-  table.row({"worst growth on the way", fmt::format("{:.4g}", found.peak_growth)});
+  table.row({"worst growth within the period", fmt::format("{:.4g}", found.peak_growth)});
   if (found.frequency_hz) {
-    table.row({"frequency", constant ? fmt::format("{:.1f} Hz", *found.frequency_hz)
-                                     : fmt::format("{:.1f} Hz, and lines {:.3g} Hz apart about it",
-                                                   *found.frequency_hz, found.frequency_step_hz)});
+    table.row({"frequency", constant
+                                ? fmt::format("{:.1f} Hz", *found.frequency_hz)
+                                : fmt::format("{:.1f} Hz, with lines {:.3g} Hz apart around it",
+                                              *found.frequency_hz, found.frequency_step_hz)});
   }
   answer.text = table.text() + "speed: " + law_text(law, options.speed_rpm) + "\n";
   return answer;
@@ -85,7 +86,7 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_chatter_radius(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
   Verb& verb = session.verb(
-      group, "radius", "Is a cut stable at this speed and depth, constant or modulated",
+      group, "radius", "Is a cut stable at this speed and depth, constant or modulated?",
       "chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5\n"
       "  steadyrest chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm "
       "1 --law sine --rva 0.2 --rvf 0.1 --report out/growth");

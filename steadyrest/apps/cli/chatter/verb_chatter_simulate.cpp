@@ -203,18 +203,18 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_chatter_simulate(Session& session) {
   CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
   Verb& verb = session.verb(
-      group, "simulate", "A cut in time: the tool may leave the material",
+      group, "simulate", "Simulate a cut in time; the tool may leave the material",
       "chatter simulate examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5 "
       "--seconds 0.5 -o out.csv --report out/cut");
   auto options = std::make_shared<Options>();
   add_cut_point_options(verb, options->cut);
-  verb.add_option("--seconds", options->seconds, "Time to cut")->capture_default_str();
-  verb.add_option("--every", options->every, "Write each nth step only")
+  verb.add_option("--seconds", options->seconds, "Length of the cut")->capture_default_str();
+  verb.add_option("--every", options->every, "Write only every Nth step")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb.writes("-o,--output", options->output,
               "Write t_s, angle_rad, speed_rpm, x_mm, y_mm, fx_N, fy_N, torque_Nm, power_W and "
-              "chip_mm of each step to this file",
+              "chip_mm for each step to this file",
               csv_content("the steps of a cut (CSV)", {kHead}));
   verb.reports(options->report);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });

@@ -82,7 +82,7 @@ Json json_of(const Batch& made) {
 
 std::string text_of(const Batch& made) {
   const auto um = [](double mm) { return fmt::format("{:.1f}", um_from_mm(mm)); };
-  Table table({"part", "start min", "without um", "in the text um", "on line um", "corrections"});
+  Table table({"part", "start min", "without um", "in program um", "on line um", "corrections"});
   for (std::size_t i = 0; i < made.part.size(); ++i) {
     const trial::batch::Part& part = made.part[i];
     table.row({fmt::format("{}", i + 1), fmt::format("{:.0f}", part.start_s / 60.0),
@@ -92,7 +92,7 @@ std::string text_of(const Batch& made) {
   table.row({"all", "", um(made.error[0].largest_mm), um(made.error[1].largest_mm),
              um(made.error[2].largest_mm), ""});
   return fmt::format(
-      "\nheat of the machine over {} parts, largest error\n{}corrected in the text {:.1f} times "
+      "\nthermal drift over {} parts, largest error\n{}corrected in the program {:.1f} times "
       "smaller, on line {:.1f} times\n",
       made.part.size(), table.text(), made.improvement(Way::text), made.improvement(Way::online));
 }
@@ -104,15 +104,16 @@ std::string batch_folder(const std::string& report) {
 }
 
 void add_cut_batch_options(Verb& verb, CutBatchOptions& options) {
-  auto* parts = verb.add_option("--batch", options.parts,
-                                "Besides, a batch of that many parts by the thermal passport, from "
-                                "cold: without correction, corrected in the text and on line")
-                    ->check(within(1, 10000));
+  auto* parts =
+      verb.add_option("--batch", options.parts,
+                      "Also cut a batch of this many parts from cold, by the thermal passport: "
+                      "uncorrected, corrected in the program, and corrected on line")
+          ->check(within(1, 10000));
   verb.add_option("--pause-min", options.pause_min, "Pause after each part of the batch")
       ->check(within(0.0, 1440.0))
       ->needs(parts);
   auto* break_min = verb.add_option("--break-min", options.break_min,
-                                    "A longer pause besides, after every --break-after parts")
+                                    "An extra, longer pause after every --break-after parts")
                         ->check(within(0.0, 10000.0))
                         ->needs(parts);
   break_min->needs(
@@ -120,7 +121,7 @@ void add_cut_batch_options(Verb& verb, CutBatchOptions& options) {
           ->check(within(1, 10000))
           ->needs(parts));
   verb.add_option("--tolerance-um", options.tolerance_um,
-                  "Tolerance of the batch's parts; heat may take the machine's share k of it")
+                  "Tolerance of the parts; drift may take the machine's share k of it")
       ->check(within(0.01, 1e5))
       ->needs(parts);
 }
@@ -156,7 +157,7 @@ Result<void> put_batch(Answer& answer, const CutBatchOptions& options,
   job.break_s = 60.0 * options.break_min;
   job.break_after = options.break_after;
   job.tolerance_mm = kernel::units::mm_from_um(options.tolerance_um);
-  job.progress = [&progress](double share) { progress.update(share, "making the batch"); };
+  job.progress = [&progress](double share) { progress.update(share, "cutting the batch"); };
   const auto made = trial::batch::run(job);
   if (!made) {
     return std::unexpected(made.error());

@@ -80,7 +80,7 @@ std::string choice_words(const ChatterChoice& choice) {
 
 std::string switch_words(const ChatterChoice& choice) {
   return choice.switch_ratio > 1.0
-             ? fmt::format("; the operator's spindle switch stands at {:.4g} % for it",
+             ? fmt::format("; the operator's spindle switch is set to {:.4g} %",
                            units::percent_from_ratio(choice.switch_ratio))
              : "";
 }
@@ -106,11 +106,10 @@ std::string vibration_text(const trial::cut::VibrationFigures& without,
   };
   row("vibration, RMS", "µm", without.rms_um, with.rms_um);
   row("largest displacement", "µm", without.peak_um, with.peak_um);
-  row("chatter: not from tooth to tooth, RMS", "µm", without.unforced_rms_um, with.unforced_rms_um);
+  row("chatter (not tooth-periodic), RMS", "µm", without.unforced_rms_um, with.unforced_rms_um);
   row("largest force", "N", without.force_peak_n, with.force_peak_n);
   if (without.surface_range_um && with.surface_range_um) {
-    row("finished wall, highest less lowest", "µm", *without.surface_range_um,
-        *with.surface_range_um);
+    row("finished wall, peak to valley", "µm", *without.surface_range_um, *with.surface_range_um);
   }
   return "\n" + table.text();
 }
@@ -118,15 +117,14 @@ std::string vibration_text(const trial::cut::VibrationFigures& without,
 }  // namespace
 
 void add_cut_chatter_options(Verb& verb, CutChatterOptions& options) {
-  CLI::Option* process =
-      verb.reads("--process", options.process,
-                 "Process file (TOML): what the tool cuts in G1–G3, its vibration with it");
+  CLI::Option* process = verb.reads("--process", options.process,
+                                    "Process file (TOML) for the cut in G1–G3, with its vibration");
   verb.also_reads([&options] { return chatter::offline::response_files(options.process); });
   verb.add_option("--depth-mm", options.depth_mm, "Depth of cut of that process")->needs(process);
   verb.add_option("--chatter", options.source,
-                  "What the layer does against chatter: plan (ask the planner for each spindle "
-                  "speed), detect (hear it, then take the better step of the planner's table), "
-                  "machine ([chatter] of the machine file as it stands)")
+                  "How the layer fights chatter: plan (ask the planner for each spindle speed), "
+                  "detect (hear it, then take a better step from the planner's table), machine "
+                  "(use [chatter] of the machine file unchanged)")
       ->check(CLI::IsMember({kPlan, kDetect, kMachine}))
       ->capture_default_str()
       ->needs(process);
@@ -143,7 +141,7 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     return one({Kind::bad_input, "", 0,
                 options.depth_mm ? fmt::format("--depth-mm {} is not above 0", *options.depth_mm)
                                  : "--process without --depth-mm",
-                "give the depth of the cut above 0, as in --depth-mm 1.5"});
+                "give a depth of cut above 0, as in --depth-mm 1.5"});
   }
   const auto process = chatter::offline::read_process_all_faults(options.process);
   if (!process) {
@@ -151,8 +149,8 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
   }
   const double slowest = slowest_cut_rev_s(path);
   if (!(slowest > 0.0)) {
-    return one({Kind::bad_input, "", 0, "the program cuts with a spindle that stands still",
-                "program S and M3 before the first G1, or leave --process away"});
+    return one({Kind::bad_input, "", 0, "the program cuts with the spindle stopped",
+                "program S and M3 before the first G1, or leave out --process"});
   }
   if (options.source == kPlan) {
     auto choices = trial::cut::choose(
@@ -209,7 +207,7 @@ void put_vibration(Answer& answer, const CutChatter& chatter, const trial::cut::
           fmt::format("{:.3f} s: chatter at {:.0f} Hz; spindle override {:.4g} %\n", heard.time_s,
                       heard.frequency_hz, units::percent_from_ratio(heard.spindle_ratio));
     }
-    answer.text += with.heard().empty() ? "no chatter was heard, or no step is better\n" : "";
+    answer.text += with.heard().empty() ? "no chatter heard, or no better step\n" : "";
   }
   if (!chatter.by_plan) {
     return;

@@ -108,7 +108,7 @@ Outcome run(const Options& options) {
 void add_verb_contour_limit(Session& session) {
   CLI::App& group = session.group("contour", "Contour error");
   Verb& verb = session.verb(group, "limit",
-                            "Contour error of an arc and the feed that keeps it, in closed form",
+                            "Contour error on an arc and the feed that holds it, in closed form",
                             "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 0.010");
   auto options = std::make_shared<Options>();
   verb.add_option("--radius-mm", options->radius_mm, "Radius of the arc")
@@ -118,9 +118,9 @@ void add_verb_contour_limit(Session& session) {
       ->required()
       ->check(within(1e-3, 1e6));
   verb.add_option("--max-error-mm", options->max_error_mm,
-                  "Largest contour error: gives the largest feed")
+                  "Largest contour error; gives the largest feed")
       ->check(within(1e-9, 1e9));
-  verb.add_option("--feed-mm-min", options->feed_mm_min, "Path feed: gives the errors")
+  verb.add_option("--feed-mm-min", options->feed_mm_min, "Path feed; gives the errors")
       ->check(within(0.0, 1e9));
   verb.add_option("--feed-forward", options->feed_forward,
                   "Weight of the velocity feed-forward, 0 none, 1 full")

@@ -57,8 +57,8 @@ std::optional<Refusal> apply(const Options& options, Machine& machine) {
   if (options.limit_um) {
     if (!(*options.limit_um >= 0.1 && *options.limit_um <= 10'000.0)) {
       return Refusal{Kind::bad_input, "", 0,
-                     fmt::format("--limit-um {} is outside of 0.1 … 10000", *options.limit_um),
-                     "give the largest contour error that the part may have"};
+                     fmt::format("--limit-um {} is outside 0.1 … 10000", *options.limit_um),
+                     "give the largest contour error the part may have"};
     }
     machine.contour.limit_mm = kernel::units::mm_from_um(*options.limit_um);
   }
@@ -182,7 +182,7 @@ std::string text_of(const std::vector<trial::cut::MotionFigures>& motion, const 
   if (motion.empty()) {
     return {};
   }
-  Table table({"error of the motion seen, RMS", "estimate", "difference of the counts"});
+  Table table({"motion estimate error, RMS", "estimate", "by differencing counts"});
   for (const trial::cut::MotionFigures& m : motion) {
     const bool rotary = std::ranges::any_of(
         machine.axes, [&](const auto& axis) { return axis.rotary && axis.name == m.axis; });
@@ -203,7 +203,7 @@ std::string text_of(const std::vector<trial::cut::ProbeFigures>& probes) {
   if (probes.empty()) {
     return {};
   }
-  Table table({"probe", "line", "finds", "not foreseen", "taken within", ""});
+  Table table({"probe", "line", "finds", "not forecast", "accepted within", ""});
   for (const trial::cut::ProbeFigures& p : probes) {
     table.row({fmt::format("{} at {:.1f} s", p.axis, p.time_s), fmt::format("{}", p.line),
                fmt::format("{:.2f} µm", p.displacement_um),
@@ -285,7 +285,7 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_cut(Session& session) {
   Verb& verb = session.verb(
       session.root(), "cut",
-      "Cuts a part twice on the simulated machine, without and with the layer, and compares",
+      "Cut a part twice on the simulated machine, without and with the layer, and compare",
       "cut examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml "
       "--report out/rib-pocket");
   auto options = std::make_shared<Options>();
@@ -301,8 +301,8 @@ void add_verb_cut(Session& session) {
     return files;
   });
   verb.add_option("--limit-um", options->limit_um,
-                  "Contour error limit instead of the machine file's");
-  verb.add_option("--strategy", options->strategy, "Strategy instead of the machine file's")
+                  "Contour error limit, overriding the machine file");
+  verb.add_option("--strategy", options->strategy, "Strategy, overriding the machine file")
       ->check(CLI::IsMember(kStrategies));
   add_cut_chatter_options(verb, options->chatter);
   add_cut_batch_options(verb, options->batch);

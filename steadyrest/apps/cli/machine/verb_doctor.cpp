@@ -95,7 +95,7 @@ Json json_of(const LayerTiming& timing) {
 
 std::string text_of(const LayerTiming& timing) {
   std::string text = fmt::format(
-      "  measured here, of a control cycle of {:.0f} µs the layer takes {:.1f} µs (median)",
+      "  measured here: of each {:.0f} µs control cycle the layer takes {:.1f} µs (median)",
       us(timing.cycle_s), us(timing.work_s.p50));
   if (timing.decisions > 0) {
     text += fmt::format(", with a decision {:.0f} µs, {:.0f} µs at p99.9 of {}",
@@ -129,7 +129,8 @@ Answer report(const Machine& machine, const Measured& measured,
                                        {"to_do", finding.to_do}});
     answer.text += fmt::format("  {}: {}; {}\n", severity, finding.what, finding.to_do);
   }
-  answer.text += ok ? (findings.empty() ? "ok\n" : "ok, with the remarks above\n") : "not ok\n";
+  answer.text +=
+      ok ? (findings.empty() ? "ok\n" : "ok, subject to the remarks above\n") : "not ok\n";
   return answer;
 }
 
@@ -154,11 +155,10 @@ Answer report_refused(Refusals refusals) {
 }  // namespace
 
 void add_verb_doctor(Session& session) {
-  Verb& verb =
-      session.verb(session.root(), "doctor",
-                   "Check a machine file and this computer's clock, and measure whether the "
-                   "layer's work fits into the control cycle",
-                   "doctor --machine examples/machines/vmc-840d.toml");
+  Verb& verb = session.verb(session.root(), "doctor",
+                            "Check a machine file and this computer's clock, and measure whether "
+                            "the layer fits in the control cycle",
+                            "doctor --machine examples/machines/vmc-840d.toml");
   auto path = std::make_shared<std::string>();
   add_machine_option(verb, *path);
   session.on(verb, [path](Progress& progress) -> Outcome {

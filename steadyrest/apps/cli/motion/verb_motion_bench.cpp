@@ -37,9 +37,9 @@ fs::path requirement_path(const fs::path& csv) {
 
 /// The table and the requirement.
 std::vector<PlannedFile> table_files(const std::string& csv) {
-  return {{csv, csv_content("a table of the bench (CSV)", {"scene,estimator,limits,ticks,"})},
-          {requirement_path(csv).string(), csv_content("a table of the requirement (CSV)",
-                                                       {"speed_mm_s,clock_s,line_error_counts,"})}};
+  return {{csv, csv_content("a benchmark table (CSV)", {"scene,estimator,limits,ticks,"})},
+          {requirement_path(csv).string(),
+           csv_content("a requirement table (CSV)", {"speed_mm_s,clock_s,line_error_counts,"})}};
 }
 
 std::string number(double value) {
@@ -168,29 +168,28 @@ Outcome run(Options options, Progress& progress) {
 
 void add_verb_motion_bench(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  Verb& verb =
-      session.verb(group, "bench", "Errors of all estimators on motions that are known exactly",
-                   "motion bench --scenes sine,s-curve --phases 1");
+  Verb& verb = session.verb(group, "bench", "Compare all estimators on exactly known motions",
+                            "motion bench --scenes sine,s-curve --phases 1");
   auto options = std::make_shared<Options>();
   verb.add_option("--scenes", options->bench.scenes,
-                  "Scenes or families of them, by comma: sine, sine-line, sine-line-calibrated, "
-                  "s-curve, flywheel, dither, reversal, constant, jitter, lost, clock, recorded; "
-                  "all without it")
+                  "Scenes or families of scenes, separated by commas: sine, sine-line, "
+                  "sine-line-calibrated, s-curve, flywheel, dither, reversal, constant, jitter, "
+                  "lost, clock, recorded; default: all")
       ->delimiter(',');
   verb.add_option(
           "--estimators", options->bench.estimators,
-          fmt::format("Some of {}; all without it", fmt::join(offline::estimator_names(), ",")))
+          fmt::format("Any of {}; default: all", fmt::join(offline::estimator_names(), ",")))
       ->delimiter(',');
   verb.reads("--recorded", options->recorded,
-             "Folder of the recorded logs (k50m.csv or k50m.csv.gz, …)");
+             "Folder with the recorded logs (k50m.csv or k50m.csv.gz, …)");
   verb.reads("--linuxcnc", options->peer,
-             "Program that runs LinuxCNC's encoder: steadyrest_encoder_peer");
+             "Program that runs LinuxCNC's encoder component: steadyrest_encoder_peer");
   verb.add_option("--phases", options->bench.phases,
-                  "Starts inside of a count over which the S-curve goes")
+                  "Number of start positions within a count for the S-curve")
       ->capture_default_str();
-  verb.writes("-o,--output", options->csv, "Write the table to this CSV, the requirement beside it",
-              table_files);
-  verb.writes_page("--page", options->page, "Write a page with all of it to this HTML file");
+  verb.writes("-o,--output", options->csv,
+              "Write the table to this CSV, with the requirement next to it", table_files);
+  verb.writes_page("--page", options->page, "Write everything to this HTML page");
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -133,7 +133,7 @@ Outcome run(Options options, Progress& progress) {
   }
   if (!options.range.empty() && !options.config.range) {
     return refused(Refusal{Kind::bad_input, "", 0,
-                           fmt::format("--range {} is not two line numbers", options.range),
+                           fmt::format("--range {} is not a pair of line numbers", options.range),
                            "write the first and the last line as A:B"});
   }
   if (options.machine.empty() != options.axis.empty()) {
@@ -175,10 +175,10 @@ Outcome run(Options options, Progress& progress) {
 void add_verb_motion_calibrate(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
   Verb& verb = session.verb(
-      group, "calibrate", "Where the encoder's lines stand, out of a log of edges (CSV: t_s,count)",
+      group, "calibrate", "Calibrate an encoder's lines from a log of edges (CSV: t_s,count)",
       "motion calibrate examples/logs/sine-edges.csv --count-mm 0.001 -o lines.toml");
   auto options = std::make_shared<Options>();
-  verb.reads("log", options->log, "Log of edges with the columns t_s and count; - is stdin")
+  verb.reads("log", options->log, "Log of edges with columns t_s and count; - is stdin")
       ->required();
   auto* const count_mm =
       verb.add_option("--count-mm", options->count_mm,
@@ -188,12 +188,12 @@ void add_verb_motion_calibrate(Session& session) {
   verb.add_option("--counts-per-rev", options->config.counts_per_rev,
                   "Rotary encoder: the table is one revolution and repeats");
   verb.add_option("--range", options->range,
-                  "First and last line of the table, A:B; otherwise all lines of the log");
+                  "First and last line of the table, A:B; default: all lines in the log");
   add_log_options(verb, options->format);
-  verb.add_option("--passes", options->config.passes, "Times that the log is learnt from")
+  verb.add_option("--passes", options->config.passes, "Number of passes through the log")
       ->capture_default_str();
   verb.reads("--machine", options->machine,
-             "Write this machine file with the calibration of --axis put in");
+             "Machine file to copy with the calibration of --axis inserted");
   verb.add_option("--axis", options->axis, "Axis of the machine file");
   verb.writes("-o,--output", options->output, "File to write (TOML)",
               either(toml_content("the calibration of an encoder (TOML)",

@@ -73,7 +73,7 @@ void put_lines(Sheet& sheet, const Options& options, const Number& lines) {
   if (options.lead_mm) {
     sheet.put("count_mm", "count", offline::count_of_lines_mm(*options.lead_mm, *lines), "mm");
   }
-  sheet.put("count_deg", "count of rotation", 360.0 / (offline::kCountsPerLine * *lines), "°");
+  sheet.put("count_deg", "count (rotary)", 360.0 / (offline::kCountsPerLine * *lines), "°");
 }
 
 /// Revolutions per second of the encoder, from the feed or the speed; nothing when neither is
@@ -125,8 +125,8 @@ Outcome of_speed(const Options& options) {
 
 Outcome run(const Options& options) {
   if ((options.feed_mm_min || options.count_mm) && !options.lead_mm) {
-    return refused(missing("a linear axis has no lead yet",
-                           "give --lead-mm, the way for one turn of the encoder"));
+    return refused(missing("a linear axis needs a lead",
+                           "give --lead-mm, the travel per turn of the encoder"));
   }
   if (options.lines_per_rev) {
     return of_lines(options, *options.lines_per_rev);
@@ -136,11 +136,11 @@ Outcome run(const Options& options) {
     return lines ? of_lines(options, *lines) : refused(lines.error());
   }
   if (!options.max_frequency_hz) {
-    return refused(missing("the encoder's limit is not given",
+    return refused(missing("the encoder's frequency limit is missing",
                            "give --max-frequency-hz, or --lines-per-rev for a known encoder"));
   }
   if (!options.feed_mm_min && !options.speed_rpm) {
-    return refused(missing("neither a speed nor the lines are given",
+    return refused(missing("neither a speed nor the number of lines is given",
                            "give --feed-mm-min with --lead-mm, or --speed-rpm, to get the lines; "
                            "--lines-per-rev to get the largest speed"));
   }
@@ -152,20 +152,20 @@ Outcome run(const Options& options) {
 void add_verb_motion_encoder(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
   Verb& verb = session.verb(
-      group, "encoder", "The finest encoder that a speed permits, and the speed for an encoder",
+      group, "encoder", "Find the finest encoder for a speed, or the largest speed for an encoder",
       "motion encoder --feed-mm-min 7500 --lead-mm 10 --max-frequency-hz 300000\n"
       "  steadyrest motion encoder --speed-rpm 2000 --max-frequency-hz 300000\n"
       "  steadyrest motion encoder --lines-per-rev 2500 --lead-mm 10 --max-frequency-hz 300000");
   auto options = std::make_shared<Options>();
   verb.add_option("--max-frequency-hz", options->max_frequency_hz,
                   "Largest frequency of one channel of the encoder");
-  verb.add_option("--lead-mm", options->lead_mm, "Way of the axis for one turn of the encoder");
+  verb.add_option("--lead-mm", options->lead_mm, "Travel of the axis per turn of the encoder");
   auto* feed = verb.add_option("--feed-mm-min", options->feed_mm_min, "Feed of a linear axis");
   verb.add_option("--speed-rpm", options->speed_rpm, "Speed of a spindle in rev/min")
       ->excludes(feed);
   auto* lines = verb.add_option("--lines-per-rev", options->lines_per_rev,
-                                "Lines of a known encoder: gives its largest feed and speed");
-  verb.add_option("--count-mm", options->count_mm, "Count that is wanted: gives the lines")
+                                "Lines of a known encoder; gives its largest feed and speed");
+  verb.add_option("--count-mm", options->count_mm, "Count you want; gives the lines")
       ->excludes(lines);
   check_size(verb);
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });

@@ -140,14 +140,13 @@ void put_findings(const EdgeLog& log, Answer& answer) {
   const std::size_t unsaid = log.finding_count - log.findings.size();
   if (unsaid > 0) {
     answer.refusals.push_back({Kind::bad_input, log.file, 0,
-                               fmt::format("{} more of these", unsaid),
-                               "repair the recorder first"});
+                               fmt::format("{} more of these", unsaid), "fix the recorder first"});
   }
   if (log.stopped) {
     answer.exit_code = kRefused;
     answer.refusals.push_back(
         {Kind::bad_input, log.file, log.findings.back().line,
-         fmt::format("the log is not read beyond this line; {} rows are kept", log.rows.size()),
+         fmt::format("reading stops at this line; {} rows are kept", log.rows.size()),
          "the estimates end there"});
   }
 }
@@ -261,18 +260,17 @@ void add_axis_options(Verb& verb, Options& options) {
   offline::EstimatorSetup& setup = options.setup;
   verb.add_option("--count-mm", setup.count_mm, "One count in mm")->required();
   verb.add_option("--cycle-hz", setup.cycle_hz,
-                  "Control cycles per second; with --input ticks the nominal ones")
+                  "Control cycles per second; nominal with --input ticks")
       ->required();
   verb.add_option("--max-speed", setup.max_speed_mm_s, "Largest speed of the axis in mm/s");
   verb.add_option("--max-acceleration", setup.max_acceleration_mm_s2,
                   "Largest acceleration of the axis in mm/s²");
   verb.add_option("--max-jerk", setup.max_jerk_mm_s3, "Largest jerk of the axis in mm/s³");
-  verb.add_option(
-      "--line-error-um", options.line_error_um,
-      "Largest error of a line of the encoder in µm, 0 = none; without it the bounds rest "
-      "on what the estimator learns of the lines");
+  verb.add_option("--line-error-um", options.line_error_um,
+                  "Largest encoder line error in µm, 0 = none; by default the bounds rely on what "
+                  "the estimator learns about the lines");
   verb.add_option("--clock-ns", options.clock_ns,
-                  "Period of the time stamps in ns, 0 = exact; otherwise found in the log");
+                  "Period of the time stamps in ns, 0 = exact; default: found from the log");
 }
 
 }  // namespace
@@ -280,26 +278,26 @@ void add_axis_options(Verb& verb, Options& options) {
 void add_verb_motion_estimate(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
   Verb& verb = session.verb(
-      group, "estimate", "Velocity and acceleration out of a log of counts (CSV: t_s,count)",
+      group, "estimate", "Estimate velocity and acceleration from a log of counts (CSV: t_s,count)",
       "motion estimate examples/logs/sine-edges.csv --input edges --count-mm 0.001 "
       "--cycle-hz 1000 --max-acceleration 25 --max-jerk 300 -o out.csv --report out/motion");
   auto options = std::make_shared<Options>();
-  verb.reads("log", options->log, "Log with the columns t_s and count; - is stdin")->required();
+  verb.reads("log", options->log, "Log with columns t_s and count; - is stdin")->required();
   verb.add_option("--input", options->input,
-                  "edges: a row for each edge, with the count after it; ticks: one for each cycle")
+                  "edges: one row per edge, with the count after it; ticks: one row per cycle")
       ->required()
       ->check(CLI::IsMember({"edges", "ticks"}));
   add_axis_options(verb, *options);
   add_log_options(verb, options->format);
   verb.reads("--calibration", options->calibration,
-             "Lines of the encoder as motion calibrate wrote them, or a machine file");
-  verb.add_option("--axis", options->axis, "Axis of the machine file that the log is of");
+             "Encoder lines as written by `motion calibrate`, or a machine file");
+  verb.add_option("--axis", options->axis, "Axis of the machine file the log belongs to");
   verb.add_option("--estimator", options->estimator,
                   fmt::format("One of {}", fmt::join(offline::estimator_names(), ", ")))
       ->capture_default_str();
   verb.add_option("--lag-ms", options->lag_ms,
-                  "Estimate this long after the fact: finer, where the estimator can");
-  verb.writes("-o,--output", options->output, "Write the estimates to this file, not to stdout",
+                  "Estimate this long after the fact: finer, if the estimator supports it");
+  verb.writes("-o,--output", options->output, "Write the estimates to this file instead of stdout",
               csv_content("a table of estimates (CSV)",
                           {"t_s,position_mm,velocity_mm_s,acceleration_mm_s2,"}));
   verb.reports(options->report);

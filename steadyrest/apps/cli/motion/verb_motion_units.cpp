@@ -81,7 +81,7 @@ Outcome run(const Options& options) {
   const bool acceleration =
       options.overload_g || options.acceleration_mm_s2 || options.counts_per_tick2;
   if (!velocity && !acceleration) {
-    return refused(Refusal{Kind::bad_input, "", 0, "there is nothing to convert",
+    return refused(Refusal{Kind::bad_input, "", 0, "nothing to convert",
                            "give --feed-mm-min, --overload-g or --acceleration-mm-s2, or "
                            "--counts-per-tick or --counts-per-tick2 for the way back"});
   }
@@ -107,10 +107,10 @@ Outcome run(const Options& options) {
 
 void add_verb_motion_units(Session& session) {
   CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  Verb& verb =
-      session.verb(group, "units", "Feed and overload in the control's counts and ticks, and back",
-                   "motion units --feed-mm-min 20000 --cycle-hz 1000 --count-mm 0.001\n"
-                   "  steadyrest motion units --counts-per-tick2 0.9 --cycle-hz 1000");
+  Verb& verb = session.verb(group, "units",
+                            "Convert feed and overload to the control's counts and ticks, and back",
+                            "motion units --feed-mm-min 20000 --cycle-hz 1000 --count-mm 0.001\n"
+                            "  steadyrest motion units --counts-per-tick2 0.9 --cycle-hz 1000");
   auto options = std::make_shared<Options>();
   verb.add_option("--cycle-hz", options->sampling.cycle_hz, "Control cycles per second")
       ->required();
@@ -118,7 +118,7 @@ void add_verb_motion_units(Session& session) {
       ->capture_default_str();
   auto* feed = verb.add_option("--feed-mm-min", options->feed_mm_min, "Feed in mm/min");
   verb.add_option("--counts-per-tick", options->counts_per_tick,
-                  "Velocity in counts per cycle: gives the feed")
+                  "Velocity in counts per cycle; gives the feed")
       ->excludes(feed);
   auto* overload =
       verb.add_option("--overload-g", options->overload_g, "Acceleration as a multiple of g");
@@ -126,7 +126,7 @@ void add_verb_motion_units(Session& session) {
       verb.add_option("--acceleration-mm-s2", options->acceleration_mm_s2, "Acceleration in mm/s²")
           ->excludes(overload);
   verb.add_option("--counts-per-tick2", options->counts_per_tick2,
-                  "Acceleration in counts per cycle²: gives overload and mm/s²")
+                  "Acceleration in counts per cycle²; gives overload and mm/s²")
       ->excludes(overload)
       ->excludes(acceleration);
   check_size(verb);

@@ -92,7 +92,7 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
 Outcome run(const Options& options, Progress& progress) {
   if (options.machine.empty() && options.program.dialect.empty()) {
     return refused({kernel::outcome::Kind::bad_input, "", 0, "--dialect is required",
-                    "give --dialect, or --machine with the machine that the program is for"});
+                    "give --dialect, or --machine with the machine the program is for"});
   }
   if (options.machine.empty()) {
     return run_on(options, nullptr, progress);
@@ -106,14 +106,14 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_program_check(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
   Verb& verb = session.verb(
-      group, "check", "Reads an NC program; lists every word that is not understood, with its line",
+      group, "check", "Read an NC program and list every word it does not understand, by line",
       "program check examples/programs/rib-pocket.ngc --dialect linuxcnc");
   auto options = std::make_shared<Options>();
   add_program_options(verb, options->program);
   verb.get_option("--dialect")->required(false);
   verb.add_option("--machine", options->machine,
-                  "Machine file: dialect and axes are the machine's, and the program is held "
-                  "against its travel, feeds and spindle; fully with --variables and --tools")
+                  "Machine file: sets dialect and axes, and checks the program against travel, "
+                  "feeds and spindle; add --variables and --tools for the full check")
       ->option_text("FILE");
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }

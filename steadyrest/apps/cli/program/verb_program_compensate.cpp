@@ -18,7 +18,7 @@ struct Options {
 
 Answer answer_of(const nc::rewrite::Compensated& done) {
   Answer answer;
-  Table table({"line", "axis", "time s", "planned s", "shift um", "stands um", "place"});
+  Table table({"line", "axis", "time s", "planned s", "shift um", "total um", "place"});
   answer.json["insertions"] = Json::array();
   for (const auto& one : done.insertions) {
     answer.json["insertions"].push_back({{"line", one.line},
@@ -60,7 +60,7 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_program_compensate(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
   Verb& verb = session.verb(
-      group, "compensate", "Writes the corrections of a plan into an NC program, and proves it",
+      group, "compensate", "Write a plan's corrections into an NC program, and prove the result",
       "program compensate examples/programs/rib-pocket.ngc --dialect linuxcnc --plan "
       "examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml "
       "-o rib-pocket-compensated.ngc");
@@ -68,8 +68,7 @@ void add_verb_program_compensate(Session& session) {
   add_machine_program_options(verb, options->rewrite.program);
   add_rewrite_options(verb, options->rewrite);
   verb.writes("-o,--output", options->output,
-              "The changed program; with --force it may be the program itself, which is then "
-              "replaced",
+              "The changed program; with --force it may replace the program itself",
               program_content())
       ->required();
   verb.also_reads([options] { return files_of(options->rewrite); });

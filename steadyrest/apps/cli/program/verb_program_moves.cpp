@@ -49,11 +49,11 @@ Outcome run(const Options& options, bool json) {
 void add_verb_program_moves(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
   Verb& verb = session.verb(group, "moves",
-                            "Lists the moves of an NC program as CSV, in mm, degrees and mm/min",
+                            "List the moves of an NC program as CSV, in mm, degrees and mm/min",
                             "program moves examples/programs/rib-pocket.ngc --dialect linuxcnc");
   auto options = std::make_shared<Options>();
   add_program_options(verb, options->program);
-  verb.writes("-o,--output", options->output, "Write the table to this file, not to stdout",
+  verb.writes("-o,--output", options->output, "Write the table to this file instead of stdout",
               csv_content("a table of moves (CSV)", {std::string(MoveTable::kHead)}));
   session.on(verb,
              [options, &session](Progress& /*progress*/) { return run(*options, session.json()); });

@@ -30,12 +30,12 @@ Outcome run(const Options& options) {
 void add_verb_program_strip(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
   Verb& verb =
-      session.verb(group, "strip", "Takes the corrections out of an NC program, byte for byte",
+      session.verb(group, "strip", "Take the corrections out of an NC program, byte for byte",
                    "program strip examples/programs/rib-pocket.ngc -o rib-pocket.ngc");
   auto options = std::make_shared<Options>();
   verb.reads("FILE", options->file, "The changed program")->required();
   verb.writes("-o,--output", options->output,
-              "The original again; with --force it may be FILE itself", program_content())
+              "The restored original; with --force it may be FILE itself", program_content())
       ->required();
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }

@@ -171,7 +171,7 @@ void add_verb_program_time(Session& session) {
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);
-  verb.add_flag("--lines", options->lines, "With --json: also the seconds of each line");
+  verb.add_flag("--lines", options->lines, "With --json: also list the seconds for each line");
   const auto percent = [&verb](const char* flag, double& value, const char* text) {
     verb.add_option(flag, value, text)->check(within(1.0, 200.0));
   };

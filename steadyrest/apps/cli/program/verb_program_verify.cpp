@@ -35,7 +35,7 @@ Outcome run(const Options& options, Progress& progress) {
   answer.json["largest_error_mm"] = proof->largest_error_mm;
   answer.json["seconds"] = proof->program_s;
   answer.text = fmt::format(
-      "proved: {} moves compared, {} of them differ by the planned corrections, none otherwise\n",
+      "proved: {} moves compared; {} differ by the planned corrections, none in any other way\n",
       proof->moves, proof->corrected);
   return answer;
 }
@@ -45,7 +45,7 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_program_verify(Session& session) {
   CLI::App& group = session.group("program", "NC programs");
   Verb& verb = session.verb(
-      group, "verify", "Proves that a changed program differs by a plan's corrections alone",
+      group, "verify", "Prove that a changed program differs only by a plan's corrections",
       "program verify examples/programs/rib-pocket.ngc "
       "examples/plans/rib-pocket-compensated.ngc --dialect linuxcnc --plan "
       "examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml");

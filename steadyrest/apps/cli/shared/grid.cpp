@@ -44,7 +44,7 @@ kernel::outcome::Result<std::vector<double>> grid(std::string_view option, const
   };
   const std::vector<double> given = numbers(text);
   if (given.size() != 1 && given.size() != 3) {
-    return bad("one finite number is needed, or three with colons between them");
+    return bad("one finite number is needed, or three separated by colons");
   }
   const double from = given[0];
   const double to = given.size() == 3 ? given[1] : from;
@@ -53,10 +53,10 @@ kernel::outcome::Result<std::vector<double>> grid(std::string_view option, const
     return bad("STEPS must be a whole number, 1 … 100000");
   }
   if (from < least) {
-    return bad(fmt::format("the least value allowed is {}", least));
+    return bad(fmt::format("the smallest value allowed is {}", least));
   }
   if (count == 1.0 ? to != from : !(to > from)) {
-    return bad(count == 1.0 ? "one step cannot reach from FROM to TO" : "TO is not above FROM");
+    return bad(count == 1.0 ? "one step does not reach from FROM to TO" : "TO is not above FROM");
   }
   std::vector<double> out;
   const auto steps = static_cast<std::size_t>(count);

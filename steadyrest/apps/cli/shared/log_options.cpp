@@ -6,16 +6,16 @@ namespace steadyrest::apps::cli {
 
 void add_log_options(CLI::App& verb, LogOptions& options, bool over_time) {
   verb.add_option("--columns", options.columns,
-                  "Names of the columns, for a log without a header: t_s,count; - passes one over; "
-                  "sample is the sample number of halsampler -t")
+                  "Column names, for a log without a header: t_s,count; - skips a column; sample "
+                  "is the sample number of halsampler -t")
       ->delimiter(',');
   verb.add_option("--decimal", options.decimal,
-                  "Decimal mark of the log, point or comma, where the log itself does not tell")
+                  "Decimal mark of the log, point or comma, if the log itself is ambiguous")
       ->check(CLI::IsMember({"point", "comma"}));
   if (over_time) {
     verb.add_option("--sample-hz", options.sample_hz,
-                    "Samples per second of a log that has no time: of the column sample, or of its "
-                    "rows")
+                    "Samples per second, for a log without a time column: counts the column "
+                    "sample, or the rows")
         ->check(within(1e-3, 1e9));
   }
 }

@@ -5,7 +5,7 @@
 namespace steadyrest::apps::cli {
 
 void add_machine_option(Verb& verb, std::string& path) {
-  verb.reads("--machine", path, "Machine file (TOML); docs/machine-file.md has its keys")
+  verb.reads("--machine", path, "Machine file (TOML); its keys are in docs/machine-file.md")
       ->required()
       ->option_text("FILE");
 }

@@ -16,23 +16,20 @@ namespace {
 /// --dialect first, then the control's data.
 std::vector<CLI::Option*> add_data(Verb& verb, ProgramOptions& options) {
   std::vector<CLI::Option*> made;
-  made.push_back(
-      verb.add_option("--dialect", options.dialect, "The control that the program is written for")
-          ->check(CLI::IsMember({"linuxcnc", "fanuc", "sinumerik"})));
-  made.push_back(
-      verb.reads("--tools", options.tools,
-                 "Tool table in LinuxCNC's format; without one every tool has length 0"));
+  made.push_back(verb.add_option("--dialect", options.dialect, "Control the program is written for")
+                     ->check(CLI::IsMember({"linuxcnc", "fanuc", "sinumerik"})));
+  made.push_back(verb.reads("--tools", options.tools,
+                            "Tool table in LinuxCNC's format; without it every tool has length 0"));
   made.push_back(verb.reads("--variables", options.variables,
                             "Offsets and reference points from LinuxCNC's variable file"));
   made.push_back(verb.add_option("--data-units", options.units,
-                                 "Unit of the lengths in the tool table and the variable file")
+                                 "Length unit of the tool table and the variable file")
                      ->check(CLI::IsMember({"mm", "inch"})));
   made.push_back(
       verb.reads("--subprograms", options.subprograms,
-                 "Folders of subprogram files, in the order of the search; the program's own "
-                 "folder when none is given"));
-  made.push_back(verb.add_flag("--block-delete", options.block_delete,
-                               "Leave out the lines that begin with /"));
+                 "Folders with subprograms, in search order; default: the program's folder"));
+  made.push_back(
+      verb.add_flag("--block-delete", options.block_delete, "Skip lines that begin with /"));
   made.push_back(verb.add_flag("--least-increment", options.least_increment,
                                "fanuc: X100 is 0.100 mm (without it: 100 mm)"));
   return made;
@@ -43,8 +40,7 @@ CLI::Option* add_common(Verb& verb, ProgramOptions& options) {
   return add_data(verb, options).front();
 }
 
-constexpr const char* kOtherDialect =
-    "The control that the program is written for, if not the machine's";
+constexpr const char* kOtherDialect = "Control the program is written for, if not the machine's";
 
 std::string dialect_name(kernel::machine::Dialect dialect) {
   switch (dialect) {

@@ -85,7 +85,7 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
   const kernel::machine::Compensation& compensation = machine.compensation;
   if (options.r_parameter != kNoParameter && program != nc::read::Dialect::sinumerik) {
     return refuse(fmt::format("--r-parameter with a program of dialect {}", dialect_name(program)),
-                  "leave it out; R-parameters are of SINUMERIK controls");
+                  "leave it out; only SINUMERIK controls have R-parameters");
   }
   if (!options.control.empty() && program != nc::read::Dialect::fanuc) {
     return refuse(fmt::format("--control {} with a program of dialect {}", options.control,
@@ -99,15 +99,14 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
   const Dialect needed = passport::dialect_of(method, own);
   if (needed != own) {
     return refuse(
-        fmt::format("{} says that corrections are written by \"{}\", which is for {}; the "
-                    "program is read as {}",
+        fmt::format("{} writes corrections by \"{}\", which is for {}; the program is read as {}",
                     machine.file, passport::word(method), passport::word(needed),
                     dialect_name(program)),
-        "give the machine file of the control that the program is for");
+        "give the machine file of the control the program is for");
   }
   if (own == Dialect::sinumerik && method == CompensationMethod::by_dialect) {
-    return refuse("corrections in dialect sinumerik: how the control takes them is not said",
-                  "write [compensation] into the machine file (method = \"r_parameter\", "
+    return refuse("no method for corrections in dialect sinumerik",
+                  "add [compensation] to the machine file (method = \"r_parameter\", "
                   "\"setting_data\" or \"frame_fine\"), or give --r-parameter N");
   }
   const auto r_parameter = options.r_parameter == kNoParameter
@@ -262,22 +261,23 @@ std::vector<std::string> files_of(const RewriteOptions& options) {
 
 void add_rewrite_options(Verb& verb, RewriteOptions& options) {
   options.verb = &verb;
-  verb.reads("--plan", options.plan, "The corrections (JSON); nc/rewrite/README.md has its keys")
+  verb.reads("--plan", options.plan,
+             "Plan of corrections (JSON); its keys are in nc/rewrite/README.md")
       ->required()
       ->option_text("PLAN.json");
   verb.reads("--machine", options.machine,
-             "Machine file (TOML): times, clamp; without it the one that the plan names")
+             "Machine file (TOML) for times and clamp; default: the one the plan names")
       ->option_text("FILE");
   verb.add_option("--control", options.control,
-                  "fanuc: the make of the control; G10 L2 P0 is another offset on a Haas. Without "
-                  "it what [compensation] of the machine file says")
+                  "fanuc: make of the control; on a Haas G10 L2 P0 is another offset. Default: "
+                  "[compensation] of the machine file")
       ->check(CLI::IsMember({"fanuc", "haas"}));
   verb.add_option("--r-parameter", options.r_parameter,
-                  "sinumerik: number of the R-parameter that holds the correction in mm. Without "
-                  "it what [compensation] of the machine file says")
+                  "sinumerik: number of the R-parameter with the correction in mm. Default: "
+                  "[compensation] of the machine file")
       ->check(within(0, 32535));
   verb.add_option("--window-s", options.window_s,
-                  "How far from its planned instant a correction may be placed, in s")
+                  "How far from its planned time a correction may be placed, in s")
       ->check(within(0.0, 86400.0));
 }
 
@@ -286,10 +286,9 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   RewriteTask task;
   const std::string extension = std::filesystem::path(options.program.file).extension().string();
   if (extension == ".h" || extension == ".H") {
-    return std::unexpected(
-        Refusals{Refusal{Kind::bad_input, options.program.file, 0,
-                         "the name of a HEIDENHAIN Klartext program, which is not read",
-                         "post-process the part for linuxcnc, fanuc or sinumerik"}});
+    return std::unexpected(Refusals{Refusal{
+        Kind::bad_input, options.program.file, 0, "HEIDENHAIN Klartext programs are not supported",
+        "post-process the part for linuxcnc, fanuc or sinumerik"}});
   }
   auto plan = nc::rewrite::read_plan(options.plan);
   if (!plan) {
@@ -298,9 +297,9 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   task.plan = std::move(*plan);
   const std::string path = machine_path(options, task.plan);
   if (path.empty()) {
-    return std::unexpected(
-        Refusals{Refusal{Kind::bad_input, options.plan, 0,
-                         "no machine is named, here or in the plan", "give --machine FILE"}});
+    return std::unexpected(Refusals{Refusal{Kind::bad_input, options.plan, 0,
+                                            "neither the command nor the plan names a machine",
+                                            "give --machine FILE"}});
   }
   auto machine = read_machine(path);
   if (!machine) {

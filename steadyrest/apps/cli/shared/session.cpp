@@ -58,7 +58,8 @@ bool print_json(const Json& json) {
 }
 
 int unwritten() {
-  fmt::print(stderr, "{}: the answer cannot be written to stdout; check disk space and pipe\n",
+  fmt::print(stderr,
+             "{}: failed to write the answer to stdout; check the disk space and the pipe\n",
              kName);
   return kFailed;
 }
@@ -75,8 +76,8 @@ Session::Session() : app_("Steadyrest: the corrective layer for CNC machines", s
   app_.set_version_flag("--version", std::string(kName) + " " + STEADYREST_VERSION);
   app_.require_subcommand(1);
   app_.footer(
-      "`steadyrest VERB --help` says more and ends with an example.\n"
-      "Exit codes: 0 done, 2 refused (bad usage, bad input), 1 anything else.");
+      "`steadyrest VERB --help` says more and ends with an example.\nExit codes: 0 done, 2 refused "
+      "(bad usage, bad input), 1 anything else.");
 }
 
 CLI::App& Session::group(const std::string& name, const std::string& description) {
@@ -95,7 +96,7 @@ Verb& Session::verb(CLI::App& parent, const std::string& name, const std::string
   const auto owned = std::make_shared<Verb>(description, name, parent);
   parent.add_subcommand(owned);
   Verb& made = *owned;
-  made.add_flag("--json", json_, "Print one JSON object on stdout and nothing else there");
+  made.add_flag("--json", json_, "Print one JSON object, and nothing else, on stdout");
   made.footer("Example:\n  steadyrest " + example);
   return made;
 }

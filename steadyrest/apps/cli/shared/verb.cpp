@@ -86,7 +86,7 @@ std::optional<Refusal> unfit(const PlannedFile& planned, std::span<const Planned
   for (const PlannedFile& other : before) {
     if (kernel::file::same_place(planned.file, other.file)) {
       return refusal(planned.file, fmt::format("is the same file as the output {}", other.file),
-                     "give each output its own name");
+                     "give each output a different name");
     }
   }
   const auto place = kernel::file::place_of(planned.file);
@@ -125,7 +125,7 @@ CLI::Option* Verb::add_output(const std::string& flags, std::string& path,
   CLI::Option* const option =
       CLI::App::add_option(flags, path, description)->type_name(folder ? "DIR" : "OUT");
   if (outputs_.empty()) {
-    add_flag("--force", force_, "Replace an input, or a file of another kind, by an output");
+    add_flag("--force", force_, "Let an output replace an input or a file of another kind");
   }
   outputs_.push_back({.option = option, .files = std::move(files), .folder = folder});
   return option;
@@ -144,7 +144,7 @@ CLI::Option* Verb::writes(const std::string& flags, std::string& path,
 }
 
 void Verb::reports(std::string& folder, Files files) {
-  add_output("--report", folder, "Folder for report.html and report.json; it is made when missing",
+  add_output("--report", folder, "Folder for report.html and report.json; created if missing",
              files ? std::move(files) : report_files, true);
   dates_last_output();
 }
@@ -159,8 +159,7 @@ void Verb::dates_last_output() {
   outputs_.back().page = true;
   add_option(
       "--report-date", date_,
-      "Date in the report instead of now: ISO 8601, or none, so that the same command on the "
-      "same inputs writes the same bytes")
+      "Date in the report instead of now: ISO 8601, or none to make repeated runs byte-identical")
       ->check([](const std::string& given) {
         return given == kNoDate || page::is_iso_date(given)
                    ? std::string{}
@@ -258,7 +257,7 @@ std::expected<Ready, Refusals> Verb::ready(bool json) const {
     out.takes_stdout |= place && place->kind == Place::Kind::standard_output;
   }
   if (out.takes_stdout && json) {
-    refusals.push_back(refusal("", "an output goes to stdout, which --json has for its one object",
+    refusals.push_back(refusal("", "an output goes to stdout, where --json prints its object",
                                "name a file for the output, or leave out --json"));
   }
   if (!refusals.empty()) {

@@ -49,8 +49,8 @@ kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>
     std::string axis = at == std::string::npos ? axis_of(name) : given.substr(at + 1);
     if (axis.empty() || axis.size() > kLongestName || !std::ranges::all_of(axis, is_of_a_name)) {
       return std::unexpected(refusal({}, fmt::format("--channel {} names no axis", given),
-                                     "write the axis behind =, as --channel z_um=Z; or letters, "
-                                     "digits and _ where no axis corrects it"));
+                                     "write the axis after =, as --channel z_um=Z; or a name of "
+                                     "letters, digits and _ if no axis corrects it"));
     }
     out.emplace_back(found - log.displacement.begin(), std::move(axis));
   }
@@ -61,7 +61,7 @@ kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>
     for (std::size_t j = 0; j < i; ++j) {
       if (out[i].second == out[j].second) {
         return std::unexpected(refusal({}, fmt::format("two channels are called {}", out[i].second),
-                                       "give each its own name"));
+                                       "give each a different name"));
       }
     }
   }

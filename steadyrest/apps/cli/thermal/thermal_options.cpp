@@ -91,8 +91,8 @@ Result<void> fits(const ThermalAxis& axis, const Cyclogram& cyclogram) {
     }
     if (known > 0.0 && speed > kBeyondFitted * known) {
       return refuse(cyclogram.file,
-                    fmt::format("transition {} turns at {:.0f} rpm; the thermal passport of {} is "
-                                "known up to {:.0f} rpm",
+                    fmt::format("transition {} runs at {:.0f} rpm; the thermal passport of {} "
+                                "covers up to {:.0f} rpm",
                                 i + 1, kernel::units::rpm_from_rev_s(speed), axis.name,
                                 kernel::units::rpm_from_rev_s(known)),
                     "test the machine at that speed and fit again");
@@ -139,33 +139,33 @@ std::string note_of(const ThermalJob::Axis& axis) {
     return {};
   }
   const std::string which = untold.size() == 1
-                                ? *untold.begin() + " counts"
-                                : fmt::format("{} temperatures count", untold.size());
+                                ? *untold.begin() + " is assumed"
+                                : fmt::format("{} temperatures are assumed", untold.size());
   return fmt::format(
-      "{}: {} as staying at the reference; what the spindle heats does not, so fit the passport of "
-      "work that is not yet made with the sensors of the surroundings alone: thermal fit --ambient",
+      "{}: {} to stay at the reference; a sensor the spindle heats will not. For work not yet "
+      "done, fit the passport with sensors of the surroundings only: thermal fit --ambient",
       passport.name, which);
 }
 
 }  // namespace
 
 void add_thermal_options(Verb& verb, ThermalOptions& options) {
-  verb.reads("--machine", options.machine, "Machine file, or the thermal passport alone, TOML")
+  verb.reads("--machine", options.machine, "Machine file (TOML), or the thermal passport alone")
       ->required();
   verb.reads("--cyclogram", options.cyclogram,
-             "What the machine does, TOML: [[transition]] with minutes and speed_rpm");
+             "Cyclogram (TOML): [[transition]] with minutes and speed_rpm");
   add_optional_program(verb, options.program,
-                       "NC program, instead of a cyclogram; needs a whole machine file");
-  verb.add_option("--axis", options.axes, "Only this axis of the passport; may be given again");
+                       "NC program instead of a cyclogram; needs a complete machine file");
+  verb.add_option("--axis", options.axes, "Only this axis of the passport; repeatable");
   verb.add_option("--ambient", options.ambient,
-                  "SENSOR=temperature in °C during the work; without it nothing changes there");
+                  "SENSOR=temperature in °C during the work; default: the reference");
   verb.reads("--after", options.after,
-             "Cyclogram of what the machine has done before; without it it is cold");
+             "Cyclogram of earlier work; default: the machine starts cold");
 }
 
 Result<ThermalJob> thermal_job(const ThermalOptions& options) {
   if (options.cyclogram.empty() == options.program.file.empty()) {
-    return refuse({}, "there must be a cyclogram or a program, one of them",
+    return refuse({}, "exactly one of --cyclogram, --program is needed",
                   "give --cyclogram FILE or --program FILE");
   }
   auto passport = passport::read_thermal_passport(options.machine);
@@ -215,7 +215,7 @@ Result<ThermalJob> thermal_job(const ThermalOptions& options) {
   for (const auto& [sensor, value] : *ambient) {
     if (std::ranges::find(sensors, sensor) == sensors.end()) {
       return refuse(options.machine, fmt::format("no thermal axis knows a sensor {}", sensor),
-                    "use a name that stands in an [[thermal.axis.ambient]]");
+                    "use the sensor of an [[thermal.axis.ambient]]");
     }
   }
   job.passport = std::move(*passport);

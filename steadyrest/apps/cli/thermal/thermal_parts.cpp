@@ -54,7 +54,7 @@ class Placer {
                             });
     if (axis == axes.end()) {
       return refuse(file_, row.line,
-                    row.axis.empty() ? "the plan has several axes and the row names none"
+                    row.axis.empty() ? "the plan has several axes; the row names none"
                                      : fmt::format("the plan has no axis {}", row.axis),
                     "name an axis of the plan in the column axis");
     }
@@ -64,7 +64,7 @@ class Placer {
     }
     const double tolerance_mm = tolerance(row, *time_s);
     if (!(tolerance_mm > 0.0)) {
-      return refuse(file_, row.line, "there is no tolerance for this part",
+      return refuse(file_, row.line, "this part has no tolerance",
                     "give a column tolerance_um, or --tolerance-um");
     }
     return PlacedPart{&row, static_cast<std::size_t>(axis - axes.begin()), *time_s, tolerance_mm};
@@ -74,10 +74,11 @@ class Placer {
     if (row.transition.empty()) {
       const double total_s = plan_.plan.total_s;
       if (row.time_s > total_s + 1.0) {
-        return refuse(file_, row.line,
-                      fmt::format("minute {:.6g} lies behind the plan's end at minute {:.6g}",
-                                  row.time_s / 60.0, total_s / 60.0),
-                      "count the minutes from the start of the plan; is it this plan?");
+        return refuse(
+            file_, row.line,
+            fmt::format("minute {:.6g} is after the plan's end at minute {:.6g}", row.time_s / 60.0,
+                        total_s / 60.0),
+            "count minutes from the start of the plan, and check that this is the right plan");
       }
       return std::min(row.time_s, total_s);
     }
@@ -94,8 +95,9 @@ class Placer {
       found = std::ranges::find(rows, row.transition, &ThermalPlanFile::Transition::name);
     }
     if (found == rows.end()) {
-      return refuse(file_, row.line, fmt::format("the plan has no transition {}", row.transition),
-                    fmt::format("write a number of 1 … {}, or a transition's name", rows.size()));
+      return refuse(
+          file_, row.line, fmt::format("the plan has no transition {}", row.transition),
+          fmt::format("write a number from 1 to {}, or a transition's name", rows.size()));
     }
     return found->end_s - kBeforeEnd_s;
   }

@@ -60,7 +60,7 @@ Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
     }
   } catch (const PlanJson::exception&) {
     return std::unexpected(Refusal{Kind::bad_input, path, 0,
-                                   "its notes are not of the type that thermal plan writes",
+                                   "its notes are not of the type `thermal plan` writes",
                                    "level, k and tolerance_um are numbers, files are texts"});
   }
   return out;

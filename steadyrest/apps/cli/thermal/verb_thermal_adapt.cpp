@@ -198,11 +198,12 @@ std::string text_of(const Json& outliers, bool counted) {
                         outliers[i]["deviation_um"].get<double>());
   }
   if (outliers.size() > kShown) {
-    text += fmt::format("and {} outliers more\n", outliers.size() - kShown);
+    text += fmt::format("and {} more outliers\n", outliers.size() - kShown);
   }
   if (!outliers.empty()) {
-    text += counted ? "Outliers count for the level here: they may be right, and the model wrong.\n"
-                    : "Outliers count neither for the level nor for the gains.\n";
+    text += counted
+                ? "Outliers count towards the level here: they may be right and the model wrong.\n"
+                : "Outliers count towards neither the level nor the gains.\n";
   }
   return text;
 }
@@ -218,7 +219,7 @@ std::string text_of(const Level& before, const thermal::offline::LevelChoice& ch
       .row({"k", fmt::format("{:.6g} (was {:.6g})", choice.share, before.share)});
   std::string text = table.text() + text_of(outliers, !fits(learnt));
   if (choice.exhausted) {
-    text += "The parts leave their share at the strictest level.\n";
+    text += "The parts exceed their share even at the strictest level.\n";
   }
   for (const Learnt& one : learnt) {
     text += fmt::format("{}: levels times", one.axis);
@@ -229,11 +230,10 @@ std::string text_of(const Level& before, const thermal::offline::LevelChoice& ch
                         um_from_mm(one.gains.bias_mm), um_from_mm(one.gains.rms_before_mm),
                         um_from_mm(one.gains.rms_after_mm));
     if (one.gains.few) {
-      text +=
-          fmt::format("{}: {} parts are too few to change its gains by. They stay as they are.\n",
-                      one.axis, one.part.size());
+      text += fmt::format("{}: {} parts are too few to change its gains. They are unchanged.\n",
+                          one.axis, one.part.size());
     } else if (!one.gains.fits) {
-      text += fmt::format("{}: {} Its gains stay as they are.\n", one.axis,
+      text += fmt::format("{}: {} Its gains are unchanged.\n", one.axis,
                           kernel::outcome::sentence(Reason::thermal_model_unfit));
     }
   }
@@ -343,39 +343,38 @@ Outcome run(Options options) {
 }  // namespace
 
 void add_verb_thermal_adapt(Session& session) {
-  CLI::App& group = session.group("thermal", "Drift by heat");
+  CLI::App& group = session.group("thermal", "Thermal drift");
   Verb& verb =
-      session.verb(group, "adapt", "What measured parts say about the level k and about the model",
+      session.verb(group, "adapt",
+                   "Check measured parts against the plan; learn the level k and the model's gains",
                    "thermal adapt examples/paper-thermal/plan.json --measured "
                    "examples/paper-thermal/measured.csv");
   auto options = std::make_shared<Options>();
   verb.reads("plan", options->plan, "PLAN.json that the parts were made with")->required();
   verb.reads("--measured", options->measured,
-             "CSV: part; transition, time_min or stamps; deviation_um (the tool's place less the "
-             "right "
-             "one); if wanted tolerance_um, axis")
+             "CSV: part; transition, time_min or stamps; deviation_um (tool position minus correct "
+             "position); optionally tolerance_um, axis")
       ->required();
   add_log_options(verb, options->format, false);
   verb.add_option("--started", options->started,
-                  "When the plan's work began, as 2026-11-22T23:47:06, for parts with stamps")
+                  "Start of the plan's work, as 2026-11-22T23:47:06, for parts with time stamps")
       ->check([](const std::string& given) {
         return table::stamp_of(given) ? std::string{}
-                                      : "is no date with a time; write 2026-11-22T23:47:06";
+                                      : "is not a date and time; write 2026-11-22T23:47:06";
       });
   verb.reads("--machine", options->thermal.machine,
-             "Machine file or thermal passport; without it the one that the plan names");
+             "Machine file or thermal passport; default: the one the plan names");
   verb.reads("--cyclogram", options->thermal.cyclogram,
-             "Cyclogram of the plan; without it the one that the plan names");
+             "Cyclogram of the plan; default: the one the plan names");
   verb.reads("--program", options->thermal.program.file,
-             "NC program of the plan; without it the one that the plan names");
+             "NC program of the plan; default: the one the plan names");
   verb.add_option("--ambient", options->thermal.ambient,
                   "SENSOR=temperature in °C during the work, as for the plan");
-  verb.reads("--after", options->thermal.after,
-             "Cyclogram of what the machine had done before, as for the plan");
-  verb.add_option("--tolerance-um", options->tolerance_um, "Tolerance Δ, µm; without it the plan's")
+  verb.reads("--after", options->thermal.after, "Cyclogram of earlier work, as for the plan");
+  verb.add_option("--tolerance-um", options->tolerance_um, "Tolerance Δ, µm; default: the plan's")
       ->check(within(0.01, 1e5));
   verb.add_option("--noise-um", options->noise_um,
-                  "Standard deviation of a measured part, µm; without it the passport's noise")
+                  "Standard deviation of a measured part, µm; default: the passport's noise")
       ->check(within(0.001, 1e3));
   verb.writes("-o,--output", options->output,
               "Write the machine file (or passport) with the new level and gains",

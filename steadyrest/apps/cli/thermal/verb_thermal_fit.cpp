@@ -146,15 +146,15 @@ void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
           std::pair{fit.coverage_probed, "with a probe every hour"}}) {
       if (coverage < kLow) {
         answer.json["warnings"].push_back(fmt::format(
-            "{}: {}, the 95 % band of the other hours held {:.0f} % of those left out; it "
-            "was widened for that. Log more runs, or the temperature that is missing",
+            "{}: {}, the 95 % band from the other hours held {:.0f} % of the readings left out, so "
+            "it was widened. Log more runs, or add the missing temperature",
             fit.axis.name, how, 100.0 * coverage));
       }
     }
     if (fit.axis.ambient.empty()) {
       answer.json["warnings"].push_back(
-          fmt::format("{}: no temperature is an input, so the band knows the surroundings of these "
-                      "hours alone; on other days the displacement may leave it",
+          fmt::format("{}: no temperature is an input, so the band only covers the surroundings of "
+                      "these hours; on other days the displacement may leave it",
                       fit.axis.name));
     }
   }
@@ -280,7 +280,7 @@ Outcome run(const Options& options, Progress& progress) {
       if (known == job->known.axis.end()) {
         return refused(refusal(options.tau_from,
                                fmt::format("there is no [[thermal.axis]] {}", name),
-                               "name the channels as the passport does, with --channel z_um=Z"));
+                               "name the channels as in the passport, with --channel z_um=Z"));
       }
       job->request.known = &*known;
     }
@@ -325,43 +325,44 @@ Outcome run(const Options& options, Progress& progress) {
 }  // namespace
 
 void add_verb_thermal_fit(Session& session) {
-  CLI::App& group = session.group("thermal", "Drift by heat");
-  Verb& verb = session.verb(group, "fit", "The thermal passport of a machine from a test's log",
+  CLI::App& group = session.group("thermal", "Thermal drift");
+  Verb& verb = session.verb(group, "fit", "Fit a machine's thermal passport to the log of a test",
                             "thermal fit examples/thermal/spindle-test.csv -o passport.toml "
                             "--report out/fit");
   auto options = std::make_shared<Options>();
   verb.reads("log", options->log,
-             "Log of the test: CSV, or packed by gzip, with time_s, spindle_rpm, displacements "
-             "(…_um) and temperatures (…_c); docs/thermal-test.md says how to make it")
+             "Test log: CSV, or CSV packed with gzip, with time_s, spindle_rpm, displacements "
+             "(…_um) and temperatures (…_c); docs/thermal-test.md describes the test")
       ->required();
   verb.writes("-o,--output", options->output, "Write the passport, TOML: [thermal] sections",
               toml_content("a thermal passport (TOML: [thermal] alone)", {"thermal"}));
   verb.reports(options->report);
   add_log_options(verb, options->format);
   verb.add_option("--channel", options->channels,
-                  "Only this displacement, and the axis that it moves: z_um=Z; may be given again");
+                  "Only this displacement, and its axis: z_um=Z; repeatable");
   verb.add_option("--ambient", options->sensors,
-                  "Temperature that may be an input; without it all of the log");
-  verb.add_flag("--no-ambient", options->no_ambient, "The spindle's speed is the only input");
+                  "Temperature that may be an input; default: all in the log");
+  verb.add_flag("--no-ambient", options->no_ambient, "Use the spindle speed as the only input");
   verb.add_flag("--own-tau", options->own_tau,
-                "Each axis keeps its own time constants, also where several could have the same");
-  verb.add_option("--modes", options->modes, "Number of modes; without it by the left-out hours")
+                "Fit time constants for each axis separately, even where several could share them");
+  verb.add_option("--modes", options->modes,
+                  "Number of modes; default: chosen by the left-out hours")
       ->check(within(1, 3));
-  CLI::Option* known =
-      verb.reads("--tau-from", options->tau_from,
-                 "Passport of a longer test: its time constants stand, its levels are a prior");
+  CLI::Option* known = verb.reads(
+      "--tau-from", options->tau_from,
+      "Passport from a longer test: its time constants are kept, its levels are a prior");
   verb.add_option("--levels", options->levels,
-                  "What levels are of the spindle's speed: polynomial (n, n² or both), or table, "
-                  "over the speeds that the log holds for 20 min, straight between them")
+                  "Levels as a function of spindle speed: polynomial (n, n² or both), or table "
+                  "over the speeds held for 20 min in the log, linear between them")
       ->check(CLI::IsMember({"polynomial", "table"}))
       ->excludes(known);
   verb.add_option("--horizon-min", options->horizon_min,
-                  "Minutes ahead that the passport shall forecast")
+                  "Forecast horizon of the passport, minutes")
       ->check(within(1.0, 1e5));
   verb.add_option(
       "--from-min", options->from_min,
-      "Leave out what is earlier in the log; of a log with stamps, minutes since its first row");
-  verb.add_option("--to-min", options->to_min, "Leave out what is later in the log, likewise");
+      "Ignore rows before this minute; in a log with time stamps, minutes since its first row");
+  verb.add_option("--to-min", options->to_min, "Ignore rows after this minute, likewise");
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -93,7 +93,7 @@ Outcome run_log(const Options& options) {
     return refused({kernel::outcome::Kind::bad_input,
                     {},
                     0,
-                    "--log has the inputs recorded",
+                    "--log already has the inputs",
                     "leave out --cyclogram, --program, --after and --ambient"});
   }
   ThermalReplayOptions replay = options.replay;
@@ -117,7 +117,7 @@ Outcome run(const Options& options) {
   if (rows > kMostRows) {
     return refused(
         {kernel::outcome::Kind::bad_input, job->cyclogram.file, 0,
-         fmt::format("{:.3g} minutes in steps of {:.3g} s are {:.3g} rows, more than {:.0f}",
+         fmt::format("{:.3g} minutes in steps of {:.3g} s make {:.3g} rows, more than {:.0f}",
                      job->cyclogram.total_s() / 60.0, options.step_s, rows, kMostRows),
          fmt::format("give --step-s {:.0f} or more",
                      std::ceil(job->cyclogram.total_s() / kMostRows))});
@@ -161,30 +161,30 @@ Outcome run(const Options& options) {
 }  // namespace
 
 void add_verb_thermal_forecast(Session& session) {
-  CLI::App& group = session.group("thermal", "Drift by heat");
+  CLI::App& group = session.group("thermal", "Thermal drift");
   Verb& verb =
-      session.verb(group, "forecast", "How far heat will displace the axes",
+      session.verb(group, "forecast", "Forecast the thermal drift of each axis",
                    "thermal forecast --machine examples/paper-thermal/machine.toml "
                    "--cyclogram examples/paper-thermal/cyclogram.toml --report out/forecast");
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
   verb.writes("-o,--output", options->output, "Write the curve to this CSV", curve_content());
   verb.reports(options->report);
-  verb.add_option("--step-s", options->step_s, "Seconds from row to row")
-      ->check(within(0.1, 86400.0));
+  verb.add_option("--step-s", options->step_s, "Seconds between rows")->check(within(0.1, 86400.0));
   CLI::Option* log = verb.reads("--log", options->replay.log,
-                                "Recorded inputs instead of a cyclogram: CSV as for thermal fit");
+                                "Recorded inputs instead of a cyclogram: CSV as for `thermal fit`");
   add_log_options(verb, options->replay.format);
   verb.add_option("--from-min", options->replay.from_min,
-                  "Minute of the log's clock, or since its first stamp: readings before it set the "
-                  "state, after it is forecast; without it from the passport's end on")
+                  "Minute on the log's clock, or since its first stamp: earlier readings set the "
+                  "state, the rest is forecast; default: the end of the passport's log")
       ->needs(log);
-  verb.add_option("--rezero-min", options->replay.rezero_min,
-                  "A reading of the log each so many minutes sets the forecast right; 0 = none")
+  verb.add_option(
+          "--rezero-min", options->replay.rezero_min,
+          "Re-zero the forecast with a reading from the log every so many minutes; 0 = never")
       ->check(within(0.0, 1e5))
       ->needs(log);
   verb.add_option("--channel", options->replay.channels,
-                  "Column of the log that measures an axis, as z_um=Z; may be given again")
+                  "Log column that measures an axis, as z_um=Z; repeatable")
       ->needs(log);
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }

@@ -222,7 +222,7 @@ Outcome run(const Options& options) {
     return refused(Refusal{
         Kind::bad_input, options.thermal.machine, 0,
         fmt::format("level {} has no share; [thermal] shares has {}", level, passport.share.size()),
-        fmt::format("choose a level of 0 … {}", passport.share.size() - 1)});
+        fmt::format("choose a level, 0 … {}", passport.share.size() - 1)});
   }
   thermal::offline::PlanRequest request;
   request.tolerance_mm = mm_from_um(options.tolerance_um);
@@ -262,26 +262,26 @@ Outcome run(const Options& options) {
 }  // namespace
 
 void add_verb_thermal_plan(Session& session) {
-  CLI::App& group = session.group("thermal", "Drift by heat");
-  Verb& verb = session.verb(group, "plan", "When which axis must be corrected by how much",
+  CLI::App& group = session.group("thermal", "Thermal drift");
+  Verb& verb = session.verb(group, "plan", "Plan when to correct each axis, and by how much",
                             "thermal plan --machine examples/paper-thermal/machine.toml "
                             "--cyclogram examples/paper-thermal/cyclogram.toml "
                             "--tolerance-um 10 --level 0 --report out/plan");
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
   verb.add_option("--tolerance-um", options->tolerance_um,
-                  "Tolerance Δ, µm, where a transition has none of its own")
+                  "Tolerance Δ, µm, for transitions without one")
       ->check(within(0.01, 1e5));
-  verb.add_option(
-          "--level", options->level,
-          "Level of exactness: which of the machine's shares k; without it the one in force")
+  verb.add_option("--level", options->level,
+                  "Level, the index of the machine's share k; default: the level in force")
       ->check(within(0, 7));
-  verb.add_flag("--whole-band", options->whole_band, "Corrections of 2·k·Δ in half as many places");
+  verb.add_flag("--whole-band", options->whole_band,
+                "Corrections of 2·k·Δ, in half as many places");
   verb.add_option("--resolution-min", options->resolution_min,
-                  "Round the instants to whole multiples, min; 0 = not")
+                  "Round correction times to whole multiples, min; 0 = no rounding")
       ->check(within(0.0, 60.0));
   verb.reports(options->report);
-  verb.writes("-o,--output", options->output, "Write PLAN.json, which `program compensate` reads",
+  verb.writes("-o,--output", options->output, "Write PLAN.json, for `program compensate`",
               plan_content());
   session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
 }

@@ -30,7 +30,7 @@ Result<offline::BenchScene> scene_named(const std::string& name) {
     }
   }
   return std::unexpected(
-      Refusal{Kind::bad_input, "", 0, "there is no scene \"" + name + "\"", "give another one"});
+      Refusal{Kind::bad_input, "", 0, "there is no scene \"" + name + "\"", "choose another"});
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+// A period of q passes costs q matrix products and keeps q sets of matrices, so both are bounded:
+// beyond them an RVF has no principal period worth the memory.
 constexpr std::size_t kMostPasses = 4096;
 constexpr std::size_t kMostLawPeriods = 64;
 /// Angle of the fastest oscillation in one piece, and nodes for it: 1e-9 in the multipliers.
@@ -32,6 +34,8 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
   out.components_ = directions(process);
   out.plain_ = process.even_pitch() && process.cut.process_damping_n_mm == 0.0;
   const bool even = process.even_pitch();
+  // With even pitch all teeth see the same delay, so one tooth pitch is a period; with uneven pitch
+  // the cut repeats only after a whole revolution.
   out.pass_rad_ = even ? kTurn / static_cast<double>(process.tool.teeth) : kTurn;
   const auto whole = [&out](double angle_rad) {
     return std::max(1.0, std::round(angle_rad / out.pass_rad_)) * out.pass_rad_;
@@ -41,6 +45,8 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
           ? SpeedProfile(config.speed_rev_s, config.modulation)
           : SpeedProfile(config.course, whole(SpeedProfile::angle_rad(config.course)));
   if (!speed.constant()) {
+    // The principal period is the least common multiple of law and tooth pass: r law periods that
+    // make a whole number of passes, to within rounding.
     const double q = speed.period_rad() / out.pass_rad_;
     out.passes_ = 0;
     for (std::size_t r = 1; r <= kMostLawPeriods && out.passes_ == 0; ++r) {
@@ -56,7 +62,7 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
           Refusal{Kind::bad_input, "", 0,
                   fmt::format("RVF {} has no principal period of {} tooth passes or less",
                               config.modulation.rvf, kMostPasses),
-                  "take RVF = teeth/q with whole q, or a ratio of small whole numbers"});
+                  "use RVF = teeth/q with whole q, or a ratio of small whole numbers"});
     }
   }
   if (auto refusal =
@@ -64,13 +70,18 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
     return std::unexpected(std::move(*refusal));
   }
   out.period_s_ = speed.time_s(static_cast<double>(out.passes_) * out.pass_rad_);
+  // Last, after every refusal: planning allocates and fills all matrices.
   out.plan(speed, config);
   return out;
 }
 
 void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
+  // Sized for the greatest depth: the cutting stiffness a·K raises the frequencies that the nodes
+  // must resolve, so smaller depths are resolved all the more.
   depth_mm_ = config.most_depth_mm;
   const CuttingCoefficients coefficients(process_, depth_mm_);
+  // At the slowest speed a given angle lasts longest and holds the most waves; pieces that do there
+  // do everywhere.
   const double slowest_rev_s = speed.slowest_rad_s() / kTurn;
   const double fastest = fastest_rad_s(process_, config.most_depth_mm, slowest_rev_s);
   std::vector<Piece> pass;
@@ -82,6 +93,7 @@ void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
   }
   const std::vector<double> corners = corners_of_pass(process_, coefficients, pass_rad_, of_speed);
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    // Decided in the middle: at the corners themselves a tooth is just entering or leaving.
     const bool cuts = cuts_at(coefficients, pass_rad_, 0.5 * (corners[i] + corners[i + 1]));
     const double length = corners[i + 1] - corners[i];
     const double phase = length / (kTurn * slowest_rev_s) * fastest;
@@ -99,6 +111,8 @@ void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
   state_size_ = modal_size();
   for (Piece& piece : pass) {
     if (piece.cuts) {
+      // Only cutting pieces are read by the next tooth, so only their displacements belong to the
+      // state.
       piece.slot = state_size_;
       state_size_ += piece.nodes * components_;
     }
@@ -113,6 +127,7 @@ void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
       for (Index n = 0; n < piece.nodes; ++n) {
         const double angle =
             static_cast<double>(p) * pass_rad_ + piece.begin_rad + length * gauss.node[n];
+        // dt = dθ/Ω: the speed enters nowhere else, which is why θ is the independent variable.
         piece.sigma_s[n] = length / speed.speed_rad_s(angle);
       }
       static_cast<ModalAnswers&>(piece) = modal_answers(process_, gauss, piece.sigma_s, components_,
@@ -146,6 +161,8 @@ void DelayCycle::fill_plain(Piece& piece) const {
       }
     }
   }
+  // With one delay and no process damping x − x_delayed is solved for directly; the forces, and
+  // with them K and R, are not needed.
   piece.k.resize(0, 0);
   piece.r.resize(0, 0);
 }
@@ -159,6 +176,7 @@ void DelayCycle::fill_reads(std::size_t index) {
   const CuttingCoefficients coefficients(process_, depth_mm_);
   const bool even = process_.even_pitch();
   piece.delayed.clear();
+  // With even pitch all teeth share one delay, so their stiffnesses add up to one term.
   const std::size_t terms = even ? 1 : coefficients.teeth();
   for (std::size_t j = 0; j < terms; ++j) {
     Delayed delayed;
@@ -169,6 +187,8 @@ void DelayCycle::fill_reads(std::size_t index) {
         h += coefficients.stiffness(other, angle);
       }
       delayed.h.push_back(h);
+      // Even pitch: the delayed point is the same node one pass before. Uneven: it falls between
+      // nodes and is interpolated.
       delayed.read.push_back(even ? Read{i, true, n, {}} : read_at(angle - process_.pitch_rad(j)));
     }
     const bool answers = std::ranges::any_of(
@@ -182,6 +202,7 @@ void DelayCycle::fill_reads(std::size_t index) {
 
 DelayCycle::Read DelayCycle::read_at(double angle_rad) const {
   const bool before = angle_rad < 0.0;
+  // No tooth's pitch exceeds a revolution, so one pass back is always enough.
   const double within = before ? angle_rad + pass_rad_ : angle_rad;
   const auto& pass = pieces_[0];
   std::size_t i = 0;
@@ -213,6 +234,8 @@ void DelayCycle::fill_cut(Piece& piece) const {
       for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
         p += coefficients.damping(j, angle);
       }
+      // σ is length over Ω, so this is Ω/2π at the node: process damping is C·(a/v)·ẋ and falls
+      // with the speed.
       const double rev_s = (piece.end_rad - piece.begin_rad) / piece.sigma_s[i] / kTurn;
       p /= rev_s;
     }
@@ -234,6 +257,7 @@ void DelayCycle::set_depth(double depth_mm) {
   for (auto& pass : pieces_) {
     for (Piece& piece : pass) {
       if (piece.cuts) {
+        // The depth enters linearly: K and Φ stay, only (I + a·HK)⁻¹ is made for each depth.
         piece.inverse.make(piece.answer, depth_mm);
       }
     }
@@ -288,14 +312,17 @@ void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
     };
     right_.resize(size);
     if (plain_) {
+      // y = x − x_delayed satisfies (I + a·KH)·y = Φ·s − x_delayed.
       right_ = -before;
       right_.noalias() += piece.phi * modal_;
       solve();
       piece.x = before + solved_;
       modal_ = piece.e * modal_;
+      // F = −a·H·y on the tool.
       modal_.noalias() -= piece.rh * (depth_mm_ * solved_);
     } else {
       delayed(piece, state, right_);
+      // Here the unknown is F/a: (I + a·(HK + PK̇))·F/a = Σ H·x_delayed − (HΦ + PΦ̇)·s.
       right_.noalias() -= piece.hphi * modal_;
       solve();
       solved_ *= depth_mm_;
@@ -304,6 +331,7 @@ void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
       modal_ = piece.e * modal_;
       modal_.noalias() += piece.r * solved_;
     }
+    // In place: no delay is longer than a pass, so the values of the pass before are used up now.
     before = piece.x;
   }
   state.head(modal_size()) = modal_;
@@ -362,6 +390,8 @@ void DelayCycle::retreat(std::size_t pass, Eigen::Ref<Eigen::VectorXd> row) {
       modal = (piece.e.transpose() * modal + piece.phi.transpose() * slot -
                piece.hphi.transpose() * solved_)
                   .eval();
+      // advance() overwrote these displacements, so nothing before this piece depends on them
+      // except through `delayed`, which undelayed() adds back.
       slot.setZero();
       undelayed(piece, solved_, row);
     }
@@ -387,6 +417,7 @@ std::vector<DelayCycle::Sample> DelayCycle::last_pass(std::size_t pass) const {
   }
   for (const Piece& piece : pieces_[pass]) {
     const GaussNodes& gauss = GaussNodes::of(piece.nodes);
+    // Time since the piece's start: ∫dθ/Ω to each node.
     const Eigen::VectorXd since = gauss.integral * piece.sigma_s;
     for (Index i = 0; i < piece.nodes; ++i) {
       out.push_back({t + since[i], gauss.weight[i] * piece.sigma_s[i], piece.x[i]});

@@ -32,6 +32,7 @@ kernel::outcome::Result<DelayLaw> DelayLaw::make(const Config& config) {
   }
   double least = config.period_s;
   double most = 0.0;
+  // ω² + Σ|κ| bounds the fastest oscillation with all delayed terms in phase.
   double square = config.natural_rad_s * config.natural_rad_s;
   for (const Term& term : config.terms) {
     for (int i = 0; i < kSamples; ++i) {
@@ -48,10 +49,13 @@ kernel::outcome::Result<DelayLaw> DelayLaw::make(const Config& config) {
         "keep the delay above 0 at all times"});
   }
   DelayLaw out;
+  // A piece shorter than the least delay never reads itself, so each follows from earlier ones
+  // without a solve.
   const double pieces = std::ceil(std::max(config.period_s * std::sqrt(square) / kPiecePhase,
                                            config.period_s / (kMargin * least)));
   const double length = config.period_s / pieces;
   out.nodes_ = std::min(static_cast<Index>(std::ceil(kNodes * config.fineness)), GaussNodes::kMost);
+  // A delay may exceed the period; its extremes are only sampled, hence the margin.
   out.history_ = static_cast<Index>(std::ceil(1.001 * most / length)) + 1;
   out.terms_ = config.terms.size();
   out.fill_piece(config, length);
@@ -62,6 +66,7 @@ kernel::outcome::Result<DelayLaw> DelayLaw::make(const Config& config) {
       for (const Term& term : config.terms) {
         const double at = (p + gauss.node[i]) * length;
         const double before = gauss.node[i] - term.delay_s(at) / length;  // in pieces from p
+        // At least one piece back, whatever rounding makes of a delay just above a piece.
         const double back = std::max(1.0, -std::floor(before));
         reads.push_back(
             {static_cast<Index>(back), term.stiffness_1_s2 * gauss.interpolation(before + back)});

@@ -30,12 +30,14 @@ GaussNodes make(Index n) {
   Eigen::VectorXd x(n);
   Eigen::VectorXd w(n);
   for (Index i = 0; i < n; ++i) {
+    // The usual first guess for the zeros of P_n; a few of Newton's steps finish it.
     double z = -std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) /
                          (static_cast<double>(n) + 0.5));
     double slope = 1.0;
     for (int step = 0; step < 20; ++step) {
       const Eigen::VectorXd p = legendre(z, n);
       const double lower = n > 0 ? p[n - 1] : 0.0;
+      // P_n′ from the recurrence (1 − z²)·P_n′ = n·(P_{n−1} − z·P_n).
       slope = static_cast<double>(n) * (z * p[n] - lower) / (z * z - 1.0);
       const double change = p[n] / slope;
       z -= change;
@@ -46,6 +48,7 @@ GaussNodes make(Index n) {
     x[i] = z;
     w[i] = 2.0 / ((1.0 - z * z) * slope * slope);
   }
+  // From [−1, 1] to [0, 1].
   out.node = 0.5 * (x.array() + 1.0);
   out.weight = 0.5 * w;
   // ℓ_j = w_j·Σ_k (2k+1)/2·P_k(x_j)·P_k, and ∫₋₁ˣ P_k = (P_{k+1} − P_{k−1})/(2k + 1).
@@ -66,6 +69,8 @@ GaussNodes make(Index n) {
   out.integral2 = out.integral * out.integral;
   out.barycentric.resize(n);
   for (Index j = 0; j < n; ++j) {
+    // Barycentric weights at Legendre points (Wang and Xiang 2012): ±√((1 − x²)·w), a common factor
+    // left out.
     const double sign = j % 2 == 0 ? 1.0 : -1.0;
     out.barycentric[j] = sign * std::sqrt((1.0 - x[j] * x[j]) * w[j]);
   }
@@ -78,6 +83,7 @@ Eigen::RowVectorXd GaussNodes::interpolation(double x) const {
   Eigen::RowVectorXd out(node.size());
   for (Index j = 0; j < node.size(); ++j) {
     const double d = x - node[j];
+    // On the node itself the formula divides by 0.
     if (std::abs(d) < 1e-14) {
       out.setZero();
       out[j] = 1.0;

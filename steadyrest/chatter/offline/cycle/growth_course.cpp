@@ -22,6 +22,7 @@ constexpr double kDied = 1e-4;            ///< of its peak, then it is followed 
 /// Ends the course where it has died.
 bool died(const std::vector<double>& log_growth, double peak) {
   const double now = log_growth.back();
+  // Both: a vibration that fell from a high peak may still be larger than it began.
   return now < peak + std::log(kDied) && now < 0.0;
 }
 
@@ -41,6 +42,8 @@ class EvenPasses {
   GrowthCourse course(Index modal_rows) {
     const Index apart = (rows_ + kMostRows - 1) / kMostRows;
     std::set<Index> wanted;
+    // q and v/ω of the modes are few and unlike each other, so all of them are followed; nodes
+    // beside each other are nearly alike.
     for (Index i = 0; i < rows_; i += i < modal_rows ? 1 : apart) {
       wanted.insert(i);
     }
@@ -76,6 +79,8 @@ class EvenPasses {
     Eigen::VectorXd row = Eigen::VectorXd::Unit(rows_, i);
     double log_size = 0.0;
     for (std::size_t k = 1; k < log_growth_.size(); ++k) {
+      // eᵢᵀ·P^k by the adjoint: one row at a time, without the whole matrix, which at low speed has
+      // thousands of rows.
       cycle_.retreat(0, row);
       const double sum = row.cwiseAbs().sum();
       if (!std::isfinite(sum)) {  // beyond a double's range within one pass
@@ -84,6 +89,7 @@ class EvenPasses {
       if (!(sum > 0.0) || !std::isfinite(sum)) {
         return;
       }
+      // Growth of 10¹² and more is ordinary at low speed: kept as a logarithm.
       row /= sum;
       log_size += std::log(sum);
       if (log_size > log_growth_[k]) {
@@ -144,6 +150,7 @@ std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {
   std::vector<GrowthCourse> out;
   out.resize(starts);
   tbb::parallel_for(std::size_t{0}, starts, [&](std::size_t k) {
+    // Starts are independent: one copy each, no locks.
     DelayCycle own = cycle;  // advance() leaves the last pass in it
     out[k] = course_from(own, k * passes / starts, std::max(2 * passes, kLeastWindow));
   });

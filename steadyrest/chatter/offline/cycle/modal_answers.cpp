@@ -12,6 +12,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+// Corners closer than this are one corner and its rounding.
 constexpr double kSameAngle = 1e-10;  ///< rad
 
 double modulo(double angle, double period) {
@@ -27,6 +28,7 @@ Index directions(const Process& process) noexcept {
 }
 
 double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s) noexcept {
+  // An upper bound: the whole cutting stiffness on each mode, in its own direction.
   const double stiffness =
       depth_mm * std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2);
   const double damping = depth_mm * process.cut.process_damping_n_mm /
@@ -51,6 +53,7 @@ std::vector<double> corners_of_pass(const Process& process, const CuttingCoeffic
     for (const double c : coefficients.corners_rad(j)) {
       all.push_back(modulo(c, pass_rad));
       for (std::size_t k = 0; !even && k < coefficients.teeth(); ++k) {
+        // A kink in the displacement returns with the delay of each tooth that reads it.
         all.push_back(modulo(c + process.pitch_rad(k), pass_rad));
       }
     }
@@ -68,6 +71,8 @@ std::vector<double> corners_of_pass(const Process& process, const CuttingCoeffic
 
 bool cuts_at(const CuttingCoefficients& coefficients, double pass_rad, double angle_rad) noexcept {
   for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
+    // All teeth fold onto one pass: it cuts if any tooth cuts at any of the angles that are the
+    // same place in the pass.
     for (double turn = 0.0; turn < kTurn - kSameAngle; turn += pass_rad) {
       if (coefficients.stiffness(j, angle_rad + turn).cwiseAbs().maxCoeff() > 0.0) {
         return true;
@@ -96,6 +101,8 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
     const Mode& mode = process.modes[static_cast<std::size_t>(m)];
     const double w = kTurn * mode.frequency_hz;
     const double d = 2.0 * mode.damping_ratio * w;
+    // Collocated for the velocity, not the displacement: integrating twice is well conditioned,
+    // differentiating is not.
     inverse.make(d * s + w * w * s2, 1.0);
     // Columns: from q₀, from v₀/ω, from the force.
     Eigen::MatrixXd right(n, n + 2);
@@ -153,6 +160,7 @@ Eigen::MatrixXd free_answer(const Process& process, double length_s) {
   for (Index m = 0; m < modes; ++m) {
     const Mode& mode = process.modes[static_cast<std::size_t>(m)];
     const double z = mode.damping_ratio;
+    // The process file allows ζ up to 0.999, so the root is never 0.
     const double root = std::sqrt(1.0 - z * z);
     const double turn = kTurn * mode.frequency_hz * length_s;
     const double decay = std::exp(-z * turn);

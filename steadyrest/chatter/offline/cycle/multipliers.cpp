@@ -28,6 +28,8 @@ constexpr int kMostPeriods = 16;
 /// ln|μ| that is told where a vibration grows beyond a double's range within the period.
 constexpr double kBeyondLog = 700.0;
 
+// A fixed seed: the same cut gives the same digits in every run. Gaussian entries leave no
+// direction out.
 Eigen::VectorXd start_vector(Index size) {
   std::mt19937_64 random(20260401);
   std::normal_distribution<double> normal;
@@ -65,6 +67,8 @@ Ritz ritz(const Eigen::MatrixXd& h, const Eigen::MatrixXd& v, Index m, std::size
       break;
     }
     const double last = std::abs(vectors(m - 1, i)) / vectors.col(i).norm();
+    // |h(m+1,m)|·|last entry of y| is the residual of a Ritz pair (Saad), here relative to its
+    // value.
     out.residual = std::max(out.residual,
                             std::abs(h(m, m - 1)) * last / std::max(std::abs(values[i]), 1e-300));
   }
@@ -91,15 +95,20 @@ Ritz arnoldi(const Map& apply, Index size, std::size_t wanted, double tolerance,
     apply(w);
     ++applied;
     const double grown = w.norm();
+    // Very slow laws overflow within one period; the answer "unstable by far" is all that is
+    // needed.
     if (!std::isfinite(grown)) {
       return beyond(v.col(0));
     }
+    // Classical Gram–Schmidt twice: once loses orthogonality when the map grows a vector by many
+    // orders.
     for (int twice = 0; twice < 2; ++twice) {
       const Eigen::VectorXd c = v.leftCols(k + 1).transpose() * w;
       w -= v.leftCols(k + 1) * c;
       h.col(k).head(k + 1) += c;
     }
     const double left = w.norm();
+    // Below rounding the Krylov space is invariant, and its Ritz values are exact.
     const bool whole = left <= 1e-14 * grown || k + 1 == most;
     h(k + 1, k) = whole && left <= 1e-14 * grown ? 0.0 : left;
     if (k + 1 == look || whole) {
@@ -107,6 +116,7 @@ Ritz arnoldi(const Map& apply, Index size, std::size_t wanted, double tolerance,
       if (out.residual < tolerance || whole) {
         return out;
       }
+      // An eigenvalue problem of the whole matrix after each step would cost more than the steps.
       look = std::min(look + std::max(kKrylovStep, look / 8), most);
     }
     v.col(k + 1) = w / left;
@@ -127,6 +137,7 @@ struct Frame {
     const Eigen::MatrixXd r = qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
     basis = qr.householderQ() * Eigen::MatrixXd::Identity(basis.rows(), k);
     triangle = (r * triangle).eval();
+    // The triangle grows by many orders over a slow period; its scale is kept as a logarithm.
     const double scale = std::max(triangle.cwiseAbs().maxCoeff(), 1e-300);
     triangle /= scale;
     log_scale += std::log(scale);
@@ -148,6 +159,8 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, double tolerance, Multiplier
   double before = 1e300;
   std::vector<Complex> value;
   for (int period = 0; period < kMostPeriods; ++period) {
+    // The basis at the period's end is that at the next one's start, so that it settles on the
+    // dominant directions from period to period.
     const Eigen::MatrixXd start = frame.basis.leftCols(std::min<Index>(2, k));
     frame.triangle = Eigen::MatrixXd::Identity(k, k);
     frame.log_scale = 0.0;
@@ -164,6 +177,8 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, double tolerance, Multiplier
     }
     out.passes_done += cycle.passes() * static_cast<std::size_t>(k);
     const Index pair = start.cols();
+    // The period's map within the leading pair: the triangle gives it in the new basis, `turn`
+    // brings that back to the old one.
     const Eigen::MatrixXd turn = start.transpose() * frame.basis.leftCols(pair);
     const Eigen::MatrixXd map = turn * frame.triangle.topLeftCorner(pair, pair);
     const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map);
@@ -176,6 +191,8 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, double tolerance, Multiplier
     const double log_modulus = std::log(std::max(std::abs(value[0]), 1e-300)) + frame.log_scale;
     out.residual = std::abs(log_modulus - before);
     out.log_modulus = {log_modulus};
+    // Not after the first period: two that agree by chance before the basis has settled prove
+    // nothing.
     if (period > 1 && out.residual < tolerance * (1.0 + std::abs(log_modulus))) {
       break;
     }
@@ -204,6 +221,7 @@ double log_growth_within(DelayCycle& cycle, Eigen::VectorXd state) {
     const double norm = std::max(state.norm(), 1e-300);
     log_size += std::log(norm);
     state /= norm;
+    // Largest rise from any earlier minimum: both its ends are pass boundaries within this period.
     peak = std::max(peak, log_size - least);
     least = std::min(least, log_size);
   }

@@ -18,6 +18,7 @@ using Eigen::Index;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+// Short pieces need few terms, long ones few products; the terms fall as phase^(2k)/(2k)!.
 constexpr double kPiecePhase = 5.0;  ///< of the fastest oscillation
 constexpr double kLeastTerm = 1e-14;
 
@@ -98,6 +99,7 @@ double largest(const PassMatrix::Lanes& z) {
 
 std::size_t terms_for(const std::vector<double>& reach_mm, double size_mm) {
   std::size_t terms = reach_mm.size() - 1;
+  // Near z = 0 a few terms do.
   while (terms > 1 && size_mm <= reach_mm[terms - 1]) {
     --terms;
   }
@@ -162,12 +164,15 @@ PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z
         {process, coefficients, speed_rev_s, corner[i], length, static_cast<std::size_t>(pieces)});
   }
   for (const Series& series : series_) {
+    // Liouville: det M is that of the free vibration for every z, since forces depend on
+    // displacement alone; term 0 of each piece is its map at z = 0.
     determinant_ *=
         Eigen::Map<const RowMajor>(&number_[series.begin], order_, order_).determinant();
   }
 }
 
 void PassMatrix::add_free(const Eigen::MatrixXd& e) {
+  // One term, good for every z: nothing is cut here.
   series_.push_back({number_.size(), {0.0, most_z_mm_ * 1.0000001}});
   number_.resize(number_.size() + static_cast<std::size_t>(order_ * order_));
   Eigen::Map<RowMajor>(&number_[series_.back().begin], order_, order_) = e;
@@ -186,6 +191,8 @@ void PassMatrix::add_cutting(const Stretch& stretch) {
         size[t] = std::max(size[t], std::abs(number));
       }
     }
+    // From the last term down: with t terms the largest term left out is at most kLeastTerm as long
+    // as |z|^t·size stays below it.
     double reach = most_z_mm_ * 1.0000001;
     for (std::size_t t = terms.count(); t-- > 1;) {
       series.reach_mm[t + 1] = reach;
@@ -244,10 +251,12 @@ PassMatrix::Lanes PassMatrix::g_of(const Lanes& xi, const Lanes* value) const {
   Lanes out;
   if (order_ == 2) {
     for (std::size_t i = 0; i < kLanes; ++i) {
+      // det(I − ξ·M) = 1 − ξ·tr M + ξ²·det M for 2×2.
       out[i] = 1.0 - xi[i] * ((*value)[i] - xi[i] * determinant_);
     }
     return out;
   }
+  // Up to four modes without a heap allocation.
   constexpr int kMost = 8;
   using Small = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
   const auto determinant = [&]<typename Matrix>(Matrix m, std::size_t i) {

@@ -59,6 +59,7 @@ class Pieces {
     Rows out(order_ * stride_);
     for (std::size_t row = 0; row < order_; ++row) {
       for (std::size_t at = 0; at < order_ * pieces_; ++at) {
+        // z⁰: nothing is cut, and all pieces of the stretch are equally long.
         out[row * stride_ + at] = e_(static_cast<Index>(row), static_cast<Index>(at % order_));
       }
     }
@@ -75,6 +76,7 @@ class Pieces {
         const double* const h = &h_[(row * directions_ + from) * stride_];
         const double* const y = &y_[(from * static_cast<std::size_t>(kNodes) + node) * stride_];
         for (std::size_t i = 0; i < stride_; ++i) {
+          // F_{k+1} = −H·x_k.
           force[i] -= h[i] * y[i];
         }
       }
@@ -138,6 +140,8 @@ PieceTerms::PieceTerms(const Stretch& stretch, std::size_t order, double most_z_
     for (const double number : term_.back()) {
       largest = std::max(largest, std::abs(number));
     }
+    // At the greatest |z| asked for; the terms fall as 1/(2k)!, so all later ones are smaller
+    // still.
     if (largest * power < kLeastTerm) {
       break;
     }

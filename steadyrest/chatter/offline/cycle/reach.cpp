@@ -16,6 +16,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+// These catch a figure in the process file that is a million times off before it costs minutes and
+// gigabytes. Real cuts are far inside.
 constexpr double kMostWaves = 300.0;    ///< between two teeth
 constexpr double kMostDamped = 1000.0;  ///< likewise, the rate of process damping counted in
 constexpr double kLeastWaves = 1e-4;    ///< of the slowest mode, likewise
@@ -25,8 +27,8 @@ constexpr double kMostDepth_mm = 1e5;   ///< of all machines
 constexpr int kHalvings = 80;
 
 constexpr const char* kCheck =
-    "give what the machine does, and check frequency_hz, mass_kg or stiffness_N_um and the "
-    "coefficients of the process file";
+    "give what the machine really does, and check frequency_hz, mass_kg or stiffness_N_um and the "
+    "coefficients in the process file";
 
 double passes_per_rev(const Process& process) noexcept {
   return process.even_pitch() ? static_cast<double>(process.tool.teeth) : 1.0;
@@ -43,6 +45,7 @@ double winding(const Process& process, double depth_mm) noexcept {
 template <class Fits>
 double last_fit(double fits_at, double fails_at, const Fits& fits) {
   for (int i = 0; i < kHalvings; ++i) {
+    // Two roots, not the root of the product, which may overflow.
     const double middle = std::sqrt(fits_at) * std::sqrt(fails_at);
     (fits(middle) ? fits_at : fails_at) = middle;
   }
@@ -57,6 +60,7 @@ std::string allowed(double speed_rev_s, double depth_mm, const Fits& fits) {
   if (fits(speed_rev_s * kFar, depth_mm)) {
     const double least = last_fit(speed_rev_s * kFar, speed_rev_s,
                                   [&](double speed) { return fits(speed, depth_mm); });
+    // Rounded to the safe side, so that the speed named is accepted when it is typed back.
     out = fmt::format("at this depth from {:.4g} rpm on", 60.0 * least * 1.0001);
   }
   if (fits(speed_rev_s, depth_mm / kFar)) {
@@ -99,11 +103,12 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
   }
   if (const double turns = winding(process, most_depth_mm); turns > kMostWinding) {
     return refusal(
-        fmt::format("at a depth of {:.6g} mm a helical edge winds {:.4g} times round the "
-                    "tool; allowed are {:g} turns, {:.4g} mm",
+        fmt::format("at a depth of {:.6g} mm a helical edge winds {:.4g} times around the tool; "
+                    "allowed: {:g} turns, {:.4g} mm",
                     most_depth_mm, turns, kMostWinding, most_depth_mm * kMostWinding / turns),
         "give a smaller depth, or check diameter_mm and helix_deg of [tool]");
   }
+  // Process damping adds a rate of decay, not an oscillation; it is counted against a wider bound.
   Process undamped = process;
   undamped.cut.process_damping_n_mm = 0.0;
   const double in_period = kMostInPeriod / static_cast<double>(passes);

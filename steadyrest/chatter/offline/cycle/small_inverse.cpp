@@ -26,6 +26,7 @@ void SmallInverse::make(const Eigen::MatrixXd& m, double a) {
     double* const own = &number_[k * stride_];
     std::size_t p = k;
     for (std::size_t i = k + 1; i < size_; ++i) {
+      // Without pivots I + a·M loses digits where a·M is of the order of −1.
       p = std::abs(own[i]) > std::abs(own[p]) ? i : p;
     }
     pivot_[k] = p;
@@ -49,6 +50,7 @@ void SmallInverse::make(const Eigen::MatrixXd& m, double a) {
   }
   for (std::size_t k = size_; k-- > 0;) {
     if (pivot_[k] != k) {
+      // Rows were swapped on the way; of the inverse these are the columns, in the opposite order.
       std::swap_ranges(&number_[k * stride_], &number_[k * stride_] + size_,
                        &number_[pivot_[k] * stride_]);
     }

@@ -53,7 +53,10 @@ std::optional<double> strongest_line_hz(DelayCycle& cycle, const Multipliers& fo
   for (std::size_t i = 0; i < first.size(); ++i) {
     const double t = first[i].t_s;
     const double x = first[i].x_mm;
+    // x(t + T)/|μ| = Re(μ·z) = Re μ·x − Im μ·y with μ on the unit circle, solved for y.
     const double y = real ? 0.0 : (x * mu.real() - second[i].x_mm) / mu.imag();
+    // With the growth taken out the rest is periodic: its Fourier sums over the Gauss weights, all
+    // lines at the price of one complex product each by turning every term on from k to k + 1.
     term[i] = first[i].weight_s * Complex(x, y) * std::exp(-growth * t) *
               std::polar(1.0, -(turn - base * most) * t);
     rotor[i] = std::polar(1.0, -base * t);
@@ -94,6 +97,7 @@ Stability stability(DelayCycle& cycle, const StabilityOptions& options) {
   Stability out;
   out.passes = cycle.passes();
   out.law_periods = cycle.law_periods();
+  // The principal period may hold several periods of the law; what is reported is per law period.
   out.log_radius = found.log_modulus[0] / static_cast<double>(cycle.law_periods());
   out.log_radius_per_pass = found.log_modulus[0] / static_cast<double>(cycle.passes());
   out.stable = out.log_radius < 0.0;

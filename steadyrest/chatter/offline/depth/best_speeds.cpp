@@ -56,6 +56,7 @@ class Curve {
 
 /// The slowest speed that is worth a look; empty: the solver reaches none.
 std::optional<double> slowest(const Process& process, const BestSpeedsConfig& config) {
+  // Waves go with 1/n: at this speed there are kMostWaves between two teeth.
   const double lobes = free_waves(process, config.max_rev_s) / kMostWaves * config.max_rev_s;
   double out = std::max(config.min_rev_s, std::min(lobes, kLeastRange * config.max_rev_s));
   while (out < config.max_rev_s &&
@@ -117,12 +118,14 @@ Result<std::vector<BestSpeed>> best_speeds(const Process& process, const BestSpe
   }
   const Curve curve(*line, config.most_depth_mm);
   std::vector<double> speed{*from};
+  // The points of the border are dense where it bends, and maxima lie at such points.
   std::ranges::copy_if(line->speed_rev_s, std::back_inserter(speed),
                        [&](double n) { return n > *from && n < config.max_rev_s; });
   speed.push_back(config.max_rev_s);
   std::vector<double> worth;
   worth.reserve(speed.size());
   for (const double n : speed) {
+    // A change of all natural frequencies by a factor is a change of the speed by it.
     worth.push_back(curve.lowest(n * low, n * high));
   }
   const auto below_most = [&](double depth_mm) {
@@ -135,6 +138,7 @@ Result<std::vector<BestSpeed>> best_speeds(const Process& process, const BestSpe
     if (!peak) {
       break;
     }
+    // The middle of a flat top, farthest from both flanks.
     const double n = 0.5 * (speed[peak->first] + speed[peak->last]);
     const auto limit = limit_depth_mm(process, n, {}, config.most_depth_mm);
     if (!limit) {

@@ -56,6 +56,8 @@ class Line {
     std::ranges::transform(config_.speed_rev_s, points.begin(),
                            [](double speed) { return Point{.speed_rev_s = speed}; });
     evaluate(points);
+    // A slow cut (law, uneven pitch, process damping, helix) rebuilds its map for each depth: there
+    // the number of points is what costs.
     left_ = quick_ ? kQuickPoints : std::max(kSlowPoints, points.size());
     for (std::vector<Span> open = refused_ ? std::vector<Span>{} : first_spans(points);
          !open.empty() && !refused_;) {
@@ -105,13 +107,16 @@ class Line {
     std::vector<double> parts;
     double sum = 0.0;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      // One lobe is one wave more or fewer between two teeth.
       parts.push_back(kPerLobe * (free_waves(process_, points[i].speed_rev_s) -
                                   free_waves(process_, points[i + 1].speed_rev_s)));
       sum += parts.back();
     }
+    // At most a quarter of the work goes into first points; the rest refines.
     const double share = std::min(1.0, 0.25 * static_cast<double>(left_) / std::max(sum, 1.0));
     std::vector<Point> more;
     for (std::size_t i = 0; i < parts.size(); ++i) {
+      // Even in 1/speed: lobes are even in waves between teeth, and those go with 1/n.
       const double from = 1.0 / points[i].speed_rev_s;
       const double to = 1.0 / points[i + 1].speed_rev_s;
       const double count = std::floor(share * parts[i]);
@@ -122,6 +127,8 @@ class Line {
     evaluate(more);
     left_ -= std::min(left_, more.size());
     points.insert(points.end(), more.begin(), more.end());
+    // Only when every lobe has been seen: otherwise the lowest of them might be missing and the
+    // search would begin above it.
     if (share == 1.0) {
       from_mm_ =
           kFrom * std::ranges::min(points | std::views::transform([this](const Point& point) {
@@ -142,6 +149,7 @@ class Line {
   void spend(std::vector<Span>& open) {
     if (open.size() > left_) {
       settled_ = false;
+      // The worst first, so that what runs out of work is the least visible.
       std::ranges::sort(open, std::ranges::greater{}, &Span::doubt_mm);
       open.resize(left_);
     }
@@ -166,6 +174,8 @@ class Line {
       const double width = span.to.speed_rev_s - span.from.speed_rev_s;
       const double lobe =
           span.to.speed_rev_s / std::max(1.0, free_waves(process_, span.to.speed_rev_s));
+      // One calm middle may be chance, where the line happens to cross the border; two in a row are
+      // not. A jump onto an island never calms down, so it ends by width.
       if ((calm && span.calm) || width <= kNarrow * lobe) {
         continue;
       }
@@ -193,8 +203,9 @@ Result<BorderLine> border_line(const Process& process, const BorderLineConfig& c
   const std::vector<double>& speed = config.speed_rev_s;
   const bool rises = std::ranges::adjacent_find(speed, std::ranges::greater_equal{}) == speed.end();
   if (speed.empty() || !rises) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0, "the speeds of the border do not rise",
-                                   "give at least one speed, rising"});
+    return std::unexpected(Refusal{Kind::bad_input, "", 0,
+                                   "the border speeds are not in rising order",
+                                   "give one speed or more, in rising order"});
   }
   return Line(process, config).run(progress);
 }

@@ -40,7 +40,7 @@ double least_decay_1_s(const Process& process) {
 Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
                                   const Modulation& modulation, double most_depth_mm) {
   if (process.modes.empty()) {
-    return refusal("the process has no mode", "name at least one mode that vibrates");
+    return refusal("the process has no mode", "give at least one vibration mode");
   }
   if (!(speed_rev_s > 0.0) || !std::isfinite(speed_rev_s)) {
     return refusal(fmt::format("speed {} rev/s; allowed: above 0", speed_rev_s),
@@ -69,6 +69,7 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
       return std::unexpected(std::move(*refused));
     }
   }
+  // With helix and several modes each depth needs its matrices anew and the tracker gains nothing.
   if (constant && PassMatrix::simple(process) && (straight || process.modes.size() == 1)) {
     out.tracker_ = std::make_unique<DepthTracker>(process, speed_rev_s, most_depth_mm);
     out.free_log_radius_ = -decay / (speed_rev_s * static_cast<double>(process.tool.teeth));
@@ -80,6 +81,7 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
   }
   out.free_log_radius_ = -decay * cycle->period_s() / static_cast<double>(cycle->law_periods());
   out.work_ = static_cast<std::size_t>(cycle->state_size()) * cycle->passes();
+  // Straight teeth: the depth only scales the forces, so one cycle serves all depths.
   if (straight) {
     out.cycle_ = std::make_unique<DelayCycle>(std::move(*cycle));
   }

@@ -59,6 +59,8 @@ DepthTracker::DepthTracker(Process process, double speed_rev_s, double most_dept
   const double pass_s = 1.0 / (static_cast<double>(process_.tool.teeth) * speed_rev_s_);
   for (const Complex& mu : free_multipliers(process_, pass_s)) {
     free_log_radius_ = std::max(free_log_radius_, std::log(std::abs(mu)));
+    // At depth 0 nothing is cut: the multipliers are those of the free vibration, known in closed
+    // form, and every root starts there.
     if (std::abs(mu) * kMostXi > 1.0) {
       roots_.push_back({upper(1.0 / mu), 0.0});
     }
@@ -68,10 +70,14 @@ DepthTracker::DepthTracker(Process process, double speed_rev_s, double most_dept
 
 void DepthTracker::sort() {
   std::ranges::sort(roots_, {}, [](const Root& r) { return std::abs(r.xi); });
+  // Two that were followed separately may have landed on one zero; counted twice, it would spoil
+  // the count in verified().
   const auto same = [](const Root& a, const Root& b) {
     return std::abs(a.xi - b.xi) < kSame * std::abs(a.xi);
   };
   roots_.erase(std::unique(roots_.begin(), roots_.end(), same), roots_.end());
+  // Zeros far outside cannot become dominant within the next step and only cost evaluations;
+  // verified() finds them if they come near.
   const double most =
       roots_.empty() ? kMostXi : std::min(kMostXi, kFollowed * std::abs(roots_[0].xi));
   std::erase_if(roots_, [most](const Root& r) { return std::abs(r.xi) > most; });
@@ -89,6 +95,7 @@ const PassMatrix& DepthTracker::pass(double z_mm, double depth_mm) {
     }
     return *pass_[0];
   }
+  // |z| = a·|1 − ξ| ≤ a·(1 + |ξ|); refine() lets |ξ| reach twice kMostXi.
   double most = (1.0 + 2.0 * kMostXi) * most_depth_mm_;
   std::size_t level = 0;
   while (level + 1 < kLevels && z_mm <= most / kLevelRatio) {
@@ -107,10 +114,13 @@ void DepthTracker::aim(double size, double depth_mm) {
     return;
   }
   for (double span = each_depth_ ? kLeastSpan : kSpan; span >= kLeastSpan; span *= 0.25) {
+    // Ahead of the present depth: depths are asked for in rising order. z = a·(1 − ξ) for all a of
+    // the span and |ξ| ≤ size lies within this disc.
     const double center = (1.0 + 0.5 * span) * depth_mm;
     const double radius = 0.5 * span * depth_mm + size * (1.0 + span) * depth_mm;
     disc_ = PassDisc::make(pass(center + radius, depth_mm), center, radius, terms_);
     if (disc_) {
+      // The next disc starts from as many terms as this one took.
       terms_ = disc_->terms();
       return;
     }
@@ -128,6 +138,7 @@ void DepthTracker::g(std::span<const Complex> xi, double depth_mm, std::span<Com
     disc_->g(xi, depth_mm, out);
     return;
   }
+  // Without a disc: the product of all pieces at each z.
   const PassMatrix& matrix = pass((1.0 + size) * depth_mm, depth_mm);
   for (std::size_t k = 0; k < xi.size(); k += PassMatrix::kLanes) {
     PassMatrix::Lanes lanes;
@@ -143,15 +154,18 @@ std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm,
   double h = kNudge * std::abs(start);
   for (int i = 0; i < kMostSteps; ++i) {
     PassMatrix::Lanes at;
+    // The fourth lane is idle; four cost little more than three.
     const PassMatrix::Lanes xi{x, x + h, x - h, x};
     g(xi, depth_mm, at);
     for (const Complex& zero : but) {
       for (std::size_t k = 0; k < 3; ++k) {
+        // Divided out with its conjugate: g is real on the real axis, so zeros come in pairs.
         at[k] /= zero.imag() == 0.0 ? xi[k] - zero : (xi[k] - zero) * (xi[k] - std::conj(zero));
       }
     }
     const Complex slope = (at[1] - at[2]) / (2.0 * h);
     const Complex bend = (at[1] - 2.0 * at[0] + at[2]) / (h * h);
+    // Halley: x − 2·g·g′/(2·g′² − g·g″).
     const Complex below = 2.0 * slope * slope - at[0] * bend;
     if (below == 0.0) {
       return at[0] == 0.0 ? std::optional<Complex>(x) : std::nullopt;
@@ -160,6 +174,7 @@ std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm,
     x -= step;
     const double size = std::sqrt(std::norm(x));
     const double moved = std::sqrt(std::norm(step));
+    // Also catches NaN. Beyond, the matrices were not made for such z.
     if (!(size < 2.0 * kMostXi)) {
       return std::nullopt;
     }
@@ -167,6 +182,7 @@ std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm,
     if (moved < kLastStep * size) {
       return x;
     }
+    // Differences over less than the last step; too small a h would drown in the rounding of g.
     h = std::clamp(0.3 * moved, kLeastNudge * size, kNudge * size);
   }
   return std::nullopt;
@@ -177,6 +193,8 @@ bool DepthTracker::follow(Root& root, double from_mm, double to_mm) {
   double at = from_mm;
   double step = to_mm - from_mm;
   for (int tries = 0; tries < 40; ++tries) {
+    // First-order prediction along the depth, then correction: a pair of zeros that crosses others
+    // keeps its identity.
     const Complex guess = root.xi + root.slope * step;
     const auto next = refine(guess, at + step);
     // A step that is far from what was foretold may have landed on a neighbour.
@@ -193,6 +211,7 @@ bool DepthTracker::follow(Root& root, double from_mm, double to_mm) {
     at += step;
     if (std::abs(at - to_mm) <= 1e-12 * most_depth_mm_) {
       root.xi = upper(root.xi);
+      // A pair that met on the real axis goes on as real zeros; a complex slope would lead it off.
       if (root.xi.imag() == 0.0) {
         root.slope = root.slope.real();
       }
@@ -234,6 +253,8 @@ std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
     ahead[0] = {kUnit[k], value[k]};
     while (true) {
       const Point& next = ahead[depth];
+      // Two points whose g are less than 90° apart (positive inner product) cannot hide a turn
+      // between them; otherwise the arc is halved.
       // Less than a quarter turn: then the quadrants tell how many of them there are in all.
       if (next.g.real() * last.g.real() + next.g.imag() * last.g.imag() > 0.0) {
         const int step = quadrant(next.g) - quadrant(last.g);
@@ -249,6 +270,7 @@ std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
         return std::nullopt;
       }
       Complex between = last.unit + next.unit;
+      // The middle of an arc less than a half turn long.
       between /= std::sqrt(std::norm(between));
       const Complex at = radius * between;
       PassMatrix::Lanes there;
@@ -256,6 +278,7 @@ std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
       ahead[++depth] = {between, there[0]};
     }
   }
+  // Quarter turns over the half circle, twice as many over the whole, four of them for each zero.
   return quarters / 2;
 }
 
@@ -265,6 +288,8 @@ bool DepthTracker::verified(double depth_mm) {
     return false;
   }
   const double dominant = std::abs(roots_[0].xi);
+  // The circle must pass between zeros: those just outside are taken in, and before the first gap
+  // it stops halfway.
   double radius = kOutside * dominant;
   int expected = 0;
   for (const Root& root : roots_) {
@@ -284,6 +309,8 @@ bool DepthTracker::verified(double depth_mm) {
 /// Looks for zeros that have come near from outside, those that are known divided out, until none
 /// is missing.
 bool DepthTracker::search(double depth_mm) {
+  // A zero that has come near from outside is about as far out as the dominant one: the search
+  // starts on a half circle of that size.
   const double radius = roots_.empty() ? 1.0 : std::abs(roots_[0].xi);
   std::vector<Complex> known;
   known.reserve(roots_.size() + kStarts);
@@ -294,6 +321,7 @@ bool DepthTracker::search(double depth_mm) {
     const double angle =
         std::numbers::pi * static_cast<double>(k) / static_cast<double>(kStarts - 1);
     const auto near = refine(std::polar(radius, angle), depth_mm, known);
+    // Once more on g itself: dividing known zeros out shifts what is found by their errors.
     const auto xi = near ? refine(*near, depth_mm) : std::nullopt;
     const bool is_known = !xi || std::ranges::any_of(known, [&](const Complex& other) {
       return std::abs(other - upper(*xi)) < kSame * std::abs(other);
@@ -322,6 +350,8 @@ Complex DepthTracker::by_arnoldi(double depth_mm) {
     }
     const Complex xi = upper(1.0 / mu);
     const auto exact = refine(xi, depth_mm);
+    // Arnoldi's value is good to 1e-9 or was cut short; refined it is only trusted while it stays
+    // at the same zero.
     now.push_back({exact && std::abs(*exact - xi) < 1e-3 * std::abs(xi) ? upper(*exact) : xi, 0.0});
   }
   roots_ = std::move(now);
@@ -345,6 +375,8 @@ void DepthTracker::seed(double depth_mm) {
 Complex DepthTracker::dominant(double depth_mm) {
   aim(kOutside * kFollowed * (roots_.empty() ? 1.0 : std::abs(roots_[0].xi)), depth_mm);
   if (depth_mm != depth_mm_) {
+    // A root that is lost here is not lost for good: the count below misses it and search() looks
+    // for it.
     std::erase_if(roots_, [&](Root& root) { return !follow(root, depth_mm_, depth_mm); });
     sort();
     depth_mm_ = depth_mm;

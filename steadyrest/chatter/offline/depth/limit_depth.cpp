@@ -35,10 +35,13 @@ std::optional<double> island_mm(DepthLine& line, const std::array<double, 3>& de
   auto [fa, fm, fb] = log_radius;
   for (int i = 0; i < kMostSections && b - a > kNarrowest * b; ++i) {
     // How high it can be: the steeper fall, carried on over the top.
+    // ln ρ is smooth away from changes of the leading multiplier, so it cannot rise much more
+    // steeply near the top than it falls at the sides.
     const double slope = std::max((fm - fa) / (m - a), (fm - fb) / (b - m));
     if (fm + kPeak * slope * std::max(m - a, b - m) < 0.0) {
       return std::nullopt;
     }
+    // Golden section of the larger side keeps the three depths in proportion.
     const double x = m - a > b - m ? m - kGolden * (m - a) : m + kGolden * (b - m);
     const double fx = line.log_radius(x);
     if (fx >= 0.0) {
@@ -62,6 +65,7 @@ std::optional<double> limit_depth_mm(DepthLine& line, double most_depth_mm, doub
                                   kFirst * most_depth_mm);
   std::array<double, 3> depth{from_mm, 0.0, 0.0};
   std::array<double, 3> log_radius{line.log_radius(from_mm), 0.0, 0.0};
+  // The hint was too deep: begin at 0, where every cut is stable.
   if (log_radius[0] >= 0.0) {
     depth[0] = 0.0;
     log_radius[0] = line.log_radius(0.0);
@@ -69,6 +73,7 @@ std::optional<double> limit_depth_mm(DepthLine& line, double most_depth_mm, doub
   std::size_t seen = 1;
   while (depth[seen - 1] < most_depth_mm) {
     const double low = depth[seen - 1];
+    // Even steps near 0, then in proportion to the depth.
     const double high = std::min(most_depth_mm, low + std::max(first, kGrowth * low));
     const double log_high = line.log_radius(high);
     if (seen == 3) {

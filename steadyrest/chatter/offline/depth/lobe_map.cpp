@@ -27,12 +27,12 @@ std::optional<Refusal> fault(const LobeMapConfig& config) {
   const std::vector<double>& depth = config.depth_mm;
   if (config.speed_rev_s.size() > kMostPoints / std::max<std::size_t>(depth.size(), 1)) {
     return Refusal{Kind::bad_input, "", 0,
-                   fmt::format("a map of {} speeds × {} depths; allowed are {} points",
+                   fmt::format("a map of {} speeds × {} depths; allowed: {} points",
                                config.speed_rev_s.size(), depth.size(), kMostPoints),
                    "give fewer steps; the border is refined between them"};
   }
   if (depth.empty() || !(depth.front() >= 0.0) || !(depth.back() > 0.0)) {
-    return Refusal{Kind::bad_input, "", 0, "depths must start at 0 or above and reach above 0",
+    return Refusal{Kind::bad_input, "", 0, "depths must start at 0 or above and end above 0",
                    "give rising depths"};
   }
   for (std::size_t i = 1; i < depth.size(); ++i) {

@@ -20,6 +20,7 @@ constexpr double kReach = 1e6;  ///< a border beyond this, mm, is a pole
 std::array<double, 4> primitive(double phi, double kr) noexcept {
   const double c = std::cos(2.0 * phi);
   const double s = std::sin(2.0 * phi);
+  // Altintas and Budak (1995): directional coefficients, x along the feed, kr = Kr/Kt.
   return {0.5 * (c - 2.0 * kr * phi + kr * s), 0.5 * (-s - 2.0 * phi + kr * c),
           0.5 * (-s + 2.0 * phi + kr * c), 0.5 * (-c - 2.0 * kr * phi - kr * s)};
 }
@@ -37,6 +38,7 @@ Pair eigenvalues(const Process& process, const std::array<double, 4>& alpha, dou
     xy += mode.shape[0] * mode.shape[1] * g;
     yy += mode.shape[1] * mode.shape[1] * g;
   }
+  // a₀·Λ² + a₁·Λ + 1 = 0.
   const Complex a0 = (alpha[0] * alpha[3] - alpha[1] * alpha[2]) * (xx * yy - xy * xy);
   const Complex a1 = alpha[0] * xx + (alpha[1] + alpha[2]) * xy + alpha[3] * yy;
   // 1/Λ = (−a₁ ± √(a₁² − 4a₀))/2 has no pole where a₀ = 0.
@@ -48,6 +50,8 @@ Pair eigenvalues(const Process& process, const std::array<double, 4>& alpha, dou
 Pair continued(const Pair& before, const Pair& now) {
   const double straight = std::abs(now[0] - before[0]) + std::abs(now[1] - before[1]);
   const double crossed = std::abs(now[1] - before[0]) + std::abs(now[0] - before[1]);
+  // The square root jumps between its branches along ω; a sign change across such a jump is no
+  // border.
   return crossed < straight ? Pair{now[1], now[0]} : now;
 }
 
@@ -111,6 +115,7 @@ std::optional<double> zero_order_limit_mm(const Process& process, double speed_r
   const auto depth = [&](const Complex& inverse, double w) {
     return -factor / (inverse * (1.0 - std::polar(1.0, -w * pass_s)));
   };
+  // Fine enough for the sharpest resonance and for the lobes, which repeat every 1/T in frequency.
   const double step_hz = std::min(kScanHz * sharpest_hz(process), 0.02 / pass_s);
   const auto steps = static_cast<std::size_t>(std::ceil(most_hz / step_hz));
   std::optional<double> least;
@@ -142,6 +147,7 @@ std::optional<double> zero_order_limit_mm(const Process& process, double speed_r
           b = middle;
         }
       }
+      // Im a changes sign through infinity as well: that is a pole of the depth, no border.
       const bool pole = std::abs(found) > kReach || std::abs(found.imag()) > 1e-6 * found.real();
       if (!pole && found.real() > 0.0 && (!least || found.real() < *least)) {
         least = found.real();

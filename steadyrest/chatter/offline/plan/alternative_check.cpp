@@ -39,6 +39,8 @@ std::optional<DelayCycle> cycle_at(const Process& process, double speed_rev_s,
 double log_growth_seen(DelayCycle& cycle) {
   Eigen::VectorXd state = Eigen::VectorXd::Zero(cycle.state_size());
   for (Eigen::Index i = 0; i < state.size(); ++i) {
+    // Any start that has a share of every solution does; a formula instead of a generator gives the
+    // same start everywhere.
     state[i] = std::sin(1.0 + 2.3 * static_cast<double>(i));
   }
   double scale = 0.0;
@@ -52,6 +54,7 @@ double log_growth_seen(DelayCycle& cycle) {
     }
     scale += std::log(size);
     state /= size;
+    // From its least size on: a vibration that first dies and then grows counts from the bottom.
     least = std::min(least, scale);
     most = std::max(most, scale - least);
   }
@@ -85,6 +88,7 @@ double AlternativeCheck::probability(const Alternative& a, double depth_mm) cons
 double AlternativeCheck::likely_depth_mm(const Alternative& a) const {
   double low = 0.0;
   double high = depth_mm_;
+  // Taken as falling with the depth. Islands are left to the limit depth.
   while (high - low > 0.01 * depth_mm_) {
     const double middle = 0.5 * (low + high);
     (probability(a, middle) >= options_->least_probability ? low : high) = middle;
@@ -96,7 +100,7 @@ void AlternativeCheck::reject_unlikely(Alternative& a) const {
   a.probability = probability(a, depth_mm_);
   if (*a.probability < options_->least_probability) {
     a.reasons.push_back(
-        fmt::format("only {:.0f} % of the possible cuts are stable; {:.0f} % are wanted",
+        fmt::format("only {:.0f} % of the possible cuts are stable; {:.0f} % must be",
                     100.0 * *a.probability, 100.0 * options_->least_probability));
   }
 }
@@ -108,8 +112,8 @@ void AlternativeCheck::reject_below_depth(Alternative& a) const {
                     a.limit_depth_mm ? fmt::format(" from {:.4g} mm on", *a.limit_depth_mm) : ""));
   } else if (a.limit_depth_mm && *a.limit_depth_mm < depth_mm_) {
     a.reasons.push_back(
-        fmt::format("stable again at this depth, but unstable from {:.4g} mm on, which the tool "
-                    "passes on its way in",
+        fmt::format("stable again at this depth, but unstable from {:.4g} mm on, and the tool "
+                    "passes through that on its way in",
                     *a.limit_depth_mm));
   }
 }
@@ -124,6 +128,8 @@ void AlternativeCheck::step(Alternative& a) const {
     return;
   }
   a.limit_depth_mm = limit_depth_mm(*line, most_depth_mm_).value_or(kInfinity);
+  // Above a lower border the cut may be stable again; whether it can be reached is
+  // reject_below_depth()'s question.
   a.stable = *a.limit_depth_mm > depth_mm_ || line->log_radius(depth_mm_) < 0.0;
   reject_below_depth(a);
   reject_unlikely(a);
@@ -164,6 +170,8 @@ void AlternativeCheck::judge(Alternative& law) const {
     }
     return log_growth > most;
   };
+  // One vibration costs three periods, the worst of all costs a basis of them: what rejects cheaply
+  // comes first.
   if (too_much(log_growth_seen(*cycle), true)) {
     return;
   }
@@ -184,6 +192,7 @@ void AlternativeCheck::reject_unstable_as_written(Alternative& law) const {
     return;
   }
   DelayCycle::Config config;
+  // The course replaces the law; the mean speed below only scales what is not given by it.
   config.course = std::move(*course);
   config.speed_rev_s = speed(law);
   config.most_depth_mm = depth_mm_;
@@ -195,10 +204,10 @@ void AlternativeCheck::reject_unstable_as_written(Alternative& law) const {
   cycle->set_depth(depth_mm_);
   law.written_log_radius = stability(*cycle, {}).log_radius;
   if (*law.written_log_radius >= 0.0) {
-    law.reasons.push_back(fmt::format(
-        "stable as the law has it (ln ρ {:.3g}), but unstable as the override writes it "
-        "(ln ρ {:.3g})",
-        law.log_radius.value_or(0.0), *law.written_log_radius));
+    law.reasons.push_back(
+        fmt::format("stable under the ideal law (ln ρ {:.3g}), but unstable as the override writes "
+                    "it (ln ρ {:.3g})",
+                    law.log_radius.value_or(0.0), *law.written_log_radius));
     return;
   }
   const double grown = log_growth_seen(*cycle);
@@ -219,6 +228,8 @@ void AlternativeCheck::limit(Alternative& law) const {
     return;
   }
   law.limit_depth_mm = limit_depth_mm(*line, most_depth_mm_).value_or(kInfinity);
+  // The one reason is "unstable" without a depth; reject_below_depth() says it again with the
+  // depth.
   if (law.reasons.size() == 1 && !law.stable) {
     law.reasons.clear();
   }

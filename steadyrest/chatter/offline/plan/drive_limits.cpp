@@ -83,7 +83,9 @@ DriveLimits::DriveLimits(const kernel::machine::Machine& machine, const Process&
       table_(machine.spindle_override),
       envelope_(machine.envelope),
       options_(options),
+      // N·mm per revolution to W·s per revolution.
       power_per_rev_w_s_(1e-3 * work_per_rev_n_mm(process, depth_mm)) {
+  // [spindle] rated_torque_n_m is optional and then means the peak torque.
   if (!std::isfinite(spindle_.rated_torque_n_m)) {
     spindle_.rated_torque_n_m = spindle_.max_torque_n_m;
   }
@@ -116,7 +118,7 @@ DriveDemand DriveLimits::constant(double programmed_rev_s, double ratio) const {
   const double speed = programmed_rev_s * ratio;
   if (speed > spindle_.max_rev_s * (1.0 + kSame) || speed < spindle_.min_rev_s * (1.0 - kSame)) {
     add(out, DriveLimit::speed,
-        fmt::format("{:.0f} rpm is outside of the spindle's {:.0f} … {:.0f} rpm", rpm(speed),
+        fmt::format("{:.0f} rpm is outside the spindle's {:.0f} … {:.0f} rpm", rpm(speed),
                     rpm(spindle_.min_rev_s), rpm(spindle_.max_rev_s)));
   }
   out.power_w = cutting_power_w(speed);
@@ -145,6 +147,7 @@ DriveLimits::Shape DriveLimits::shape(const Modulation& modulation) const {
     const double next = out.at[(i + 1) % kPhases];
     double slope = std::abs(next - out.at[i]) * static_cast<double>(kPhases);
     double value = std::max(next, out.at[i]);
+    // In closed form: differences over a step would fall short of the greatest slope.
     if (modulation.law == Law::sine) {
       slope = kTurn * std::abs(std::cos(kTurn * static_cast<double>(i) / kPhases));
       value = out.at[i];
@@ -166,10 +169,10 @@ DriveDemand DriveLimits::modulated(double programmed_rev_s, const Modulation& mo
   const double scans = 1.0 / (modulation.rvf * programmed_rev_s * table_.scan_period_s);
   if (scans < kLeastScans * (1.0 - kSame)) {
     add(out, DriveLimit::scan,
-        fmt::format("a period of {:.0f} ms has {:.1f} scans of the override; {:.0f} are needed "
-                    "(RVF {:.3g} at most)",
-                    1e3 * scans * table_.scan_period_s, scans, kLeastScans,
-                    modulation.rvf * scans / kLeastScans));
+        fmt::format(
+            "a period of {:.0f} ms has {:.1f} override scans; it needs {:.0f} (RVF {:.3g} at most)",
+            1e3 * scans * table_.scan_period_s, scans, kLeastScans,
+            modulation.rvf * scans / kLeastScans));
   }
   if (jumps(modulation.law)) {
     check_jumps(programmed_rev_s, modulation, s, out);
@@ -186,11 +189,12 @@ void DriveLimits::check_levels(double speed, const Modulation& m, const Shape& s
                                DriveDemand& out) const {
   const std::vector<double> steps = writable(speed);
   if (steps.empty()) {
-    add(out, DriveLimit::levels, "no step of the override may be written at this speed");
+    add(out, DriveLimit::levels, "no override step may be written at this speed");
     return;
   }
   double worst = 0.0;
   for (const double value : s.at) {
+    // The modulator rounds each phase to the nearest step; between steps the law is a staircase.
     const double want = 1.0 + m.rva * value;
     const double step = *std::ranges::min_element(
         steps, {}, [want](double ratio) { return std::abs(ratio - want); });
@@ -202,7 +206,7 @@ void DriveLimits::check_levels(double speed, const Modulation& m, const Shape& s
                           out.written_ratio.end());
   if (worst > kMostLevelError * m.rva + kSame) {
     add(out, DriveLimit::levels,
-        fmt::format("the override can write {:.4g} … {:.4g} %; it comes no nearer than {:.2g} % to "
+        fmt::format("the override can write {:.4g} … {:.4g} %; it gets no nearer than {:.2g} % to "
                     "{:.4g} … {:.4g} %, and a quarter of the amplitude is allowed",
                     100.0 * steps.front(), 100.0 * steps.back(), 100.0 * worst,
                     100.0 * (1.0 + m.rva * s.low), 100.0 * (1.0 + m.rva * s.high)));
@@ -221,6 +225,7 @@ double DriveLimits::step_ratio(const DriveDemand& demand) const noexcept {
 void DriveLimits::check_sweep(double speed, const Modulation& m, const Shape& s,
                               DriveDemand& out) const {
   const double frequency = m.rvf * speed;
+  // d(ratio)/dt in 1/s; times the speed it is rev/s².
   const double ratio_rate = m.rva * frequency * s.steepest;
   out.acceleration_rev_s2 = ratio_rate * speed;
   const auto too_fast = [&](DriveLimit limit, const char* who, double have) {
@@ -231,24 +236,27 @@ void DriveLimits::check_sweep(double speed, const Modulation& m, const Shape& s,
                       m.rvf * have / (ratio_rate * speed)));
     }
   };
-  too_fast(DriveLimit::acceleration, "the drive gives", spindle_.acceleration_rev_s2);
-  too_fast(DriveLimit::slew, "the envelope lets the override change by",
+  too_fast(DriveLimit::acceleration, "the drive delivers", spindle_.acceleration_rev_s2);
+  too_fast(DriveLimit::slew, "the envelope allows the override",
            envelope_.spindle_slew_1_s * speed);
   if (!table_.latched_word) {
-    too_fast(DriveLimit::walk, "the override, one step a scan, gives",
+    too_fast(DriveLimit::walk, "the override, at one step per scan, delivers",
              step_ratio(out) / table_.scan_period_s * speed);
   }
+  // J·ω·dω/dt with ω = 2π·n·(1 + RVA·S): the shape's part, max (1 + RVA·S)·|S′|, follows below.
   const double turning = kTurn * kTurn * spindle_.inertia_kg_m2 * m.rva * frequency * speed * speed;
   out.power_w = turning * s.steep_power + cutting_power_w(speed);
   const double cutting = power_per_rev_w_s_ / kTurn;
   const double swing = kTurn * spindle_.inertia_kg_m2 * m.rva * frequency * speed;
   out.torque_n_m = swing * s.steepest + cutting;
+  // The swing averages to 0 over a period and is uncorrelated with the constant cutting torque.
   out.rms_torque_n_m = std::sqrt(swing * swing * s.steep_square + cutting * cutting);
 }
 
 void DriveLimits::check_jumps(double speed, const Modulation& m, const Shape& s,
                               DriveDemand& out) const {
   const double jump = m.rva * (s.high - s.low);
+  // In ratio per second. The slowest of drive, envelope and walked word sets the ramp.
   double rate = std::min(spindle_.acceleration_rev_s2 / speed, envelope_.spindle_slew_1_s);
   if (!table_.latched_word && out.written_ratio.size() > 1) {
     rate = std::min(rate, step_ratio(out) / table_.scan_period_s);
@@ -277,18 +285,18 @@ void DriveLimits::check_load(double speed, DriveDemand& out) const {
   if (out.power_w > spindle_.rated_power_w * (1.0 + kSame)) {
     const Apart kw = apart(1e-3 * out.power_w, 1e-3 * spindle_.rated_power_w);
     add(out, DriveLimit::power,
-        fmt::format("needs {} kW ({:.2f} kW of it the cut), the drive is rated {} kW", kw.needed,
-                    1e-3 * cut, kw.given));
+        fmt::format("needs {} kW ({:.2f} kW of it for the cut), the drive is rated {} kW",
+                    kw.needed, 1e-3 * cut, kw.given));
   }
   if (out.torque_n_m > spindle_.max_torque_n_m * (1.0 + kSame)) {
     const Apart torque = apart(out.torque_n_m, spindle_.max_torque_n_m);
     add(out, DriveLimit::torque,
-        fmt::format("needs {} N·m, the drive gives {} N·m", torque.needed, torque.given));
+        fmt::format("needs {} N·m, the drive delivers {} N·m", torque.needed, torque.given));
   }
   if (out.rms_torque_n_m > spindle_.rated_torque_n_m * (1.0 + kSame)) {
     const Apart rms = apart(out.rms_torque_n_m, spindle_.rated_torque_n_m);
     add(out, DriveLimit::heat,
-        fmt::format("heats the motor with {} N·m RMS, it bears {} N·m", rms.needed, rms.given));
+        fmt::format("loads the motor with {} N·m RMS, it is rated {} N·m", rms.needed, rms.given));
   }
 }
 
@@ -304,7 +312,7 @@ void DriveLimits::check_monitor(double speed, const Modulation& m, const Shape& 
       out.off_ratio > spindle_.speed_tolerance_ratio * (1.0 + kSame)) {
     add(out, DriveLimit::monitor,
         fmt::format("the speed is up to {:.1f} % off its set-point; beyond {:.3g} % the control "
-                    "withdraws \"spindle in set range\" and may hold the feed",
+                    "drops \"spindle in set range\" and may hold the feed",
                     100.0 * out.off_ratio, 100.0 * spindle_.speed_tolerance_ratio));
   }
 }

@@ -54,6 +54,7 @@ Result<Modulator> modulator_of(Machine machine, double programmed_rev_s, const M
   machine.chatter.period_s = 1.0 / (m.rvf * programmed_rev_s);
   machine.chatter.mean_ratio = 1.0;
   machine.chatter.seed = m.seed;
+  // Always on: there is no program here to switch it.
   machine.chatter.m_code_on = 0;
   return Modulator::make(machine);
 }
@@ -93,6 +94,8 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
   }
   const double period_s = 1.0 / (modulation.rvf * programmed_rev_s);
   const double scans = std::max(1.0, std::round(period_s / machine.spindle_override.scan_period_s));
+  // Whole cycles per scan and whole scans per period, or the course would not repeat and could not
+  // be a period of the solver.
   const double per_scan = std::max(1.0, std::round(period_s / scans / kCycle_s));
   const auto cycles = static_cast<std::size_t>(scans * per_scan);
   const double dt_s = period_s / static_cast<double>(cycles);
@@ -100,13 +103,17 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
   fitted.scan_period_s = per_scan * dt_s;
   LateWord spindle_word(fitted, dt_s);
   LateWord feed_word(machine.feed_override, dt_s);
+  // Whole periods, so that the period taken begins at phase 0 of the law.
   const auto settle = static_cast<std::size_t>(std::ceil(kSettle_s / period_s)) + 2;
 
   kernel::signal::Frame frame;
   frame.motion = kernel::signal::Motion::feed;
+  // Only ratios matter: feed and path speed are in units of the programmed feed.
   frame.programmed_feed_mm_s = 1.0;
   frame.path_speed_mm_s = 1.0;
   frame.spindle_programmed_rev_s = programmed_rev_s;
+  // The operator's switch at its highest step, so that the panel clips nothing; the planner says in
+  // a note how high it must be.
   frame.spindle.panel_ratio = *std::ranges::max_element(machine.spindle_override.ratio);
   frame.spindle.effective_ratio = 1.0;
   double speed = programmed_rev_s;
@@ -126,8 +133,10 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
     frame.feed.effective_ratio = feed_word.pass(i, std::min(1.0, asked.feed.ratio));
     frame.path_speed_mm_s = frame.feed.effective_ratio;
     const double goal = frame.spindle.effective_ratio * programmed_rev_s;
+    // The drive's constant acceleration; power and torque limits are left to drive_limits.
     const double next = std::clamp(goal, speed - reach, speed + reach);
     if (i >= settle * cycles) {
+      // The drive reaches its goal within the cycle and holds it for the rest: two ramps.
       const double ramp_s = std::min(
           dt_s, std::isfinite(reach) ? dt_s * std::abs(next - speed) / reach : kSame * dt_s);
       add(course, {ramp_s, speed, next});

@@ -31,7 +31,7 @@ std::optional<Refusal> out_of(const Range& range) {
   if (range.value >= range.least && range.value <= range.most) {
     return std::nullopt;
   }
-  return bad(fmt::format("{} = {:.10g}; allowed is from {:g} to {:g}", range.what, range.value,
+  return bad(fmt::format("{} = {:.10g}; allowed: from {:g} to {:g}", range.what, range.value,
                          range.least, range.most),
              "give a value in that range");
 }
@@ -52,9 +52,10 @@ std::optional<Refusal> fault_of_options(double depth, const PlanOptions& o) {
     }
   }
   if (o.most_depth_mm != 0.0 && !(o.most_depth_mm >= depth)) {
-    return bad(fmt::format("borders are to be sought up to {:.10g} mm, the wanted depth is {:.10g}",
-                           o.most_depth_mm, depth),
-               "give a greatest depth that is not below the wanted one");
+    return bad(
+        fmt::format("the border search ends at {:.10g} mm, short of the wanted depth of {:.10g} mm",
+                    o.most_depth_mm, depth),
+        "extend the search to that depth or beyond");
   }
   for (const double rva : o.rva) {
     if (!(rva > 0.0 && rva < 1.0)) {
@@ -103,8 +104,7 @@ std::optional<Refusal> fault_of_request(const Process& process, double speed_rev
   }
   if (auto refused = beyond_reach(process, speed_rev_s, most_depth_mm(depth_mm, options))) {
     refused->to_do +=
-        "; --most-depth-mm is how deep borders are sought, five times the wanted "
-        "depth without it";
+        "; --most-depth-mm limits the border search; its default is five times the wanted depth";
     return refused;
   }
   return fault_of_options(depth_mm, options);
@@ -117,9 +117,8 @@ std::optional<std::string> process_damping_ignored(const Process& process, doubl
     return std::nullopt;
   }
   return fmt::format(
-      "{:.0f} waves between two teeth: the flank rubs on waves so short and damps them, which the "
-      "process file leaves out; deeper cuts than these may be stable. process_damping_N_mm in "
-      "[cut] counts it",
+      "{:.0f} waves between two teeth: the flank rubs on waves this short and damps them. The "
+      "process file ignores that, so deeper cuts may be stable; add process_damping_N_mm to [cut]",
       waves);
 }
 

@@ -97,6 +97,8 @@ void Planner::choose(PlanDecision decision, const Alternative& chosen) {
 void Planner::steps(const AlternativeCheck& check) {
   std::vector<double> ratios = limits_.writable(speed_);
   if (std::ranges::none_of(ratios, [](double r) { return std::abs(r - 1.0) < kSame; })) {
+    // The programmed speed is judged even where the table has no step of 100 %: it is what the
+    // others are measured against.
     ratios.push_back(1.0);
   }
   std::ranges::sort(ratios);
@@ -114,6 +116,7 @@ const Alternative* Planner::best_step() const {
   for (const Alternative& a : out_.alternatives) {
     highest = a.accepted() ? std::max(highest, *a.probability) : highest;
   }
+  // Shares that differ by a sample or so are the same within what so few samples can tell.
   const double tie = kTie / static_cast<double>(options_.uncertainty.samples);
   const Alternative* best = nullptr;
   for (const Alternative& a : out_.alternatives) {
@@ -160,12 +163,15 @@ std::vector<double> Planner::frequencies(Modulation law) const {
     if (!most) {
       return {};
     }
+    // The fastest first: slow laws let a vibration grow within the period.
     for (double rvf = *most; rvf >= options_.least_rvf * (1.0 - kSame); rvf /= kNextFrequency) {
       wanted.push_back(rvf);
     }
   }
   std::vector<double> out;
   for (const double rvf : wanted) {
+    // A whole number of passes in a period, rounded to the slower side, which the drive follows all
+    // the more; else the solver has no principal period.
     const double rounded = per_rev / std::max(1.0, std::ceil(per_rev / rvf - 1e-6));
     law.rvf = rounded;
     if ((out.empty() || out.back() != rounded) && limits_.modulated(speed_, law).possible()) {
@@ -211,6 +217,8 @@ Alternative Planner::best_of(const AlternativeCheck& check, Modulation law) cons
       least = log_radius;
       out = a;
     }
+    // Slower ones grow more: after a few stable frequencies were rejected the rest is not worth its
+    // time.
     if (judged == kMostJudged) {
       break;
     }
@@ -262,8 +270,9 @@ std::string words(const Alternative& a) {
 
 void Planner::explain_nothing(const AlternativeCheck& check) {
   if (out_.helping_ratio) {
-    note(fmt::format("no law helps at {:.4g} mm; a constant {:.4g} % does, which was not asked for",
-                     depth_, 100.0 * *out_.helping_ratio));
+    note(fmt::format(
+        "no law helps at {:.4g} mm; a constant {:.4g} % does, but only laws were asked for", depth_,
+        100.0 * *out_.helping_ratio));
     return;
   }
   const Alternative* deepest = nullptr;
@@ -275,17 +284,19 @@ void Planner::explain_nothing(const AlternativeCheck& check) {
   }
   if (deepest != nullptr) {
     out_.likely_depth_mm = check.likely_depth_mm(*deepest);
-    note(fmt::format(
-        "nothing helps at {:.4g} mm; the deepest border is {:.4g} mm, with {}; up to {:.3g} mm it "
-        "is stable for {:.0f} % of the possible cuts",
-        depth_, *deepest->limit_depth_mm, words(*deepest), out_.likely_depth_mm,
-        100.0 * options_.least_probability));
+    note(
+        fmt::format("nothing helps at {:.4g} mm; the deepest border is {:.4g} mm, with {}; up to "
+                    "{:.3g} mm it is stable for {:.0f} % of the possible cuts",
+                    depth_, *deepest->limit_depth_mm, words(*deepest), out_.likely_depth_mm,
+                    100.0 * options_.least_probability));
   }
   if (out_.chatter_frequency_hz) {
+    // Waves between two teeth. A law breaks their rhythm when it shifts them by about half a
+    // wave, hence the 50 % over them.
     const double per_pass =
         *out_.chatter_frequency_hz / (static_cast<double>(process_.tool.teeth) * speed_);
     note(
-        fmt::format("the vibration of {:.0f} Hz makes {:.2f} waves between two teeth; a law that "
+        fmt::format("the {:.0f} Hz vibration makes {:.2f} waves between two teeth; a law that "
                     "breaks its rhythm needs an amplitude of about {:.0f} %",
                     *out_.chatter_frequency_hz, per_pass, 50.0 / per_pass));
   }
@@ -314,15 +325,14 @@ void Planner::explain(const AlternativeCheck& check) {
                              ? out_.chosen.ratio
                              : out_.chosen.demand.written_ratio.back();
   if (highest > 1.0 + kSame && !machine_.spindle_override.layer_may_exceed_panel) {
-    note(
-        fmt::format("the panel's spindle override must stand at {:.4g} % or above: the layer may "
-                    "not exceed it",
-                    100.0 * highest));
+    note(fmt::format(
+        "the spindle override on the panel must be {:.4g} % or more: the layer may not exceed it",
+        100.0 * highest));
   }
   if (out_.decision == PlanDecision::law && machine_.spindle_override.dead_time_s > 0.0) {
     note(
-        fmt::format("the override acts {:.0f} ms late: the law is shifted and a withdrawal waits "
-                    "for that long",
+        fmt::format("the override acts {:.0f} ms late: the law is shifted by that, and a "
+                    "withdrawal takes that much longer",
                     1e3 * machine_.spindle_override.dead_time_s));
   }
 }

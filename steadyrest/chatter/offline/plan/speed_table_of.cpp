@@ -33,6 +33,7 @@ kernel::outcome::Result<void> add_depths(const Process& process,
   }
   std::ranges::sort(speeds);
   for (const double speed : speeds) {
+    // Steps of different programmed speeds may meet; the table asks for rising speeds.
     if (!config.speed_rev_s.empty() && speed <= config.speed_rev_s.back() * (1.0 + kSame)) {
       continue;
     }
@@ -41,6 +42,7 @@ kernel::outcome::Result<void> add_depths(const Process& process,
       return std::unexpected(limit.error());
     }
     config.speed_rev_s.push_back(speed);
+    // Stable as far as was sought: the table has no word for more.
     config.limit_depth_mm.push_back(limit->value_or(most_depth_mm));
   }
   return {};

@@ -27,11 +27,13 @@ std::uint64_t draw(std::uint64_t& state) {
 std::vector<double> column(std::size_t n, std::uint64_t& state) {
   std::vector<double> out(n);
   for (std::size_t i = 0; i < n; ++i) {
+    // The 53 bits a double holds: even in [0, 1).
     const double within = static_cast<double>(draw(state) >> 11U) * 0x1.0p-53;
     const double share =
         std::clamp((static_cast<double>(i) + within) / static_cast<double>(n), 1e-12, 1.0 - 1e-12);
     out[i] = -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share);
   }
+  // Fisher–Yates. Without it all figures would be small together and large together.
   for (std::size_t i = n; i > 1; --i) {
     std::swap(out[i - 1], out[static_cast<std::size_t>(draw(state) % i)]);
   }
@@ -59,6 +61,7 @@ std::vector<Process> possible_cuts(const Process& process, const Uncertainty& of
   const std::vector<double> tangential = column(of.samples, state);
   const std::vector<double> radial = column(of.samples, state);
   for (std::size_t i = 0; i < of.samples; ++i) {
+    // Log-normal: a cutting coefficient stays positive however large σ is.
     out[i].cut.tangential_n_mm2 *= std::exp(of.coefficients * tangential[i]);
     out[i].cut.radial_n_mm2 *= std::exp(of.coefficients * radial[i]);
   }

@@ -13,6 +13,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 double within_turn(double angle) noexcept {
   const double turns = std::floor(angle / kTurn);
   const double out = angle - turns * kTurn;
+  // floor() of an angle just below 0 may round to a whole turn.
   return out >= kTurn ? out - kTurn : out;
 }
 
@@ -27,17 +28,21 @@ Eigen::Vector3d primitive(double phi) noexcept {
 CuttingCoefficients::CuttingCoefficients(const Process& process, double depth_mm)
     : cut_(process.cut), entry_rad_(process.entry_rad()), exit_rad_(process.exit_rad()) {
   if (cut_.operation == Operation::milling) {
+    // The top of a helical edge trails its tip by a·tan β over the radius.
     lag_rad_ = 2.0 * depth_mm * std::tan(process.tool.helix_rad) / process.tool.diameter_mm;
   }
+  // C/v with v = π·D·n, here at n = 1 rev/s.
   damping_n_s_ = cut_.process_damping_n_mm / (std::numbers::pi * process.tool.diameter_mm);
   double offset = 0.0;
   for (std::size_t j = 0; j < process.tool.teeth; ++j) {
+    // Tooth 0 is the reference; pitch_rad(j) leads from tooth j to the one in front of it.
     offset += j == 0 ? 0.0 : process.pitch_rad(j);
     offset_rad_.push_back(offset);
   }
 }
 
 Eigen::Vector3d CuttingCoefficients::squares(std::size_t tooth, double angle_rad) const noexcept {
+  // Straight edge: the mean over the height below would be 0/0.
   if (lag_rad_ < 1e-9) {
     const double phi = within_turn(angle_rad - offset_rad_[tooth]);
     if (phi < entry_rad_ || phi > exit_rad_) {
@@ -63,12 +68,14 @@ Eigen::Vector3d CuttingCoefficients::squares(std::size_t tooth, double angle_rad
 Eigen::Matrix2d CuttingCoefficients::stiffness(std::size_t tooth, double angle_rad) const noexcept {
   Eigen::Matrix2d h;
   if (cut_.operation == Operation::turning) {
+    // Turning: the chip is measured along x alone, so displacements along y do not enter.
     h << cut_.radial_n_mm2, 0.0, cut_.tangential_n_mm2, 0.0;
     return h;
   }
   const Eigen::Vector3d q = squares(tooth, angle_rad);
   const double kt = cut_.tangential_n_mm2;
   const double kr = cut_.radial_n_mm2;
+  // u·nᵀ with q = (sin², sin·cos, cos²).
   h << kt * q[1] + kr * q[0], kt * q[2] + kr * q[1], -kt * q[0] + kr * q[1], -kt * q[1] + kr * q[2];
   return h;
 }

@@ -53,7 +53,7 @@ class FileReader {
     }
     check_diameter(cut, tool);
     if (root.get("mode") == nullptr && root.get("frf") == nullptr) {
-      faults_.add(0, "there is no mode: nothing can vibrate",
+      faults_.add(0, "there is no mode: nothing vibrates",
                   "add one [[mode]] for each mode of tool and workpiece, or a measured [[frf]]");
     }
     each(root, "mode", [this](const toml::table& table) { mode(table); });
@@ -79,7 +79,7 @@ class FileReader {
     if (table == nullptr) {
       faults_.add(line_of(node->source()),
                   fmt::format("{} = {} is not a section", name, passport::shown(*node)),
-                  fmt::format("write {} on a line of its own, its keys below", head));
+                  fmt::format("write {} on a separate line, with its keys below", head));
       return {};
     }
     return SectionReader<S>(faults_, keys, head).read(*table, out);
@@ -115,9 +115,9 @@ class FileReader {
   void check_length(const Given& tool, std::string_view key, const std::vector<double>& list) {
     if (!list.empty() && tool.has("teeth") && list.size() != process_.tool.teeth) {
       faults_.add(tool.at({key}),
-                  fmt::format("{} has {} entries, the tool {} teeth", key, list.size(),
+                  fmt::format("{} has {} entries; the tool has {} teeth", key, list.size(),
                               process_.tool.teeth),
-                  "give one entry for each tooth");
+                  "give one entry per tooth");
     }
   }
 
@@ -134,6 +134,7 @@ class FileReader {
           "give the angle from each tooth to the one in front of it");
       return;
     }
+    // Rounded degrees: spread what is missing, so that the teeth close the turn exactly.
     for (double& angle : pitch) {
       angle *= kTurn / sum;
     }
@@ -158,7 +159,7 @@ class FileReader {
     }
     if (process_.cut.process_damping_n_mm != 0.0) {
       faults_.add(cut.at({"process_damping_N_mm"}),
-                  "process_damping_N_mm without diameter_mm, which makes the cutting speed",
+                  "process_damping_N_mm without diameter_mm, which sets the cutting speed",
                   "add diameter_mm = … to [tool]");
     }
   }
@@ -173,14 +174,13 @@ class FileReader {
     const toml::array* list = node->as_array();
     if (list == nullptr) {
       faults_.add(line_of(node->source()), fmt::format("{} is not a list of sections", name),
-                  fmt::format("write [[{}]] with double brackets, once for each", name));
+                  fmt::format("write [[{}]] with double brackets, one per entry", name));
       return;
     }
     if (list->empty() || list->size() > kMostModes) {
-      faults_.add(
-          line_of(node->source()),
-          fmt::format("{} has {} entries; allowed are 1 … {}", name, list->size(), kMostModes),
-          "give those that matter for the cut");
+      faults_.add(line_of(node->source()),
+                  fmt::format("{} has {} entries; allowed: 1 … {}", name, list->size(), kMostModes),
+                  "keep those that matter for the cut");
       return;
     }
     for (const toml::node& element : *list) {
@@ -188,7 +188,7 @@ class FileReader {
       if (table == nullptr) {
         faults_.add(line_of(element.source()),
                     fmt::format("{} = {} is not a section", name, passport::shown(element)),
-                    fmt::format("write [[{}]] on a line of its own, its keys below", name));
+                    fmt::format("write [[{}]] on a separate line, with its keys below", name));
         return;
       }
       read(*table);
@@ -239,6 +239,7 @@ class FileReader {
     const double w = kTurn * keys.frequency_hz;
     out.frequency_hz = keys.frequency_hz;
     out.damping_ratio = keys.damping_ratio;
+    // m = k/ω²; N/mm are 1000 N/m.
     out.mass_kg = given.has("mass_kg") ? keys.mass_kg : 1000.0 * keys.stiffness_n_mm / (w * w);
     if (given.has("angle_deg")) {
       out.shape = {std::cos(keys.angle_rad), std::sin(keys.angle_rad)};
@@ -293,7 +294,7 @@ ProcessOrFaults parse_process_all_faults(std::string_view text, const std::strin
   Process process;
   if (auto refusal = passport::unfit_text(text)) {
     refusal->file = file;
-    refusal->to_do = "give a process file: TOML in plain UTF-8, as those in examples/processes/";
+    refusal->to_do = "give a process file: TOML in plain UTF-8, like those in examples/processes/";
     faults.list.push_back(std::move(*refusal));
   } else {
     process = parse_toml(text, faults);

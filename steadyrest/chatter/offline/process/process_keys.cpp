@@ -30,7 +30,7 @@ constexpr auto kMust = passport::Need::mandatory;
 
 std::span<const Key<Process>> process_keys() noexcept {
   static const std::array kKeys = {
-      Key<Process>{"name", &Process::name, 1, 80, "What the cut is called in reports."},
+      Key<Process>{"name", &Process::name, 1, 80, "Name of the cut in reports."},
   };
   return kKeys;
 }
@@ -39,20 +39,22 @@ std::span<const Key<Tool>> tool_keys() noexcept {
   static const std::array kKeys = {
       Key<Tool>{"teeth", &Tool::teeth, 1, 64, "Number of teeth; mandatory in milling."},
       Key<Tool>{"diameter_mm", &Tool::diameter_mm, 0.01, 1e5,
-                "Diameter at which it cuts, in turning that of the workpiece; needed for helix and "
-                "process damping."},
-      Key<Tool>{"helix_deg", &Tool::helix_rad, 0, 80, "Helix of the teeth."},
-      Key<Tool>{.name = "pitch_deg",
-                .field = &Tool::pitch_rad,
-                .min = 0.1,
-                .max = 360,
-                .meaning = "From each tooth to the one in front of it, sum 360; even if left out.",
-                .max_entries = 64},
+                "Cutting diameter; in turning, that of the workpiece. Needed for helix and process "
+                "damping."},
+      Key<Tool>{"helix_deg", &Tool::helix_rad, 0, 80, "Helix angle of the teeth."},
+      Key<Tool>{
+          .name = "pitch_deg",
+          .field = &Tool::pitch_rad,
+          .min = 0.1,
+          .max = 360,
+          .meaning =
+              "Pitch from each tooth to the one in front of it; the sum is 360. Default: even.",
+          .max_entries = 64},
       Key<Tool>{.name = "runout_um",
                 .field = &Tool::runout_mm,
                 .min = -1e4,
                 .max = 1e4,
-                .meaning = "Radius of each tooth over the mean.",
+                .meaning = "Radius of each tooth relative to the mean.",
                 .max_entries = 64},
   };
   return kKeys;
@@ -60,17 +62,19 @@ std::span<const Key<Tool>> tool_keys() noexcept {
 
 std::span<const Key<Cut>> cut_keys() noexcept {
   static const std::array kKeys = {
-      Key<Cut>{"operation", choice<Cut, &Cut::operation>(kOperations), 0, 0, "What is done."},
+      Key<Cut>{"operation", choice<Cut, &Cut::operation>(kOperations), 0, 0, "Kind of machining."},
       Key<Cut>{"direction", choice<Cut, &Cut::direction>(kDirections), 0, 0,
                "Up (conventional) or down (climb) milling."},
       Key<Cut>{"radial_immersion", &Cut::radial_immersion, 1e-4, 1,
                "Radial depth over diameter, 1 = slot; mandatory in milling."},
       Key<Cut>{"tangential_N_mm2", &Cut::tangential_n_mm2, 1, 1e5,
-               "Tangential force over the chip's section.", kMust},
-      Key<Cut>{"radial_N_mm2", &Cut::radial_n_mm2, -1e5, 1e5, "Radial force, likewise.", kMust},
+               "Tangential force over chip area.", kMust},
+      Key<Cut>{"radial_N_mm2", &Cut::radial_n_mm2, -1e5, 1e5, "Radial force over chip area.",
+               kMust},
       Key<Cut>{"tangential_edge_N_mm", &Cut::edge_tangential_n_mm, 0, 1e4,
-               "Tangential force over the depth of cut."},
-      Key<Cut>{"radial_edge_N_mm", &Cut::edge_radial_n_mm, -1e4, 1e4, "Radial, likewise."},
+               "Tangential edge force over depth of cut."},
+      Key<Cut>{"radial_edge_N_mm", &Cut::edge_radial_n_mm, -1e4, 1e4,
+               "Radial edge force over depth of cut."},
       Key<Cut>{"process_damping_N_mm", &Cut::process_damping_n_mm, 0, 1e6,
                "C of F = −C·(depth/cutting speed)·velocity along the chip thickness."},
       Key<Cut>{"feed_per_tooth_mm", &Cut::feed_per_tooth_mm, 1e-6, 100,
@@ -84,14 +88,14 @@ std::span<const Key<ModeKeys>> mode_keys() noexcept {
       Key<ModeKeys>{"axis", choice<ModeKeys, &ModeKeys::axis>(kAxes), 0, 0,
                     "The direction in which the mode vibrates."},
       Key<ModeKeys>{"angle_deg", &ModeKeys::angle_rad, -360, 360,
-                    "In place of axis: its direction from x towards y."},
+                    "Instead of axis: its direction, from x towards y."},
       Key<ModeKeys>{"frequency_hz", &ModeKeys::frequency_hz, 0.01, 1e6,
                     "Natural frequency, undamped.", kMust},
       Key<ModeKeys>{"damping_ratio", &ModeKeys::damping_ratio, 0, 0.999,
-                    "Share of the critical damping.", kMust},
+                    "Share of critical damping.", kMust},
       Key<ModeKeys>{"mass_kg", &ModeKeys::mass_kg, 1e-9, 1e7, "Modal mass."},
       Key<ModeKeys>{"stiffness_N_um", &ModeKeys::stiffness_n_mm, 1e-6, 1e9,
-                    "In place of the mass: modal stiffness."},
+                    "Instead of the mass: modal stiffness."},
   };
   return kKeys;
 }
@@ -99,11 +103,11 @@ std::span<const Key<ModeKeys>> mode_keys() noexcept {
 std::span<const Key<FrfKeys>> frf_keys() noexcept {
   static const std::array kKeys = {
       Key<FrfKeys>{"file", &FrfKeys::file, 1, 1000,
-                   "Measured response (CSV or universal file format 58), from the process file's "
-                   "folder.",
+                   "Measured response (CSV or universal file format 58), relative to the process "
+                   "file's folder.",
                    kMust},
       Key<FrfKeys>{"axis", choice<FrfKeys, &FrfKeys::axis>(kAxes), 0, 0,
-                   "The direction of the measurement.", kMust},
+                   "Direction of measurement.", kMust},
   };
   return kKeys;
 }

@@ -27,6 +27,7 @@ SpeedProfile::SpeedProfile(double mean_rev_s, const Modulation& modulation)
   slowest_rad_s_ *= 1.0 - rva_;
   for (std::size_t k = 0; k < law_.corner_count(); ++k) {
     const double u = law_.corners()[k];
+    // A corner in time is a corner in angle, at θ(u).
     corners_rad_.push_back(period_rad_ * (u + rva_ * law_.integral(u)));
   }
 }
@@ -45,6 +46,7 @@ SpeedProfile::SpeedProfile(const std::vector<SpeedRamp>& course, double period_r
       slowest_rad_s_(kTurn * course.front().from_rev_s),
       period_rad_(period_rad),
       constant_(false) {
+  // Stretched in time, not in speed: the speeds are what the machine made of the law.
   const double stretch = period_rad / angle_rad(course);
   Part next{0.0, 0.0, 0.0, 0.0};
   for (const SpeedRamp& ramp : course) {
@@ -58,6 +60,8 @@ SpeedProfile::SpeedProfile(const std::vector<SpeedRamp>& course, double period_r
   next.angle_rad = period_rad;
   parts_.push_back(next);
   mean_rad_s_ = period_rad / next.time_s;
+  // Each corner begins a new piece in the solver; a staircase of hundreds would cost more than its
+  // kinks matter.
   for (std::size_t k = 0; course.size() <= kMostCorners && k < course.size(); ++k) {
     corners_rad_.push_back(parts_[k].angle_rad);
   }
@@ -80,6 +84,7 @@ double SpeedProfile::phase(double angle_rad) const noexcept {
     const double off = u + rva_ * law_.integral(u) - want;
     (off > 0.0 ? high : low) = u;
     double next = u - off / (1.0 + rva_ * law_.at(u));
+    // At a jump of the law Newton's step may leave the bracket; halving cannot.
     if (!(next > low && next < high)) {
       next = 0.5 * (low + high);
     }
@@ -100,6 +105,7 @@ double SpeedProfile::speed_rad_s(double angle_rad) const noexcept {
   if (!parts_.empty()) {
     const Part& at = part(within);
     const double length = (&at)[1].angle_rad - at.angle_rad;
+    // Even acceleration in time: Ω² is linear in the angle.
     return std::sqrt(std::lerp(at.from_rad_s * at.from_rad_s, at.to_rad_s * at.to_rad_s,
                                std::clamp((within - at.angle_rad) / length, 0.0, 1.0)));
   }
@@ -114,6 +120,7 @@ double SpeedProfile::time_s(double angle_rad) const noexcept {
   if (!parts_.empty()) {
     const double within = angle_rad - periods * period_rad_;
     const Part& at = part(within);
+    // Angle over the mean speed, which on a ramp is the mean of its ends.
     return periods * parts_.back().time_s + at.time_s +
            2.0 * (within - at.angle_rad) / (at.from_rad_s + speed_rad_s(within));
   }

@@ -62,22 +62,22 @@ class FrfSink final : public table::Sink {
       column.push_back(column_of(name));
     }
     if (column.size() < 3) {
-      return bad(fmt::format("the head has {} columns; 3 are needed", column.size()));
+      return bad(fmt::format("the header has {} columns; 3 are needed", column.size()));
     }
     polar_ = column[1].name == "magnitude";
     if (column[0].name != "frequency" || (!polar_ && column[1].name != "real") ||
         column[2].name != (polar_ ? "phase" : "imag")) {
-      return bad(fmt::format("the head is {},{},{}", table::shown(column[0].name),
+      return bad(fmt::format("the header is {},{},{}", table::shown(column[0].name),
                              table::shown(column[1].name), table::shown(column[2].name)));
     }
     if (column[0].unit != "hz") {
-      return Fault{0, fmt::format("frequency in \"{}\"; allowed is Hz", column[0].unit),
+      return Fault{0, fmt::format("frequency in \"{}\"; allowed: Hz", column[0].unit),
                    "write frequency_hz"};
     }
     const auto* const unit = std::ranges::find(kUnits, column[1].unit, &Unit::name);
     if (unit == kUnits.end() ||
         (polar_ ? column[2].unit != "deg" : column[2].unit != column[1].unit)) {
-      return bad(fmt::format(R"(units "{}" and "{}"; allowed are m/N, mm/N, um/N, of acceleration )"
+      return bad(fmt::format(R"(units "{}" and "{}"; allowed: m/N, mm/N, um/N, of acceleration )"
                              "m/s2/N, mm/s2/N, g/N, of velocity m/s/N, mm/s/N{}",
                              table::shown(column[1].unit), table::shown(column[2].unit),
                              polar_ ? " and deg" : ", the same in both"));
@@ -88,7 +88,7 @@ class FrfSink final : public table::Sink {
       if (column[i].name == "coherence" && !coherence_) {
         coherence_ = i;
       } else if (!head.name[i].empty()) {
-        return bad(fmt::format("the column {} is not known", table::shown(head.name[i])));
+        return bad(fmt::format("the column {} is unknown", table::shown(head.name[i])));
       }
     }
     return std::nullopt;
@@ -116,7 +116,7 @@ class FrfSink final : public table::Sink {
       }
       coherence = *read;
       if (coherence < 0.0 || coherence > 1.0 + 1e-6) {
-        return Fault{row.line(), fmt::format("coherence {:g}; allowed is 0 … 1", coherence),
+        return Fault{row.line(), fmt::format("coherence {:g}; allowed: 0 … 1", coherence),
                      "give the coherence as a ratio, or leave the column out"};
       }
     }
@@ -129,7 +129,7 @@ class FrfSink final : public table::Sink {
     const std::complex<double> h = displacement_of(measured, value[0], out_.measured_order);
     if (!possible(h)) {
       return Fault{row.line(), fmt::format("the response at {} Hz is out of range", value[0]),
-                   "check the unit in the head"};
+                   "check the unit in the header"};
     }
     out_.frequency_hz.push_back(value[0]);
     out_.compliance_mm_n.push_back(h);

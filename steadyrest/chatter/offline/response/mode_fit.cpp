@@ -27,8 +27,9 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kLeastDamping = 1e-5;
 constexpr double kMostDamping = 0.5;
 constexpr Index kBackground = 2;  ///< c and d
-constexpr Index kPerMode = 3;     ///< ln ω, ln ζ, gain
-constexpr int kRounds = 4;        ///< of noise and modes in turn
+// Logarithms keep ω and ζ above 0 and give steps of equal relative size whatever the mode.
+constexpr Index kPerMode = 3;  ///< ln ω, ln ζ, gain
+constexpr int kRounds = 4;     ///< of noise and modes in turn
 
 /// The parameters: ln ω, ln ζ of each mode; then the linear ones: gains, c, d.
 struct Model {
@@ -62,6 +63,7 @@ Eigen::MatrixXcd columns(const Data& data, const Model& model) {
       out(i, k) = base(data.w[i], model.w[at], model.damping[at]);
     }
     out(i, model.modes()) = 1.0;
+    // Scaled by the middle of the band, so that d is of the order of c.
     out(i, model.modes() + 1) = -data.middle_w * data.middle_w / (data.w[i] * data.w[i]);
   }
   return out;
@@ -81,6 +83,8 @@ MatrixXd weighted(const Data& data, const Eigen::MatrixXcd& m) {
 /// Least squares for the linear parameters.
 void solve_linear(const Data& data, Model& model) {
   const MatrixXd a = weighted(data, columns(data, model));
+  // Columns of modes and background differ by orders of magnitude; without scaling the rank
+  // decision of QR drops the small ones.
   const VectorXd scale = a.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   const VectorXd y =
       (a * scale.asDiagonal()).colPivHouseholderQr().solve(weighted(data, data.h.matrix()).col(0));
@@ -105,6 +109,7 @@ MatrixXd jacobian(const Data& data, const Model& model) {
     const double zeta = model.damping[static_cast<std::size_t>(k)];
     for (Index i = 0; i < data.w.size(); ++i) {
       const Complex b = j(i, 2 * n + k);
+      // ∂(gain·b)/∂ ln ω and ∂/∂ ln ζ with b = 1/(ω² − w² + 2iζωw).
       const Complex d = -model.linear[k] * b * b;
       const Complex damping(0.0, 2.0 * zeta * w0 * data.w[i]);
       j(i, k) = d * (2.0 * w0 * w0 + damping);
@@ -127,11 +132,13 @@ void refine(const Data& data, Model& model, int most_steps) {
     bool better = false;
     while (!better && lambda < 1e8) {
       MatrixXd damped = normal;
+      // Marquardt's scaling: the damping goes with each parameter's own curvature.
       damped.diagonal() *= 1.0 + lambda;
       const VectorXd move = damped.ldlt().solve(gradient);
       Model next = model;
       for (Index k = 0; k < n; ++k) {
         const auto at = static_cast<std::size_t>(k);
+        // Bounded: far from the optimum a whole Gauss–Newton step may lead anywhere.
         next.w[at] *= std::exp(std::clamp(move[k], -0.1, 0.1));
         next.damping[at] =
             std::clamp(next.damping[at] * std::exp(std::clamp(move[n + k], -1.0, 1.0)),
@@ -163,6 +170,7 @@ double estimate_noise(Data& data, const Model& model) {
   const double mean = std::max(left.mean(), 1e-300);
   const auto cost = [&](double s2, double r2) {
     const ArrayXd variance = s2 + r2 * size;
+    // Real and imaginary parts count as two independent measurements of equal variance.
     return 2.0 * (variance.log() + left / variance).sum();
   };
   double s2 = mean;
@@ -221,6 +229,7 @@ Model with_one_more(const Data& data, const Model& model) {
       next.damping.push_back(damping);
       solve_linear(data, next);
       const double now = misfit(data, next);
+      // At a drive point every modal mass is positive; a negative one is noise or a wrong sign.
       if (next.linear[next.modes() - 1] > 0.0 && (!best || now < least)) {
         least = now;
         best = std::move(next);
@@ -233,6 +242,7 @@ Model with_one_more(const Data& data, const Model& model) {
 bool sound(const Data& data, const Model& model) {
   for (Index k = 0; k < model.modes(); ++k) {
     const auto at = static_cast<std::size_t>(k);
+    // A mode at a bound, or outside the band, stands for the background or for noise.
     if (!(model.linear[k] > 0.0) || model.damping[at] >= kMostDamping ||
         model.damping[at] <= kLeastDamping || model.w[at] < 0.9 * data.w.minCoeff() ||
         model.w[at] > 1.1 * data.w.maxCoeff()) {
@@ -277,6 +287,7 @@ Data gather(std::span<const Frf> responses, const ModeFitConfig& config) {
   out.w = Eigen::Map<ArrayXd>(w.data(), static_cast<Index>(w.size()));
   out.h = Eigen::Map<Eigen::ArrayXcd>(h.data(), static_cast<Index>(h.size()));
   if (!w.empty()) {
+    // Geometric: the background terms go with powers of ω.
     out.middle_w = std::exp(out.w.log().mean());
     // Before anything is known: a tenth of the response and of its mean.
     out.weight = (out.h.abs2() + out.h.abs2().mean()).rsqrt() * 10.0;
@@ -302,8 +313,9 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
   if (data.w.size() < static_cast<Index>(kLeastPoints) || most < 1 || most > 16) {
     return std::unexpected(Refusal{
         Kind::bad_input, "", 0,
-        fmt::format("{} points in the band for up to {} modes; needed are {} and 1 … 16 modes",
-                    data.w.size(), most, kLeastPoints),
+        fmt::format(
+            "{} points in the band for up to {} modes; {} points are needed, and 1 … 16 modes",
+            data.w.size(), most, kLeastPoints),
         "give more of the response or fewer modes"});
   }
   Model model;
@@ -317,11 +329,15 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
       break;
     }
     double likelihood = 0.0;
+    // Noise and modes depend on each other: the weights come from the noise, the noise from what
+    // the modes leave.
     for (int round = 0; round < kRounds; ++round) {
       refine(data, next, kSteps);
       likelihood = estimate_noise(data, next);
     }
     model = next;
+    // BIC (Schwarz 1978): the two more unknowns are s and r of the noise; each point counts twice,
+    // real and imaginary.
     criterion.push_back(likelihood + static_cast<double>(unknowns + 2) *
                                          std::log(2.0 * static_cast<double>(data.w.size())));
     const bool wanted = config.order > 0 ? n == config.order : !best || criterion.back() < least;
@@ -329,15 +345,16 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
       best = result_of(data, next);
       least = criterion.back();
     }
+    // Two orders in a row that are worse than the best.
     if (config.order == 0 && n >= 2 && criterion.back() > least + 20.0 &&
         criterion[n - 2] > least) {
       break;
     }
   }
   if (!best) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "no mode with a positive mass explains the response",
-                                   "check the sign and the unit, and that it is a drive point"});
+    return std::unexpected(
+        Refusal{Kind::bad_input, "", 0, "no mode with a positive mass explains the response",
+                "check the sign and the unit, and that this is a drive-point response"});
   }
   best->criterion = criterion;
   return *best;

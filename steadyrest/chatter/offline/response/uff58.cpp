@@ -18,6 +18,7 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+// Codes of universal file dataset 58: function type, axis data types, ordinate data type.
 constexpr int kFrequencyResponse = 4;
 constexpr int kFrequency = 18;
 constexpr int kDisplacement = 8;
@@ -133,7 +134,7 @@ class UffReader {
     return {Kind::bad_input, file_, at_, std::move(what), std::move(to_do)};
   }
   [[nodiscard]] Refusal truncated() const {
-    return bad("the file ends within a dataset", "it is cut off; export it again");
+    return bad("the file ends within a dataset", "it is truncated; export it again");
   }
 
   std::optional<Refusal> dataset() {
@@ -150,7 +151,7 @@ class UffReader {
     if (function != kFrequencyResponse) {
       return bad(
           fmt::format("function type {}; a frequency response is {}", function, kFrequencyResponse),
-          "export frequency responses alone");
+          "export only frequency responses");
     }
     if (auto fault = form()) {
       return fault;
@@ -168,13 +169,13 @@ class UffReader {
                    "export over frequency in Hz");
       }
       if (axis == &response && !response_scale(*axis)) {
-        return bad(fmt::format("ordinate of type {} in \"{}\"; allowed are displacement (8), "
+        return bad(fmt::format("ordinate of type {} in \"{}\"; allowed: displacement (8), "
                                "velocity (11) and acceleration (12) in m, mm, um, their rates, g",
                                axis->kind, axis->unit),
                    "export with SI units");
       }
       if (axis == &force && !force_scale(*axis)) {
-        return bad(fmt::format("denominator of type {} in \"{}\"; allowed is force (13) in N, kN",
+        return bad(fmt::format("denominator of type {} in \"{}\"; allowed: force (13) in N, kN",
                                axis->kind, axis->unit),
                    "export the response to a force");
       }
@@ -192,7 +193,7 @@ class UffReader {
       const auto value = i < words.size() ? number(words[i]) : std::nullopt;
       if (!value || std::abs(*value) > 1e9 || *value != std::floor(*value)) {
         return bad("a whole number is missing in this record",
-                   "the file may be cut off here; export it again");
+                   "the file may be truncated here; export it again");
       }
       out[i] = static_cast<int>(*value);
     }
@@ -210,7 +211,7 @@ class UffReader {
                  "export real and imaginary part");
     }
     if (head[1] < 1 || static_cast<std::size_t>(head[1]) > kMostPoints) {
-      return bad(fmt::format("{} values; allowed are 1 … {}", head[1], kMostPoints),
+      return bad(fmt::format("{} values; allowed: 1 … {}", head[1], kMostPoints),
                  "export the response again");
     }
     count_ = static_cast<std::size_t>(head[1]);
@@ -234,6 +235,7 @@ class UffReader {
     if (auto fault = integers(std::span(&axis.kind, 1))) {
       return fault;
     }
+    // By column, not by word: the label before the unit may be blank or contain blanks.
     constexpr std::size_t kUnitAt = 47;
     const std::string_view unit =
         line_.size() > kUnitAt ? trimmed(line_.substr(kUnitAt, 20)) : std::string_view();
@@ -274,6 +276,8 @@ class UffReader {
   }
 
   std::optional<Refusal> data(const Axis& response, double scale) {
+    // Real, imaginary; over uneven frequencies with the frequency in front. Values per line vary
+    // with the number type, so values are counted, not lines.
     const std::size_t per_point = even_ ? 2 : 3;
     std::vector<double> values;
     while (values.size() < count_ * per_point) {
@@ -283,12 +287,12 @@ class UffReader {
       if (trimmed(line_) == "-1") {
         return bad(
             fmt::format("the data end after {} of {} points", values.size() / per_point, count_),
-            "the file is cut off; export it again");
+            "the file is truncated; export it again");
       }
       for (const std::string_view word : words_of(line_)) {
         const auto value = number(word);
         if (!value) {
-          return bad(fmt::format("\"{}\" is no number", word.substr(0, 40)),
+          return bad(fmt::format("\"{}\" is not a number", word.substr(0, 40)),
                      "export the response again");
         }
         values.push_back(*value);
@@ -314,6 +318,7 @@ class UffReader {
                    "export with rising frequencies");
       }
       last = f;
+      // Division by (iω)² or iω: at 0 Hz acceleration and velocity say nothing of displacement.
       if (f <= 0.0) {
         continue;
       }

@@ -74,7 +74,7 @@ class SignalSink final : public table::Sink {
   OrFault<RecordedSignal> take() {
     if (time_s_.size() < 2) {
       return std::unexpected(SignalFault{0, fmt::format("holds {} samples", time_s_.size()),
-                                         "give CSV with the columns t_s and value, or WAV"});
+                                         "give a CSV with columns t_s and value, or a WAV"});
     }
     std::vector<double> steps(time_s_.size() - 1);
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -88,11 +88,13 @@ class SignalSink final : public table::Sink {
       if (!(steps[i] > 0.0 && std::abs(steps[i] - median_s) <= kUneven * median_s)) {
         return std::unexpected(SignalFault{
             lines_[i + 1],
-            fmt::format("t_s goes on by {:.6g} s, elsewhere by {:.6g} s", steps[i], median_s),
-            "give samples at an even rate, none left out, t_s with enough digits"});
+            fmt::format("t_s advances by {:.6g} s here and by {:.6g} s elsewhere", steps[i],
+                        median_s),
+            "give samples at an even rate with none missing, and t_s with enough digits"});
       }
     }
     out_.start_s = time_s_.front();
+    // Over the whole record: one step has only the digits of its stamps.
     out_.rate_hz = static_cast<double>(steps.size()) / (time_s_.back() - time_s_.front());
     if (auto fault = unfit_rate(out_.rate_hz)) {
       return std::unexpected(std::move(*fault));

@@ -78,7 +78,7 @@ std::optional<SignalFault> unfit_rate(double rate_hz) {
   if (rate_hz >= kLeastRateHz * (1.0 - kRateSlack) && rate_hz <= kMostRateHz * (1.0 + kRateSlack)) {
     return std::nullopt;
   }
-  return SignalFault{0, fmt::format("{:.6g} samples a second; allowed are 1000 … 50000", rate_hz),
+  return SignalFault{0, fmt::format("{:.6g} samples a second; allowed: 1000 … 50000", rate_hz),
                      rate_hz > kMostRateHz
                          ? "resample it to 50 kHz or less, through a low-pass filter"
                          : "record at 1 kHz or more; t_s is in seconds"};

@@ -30,10 +30,10 @@ struct WavFormat {
 };
 
 SignalFault cut_off(std::size_t at, std::size_t wanted, std::size_t held) {
-  return {0,
-          fmt::format("byte {}: {} bytes are announced, {} are there: the file is cut off", at,
-                      wanted, held),
-          "copy the recording again, or save it anew in an audio editor"};
+  return {
+      0,
+      fmt::format("byte {}: {} bytes announced, {} found: the file is truncated", at, wanted, held),
+      "copy the recording again, or re-save it in an audio editor"};
 }
 
 OrFault<WavFormat> format_of(std::string_view bytes, std::size_t at, std::size_t size) {
@@ -43,9 +43,10 @@ OrFault<WavFormat> format_of(std::string_view bytes, std::size_t at, std::size_t
   if (size < kPlain) {
     return std::unexpected(SignalFault{
         0, fmt::format("byte {}: the fmt chunk has {} bytes; it must have 16 or more", at, size),
-        "save the recording anew as WAV"});
+        "re-save the recording as WAV"});
   }
   std::uint32_t tag = little_endian(bytes, at, 2);
+  // WAVE_FORMAT_EXTENSIBLE: the tag proper is the start of the sub-format's GUID.
   if (tag == 0xFFFEU && size >= kExtensible) {
     tag = little_endian(bytes, at + kSubFormat, 2);
   }
@@ -58,15 +59,15 @@ OrFault<WavFormat> format_of(std::string_view bytes, std::size_t at, std::size_t
   const bool pcm = tag == 1 && (bits == 16 || bits == 24 || bits == 32);
   if (!pcm && !(out.floats && bits == 32)) {
     return std::unexpected(
-        SignalFault{0, fmt::format("byte {}: format {} of {} bits is not read", at, tag, bits),
-                    "save it as PCM of 16, 24 or 32 bits or as floats of 32"});
+        SignalFault{0, fmt::format("byte {}: format {} of {} bits is not supported", at, tag, bits),
+                    "save it as 16, 24 or 32-bit PCM, or as 32-bit float"});
   }
   if (out.channels == 0 || little_endian(bytes, at + 12, 2) != out.channels * out.sample_bytes) {
     return std::unexpected(
         SignalFault{0,
-                    fmt::format("byte {}: {} channels of {} bits do not make frames of {} bytes",
-                                at, out.channels, bits, little_endian(bytes, at + 12, 2)),
-                    "save the recording anew as WAV"});
+                    fmt::format("byte {}: {} channels of {} bits do not make {}-byte frames", at,
+                                out.channels, bits, little_endian(bytes, at + 12, 2)),
+                    "re-save the recording as WAV"});
   }
   if (auto fault = unfit_rate(out.rate_hz)) {
     return std::unexpected(std::move(*fault));
@@ -89,9 +90,9 @@ OrFault<RecordedSignal> samples_of(std::string_view bytes, std::size_t at, std::
   if (size % frame != 0 || size < 2 * frame) {
     return std::unexpected(
         SignalFault{0,
-                    fmt::format("byte {}: {} bytes of data are not two or more frames of {} bytes",
-                                at, size, frame),
-                    "record anew, or save it anew in an audio editor"});
+                    fmt::format("byte {}: {} bytes of data are not two or more {}-byte frames", at,
+                                size, frame),
+                    "record again, or re-save it in an audio editor"});
   }
   RecordedSignal out;
   out.rate_hz = format.rate_hz;
@@ -101,7 +102,7 @@ OrFault<RecordedSignal> samples_of(std::string_view bytes, std::size_t at, std::
     if (!std::isfinite(out.value[i])) {
       return std::unexpected(SignalFault{
           0, fmt::format("byte {}: sample {} is not a finite number", at + i * frame, i + 1),
-          "repair the recorder"});
+          "fix the recorder"});
     }
   }
   return out;
@@ -138,11 +139,12 @@ OrFault<RecordedSignal> parse_wav_signal(std::string_view bytes) {
     } else if (name == "data" && format) {
       return samples_of(bytes, body, size, *format);
     }
+    // RIFF pads chunks to even lengths and does not count the padding.
     at = body + size + size % 2;
   }
   return std::unexpected(
       SignalFault{0, format ? "has no data chunk" : "has no fmt chunk before the data",
-                  "save the recording anew as WAV"});
+                  "re-save the recording as WAV"});
 }
 
 }  // namespace steadyrest::chatter::offline

@@ -212,7 +212,7 @@ TEST_F(Output, AFullDiskLeavesTheOldFile) {
     out->write(std::string(5000, 'x'));
     const auto done = out->commit();
     _exit(!done && done.error().kind == outcome::Kind::unavailable &&
-                  done.error().what.starts_with("cannot be written")
+                  done.error().what.starts_with("write failed")
               ? 7
               : 8);
   });
@@ -275,7 +275,7 @@ TEST_F(Output, AClosedPipeIsARefusal) {
     close(reader);
     out->write("new\n");
     const auto done = out->commit();
-    _exit(!done && done.error().what == "cannot be written: Broken pipe" ? 7 : 8);
+    _exit(!done && done.error().what == "write failed: Broken pipe" ? 7 : 8);
   });
   EXPECT_EQ(WEXITSTATUS(status), 7);
   EXPECT_TRUE(fs::is_fifo(at("pipe")));

@@ -82,9 +82,9 @@ TEST_F(Places, RefusesWhatCannotBeWritten) {
   for (const auto& [name, what] : {std::pair{"x", "is a folder"},
                                    {"new/", "is the name of a folder"},
                                    {"log.csv", "write-protected"},
-                                   {"missing/out.csv", "folder cannot be reached"},
-                                   {"log.csv/out.csv", "cannot be"},
-                                   {"round", "cannot be"}}) {
+                                   {"missing/out.csv", "folder is out of reach"},
+                                   {"log.csv/out.csv", "not writable"},
+                                   {"round", "not writable"}}) {
     const auto place = place_of(at(name));
     ASSERT_FALSE(place.has_value()) << name;
     EXPECT_THAT(outcome::text(place.error()), HasSubstr(what));

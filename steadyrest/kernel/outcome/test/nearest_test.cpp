@@ -25,7 +25,7 @@ TEST(Nearest, SuggestsNothingForAnotherWord) {
 }
 
 TEST(Nearest, SaysWhatToWrite) {
-  EXPECT_EQ(meant("codign", kWords, "remove it"), "write coding if that is meant");
+  EXPECT_EQ(meant("codign", kWords, "remove it"), "write coding if that is what you mean");
   EXPECT_EQ(meant("colour_of_paint", kWords, "remove it"), "remove it");
 }
 

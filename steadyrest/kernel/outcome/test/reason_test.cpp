@@ -49,12 +49,10 @@ constexpr Range kRanges[] = {{0, "Common"},    {100, "Envelope and arbiter"},
 
 std::string document() {
   std::string text =
-      "# Reasons\n\n"
-      "Every request, command, log line and report carries one of these numbers. They are stable: "
-      "a "
-      "number\nis never given a second meaning. This page is written from the table in\n"
-      "`steadyrest/kernel/outcome/reason.cpp`; "
-      "`STEADYREST_REWRITE_DOCS=1 ctest -R Reason` writes it anew.\n";
+      "# Reasons\n\nEvery request, command, log line and report carries one of these numbers. They "
+      "are stable: a number\nis never given a second meaning. This page is written from the table "
+      "in\n`steadyrest/kernel/outcome/reason.cpp`; `STEADYREST_REWRITE_DOCS=1 ctest -R Reason` "
+      "rewrites it.\n";
   for (const auto& [first, title] : kRanges) {
     std::string rows;
     for (const auto& entry : reasons()) {

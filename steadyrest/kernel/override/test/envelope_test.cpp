@@ -196,7 +196,7 @@ TEST(RatioEnvelope, RefusesAConfigThatWouldSwitchItOff) {
   EXPECT_FALSE(RatioEnvelope::make({.max_step_s = kInf}));
   const auto refused = RatioEnvelope::make({.rise_1_s = -2.0});
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().what, "envelope: rise_1_s is -2; allowed is finite and > 0");
+  EXPECT_EQ(refused.error().what, "envelope: rise_1_s is -2; allowed: finite and > 0");
 }
 
 TEST(RatioEnvelope, AStateThatIsNotFiniteIsNotRestored) {

@@ -188,7 +188,7 @@ std::vector<SceneChoice> bench_scenes(const SceneConfig& config) {
       {"sine-line", "sine-line", "sine with 5 % phase error and 2 % random line error",
        [] { return with_targets(simple(standard_sine(), line_errors()), 0.010, 4.6); }},
       {"sine-line-calibrated", "sine-line-calibrated",
-       "the same after the lines were learnt from that motion", calibrated_sine},
+       "the same, after learning the lines from that motion", calibrated_sine},
       {"s-curve", "s-curve", "rest, 20 mm/s, stop, back at 2 mm/s, stop; mean over starts",
        [phases = config.phases] { return s_curves(phases); }},
       {"flywheel", "flywheel", "6 counts/tick, −0.006 counts/tick², stamps of 1 µs",

@@ -198,6 +198,7 @@ class SceneRun {
       for (std::size_t k = 0; k < record.truth.size(); ++k) {
         const double v = std::abs(record.truth[k].velocity_mm_s);
         if (scene_.scored[i][k] != 0 && v > ErrorCurve::kAtSpeed_mm_s) {
+          // A stamp is off by half a clock tick, hence the position by half of v·clock.
           const MotionError e =
               landau_bound(0.5 * v * scene_.setup.clock_s, scene_.setup.max_jerk_mm_s3);
           sum2.velocity_mm_s += e.velocity_mm_s * e.velocity_mm_s;
@@ -260,7 +261,7 @@ Result<std::vector<std::string>> chosen_estimators(const BenchConfig& config) {
     if (std::ranges::find(known, name) == known.end()) {
       return std::unexpected(Refusal{Kind::bad_input, "", 0,
                                      fmt::format("there is no estimator \"{}\"", name),
-                                     fmt::format("give some of {}", fmt::join(known, ","))});
+                                     fmt::format("choose from {}", fmt::join(known, ","))});
     }
   }
   return config.estimators;
@@ -280,8 +281,8 @@ Result<std::vector<SceneChoice>> chosen_scenes(const BenchConfig& config) {
       const bool folder = wanted.starts_with("recorded") && config.recorded_folder.empty();
       return std::unexpected(
           Refusal{Kind::bad_input, "", 0, fmt::format("there is no scene \"{}\"", wanted),
-                  folder ? "name the folder of the logs with --recorded"
-                         : fmt::format("give some of {}", fmt::join(names, ","))});
+                  folder ? "name the folder with the logs with --recorded"
+                         : fmt::format("choose from {}", fmt::join(names, ","))});
     }
   }
   std::vector<SceneChoice> out;

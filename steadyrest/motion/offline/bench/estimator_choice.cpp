@@ -94,7 +94,7 @@ std::optional<Refusal> unfit_limit(std::string_view what, double value) {
   if (value > 0.0) {
     return std::nullopt;
   }
-  return refuse(fmt::format("{} = {:.10g}; allowed is a number above 0", what, value),
+  return refuse(fmt::format("{} = {:.10g}; allowed: a number above 0", what, value),
                 "give the limit of the axis, or leave it out");
 }
 
@@ -102,7 +102,7 @@ std::optional<Refusal> unfit_amount(std::string_view what, double value) {
   if (value >= 0.0 && std::isfinite(value)) {
     return std::nullopt;
   }
-  return refuse(fmt::format("{} = {:.10g}; allowed is a finite number from 0", what, value),
+  return refuse(fmt::format("{} = {:.10g}; allowed: a finite number from 0", what, value),
                 "give a value in that range");
 }
 
@@ -148,11 +148,11 @@ EstimatorResult make_estimator(std::string_view name, const EstimatorSetup& setu
   }
   if (setup.lag_s > 0.0 && !choice->takes_lag) {
     return std::unexpected(
-        *refuse(fmt::format("the estimator {} takes no lag", name), "leave the lag out"));
+        *refuse(fmt::format("the estimator {} takes no lag", name), "leave out the lag"));
   }
   if (!setup.has_edges && choice->needs_edges) {
     return std::unexpected(*refuse(fmt::format("the estimator {} needs edges", name),
-                                   "give a log of edges, or take another estimator"));
+                                   "give a log of edges, or choose another estimator"));
   }
   if (choice->needs_acceleration && !std::isfinite(setup.max_acceleration_mm_s2)) {
     return std::unexpected(

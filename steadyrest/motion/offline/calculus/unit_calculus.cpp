@@ -25,7 +25,7 @@ std::optional<Refusal> unfit(std::initializer_list<Given> values) {
     if (!std::isfinite(given.value) || given.value <= 0.0) {
       return Refusal{
           Kind::bad_input, "", 0,
-          fmt::format("{} = {:.10g}; allowed is a finite number above 0", given.what, given.value),
+          fmt::format("{} = {:.10g}; allowed: a finite number above 0", given.what, given.value),
           "give a value above 0"};
     }
   }
@@ -42,7 +42,7 @@ Number apply(std::initializer_list<Given> values, std::string_view result, Law l
   if (!std::isfinite(value) || value <= 0.0) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0,
                                    fmt::format("{} comes out as {:.10g}", result, value),
-                                   "give values of a real machine"});
+                                   "give values for a real machine"});
   }
   return value;
 }

@@ -44,7 +44,7 @@ std::expected<std::int64_t, Fault> count_of(const Row& row, std::size_t column) 
   if (std::abs(*real) > static_cast<double>(kMaxCount)) {
     return std::unexpected(Fault{
         row.line(),
-        fmt::format("count = {} is out of range; allowed is ±{}", table::shown(field), kMaxCount),
+        fmt::format("count = {} is out of range; allowed: ±{}", table::shown(field), kMaxCount),
         std::string(kRepair)});
   }
   if (*real != std::trunc(*real)) {
@@ -82,8 +82,8 @@ class EdgeLogReader::Parser final : public table::Sink {
 
   /// A line that is too long to be one.
   void endless() {
-    take({line_number() + 1, fmt::format("a line of more than {} characters", kLongestLine),
-          "give a log with LF or CR LF as line ends"});
+    take({line_number() + 1, fmt::format("a line longer than {} characters", kLongestLine),
+          "give a log with LF or CR LF line ends"});
   }
 
   EdgeLogResult finish() {
@@ -95,7 +95,7 @@ class EdgeLogReader::Parser final : public table::Sink {
     if (!refused_ && line_number() == 0) {
       refuse({0, "is empty", "give a log with the columns t_s and count"});
     } else if (!refused_ && !reader_.has_head()) {
-      refuse({0, "has no header", "see to it that the header names the columns t_s and count"});
+      refuse({0, "has no header", "name the columns t_s and count in the header"});
     } else if (!refused_ && log_.rows.empty()) {
       refuse({0, "has no rows after its header", "give a log with at least one row"});
     }
@@ -111,9 +111,8 @@ class EdgeLogReader::Parser final : public table::Sink {
 
   std::optional<Fault> head(const table::Head& head) override {
     constexpr std::string_view kWay =
-        "see to it that the header names the columns t_s and count once, with , or ; or tab "
-        "between "
-        "them, or name them with --columns";
+        "name the columns t_s and count once each in the header, separated by , or ; or tab, or "
+        "name them with --columns";
     const auto missing = [&](std::string_view name) {
       std::string names;
       for (const std::string& one : head.name) {
@@ -147,7 +146,7 @@ class EdgeLogReader::Parser final : public table::Sink {
     }
     if (std::abs(*t_s) > kMaxTime_s) {
       return Fault{row.line(),
-                   fmt::format("t_s = {:g} is out of range; allowed is ±{:g} s", *t_s, kMaxTime_s),
+                   fmt::format("t_s = {:g} is out of range; allowed: ±{:g} s", *t_s, kMaxTime_s),
                    std::string(kRepair)};
     }
     const auto count = count_of(row, count_);
@@ -174,7 +173,7 @@ class EdgeLogReader::Parser final : public table::Sink {
       report({line_number() + 1,
               fmt::format("the line ends change from {} to {} here",
                           carriage_return_ ? "CR LF" : "LF", carriage_return ? "CR LF" : "LF"),
-              "see whether two logs were joined here"});
+              "check whether two logs were joined here"});
     }
   }
 
@@ -186,7 +185,7 @@ class EdgeLogReader::Parser final : public table::Sink {
       }
       if (config_.rising_time && next.t_s == before.t_s) {
         report({row.line(), fmt::format("the time stamp {:.9f} s repeats", next.t_s),
-                "the row is left out; see whether the stamps have digits enough"});
+                "the row is skipped; check that the time stamps have enough digits"});
         return std::nullopt;
       }
       check_step(before, next, row.line());
@@ -208,12 +207,11 @@ class EdgeLogReader::Parser final : public table::Sink {
     const double ahead_s = rows < 2 ? 0.0 : next.t_s - log_.rows[rows - 2].t_s;
     if (ahead_s <= 0.0 || before.t_s - log_.rows[rows - 2].t_s <= kLeap * ahead_s) {
       return {line, fmt::format("time goes back from {:.9f} s to {:.9f} s", before.t_s, next.t_s),
-              "cut the log here, or read both parts apart"};
+              "cut the log here, or read the two parts separately"};
     }
     log_.rows.pop_back();
     return {last_line_,
-            fmt::format("t_s = {:.9g} leaps ahead of its neighbours; between {:.9f} s and {:.9f} s "
-                        "is allowed",
+            fmt::format("t_s = {:.9g} leaps ahead of its neighbours; allowed: {:.9f} s to {:.9f} s",
                         before.t_s, log_.rows.back().t_s, next.t_s),
             "correct the row's time, or cut the log before it"};
   }
@@ -237,13 +235,13 @@ class EdgeLogReader::Parser final : public table::Sink {
                         next.t_s - before.t_s,
                         lost ? fmt::format(": {} edges are lost", step - 1)
                              : std::string(", faster than the axis")),
-            "see whether the recorder keeps up with the axis"});
+            "check that the recorder keeps up with the axis"});
   }
 
   void cut_off() {
     report({line_number(),
             fmt::format("the log ends within a row: \"{}\"", table::shown(table::trimmed(text_))),
-            "the row is left out; see whether the log is whole"});
+            "the row is skipped; check that the log is complete"});
   }
 
   /// A row without line end: whole, or cut off by the end of the file?
@@ -255,6 +253,8 @@ class EdgeLogReader::Parser final : public table::Sink {
     const LogRow& before = log_.rows[rows - 1];
     const std::int64_t step = rows == 1 ? 0 : before.count - log_.rows[rows - 2].count;
     const std::int64_t off = std::abs(next.count - (before.count + step));
+    // A number cut off is still a number. The time may be cut only in the last column; the count is
+    // believed where it continues the last step.
     const bool time_may_be_cut = clock_->column() && *clock_->column() + 1 == all_;
     return next.t_s >= before.t_s && off <= std::abs(step) / 2 + 2 &&
            (!time_may_be_cut || time_size >= time_size_);

@@ -27,7 +27,7 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 Refusal unreadable(const std::string& path, const char* what) {
   return {Kind::bad_input, path, 0, std::string(what) + ": " + std::strerror(errno),
-          "check the path and the rights"};
+          "check the path and the permissions"};
 }
 
 /// Bytes of a file; 0 where they are not known (a pipe).

@@ -75,6 +75,7 @@ bool counts_are_rounded(const EdgeLog& log, double median_s) {
     if (!even || counts[0] * counts[1] <= 0.0 || counts[1] * counts[2] <= 0.0) {
       continue;  // lost rows, a turn, standstill
     }
+    // The mean of both neighbours: a constant acceleration drops out.
     const double speed = 0.5 * (counts[0] / step_s[0] + counts[2] / step_s[2]);
     const double off = counts[1] - speed * step_s[1];
     square += off * off;
@@ -96,20 +97,18 @@ std::optional<Refusal> other_kind(const EdgeLog& log, LogInput input, double cyc
   if (input == LogInput::edges && steps.even > kMostRows && steps.other > kFewRows &&
       (steps.standing > kFewRows || steps.on_grid > kMostRows ||
        counts_are_rounded(log, steps.median_s))) {
-    return Refusal{
-        Kind::bad_input, log.file, 0,
-        fmt::format("is no log of edges: its rows are {:.6g} ms apart, and {:.0f} % of them do not "
-                    "step by one count",
-                    1e3 * steps.median_s, 100.0 * (1.0 - steps.by_one)),
-        "a row for each cycle is --input ticks; calibrating takes a row for each edge"};
+    return Refusal{Kind::bad_input, log.file, 0,
+                   fmt::format("is not a log of edges: its rows are {:.6g} ms apart, and {:.0f} % "
+                               "of them do not step by one count",
+                               1e3 * steps.median_s, 100.0 * (1.0 - steps.by_one)),
+                   "one row per cycle is --input ticks; calibration needs one row per edge"};
   }
   if (input == LogInput::ticks && steps.by_one > kMostRows && steps.of_cycle < 0.5) {
-    return Refusal{
-        Kind::bad_input, log.file, 0,
-        fmt::format("is no log of cycles: {:.0f} % of its rows step by one count, and they are not "
-                    "{:.6g} ms apart but {:.6g} ms (median)",
-                    100.0 * steps.by_one, 1e3 / cycle_hz, 1e3 * steps.median_s),
-        "a row for each edge is --input edges; for cycles give --cycle-hz as they were logged"};
+    return Refusal{Kind::bad_input, log.file, 0,
+                   fmt::format("is not a log of cycles: {:.0f} % of its rows step by one count, "
+                               "and they are not {:.6g} ms apart but {:.6g} ms (median)",
+                               100.0 * steps.by_one, 1e3 / cycle_hz, 1e3 * steps.median_s),
+                   "one row per edge is --input edges; for cycles give --cycle-hz as logged"};
   }
   return std::nullopt;
 }

@@ -19,7 +19,7 @@ std::optional<Refusal> outside(const char* what, double value, bool zero_allowed
     return std::nullopt;
   }
   return Refusal{Kind::bad_input, "", 0,
-                 fmt::format("{} = {:.10g}; allowed is a finite number {} 0", what, value,
+                 fmt::format("{} = {:.10g}; allowed: a finite number {} 0", what, value,
                              zero_allowed ? "from" : "above"),
                  "give a value in that range"};
 }
@@ -42,6 +42,7 @@ online::Tick tick_in(double t_s, std::int64_t count, double count_mm) {
 /// The passage from one cell to another, seen as its last edge.
 online::Edge edge_to(const LogRow& row, std::int64_t from, double count_mm) {
   const bool up = row.count > from;
+  // Line k is the border between cells k − 1 and k.
   const std::int64_t line = up ? row.count : row.count + 1;
   const std::int64_t lost = std::abs(row.count - from) - 1;
   return {row.t_s, static_cast<double>(line) * count_mm, line,
@@ -66,14 +67,12 @@ std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& con
   const double allowed = std::min(static_cast<double>(config.max_ticks),
                                   kFreeTicks + kTicksPerRow * static_cast<double>(log.rows.size()));
   if (!(last - first < allowed)) {
-    return Refusal{
-        Kind::bad_input, log.file, log.longest_step_line,
-        fmt::format(
-            "{} rows span {:.6g} s, which is {:.3g} control cycles; allowed are {:.3g}. The "
-            "time goes on by {:.6g} s before this row",
-            log.rows.size(), log.rows.back().t_s - log.rows.front().t_s, last - first, allowed,
-            log.longest_step_s),
-        "look for a wrong time stamp, or split the log"};
+    return Refusal{Kind::bad_input, log.file, log.longest_step_line,
+                   fmt::format("{} rows span {:.6g} s, or {:.3g} control cycles; allowed: {:.3g}. "
+                               "Time advances by {:.6g} s before this row",
+                               log.rows.size(), log.rows.back().t_s - log.rows.front().t_s,
+                               last - first, allowed, log.longest_step_s),
+                   "look for a wrong time stamp, or split the log"};
   }
   if (last < first) {
     return std::nullopt;

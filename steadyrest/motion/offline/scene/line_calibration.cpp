@@ -36,10 +36,9 @@ kernel::outcome::Result<LineTable> table_for(const Record& record,
   const std::uint64_t more =
       static_cast<std::uint64_t>(range.last) - static_cast<std::uint64_t>(range.first);
   if (range.last < range.first || more >= LineTable::kMaxLines) {
-    return refuse(
-        fmt::format("the table would go from line {} to line {}; allowed are 1 … {} lines",
-                    range.first, range.last, LineTable::kMaxLines),
-        "give a range A:B of lines with A ≤ B, or the counts of one revolution");
+    return refuse(fmt::format("the table would go from line {} to line {}; allowed: 1 … {} lines",
+                              range.first, range.last, LineTable::kMaxLines),
+                  "give a range A:B of lines with A ≤ B, or the counts of one revolution");
   }
   out.first_line = range.first;
   out.lines = static_cast<std::size_t>(more) + 1;
@@ -78,10 +77,10 @@ std::size_t lines_learnt(const LineTable& table) {
 kernel::outcome::Result<LineCalibration> calibrate_lines(const Record& record,
                                                          const LineCalibrationConfig& config) {
   if (record.edges.empty()) {
-    return refuse("there is no edge in the record", "record the axis while it moves");
+    return refuse("the record has no edge", "record the axis while it moves");
   }
   if (config.passes < 1 || config.passes > kMaxPasses) {
-    return refuse(fmt::format("passes = {}; allowed is 1 … {}", config.passes, kMaxPasses),
+    return refuse(fmt::format("passes = {}; allowed: 1 … {}", config.passes, kMaxPasses),
                   "give a value in that range");
   }
   auto table = table_for(record, config);

@@ -106,6 +106,7 @@ class EdgeMaker {
   }
   void emit(double t, std::int64_t line, std::int8_t direction, std::vector<online::Edge>& out) {
     if (how_.clock_s > 0.0) {
+      // A latch truncates. The millionth keeps an instant that is a whole tick from losing one.
       t = std::floor(t / how_.clock_s + 1e-6) * how_.clock_s;
     }
     if (how_.lost_share > 0.0 && share_(random_) < how_.lost_share) {
@@ -196,6 +197,7 @@ std::vector<JerkPiece> speed_change(double change_mm_s, double max_acceleration_
                                     double max_jerk_mm_s3) {
   const double change = std::abs(change_mm_s);
   const double jerk = std::copysign(max_jerk_mm_s3, change_mm_s);
+  // Acceleration reaches its limit, or the change is over first: then there is no hold.
   const double ramp_s =
       std::min(max_acceleration_mm_s2 / max_jerk_mm_s3, std::sqrt(change / max_jerk_mm_s3));
   const double reached = max_jerk_mm_s3 * ramp_s;

@@ -35,6 +35,7 @@ Score score(const std::vector<online::Estimate>& estimates, const Record& record
   std::size_t in_a = 0;
   std::size_t at = 0;
   for (std::size_t k = 0; k < estimates.size(); ++k) {
+    // An estimator that lags is compared with the truth of then: its error, not its delay.
     const double when = record.ticks[k].t_s - lag_s;
     while (at + 2 < record.ticks.size() && record.ticks[at + 1].t_s <= when) {
       ++at;

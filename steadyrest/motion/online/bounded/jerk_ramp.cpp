@@ -28,6 +28,7 @@ constexpr int kSteps = 4;                ///< of the fit; half of them from the 
 void JerkRamp::Trust::learn(bool came) noexcept {
   yes += came ? 1.0 : 0.0;
   all += 1.0;
+  // Both scaled down together: the share stays and old stops lose weight.
   if (all > kMemory) {
     yes *= kMemory / all;
     all = kMemory;
@@ -41,6 +42,7 @@ void JerkRamp::forget() noexcept {
 
 void JerkRamp::edge(double t_s, double x, std::int8_t direction, double variance, double at_rest,
                     double quiet_s) noexcept {
+  // Before anything is kept: the stop that was foretold is judged by this edge.
   judge_stop(t_s, x, direction);
   if (kind_ == Kind::stop && t_s > t0_s_) {
     at_rest = std::max(at_rest, share_);
@@ -80,6 +82,8 @@ void JerkRamp::judge_stop(double t_s, double x, std::int8_t direction) noexcept 
   const double tau = std::max(0.0, t0_s_ - t_s);
   const double expected = x0_ - direction_ * c_ * tau * tau * tau;
   const double rest_s = t_s - t0_s_;
+  // Still on the way to the stop: a line that comes off its place refutes it, one on its place
+  // proves nothing yet.
   if (rest_s <= 0.0 && direction == direction_) {
     if (std::abs(expected - x) > kOff) {
       stops_.learn(false);
@@ -106,12 +110,14 @@ void JerkRamp::begin(double t_s, double x, double at_rest) noexcept {
   }
   kind_ = Kind::start;
   share_ = starts_.share() * at_rest;
+  // It cannot have started before it stopped.
   from_s_ = place_known ? t0_s_ : 0.0;
   c_ = jerk_ / 6.0;
   known_ = false;
   judged_ = false;
   const double way = direction_ * (x - x0_);
   if (place_known && way > 0.0 && way < 1.0) {
+    // way = c·(t − t₀)³, the place of standstill known from the stop.
     t0_s_ = t_s - std::cbrt(way / c_);
     known_ = true;
   }
@@ -126,6 +132,8 @@ void JerkRamp::go_on() noexcept {
   }
   const double d = now.t_s - last.t_s;
   if (known_) {
+    // Ways from the start at the last line and at this one; their difference must be the way
+    // between the lines.
     const double then = last.t_s - t0_s_;
     const double next = now.t_s - t0_s_;
     const double expected = c_ * (next * next * next - then * then * then);
@@ -142,8 +150,10 @@ void JerkRamp::go_on() noexcept {
   }
   // c·(3dθ² + 3d²θ + d³) = way, θ from the start to the line before.
   const double root = (4.0 * direction_ * (now.x - last.x) / (c_ * d) - d * d) / 12.0;
+  // The positive root of that quadratic in θ.
   const double theta = root > 0.0 ? std::sqrt(root) - 0.5 * d : -1.0;
   const double way = c_ * theta * theta * theta;
+  // Between standstill and the first line there is at most one count.
   if (theta < 0.0 || (count_ == 2 && way > 1.0 + kOff)) {
     starts_.learn(false);
     kind_ = Kind::none;
@@ -166,10 +176,13 @@ bool JerkRamp::guess(Curve& out) const noexcept {
   const double v1 = direction_ * (now.x - back(1).x) / h1;
   const double v2 = direction_ * (back(1).x - back(2).x) / h2;
   const double a = 2.0 * (v2 - v1) / (h1 + h2);
+  // The speed now, half an interval on from the mean speed of the last one; bounded, since a
+  // parabola near the end may pass through 0.
   const double v = std::max(v1 - 0.5 * h1 * a, 0.2 * v1);
   if (!(a > 0.0) || 2.0 * v * v > 3.0 * kFar * a) {
     return false;
   }
+  // v = 3c·τ², a = 6c·τ, so τ = 2v/a and x₀ = v·τ/3.
   const double tau = 2.0 * v / a;
   out = {v * tau / 3.0, tau, v / (3.0 * tau * tau)};
   return true;
@@ -177,8 +190,10 @@ bool JerkRamp::guess(Curve& out) const noexcept {
 
 JerkRamp::Residual JerkRamp::residual(std::size_t age, const Curve& curve) const noexcept {
   const Passage& p = back(age);
+  // Times and places against the last passage: what is large cancels.
   const double tau = curve.t0_s - (p.t_s - back(0).t_s);
   const double slope = 3.0 * curve.c * tau * tau;
+  // A stamp is off by up to half a clock period, evenly: variance (v·clock)²/12.
   const double blur = slope * config_.clock_s;
   return {direction_ * (p.x - back(0).x) - (curve.x0 - curve.c * tau * tau * tau),
           p.variance + blur * blur / 12.0 + kLeastVariance, slope, tau * tau * tau};
@@ -227,6 +242,7 @@ void JerkRamp::fit() noexcept {
   if (was) {
     curve = {direction_ * (x0_ - now.x), t0_s_ - now.t_s, c_};
   }
+  // From the last solution half of the steps do.
   for (int step = was ? kSteps / 2 : 0; step < kSteps; ++step) {
     if (!improve(curve)) {
       return;
@@ -253,6 +269,7 @@ void JerkRamp::fit() noexcept {
     ratio *= otherwise * otherwise / r.variance;
   }
   const auto n = static_cast<double>(count_);
+  // Log likelihood ratio, the three fitted unknowns taken off.
   const double evidence = 0.5 * ((n - 3.0) / n * std::log(ratio) - chi2);
   const double odds = stops_.share() * (same ? kOddsKnown : kOdds);
   share_ = evidence < -30.0 ? 0.0 : odds / (odds + std::exp(-evidence));
@@ -264,6 +281,7 @@ void JerkRamp::fit() noexcept {
   t0_s_ = now.t_s + curve.t0_s;
   c_ = curve.c;
   from_s_ = back(count_ - 1).t_s;
+  // The control's jerk, learnt: starts use it.
   if (share_ > kSure) {
     jerk_ = 6.0 * c_;
   }
@@ -271,6 +289,7 @@ void JerkRamp::fit() noexcept {
 
 JerkRamp::Motion JerkRamp::stopping(double now_s, double when_s) const noexcept {
   const double now = std::max(0.0, t0_s_ - now_s);
+  // By now the next line should have been passed: it was not, so this is no such stop.
   if (direction_ * (x0_ - back(0).x) - c_ * now * now * now > 1.0 + kOff) {
     return {};
   }
@@ -282,6 +301,7 @@ JerkRamp::Motion JerkRamp::starting(double now_s, double when_s) const noexcept 
   if (known_) {
     const double now = now_s - t0_s_;
     const double then = back(0).t_s - t0_s_;
+    // The same for a start.
     if (c_ * (now * now * now - then * then * then) > 1.0 + kOff) {
       return {};
     }
@@ -293,6 +313,7 @@ JerkRamp::Motion JerkRamp::starting(double now_s, double when_s) const noexcept 
   double theta = std::cbrt(1.0 / c_);
   if (d > 0.0) {
     const double root = (4.0 / (c_ * d) - d * d) / 12.0;
+    // That the next line was not passed yet bounds θ from above.
     theta = std::min(theta, root > 0.0 ? std::sqrt(root) - 0.5 * d : -1.0);
   }
   if (theta < 0.0) {
@@ -303,6 +324,7 @@ JerkRamp::Motion JerkRamp::starting(double now_s, double when_s) const noexcept 
     const double mean = std::max(0.0, 0.75 * theta + when);
     return {share_, direction_ * 3.0 * c_ * mean * mean, direction_ * 6.0 * c_ * mean};
   }
+  // Means over w even within 0 … c·θ³: of θ it is ¾·θ, of θ² 3/5·θ².
   return {share_, direction_ * 3.0 * c_ * (0.6 * theta * theta + 1.5 * when * theta + when * when),
           direction_ * 6.0 * c_ * (0.75 * theta + when)};
 }

@@ -39,10 +39,10 @@ kernel::outcome::Result<MotionBound> MotionBound::make(const Config& config) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0, what, to_do});
   };
   if (!(config.cycle_s >= 1e-6 && config.cycle_s <= 1.0)) {
-    return refuse("the cycle is outside of 1e-6 … 1 s", "give the control's cycle time in s");
+    return refuse("the cycle is outside 1e-6 … 1 s", "give the control's cycle time in s");
   }
   if (!(config.clock_s >= 0.0 && config.clock_s <= config.cycle_s)) {
-    return refuse("the clock's period is outside of 0 … one cycle",
+    return refuse("the clock period is outside 0 … one cycle",
                   "give the period of the time stamps in s");
   }
   if (!(config.max_speed_mm_s > 0.0 && config.max_acceleration_mm_s2 > 0.0 &&
@@ -112,6 +112,7 @@ double MotionBound::speed_now(double t_s) const noexcept {
   if (!started_) {
     return std::min(kFastest, config_.max_speed_mm_s);
   }
+  // The fastest that the last tick's intervals and the limits allow by now.
   const double d = std::max(0.0, t_s - t_s_);
   const double a = std::min(now_.acceleration.magnitude() + d * config_.max_jerk_mm_s3,
                             config_.max_acceleration_mm_s2);
@@ -134,6 +135,7 @@ void MotionBound::edge(double t_s, double position_mm, double line_error_mm) noe
     next_ = 0;
     count_ = 0;
   }
+  // Closer nodes would only push older ones out of the ring.
   if (has_waiting_ &&
       (count_ == 0 || waiting_.t_s - back(0).t_s >= config_.cycle_s / kNodesPerCycle)) {
     keep(waiting_);
@@ -151,6 +153,7 @@ void MotionBound::advance(double t_s) noexcept {
   const Interval a = now_.acceleration;
   Interval& v = now_.velocity;
   const double half = std::isfinite(jerk) ? 0.5 * jerk * d * d : kNoBound;
+  // v may change by a·d ± J·d²/2, and by no more than A·d.
   v = both({v.low + d * std::max(a.low - half / d, -a_max),
             v.high + d * std::min(a.high + half / d, a_max)},
            {-config_.max_speed_mm_s, config_.max_speed_mm_s});
@@ -179,6 +182,7 @@ void MotionBound::triple(double t_s, const Node& first, const Node& second,
   const double x2 = second.position_mm - first.position_mm;
   const double x3 = third.position_mm - first.position_mm;
   const double jerk = config_.max_jerk_mm_s3;
+  // c2 is negative here, hence the minus: each error enters with its modulus.
   fresh_.velocity.cut(l2 * x2 + l3 * x3, l1 * first.error_mm - l2 * second.error_mm +
                                              l3 * third.error_mm +
                                              jerk * (h1 * h2 + h1 * h3 + h2 * h3) * (1.0 / 6.0));
@@ -193,6 +197,8 @@ void MotionBound::triples(double t_s, const Node& first, Hints& hints) noexcept 
     return;
   }
   using Spans = std::array<double, kSpans>;
+  // q = ∛(48·ε/J), the best span for the velocity; neighbours on either side cover the acceleration
+  // and gaps between edges.
   const double best = span_of_jerk_ * rough_cbrt(std::max(first.error_mm, 1e-12));
   Spans h2{};
   Spans h3{};
@@ -239,6 +245,8 @@ void MotionBound::triples(double t_s, const Node& first, Hints& hints) noexcept 
     a_radius[k] = 2.0 * (c1 * e1 + c2 * e2[k] + c3 * e3[k] + jerk_6 * (h1 + s23));
   }
   for (std::size_t k = 0; k < kSpans; ++k) {
+    // Nodes that coincide give infinities above; they are left out only here, so that the loop has
+    // no branch.
     if (h2[k] > h1 && h3[k] > h2[k]) {
       fresh_.velocity.cut(v[k], v_radius[k]);
       fresh_.acceleration.cut(a[k], a_radius[k]);
@@ -254,6 +262,7 @@ void MotionBound::pairs(double t_s) noexcept {
     return;
   }
   const Node& first = has_waiting_ ? waiting_ : back(0);
+  // 2·√(ε/A) makes 2ε/h + A·h/2 smallest.
   const double span = span_of_acceleration_ * std::sqrt(std::max(first.error_mm, 1e-12));
   pair_hint_ = age_at(first.t_s - span, pair_hint_);
   const Node& second = back(pair_hint_);
@@ -275,6 +284,8 @@ void MotionBound::rest_begins(double half_cell_mm) noexcept {
     return;
   }
   rest_half_cell_mm_ = half_cell_mm;
+  // At standstill the error of a position is the half cell; ∛(48·ε/J) and ∛(64·ε/J) are the best
+  // spans of velocity and acceleration.
   const double span_v_s = std::cbrt(48.0 * half_cell_mm / jerk);
   const double span_a_s = std::cbrt(64.0 * half_cell_mm / jerk);
   rest_step_ = static_cast<std::size_t>(
@@ -355,6 +366,8 @@ MotionIntervals MotionBound::tick(double t_s, double low_mm, double high_mm) noe
   }
   const MotionIntervals met{both(now_.velocity, fresh_.velocity),
                             both(now_.acceleration, fresh_.acceleration)};
+  // No motion within the limits explains this: only what this tick shows is kept, so that a wrong
+  // past does not last.
   if (met.velocity.empty() || met.acceleration.empty()) {
     ++contradictions_;
     const Interval v{-config_.max_speed_mm_s, config_.max_speed_mm_s};

@@ -37,7 +37,7 @@ bool in_range(double value, double low, double high) {
 kernel::outcome::Result<MotionEstimator> MotionEstimator::make(const Config& config) {
   if (!in_range(config.count_mm, 1e-9, 1e3)) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "the count's length is outside of 1e-9 … 1000 mm",
+                                   "the length of a count is outside 1e-9 … 1000 mm",
                                    "give the length of one count after ×4 decoding in mm"});
   }
   if (std::isnan(config.line_error_mm) || config.line_error_mm > config.count_mm) {
@@ -47,7 +47,7 @@ kernel::outcome::Result<MotionEstimator> MotionEstimator::make(const Config& con
   }
   if (!in_range(config.lag_s, 0.0,
                 static_cast<double>(LagSmoother::kMostTicks) * config.cycle_s * 1.001)) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0, "the lag is outside of 0 … 32 cycles",
+    return std::unexpected(Refusal{Kind::bad_input, "", 0, "the lag is outside 0 … 32 cycles",
                                    "give a lag of no more than 32 cycles"});
   }
   const auto bound = MotionBound::make({config.cycle_s, config.clock_s, config.max_speed_mm_s,
@@ -68,6 +68,8 @@ MotionEstimator::MotionEstimator(const Config& config, const MotionBound& bound)
   const double jerk = config.max_jerk_mm_s3 / config.count_mm;
   for (std::size_t j = 0; j < kModels; ++j) {
     const double most = (j + 1 == kModels ? kDensityOfShock : kDensityOfJerk) * jerk * jerk;
+    // A model rougher than the limit of the jerk would follow what cannot be; the last one stays
+    // wider in case the limit is broken.
     const bool limited = kJerkDensity[j] > most;
     jerk_density_[j] = limited ? most : kJerkDensity[j];
     decay_1_s_[j] = limited ? std::min(kDecay[j], tuning_.decay_1_s) : kDecay[j];
@@ -79,6 +81,7 @@ MotionEstimator::MotionEstimator(const Config& config, const MotionBound& bound)
   ramp_ = JerkRamp({jerk, config.max_acceleration_mm_s2 / config.count_mm,
                     config.max_speed_mm_s / config.count_mm, clock_});
   if (config_.line_error_mm >= 0.0) {
+    // A bound taken as 3σ.
     const double sigma = config_.line_error_mm / config_.count_mm / 3.0;
     line_variance_ = std::clamp(sigma * sigma, kLeastVariance, kMostVariance);
   }
@@ -125,6 +128,7 @@ void MotionEstimator::start(double t_s, double x, double variance) noexcept {
 }
 
 void MotionEstimator::edge(const Edge& edge) noexcept {
+  // An edge earlier than what came before would run the filters backwards.
   if (!std::isfinite(edge.t_s) || !std::isfinite(edge.position_mm) ||
       (started_ && edge.t_s < last_s_)) {
     ++rejected_;
@@ -141,6 +145,8 @@ void MotionEstimator::edge(const Edge& edge) noexcept {
               config_.line_error_mm >= 0.0 ? config_.line_error_mm : 4.0 * line_sigma_mm());
   const double x = (edge.position_mm - origin_mm_) / config_.count_mm;
   Observation seen;
+  // At a turn the group is closed first: an average over both directions is no place the axis was
+  // at.
   if (group_.turns(edge.direction) && group_.take(seen)) {
     observe(seen);
   }
@@ -184,7 +190,10 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
   Lanes unexplained{};
   for (std::size_t j = 0; j < kModels; ++j) {
     const double blur = bank_.v[j] * clock_;
+    // The stamp is even within a clock period.
     const double clock_part = blur * blur * (1.0 / 12.0);
+    // The mean of x over the group's edges lies off x at their mean time by a/2 times the variance
+    // of the times.
     z[j] = seen.x - 0.5 * bank_.a[j] * seen.time_variance;
     r[j] = (line_variance + clock_part) * share + kLeastVariance;
     const double nu = z[j] - bank_.x[j];
@@ -192,8 +201,11 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
     const double total = before[j] + r[j];
     const double inverse = 1.0 / total;
     normalised[j] = nu2[j] * inverse;
+    // Capped: one surprise must not rule a model out for good.
     likelihood[j] =
         exp_of_minus(0.5 * std::min(normalised[j], kCap)) * std::sqrt(inverse * kInverseTwoPi);
+    // What of ν² is the lines' own: less the model's variance and the clock's, times n since a
+    // group averages n lines.
     unexplained[j] = weight_[j] * ((std::min(nu2[j], 9.0 * total) - before[j]) * n - clock_part);
   }
   if (std::max(std::max(normalised[0], normalised[1]), std::max(normalised[2], normalised[3])) >
@@ -203,6 +215,8 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
       wider[j] =
           normalised[j] > kGate ? std::max(1.0, (nu2[j] * (1.0 / kGate) - r[j]) / before[j]) : 1.0;
     }
+    // A surprised model is made wide enough that the edge is at its gate, instead of being
+    // believed.
     bank_.inflate(wider);
   }
   smoother_.observed(seen.t_s, z, r);
@@ -211,6 +225,7 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
   for (std::size_t j = 0; j < kModels; ++j) {
     weight_[j] *= likelihood[j];
   }
+  // Hardly ever does an axis at rest give an edge.
   weight_rest_ *= tuning_.edge_at_rest;
   if (rest > 1e-3) {
     start_moving(rest * tuning_.start_at_edge, seen.x, seen.direction);
@@ -231,6 +246,7 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
 void MotionEstimator::start_moving(double share, double x, std::int8_t direction) noexcept {
   const double sign = direction >= 0 ? 1.0 : -1.0;
   const double each = share / kModels;
+  // From rest at constant jerk: v goes with w^⅔, a with w^⅓, w the way from where it stood.
   const double way_third = std::cbrt(std::clamp(std::abs(x - rest_.x), 0.1, 1.0));
   for (std::size_t j = 0; j < kModels; ++j) {
     const double vw = start_speed_[j] * way_third * way_third;
@@ -256,6 +272,7 @@ void MotionEstimator::start_moving(double share, double x, std::int8_t direction
     std::size_t k = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t m = i; m < 3; ++m, ++k) {
+        // Moments of a mixture: the means' distance adds to the covariance.
         both.covariance[k] = stays * (old.covariance[k] + from_old[i] * from_old[m]) +
                              starts * (own[k] + from_own[i] * from_own[m]);
       }
@@ -267,6 +284,7 @@ void MotionEstimator::start_moving(double share, double x, std::int8_t direction
 
 void MotionEstimator::normalise() noexcept {
   const double all_of_it = weight_rest_ + sum(weight_);
+  // Every hypothesis was ruled out: begin with all of them alike rather than divide by 0.
   if (!(all_of_it > 0.0) || !std::isfinite(all_of_it)) {
     weight_ = all(0.2);
     weight_rest_ = 0.2;

@@ -48,6 +48,7 @@ void CycleMonitor::update(double t_s) noexcept {
   const bool first = !started_;
   if (!first && t_s <= last_s_) {
     ++report_.backwards;
+    // One or two stamps that lie back are bad stamps; three are a clock that was set.
     if (++in_a_row_ < kClockWasSet) {
       return;
     }
@@ -75,6 +76,7 @@ void CycleMonitor::learn(double period_s) noexcept {
     return;
   }
   std::array<double, kLearn> sorted = first_;
+  // The median: a few missed cycles among the first must not shift the nominal period.
   std::nth_element(sorted.begin(), sorted.begin() + kLearn / 2, sorted.end());
   report_.nominal_period_s = sorted[kLearn / 2];
   for (const double period : first_) {
@@ -101,6 +103,7 @@ void CycleMonitor::count(double period_s) noexcept {
   const double deviation = period_s - report_.nominal_period_s;
   ++report_.periods;
   const double step = deviation - mean_;
+  // Welford, on deviations: squares of whole periods would lose the jitter's digits.
   mean_ += step / static_cast<double>(report_.periods);
   squares_ += step * (deviation - mean_);
   if (has_previous_) {
@@ -158,9 +161,11 @@ CycleMonitor::Report CycleMonitor::report() const noexcept {
   const auto n = static_cast<double>(out.periods);
   out.mean_period_s = out.nominal_period_s + mean_;
   out.period_rms_s = std::sqrt(squares_ / n);
+  // A period is the difference of two ticks, each with σ_t: σ_p = √2·σ_t if they wander apart.
   out.tick_rms_s = out.period_rms_s / std::numbers::sqrt2;
   if (pairs_ > 0 && squares_ > 0.0) {
     const auto pairs = static_cast<double>(pairs_);
+    // E(p·p′) − m·E(p) − m·E(p′) + m².
     const double covariance =
         (products_ - mean_ * (sum_first_ + sum_second_)) / pairs + mean_ * mean_;
     out.period_correlation = std::clamp(covariance / (squares_ / n), -1.0, 1.0);
@@ -169,11 +174,13 @@ CycleMonitor::Report CycleMonitor::report() const noexcept {
   return out;
 }
 
+// README, "Jitter": RMS of v̂ − v without its constant lag, ticks independent with σ_t.
 double velocity_jitter_error_mm_s(double velocity_mm_s, double acceleration_mm_s2, double period_s,
                                   double tick_rms_s) noexcept {
   return std::numbers::sqrt2 * tick_rms_s * std::abs(velocity_mm_s / period_s - acceleration_mm_s2);
 }
 
+// Second difference of the ticks: weights 1, −2, 1, hence √6.
 double acceleration_jitter_error_mm_s2(double velocity_mm_s, double period_s,
                                        double tick_rms_s) noexcept {
   return std::sqrt(6.0) * tick_rms_s * std::abs(velocity_mm_s) / (period_s * period_s);

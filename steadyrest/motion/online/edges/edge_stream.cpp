@@ -19,8 +19,8 @@ kernel::outcome::Result<EdgeStream> EdgeStream::make(const Config& config) {
   }
   const auto fits = [&](double error) { return std::abs(error) <= 100.0 * config.count_mm; };
   if (!std::all_of(config.line_error_mm.begin(), config.line_error_mm.end(), fits)) {
-    return std::unexpected(
-        refuse_config("table of line errors has an entry that is no number or beyond 100 counts"));
+    return std::unexpected(refuse_config(
+        "table of line errors has an entry that is not a number or exceeds 100 counts"));
   }
   if (config.periodic && config.line_error_mm.empty()) {
     return std::unexpected(refuse_config("table of line errors is periodic and empty"));
@@ -64,6 +64,7 @@ std::optional<Edge> EdgeStream::edge(const EdgeEvent& event) noexcept {
   out.position_mm = line_mm(event.line);
   out.line = event.line;
   out.direction = event.direction;
+  // A good edge carries the count of those before it that were not fit.
   out.lost = static_cast<std::uint8_t>(std::min<std::uint64_t>(lost_, 255));
   lost_ = 0;
   return out;

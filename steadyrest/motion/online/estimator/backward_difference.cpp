@@ -25,6 +25,8 @@ Estimate BackwardDifference::tick(const Tick& tick) noexcept {
   }
   newest_ = (newest_ + 1) % counts_.size();
   counts_[newest_] = tick.count;
+  // Velocity: q·(c_k − c_{k−m})/(mT), lag mT/2. Acceleration: the second difference over the same
+  // m, lag mT. T is the nominal period, so jitter of the cycle shows in both.
   const std::size_t m = config_.ticks;
   const double span_s = static_cast<double>(m) * config_.cycle_s;
   const std::int64_t last = tick.count - count_before(m);

@@ -19,7 +19,7 @@ kernel::outcome::Result<EventFit> EventFit::make(const Config& config) {
   if (!(config.count_mm > 0.0) || !(config.timeout_s > 0.0) || !(config.window_s >= 0.0) ||
       !(config.line_error_counts >= 0.0)) {
     return std::unexpected(
-        refuse_config("count, timeout, window or line error of the fit is negative or nothing"));
+        refuse_config("count, timeout, window or line error of the fit is negative or zero"));
   }
   if (config.degree < 1 || config.degree > 3) {
     return std::unexpected(refuse_config("degree of the fit is not within 1…3"));
@@ -68,6 +68,8 @@ bool EventFit::fit(std::size_t count, double now_s, Estimate& out) const noexcep
   Eigen::Matrix<double, kTerms, 1> right = Eigen::Matrix<double, kTerms, 1>::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     const Event& event = back(i * stride);
+    // Time scaled to 0 … 1 and position taken from the newest edge: powers of seconds would spoil
+    // the normal equations.
     const double u = (event.t_s - oldest_s) / span_s;
     const double x = event.x_mm - last.x_mm;
     double power = 1.0;
@@ -117,6 +119,8 @@ void EventFit::extrapolate(double now_s, Estimate& out) const noexcept {
 
 void EventFit::clip(const Tick& tick, Estimate& out) const noexcept {
   out.position_mm = std::clamp(out.position_mm, tick.low_mm, tick.high_mm);
+  // Whatever the fit says, the axis has not left its cell since the last edge: that caps the mean
+  // velocity since then. Matters at starts, stops and reversals.
   const double age_s = tick.t_s - back(0).t_s;
   const double slack_mm = config_.line_error_counts * config_.count_mm;
   const double least = tick.low_mm - slack_mm - back(0).x_mm;

@@ -31,6 +31,7 @@ void MOverT::edge(const Edge& edge) noexcept {
 
 void MOverT::take_edge() noexcept {
   const double span_s = latest_.t_s - reference_.t_s;
+  // Velocity needs a reference edge first, else the time since standstill enters Δt.
   if (seen_ < config_.edges_to_start) {
     ++seen_;
   } else if (config_.zero_on_reversal && latest_.line == reference_.line) {
@@ -48,6 +49,7 @@ void MOverT::wait(double age_s) noexcept {
     seen_ = 0;
     velocity_mm_s_ = 0.0;
   } else if (age_s > 0.0) {
+    // Without a new edge the axis has moved less than one count since the last one.
     const double most = config_.count_mm / age_s;
     velocity_mm_s_ = std::clamp(velocity_mm_s_, -most, most);
   }
@@ -66,6 +68,7 @@ Estimate MOverT::tick(const Tick& tick) noexcept {
   const double ahead_mm =
       reference_.position_mm + velocity_mm_s_ * std::max(0.0, tick.t_s - reference_.t_s);
   out.position_mm = seen_ == 0 ? middle_mm : std::clamp(ahead_mm, tick.low_mm, tick.high_mm);
+  // The estimate is clamped to the cell, so it is off by the whole cell at most.
   out.position_bound_mm = tick.high_mm - tick.low_mm;
   const double period_s = tick.t_s - last_tick_s_;
   if (ticked_ && period_s > 0.0) {

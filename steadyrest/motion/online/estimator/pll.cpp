@@ -16,6 +16,7 @@ kernel::outcome::Result<Pll> Pll::make(const Config& config) {
   return Pll(config);
 }
 
+// Critically damped: kp = 2b, ki = kp²/4. Needs 2bT < 1, which make() checks.
 Pll::Pll(const Config& config) noexcept
     : config_(config), kp_1_s_(2.0 * config.bandwidth_rad_s), ki_1_s2_(0.25 * kp_1_s_ * kp_1_s_) {}
 
@@ -23,6 +24,7 @@ Estimate Pll::tick(const Tick& tick) noexcept {
   if (!started_) {
     started_ = true;
     origin_ = tick.count;
+    // Counts are cells; the axis is taken to be in the middle of its first one.
     position_counts_ = 0.5;
   }
   const double period_s = config_.cycle_s;
@@ -31,6 +33,7 @@ Estimate Pll::tick(const Tick& tick) noexcept {
   const double delta = static_cast<double>(tick.count - origin_) - whole;
   position_counts_ += period_s * kp_1_s_ * delta;
   velocity_counts_s_ += period_s * ki_1_s2_ * delta;
+  // Below half of one correction's step the velocity would hunt about zero at rest.
   if (std::abs(velocity_counts_s_) < 0.5 * period_s * ki_1_s2_) {
     velocity_counts_s_ = 0.0;
   }

@@ -20,6 +20,8 @@ kernel::outcome::Result<WorstCaseDifference> WorstCaseDifference::make(const Con
 WorstCaseDifference::WorstCaseDifference(const Config& config) noexcept
     : config_(config), noise_mm_(0.5 * config.count_mm + config.line_error_mm) {
   const double limit = config.max_acceleration_mm_s2;
+  // 2N̄/W from position, L·W from the path's curvature over the window; half of it for a single
+  // tick. The window that makes the sum least is the longest worth using.
   const auto bound = [&](std::size_t ticks) {
     const double window_s = static_cast<double>(ticks) * config.cycle_s;
     return 2.0 * noise_mm_ / window_s + limit * window_s * (ticks > 1 ? 1.0 : 0.5);
@@ -39,9 +41,12 @@ double WorstCaseDifference::shown_error_mm(std::size_t longest) const noexcept {
     for (std::size_t j = 1; j < l; ++j) {
       const double age_s = now.t_s - back(j).t_s;
       const double off_chord = std::abs(back(j).x_mm - now.x_mm + slope * age_s);
+      // How far a sample lies off the chord beyond what acceleration L could bend the path: that
+      // much must be error of position.
       most = std::max(most, off_chord - 0.5 * limit * age_s * (window_s - age_s));
     }
   }
+  // Sample and chord may each be off by half of it.
   return 0.5 * most;
 }
 
@@ -61,6 +66,7 @@ Estimate WorstCaseDifference::tick(const Tick& tick) noexcept {
   }
   const double limit = config_.max_acceleration_mm_s2;
   const std::size_t longest = std::min(longest_, known_ - 1);
+  // w ≥ 2√(N̂/L): the window at which the two error terms balance for the error shown.
   const double wanted_s = 2.0 * std::sqrt(shown_error_mm(longest) / limit);
   std::size_t window = 1;
   while (window < longest && tick.t_s - back(window).t_s < wanted_s) {
@@ -74,6 +80,7 @@ Estimate WorstCaseDifference::tick(const Tick& tick) noexcept {
   const double span_s = tick.t_s - oldest.t_s;
   out.velocity_bound_mm_s = 2.0 * noise_mm_ / span_s + limit * span_s * (longest > 1 ? 1.0 : 0.5);
   out.acceleration_mm_s2 = std::clamp((out.velocity_mm_s - oldest.v_mm_s) / span_s, -limit, limit);
+  // True acceleration is within ±L wherever the estimate lies.
   out.acceleration_bound_mm_s2 = std::abs(out.acceleration_mm_s2) + limit;
   return out;
 }

@@ -38,6 +38,7 @@ bool solve(std::array<std::array<double, kTerms + 1>, kTerms>& m) noexcept {
 }  // namespace
 
 void LineFit::put(double t_s, double position_mm) noexcept {
+  // Twice, so that any window is contiguous in one of the halves.
   t_s_[next_] = t_s_[next_ + kWindow] = t_s;
   position_mm_[next_] = position_mm_[next_ + kWindow] = position_mm;
   next_ = (next_ + 1) % kWindow;
@@ -55,6 +56,7 @@ LineFit::Residual LineFit::push(double t_s, double position_mm, std::int64_t lin
   direction_ = direction;
   line_ = line;
   put(t_s, position_mm);
+  // Only an odd number of passages has a middle one.
   return count_ % 2 == 1 ? tail((count_ - 1) / 2) : Residual{};
 }
 

@@ -21,6 +21,7 @@ constexpr double kUnseen =
     0.2;  ///< share of the lines' error that neighbours have in common: it is not learnt
 constexpr int kKnownAfter = 6;  ///< passages
 
+// Four lines to a signal period. & 3 is right for negative lines too, where % would not be.
 std::size_t phase_of(std::int64_t line) noexcept {
   return static_cast<std::size_t>(line & 3);
 }
@@ -32,7 +33,7 @@ kernel::outcome::Result<LineTable> LineTable::make(const Config& config) {
     return std::unexpected(Refusal{Kind::bad_input, "", 0, what, to_do});
   };
   if (!(config.count_mm > 0.0) || !std::isfinite(config.count_mm)) {
-    return refuse("the count's length is not positive", "give the length of one count in mm");
+    return refuse("the length of a count is not positive", "give the length of one count in mm");
   }
   if (config.lines > kMaxLines) {
     return refuse("the table has more than 1 048 576 lines",
@@ -44,7 +45,7 @@ kernel::outcome::Result<LineTable> LineTable::make(const Config& config) {
   }
   if (!(config.learn >= 0.0 && config.learn <= 1.0) || !(config.max_span_s > 0.0) ||
       !(config.max_rms_counts > 0.0)) {
-    return refuse("the learning rate is outside of 0 … 1, or a limit is not positive",
+    return refuse("the learning rate is outside 0 … 1, or a limit is not positive",
                   "use the defaults");
   }
   return LineTable(config);
@@ -64,6 +65,7 @@ std::ptrdiff_t LineTable::index(std::int64_t line) const noexcept {
   std::int64_t i = line - config_.first_line;
   if (config_.periodic) {
     i %= n;
+    // The sign of % follows the dividend.
     i += i < 0 ? n : 0;
   }
   return i >= 0 && i < n ? static_cast<std::ptrdiff_t>(i) : -1;
@@ -90,11 +92,14 @@ float LineTable::sigma_mm(std::int64_t line) const noexcept {
 
 void LineTable::learn(double t_s, std::int64_t line, std::int8_t direction, bool lost) noexcept {
   if (fit_.breaks(t_s, line, direction, lost)) {
+    // Lines near the end of a run would never be the middle of a full window; shorter windows reach
+    // them.
     for (std::size_t half = fit_.longest_tail(); half >= LineFit::kLeast; --half) {
       take(fit_.tail(half));
     }
     fit_.clear();
   }
+  // The corrected position goes in: what is learnt is only what is left.
   take(fit_.push(t_s, static_cast<double>(line) * config_.count_mm + correction_mm(line), line,
                  direction));
 }
@@ -161,11 +166,14 @@ void LineTable::settle() noexcept {
     }
   }
   for (std::size_t p = 0; p < 4; ++p) {
+    // A phase nobody saw has no mean; then nothing can be moved without shifting the scale.
     if (n[p] <= 0.0) {
       return;
     }
     sum[p] /= n[p];
   }
+  // Each phase's mean moves from the lines to the phase, but not what all four share: that is
+  // scale.
   const double common = 0.25 * (sum[0] + sum[1] + sum[2] + sum[3]);
   for (std::size_t i = 0; i < error_mm_.size(); ++i) {
     const std::size_t phase = phase_of(config_.first_line + static_cast<std::int64_t>(i));

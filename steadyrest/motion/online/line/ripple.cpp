@@ -92,6 +92,8 @@ void Ripple::edge(double t_s, std::int64_t line, std::int8_t direction, bool los
 
 void Ripple::learn() noexcept {
   const std::uint32_t fresh = std::exchange(fresh_, 0U);
+  // More than two lines in a tick: only every third line or less would teach, and its waves could
+  // be any others.
   if (fresh == 0 || fresh > kMostFresh || count_ < kWindow || !weigh()) {
     return;
   }
@@ -116,6 +118,7 @@ bool Ripple::weigh() noexcept {
   std::array<double, kWindow> u{};
   std::array<double, 7> moments{};
   for (std::size_t i = 0; i < kWindow; ++i) {
+    // Scaled to about ±1: moments up to u⁶ then stay of one order.
     u[i] = 2.0 * (t_s_[(next_ + i) % kWindow] - centre) / span;
     double power = 1.0;
     for (double& m : moments) {
@@ -129,7 +132,10 @@ bool Ripple::weigh() noexcept {
   }
   residual_ = 0.0;
   for (std::size_t i = 0; i < kWindow; ++i) {
+    // The fit's value at u = 0 is its first coefficient, a weighted sum of the positions; the
+    // weights need no positions, only times.
     weight_[i] = (i == kMiddle ? 1.0 : 0.0) - (g[0] + u[i] * (g[1] + u[i] * (g[2] + u[i] * g[3])));
+    // Positions are consecutive counts, so the index stands for them.
     residual_ += weight_[i] * (static_cast<double>(i) - static_cast<double>(kMiddle));
   }
   residual_ *= direction_;
@@ -152,6 +158,7 @@ void Ripple::teach() noexcept {
     double c = cosine(f * first);
     double s = cosine(f * first - 0.25);
     for (const double d : weight_) {
+      // The same weights on the wave: what the residual would be if it were the wave alone.
       h[2 * j] += d * c;
       h[2 * j + 1] += d * s;
       const double next = c * cr - s * sr;
@@ -178,6 +185,8 @@ void Ripple::teach() noexcept {
   for (std::size_t i = 0; i < kStates; ++i) {
     c_[i] += g[i] * nu / total;
     const double left = (p_[i][i] - g[i] * g[i] / total) / kForgetWave;
+    // Forgetting must not blow a variance up beyond what was not known at the start: rows and
+    // columns are scaled alike, so that P stays positive.
     scale[i] = left > kStart * kStart ? kStart / std::sqrt(left) : 1.0;
   }
   for (std::size_t i = 0; i < kStates; ++i) {
@@ -192,6 +201,7 @@ void Ripple::search() noexcept {
   square_sum_ = kForgetPower * square_sum_ + residual_ * residual_;
   lowest_ = std::min(lowest_, middle_);
   highest_ = std::max(highest_, middle_);
+  // Bins are 1/kCircle apart, so phases repeat every kCircle lines and whole numbers do.
   const auto place = static_cast<std::size_t>(middle_) % kCircle;
   std::size_t at = kFirstBin * place % kCircle;
   for (std::size_t k = 0; k < kBins; ++k) {
@@ -219,6 +229,7 @@ std::array<Ripple::Peak, Ripple::kWaves> Ripple::peaks() const noexcept {
         continue;
       }
       const double bend = power[k - 1] - 2.0 * power[k] + power[k + 1];
+      // Vertex of the parabola through three bins.
       const double off = bend < 0.0 ? 0.5 * (power[k - 1] - power[k + 1]) / bend : 0.0;
       const double f = (static_cast<double>(k + kFirstBin) + off) / kCircle;
       bool far = true;
@@ -257,6 +268,8 @@ void Ripple::choose() noexcept {
       continue;
     }
     // The wave's value here stays.
+    // Far from line 0 a small change of frequency turns the phase by many turns: the coefficients
+    // are turned back by as much.
     const double turns = (nearest->frequency - wave_[j].frequency) * static_cast<double>(middle_);
     const double cr = cosine(turns);
     const double sr = cosine(turns - 0.25);
@@ -281,6 +294,7 @@ void Ripple::choose() noexcept {
     active_ = active_ || wave_[j].used;
     slope += kTurn * wave_[j].frequency * amplitude(j);
   }
+  // Far below 1, at which the waves would say that the axis turns back between two lines.
   if (slope > kMostSlope) {
     for (double& c : c_) {
       c *= kMostSlope / slope;

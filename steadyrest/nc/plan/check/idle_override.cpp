@@ -65,12 +65,11 @@ std::optional<Warning> idle_override(const PlannedPath& path,
       break;
     }
   }
-  return Warning{line,
-                 fmt::format("the feed override's next step, {:.3g} %, changes nothing for {:.0f} "
-                             "% of the cut: the programmed feed is far above what the axes do. "
-                             "It begins to act at about {:.0f} %; program a feed that the axes "
-                             "reach",
-                             100.0 * step, 100.0 * idle_s / all_s, 100.0 * acts)};
+  return Warning{
+      line, fmt::format("the next step of the feed override, {:.3g} %, changes nothing for {:.0f} "
+                        "% of the cut: the programmed feed is far above what the axes reach. It "
+                        "begins to act at about {:.0f} %; program a feed the axes reach",
+                        100.0 * step, 100.0 * idle_s / all_s, 100.0 * acts)};
 }
 
 }  // namespace steadyrest::nc::plan

@@ -71,6 +71,7 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
 }
 
 bool MachineCheck::placed(const Move& move, std::size_t axis) const noexcept {
+  // Tool lengths act in Z, on a lathe in X too.
   const bool by_tool = axis == 2 || (axis == 0 && lathe_);
   const bool length = known_.tools || !tool_came_ || !by_tool;
   if ((move.machine_axes >> axis & 1U) != 0) {  // SUPA keeps the tool's length
@@ -107,11 +108,11 @@ void MachineCheck::check_travel(const Move& move, std::size_t axis) {
     if (over) {
       const double to_mm =
           reach.high_mm > limits.max_mm + kRounding_mm ? reach.high_mm : reach.low_mm;
-      warn(move.line, What::travel, axis,
-           fmt::format("{} {} to {:.3f} mm, outside of its travel {:g} … {:g} mm (machine "
-                       "coordinates)",
-                       move.kind == MoveKind::rapid ? "a rapid takes" : "the move takes",
-                       limits.name, to_mm, limits.min_mm, limits.max_mm));
+      warn(
+          move.line, What::travel, axis,
+          fmt::format("{} {} to {:.3f} mm, outside its travel {:g} … {:g} mm (machine coordinates)",
+                      move.kind == MoveKind::rapid ? "a rapid takes" : "the move takes",
+                      limits.name, to_mm, limits.min_mm, limits.max_mm));
     }
     return;
   }
@@ -150,6 +151,7 @@ void MachineCheck::check_feed(const Move& move) {
   if (feed_mm_s <= most_mm_s * (1.0 + kRounding) || feed_mm_s == feed_warned_mm_s_) {
     return;
   }
+  // Once for each feed, not for each block.
   feed_warned_mm_s_ = feed_mm_s;
   warn(move.line, What::feed, 0,
        fmt::format("the feed of {:.9g} mm/min is more than the {} can do here, {:.9g} mm/min",
@@ -162,7 +164,7 @@ void MachineCheck::check_standing(const Move& move) {
   const bool stands = move.spindle_rev_s == 0.0 && move.surface_speed_mm_s == 0.0;
   if (stands && !stands_warned_) {
     warn(move.line, What::standing, 0,
-         "cuts while the spindle stands: no S with M3 or M4 is in force");
+         "cuts with the spindle stopped: no S with M3 or M4 is in force");
   }
   stands_warned_ = stands;
 }
@@ -179,7 +181,7 @@ void MachineCheck::on_event(const Event& event) {
   if (speed_rev_s > spindle.max_rev_s * (1.0 + kRounding) ||
       speed_rev_s < spindle.min_rev_s * (1.0 - kRounding)) {
     warn(event.line, What::spindle, 0,
-         fmt::format("S{:.6g} is outside of the spindle's {:.6g} … {:.6g} rev/min",
+         fmt::format("S{:.6g} is outside the spindle's {:.6g} … {:.6g} rev/min",
                      rpm_from_rev_s(speed_rev_s), rpm_from_rev_s(spindle.min_rev_s),
                      rpm_from_rev_s(spindle.max_rev_s)));
   }
@@ -197,12 +199,11 @@ std::vector<Warning> MachineCheck::warnings() const {
   for (std::size_t axis = 0; axis < extent_.size(); ++axis) {
     const Extent& extent = extent_[axis];
     if (extent.line > 0) {
-      out.push_back(
-          {extent.line,
-           fmt::format("the program covers {:.3f} mm of {}, from {:.3f} to {:.3f} mm; its "
-                       "travel is {:g} mm, wherever the work offset lies",
-                       extent.high_mm - extent.low_mm, axis_[axis]->name, extent.low_mm,
-                       extent.high_mm, axis_[axis]->max_mm - axis_[axis]->min_mm)});
+      out.push_back({extent.line,
+                     fmt::format("the program covers {:.3f} mm of {}, from {:.3f} to {:.3f} mm; "
+                                 "its travel is only {:g} mm, whatever the work offset",
+                                 extent.high_mm - extent.low_mm, axis_[axis]->name, extent.low_mm,
+                                 extent.high_mm, axis_[axis]->max_mm - axis_[axis]->min_mm)});
     }
   }
   std::ranges::stable_sort(out, {}, &Warning::line);

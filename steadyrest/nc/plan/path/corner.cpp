@@ -66,6 +66,7 @@ std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const P
     return std::abs(dot(direction, normal)) < kInPlane ? std::optional(out) : std::nullopt;
   }
   const double along = dot(s.axis, normal);
+  // A helix, a spiral or an arc in another plane has no offset curve in the corner's plane.
   if (std::abs(std::abs(along) - 1.0) > kInPlane || std::abs(s.rise_mm) > 1e-9 ||
       s.radius_end_mm != s.radius_mm) {
     return std::nullopt;
@@ -73,6 +74,8 @@ std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const P
   out.circle = true;
   out.turn = along > 0.0 ? 1.0 : -1.0;
   out.radius = s.radius_mm;
+  // The corner is the origin: the centre lies a radius to the left of the direction there, or to
+  // the right.
   out.centre = (out.turn * out.radius) * left_of(tangent);
   return out;
 }
@@ -84,6 +87,7 @@ std::optional<Flat> meet(const Curve& a, const Curve& b, double r) {
     const double ra = a.radius - a.turn * r;
     const Flat between = b.centre - a.centre;
     const double d = length(between);
+    // A rounding wider than the arc itself, or arcs about one centre, have no meeting point.
     if (ra <= 0.0 || rb <= 0.0 || d <= 1e-12) {
       return std::nullopt;
     }
@@ -126,6 +130,7 @@ Touch touch(const Curve& c, Flat centre) {
   const Flat away = centre - c.centre;
   const Flat point = (c.radius / length(away)) * away;
   const Flat corner = Flat{} - c.centre;
+  // Positive along the path, negative before the corner.
   const double angle = c.turn * std::atan2(outer(corner, point), inner(corner, point));
   return {c.centre + point, c.radius * angle};
 }
@@ -142,6 +147,7 @@ std::optional<FlatArc> fit(const Curve& a, const Curve& b, double r, const Corne
     return std::nullopt;
   }
   const FlatArc out{*centre, touch(a, *centre), touch(b, *centre)};
+  // The rounding must touch the piece before ahead of the corner and the piece after behind it.
   const bool fits = out.before.distance < 0.0 &&
                     -out.before.distance <= request.room_before_mm * (1.0 + kRounding) &&
                     out.after.distance > 0.0 &&
@@ -155,6 +161,8 @@ struct Half {
   double secant_less_1 = 0.0;
 };
 Half half_of(const Bend& bend) {
+  // tan(φ/2) = sin φ/(1 + cos φ); 1/cos(φ/2) − 1 from it without a difference of near numbers,
+  // since small turns are the rule.
   const double wide = 1.0 + bend.cosine;
   const double cosine = std::sqrt(0.5 * wide);
   const double sine_squared = bend.sine * bend.sine / (2.0 * wide);
@@ -194,6 +202,7 @@ std::optional<Bend> bend_of(const Point& in, const Point& out) noexcept {
     return std::nullopt;
   }
   bend.turn_rad = std::atan2(bend.sine, bend.cosine);
+  // At a reversal the plane of the corner is not defined.
   if (bend.turn_rad < kSmoothTurn_rad || bend.turn_rad > std::numbers::pi - 1e-3) {
     return std::nullopt;
   }
@@ -240,6 +249,7 @@ std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegme
   result.end_mm = place(arc->after.point);
   result.centre_mm = place(arc->centre);
   result.sweep_rad = std::atan2(outer(from, to), inner(from, to));
+  // The rounding turns left, as the corner does: its sweep is positive.
   if (result.sweep_rad <= 0.0) {
     result.sweep_rad += 2.0 * std::numbers::pi;
   }

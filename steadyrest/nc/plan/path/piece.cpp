@@ -62,6 +62,7 @@ double line_length(const PathSegment& s, const std::array<bool, kMaxAxes>& rotar
     const double delta = s.other_end[i] - s.other_start[i];
     (rotary[i + 3] ? angle : linear) += delta * delta;
   }
+  // Rotary motion alone: a feed in mm/min then means degrees per minute.
   linear = std::sqrt(linear);
   return linear > kShortest_mm ? linear : kernel::units::deg_from_rad(std::sqrt(angle));
 }
@@ -101,6 +102,7 @@ void set_arc(PathSegment& s, const Move& move) {
   to = add_scaled(to, s.axis, -s.rise_mm);
   s.radius_mm = norm(from);
   s.radius_end_mm = norm(to);
+  // Digits of the program: an arc that nearly closes is a circle, not a spiral.
   if (std::abs(s.radius_end_mm - s.radius_mm) < kSameRadius_mm) {
     s.radius_end_mm = s.radius_mm;
   }
@@ -241,14 +243,14 @@ Result<bool> PieceMaker::make(const Move& move, Piece& out) const {
     return refuse("a feed move without a feed above 0", "give F before or in this block");
   }
   if (out.plan.per_revolution && out.segment.feed_mm_s == 0.0) {
-    return refuse("a feed per revolution without a running spindle", "start the spindle before");
+    return refuse("a feed per revolution without a running spindle", "start the spindle first");
   }
   limit(out);
   if (!std::isfinite(out.plan.speed_limit_mm_s) && !std::isfinite(out.plan.feed_mm_s)) {
-    return refuse("a rapid move of axes that have no speed limit", "give max_speed of the axes");
+    return refuse("a rapid move of axes without a speed limit", "give max_speed of the axes");
   }
   if (!std::isfinite(out.plan.acceleration_mm_s2)) {
-    return refuse("a move of axes that have no acceleration limit",
+    return refuse("a move of axes without an acceleration limit",
                   "give max_acceleration of the axes");
   }
   if (s.geometry == Geometry::arc) {

@@ -40,12 +40,13 @@ Result<Interpolator> Interpolator::make(const Machine& machine, const PathWindow
                                    "control.look_ahead_blocks must be at least 1",
                                    "give 1 or more"});
   }
+  // Rounded up: a longer averaging time only lowers the jerk. The 1e-9 keeps a quotient that is
+  // whole but for rounding from costing a period.
   const double taps = std::max(1.0, std::ceil(PathLimits(machine).jerk_time_s() / period - 1e-9));
   if (!(taps <= 10000.0)) {
     return std::unexpected(Refusal{Kind::bad_input, machine.file, 0,
                                    "the jerk limits ask for an averaging time of " +
-                                       std::to_string(taps) +
-                                       " periods, at most 10000 are possible",
+                                       std::to_string(taps) + " periods; the most is 10000",
                                    "raise max_jerk or lower max_acceleration"});
   }
   return Interpolator(machine, path, static_cast<std::size_t>(taps),
@@ -84,6 +85,8 @@ void Interpolator::take(const Overrides& overrides) noexcept {
       std::isfinite(overrides.spindle_actual_rev_s) ? overrides.spindle_actual_rev_s : 0.0;
   const bool changed = feed != overrides_.feed_ratio || rapid != overrides_.rapid_ratio;
   overrides_ = {feed, rapid, spindle, overrides.spindle_ratio};
+  // An override raises or lowers the targets ahead: exit speeds planned for the old ones may be out
+  // of reach.
   if (phase_ == Phase::run && (changed || look_ahead_.outdated(spindle))) {
     look_ahead_.plan_all(window_, lead_.segment, overrides_);
   }
@@ -112,6 +115,8 @@ double Interpolator::lag_cap_mm_s() const noexcept {
 void Interpolator::push_lag(std::size_t index) noexcept {
   const SegmentPlan& p = window_.plan(index);
   const double cap = std::min(p.exit_speed_limit_mm_s, target_mm_s(p, overrides_));
+  // A later, lower cap makes earlier, higher ones meaningless: the queue stays rising and its head
+  // is the minimum.
   while (lag_tail_ != lag_head_ && lag_[(lag_tail_ - 1) % kLagCapacity].cap_mm_s >= cap) {
     --lag_tail_;
   }
@@ -129,8 +134,11 @@ double Interpolator::next_speed() noexcept {
   const SegmentPlan& p = window_.plan(lead_.segment);
   const double step = p.acceleration_mm_s2 * period_s_;
   double want = std::min(target_mm_s(p, overrides_), lag_cap_mm_s());
+  // Here only acceleration counts; where the path ends sooner, `hard` below brakes harder.
   want = std::clamp(want, v - step, v + step);
   if (taps_ > 1) {
+    // Between rising and falling lie N periods of constant speed, or the average sees 2A in one
+    // window.
     if ((want > v && since_fall_ < taps_) || (want < v && since_rise_ < taps_)) {
       want = v;
     }
@@ -140,6 +148,8 @@ double Interpolator::next_speed() noexcept {
     }
   }
   const LookAhead::Bound hard = look_ahead_.bound(window_, lead_, want, 0.0);
+  // Never brakes harder than the segments allow, even where an override fell too late for the exit
+  // planned.
   const double next = std::max({hard.speed_mm_s, v - hard.braking_mm_s2 * period_s_, 0.0});
   since_rise_ = next > v ? 0 : since_rise_ + 1;
   since_fall_ = next < v ? 0 : since_fall_ + 1;
@@ -148,6 +158,7 @@ double Interpolator::next_speed() noexcept {
 
 void Interpolator::run() noexcept {
   const double next = next_speed();
+  // Trapezoid: the acceleration is constant within a period.
   double move = 0.5 * (lead_.speed_mm_s + next) * period_s_;
   lead_.speed_mm_s = next;
   for (;;) {
@@ -197,6 +208,7 @@ void Interpolator::average() noexcept {
     }
   }
   const auto n = static_cast<double>(taps_);
+  // Rounding of the running sum must not move the setpoint back or past the lead.
   path_position_mm_ = std::clamp(position_sum_ / n, path_position_mm_, s);
   speed_mm_s_ = std::max(0.0, speed_sum_ / n);
 }
@@ -223,6 +235,8 @@ void Interpolator::settle() noexcept {
   path_position_mm_ = window_.segment(lead_.segment).position_mm + distance_mm_;
   speed_mm_s_ = 0.0;
   lag_head_ = lag_tail_;
+  // As if the machine had stood here for N periods: the next start is not averaged with the last
+  // stop.
   std::fill(position_ring_.begin(), position_ring_.end(), path_position_mm_);
   std::fill(speed_ring_.begin(), speed_ring_.end(), 0.0);
   position_sum_ = path_position_mm_ * static_cast<double>(taps_);
@@ -235,6 +249,7 @@ void Interpolator::settle() noexcept {
 /// Works on one event; true when it is over.
 bool Interpolator::event_passed(const PathEvent& event) noexcept {
   const auto timed = [this](double seconds) {
+    // To the nearest period.
     if (event_time_s_ >= seconds - 0.5 * period_s_) {
       return true;
     }
@@ -251,6 +266,8 @@ bool Interpolator::event_passed(const PathEvent& event) noexcept {
       return true;
     case PathEventKind::spindle_wait: {
       const double ratio = std::isfinite(overrides_.spindle_ratio) ? overrides_.spindle_ratio : 1.0;
+      // What the drive can reach: an override above the spindle's largest speed would wait for
+      // ever.
       const double wanted = std::copysign(
           std::min(std::abs(spindle_rev_s_) * ratio, max_spindle_rev_s_), spindle_rev_s_);
       return spindle_rev_s_ == 0.0 || std::abs(overrides_.spindle_actual_rev_s - wanted) <=

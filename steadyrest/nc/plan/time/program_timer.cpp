@@ -52,6 +52,7 @@ class ProgramTimer::Runner final : public PathReceiver {
   }
 
   void on_segment(const PathSegment& segment, const SegmentPlan& plan) override {
+    // The ring is full: the interpolator runs on until it has let go of the oldest segment.
     while (end_ - interpolator_->first_segment_in_use() >= segments_.size() - 1 && !stuck()) {
       step();
     }
@@ -96,6 +97,8 @@ class ProgramTimer::Runner final : public PathReceiver {
     if (s.finished) {
       return;
     }
+    // The spindle follows its command at the drive's acceleration, so that waits and feeds per
+    // revolution take their time.
     const double reach = machine_.spindle.acceleration_rev_s2 * period;
     const double wanted_rev_s = s.spindle_rev_s * overrides.spindle_ratio;
     spindle_rev_s_ += std::clamp(wanted_rev_s - spindle_rev_s_, -reach, reach);
@@ -112,6 +115,7 @@ class ProgramTimer::Runner final : public PathReceiver {
         tools_seen_ = i + 1;
       }
     }
+    // A starved period waits for the reader, not for the machine: it is no machine time.
     if (!interpolator_->starved()) {
       account(s, period);
     }
@@ -205,9 +209,10 @@ Result<ProgramTime> ProgramTimer::take() {
                                    {},
                                    0,
                                    "the program takes longer than 30 days",
-                                   "look for a feed or a dwell of the wrong unit"});
+                                   "look for a feed or a dwell in the wrong unit"});
   }
   ProgramTime& time = runner_->time;
+  // The program began with a tool change: nothing was done with the tool before it.
   if (time.tools.size() > 1 && time.tools.front().seconds == 0.0) {
     time.tools.erase(time.tools.begin());
   }

@@ -133,7 +133,11 @@ class SegmentTimer::Runner final : public PathReceiver {
     const double c =
         std::min({last.exit_limit_mm_s, last.target_mm_s, std::max(next_target_mm_s, 0.0)});
     last.exit_limit_mm_s = c;
+    // c² + S, comparable over the whole window because S grows by 2aℓ per segment: S_i is taken off
+    // at the end.
     const double value = c * c + last.sum;
+    // Sliding minimum: a later and lower value makes earlier ones meaningless, so each enters and
+    // leaves once.
     while (lowest_end_ != lowest_begin_ && value_of(lowest(lowest_end_ - 1)) >= value) {
       --lowest_end_;
     }
@@ -188,7 +192,9 @@ class SegmentTimer::Runner final : public PathReceiver {
     const double in = std::min(speed_mm_s_, target);
     const double in_square = in * in;
     const double out_square = std::min(exit_square, in_square + a2);
+    // Where accelerating from v_in meets braking to v_out, or the target.
     const double peak_square = std::min(target * target, 0.5 * (in_square + out_square + a2));
+    // Without a change no root: its rounding would make a ramp of a constant speed.
     const double out = out_square == in_square ? in : std::sqrt(out_square);
     const double peak = std::max({std::sqrt(peak_square), in, out});
     double seconds = length / peak;
@@ -229,6 +235,7 @@ class SegmentTimer::Runner final : public PathReceiver {
   /// While the spindle changes its speed a feed per revolution goes along with it; the target
   /// behind.
   double follow_spindle(const Stretch& s, double& length_mm) {
+    // Period by period: the spindle's ramp and the limits of the axes have no common closed form.
     while (spindle_.ramps() && length_mm > 0.0 && time_s_ < ProgramTimer::kMost_s) {
       const double v = std::min(s.feed_mm * std::abs(spindle_.speed_rev_s()), s.speed_limit_mm_s);
       const double step = std::min(length_mm, v * period_s_);
@@ -248,12 +255,14 @@ class SegmentTimer::Runner final : public PathReceiver {
   void stand() noexcept {
     speed_mm_s_ = 0.0;
     const double periods = (time_s_ - stood_s_) / period_s_;
+    // The interpolator stops at the end of a period; what is left of it is lost.
     const double whole_s = stood_s_ + std::ceil(periods - kWholePeriod) * period_s_;
     advance(std::max(0.0, whole_s - time_s_));
     stood_s_ = time_s_;
   }
 
   void wait(const PathEvent& event, double seconds) {
+    // As the interpolator counts: to the nearest period.
     const double periods = std::ceil(seconds / period_s_ - 0.5 - kWholePeriod);
     if (!(periods > 0.0)) {
       return;
@@ -306,6 +315,7 @@ class SegmentTimer::Runner final : public PathReceiver {
 };
 
 Result<SegmentTimer> SegmentTimer::make(const Machine& machine) {
+  // Only for its refusals: what it would not run is not timed either.
   if (auto possible = Interpolator::make(machine, PathWindow{}); !possible) {
     return std::unexpected(possible.error());
   }
@@ -363,7 +373,7 @@ Result<SegmentTimer::Timed> SegmentTimer::take_cyclogram() {
                                    {},
                                    0,
                                    "the program takes longer than 30 days",
-                                   "look for a feed or a dwell of the wrong unit"});
+                                   "look for a feed or a dwell in the wrong unit"});
   }
   return Timed{runner_->time_s(), runner_->cyclogram()};
 }

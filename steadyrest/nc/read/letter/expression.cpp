@@ -40,6 +40,7 @@ enum class Expression::Operator : unsigned char {
   one
 };
 
+// LinuxCNC 2.9: five levels, all from left to right, so that 2 ** 3 ** 2 is 64.
 constexpr std::array<Sign<Expression::Operator>, 15> Expression::kSigns = {{
     {"**", Operator::power, 5},
     {"*", Operator::times, 4},
@@ -144,6 +145,7 @@ bool Expression::apply(Operator op, double& left, double right) {
   const double apart = std::abs(a - right);  // NaN behind 4 MOD 0: neither EQ nor NE
   switch (op) {
     case Operator::power:
+      // std::pow would return NaN.
       if (a < 0.0 && right != std::floor(right)) {
         return fail("not_finite", "a negative number to a power that is not whole");
       }
@@ -159,6 +161,7 @@ bool Expression::apply(Operator op, double& left, double right) {
       left = a / right;
       break;
     case Operator::modulo:
+      // rs274's MOD is never negative; std::fmod takes the dividend's sign.
       left = std::fmod(a, right);
       left += left < 0.0 ? std::abs(right) : 0.0;
       break;
@@ -210,10 +213,10 @@ bool Expression::parameter_number(int& index) {
   --depth_;
   const double whole = std::round(number);
   if (!(std::abs(number - whole) <= kEqual)) {
-    return fail("not_an_integer", "a parameter's number that is not a whole number");
+    return fail("not_an_integer", "a parameter number that is not a whole number");
   }
   if (!(std::abs(whole) < 1e9)) {
-    return fail("no_such_parameter", "a parameter that the control has not");
+    return fail("no_such_parameter", "a parameter the control does not have");
   }
   index = static_cast<int>(whole);
   return true;
@@ -224,15 +227,15 @@ bool Expression::looked_up(Lookup lookup) {
     case Lookup::found:
       return true;
     case Lookup::no_such_number:
-      return fail("no_such_parameter", "a parameter that the control has not");
+      return fail("no_such_parameter", "a parameter the control does not have");
     case Lookup::no_such_name:
       return fail("unset_parameter",
                   "a named parameter that was never set; set it before, or ask EXISTS");
     case Lookup::read_only:
-      return fail("read_only_parameter", "a parameter that cannot be set");
+      return fail("read_only_parameter", "a read-only parameter");
     case Lookup::not_while_compensating:
       return fail("position_in_cutter_comp",
-                  "the present position while cutter radius compensation is on");
+                  "the current position while cutter radius compensation is on");
     case Lookup::assigned_in_block:
     case Lookup::not_known_here:
       break;
@@ -246,7 +249,7 @@ bool Expression::parameter(double& out) {
     Name name;
     const char* const after = read_name(at_, end_, name);
     if (after == nullptr) {
-      return fail("bad_parameter", "a parameter's name that is empty, too long or not closed by >");
+      return fail("bad_parameter", "a parameter name that is empty, too long or not closed by >");
     }
     at_ = after;
     return looked_up(values_.name(name.view(), out));

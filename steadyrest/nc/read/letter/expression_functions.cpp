@@ -45,7 +45,7 @@ bool Expression::named_function(std::string_view name, double& out) {
   if (name == "ABS") {
     out = std::abs(x);
   } else if (name == "ACOS" || name == "ASIN") {
-    if (!domain(x >= -1.0 && x <= 1.0, "ASIN or ACOS of a number beyond -1 to 1")) {
+    if (!domain(x >= -1.0 && x <= 1.0, "ASIN or ACOS of a number outside -1 to 1")) {
       return false;
     }
     out = (name == "ACOS" ? std::acos(x) : std::asin(x)) / kDegree;
@@ -75,8 +75,8 @@ bool Expression::named_function(std::string_view name, double& out) {
     out = std::tan(x * kDegree);
   } else {
     return fail("unknown_function",
-                "a function that is not known; ABS ACOS ASIN ATAN COS EXISTS EXP FIX "
-                "FUP LN ROUND SIN SQRT TAN are");
+                "an unknown function; the known ones are ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP "
+                "LN ROUND SIN SQRT TAN");
   }
   return finite(out);
 }
@@ -113,7 +113,7 @@ bool Expression::exists(double& out) {
     Name name;
     const char* const after = read_name(at_, end_, name);
     if (after == nullptr) {
-      return fail("bad_parameter", "a parameter's name that is empty, too long or not closed by >");
+      return fail("bad_parameter", "a parameter name that is empty, too long or not closed by >");
     }
     at_ = after;
     out = values_.name(name.view(), ignored) == Lookup::found ? 1.0 : 0.0;

@@ -24,10 +24,8 @@ const char* behind_blanks(const char* at, const char* end) noexcept {
 
 constexpr std::string_view kBadNumberText =
     "not a number; write one sign at most, digits and one point, within the range of a double";
-constexpr std::string_view kStatementText =
-    "an assignment stands in a block of its own in this dialect";
-constexpr std::string_view kControlText =
-    "a control character that no NC text contains; the file is not a text or is damaged";
+constexpr std::string_view kStatementText = "in this dialect an assignment needs a separate block";
+constexpr std::string_view kControlText = "a control character; the file is not text or is damaged";
 
 }  // namespace
 
@@ -79,7 +77,7 @@ bool LetterLine::delete_mark() {
   if (reading_.dialect == Dialect::fanuc && at_ != end_ && is_digit(*at_)) {
     ++at_;
     return refuse(since(mark), "block_delete_switch",
-                  "a numbered block-delete switch; only the plain mark / is read");
+                  "a numbered block-delete switch; only the plain mark / is supported");
   }
   return true;
 }
@@ -93,7 +91,7 @@ bool LetterLine::round_comment() {
     }
     if (*at_ == '(') {
       return refuse({open, static_cast<std::size_t>(end_ - open)}, "nested_comment",
-                    "a comment opens inside a comment; close the first one before");
+                    "a comment opens inside a comment; close the first one");
     }
     if (is_control(*at_)) {
       ++at_;
@@ -101,7 +99,7 @@ bool LetterLine::round_comment() {
     }
   }
   return refuse(since(open), "unclosed_comment",
-                "a comment that is not closed in its line; write ) at its end");
+                "a comment that is not closed on its line; write ) at its end");
 }
 
 // `;` opens a comment (linuxcnc) or ends the block (fanuc), behind which nothing may stand.
@@ -134,7 +132,7 @@ bool LetterLine::word() {
   if (block_.flow().kind != FlowKind::none) {
     at_ = end_;
     return refuse(since(word_begin), "o_word",
-                  "words behind an O-word; write them in a line of their own");
+                  "words after an O-word; write them on a separate line");
   }
   if (!value(word_begin, word)) {
     return false;
@@ -147,11 +145,11 @@ bool LetterLine::word() {
   word.name = {word_begin, 1};
   if (word.letter == 'N') {
     if (!block_.words().empty()) {
-      return refuse(word.text, "misplaced_n", "a line number behind other words; it comes first");
+      return refuse(word.text, "misplaced_n", "a line number after other words; it comes first");
     }
     const char* const rest = behind_blanks(at_, end_);
     if (rest != end_ && upper(*rest) == 'N') {
-      return refuse(word.text, "misplaced_n", "a second line number in one line");
+      return refuse(word.text, "misplaced_n", "a second line number on one line");
     }
     return true;
   }
@@ -241,8 +239,8 @@ bool LetterLine::expression(const char* word_begin, Word& word) {
 bool LetterLine::refuse_assignment(const char* from, Lookup lookup) {
   return lookup == Lookup::found ||
          (lookup == Lookup::no_such_number
-              ? refuse(since(from), "no_such_parameter", "a parameter that the control has not")
-              : refuse(since(from), "read_only_parameter", "a parameter that cannot be set"));
+              ? refuse(since(from), "no_such_parameter", "a parameter the control does not have")
+              : refuse(since(from), "read_only_parameter", "a read-only parameter"));
 }
 
 // `#5 = …`, `#<name> = …`: acts when the whole line has been read.
@@ -257,7 +255,7 @@ bool LetterLine::assignment() {
     if (after == nullptr) {
       at_ = end_;
       return refuse(since(from), "bad_parameter",
-                    "a parameter's name that is empty, too long or not closed by >");
+                    "a parameter name that is empty, too long or not closed by >");
     }
     at_ = after;
   } else {
@@ -270,7 +268,7 @@ bool LetterLine::assignment() {
   }
   skip_blanks();
   if (at_ == end_ || *at_ != '=') {
-    return refuse(since(from), "bad_assignment", "a parameter in front of nothing; write #5 = 2");
+    return refuse(since(from), "bad_assignment", "a parameter without an assignment; write #5 = 2");
   }
   ++at_;
   double value = 0.0;
@@ -291,7 +289,7 @@ bool LetterLine::o_word(const char* word_begin) {
   }
   if (!block_.words().empty() || block_.flow().kind != FlowKind::none) {
     at_ = end_;
-    return refuse(since(word_begin), "o_word", "an O-word behind other words; it comes first");
+    return refuse(since(word_begin), "o_word", "an O-word after other words; it comes first");
   }
   OWord word(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values);
   const bool read = word.read(block_.flow(), true);
@@ -313,8 +311,8 @@ bool LetterLine::program_number(const char* word_begin) {
   if (!integer || at_ != end_ || !block_.words().empty()) {
     at_ = end_;
     return refuse(since(word_begin), "o_word",
-                  "an O-word (subprogram, loop or condition); only a program number alone in its "
-                  "line is read");
+                  "an O-word (subprogram, loop or condition); only a program number alone on its "
+                  "line is supported");
   }
   block_.flow().kind = FlowKind::label;
   return true;
@@ -332,10 +330,10 @@ bool LetterLine::refuse_value(const char* word_begin) {
   at_ = stop;
   const std::string_view text = since(word_begin);
   if (c == '#') {
-    return refuse(text, "parameter", "a parameter (#); only plain numbers are read");
+    return refuse(text, "parameter", "a parameter (#); only plain numbers are supported");
   }
   if (c == '[') {
-    return refuse(text, "expression", "an expression ([...]); only plain numbers are read");
+    return refuse(text, "expression", "an expression ([...]); only plain numbers are supported");
   }
   if (is_letter(c)) {
     const char* name_end = word_begin + 1;
@@ -343,7 +341,7 @@ bool LetterLine::refuse_value(const char* word_begin) {
       ++name_end;
     }
     if (name_end != end_ && *name_end == '[') {
-      return refuse(text, "expression", "a function; only plain numbers are read");
+      return refuse(text, "expression", "a function; only plain numbers are supported");
     }
     return refuse(text, "missing_value", "a letter without its number");
   }
@@ -360,26 +358,26 @@ bool LetterLine::refuse_character() {
   const char c = *at_;
   const std::string_view rest{at_, static_cast<std::size_t>(end_ - at_)};
   if (c == '#') {
-    return refuse(rest, "parameter", "a parameter (#); assignments are not read");
+    return refuse(rest, "parameter", "a parameter (#); assignments are not supported");
   }
   if (c == '[') {
-    return refuse(rest, "expression", "text in [ ] without a word that it belongs to");
+    return refuse(rest, "expression", "text in [ ] that belongs to no word");
   }
   if (is_control(c)) {
     return refuse(rest.substr(0, 1), "control_character", kControlText);
   }
   if (c == '@' || c == '^') {
-    return refuse(rest, "polar_coordinates", "polar coordinates (@ ^) are not read");
+    return refuse(rest, "polar_coordinates", "polar coordinates (@ ^) are not supported");
   }
   if (c == '$') {
-    return refuse(rest, "spindle_selection", "the choice of a spindle ($) is not read");
+    return refuse(rest, "spindle_selection", "choosing a spindle ($) is not supported");
   }
   if (c == '/') {
-    return refuse(rest, "misplaced_block_delete", "the block-delete mark / behind other text");
+    return refuse(rest, "misplaced_block_delete", "the block-delete mark / after other text");
   }
   if (c == '%') {
     return refuse(rest, "misplaced_percent",
-                  "% stands alone in its line, as the first and last line of the program");
+                  "% must be alone on its line, as the first and last line of the program");
   }
   if (c == ')') {
     return refuse(rest, "unopened_comment", "a ) without its (");
@@ -389,8 +387,7 @@ bool LetterLine::refuse_character() {
                   "a byte order mark; save the program as plain text without one");
   }
   if (static_cast<unsigned char>(c) >= 0x80) {
-    return refuse(rest.substr(0, 1), "not_ascii",
-                  "a character that is not ASCII, outside of a comment");
+    return refuse(rest.substr(0, 1), "not_ascii", "a non-ASCII character outside a comment");
   }
   return refuse(rest, "bad_character", "a character that begins no word");
 }

@@ -36,10 +36,10 @@ LookupText macro_lookup_text(Lookup lookup) noexcept {
     case Lookup::no_such_name:
       return {.reason = "vacant_variable",
               .text =
-                  "a variable that was never set in this program: vacant, what it does depends "
-                  "on the word; set it before"};
+                  "a variable that was never set in this program: it is vacant, and its effect "
+                  "depends on the word; set it first"};
     case Lookup::read_only:
-      return {.reason = "read_only_parameter", .text = "a variable that cannot be set"};
+      return {.reason = "read_only_parameter", .text = "a read-only variable"};
     case Lookup::not_known_here:
       return {.reason = "system_variable",
               .text = "a system variable whose value only the running control knows"};
@@ -49,8 +49,10 @@ LookupText macro_lookup_text(Lookup lookup) noexcept {
     case Lookup::no_such_number:
       break;
   }
-  return {.reason = "no_such_parameter",
-          .text = "a variable that the control has not; #1-#33, #100-#199 and #500-#999 are read"};
+  return {
+      .reason = "no_such_parameter",
+      .text =
+          "a variable the control does not have; #1-#33, #100-#199 and #500-#999 are supported"};
 }
 
 enum class MacroExpression::Operator : unsigned char {
@@ -184,8 +186,8 @@ bool MacroExpression::function(double& out) {
   }
   if (name.empty()) {
     return fail("unknown_function",
-                "a function that is not known; ABS ACOS ASIN ATAN COS EXP FIX FUP LN ROUND SIN "
-                "SQRT TAN are");
+                "an unknown function; the known ones are ABS ACOS ASIN ATAN COS EXP FIX FUP LN "
+                "ROUND SIN SQRT TAN");
   }
   if (name == "BIN" || name == "BCD" || name == "ADP" || name == "POW") {
     return fail("function_not_interpreted", "BIN, BCD, ADP and POW are not interpreted");
@@ -212,10 +214,11 @@ bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
   } else if (name == "TAN") {
     out = std::tan(x * kDegree);
   } else if (name == "ASIN" || name == "ACOS") {
-    if (!domain(x >= -1.0 && x <= 1.0, "ASIN or ACOS of a number beyond -1 to 1")) {
+    if (!domain(x >= -1.0 && x <= 1.0, "ASIN or ACOS of a number outside -1 to 1")) {
       return false;
     }
     out = (name == "ACOS" ? std::acos(x) : std::asin(x)) / kDegree;
+    // FANUC, parameter 6004#0 = 0: ASIN gives 270° to 90°. ACOS is never negative.
     out += out < 0.0 ? 360.0 : 0.0;
   } else if (name == "SQRT") {
     if (!domain(x >= 0.0, "SQRT of a negative number")) {
@@ -227,8 +230,9 @@ bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
   } else if (name == "ROUND") {
     if (!(increment_ > 0.0)) {
       return fail("function_not_interpreted",
-                  "ROUND in this word: the increment that it rounds to is not known");
+                  "ROUND in this word: its rounding increment is unknown");
     }
+    // Inside a word ROUND rounds to the least increment of its address, not to a whole number.
     out = std::round(x / increment_) * increment_;
   } else if (name == "FIX") {
     out = std::trunc(x);
@@ -274,6 +278,7 @@ bool MacroExpression::arc_tangent(double y, double& out) {
     return fail("out_of_domain", "ATAN of two zeros");
   }
   out = (pair ? std::atan2(y, x) : std::atan(y)) / kDegree;
+  // Likewise 0° to 360°; ATAN of one value keeps −90° to 90°.
   out += pair && out < 0.0 ? 360.0 : 0.0;
   return true;
 }
@@ -295,7 +300,7 @@ bool MacroExpression::variable_number(int& index) {
   }
   const double whole = std::round(number);
   if (!(std::abs(number - whole) <= kWhole)) {
-    return fail("not_an_integer", "a variable's number that is not a whole number");
+    return fail("not_an_integer", "a variable number that is not a whole number");
   }
   if (!(whole >= 0.0 && whole < 1e9)) {
     return fail("no_such_parameter", macro_lookup_text(Lookup::no_such_number).text);

@@ -67,7 +67,7 @@ bool LetterLine::macro_statement() {
   if (assigned_ || !block_.words().empty() || block_.flow().kind != FlowKind::none) {
     at_ = end_;
     return refuse(since(from), "macro_statement",
-                  "an assignment stands in a block of its own in this dialect");
+                  "in this dialect an assignment needs a separate block");
   }
   int index = 0;
   MacroExpression number(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values, 1.0);
@@ -78,7 +78,7 @@ bool LetterLine::macro_statement() {
   }
   skip_blanks();
   if (at_ == end_ || *at_ != '=') {
-    return refuse(since(from), "bad_assignment", "a variable in front of nothing; write #5=2");
+    return refuse(since(from), "bad_assignment", "a variable without an assignment; write #5=2");
   }
   ++at_;
   skip_blanks();

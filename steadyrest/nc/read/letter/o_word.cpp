@@ -105,7 +105,7 @@ bool OWord::label(Flow& flow) {
     const char* const after =
         read_name(line_.data() + at_, line_.data() + line_.size(), flow.label);
     if (after == nullptr) {
-      return fail("o_word", "an O-word's name that is empty, too long or not closed by >");
+      return fail("o_word", "an O-word name that is empty, too long or not closed by >");
     }
     at_ = static_cast<std::size_t>(after - line_.data());
     return true;
@@ -152,8 +152,8 @@ bool OWord::keyword(Flow& flow) {
     }
   }
   return fail("o_word",
-              "an O-word whose keyword is not known; sub endsub return call if elseif else endif "
-              "while endwhile do repeat endrepeat break continue are");
+              "an O-word with an unknown keyword; the known ones are sub endsub return call if "
+              "elseif else endif while endwhile do repeat endrepeat break continue");
 }
 
 bool OWord::arguments(Flow& flow) {

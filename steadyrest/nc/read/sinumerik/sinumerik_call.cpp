@@ -15,7 +15,7 @@ namespace {
 constexpr bool in_name(char c) noexcept {
   return is_letter(c) || is_digit(c) || c == '_';
 }
-constexpr std::string_view kOwnBlock = "a call or definition stands in a block of its own";
+constexpr std::string_view kOwnBlock = "a call or definition needs a separate block";
 
 }  // namespace
 
@@ -92,8 +92,8 @@ bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
     return true;
   }
   return refuse(since(word_begin), "definition",
-                "a variable or parameter of a type that is not interpreted; REAL, INT and BOOL "
-                "are (no VAR, CHAR, STRING, AXIS, FRAME, SYN…)");
+                "a variable or parameter of an unsupported type; REAL, INT and BOOL are supported "
+                "(not VAR, CHAR, STRING, AXIS, FRAME, SYN…)");
 }
 
 bool SinumerikLine::variable_name(const char* word_begin, Name& name) {
@@ -102,8 +102,8 @@ bool SinumerikLine::variable_name(const char* word_begin, Name& name) {
   if (!starts || written.size() > 31 || known_name(written) || refused_name(written) != nullptr ||
       !lower_name(written, name)) {
     return refuse(since(word_begin), "bad_name",
-                  "the name of a variable: two letters or underscores first, at most 31 "
-                  "characters, no word of the language");
+                  "a variable name: begin with two letters or underscores, at most 31 characters, "
+                  "no word of the language");
   }
   if (next() == '[') {
     return refuse(since(word_begin), "array", "an array of variables is not interpreted");
@@ -134,7 +134,7 @@ bool SinumerikLine::definition(const char* word_begin) {
       }
     }
     if (!reading_.typed_values->define(name.view(), type, value)) {
-      return refuse(since(word_begin), "definition", "a variable that is defined already");
+      return refuse(since(word_begin), "definition", "a variable that is already defined");
     }
   } while (next() == ',');
   return next() == '\0' || refuse(since(word_begin), "definition", kOwnBlock);
@@ -159,7 +159,7 @@ bool SinumerikLine::parameter_of_subprogram(const char* word_begin, std::size_t 
     }
   }
   return reading_.typed_values->define_argument(name.view(), type, place, otherwise) ||
-         refuse(since(word_begin), "definition", "a parameter that is defined already");
+         refuse(since(word_begin), "definition", "a parameter that is already defined");
 }
 
 // PROC NAME(REAL A, INT B=3)
@@ -187,7 +187,7 @@ bool SinumerikLine::head_of_subprogram(const char* word_begin) {
     if (!equal(attribute, "DISPLOF") && !equal(attribute, "DISPLON")) {
       at_ += attribute.empty() ? 1 : 0;
       return refuse(since(word_begin), "definition",
-                    "an attribute of a subprogram that is not interpreted (SAVE, SBLOF …)");
+                    "a subprogram attribute that is not interpreted (SAVE, SBLOF …)");
     }
   }
   return true;
@@ -202,7 +202,7 @@ bool SinumerikLine::declaration(const char* word_begin) {
 bool SinumerikLine::assign(const char* word_begin, Lookup lookup) {
   if (!block_.words().empty()) {
     return refuse(since(word_begin), "assignment_and_words",
-                  "the assignment of a variable beside other words; write two blocks");
+                  "a variable assignment next to other words; write two blocks");
   }
   assigned_ = true;
   const SinumerikLookup why = sinumerik_lookup_text(lookup);
@@ -231,7 +231,7 @@ bool SinumerikLine::parameter_assignment(const char* word_begin) {
   }
   if (next() != '=') {
     return refuse(since(word_begin), "bad_assignment",
-                  "an R-parameter in front of nothing; write R1=5 or X=R1");
+                  "an R-parameter without an assignment; write R1=5 or X=R1");
   }
   ++at_;
   double value = 0.0;
@@ -246,7 +246,7 @@ bool SinumerikLine::parameter_assignment(const char* word_begin) {
 
 bool SinumerikLine::variable_assignment(const char* word_begin, std::string_view name) {
   if (next() != '=') {
-    return refuse(since(word_begin), "bad_assignment", "a variable in front of nothing");
+    return refuse(since(word_begin), "bad_assignment", "a variable without an assignment");
   }
   ++at_;
   double value = 0.0;
@@ -287,7 +287,7 @@ bool SinumerikLine::call_values(const char* word_begin) {
     const char c = next();
     if (c == '"') {
       at_ = end_;
-      return refuse(since(word_begin), "subprogram_call", "a string as value of a call");
+      return refuse(since(word_begin), "subprogram_call", "a string as a call argument");
     }
     if (c != ',' && c != ')') {
       if (!calculated(word_begin, flow.values[flow.count])) {
@@ -339,7 +339,7 @@ bool SinumerikLine::modal_call(const char* word_begin) {
   const std::string_view name = letters();
   if (!name.empty() && !(name.size() > 5 && equal(name.substr(0, 5), "CYCLE"))) {
     return refuse(since(word_begin), "modal_call",
-                  "a modal call (MCALL) of a subprogram; cycles alone are interpreted");
+                  "a modal call (MCALL) of a subprogram; only cycles are interpreted");
   }
   return call(word_begin, name, FlowKind::modal_cycle);
 }
@@ -358,7 +358,7 @@ bool SinumerikLine::master_spindle(const char* word_begin) {
     ++at_;
   }
   return number == 1.0 || refuse(since(word_begin), "spindle_selection",
-                                 "another master spindle (SETMS) than the first");
+                                 "a master spindle (SETMS) other than the first");
 }
 
 }  // namespace steadyrest::nc::read

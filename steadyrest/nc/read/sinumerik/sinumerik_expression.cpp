@@ -50,6 +50,7 @@ enum class SinumerikExpression::Operator : unsigned char {
   gt
 };
 
+// Priorities of "Job Planning". Unlike in C, comparisons bind last, even after AND and OR.
 constexpr std::array<Sign<SinumerikExpression::Operator>, 18> SinumerikExpression::kSigns = {{
     {"*", Operator::times, 8},
     {"/", Operator::over, 8},
@@ -83,19 +84,19 @@ SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept {
     case Lookup::no_such_name:
       return {.reason = "unset_parameter",
               .text =
-                  "a parameter or variable that was never set in this program; what the control "
-                  "has kept in it is not known"};
+                  "a parameter or variable that was never set in this program; the value left in "
+                  "the control is unknown"};
     case Lookup::not_while_compensating:
     case Lookup::assigned_in_block:
       return {.reason = "order_of_assignments",
-              .text = "a value that is set and used in one block; write two blocks"};
+              .text = "a value set and used in one block; write two blocks"};
     case Lookup::read_only:
     case Lookup::not_known_here:
     case Lookup::found:
     case Lookup::no_such_number:
       break;
   }
-  return {.reason = "no_such_parameter", .text = "an R-parameter beyond R0 to R999"};
+  return {.reason = "no_such_parameter", .text = "an R-parameter outside R0 to R999"};
 }
 
 bool SinumerikExpression::looked_up(Lookup lookup) {
@@ -211,10 +212,10 @@ bool SinumerikExpression::operand(double& out) {
     return word(out);
   }
   if (c == '$') {
-    return fail("system_variable", "a system variable ($...) is not read");
+    return fail("system_variable", "system variables ($...) are not supported");
   }
   return c == '\'' || c == '"'
-             ? fail("bad_value", "a string or a binary number where a number belongs")
+             ? fail("bad_value", "a string or a binary number where a plain number belongs")
              : fail("missing_value", "a value is missing");
 }
 
@@ -237,7 +238,7 @@ bool SinumerikExpression::number(double& out) {
     std::array<char, 80> written{};  // as C++ writes it: correctly rounded
     const std::size_t digits = mantissa.length;
     if (digits + power.length + 1 > written.size()) {
-      return fail("bad_number", "a number of too many digits");
+      return fail("bad_number", "a number with too many digits");
     }
     std::copy_n(at_ - digits, digits, written.begin());
     written[digits] = 'e';
@@ -245,7 +246,7 @@ bool SinumerikExpression::number(double& out) {
     const char* const stop = at_ + 2 + power.length;
     const char* const end = std::copy(sign, stop, written.begin() + static_cast<long>(digits) + 1);
     if (std::from_chars(written.data(), end, out).ec != std::errc{}) {
-      return fail("bad_number", "a number beyond the range of a double");
+      return fail("bad_number", "a number outside the range of a double");
     }
     at_ = stop;
   }
@@ -281,11 +282,11 @@ bool SinumerikExpression::word(double& out) {
   if (lower_name(name, variable) && peek() != '(' && peek() != '[') {
     const Lookup lookup = values_.name(variable.view(), out);
     return lookup == Lookup::no_such_name
-               ? fail("variable", "a variable that was not defined (DEF) in this program")
+               ? fail("variable", "a variable not defined (DEF) in this program")
                : looked_up(lookup);
   }
   return peek() == '(' ? function(name, out)
-                       : fail("variable", "an array or a word that is not known as a value");
+                       : fail("variable", "an array, or a word with no known value");
 }
 
 bool SinumerikExpression::parameter(double& out, std::string_view name) {
@@ -300,7 +301,7 @@ bool SinumerikExpression::parameter(double& out, std::string_view name) {
     index = read_number(name.substr(1)).value;
   }
   if (!whole(index) || index < 0.0 || index > 99999.0) {
-    return fail("no_such_parameter", "an R-parameter beyond R0 to R999");
+    return fail("no_such_parameter", "an R-parameter outside R0 to R999");
   }
   return looked_up(values_.number(static_cast<int>(index), out));
 }

@@ -63,14 +63,14 @@ bool SinumerikExpression::function(std::string_view name, double& out) {
   const auto* const found =
       std::ranges::find_if(kKnown, [&](const Known& one) { return equal(name, one.name); });
   if (found == kKnown.end()) {
-    return fail("unknown_function", "a function that is not known or not interpreted");
+    return fail("unknown_function", "a function that is unknown or not interpreted");
   }
   std::array<double, 3> values{};
   if (!arguments(values, found->values)) {
     return false;
   }
   if (!(values[0] >= found->lowest && values[0] <= found->highest)) {
-    return fail("out_of_domain", "a function of a number for which it has no value");
+    return fail("out_of_domain", "a function of a number outside its domain");
   }
   out = found->law(values[0], values[1], values[2]);
   return finite(out);

@@ -51,7 +51,7 @@ bool SinumerikLine::header() {
     if (at_ != end_ && is_digit(*at_)) {
       ++at_;
       return refuse(since(mark), "block_delete_switch",
-                    "a numbered block-delete switch; only the plain mark / is read");
+                    "a numbered block-delete switch; only the plain mark / is supported");
     }
     skip_blanks();
   }
@@ -97,8 +97,7 @@ bool SinumerikLine::comment() {
   for (; at_ != end_; ++at_) {
     if (is_control(*at_)) {
       return refuse({at_, 1}, "control_character",
-                    "a control character that no NC text contains; the file is not a text or is "
-                    "damaged");
+                    "a control character; the file is not text or is damaged");
     }
   }
   return true;
@@ -110,7 +109,7 @@ bool SinumerikLine::push(const char* word_begin, Word& word) {
   }
   if (assigned_) {
     return refuse(since(word_begin), "assignment_and_words",
-                  "a word beside the assignment of a variable; write two blocks");
+                  "a word next to a variable assignment; write two blocks");
   }
   if (!block_.push(word)) {
     return refuse(since(word_begin), "too_many_words", "more words than a block may have (128)");
@@ -129,6 +128,7 @@ bool SinumerikLine::item() {
   if (block_.flow().kind != FlowKind::none) {
     return repeats(word_begin);
   }
+  // One letter is an address, two or more are a name: X1, but TRANS.
   const bool name_follows = at_ + 1 != end_ && (is_letter(at_[1]) || at_[1] == '_');
   if (name_follows || *at_ == '_') {
     return named(word_begin);
@@ -137,7 +137,7 @@ bool SinumerikLine::item() {
   word.letter = upper(*at_++);
   word.name = {word_begin, 1};
   if (word.letter == 'N') {
-    return refuse(since(word_begin), "misplaced_n", "a block number behind other words");
+    return refuse(since(word_begin), "misplaced_n", "a block number after other words");
   }
   if (word.letter == 'R' && reading_.typed_values != nullptr) {
     return parameter_assignment(word_begin);
@@ -152,7 +152,8 @@ bool SinumerikLine::item() {
     while (at_ != end_ && !is_blank(*at_)) {
       ++at_;
     }
-    return refuse(since(word_begin), "parameter", "an R-parameter; only plain numbers are read");
+    return refuse(since(word_begin), "parameter",
+                  "an R-parameter; only plain numbers are supported");
   }
   skip_blanks();
   if (at_ != end_ && *at_ == '=') {
@@ -172,7 +173,7 @@ bool SinumerikLine::item() {
       ++at_;
     }
     return refuse(since(word_begin), "extended_address",
-                  "an address with a number of its own (spindle or axis number) is not read");
+                  "numbered addresses (spindle or axis number) are not supported");
   }
   return push(word_begin, word);
 }
@@ -189,7 +190,7 @@ bool SinumerikLine::plain_number(const char* word_begin, Word& word) {
       ++at_;
     }
     return refuse(since(word_begin), "bad_number",
-                  "not a number that is read here; write digits and one point");
+                  "not a number in the supported form; write digits and one point");
   }
   const char* look = at_;
   while (look != end_ && is_blank(*look)) {
@@ -225,7 +226,7 @@ bool SinumerikLine::named(const char* word_begin) {
     }
     skip_blanks();
     if (at_ != end_ && *at_ == '=') {
-      return refuse(word.name, "variable", "a variable or a word that is not known");
+      return refuse(word.name, "variable", "an unknown variable or word");
     }
     if (at_ != end_ && *at_ == '(') {
       return refuse(word.name, "subprogram_call", "the call of a cycle or subprogram");
@@ -290,7 +291,7 @@ bool SinumerikLine::qualified(const char* word_begin, Word& word) {
   if (at_ == end_ || *at_ != ')') {
     at_ = end_;
     return refuse(since(word_begin), "unclosed_expression",
-                  "AC( ) or IC( ) that is not closed, or an operator is missing");
+                  "AC( ) or IC( ) is not closed, or an operator is missing");
   }
   ++at_;
   word.qualifier = absolute ? Qualifier::absolute : Qualifier::incremental;
@@ -349,42 +350,40 @@ bool SinumerikLine::refuse_value(const char* word_begin) {
     return refuse(text, "bad_number", "not a number; write digits and one point");
   }
   if (c == '$') {
-    return refuse(text, "parameter", "a system variable ($...); only plain numbers are read");
+    return refuse(text, "parameter", "a system variable ($...); only plain numbers are supported");
   }
   if (is_control(c)) {
-    return refuse(text, "control_character", "a control character that no NC text contains");
+    return refuse(text, "control_character", "a control character");
   }
   return refuse(text, "expression",
-                "a variable, function or expression as value; only plain numbers are read");
+                "a variable, function or expression as a value; only plain numbers are supported");
 }
 
 bool SinumerikLine::refuse_character() {
   const std::string_view text = rest();
   const char c = *at_;
   if (c == '$') {
-    return refuse(text, "parameter", "a system variable ($...) is not read");
+    return refuse(text, "parameter", "system variables ($...) are not supported");
   }
   if (c == '(') {
     return refuse(text, "bad_character", "( begins no word; comments begin with ; in this dialect");
   }
   if (c == '/') {
-    return refuse(text, "misplaced_block_delete", "the block-delete mark / behind other text");
+    return refuse(text, "misplaced_block_delete", "the block-delete mark / after other text");
   }
   if (c == '%') {
-    return refuse(text, "misplaced_percent", "% stands at the beginning of a line");
+    return refuse(text, "misplaced_percent", "% must be at the beginning of a line");
   }
   if (is_control(c)) {
     return refuse(text.substr(0, 1), "control_character",
-                  "a control character that no NC text contains; the file is not a text or is "
-                  "damaged");
+                  "a control character; the file is not text or is damaged");
   }
   if (text.starts_with("\xef\xbb\xbf")) {
     return refuse(text.substr(0, 3), "byte_order_mark",
                   "a byte order mark; save the program as plain text without one");
   }
   if (static_cast<unsigned char>(c) >= 0x80) {
-    return refuse(text.substr(0, 1), "not_ascii",
-                  "a character that is not ASCII, outside of a comment");
+    return refuse(text.substr(0, 1), "not_ascii", "a non-ASCII character outside a comment");
   }
   return refuse(text, "bad_character", "a character that begins no word");
 }

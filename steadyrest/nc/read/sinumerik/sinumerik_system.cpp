@@ -60,7 +60,7 @@ bool SinumerikLine::fine_offset(const char* word_begin) {
   if (!read || (sign != '\0' && sign != '+' && sign != '-')) {
     at_ = end_;
     return refuse(since(word_begin), "parameter",
-                  "a frame is written as $P_IFRAME[Z,FI]=$P_UIFR[$P_UIFRNUM,Z,FI]+value alone");
+                  "write a frame only as $P_IFRAME[Z,FI]=$P_UIFR[$P_UIFRNUM,Z,FI]+value");
   }
   at_ += sign == '+' ? 1 : 0;
   if (sign != '\0' && !calculated(word_begin, word.value)) {

@@ -21,7 +21,7 @@ kernel::outcome::Refusal cannot_open(const std::string& path, const std::string&
           .file = path,
           .line = 0,
           .what = "cannot be read: " + why,
-          .to_do = "name an NC program that exists and may be read"};
+          .to_do = "name an NC program that exists and is readable"};
 }
 
 }  // namespace

@@ -88,8 +88,8 @@ class Rewriter {
     while (lines->next()) {
       const bool bare = plain_.look(lines->line());
       if (!bare && is_inserted(lines->line())) {
-        return refuse(lines->number(), "carries the mark of a correction already",
-                      "take the corrections out first: program strip");
+        return refuse(lines->number(), "already has corrections",
+                      "take the corrections out first: `program strip`");
       }
       if (std::string use = bare ? "" : own_use(settings_, lines->line()); !use.empty()) {
         return refuse(lines->number(), std::move(use), std::string(against_own_use(settings_)));
@@ -148,6 +148,7 @@ class Rewriter {
   void look(Walk& walk, Clock& clock) {
     constexpr std::uint32_t kEvery = 1U << 14U;
     if (walk.line() % kEvery == 0) {
+      // Two passes over the program, timing and proof: half the progress each.
       progress(0.5 * walk.line() / std::max(survey_.end_line, 1U), "timing");
     }
     for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) {
@@ -249,7 +250,7 @@ class Rewriter {
     if (writer->path().empty()) {
       return std::unexpected(
           Refusal{Kind::bad_input, output, 0,
-                  "is not a file: the changed program is read again for its proof",
+                  "is not a file: the changed program is read back for the proof",
                   "name a file, not a device or a pipe"});
     }
     copy(*lines, *writer);

@@ -26,18 +26,17 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
   }
   if (settings_.method == Method::frame_fine && place.unit_mm != 1.0) {
     return refuse(place.line,
-                  "a fine offset in an inch program: its unit is a setting of the "
-                  "control",
-                  "write the program in mm, or the corrections by another method");
+                  "a fine offset in an inch program: its unit depends on a setting of the control",
+                  "write the program in mm, or choose another method for the corrections");
   }
   if (!unit_free(settings_.method) && place.unit_mm != chosen.front().place.unit_mm) {
     return refuse_units(place.line);
   }
   if (!unit_free(settings_.method) && !place.units_said) {
-    return refuse(place.line, "a correction, and the program has not said its units until here",
+    return refuse(place.line, "a correction before the program has set its units",
                   settings_.method == Method::frame_fine
-                      ? "write G71 (or G710) into its first block"
-                      : "write G21, or G20 for inches, into its first block");
+                      ? "write G71 (or G710) in its first block"
+                      : "write G21, or G20 for inches, in its first block");
   }
   const double before_mm = stands_mm;
   stands_mm = correction_mm(settings_, place.unit_mm, chosen[next - 1].step.displacement_um);
@@ -46,10 +45,10 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
   }
   if (std::abs(stands_mm) > settings_.clamp_mm + kHalfDigit_mm) {
     return refuse(place.line,
-                  fmt::format("a correction of {} by {:g} um, rounded to what the control takes; "
+                  fmt::format("a correction of {} by {:g} um, rounded to the control's increment; "
                               "the machine file allows {:g} um",
                               plan.letter, stands_mm * 1e3, settings_.clamp_mm * 1e3),
-                  "plan for a little less, or raise envelope.max_offset_mm");
+                  "plan for slightly less, or raise envelope.max_offset_mm");
   }
   double from_mm = before_mm;
   for (std::size_t i = first; i < next; ++i) {

@@ -97,16 +97,15 @@ std::optional<Mismatch> mismatch(const AxisPlan& axis, const Settings& settings,
       while (step < axis.steps.size() && !match.stands(step, change.stands_mm)) {
         ++step;
       }
-      return Mismatch{
-          change.line,
-          step == axis.steps.size()
-              ? fmt::format("{} stands corrected by {:.6f} mm from here; after {:.6f} mm "
-                            "the plan wants no such correction",
-                            axis.letter, change.stands_mm, stands_mm)
-              : fmt::format("a correction of {} acts at {:.1f} s; it is planned at "
-                            "{:.1f} s, and {:g} s of difference are allowed",
-                            axis.letter, change.time_s, axis.steps[step].time_s,
-                            settings.window_s)};
+      return Mismatch{change.line,
+                      step == axis.steps.size()
+                          ? fmt::format("{} is corrected by {:.6f} mm from here; after {:.6f} mm "
+                                        "the plan has no such correction",
+                                        axis.letter, change.stands_mm, stands_mm)
+                          : fmt::format("a correction of {} acts at {:.1f} s; it is planned at "
+                                        "{:.1f} s, and may be {:g} s off",
+                                        axis.letter, change.time_s, axis.steps[step].time_s,
+                                        settings.window_s)};
     }
     now_s = change.time_s;
     stands_mm = change.stands_mm;

@@ -41,7 +41,7 @@ Shifts::Shifts(const Plan& plan) {
 
 std::string Shifts::add(const Move& move, double most_mm) {
   if (move.kind != MoveKind::rapid) {
-    return "an inserted line moves otherwise than by a rapid";
+    return "an inserted line moves, but not by a rapid";
   }
   for (std::size_t i = 0; i < shift_.size(); ++i) {
     const double distance_mm = move.end[i] - move.start[i];
@@ -104,7 +104,7 @@ std::string Shifts::pair(const Move& before, const Move& after, const Frames& fr
   }
   return std::ranges::equal(before.spline, after.spline, same_points)
              ? std::string{}
-             : "the points of a spline are others";
+             : "the points of a spline differ";
 }
 
 std::string Shifts::one_axis(std::size_t axis, const Move& before, const Difference& difference,
@@ -114,22 +114,24 @@ std::string Shifts::one_axis(std::size_t axis, const Move& before, const Differe
   if (!same(start_mm, shift_[axis])) {
     return "a move begins where the one before it did not end";
   }
+  // An axis that is not programmed, or by an increment, keeps what it had.
   const bool may_keep = (frames.acts_at_once & bit(axis)) == 0 &&
                         (frames.incremental || same(before.start[axis], before.end[axis]));
   double error_mm = std::abs(end_mm - wanted[axis]);
   if (may_keep) {
     error_mm = std::min(error_mm, std::abs(end_mm - start_mm));
   }
+  // A move to machine coordinates must end where the original does.
   if (frames.machine) {
     error_mm = std::min(error_mm, std::abs(end_mm));
   }
   if (!(error_mm <= kSame_mm)) {
-    return fmt::format("{} is off by {:.9f} mm after this line; the plan wants {:.6f} mm",
+    return fmt::format("{} is off by {:.9f} mm after this line; the plan has {:.6f} mm",
                        kAxisLetters[axis], end_mm, wanted[axis]);
   }
   const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
   if (!straight && !same(start_mm, end_mm)) {
-    return fmt::format("a correction of {} begins in a move that is not straight: it would bend it",
+    return fmt::format("a correction of {} begins in a curved move and would bend it",
                        kAxisLetters[axis]);
   }
   if (before.kind == MoveKind::arc && axis < before.normal.size() && before.normal[axis] == 0.0) {

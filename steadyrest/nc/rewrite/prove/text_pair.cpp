@@ -31,7 +31,7 @@ class TextPair {
       const bool bare = plain.look(before_.line());
       head_.look(before_.line(), before_.number());
       if (!bare && is_inserted(before_.line())) {
-        refuse(original_, before_.number(), "the original carries the mark of a correction");
+        refuse(original_, before_.number(), "the original already has corrections");
       }
       if (std::string use = bare ? "" : own_use(way_, before_.line()); !use.empty()) {
         refuse(original_, before_.number(), std::move(use), against_own_use(way_));
@@ -44,7 +44,7 @@ class TextPair {
     }
     while (!fault_ && after_.next()) {
       if (!is_inserted(after_.line())) {
-        refuse(changed_, after_.number(), "goes on where the original has ended");
+        refuse(changed_, after_.number(), "continues past the end of the original");
       }
       take();
     }
@@ -61,7 +61,7 @@ class TextPair {
 
  private:
   void refuse(const std::string& file, std::uint32_t line, std::string what,
-              std::string_view to_do = "make the changed program anew from this original") {
+              std::string_view to_do = "make the changed program again from this original") {
     if (!fault_) {
       fault_ = Refusal{Kind::bad_input, file, line, std::move(what), std::string(to_do)};
     }
@@ -79,7 +79,7 @@ class TextPair {
       more = after_.next();
     }
     if (!more || after_.line() != before_.line() || after_.ending() != before_.ending()) {
-      refuse(changed_, after_.number(), "differs from the original outside of the inserted lines");
+      refuse(changed_, after_.number(), "differs from the original outside the inserted lines");
     }
   }
 
@@ -87,7 +87,8 @@ class TextPair {
     inserted_.lines.push_back(after_.number());
     const bool crlf = ended_ ? crlf_ : before_.ending().size() > 1;
     if (after_.ending().size() != (crlf ? 2 : 1)) {
-      refuse(changed_, after_.number(), "an inserted line ends otherwise than the lines around it");
+      refuse(changed_, after_.number(),
+             "an inserted line ends differently from the lines around it");
     }
     if (!is_head(after_.line())) {
       inserted_.groups[before_.number()].append(after_.line()).append("\n");
@@ -97,8 +98,7 @@ class TextPair {
     ++inserted_.head_lines;
     if (head_.line() != before_.number()) {
       refuse(changed_, after_.number(),
-             "the head stands elsewhere than before the first block that does something",
-             kAgainstOtherLines);
+             "the head is not before the first block that does something", kAgainstOtherLines);
     }
   }
 
@@ -126,10 +126,9 @@ Result<Inserted> compare_text(const std::string& original, const std::string& ch
   TextPair pair(std::move(*before), std::move(*after), original, changed, settings);
   auto inserted = pair.compare(plain);
   if (inserted && inserted->head != whole_head(plan, settings)) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, changed, 0,
-                "the head is not the one that belongs to this plan, machine and way of writing",
-                std::string(kAgainstOtherLines)});
+    return std::unexpected(Refusal{Kind::bad_input, changed, 0,
+                                   "the head does not match this plan, machine and method",
+                                   std::string(kAgainstOtherLines)});
   }
   return inserted;
 }

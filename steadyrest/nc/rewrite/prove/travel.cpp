@@ -20,8 +20,8 @@ std::string over_travel(const kernel::machine::Machine& machine, char letter, co
   }
   const auto fault = [letter](double to_mm, double end_mm, double own_mm) {
     return fmt::format(
-        "the correction takes {} to {:.4f} mm, over the end of its travel at {:g} mm; "
-        "without it {} goes to {:.4f} mm (machine coordinates)",
+        "the correction takes {} to {:.4f} mm, past the end of its travel at {:g} mm; without it "
+        "{} goes to {:.4f} mm (machine coordinates)",
         letter, to_mm, end_mm, letter, own_mm);
   };
   if (corrected.high_mm > axis->max_mm + kRounding_mm &&

@@ -66,7 +66,7 @@ class Prover {
   }
 
  private:
-  bool refuse(std::string what, std::string to_do = "make the changed program anew") {
+  bool refuse(std::string what, std::string to_do = "make the changed program again") {
     return refuse_at(changed_, changed_run_ ? changed_run_->line() : 0, std::move(what),
                      std::move(to_do));
   }
@@ -129,7 +129,7 @@ class Prover {
       return refuse_at(original_, taken->line, taken->what, taken->to_do);
     }
     if (changed_run_->step()) {
-      return refuse("goes on where the original has ended");
+      return refuse("continues past the end of the original");
     }
     return at_end();
   }
@@ -146,7 +146,7 @@ class Prover {
       if (!changed_run_->step()) {
         const auto report = changed_run_->take();
         return report.refused.empty()
-                   ? refuse("ends before the original does")
+                   ? refuse("ends before the original")
                    : refuse(interpret::first_refusal(report, changed_), changed_);
       }
       const bool main = changed_run_->in_main();
@@ -154,8 +154,7 @@ class Prover {
         const std::uint32_t before = main ? inserted_.before() : 0U;
         return (as_it_was ||
                 refuse("the inserted lines before this one change more than an offset")) &&
-               (changed_run_->line() - before == walk_->line() ||
-                refuse("another line is executed"));
+               (changed_run_->line() - before == walk_->line() || refuse("executes another line"));
       }
       passed_inserted_ = true;
       // The head acts after an abort alone, or does here what is done already.
@@ -204,7 +203,7 @@ class Prover {
       const double shift_mm = shifts_.now(axis.index);
       if (restated_ && !same(shift_mm, shift_before_[axis.index]) &&
           !same(shift_mm, shifts_.wanted[axis.index])) {
-        return refuse("an inserted line moves an axis to where the plan does not want it");
+        return refuse("an inserted line moves an axis where the plan does not want it");
       }
     }
     restated_ = false;
@@ -226,7 +225,7 @@ class Prover {
 
   bool refuse_other_lines() {
     return refuse_at(changed_, other_lines_,
-                     "other lines are inserted before this one than belong here",
+                     "the lines inserted before this one do not belong here",
                      std::string(kAgainstOtherLines));
   }
 
@@ -235,7 +234,7 @@ class Prover {
     const std::string kept = kept_difference(walk_->run(), *changed_run_);
     return kept.empty() ||
            refuse_at(original_, walk_->top_line(),
-                     "a correction would stay in " + kept + " after the program",
+                     "a correction would remain in " + kept + " after the program",
                      "do this before the first correction, or leave the axis out of the plan");
   }
 
@@ -256,7 +255,7 @@ class Prover {
         return true;
       }
       return !walk_->moves_axis(axis.index) ||
-             refuse("the correction is off in a line that moves its axis");
+             refuse("the correction is removed in a line that moves its axis");
     }
     return changes(index, stands_mm);
   }
@@ -270,23 +269,23 @@ class Prover {
     });
     if (step == axis.steps.end()) {
       return refuse(fmt::format(
-          "{} stands corrected by {:.6f} mm here; the plan wants {:.6f} mm, or a later correction",
+          "{} is corrected by {:.6f} mm here; the plan has {:.6f} mm, or a later correction",
           axis.letter, stands_mm, wanted_mm));
     }
     stands_mm = correction_mm(settings_, unit_mm, step->displacement_um);  // without rounding
     if (std::abs(stands_mm) > settings_.clamp_mm + kHalfDigit_mm) {
-      return refuse(fmt::format("{} stands corrected by {:g} um; the machine file allows {:g} um",
+      return refuse(fmt::format("{} is corrected by {:g} um; the machine file allows {:g} um",
                                 axis.letter, stands_mm * 1e3, settings_.clamp_mm * 1e3));
     }
     if (!unit_free(settings_.method) && !walk_->units_said()) {
-      return refuse("a correction begins where the program has not said its units");
+      return refuse("a correction begins before the program has set its units");
     }
     const Site site = walk_->site(axis.letter, axis.index);
     if (site == Site::none) {
       return refuse(fmt::format("{} is corrected where there is no safe place", axis.letter));
     }
     if (site == Site::clearance && !(restated_ && same(shifts_.now(axis.index), stands_mm))) {
-      return refuse(fmt::format("a correction does not act: {} is not programmed", axis.letter));
+      return refuse(fmt::format("a correction has no effect: {} is not programmed", axis.letter));
     }
     acts_at_once_ |= site == Site::clearance ? 0U : std::uint32_t{1} << axis.index;
     belongs_here_.changes(index, wanted_mm, stands_mm, site);
@@ -305,7 +304,7 @@ class Prover {
     const auto& before = walk_->moves();
     const auto& after = changed_moves_.moves;
     if (before.size() != after.size() || !equal_events(walk_->events(), changed_moves_.events)) {
-      return refuse("makes other moves, or other events, than the original here");
+      return refuse("makes different moves or events from the original here");
     }
     const Frames frames = {
         .incremental = walk_->before().incremental || walk_->run().state().incremental,
@@ -325,7 +324,7 @@ class Prover {
       proof_.corrected += shifts_.any() ? 1U : 0U;
       if (before[i].kind == interpret::MoveKind::probe && shifts_.any()) {
         return refuse_at(original_, walk_->top_line(),
-                         "probes while a correction stands: what it finds would hold it",
+                         "probes while a correction is on: the result would contain it",
                          "probe before the first correction");
       }
       if (!config_.start_known) {
@@ -342,8 +341,7 @@ class Prover {
   bool at_end() {
     const std::string_view left = state_difference(walk_->run().state(), changed_run_->state());
     return (window_ == nullptr || in_time()) &&
-           (left.empty() ||
-            refuse(fmt::format("leaves another {} behind than the original", left))) &&
+           (left.empty() || refuse(fmt::format("leaves a different {} from the original", left))) &&
            keeps_the_same() && (other_lines_ == 0 || refuse_other_lines());
   }
 
@@ -354,7 +352,7 @@ class Prover {
     }
     proof_.program_s = *total;
     return executed_inserted_ + head_lines_ == inserted_.size() ||
-           refuse("not every inserted line is executed exactly once");
+           refuse("some inserted line is not executed exactly once");
   }
 
   const std::string& original_;

@@ -84,19 +84,19 @@ class Prover {
   void refuse(std::uint32_t line, std::string what) {
     if (!refusal_) {
       refusal_ = Refusal{Kind::bad_input, original_, line, std::move(what),
-                         "make the changed program anew"};
+                         "make the changed program again"};
     }
   }
 
   /// A subprogram that is not looked into may use the parameter itself.
   [[nodiscard]] Refusal subprogram_may_use_it() const {
-    return {
-        Kind::bad_input, original_, 0U,
-        fmt::format("a subprogram may use {} itself",
-                    settings_.method == Method::r_parameter
-                        ? fmt::format("R{}", settings_.r_parameter)
-                        : "the temperature compensation"),
-        fmt::format("{}, or one file without subprograms of others", against_own_use(settings_))};
+    return {Kind::bad_input, original_, 0U,
+            fmt::format("a subprogram may use {} itself",
+                        settings_.method == Method::r_parameter
+                            ? fmt::format("R{}", settings_.r_parameter)
+                            : "the temperature compensation"),
+            fmt::format("{}, or use one file without external subprograms",
+                        against_own_use(settings_))};
   }
 
   [[nodiscard]] std::string text_to(double to_mm) const {
@@ -148,9 +148,10 @@ class Prover {
       }
       const Site site = walk.site(axis_.letter, axis_.index);
       if (site != Site::rapid && site != Site::clearance) {
-        refuse(walk.line(), fmt::format("a correction of {} begins before a line that is no safe "
-                                        "place for it",
-                                        axis_.letter));
+        refuse(
+            walk.line(),
+            fmt::format("a correction of {} begins before a line that is not a safe place for it",
+                        axis_.letter));
       }
       if (timed_) {
         window.ask(0, {.line = walk.line(), .stands_mm = to_mm, .unit_mm = 1.0, .time_s = 0.0});
@@ -158,9 +159,9 @@ class Prover {
       stands_mm_ = to_mm;
       return;
     }
-    refuse(walk.line(), fmt::format("the inserted lines before this line belong to no step of the "
-                                    "plan: {}",
-                                    group.substr(0, group.find('\n'))));
+    refuse(walk.line(),
+           fmt::format("the inserted lines before this line belong to no step of the plan: {}",
+                       group.substr(0, group.find('\n'))));
   }
 
   void at_end() {

@@ -40,8 +40,9 @@ Result<double> Window::finish() {
   }
   for (std::size_t axis = 0; axis < changes_.size(); ++axis) {
     if (auto fault = mismatch(plan_.axes[axis], settings_, changes_[axis])) {
-      return std::unexpected(Refusal{Kind::bad_input, changed_, fault->line, std::move(fault->what),
-                                     "make the changed program anew, or allow a wider --window-s"});
+      return std::unexpected(
+          Refusal{Kind::bad_input, changed_, fault->line, std::move(fault->what),
+                  "make the changed program again, or allow a wider --window-s"});
     }
   }
   return total;

@@ -91,7 +91,7 @@ TEST_F(Fanuc, WritesInchesInWholeIncrements) {
 TEST_F(Fanuc, NeedsTheUnitsSaid) {
   const auto refused = shop_.compensate(replaced(kFanuc, "G21 G90", "G90"), kGrowth);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().what, HasSubstr("has not said its units"));
+  EXPECT_THAT(refused.error().what, HasSubstr("has set its units"));
   EXPECT_THAT(refused.error().to_do, HasSubstr("G21"));
 }
 
@@ -201,7 +201,7 @@ TEST_F(Fanuc, ItsHeadChangesNoModeThatTheProgramDoesNotSay) {
     const auto refused = shop_.compensate(program, kGrowth);
     ASSERT_FALSE(refused) << program;
     EXPECT_THAT(refused.error().what, HasSubstr("G90")) << program;
-    EXPECT_EQ(refused.error().to_do, "say G90 (or G91) before it");
+    EXPECT_EQ(refused.error().to_do, "write G90 (or G91) before it");
     EXPECT_EQ(refused.error().line, line) << program;
   };
   const auto after = [](const std::string& lines) {
@@ -290,7 +290,7 @@ TEST_F(Sinumerik, TheHeadStandsBehindTheNameOfTheProgram) {
   const std::string text = read_file(shop_.changed());
   EXPECT_EQ(text.substr(0, names.size() + head.size()), names + head);
   EXPECT_THAT(shop_.fault(kGrowth, head + replaced(text, head, "")),
-              HasSubstr("the head stands elsewhere"));
+              HasSubstr("the head is not before the first block"));
 }
 
 TEST_F(Sinumerik, VerifyCatchesEachFault) {
@@ -315,7 +315,7 @@ TEST_F(Sinumerik, VerifyCatchesEachFault) {
   EXPECT_THAT(shop_.fault(kGrowth, replaced(text_, "R50=0.0000 ;STEADYREST head Z\n", "")),
               HasSubstr("head"));
   EXPECT_THAT(shop_.fault(kGrowth, replaced(text_, "G0 X0 Y30", "G0 X0 Y31")),
-              HasSubstr("outside of the inserted lines"));
+              HasSubstr("outside the inserted lines"));
   const auto reset = text_.rfind("STOPRE");
   EXPECT_THAT(shop_.fault(kGrowth, text_.substr(0, reset) + "M30\n"), HasSubstr("left at the end"));
 }

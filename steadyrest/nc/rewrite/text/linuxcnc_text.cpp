@@ -11,8 +11,10 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
+// Axes in the order they get notes; unused axes whose slots in the work offset hold them: s, v.
 constexpr std::string_view kServed = "ZYXWVU";
 constexpr std::string_view kNotes = "WVUCBA";
+// LinuxCNC's numbered parameters: #5221 … for G54 (n = 1).
 constexpr int kWorkOffset = 5201;  // + 20 · n + axis
 constexpr int kRotation = 5210;    // + 20 · n
 constexpr int kG92 = 5211;         // + axis

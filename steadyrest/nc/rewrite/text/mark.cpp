@@ -127,7 +127,7 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
   if (inserted && (sum.name != kSum || sum.value != sum_of(told))) {
     return std::unexpected(
         kernel::outcome::Refusal{kernel::outcome::Kind::bad_input, changed, 0,
-                                 "what its head tells of how it was made is missing or was changed",
+                                 "the record in its head of how it was made is missing or changed",
                                  std::string(kAgainstOtherLines)});
   }
   return told;

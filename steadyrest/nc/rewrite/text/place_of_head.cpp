@@ -74,8 +74,8 @@ std::string own_use(const Way& way, std::string_view line) {
   switch (way.method) {
     case Method::linuxcnc:
       return uses_own_names(line)    ? "uses the parameters of the corrections, #<_steadyrest…>"
-             : names_note(way, line) ? "uses a parameter in which a correction is noted: a work "
-                                       "offset of an axis that the machine does not have"
+             : names_note(way, line) ? "uses a parameter where a correction is noted: the work "
+                                       "offset of an axis the machine does not have"
                                      : "";
     case Method::r_parameter:
       return uses_parameter(line, way.r_parameter)
@@ -91,9 +91,9 @@ std::string own_use(const Way& way, std::string_view line) {
 }
 
 std::string_view against_own_use(const Way& way) noexcept {
-  return way.method == Method::linuxcnc      ? "take another parameter in the program"
+  return way.method == Method::linuxcnc      ? "use another parameter in the program"
          : way.method == Method::r_parameter ? "give the correction another R-parameter"
-                                             : "write the corrections by another method";
+                                             : "choose another method for the corrections";
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -80,7 +80,7 @@ class PlanReader {
       const auto line = 1 + static_cast<std::size_t>(std::ranges::count(seen, '\n'));
       return refuse("not JSON", "write the plan as JSON; see nc/rewrite/README.md", line);
     }
-    return twice.empty() || refuse_key(twice, "a key that stands twice", "leave one of them");
+    return twice.empty() || refuse_key(twice, "a key that appears twice", "keep one of them");
   }
 
   bool root() {
@@ -97,7 +97,7 @@ class PlanReader {
         plan_.machine = value.get<std::string>();
       } else if (std::ranges::find(kRootKeys, key) == kRootKeys.end()) {
         return refuse_key(
-            key, "a key that is not known",
+            key, "an unknown key",
             kernel::outcome::meant(key, kRootKeys, "remove it, or see nc/rewrite/README.md"));
       }
     }
@@ -130,7 +130,7 @@ class PlanReader {
     constexpr std::string_view kLinear = "XYZUVW";
     if (!letter.is_string() || letter.get<std::string>().size() != 1 ||
         kLinear.find(letter.get<std::string>()[0]) == std::string_view::npos) {
-      return refuse_key(key, "not a linear axis", "write one letter out of X Y Z U V W");
+      return refuse_key(key, "not a linear axis", "write one letter of X Y Z U V W");
     }
     AxisPlan made;
     made.letter = letter.get<std::string>()[0];
@@ -164,8 +164,8 @@ class PlanReader {
       if (name != "n" && name != "t_min" && name != "delta_um" &&
           !(name == "name" && value.is_string())) {
         return refuse_key(
-            key + "." + name, "a key that is not known",
-            kernel::outcome::meant(name, kTransitionKeys, "n, t_min, delta_um and name are"));
+            key + "." + name, "an unknown key",
+            kernel::outcome::meant(name, kTransitionKeys, "use n, t_min, delta_um and name"));
       }
     }
     for (const char* name : {"n", "t_min", "delta_um"}) {
@@ -194,7 +194,7 @@ class PlanReader {
       sum_um += deltas[i];
       if (!(std::abs(deltas[i]) <= kLargest_um && std::abs(sum_um) <= kLargest_um)) {
         return refuse_key(key + ".delta_um" + at, "far beyond a thermal displacement",
-                          "write micrometres, at most 10000 altogether");
+                          "write micrometres, at most 10000 in total");
       }
       if (deltas[i] != 0.0) {
         made.steps.push_back({now_s, sum_um});
@@ -202,7 +202,7 @@ class PlanReader {
       now_s += minutes[i] * 60.0;
     }
     return now_s <= kLongest_min * 60.0 ||
-           refuse_key(key, "the plan lasts longer than 30 days", "look at the unit: minutes");
+           refuse_key(key, "the plan lasts longer than 30 days", "check the unit: minutes");
   }
 
   bool numbers(const std::string& key, const Json& list, std::size_t n, std::vector<double>& out) {
@@ -234,8 +234,8 @@ Result<Plan> read_plan(const std::string& path) {
     text.resize(static_cast<std::size_t>(in.gcount()));
   }
   if (!in.is_open() || in.bad()) {
-    return std::unexpected(
-        Refusal{Kind::unavailable, path, 0, "cannot be read", "check the path and the rights"});
+    return std::unexpected(Refusal{Kind::unavailable, path, 0, "cannot be read",
+                                   "check the path and the permissions"});
   }
   return parse_plan(text, path);
 }

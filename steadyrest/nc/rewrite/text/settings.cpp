@@ -23,22 +23,21 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
   for (const AxisPlan& axis : plan.axes) {
     if (config.axes.find(axis.letter) == std::string::npos) {
       return refuse(fmt::format("the machine has no axis {}; it has {}", axis.letter, config.axes),
-                    "plan for an axis that the machine has");
+                    "plan for an axis the machine has");
     }
     if (settings.method != Method::linuxcnc && axis.letter >= 'U' && axis.letter <= 'W') {
       return refuse(fmt::format("{} is an increment in this dialect", axis.letter),
                     "plan for X, Y or Z");
     }
     if (beside_program(settings.method) && plan.axes.size() > 1) {
-      return refuse("corrections of several axes, but one variable to write them to",
+      return refuse("corrections of several axes, but only one variable to write them to",
                     "plan for one axis");
     }
     if (settings.method == Method::linuxcnc && !offset_note(settings, axis.letter)) {
-      return refuse(
-          fmt::format("corrections of {} on a machine with the axes {}: the note of what is "
-                      "corrected needs two axes that the machine has not, for each axis",
-                      axis.letter, settings.axes),
-          "plan without this axis");
+      return refuse(fmt::format("corrections of {} on a machine with the axes {}: the note of each "
+                                "correction needs two axis letters the machine does not use",
+                                axis.letter, settings.axes),
+                    "plan without this axis");
     }
     if (axis.steps.size() > kMostSteps) {
       return refuse(fmt::format("{} corrections of {}; at most {} are allowed", axis.steps.size(),
@@ -51,7 +50,7 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
             fmt::format(
                 "a correction of {} by {:g} um at {:g} min; the machine file allows {:g} um",
                 axis.letter, -step.displacement_um, step.time_s / 60.0, settings.clamp_mm * 1e3),
-            "raise envelope.max_offset_mm if the machine may be moved that far, or plan again");
+            "raise envelope.max_offset_mm if the machine may move that far, or plan again");
       }
     }
   }
@@ -62,12 +61,11 @@ Result<void> check_total(const Plan& plan, double program_s) {
   if (std::abs(plan.total_s - program_s) <= std::max(kFit_s, kFitShare * program_s)) {
     return {};
   }
-  return std::unexpected(
-      Refusal{Kind::bad_input, plan.file, 0,
-              fmt::format("the plan is for {:.1f} s, the program takes {:.1f} s on this machine; "
-                          "2 % or 30 s of difference are allowed",
-                          plan.total_s, program_s),
-              "make the plan from this program and this machine file"});
+  return std::unexpected(Refusal{Kind::bad_input, plan.file, 0,
+                                 fmt::format("the plan is for {:.1f} s, the program takes {:.1f} s "
+                                             "on this machine; they may differ by 2 % or 30 s",
+                                             plan.total_s, program_s),
+                                 "make the plan from this program and this machine file"});
 }
 
 std::string whole_head(const Plan& plan, const Settings& settings) {

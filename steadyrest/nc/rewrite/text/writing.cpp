@@ -39,6 +39,8 @@ std::string tag(const Change& change, int places) {
 
 std::string fanuc_change(Method method, const Change& change, std::string_view ending) {
   const bool mm = change.unit_mm == 1.0;
+  // P0 is the external offset on Fanuc but G52 on Haas, which gets the active offset by its number.
+  // In G91, since the offset's value belongs to the operator.
   const std::size_t system = method == Method::fanuc ? 0 : change.active_offset + 1;
   const std::string mark = tag(change, mm ? kMostMmPlaces : kLinuxcncPlaces);
   std::string text =
@@ -59,6 +61,8 @@ std::string beside_change(const Way& way, const Change& change, std::string_view
   const std::string variable = way.method == Method::r_parameter
                                    ? fmt::format("R{}", way.r_parameter)
                                    : fmt::format("$SA_TEMP_COMP_ABS_VALUE[{}]", change.letter);
+  // The manuals disagree on which way a positive temperature compensation moves the axis: the
+  // machine file says what an indicator showed.
   const double value_mm =
       way.method == Method::r_parameter ? change.to_mm : way.sign * change.to_mm;
   return fmt::format("STOPRE ;STEADYREST {0}{1} mm{4}{2}={3} ;STEADYREST {0}{1} mm{4}",
@@ -84,6 +88,8 @@ double writable_mm(const Way& way, double unit_mm, double correction_mm) noexcep
     return rounded(correction_mm, kLinuxcncPlaces);
   }
   const bool inch = unit_mm != 1.0 && !unit_free(way.method);
+  // 0.0001 inch where millimetres have 0.001. The sum is rounded, not each change, so nothing
+  // drifts.
   const double increment_mm = way.increment_mm * (inch ? 0.1 * unit_mm : 1.0);
   return std::round(correction_mm / increment_mm) * increment_mm + 0.0;  // no -0
 }
@@ -110,6 +116,8 @@ std::string restate_text(Method method, char letter, double position_mm, double 
   constexpr double kExact = 1e-10;
   const int places = unit_mm == 1.0 ? kMmPlaces : kInchPlaces;
   const double value = rounded(position_mm / unit_mm, places);
+  // A position that the program's digits cannot say would move the axis: then there is no place
+  // here.
   if (std::abs(value * unit_mm - position_mm) > kExact) {
     return {};
   }

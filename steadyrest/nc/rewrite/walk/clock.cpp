@@ -75,8 +75,8 @@ Result<double> Clock::finish() {
         kernel::outcome::Refusal{kernel::outcome::Kind::bad_input,
                                  {},
                                  unknown_line_,
-                                 "the time of this line is asked for and was not found before",
-                                 "verify the changed program by itself"});
+                                 "the time of this line is needed but was not found before",
+                                 "verify the changed program separately"});
   }
   if (known_ != nullptr) {
     return known_->program_s;

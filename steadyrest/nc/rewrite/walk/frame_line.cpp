@@ -15,32 +15,32 @@ std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char le
   };
   const bool end = frame.ends;
   if (frame.frame == Frame::measured) {
-    return refuse(fmt::format("measures another work offset (G10 L20) while a correction of {} "
-                              "stands",
-                              letter),
-                  "measure before the first correction, or leave this axis out of the plan");
+    return refuse(
+        fmt::format("measures another work offset (G10 L20) while a correction of {} is on",
+                    letter),
+        "measure before the first correction, or leave this axis out of the plan");
   }
   if (frame.frame == Frame::stored) {
-    return refuse(fmt::format("stores the place of the machine (G28.1, G30.1) while a correction "
-                              "of {} stands: it would stay there after the program",
+    return refuse(fmt::format("stores the machine position (G28.1, G30.1) while a correction of {} "
+                              "is on: the correction would remain in it after the program",
                               letter),
                   "store it before the first correction, or leave this axis out of the plan");
   }
   if (!frame.may_write) {
     constexpr std::string_view kWhere =
-        "in a subprogram, a loop, cutter compensation, a rotated frame, in diameters (G7) or as "
-        "block delete decides";
-    return end ? refuse(
-                     fmt::format("the program ends {}: the correction cannot be taken off", kWhere),
-                     "end the program at its top level")
-               : refuse(fmt::format("the work offset changes {} while a correction stands", kWhere),
+        "in a subprogram, a loop, cutter compensation, a rotated frame, diameter mode (G7) or a "
+        "block-delete line";
+    return end ? refuse(fmt::format("the program ends {}: there is no way to remove the correction",
+                                    kWhere),
+                        "end the program at its top level")
+               : refuse(fmt::format("the work offset changes {} while a correction is on", kWhere),
                         "change it at the top level, without /");
   }
   if (frame.moves_axis && frame.frame == Frame::changed) {
-    return refuse(fmt::format("the work offset changes in a line that moves {} while a correction "
-                              "stands",
-                              letter),
-                  "change the work offset in a line of its own");
+    return refuse(
+        fmt::format("the work offset changes in a line that moves {} while a correction is on",
+                    letter),
+        "change the work offset on a separate line");
   }
   return std::nullopt;
 }

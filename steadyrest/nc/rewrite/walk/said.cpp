@@ -87,26 +87,25 @@ void Said::look(const interpret::Asked& asked, std::uint32_t known, std::uint32_
   }
   if (!asked.value.empty()) {
     take({.line = line,
-          .what =
-              fmt::format("uses {}, whose value at the start is the control's own", asked.value)});
+          .what = fmt::format("uses {}, whose initial value depends on the control", asked.value)});
   } else if (const std::uint32_t unknown = asked.positions & ~known; unknown != 0) {
     const char axis = interpret::kAxisLetters[static_cast<std::size_t>(std::countr_zero(unknown))];
     take({.line = line,
-          .what = fmt::format("uses the position of {}, which the program has not sent to a place "
-                              "in the work offset yet",
+          .what = fmt::format("uses the position of {} before the program has moved it to a place "
+                              "in the work offset",
                               axis)});
   } else if (!has(asked.modes)) {
-    take({.line = line, .what = "uses a mode of the control that the program has not set itself"});
+    take({.line = line, .what = "uses a mode of the control that the program has not set"});
   } else if ((asked.offsets_set & interpret::Asked::kShift) != 0) {
     take({.line = line,
-          .what = "sets the shift of G92 by its numbers (#5211 ...): a correction would bring them "
-                  "into force",
-          .to_do = "set the shift by G92"});
+          .what =
+              "sets the G92 shift by its numbers (#5211 ...): a correction would put them in force",
+          .to_do = "set the shift with G92"});
   } else if ((asked.offsets_set & active) != 0) {
     take({.line = line,
-          .what = "sets the work offset in force by its numbers (#5221 ...): a correction would "
-                  "bring them into force",
-          .to_do = "set it by G10 L2"});
+          .what = "sets the active work offset by its numbers (#5221 ...): a correction would put "
+                  "them in force",
+          .to_do = "set it with G10 L2"});
   }
 }
 

@@ -34,6 +34,7 @@ void Schedule::offer(const Place& place) {
 
 std::optional<Place> Schedule::best(std::size_t step, std::uint32_t first_line) const {
   const double wanted_s = plan_.steps[step].time_s;
+  // By kind first: rapid, clearance, feed. A shift in the cut leaves a mark.
   for (const Nearest& nearest : near_[step]) {
     std::optional<Place> found;
     for (const auto& place : {nearest.before, nearest.behind}) {
@@ -53,6 +54,7 @@ Result<std::vector<Chosen>> Schedule::choose() const {
   std::vector<Chosen> chosen;
   for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
     const PlannedStep& step = plan_.steps[i];
+    // Never before the last one, since the plan's steps act in order; two may share a place.
     auto place = best(i, chosen.empty() ? 0 : chosen.back().place.line);
     if (!place && !chosen.empty() &&
         std::abs(chosen.back().place.time_s - step.time_s) <= window_s_) {
@@ -63,10 +65,10 @@ Result<std::vector<Chosen>> Schedule::choose() const {
           Kind::bad_input,
           {},
           0,
-          fmt::format("no safe place for the correction of {} planned at {:.1f} s lies within "
-                      "{:g} s of it",
-                      plan_.letter, step.time_s, window_s_),
-          "widen --window-s, or give the program a retract with an absolute G0 there"});
+          fmt::format(
+              "no safe place for the correction of {} planned at {:.1f} s within {:g} s of it",
+              plan_.letter, step.time_s, window_s_),
+          "widen --window-s, or add a retract with an absolute G0 there"});
     }
     chosen.push_back({*place, step});
   }

@@ -17,6 +17,8 @@ using kernel::outcome::Result;
 
 namespace {
 
+// What a line with a place may hold (README, "The law of a safe place"): a list of what is
+// allowed, so that a word nobody thought of makes no place.
 constexpr std::array kPlainG = {0.0, 1.0, 17.0, 18.0, 19.0, 40.0, 61.0, 64.0, 80.0, 90.0, 94.0};
 constexpr std::array kPlainM = {3.0, 4.0, 5.0, 7.0, 8.0, 9.0};
 constexpr std::array<std::string_view, 4> kFrameWords = {"TRANS", "ATRANS", "ROT", "AROT"};
@@ -118,7 +120,10 @@ void Walk::remember() {
     }
     return out;
   };
+  // X and Y: rotations are about Z.
   constexpr std::uint32_t kInPlane = 0b11;
+  // A tool length, shift, reference point or probe may have moved any axis: the values in force at
+  // the start are unknown.
   std::uint32_t lost = facts_.loses || facts_.shifts ? ~0U : differing(state.offset, offset);
   lost |= turned ? kInPlane : 0U;
   const bool kept = start_known_ && !facts_.loses;
@@ -220,6 +225,8 @@ void Walk::look_at_g(const read::Word& word) {
   facts_.machine_frame = facts_.machine_frame || code == 53.0 || code == 28.0 || code == 30.0;
   facts_.data = facts_.data || code == 10.0;
   facts_.reference = facts_.reference || code == 28.1 || code == 30.1;
+  // G38 probing, G43, G43.1, G43.2 and G49: after them a position is known only once it is
+  // programmed.
   facts_.loses = facts_.loses || facts_.machine_frame || (code > 38.0 && code < 39.0) ||
                  code == 49.0 || (code >= 43.0 && code < 44.0);
   facts_.shifts = facts_.shifts || code == 52.0 || (code >= 92.0 && code < 93.0);
@@ -234,6 +241,7 @@ void Walk::look(const read::Block& block) {
       mode(GGroup::units) | mode(GGroup::distance) | mode(GGroup::work_offset);
   const bool meaning = said_.has(kMeaning);
   const auto said_before = said_.among(kMeaning);
+  // What a switch may skip has not been said.
   says_ = !block.deleted();
   facts_.plain = !block.words().empty();
   for (const read::Word& word : block.words()) {
@@ -302,6 +310,7 @@ bool Walk::calm(std::size_t index) const noexcept {
   const interpret::State& now = run_->state();
   const bool with_length = interval_ >= survey_.without_length.size() ||
                            steps_ <= survey_.without_length[interval_].first;
+  // None yet, G0, G1 or G80; motions are counted in tenths.
   const bool motion =
       before_.motion == -1 || before_.motion == 0 || before_.motion == 10 || before_.motion == 800;
   return may_write_alone(index) && with_length && motion && facts_.plain && !before_.incremental &&
@@ -330,7 +339,7 @@ const Walk::Unsaid* Walk::unsaid(char letter, std::size_t index) const {
 const Walk::Unsaid* Walk::missing(std::size_t index) const noexcept {
   static constexpr Unsaid kDistance{"whether positions are absolute (G90)", "write G90 before it"};
   static constexpr Unsaid kOffset{"which work offset is active",
-                                  "write G54 (or the one that is meant) before it, or give the "
+                                  "write G54 (or the one you mean) before it, or give the "
                                   "control's variable file (--variables)"};
   static constexpr Unsaid kRotation{"whether a rotation is stored in the work offset",
                                     "give the control's variable file (--variables)"};
@@ -363,6 +372,7 @@ Site Walk::site_if_said(char letter, std::size_t index) const {
            : move.kind == MoveKind::linear ? Site::feed
                                            : Site::none;
   }
+  // The axis is moved by an added G0; between two rapids that leaves no mark on the part.
   const bool between_rapids = any_move_ && before_.last_move == MoveKind::rapid &&
                               move.kind == MoveKind::rapid && before_.motion == 0;
   const bool given = (before_.given & (std::uint32_t{1} << index)) != 0;

@@ -41,13 +41,13 @@ bool Walk::of_active() const noexcept {
 void Walk::look_for_external() {
   if (facts_.axes != 0 && !said_.has(mode(interpret::GGroup::distance))) {
     said_.take({.line = line_or_call(),
-                .what = "programs an axis before the program has said G90 or G91: the head, which "
-                        "takes the external offset off in G90, would change what this does",
-                .to_do = "say G90 (or G91) before it"});
+                .what = "programs an axis before G90 or G91: the head removes the external offset "
+                        "in G90 and would change the effect of this line",
+                .to_do = "write G90 (or G91) before it"});
   }
   if (facts_.data && facts_.data_set == 0.0) {
     said_.take({.line = line_or_call(),
-                .what = "sets the external offset itself: external_offset_free is not so",
+                .what = "sets the external offset itself, so external_offset_free is wrong",
                 .to_do = "use a work offset (G10 L2 P1 ...), or set external_offset_free = false"});
   }
 }

@@ -113,9 +113,9 @@ TEST(CalibrationText, ReplacesAnOlderOneOfAnotherLength) {
 
 TEST(CalibrationText, RefusesWhatItCannotDoSafely) {
   const std::string inlined = kHead + kX + "encoder = {count_um = 1}\n" + kB + kTail;
-  EXPECT_THAT(refusal_of(inlined, "X", learnt(3)), HasSubstr("in one line or with dotted keys"));
+  EXPECT_THAT(refusal_of(inlined, "X", learnt(3)), HasSubstr("inline or with dotted keys"));
   const std::string dotted = kHead + kX + "encoder.count_um = 1\n" + kB + kTail;
-  EXPECT_THAT(refusal_of(dotted, "X", learnt(3)), HasSubstr("in one line or with dotted keys"));
+  EXPECT_THAT(refusal_of(dotted, "X", learnt(3)), HasSubstr("inline or with dotted keys"));
   const std::string good = kHead + kX + kEncoder + kB + kTail;
   EXPECT_THAT(refusal_of(good, "Z", learnt(3)), HasSubstr("has no axis Z"));
   EXPECT_THAT(refusal_of(good + "\nnonsense", "X", learnt(3)), HasSubstr("m.toml:"));

@@ -31,7 +31,7 @@ std::vector<Case> cases() {
       {"gains", [](Machine& m) { m.axes[1].servo_gain_1_s = 55; }, "servo_gain", Severity::warning},
       {"forward", [](Machine& m) { m.axes[0].feed_forward = 1; }, "feed_forward",
        Severity::warning},
-      {"swings",
+      {"oscillates",
        [](Machine& m) {
          for (Axis& axis : m.axes) {
            axis.velocity_lag_s = 0.03;

@@ -34,6 +34,7 @@ class Pass {
         x_(Eigen::VectorXd::Zero(size())),
         p_(Eigen::MatrixXd::Zero(size(), size())) {
     p_.diagonal().setConstant(rule.gain_sd_ratio * rule.gain_sd_ratio);
+    // The modes' parameters are ratios, the bias is a length.
     p_(size() - 1, size() - 1) = rule.bias_sd_mm * rule.bias_sd_mm;
   }
 
@@ -104,6 +105,7 @@ class Pass {
     const double s = h.dot(ph) + rule_.measuring_sd_mm * rule_.measuring_sd_mm;
     const double innovation = left_mm(k);
     const double e = innovation / std::sqrt(s);
+    // Clipped: one bad part must not condemn the model alone.
     innovation_.push_back(std::clamp(e, -rule_.gate_sd, rule_.gate_sd));
     if (std::abs(e) > rule_.gate_sd) {
       out_[k] = true;
@@ -147,6 +149,7 @@ LevelChoice next_level(std::span<const double> share, std::uint32_t level,
   LevelChoice out{.level = level, .share = share[level]};
   bool all_inside = parts.size() >= rule.least;
   for (const PartError& part : parts) {
+    // k·Δ. Twice the measuring error is not counted against a part.
     const double own = out.share * part.tolerance_mm;
     const double error = std::abs(part.deviation_mm);
     out.outside += error > own + 2.0 * rule.measuring_sd_mm ? 1U : 0U;
@@ -194,7 +197,9 @@ std::vector<Prediction> predict(const online::ThermalModel& model, const Cyclogr
       ++at;
     }
     drive_in(at);
+    // A copy for each instant: the running model stays at the transition's start.
     online::ThermalModel then = running;
+    // Against the start of the work: what was there then is in the workpiece's zero.
     out[k].displacement_mm = then.update(std::max(0.0, time_s[k] - begin_s), drive) - start_mm;
     for (std::size_t i = 0; i < modes; ++i) {
       out[k].mode_mm.push_back(then.state().mode_mm[i] - start.mode_mm[i]);
@@ -217,6 +222,8 @@ Gains learn_gains(std::span<const Observation> observations, const GainRule& rul
     beyond.clear();
     for (std::size_t k = 0; k < all; ++k) {
       const double left_mm = std::abs(pass.left_mm(k));
+      // Early observations were judged when little was known; now that all are in, they are judged
+      // again.
       if (!pass.out()[k] && left_mm > rule.gate_sd * rule.measuring_sd_mm) {
         beyond.emplace_back(-left_mm, k);
       }
@@ -250,6 +257,7 @@ void apply_gains(kernel::machine::ThermalAxis& axis, std::span<const double> gai
   std::size_t entry = 0;
   for (std::size_t i = 0; i < of_parameter.size() && entry < axis.covariance.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
+      // Cov(g·a, h·b) = g·h·Cov(a, b).
       axis.covariance[entry++] *= of_parameter[i] * of_parameter[j];
     }
   }

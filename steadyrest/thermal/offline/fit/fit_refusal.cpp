@@ -32,12 +32,12 @@ std::optional<Refusal> unfit_speeds(const Log& log, const std::vector<double>& t
     held += fmt::format("{}{:.0f}", k == 0 ? ": " : ", ",
                         kernel::units::rpm_from_rev_s(table_rev_s[k]));
   }
-  return refuse(log,
-                fmt::format("a table of levels needs {} … {} speeds that are held for {:.0f} min "
-                            "each; the log has {}{}{}",
-                            kLeastSpeeds, kMostSpeeds, kHeld_s / 60.0, speeds, held,
-                            held.empty() ? "" : " rpm"),
-                "run the test at more speeds, or fit a polynomial: --levels polynomial");
+  return refuse(
+      log,
+      fmt::format(
+          "a table of levels needs {} … {} speeds held for {:.0f} min each; the log has {}{}{}",
+          kLeastSpeeds, kMostSpeeds, kHeld_s / 60.0, speeds, held, held.empty() ? "" : " rpm"),
+      "run the test at more speeds, or fit a polynomial: --levels polynomial");
 }
 }  // namespace
 
@@ -58,16 +58,16 @@ std::optional<Refusal> unfit(const FitData& data, const FitRequest& request,
   }
   const double run_s = longest_run_s(log, request.from_s, request.to_s);
   if (run_s == 0.0 && request.known == nullptr) {
-    return refuse(log, "the spindle never turns",
-                  "log a test in which it turns: docs/thermal-test.md");
+    return refuse(log, "the spindle never runs",
+                  "log a test with the spindle running: docs/thermal-test.md");
   }
   if (request.known == nullptr && request.horizon_s > kHorizonPerRun * run_s) {
     return refuse(
         log,
-        fmt::format("the longest run at one speed takes {:.0f} min; a forecast over {:.0f} min "
-                    "cannot be fitted to it",
+        fmt::format("the longest run at one speed is {:.0f} min, too short to fit a forecast over "
+                    "{:.0f} min",
                     run_s / 60.0, request.horizon_s / 60.0),
-        fmt::format("run {:.0f} min at least at one speed, ask for a shorter --horizon-min, or "
+        fmt::format("run at one speed for {:.0f} min at least, ask for a shorter --horizon-min, or "
                     "take time constants from a longer test with --tau-from",
                     request.horizon_s / kHorizonPerRun / 60.0));
   }
@@ -100,10 +100,10 @@ std::optional<Refusal> too_uncertain(const AxisFit& fit, const FitData& data,
   }
   return refuse(
       log,
-      fmt::format("{}: {} {} cannot be told from this log: {}", fit.channel, fit.axis.mode.size(),
+      fmt::format("{}: this log does not determine {} {}: {}", fit.channel, fit.axis.mode.size(),
                   fit.axis.mode.size() == 1 ? "mode" : "modes", why),
-      fmt::format("run {:.0f} min at least at one speed, then let it cool as long; or "
-                  "take time constants from a longer test with --tau-from",
+      fmt::format("run at one speed for {:.0f} min at least, then let it cool as long; or take "
+                  "time constants from a longer test with --tau-from",
                   std::max(need_s, 1.5 * run_s) / 60.0));
 }
 

@@ -45,11 +45,14 @@ class Identification {
                                    : 0.0),
         table_rev_s_(request.table ? held_speeds_rev_s(log, request.from_s, request.to_s)
                                    : std::vector<double>{}),
+        // A first guess to whiten with; likely_error() replaces it once a structure is there.
         error_{std::max(kDriftGuess * range_um_, data_.noise_um), 4.0 * 3600.0, data_.noise_um} {}
 
   Judged free_structure(const std::function<void(double)>& progress) {
     SearchLimits limits;
     limits.most_modes = request_.modes.value_or(3);
+    // Without blocks to leave out nothing would stop a search among many sensors from fitting
+    // noise.
     limits.most_ambients = request_.ambient && has_blocks() ? 2 : 0;
     limits.sensor = sensors();
     std::vector<Structure> found =
@@ -144,6 +147,8 @@ class Identification {
     }
     out.axis.drift_mm = kernel::units::mm_from_um(band.drift_um);
     out.axis.drift_tau_s = band.tau_s;
+    // The drift at the log's end, from a few readings so that one reading's noise does not stand
+    // for it.
     constexpr Eigen::Index kLast = 5;
     out.axis.drift_state_mm =
         kernel::units::mm_from_um(residual.tail(std::min(kLast, residual.size())).mean());
@@ -183,6 +188,8 @@ class Identification {
       Structure moved = chosen.structure;
       moved.mode[m].tau_s *= std::exp(kStep);
       moved.mode[m].rest_tau_s *= std::exp(kStep);
+      // Numerical derivative by ln τ times its standard deviation: a column with unit variance
+      // beside those of the linear parameters.
       wide.col(p + i) =
           (columns(moved) * fit.amplitude - here) * (chosen.ln_tau_alone_sd[m] / kStep);
     }
@@ -208,6 +215,7 @@ class Identification {
                                static_cast<Eigen::Index>(block.end - block.begin))
                       .mean();
       }
+      // b times the spread σ of the input's block means.
       const double spread_um = fit.amplitude(column) *
                                (mean.array() - mean.mean()).matrix().norm() /
                                std::sqrt(static_cast<double>(blocks - 1));
@@ -232,6 +240,8 @@ class Identification {
     for (std::size_t modes = 1; modes <= most; ++modes) {
       Structure s;
       for (std::size_t i = 0; i < modes; ++i) {
+        // Starting points only, in s: about 35 min for one mode, from about 15 min on by
+        // factors of 5 for several.
         s.mode.push_back(
             {60.0 * std::pow(5.0, static_cast<double>(i) + (modes == 1 ? 2.2 : 1.7)), 0.0});
       }
@@ -264,6 +274,7 @@ class Identification {
       const auto rank = [](const Judged& x) {
         return std::pair(x.structure.parameters(), x.left_out.mean_loss);
       };
+      // Fewest parameters first; the loss decides between equally simple ones.
       if (as_good(j.left_out, best->left_out) && rank(j) < rank(*out)) {
         out = &j;
       }
@@ -308,6 +319,8 @@ class Identification {
   [[nodiscard]] Judged with_rest(Judged chosen) const {
     for (std::size_t m = 0; m < chosen.structure.mode.size() && has_blocks(); ++m) {
       Structure tried = chosen.structure;
+      // Started a little off τ: at τ itself the residuals do not depend on it to tell the two
+      // apart.
       tried.mode[m].rest_tau_s = 1.1 * tried.mode[m].tau_s;
       Judged other = judged(tried);
       if (other.criterion < chosen.criterion - kStrongEvidence &&

@@ -11,6 +11,7 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
+// µm: wide enough to be no prior at all.
 constexpr double kFree = 1e5;
 constexpr double kNoises = 3.0;
 constexpr double kPer_rev_s = 60.0 / 1000.0;
@@ -75,6 +76,7 @@ std::vector<double*> free_taus(Structure& s) {
 bool allowed(const Structure& s) {
   for (const Structure::Mode& a : s.mode) {
     for (const Structure::Mode& b : s.mode) {
+      // Two modes of nearly one time constant are one mode and a pair of large opposite amplitudes.
       if (&a != &b && std::max(a.tau_s, b.tau_s) < kSeparation * std::min(a.tau_s, b.tau_s)) {
         return false;
       }
@@ -110,6 +112,7 @@ class Projection {
 
   [[nodiscard]] Eigen::MatrixXd jacobian(const std::vector<double>& at,
                                          const Eigen::VectorXd& here) const {
+    // Of ln τ, 2 %: forward difference.
     constexpr double kStep = 0.02;
     Eigen::MatrixXd out(here.size(), static_cast<Eigen::Index>(at.size()));
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -156,8 +159,11 @@ LinearPrior wide_prior(const Structure& structure, const FitData& data) {
     for (std::size_t k = 0; k < table.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(m * table.size() + k);
       const double step = table[k] - (k == 0 ? 0.0 : table[k - 1]);
+      // A random walk from speed to speed whose variance at the fastest speed is usual²: each step
+      // has its share.
       out.root(i, i) *= std::sqrt(table.back() / step);
       if (k > 0) {
+        // Row k is the increment G_k − G_{k−1}.
         out.root(i, i - 1) = -out.root(i, i);
       }
     }
@@ -176,8 +182,11 @@ LinearFit fit_linear(const Eigen::MatrixXd& columns, const FitData& data, const 
   Eigen::VectorXd b(n + p);
   a.topRows(n) = rows.matrix.leftCols(p);
   b.head(n) = rows.matrix.col(p);
+  // The prior as further rows of unit variance.
   a.bottomRows(p) = prior.root;
   b.tail(p) = prior.root * prior.mean;
+  // Columns of unit length: levels in µm at (1000 rpm)² and gains in µm/K differ by orders of
+  // magnitude.
   const Eigen::VectorXd scale = a.colwise().norm();
   const Eigen::MatrixXd even = a * scale.cwiseInverse().asDiagonal();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(even);
@@ -189,6 +198,8 @@ LinearFit fit_linear(const Eigen::MatrixXd& columns, const FitData& data, const 
   const Eigen::MatrixXd inverse =
       r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(p, p));
   const Eigen::MatrixXd un = scale.cwiseInverse().asDiagonal() * inverse;
+  // (AᵀA)⁻¹ = R⁻¹R⁻ᵀ, scaled back. The error model is taken as true, so no residual variance
+  // enters.
   out.covariance = un * un.transpose();
   out.log_det = -2.0 * (r.diagonal().array().abs().log().sum() + scale.array().log().sum());
   out.condition = r.norm() * inverse.norm() / static_cast<double>(p);
@@ -213,10 +224,12 @@ Refined refine(Structure structure, const FitData& data, const ErrorModel& error
     const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
     Eigen::MatrixXd damped = normal;
     damped.diagonal() *= 1.0 + damping;
+    // A time constant at its bound has a column of zeros.
     damped.diagonal().array() += 1e-9;
     const Eigen::VectorXd step = -damped.ldlt().solve(jacobian.transpose() * here);
     std::vector<double> next = at;
     for (std::size_t i = 0; i < at.size(); ++i) {
+      // A factor of 2 in τ at most in one step.
       next[i] = std::clamp(at[i] + std::clamp(step(static_cast<Eigen::Index>(i)), -0.7, 0.7),
                            std::log(kLeastTau_s), std::log(kMostTau_s));
     }
@@ -251,6 +264,7 @@ Refined refine(Structure structure, const FitData& data, const ErrorModel& error
     for (std::size_t i = 0; i < at.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       out.ln_tau_sd[i] = std::sqrt(variance(k));
+      // With all others held: what a passport that treats them as independent has to carry.
       out.ln_tau_alone_sd[i] = std::sqrt(s2 / normal(k, k));
     }
   }
@@ -267,6 +281,7 @@ ErrorModel likely_error(const Eigen::MatrixXd& columns, const FitData& data,
       ErrorModel error{ratio * data.noise_um, 60.0 * tau_min, data.noise_um};
       const LinearFit fit = fit_linear(columns, data, error, prior);
       const double s2 = fit.white.squaredNorm() / n;
+      // −2 ln L with the common scale s² eliminated: only ratio and τ are searched.
       const double cost = n * std::log(s2) + fit.log_sum;
       if (cost < least) {
         least = cost;

@@ -81,8 +81,11 @@ class Products {
         const Eigen::Index ci = column[static_cast<std::size_t>(i)];
         for (Eigen::Index j = 0; j <= i; ++j) {
           const Eigen::Index cj = column[static_cast<std::size_t>(j)];
+          // Normal equations of all blocks but b: leaving one out is a subtraction.
           normal(i, j) = sum_(cj, ci) - white_[b](cj, ci);
         }
+        // The ridge keeps nearly equal columns solvable; the gauge's zero has its own precision
+        // where there are no inputs.
         normal(i, i) += ci == 0 && c.lag.empty() ? zero_ : kRidge;
         right(i) = sum_(y, ci) - white_[b](y, ci);
       }
@@ -101,12 +104,14 @@ class Products {
     double sum = m(y, y);
     for (Eigen::Index i = 0; i < a.size(); ++i) {
       const Eigen::Index ci = column[static_cast<std::size_t>(i)];
+      // ‖y − X·a‖² from the products alone: yᵀy − 2aᵀXᵀy + aᵀXᵀX·a.
       double row = 0.5 * a(i) * m(ci, ci) - m(y, ci);
       for (Eigen::Index j = 0; j < i; ++j) {
         row += a(j) * m(column[static_cast<std::size_t>(j)], ci);
       }
       sum += 2.0 * a(i) * row;
     }
+    // A difference of large numbers: rounding may take it below 0.
     return std::max(sum, 0.0);
   }
   ColumnGrid grid_;
@@ -137,6 +142,8 @@ class Search {
           std::ranges::move(best(kind, kCarried, true), std::back_inserter(all));
         }
         sets.clear();
+        // More modes are tried only with the sets of inputs that did well with fewer, else the
+        // pairs would be far too many.
         for (const Candidate& c : best(all, kCarried, true)) {
           sets.push_back(c.lag);
         }
@@ -167,6 +174,7 @@ class Search {
     }
     for (std::size_t i = 0; inputs == 2 && i < one.size(); ++i) {
       for (std::size_t j = i + 1; j < one.size(); ++j) {
+        // Two lags of one sensor are nearly the same column.
         if (one[i].first != one[j].first) {
           out.push_back({one[i], one[j]});
         }

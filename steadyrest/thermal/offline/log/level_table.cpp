@@ -36,6 +36,7 @@ std::vector<double> held_speeds_rev_s(const Log& log, double from_s, double to_s
   return out;
 }
 
+// A hat function: below the first point it falls to 0 at rest, beyond the last it stays 1.
 double table_share(std::span<const double> table_rev_s, std::size_t k, double speed_rev_s) {
   const double here = table_rev_s[k];
   const double below = k == 0 ? 0.0 : table_rev_s[k - 1];

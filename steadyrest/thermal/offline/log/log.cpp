@@ -42,9 +42,9 @@ class LogMaker {
     }
     if (!table_.passed_over.empty()) {
       note(table_.head_line,
-           fmt::format("columns whose names end in no unit that is known: {}",
+           fmt::format("columns whose names end in no known unit: {}",
                        fmt::join(table_.passed_over, ", ")),
-           "they are passed over");
+           "they are skipped");
     }
     for (const auto step : {&LogMaker::take_clock, &LogMaker::take_speed, &LogMaker::take_channels,
                             &LogMaker::check_what_is_left}) {
@@ -97,9 +97,9 @@ class LogMaker {
         return refuse(line_of_row(k),
                       std::isnan(n)
                           ? fmt::format("{} is empty", speed.name)
-                          : fmt::format("{} = {:.6g} cannot be; at most {:.0f} is allowed",
+                          : fmt::format("{} = {:.6g} is implausible; at most {:.0f} is allowed",
                                         speed.name, rpm, kMostSpeed_rpm),
-                      "give the spindle's speed in every row, in rpm, 0 while it stands");
+                      "give the spindle speed in every row, in rpm; 0 when stopped");
       }
       log_.speed_rev_s.push_back(n);
     }
@@ -146,13 +146,13 @@ class LogMaker {
     }
     const auto shown_as = [&](double inner) { return (inner - column.offset) / column.factor; };
     const std::string what =
-        fmt::format("{} = {:.6g} cannot be; {:.6g} … {:.6g} is allowed", channel.name,
+        fmt::format("{} = {:.6g} is implausible; {:.6g} … {:.6g} is allowed", channel.name,
                     shown_as(channel.value[first]), shown_as(least), shown_as(most));
     if (static_cast<double>(wild) > kWild_share * static_cast<double>(channel.value.size())) {
       return refuse(line_of_row(first), what,
-                    "give the column the unit that its name says: _um or _mm, _c, _k or _f");
+                    "make the column's unit agree with its name: _um or _mm, _c, _k or _f");
     }
-    note(line_of_row(first), fmt::format("{}, {} times", what, wild), "these are left out");
+    note(line_of_row(first), fmt::format("{}, {} times", what, wild), "these are skipped");
     for (double& value : channel.value) {
       value = value < least || value > most ? kNan : value;
     }
@@ -203,11 +203,11 @@ class LogMaker {
     }
     if (wild > 0) {
       note(line_of_row(first),
-           fmt::format("{} cannot be believed in {} rows, from this one ({:.4g} °C): outside of "
-                       "{:.0f} … {:.0f} °C, or a step that no part of a machine can make",
+           fmt::format("{} is implausible in {} rows, starting here ({:.4g} °C): outside {:.0f} … "
+                       "{:.0f} °C, or a step that no machine part could make",
                        channel.name, wild, first_c, SensorWatch::kColdest_c,
                        SensorWatch::kHottest_c),
-           "these readings are left out");
+           "these readings are skipped");
     }
   }
 
@@ -228,6 +228,8 @@ class LogMaker {
       }
       from = to;
     }
+    // A coarse sensor in a steady room repeats itself for hours as well. Only one that otherwise
+    // changes often, or never does, is stuck.
     const bool living = static_cast<double>(changes) > kLively * static_cast<double>(lived);
     const bool dead = lived == 0;
     if (stuck.empty() || (!living && !dead)) {
@@ -236,12 +238,13 @@ class LogMaker {
     double hours = 0.0;
     for (const auto& [from, to] : stuck) {
       hours += (log_.time_s[to - 1] - log_.time_s[from]) / 3600.0;
+      // The first reading of a run was live when it was taken; only its repetitions are not.
       std::fill(channel.value.begin() + static_cast<std::ptrdiff_t>(from) + (from == 0 ? 0 : 1),
                 channel.value.begin() + static_cast<std::ptrdiff_t>(to), kNan);
     }
     note(line_of_row(stuck.front().first),
          fmt::format("{} is stuck: the same to the last digit for {:.1f} h", channel.name, hours),
-         dead ? "it is left out" : "these hours of it are left out");
+         dead ? "it is skipped" : "these hours of it are skipped");
   }
 
   void bridge(LogChannel& channel) {
@@ -270,7 +273,7 @@ class LogMaker {
     if (share > kAbsentShare) {
       note(table_.head_line,
            fmt::format("{} has no value in {:.0f} % of the rows", channel.name, 100.0 * share),
-           "the sensor is left out");
+           "the sensor is skipped");
       return;
     }
     if (quantity == Quantity::temperature) {
@@ -279,7 +282,7 @@ class LogMaker {
     const bool holes = std::ranges::any_of(channel.value, [](double v) { return std::isnan(v); });
     if (quantity == Quantity::temperature && holes) {
       note(table_.head_line,
-           fmt::format("{} has holes of more than {:.0f} min", channel.name, kBridge_s / 60.0),
+           fmt::format("{} has gaps longer than {:.0f} min", channel.name, kBridge_s / 60.0),
            "its last value is held there");
     }
     if (quantity == Quantity::displacement) {
@@ -298,16 +301,16 @@ class LogMaker {
     }
     if (most - least < kLeastRange_mm) {
       note(table_.head_line,
-           fmt::format("{} moves by {:.3g} µm in all: is its unit the one that its name says?",
+           fmt::format("{} moves by {:.3g} µm in all: does its unit agree with its name?",
                        channel.name, kernel::units::um_from_mm(most - least)),
-           "it is taken as it is named");
+           "the unit in the name is used");
     }
   }
 
   Done check_what_is_left() {
     if (log_.displacement.empty()) {
-      return refuse(table_.head_line, "no displacement is left that could be worked with",
-                    "see that the probes are connected and their columns hold readings");
+      return refuse(table_.head_line, "no usable displacement is left",
+                    "check that the probes are connected and their columns have readings");
     }
     return {};
   }

@@ -58,10 +58,10 @@ class ClockMaker {
       const double t = column_.value[i];
       const std::size_t line = table_.line[i];
       if (std::isnan(t)) {
-        return Fault{line, fmt::format("{} is empty", column_.name), "give each row its time"};
+        return Fault{line, fmt::format("{} is empty", column_.name), "give each row a time"};
       }
       if (!(std::abs(t) <= kMostTime_s)) {
-        return Fault{line, fmt::format("{} is no time", shown(t)),
+        return Fault{line, fmt::format("{} is not a time", shown(t)),
                      "correct the row's time, or leave out the row"};
       }
       if (out_.row.empty()) {
@@ -74,15 +74,15 @@ class ClockMaker {
         ++twice;
         first_twice = first_twice == 0 ? line : first_twice;
       } else if (t == out_.time_s.back()) {
-        return Fault{line, fmt::format("{} stands twice, with different values", shown(t)),
-                     "give each row its own time, with enough digits"};
+        return Fault{line, fmt::format("{} appears twice, with different values", shown(t)),
+                     "give each row a different time, with enough digits"};
       } else {
         return runs_back(t, line);
       }
     }
     if (twice > 0) {
       out_.notes.push_back(
-          {first_twice, fmt::format("{} rows stand twice", twice), "each was taken once"});
+          {first_twice, fmt::format("{} rows appear twice", twice), "each was used once"});
     }
     return out_.row.size() >= kLeastRows
                ? std::nullopt
@@ -101,7 +101,7 @@ class ClockMaker {
               "correct the row's time, or leave out the row"};
     }
     return {line,
-            fmt::format("the clock runs back: {} after {:.10g}", shown(t),
+            fmt::format("the clock runs backwards: {} after {:.10g}", shown(t),
                         (before - out_.origin_s) / column_.factor),
             "sort the rows, or cut the log where the clock was set"};
   }
@@ -115,20 +115,21 @@ class ClockMaker {
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);
     if (*middle > kMostStep_s) {
-      return Fault{table_.head_line,
-                   fmt::format("the rows are {:.1f} min apart in {} (median); {:.0f} min are "
-                               "allowed",
-                               *middle / 60.0, column_.name, kMostStep_s / 60.0),
-                   "give the clock the unit that its name says: time_s, time_ms, time_min, time_h"};
+      return Fault{
+          table_.head_line,
+          fmt::format(
+              "the rows are {:.1f} min apart in {} (median); at most {:.0f} min are allowed",
+              *middle / 60.0, column_.name, kMostStep_s / 60.0),
+          "make the clock's unit agree with its name: time_s, time_ms, time_min, time_h"};
     }
     const double most = std::max(kGap_s, 10.0 * *middle);
     for (std::size_t i = 0; i < step.size(); ++i) {
       if (step[i] > most) {
         out_.gap.push_back(i + 1);
-        out_.notes.push_back(
-            {line_of(i + 1), fmt::format("{:.1f} min are missing before this row", step[i] / 60.0),
-             "what the machine did there is not known: a fit takes its state anew from this row, a "
-             "forecast lets it stand until then"});
+        out_.notes.push_back({line_of(i + 1),
+                              fmt::format("{:.1f} min are missing before this row", step[i] / 60.0),
+                              "nothing is known about this gap: a fit restarts its state at this "
+                              "row, a forecast assumes the machine was stopped"});
       }
     }
     return check_ends();

@@ -17,11 +17,11 @@ kernel::outcome::Result<std::vector<const LogChannel*>> inputs_of(
   for (const auto& ambient : axis.ambient) {
     const auto found = std::ranges::find(log.temperature, ambient.sensor, &LogChannel::name);
     if (found == log.temperature.end()) {
-      return std::unexpected(
-          Refusal{Kind::bad_input, log.file, 0,
-                  fmt::format("the passport of {} needs the temperature {}, which the log has not",
-                              axis.name, ambient.sensor),
-                  "log that sensor, or fit a passport without it: thermal fit --no-ambient"});
+      return std::unexpected(Refusal{
+          Kind::bad_input, log.file, 0,
+          fmt::format("the passport of {} needs the temperature {}, but the log does not have it",
+                      axis.name, ambient.sensor),
+          "log that sensor, or fit a passport without it: thermal fit --no-ambient"});
     }
     out.push_back(&*found);
   }

@@ -96,7 +96,7 @@ class TableReader final : public table::Sink {
     for (const auto& [quantity, what, to_do] :
          {Needed{Quantity::speed, "the spindle's speed", "name one column spindle_rpm"},
           Needed{Quantity::displacement, "a displacement",
-                 "name the displacements with their unit: ch1_um, z_um, x_mm"}}) {
+                 "name the displacements with their units: ch1_um, z_um, x_mm"}}) {
       const auto count = std::ranges::count(all_, quantity, &LogColumn::quantity);
       if (count == 0 || (count > 1 && quantity != Quantity::displacement)) {
         return wrong_number(count, what, to_do);
@@ -150,8 +150,8 @@ class TableReader final : public table::Sink {
 
   static Fault wrong_number(std::ptrdiff_t count, std::string_view what, std::string_view to_do) {
     return {0,
-            count == 0 ? fmt::format("the head has no column for {}", what)
-                       : fmt::format("the head has {} columns for {}", count, what),
+            count == 0 ? fmt::format("the header has no column for {}", what)
+                       : fmt::format("the header has {} columns for {}", count, what),
             std::string(to_do)};
   }
 
@@ -200,7 +200,7 @@ Result<std::string> read_packed(const std::string& path) {
   };
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    return refuse(Kind::bad_input, "is a folder", "give a log as CSV, or CSV packed by gzip");
+    return refuse(Kind::bad_input, "is a folder", "give a log as CSV, or CSV packed with gzip");
   }
   const std::unique_ptr<gzFile_s, CloseGzip> in(gzopen(path.c_str(), "rb"));
   if (in == nullptr) {
@@ -218,12 +218,12 @@ Result<std::string> read_packed(const std::string& path) {
   int state = Z_OK;
   gzerror(in.get(), &state);
   if (got < 0 || (state != Z_OK && state != Z_STREAM_END)) {
-    return refuse(Kind::bad_input, "is packed, and cut off or damaged",
-                  "copy it again, or unpack what can be read");
+    return refuse(Kind::bad_input, "is compressed, and truncated or damaged",
+                  "copy it again, or unpack what is readable");
   }
   if (out.size() > kMaxBytes) {
     return refuse(Kind::bad_input, fmt::format("is larger than {} MB", kMaxBytes >> 20U),
-                  "log less often: a row in 15 s is enough");
+                  "log less often: one row every 15 s is enough");
   }
   return out;
 }
@@ -239,7 +239,7 @@ Result<LogTable> parse_log_table(std::string_view text, const std::string& file,
     return refuse(*fault);
   }
   if (!rows.has_head()) {
-    return refuse({0, "the log is empty", "give a CSV with a head and rows"});
+    return refuse({0, "the log is empty", "give a CSV with a header and rows"});
   }
   LogTable out = table.take();
   out.notes = rows.notes();

@@ -61,13 +61,13 @@ class Reader final : public table::Sink {
       }
       const auto* known = std::ranges::find(kKnown, name, &Known::name);
       if (known == kKnown.end()) {
-        return Fault{0, fmt::format("the column {} is not known", shown(name)),
-                     "part, transition, time_min, deviation_um, tolerance_um and axis are; "
-                     "units stand at the end of the name"};
+        return Fault{0, fmt::format("the column {} is unknown", shown(name)),
+                     "use part, transition, time_min, deviation_um, tolerance_um and axis, with "
+                     "units at the end of the name"};
       }
       if (has(known->field)) {
         return Fault{0, fmt::format("there are two columns for {}", shown(name)),
-                     "leave one of them"};
+                     "keep one of them"};
       }
       column_.push_back(*known);
     }
@@ -82,11 +82,13 @@ class Reader final : public table::Sink {
     if (static_cast<int>(has(Field::transition)) + static_cast<int>(has(Field::time)) +
             static_cast<int>(has(Field::stamp)) !=
         1) {
-      return Fault{0, "give exactly one of the columns transition, time_min or stamps",
-                   "say in which transition, or how many minutes after the start, it was cut"};
+      return Fault{
+          0, "give exactly one of the columns transition, time_min or stamps",
+          "say in which transition, or how many minutes after the start, the part was cut"};
     }
     if (has(Field::stamp) && !started_) {
-      return Fault{head.line + 1, "the parts have stamps, but not when the plan's work began",
+      return Fault{head.line + 1,
+                   "the parts have time stamps, but the start of the plan's work is missing",
                    "give --started 2026-11-22T23:47:06, or time_min since then"};
     }
     return std::nullopt;
@@ -147,15 +149,15 @@ class Reader final : public table::Sink {
     const auto stamp = table::stamp_of(row.field(i));
     if (!stamp || stamp->zoned != started_->zoned) {
       return Fault{row.line(),
-                   fmt::format("\"{}\" is no date with a time {} a zone", shown(row.field(i)),
-                               started_->zoned ? "and" : "without"),
-                   "write each stamp as --started, 2026-11-22T23:47:06"};
+                   fmt::format("\"{}\" is not a date and time {} a time zone", shown(row.field(i)),
+                               started_->zoned ? "with" : "without"),
+                   "write each stamp like --started, 2026-11-22T23:47:06"};
     }
     to_s = static_cast<double>(stamp->whole_s - started_->whole_s) + stamp->fraction_s -
            started_->fraction_s;
     if (!(to_s >= 0.0)) {
       return Fault{row.line(), fmt::format("{} is before --started", shown(row.field(i))),
-                   "give the stamp when the plan's work began"};
+                   "give the time when the plan's work began"};
     }
     return std::nullopt;
   }
@@ -170,9 +172,9 @@ class Reader final : public table::Sink {
     to = *value * column.factor;
     if (to < least || to > most) {
       return Fault{row.line(),
-                   fmt::format("{} = {} cannot be; {:.6g} … {:.6g} can", column.name,
+                   fmt::format("{} = {} is implausible; {:.6g} … {:.6g} is allowed", column.name,
                                shown(row.field(i)), least / column.factor, most / column.factor),
-                   "look at the unit"};
+                   "check the unit"};
     }
     return std::nullopt;
   }
@@ -191,8 +193,8 @@ Result<std::vector<Measured>> parse_measured(std::string_view text, const std::s
   auto fault = table::read_rows(text, rows);
   std::vector<Measured> out = reader.take();
   if (!fault && out.empty()) {
-    fault = Fault{0, "there is no measured part in it",
-                  "give a CSV with the columns part, transition or time_min, deviation_um"};
+    fault = Fault{0, "has no measured part",
+                  "give a CSV with columns part, transition or time_min, deviation_um"};
   }
   if (fault) {
     return std::unexpected(Refusal{Kind::bad_input, file, fault->line, fault->what, fault->to_do});
@@ -204,8 +206,8 @@ Result<std::vector<Measured>> read_measured(const std::string& path, const Measu
   auto text = read_packed(path);
   if (!text) {
     text.error().to_do =
-        "give the path of a CSV of measured parts, with part, transition or "
-        "time_min, deviation_um";
+        "give the path of a CSV of measured parts, with columns part, transition or time_min, "
+        "deviation_um";
     return std::unexpected(std::move(text.error()));
   }
   return parse_measured(*text, path, format);

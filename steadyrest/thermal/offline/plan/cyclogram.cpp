@@ -31,21 +31,20 @@ constexpr Choice<Transition> kLoad = {
 
 std::span<const Key<Transition>> keys() noexcept {
   static const std::array kKeys = {
-      Key<Transition>{"name", &Transition::name, 0, 80, "What it is called in reports."},
-      Key<Transition>{"minutes", &Transition::minutes, 0, 1e6, "How long it takes.",
-                      Need::mandatory},
+      Key<Transition>{"name", &Transition::name, 0, 80, "Name in reports."},
+      Key<Transition>{"minutes", &Transition::minutes, 0, 1e6, "Duration.", Need::mandatory},
       Key<Transition>{"speed_rpm", &Transition::speed_rev_s, -1e6, 1e6,
-                      "Speed of the spindle, 0 when it stands.", Need::mandatory},
+                      "Spindle speed; 0 when stopped.", Need::mandatory},
       Key<Transition>{"feed_mm_min", &Transition::feed_mm_s, 0, 1e6,
-                      "Mean speed along the path, rapids and standstill included."},
-      Key<Transition>{"load", kLoad, 0, 0, "What is done."},
+                      "Mean speed along the path, including rapids and standstill."},
+      Key<Transition>{"load", kLoad, 0, 0, "Kind of work."},
       Key<Transition>{"cutting_percent", &Transition::cutting_share, 0, 100,
-                      "Of its time in feed moves, where the load is cutting."},
-      Key<Transition>{"coolant", &Transition::coolant, 0, 0, "Coolant runs."},
+                      "Share of its time in feed moves, if the load is cutting."},
+      Key<Transition>{"coolant", &Transition::coolant, 0, 0, "Coolant is on."},
       Key<Transition>{"tolerance_um", &Transition::tolerance_mm, 0.001, 1e6,
-                      "Tolerance of what is made in it; else the plan's own."},
-      Key<Transition>{"tool", &Transition::tool, 0, 1e9, "Its number."},
-      Key<Transition>{"line", &Transition::line, 0, 4e9, "Line of the program where it begins."},
+                      "Tolerance of the work in it; default: the plan's."},
+      Key<Transition>{"tool", &Transition::tool, 0, 1e9, "Tool number."},
+      Key<Transition>{"line", &Transition::line, 0, 4e9, "Program line where it begins."},
   };
   return kKeys;
 }
@@ -76,7 +75,7 @@ void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
     const toml::table* table = element.as_table();
     if (table == nullptr) {
       faults.add(line_of(element.source()), "transition is not a section",
-                 "write [[transition]] on a line of its own, its keys below");
+                 "write [[transition]] on a separate line, with its keys below");
       return;
     }
     Transition transition;
@@ -85,7 +84,7 @@ void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
     out.transition.push_back(std::move(transition));
   }
   if (faults.list.empty() && !(out.total_s() > 0.0)) {
-    faults.add(0, "the cyclogram takes no time", "give the transitions their minutes");
+    faults.add(0, "the cyclogram has no duration", "give the transitions their minutes");
   }
 }
 
@@ -106,9 +105,9 @@ Result<Cyclogram> parse_cyclogram(std::string_view text, const std::string& file
     if (text.size() > passport::kMaxFileBytes) {
       refusal->what = fmt::format("larger than {} MB; a cyclogram has a few kB",
                                   passport::kMaxFileBytes >> 20U);
-      refusal->to_do = "give the cyclogram, not a program or a log";
+      refusal->to_do = "give a cyclogram, not a program or a log";
     } else if (text.find_first_not_of(" \n\r\t") == std::string_view::npos) {
-      refusal->to_do = "give a cyclogram (TOML), as examples/paper-thermal/cyclogram.toml";
+      refusal->to_do = "give a cyclogram (TOML), like examples/paper-thermal/cyclogram.toml";
     }
     return std::unexpected(std::move(*refusal));
   }

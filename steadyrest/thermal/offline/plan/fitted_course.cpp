@@ -128,7 +128,7 @@ Result<std::vector<FittedPoint>> fitted_course(const ThermalAxis& axis, const Lo
   const auto from =
       static_cast<std::size_t>(std::ranges::lower_bound(log.time_s, from_s) - log.time_s.begin());
   if (from >= log.rows()) {
-    return refuse("the window begins after the log's end", "choose an earlier one");
+    return refuse("the window begins after the log's end", "choose an earlier window");
   }
   Walk walk(std::move(*model), log, std::move(*sensor));
   walk.run(from);
@@ -146,7 +146,7 @@ Result<std::vector<FittedPoint>> fitted_course(const ThermalAxis& axis, const Lo
   if (std::ranges::none_of(
           out, [](const FittedPoint& p) { return p.fitted && std::isfinite(p.measured_mm); })) {
     return refuse(fmt::format("{} has no reading in the window", log.displacement[channel].name),
-                  "choose a wider one");
+                  "choose a wider window");
   }
   const Eigen::VectorXd began =
       walk.fading * states_mm(walk, out, std::max(axis.noise_mm, kLeastNoise_mm));

@@ -22,6 +22,7 @@ constexpr double kInstant_s = 1e-3;
 Exponentials slope_of(const Exponentials& f) {
   Exponentials out;
   for (const Exponential& term : f) {
+    // d/dt of A·e^(−r·t).
     out.push_back({-term.amplitude * term.rate_1_s, term.rate_1_s});
   }
   return out;
@@ -74,11 +75,13 @@ class Planner {
     const double band = request_.share * tolerance_mm;
     if (!(band > 0.0)) {
       return refuse(fmt::format("transition {} has no tolerance", i + 1),
-                    "give the plan a tolerance, or the transition its own");
+                    "give the plan or the transition a tolerance");
     }
     PlannedTransition row;
     row.name = cyclogram_.transition[i].name;
     row.tolerance_mm = tolerance_mm;
+    // What the transition before left, or what a stricter band now asks for, is corrected at the
+    // start.
     row.delta_mm.push_back(at_border(piece, band));
     Result<void> done = correct(i, 0.0, row.delta_mm.back());
     double from_s = 0.0;
@@ -89,8 +92,12 @@ class Planner {
       if (sign == 0 || at_s > piece.seconds - kInstant_s) {
         break;  // what is beyond the band at the end is corrected at the next transition's start
       }
+      // From the later of both: a rounded instant may lie before its crossing, which would be found
+      // again.
       after_s = std::max(crossing_s, at_s);
       const bool early = belongs_to_start(piece, from_s, at_s, sign);
+      // Twice the band takes the residual from one border to the other; at the start it may not be
+      // at the border yet.
       const double delta_mm = sign * (request_.whole_band && !early ? 2.0 : 1.0) * band;
       if (early || at_s - from_s < kInstant_s) {
         row.delta_mm.back() += delta_mm;
@@ -98,7 +105,7 @@ class Planner {
         continue;
       }
       if (piece.start_s + at_s - corrected_s_ < request_.min_interval_s) {
-        return refuse(fmt::format("corrections of {} would follow one another within {:.3g} s",
+        return refuse(fmt::format("corrections of {} would come within {:.3g} s of each other",
                                   place(i, at_s), piece.start_s + at_s - corrected_s_),
                       "give a wider tolerance or a lower level");
       }
@@ -181,7 +188,7 @@ class Planner {
     if (std::abs(corrected_mm_) > request_.max_offset_mm + kReached_mm) {
       return refuse(
           fmt::format(
-              "{} would be corrected by {:.1f} µm, more than the {:.1f} µm that the machine allows",
+              "{} would be corrected by {:.1f} µm, more than the {:.1f} µm the machine allows",
               place(i, at_s), std::abs(corrected_mm_) * 1e3, request_.max_offset_mm * 1e3),
           "let the machine cool down or warm up first, or raise [thermal] max_offset_um");
     }
@@ -214,6 +221,8 @@ class Planner {
         from_s = to_s;
       }
       const double early_s = std::max(kInstant_s, 0.5 * request_.resolution_s);
+      // Rounding an instant costs at most what the displacement does in half a step of the
+      // resolution.
       const double allowed = request_.share * row.tolerance_mm + 2.0 * kReached_mm +
                              early_s * steepest_mm_s(f, curve_.piece[i].seconds);
       if (most > allowed) {

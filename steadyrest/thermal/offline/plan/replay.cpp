@@ -196,11 +196,11 @@ Result<std::vector<ReplayPoint>> replay(const ThermalAxis& axis, const Log& log,
   }
   const double fastest = std::ranges::max(log.speed_rev_s);
   if (axis.max_speed_rev_s > 0.0 && fastest > kBeyondFitted * axis.max_speed_rev_s) {
-    return refuse(fmt::format("the spindle turns at {:.0f} rpm; the passport of {} is known up to "
-                              "{:.0f} rpm",
-                              kernel::units::rpm_from_rev_s(fastest), axis.name,
-                              kernel::units::rpm_from_rev_s(axis.max_speed_rev_s)),
-                  "test the machine at that speed and fit again");
+    return refuse(
+        fmt::format("the spindle runs at {:.0f} rpm; the passport of {} covers up to {:.0f} rpm",
+                    kernel::units::rpm_from_rev_s(fastest), axis.name,
+                    kernel::units::rpm_from_rev_s(axis.max_speed_rev_s)),
+        "test the machine at that speed and fit again");
   }
   return Replay(std::move(*model), log, std::move(*sensor), request).run();
 }

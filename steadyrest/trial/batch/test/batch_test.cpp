@@ -126,8 +126,7 @@ TEST(Batch, RefusesAMachineWithoutAThermalAxisOfItsOwn) {
   job.machine.thermal.axis[0].name = "tilt";
   const auto made = run(job);
   ASSERT_FALSE(made);
-  EXPECT_NE(made.error().what.find("no thermal displacement of one of its axes"),
-            std::string::npos);
+  EXPECT_NE(made.error().what.find("no [[thermal.axis]] for any of its axes"), std::string::npos);
   job = example();
   job.program = "no such file.ngc";
   EXPECT_FALSE(run(job));

@@ -56,8 +56,8 @@ TEST(Judgement, IsAnErrorBeyondTheCycle) {
             "the layer takes 1500 µs of a control cycle of 1000 µs (p99.9 of 2000 decisions): it "
             "would miss cycles");
   EXPECT_EQ(findings[0].to_do,
-            "raise feed_fall_percent_s or contour.min_percent, so that forecasts are shorter (the "
-            "fall takes 4.5 s), lengthen interpolator_period_ms or take a faster computer");
+            "raise feed_fall_percent_s or contour.min_percent to shorten the forecasts (the fall "
+            "takes 4.5 s), lengthen interpolator_period_ms or use a faster computer");
 }
 
 TEST(Judgement, DoesNotBlameAQuickFall) {

@@ -181,7 +181,7 @@ TEST(DriveLimits, WhatIsPassedByLittleIsPrintedWithTheDigitsThatShowIt) {
   const DriveDemand demand = limits_of(m).modulated(kSpeed, law);
   expect_only(demand, DriveLimit::torque);
   const std::string& said = demand.violations[0].reason;
-  const std::size_t comma = said.find(", the drive gives ");
+  const std::size_t comma = said.find(", the drive delivers ");
   ASSERT_NE(comma, std::string::npos) << said;
   EXPECT_NE(said.substr(6, comma - 6), said.substr(comma + 18)) << said;
 }

@@ -111,7 +111,7 @@ TEST(Planner, WithoutTheGoodStepALawIsFound) {
   EXPECT_GT(*p.chosen.limit_depth_mm, 1.2);
   EXPECT_GE(*p.chosen.probability, 0.95);
   EXPECT_LE(*p.chosen.peak_growth, 20.0);
-  EXPECT_THAT(all_reasons(p), HasSubstr("comes no nearer than 5 %"));
+  EXPECT_THAT(all_reasons(p), HasSubstr("gets no nearer than 5 %"));
 }
 
 TEST(Planner, AWeakDriveGetsASlowerLawOrNone) {
@@ -129,7 +129,7 @@ TEST(Planner, AWeakDriveGetsASlowerLawOrNone) {
   m.spindle.acceleration_rev_s2 = 0.2 * 0.04 * 5000.0 * 5000.0 / 15.0 / 60.0;
   const Plan none = plan_at(m, 5000.0, 1.2, options);
   EXPECT_EQ(none.decision, PlanDecision::nothing);
-  EXPECT_THAT(all_reasons(none), HasSubstr("the drive gives 13333 rpm/s (RVF 0.04 at most)"));
+  EXPECT_THAT(all_reasons(none), HasSubstr("the drive delivers 13333 rpm/s (RVF 0.04 at most)"));
 }
 
 /// Stable by its radius, and a vibration grows a hundred-thousandfold on the way.
@@ -228,13 +228,13 @@ TEST(Planner, SaysWhichOptionIsOutOfRange) {
   };
   PlanOptions options;
   options.least_probability = 1.1;
-  EXPECT_EQ(what(options), "probability in % = 110; allowed is from 0 to 100");
+  EXPECT_EQ(what(options), "probability in % = 110; allowed: from 0 to 100");
   options = {};
   options.uncertainty.samples = 5000;
-  EXPECT_EQ(what(options), "number of possible cuts = 5000; allowed is from 1 to 4096");
+  EXPECT_EQ(what(options), "number of possible cuts = 5000; allowed: from 1 to 4096");
   options = {};
   options.most_depth_mm = 0.5;
-  EXPECT_EQ(what(options), "borders are to be sought up to 0.5 mm, the wanted depth is 1");
+  EXPECT_EQ(what(options), "the border search ends at 0.5 mm, short of the wanted depth of 1 mm");
 }
 
 /// 922 Hz, two teeth: 31 waves at 900 rpm, 5.5 at 5000.

@@ -97,11 +97,11 @@ TEST(FrfCsv, RefusesByLine) {
   const std::string head = "frequency_hz,real_um_N,imag_um_N";
   EXPECT_THAT(refusal(rows("frequency_hz,real_in_lbf,imag_in_lbf")),
               HasSubstr("tap.csv:1: units \"in/lbf\""));
-  EXPECT_THAT(refusal(rows("frequency_hz,real,imag")), HasSubstr("allowed are m/N, mm/N, um/N"));
+  EXPECT_THAT(refusal(rows("frequency_hz,real,imag")), HasSubstr("allowed: m/N, mm/N, um/N"));
   EXPECT_THAT(refusal(rows("frequency_hz,real_um_N,imag_mm_N")), HasSubstr("the same in both"));
-  EXPECT_THAT(refusal(rows("frequency_khz,real_um_N,imag_um_N")), HasSubstr("allowed is Hz"));
+  EXPECT_THAT(refusal(rows("frequency_khz,real_um_N,imag_um_N")), HasSubstr("allowed: Hz"));
   EXPECT_THAT(refusal(rows("frequency_hz,magnitude_um_N,phase_rad")), HasSubstr("deg"));
-  EXPECT_THAT(refusal(rows("t_s,x,y")), HasSubstr("tap.csv:1: the head is t,x,y"));
+  EXPECT_THAT(refusal(rows("t_s,x,y")), HasSubstr("tap.csv:1: the header is t,x,y"));
   EXPECT_THAT(refusal(rows("frequency_hz,real_um_N")), HasSubstr("2 columns"));
   EXPECT_THAT(refusal(head + "\n1,2,3\n"), HasSubstr("has 1 points"));
   EXPECT_THAT(refusal(rows(head) + "900,1"),

@@ -101,16 +101,16 @@ TEST(SignalFile, RefusesTextByLine) {
   expect_refused("t_s,value\n0,1\n", "1 samples");
   expect_refused("# x\ntime,value\n0,1\n", "t_s is missing", 2);
   expect_refused("t_s,val\n0,1\n", "value is missing", 1);
-  expect_refused("t_s,value,t_s\n0,1,0\n", "t_s stands twice", 1);
+  expect_refused("t_s,value,t_s\n0,1,0\n", "t_s appears twice", 1);
   expect_refused(head + "0.003\n", "the row has 1 fields, the header 2", 5);
   expect_refused(head + "0.003,4,5\n", "3 fields", 5);
   expect_refused(head + "0.003,nan\n", "value = \"nan\" is not a finite number", 5);
   expect_refused(head + "0.003,4x\n", "\"4x\"", 5);
   expect_refused(head + "0.003,1e999\n", "\"1e999\"", 5);
   expect_refused(head + "0.003,\n", "value is empty", 5);
-  expect_refused(head + "0.004,4\n", "t_s goes on by 0.002 s, elsewhere by 0.001 s", 5);
-  expect_refused(head + "0.002,4\n", "t_s goes on by 0 s", 5);
-  expect_refused(head + "0.001,4\n0.002,1\n", "t_s goes on by -0.001 s", 5);
+  expect_refused(head + "0.004,4\n", "t_s advances by 0.002 s here and by 0.001 s elsewhere", 5);
+  expect_refused(head + "0.002,4\n", "t_s advances by 0 s", 5);
+  expect_refused(head + "0.001,4\n0.002,1\n", "t_s advances by -0.001 s", 5);
   expect_refused("t_s,value\n0,1\n0.01,2\n", "100 samples a second");
   expect_refused("t_s,value\n0,1\n0.00001,2\n", "100000 samples a second");
   expect_refused(std::string("t_s,value\n0,\0", 13), "neither text nor RIFF");
@@ -145,7 +145,7 @@ TEST(SignalFile, RefusesWavByByte) {
   }
   std::string long_data = whole;
   long_data.replace(40, 4, le(9, 4));
-  expect_refused(long_data, "byte 36: 9 bytes are announced, 8 are there: the file is cut off");
+  expect_refused(long_data, "byte 36: 9 bytes announced, 8 found: the file is truncated");
   expect_refused("RIFX....WAVE", "is not RIFF", 0, "a.WAV");
   expect_refused("", "is not RIFF", 0, "a.wav");
   expect_refused("RIFF" + le(4, 4) + "AVI ", "not WAVE");

@@ -123,7 +123,7 @@ TEST(UnitCalculus, RefusesWhatIsNotFiniteAndPositive) {
     EXPECT_FALSE(lines_of_count(1.0, bad)) << bad;
   }
   EXPECT_EQ(text(counts_per_tick(kPaper, -3.0).error()),
-            "feed = -3; allowed is a finite number above 0; give a value above 0");
+            "feed = -3; allowed: a finite number above 0; give a value above 0");
 }
 
 TEST(UnitCalculus, RefusesAResultThatANumberCannotHold) {

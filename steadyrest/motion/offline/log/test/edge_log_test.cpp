@@ -156,9 +156,9 @@ Promise promise_of(const fs::path& file) {
   // Files that have no room for a comment.
   static const std::map<std::string, Promise> kBare{
       {"empty.csv", {"refuse", 0, 0, "is empty"}},
-      {"compressed.csv.gz", {"refuse", 0, 0, "is compressed by gzip; unpack it: zcat"}},
+      {"compressed.csv.gz", {"refuse", 0, 0, "is gzip-compressed; unpack it: zcat"}},
       {"utf-16.csv", {"refuse", 0, 0, "is UTF-16 text"}},
-      {"carriage-returns-alone.csv", {"refuse", 1, 0, "carriage return alone"}},
+      {"carriage-returns-alone.csv", {"refuse", 1, 0, "bare carriage return"}},
       {"noughts.csv", {"refuse", 1, 0, "control characters"}},
   };
   if (const auto bare = kBare.find(file.filename()); bare != kBare.end()) {

@@ -32,7 +32,7 @@ TEST_F(PlanMatch, EveryStepHasItsChangeWithinTheWindow) {
   EXPECT_EQ(fault({{55, -10}, {130, -20}}), "");
   EXPECT_THAT(fault({{55, -10}, {131, -20}}), HasSubstr("acts at 131.0 s"));
   EXPECT_THAT(fault({{55, -10}}), HasSubstr("planned at 120.0 s is missing"));
-  EXPECT_THAT(fault({{55, -10}, {120, -20}, {121, -10}}), HasSubstr("wants no such"));
+  EXPECT_THAT(fault({{55, -10}, {120, -20}, {121, -10}}), HasSubstr("has no such"));
 }
 
 TEST_F(PlanMatch, StepsThatMeetAtOnePlaceMayCancelThere) {

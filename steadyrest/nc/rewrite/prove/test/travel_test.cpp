@@ -77,9 +77,9 @@ TEST_F(TravelOfAProgram, IsKeptToTheMicrometre) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().line, 15U);  // G1 Z-1 of the third pass
   EXPECT_THAT(refused.error().file, HasSubstr("original.nc"));
-  EXPECT_THAT(refused.error().what, HasSubstr("the correction takes Z to -51.0200 mm, over the end "
-                                              "of its travel at -51.0199 mm; without it Z goes to "
-                                              "-51.0000 mm"));
+  EXPECT_THAT(refused.error().what,
+              HasSubstr("the correction takes Z to -51.0200 mm, past the end of its travel at "
+                        "-51.0199 mm; without it Z goes to -51.0000 mm"));
   EXPECT_EQ(read_file(shop_.changed()), "as it was\n");
 }
 

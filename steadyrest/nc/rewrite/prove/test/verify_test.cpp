@@ -45,12 +45,12 @@ TEST_F(Verify, ProvesWhatIsRight) {
 
 TEST_F(Verify, CatchesAWrongSign) {
   EXPECT_THAT(fault(replaced(text_, "+0.0100]*", "-0.0100]*")),
-              HasSubstr("stands corrected by 0.010000 mm"));
+              HasSubstr("is corrected by 0.010000 mm"));
 }
 
 TEST_F(Verify, CatchesAWrongAmount) {
   EXPECT_THAT(fault(replaced(text_, "+0.0100]*", "+0.0101]*")),
-              HasSubstr("stands corrected by -0.010100 mm"));
+              HasSubstr("is corrected by -0.010100 mm"));
 }
 
 TEST_F(Verify, CatchesAnAbsoluteValueInTheWorkOffset) {
@@ -66,7 +66,7 @@ TEST_F(Verify, CatchesAShiftBeforeAnArc) {
 }
 
 TEST_F(Verify, CatchesAShiftThatNeverTakesEffect) {
-  EXPECT_THAT(fault(moved_before("G0 X0 Y10")), HasSubstr("does not act"));
+  EXPECT_THAT(fault(moved_before("G0 X0 Y10")), HasSubstr("has no effect"));
   // In G91 a shift would act nowhere.
   const std::string program = replaced(kPasses, "G0 X0 Y10\n", "G91\nG0 X0 Z1\nG90\nG0 X0 Y10\n");
   ASSERT_TRUE(shop_.compensate(program, kGrowth));
@@ -78,7 +78,7 @@ TEST_F(Verify, CatchesAShiftThatNeverTakesEffect) {
 TEST_F(Verify, CatchesAMissingReset) {
   const auto at = text_.rfind("G10 L20");
   const auto end = text_.find('\n', at) + 1;
-  EXPECT_THAT(fault(text_.substr(0, at) + text_.substr(end)), HasSubstr("leaves another"));
+  EXPECT_THAT(fault(text_.substr(0, at) + text_.substr(end)), HasSubstr("leaves a different"));
 }
 
 TEST_F(Verify, CatchesAMissingCorrection) {
@@ -91,11 +91,11 @@ TEST_F(Verify, CatchesACorrectionBeyondTheWindow) {
 
 TEST_F(Verify, CatchesOneDigitElsewhere) {
   EXPECT_THAT(fault(replaced(text_, "G0 X0 Y30", "G0 X0 Y31")),
-              HasSubstr("outside of the inserted lines"));
+              HasSubstr("outside the inserted lines"));
   EXPECT_THAT(fault(replaced(text_, "G1 X100 F100\n", "G1 X100 F100\r\n")),
-              HasSubstr("outside of the inserted lines"));
-  EXPECT_THAT(fault(text_ + "G0 X1\n"), HasSubstr("goes on where the original has ended"));
-  EXPECT_THAT(fault(text_.substr(0, text_.size() - 1)), HasSubstr("outside of the inserted lines"));
+              HasSubstr("outside the inserted lines"));
+  EXPECT_THAT(fault(text_ + "G0 X1\n"), HasSubstr("continues past the end of the original"));
+  EXPECT_THAT(fault(text_.substr(0, text_.size() - 1)), HasSubstr("outside the inserted lines"));
 }
 
 TEST_F(Verify, CatchesAnInsertedLineThatDoesMore) {
@@ -111,7 +111,7 @@ TEST_F(Verify, CatchesAnInsertedRapidOfThePlannedAxisToWhereThePlanDoesNotWantIt
   for (const std::string by : {"+0.005", "-0.005"}) {
     const std::string line = "G0 Z[#<_z>" + by + "] (STEADYREST Z)\n";
     EXPECT_THAT(fault(replaced(text_, "G0 X0 Y10\n", line + "G0 X0 Y10\n")),
-                HasSubstr("moves an axis to where the plan does not want it"));
+                HasSubstr("moves an axis where the plan does not want it"));
   }
 }
 
@@ -128,7 +128,7 @@ TEST_F(Verify, CatchesAMissingCheckAndAMissingNote) {
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst.substr(check))), "");
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst.substr(0, note))), "");
   EXPECT_THAT(fault(replaced(text_, kFirst, replaced(kFirst, "=-0.0100", "=-0.0101"))),
-              HasSubstr("other lines"));
+              HasSubstr("do not belong here"));
 }
 
 // They would do nothing, or nothing today.
@@ -138,10 +138,10 @@ TEST_F(Verify, CatchesLinesThatDoNotBelongHere) {
        {check, std::string{"(STEADYREST x)\n"}, std::string{"M70 (STEADYREST x)\n"},
         std::string{"M66 P0 L0 (STEADYREST x)\n"}, std::string{"#<mine>=1 (STEADYREST x)\n"},
         std::string{"#<_steadyrest_z>=1 (STEADYREST Z check)\n"}}) {
-    EXPECT_THAT(fault(replaced(text_, kFirst, line + kFirst)), HasSubstr("other lines"));
-    EXPECT_THAT(fault(replaced(text_, kFirst, kFirst + line)), HasSubstr("other lines"));
+    EXPECT_THAT(fault(replaced(text_, kFirst, line + kFirst)), HasSubstr("do not belong here"));
+    EXPECT_THAT(fault(replaced(text_, kFirst, kFirst + line)), HasSubstr("do not belong here"));
     EXPECT_THAT(fault(replaced(text_, "G0 X0 Y10\n", line + "G0 X0 Y10\n")),
-                HasSubstr("other lines"));
+                HasSubstr("do not belong here"));
   }
   EXPECT_THAT(fault(replaced(text_, kFirst, replaced(kFirst, "\n", "\r\n"))), HasSubstr("ends"));
 }
@@ -152,10 +152,10 @@ TEST_F(Verify, CatchesAHeadElsewhereThanBeforeTheFirstBlock) {
   const auto next = text_.find('\n', block) + 1;
   EXPECT_THAT(fault(text_.substr(0, first) + text_.substr(block, next - block) +
                     text_.substr(first, block - first) + text_.substr(next)),
-              HasSubstr("the head stands elsewhere"));
+              HasSubstr("the head is not before the first block"));
   EXPECT_THAT(
       fault(text_.substr(first, block - first) + text_.substr(0, first) + text_.substr(block)),
-      HasSubstr("the head stands elsewhere"));
+      HasSubstr("the head is not before the first block"));
 }
 
 TEST_F(Verify, SaysWhatToDoWithAProgramOfAnEarlierVersion) {

@@ -173,7 +173,7 @@ TEST(LevelTable, RefusesTooFewSpeedsAndNamesThem) {
   const auto fit = identify(
       log_of(humped_machine(), {{240, 3000}, {240, 0}, {240, 2000}, {240, 0}}), 0, "Z", request);
   ASSERT_FALSE(fit);
-  EXPECT_THAT(fit.error().what, HasSubstr("needs 3 … 16 speeds that are held for 20 min"));
+  EXPECT_THAT(fit.error().what, HasSubstr("needs 3 … 16 speeds held for 20 min"));
   EXPECT_THAT(fit.error().what, HasSubstr("has 2: 2000, 3000 rpm"));
   EXPECT_THAT(fit.error().to_do, HasSubstr("--levels polynomial"));
 }

@@ -48,7 +48,7 @@ TEST(Measured, RefusesWhatCannotBeRead) {
   EXPECT_NE(fault("time_min,deviation_um\n1,3,5\n").find("parts.csv:2"), std::string::npos);
   EXPECT_NE(fault("time_min,deviation_um\n1,abc\n").find("not a finite"), std::string::npos);
   EXPECT_NE(fault("time_min,deviation_um\n1,nan\n").find("not a finite"), std::string::npos);
-  EXPECT_NE(fault("time_min,deviation_um\n-1,2\n").find("cannot be"), std::string::npos);
+  EXPECT_NE(fault("time_min,deviation_um\n-1,2\n").find("is implausible"), std::string::npos);
   EXPECT_NE(fault("transition,deviation_um\n,2\n").find("is empty"), std::string::npos);
 }
 
@@ -60,14 +60,14 @@ TEST(Measured, StampsCountFromTheStart) {
   ASSERT_TRUE(rows) << kernel::outcome::text(rows.error());
   EXPECT_DOUBLE_EQ((*rows)[0].time_s, 630.0);
   EXPECT_DOUBLE_EQ((*rows)[0].deviation_mm, 0.0045);
-  EXPECT_NE(fault(text).find("parts.csv:2: the parts have stamps"), std::string::npos);
+  EXPECT_NE(fault(text).find("parts.csv:2: the parts have time stamps"), std::string::npos);
   const auto refused = [&](const std::string& stamp) {
     const auto other = parse_measured("gauged,deviation_um\n" + stamp + ",3\n", "p.csv", format);
     return other ? "" : kernel::outcome::text(other.error());
   };
   EXPECT_NE(refused("2026-11-22T23:50")
-                .find("p.csv:2: \"2026-11-22T23:50\" is no date with a time "
-                      "and a zone"),
+                .find("p.csv:2: \"2026-11-22T23:50\" is not a date and time "
+                      "with a time zone"),
             std::string::npos);
   EXPECT_NE(refused("2026-11-22T23:39+01:00").find("before --started"), std::string::npos);
 }
@@ -80,8 +80,8 @@ TEST(Measured, StampsBesideATransitionOnlySayWhenItWasGauged) {
 }
 
 TEST(Measured, RefusesAUnitThatMustBeWrong) {
-  EXPECT_NE(fault("time_min,deviation_mm\n1,4.2\n").find("look at the unit"), std::string::npos);
-  EXPECT_NE(fault("time_min,deviation_um,tolerance_mm\n1,4.2,0\n").find("look at the unit"),
+  EXPECT_NE(fault("time_min,deviation_mm\n1,4.2\n").find("check the unit"), std::string::npos);
+  EXPECT_NE(fault("time_min,deviation_um,tolerance_mm\n1,4.2,0\n").find("check the unit"),
             std::string::npos);
 }
 

@@ -63,7 +63,7 @@ TEST(Curve, OfACyclogramThatDoesNotReadIsRefusedWithItsLine) {
   EXPECT_NE(
       refused("[[transition]]\nminutes = 3\nspeed_rpm = 5\nload = \"heavy\"\n").find("c.toml:4"),
       std::string::npos);
-  EXPECT_NE(refused("[[transition]]\nminutes = 0\nspeed_rpm = 5\n").find("no time"),
+  EXPECT_NE(refused("[[transition]]\nminutes = 0\nspeed_rpm = 5\n").find("no duration"),
             std::string::npos);
   EXPECT_NE(refused("# nothing\n").find("[[transition]]"), std::string::npos);
   EXPECT_NE(refused("transition = 3\n").find("c.toml:1"), std::string::npos);

@@ -202,7 +202,7 @@ TEST(Replay, RefusesWhatThePassportDoesNotKnow) {
   axis.max_speed_rev_s = 40.0;
   points = replay(axis, log, {});
   ASSERT_FALSE(points.has_value());
-  EXPECT_THAT(points.error().what, HasSubstr("known up to 2400 rpm"));
+  EXPECT_THAT(points.error().what, HasSubstr("covers up to 2400 rpm"));
 }
 
 }  // namespace
