@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pages of the chatter verbs hold; steadyrest/apps/chatter_page is their source. `answer`
+// What the pages of the chatter verbs hold. Their source is steadyrest/apps/page/chatter; `answer`
 // is what the verb prints with --json.
 
 import type { Head as PageHead, Maybe } from '../frame/data';
+import { plain } from '../frame/numbers';
 
 export interface LawAnswer {
   law: string;
@@ -85,7 +86,7 @@ export interface ChatterEvent {
   speed_rpm: number;
   advised_speed_rpm: Maybe;
   advised_override_percent: Maybe;
-  /** Of the planner; null where it was not asked. */
+  /** The planner's; null if it was not asked. */
   decision: 'keep' | 'constant' | 'law' | 'nothing' | null;
 }
 
@@ -127,12 +128,12 @@ export interface PlanPage extends Head, LobeColumns {
     depth_mm: number;
     most_depth_mm: number;
     likely_depth_mm: Maybe;
-    /** A constant override that helps where laws alone were asked for. */
+    /** A constant override that helps although only laws were asked for. */
     helping_override_percent: Maybe;
     chatter_frequency_hz: Maybe;
     notes: string[];
     alternatives: Alternative[];
-    /** Over the whole range of the spindle, the best first; null: no border down to the greatest depth. */
+    /** Over the whole range of the spindle, best first; null: no border down to the greatest depth. */
     best_speeds: { speed_rpm: number; limit_depth_mm: Maybe; sure_depth_mm: Maybe }[];
   };
 }
@@ -162,12 +163,12 @@ export interface FitPage extends Head {
 
 export type Page = LobesPage | GrowthPage | SimulatePage | DetectPage | PlanPage | FitPage;
 
-/** The law in the words of the shop floor. */
+/** The law in shop-floor words. */
 export function lawText(answer: LawAnswer): string {
   if (answer.law === 'constant') {
     return 'constant speed';
   }
-  const percent = `±${(100 * (answer.rva ?? 0)).toPrecision(3).replace(/\.?0+$/, '')}\u00a0%`;
-  const period = answer.period_s ? ` every ${Number(answer.period_s.toPrecision(3))}\u00a0s` : `, RVF ${Number((answer.rvf ?? 0).toPrecision(4))}`;
+  const percent = `±${plain(100 * (answer.rva ?? 0), 3)}\u00a0%`;
+  const period = answer.period_s ? ` every ${plain(answer.period_s, 3)}\u00a0s` : `, RVF ${plain(answer.rvf ?? 0)}`;
   return `${answer.law} ${percent}${period}`;
 }

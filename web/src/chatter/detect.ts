@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recorded signal: its spectrogram with the orders of spindle and teeth, and where it chatters.
+// A recorded signal: its spectrogram with the spindle or tooth orders, and where it chatters.
 import { onChoice } from '../frame/dom';
 import { buttons, escapeHtml, section } from '../frame/html';
-import { fixed, plain } from '../frame/numbers';
-import { table } from '../frame/table';
+import { counted, fixed, hertz, plain, rpm } from '../frame/numbers';
+import { numeric, table } from '../frame/table';
 import type { Theme } from '../frame/theme';
 import type { View } from '../frame/view';
-import { roomy } from '../plot/axes';
+import { axisFor } from '../plot/axes';
 import type { Dot, Layer } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
+import { reading } from '../plot/reading';
+import { spindlePlot } from '../plot/speed';
+import { quantile } from '../plot/values';
 import type { ChatterEvent, DetectPage } from './data';
 import { loudnessRaster, loudnessScale } from './raster';
 import { TYPES, typeName } from './words';
 
 export type Orders = 'teeth' | 'spindle' | 'none';
 
-const QUIET_SHARE = 0.35; // of the cells are shown as paper
+/** This share of the cells is shown as paper. */
+const QUIET_SHARE = 0.35;
 const LEAST_RANGE_DB = 30;
 const MOST_ORDERS = 60;
 
 /** The level below which a cell is paper, dB. */
 export function quietLevel(levels_db: readonly number[]): number {
-  const sorted = [...levels_db].sort((a, b) => a - b);
-  return Math.min(-LEAST_RANGE_DB, sorted[Math.floor(QUIET_SHARE * sorted.length)] ?? -LEAST_RANGE_DB);
+  return Math.min(-LEAST_RANGE_DB, quantile(levels_db, QUIET_SHARE) ?? -LEAST_RANGE_DB);
 }
 
-function extent(page: DetectPage): { x: [number, number]; top: number; bottom: number } {
+function extent(page: DetectPage): { x: { name: string; min: number; max: number }; top: number; bottom: number } {
   const s = page.spectrogram;
   const bottom = -0.5 * page.bin_hz;
-  return { x: [page.start_s, page.start_s + page.answer.seconds], bottom, top: bottom + s.rows * s.row_hz };
+  return { x: { name: 'time in s', min: page.start_s, max: page.start_s + page.answer.seconds }, bottom, top: bottom + s.rows * s.row_hz };
 }
 
-const ORDER_NAMES = { teeth: 'tooth passing frequency and its multiples', spindle: 'spindle frequency and its multiples' };
+const ORDER_NAMES = { teeth: 'tooth-passing frequency and its multiples', spindle: 'spindle frequency and its multiples' };
 
 function orderLayers(page: DetectPage, orders: Orders, theme: Theme): Layer[] {
   if (orders === 'none') {
@@ -42,43 +45,42 @@ function orderLayers(page: DetectPage, orders: Orders, theme: Theme): Layer[] {
   const each = orders === 'teeth' ? page.teeth : 1;
   const slowest = Math.max(Math.min(...speed_rpm), 1e-9);
   const most = Math.min(Math.floor((top * 60) / (each * slowest)), MOST_ORDERS);
-  const colour = theme.scheme === 'light' ? '#1d2329' : '#e4e8ec';
   const layers: Layer[] = [];
   const labels: Dot[] = [];
   const spacing = (each * slowest) / 60;
   const every = Math.max(1, Math.ceil((22 * top) / 380 / spacing)); // a label needs 22 px of about 380
   for (let k = 1; k <= most; ++k) {
     const hz = speed_rpm.map((n) => (k * each * n) / 60);
-    layers.push({ kind: 'line', name: ORDER_NAMES[orders], x: t_s, y: hz.map((f) => (f <= top ? f : null)), colour: `${colour}99`, width: 0.7, dashed: true });
+    layers.push({ kind: 'line', name: ORDER_NAMES[orders], x: t_s, y: hz.map((f) => (f <= top ? f : null)), colour: `${theme.text}99`, width: 0.7, dashed: true });
     const end = hz.at(-1) ?? 0;
     if (k % every === 0 && end < 0.98 * top) {
-      labels.push({ x: x[1], y: end, label: `${k}×`, side: 'left' });
+      labels.push({ x: x.max, y: end, label: `${k}×`, side: 'left' });
     }
   }
   layers.push({ kind: 'dots', dots: labels, colour: 'transparent', size: 1 });
   return layers;
 }
 
-function eventLayers(events: readonly ChatterEvent[], x: [number, number], theme: Theme): Layer[] {
+function eventLayers(events: readonly ChatterEvent[], x: { min: number; max: number }, theme: Theme): Layer[] {
   const colour = theme.run.without;
-  const layers: Layer[] = events.map((e) => ({ kind: 'line', name: 'chatter, from when it was detected', x: [e.start_s, e.end_s], y: [e.frequency_hz, e.frequency_hz], colour, width: 2.4, halo: true }));
+  const layers: Layer[] = events.map((e) => ({ kind: 'line', name: 'chatter, from its detection on', x: [e.start_s, e.end_s], y: [e.frequency_hz, e.frequency_hz], colour, width: 2.4, halo: true }));
   const labels = events.map((e): Dot => {
-    const late = (e.start_s - x[0]) / (x[1] - x[0]) > 0.7;
-    return { x: e.start_s, y: e.frequency_hz, label: `${fixed(e.frequency_hz, 1)} Hz, ${typeName(e.type)}`, side: late ? 'left' : 'top' };
+    const late = (e.start_s - x.min) / (x.max - x.min) > 0.7;
+    return { x: e.start_s, y: e.frequency_hz, label: `${hertz(e.frequency_hz)}, ${typeName(e.type)}`, side: late ? 'left' : 'top' };
   });
   const shown = labels.length <= 6 ? labels : labels.map(({ x: at, y }) => ({ x: at, y }));
   layers.push({ kind: 'dots', dots: shown, colour, size: 8, bold: true });
   return layers;
 }
 
-/** Every cell in a row of its own. */
+/** Each cell in a row of its own. */
 function spectrogramColumns(page: DetectPage) {
   const s = page.spectrogram;
   const of = (value: (i: number) => number) => s.level_db.map((_, i) => value(i));
   return [
     { head: 'time in s', values: of((i) => s.start_s + (Math.floor(i / s.rows) + 0.5) * s.column_s) },
     { head: 'frequency in Hz', values: of((i) => (i % s.rows) * s.row_hz) },
-    { head: 'power against the strongest cell in dB', values: s.level_db },
+    { head: 'power relative to the strongest cell in dB', values: s.level_db },
   ];
 }
 
@@ -88,7 +90,7 @@ function spectrogramPlot(page: DetectPage, orders: Orders, theme: Theme): Plot {
   const canvas = loudnessRaster(s.level_db, s.columns, s.rows, quietLevel(s.level_db), theme.scheme);
   return {
     title: 'Spectrogram',
-    x: { name: 'time in s', min: x[0], max: x[1] },
+    x,
     y: { name: 'frequency in Hz', min: 0, max: top },
     plane: true,
     group: 'time',
@@ -103,21 +105,20 @@ function spectrogramPlot(page: DetectPage, orders: Orders, theme: Theme): Plot {
       const column = Math.floor((t - s.start_s) / s.column_s);
       const row = Math.floor((hz - bottom) / s.row_hz);
       const level = column >= 0 && column < s.columns ? s.level_db[column * s.rows + row] : undefined;
-      const speed = page.course.speed_rpm[Math.min(Math.floor(((t - x[0]) / (x[1] - x[0])) * page.course.t_s.length), page.course.t_s.length - 1)] ?? 0;
+      const speed = page.course.speed_rpm[Math.min(Math.floor(((t - x.min) / (x.max - x.min)) * page.course.t_s.length), page.course.t_s.length - 1)] ?? 0;
       const order = (60 * hz) / Math.max(speed, 1e-9);
-      return `<b>${plain(t)} s, ${fixed(hz, 0)} Hz</b><br>${level === undefined ? '' : `${fixed(level, 0)} dB · `}${fixed(order, 2)} × spindle, ${fixed(order / page.teeth, 2)} × tooth`;
+      const orders = `${fixed(order, 2)} × spindle, ${fixed(order / page.teeth, 2)} × tooth`;
+      return reading(`${plain(t)} s, ${fixed(hz, 0)} Hz`, [`${level === undefined ? '' : `${fixed(level, 0)} dB · `}${orders}`]);
     },
   };
 }
 
 function signalPlot(page: DetectPage, theme: Theme): Plot {
   const { t_s, low, high } = page.course;
-  const [min, max] = roomy([...low, ...high], true);
-  const { x } = extent(page);
   return {
     title: 'Signal',
-    x: { name: 'time in s', min: x[0], max: x[1] },
-    y: { name: 'signal, unit of the file', min, max },
+    x: extent(page).x,
+    y: axisFor('signal in the unit of the file', [...low, ...high], true),
     group: 'time',
     layers: [
       { kind: 'spans', name: 'chatter', spans: page.answer.events.map((e) => [e.start_s, e.end_s]), colour: theme.run.without, opacity: 0.16 },
@@ -127,31 +128,21 @@ function signalPlot(page: DetectPage, theme: Theme): Plot {
 }
 
 function speedPlot(page: DetectPage, theme: Theme): Plot {
-  const { t_s, speed_rpm } = page.course;
-  const [min, max] = roomy(speed_rpm);
-  const { x } = extent(page);
-  return {
-    title: 'Spindle speed',
-    x: { name: 'time in s', min: x[0], max: x[1] },
-    y: { name: 'spindle speed in rev/min', min, max },
-    group: 'time',
-    layers: [{ kind: 'line', name: 'spindle speed', x: t_s, y: speed_rpm, colour: theme.text, width: 1.6 }],
-  };
+  return spindlePlot({ x: extent(page).x, group: 'time', t: page.course.t_s, rpm: page.course.speed_rpm, colour: theme.text });
 }
 
-/** Where no speed is advised: what the planner has decided. */
+/** What the planner decided, if it advises no speed. */
 const DECISIONS = { keep: 'keep this speed', constant: 'none', law: 'modulate the speed: see chatter plan', nothing: 'nothing helps at this depth' };
 
 function advice(e: ChatterEvent): string {
-  return e.advised_speed_rpm === null ? DECISIONS[e.decision ?? 'constant'] : `${fixed(e.advised_speed_rpm, 0)} rev/min (${plain(e.advised_override_percent)} %)`;
+  return e.advised_speed_rpm === null ? DECISIONS[e.decision ?? 'constant'] : `${rpm(e.advised_speed_rpm)} (${plain(e.advised_override_percent)}\u00a0%)`;
 }
 
 function eventsTable({ events, advice_by }: DetectPage['answer']): string {
-  const number = (head: string) => ({ head, number: true });
   return table({
     id: 'events',
     sortable: true,
-    columns: [number('from, s'), number('to, s'), number('Hz'), { head: 'type' }, number('at rev/min'), { head: `better, by the ${advice_by}` }],
+    columns: [numeric('From, s'), numeric('To, s'), numeric('Frequency, Hz'), { head: 'Type' }, numeric('Speed, rpm'), { head: `Better speed, by the ${advice_by}` }],
     rows: events.map((e) => [fixed(e.start_s, 3), fixed(e.end_s, 3), fixed(e.frequency_hz, 1), typeName(e.type), fixed(e.speed_rpm, 0), advice(e)]),
   });
 }
@@ -162,27 +153,27 @@ function verdict(page: DetectPage): string {
   if (!first) {
     return `No chatter in ${plain(seconds)} s.`;
   }
-  const more = events.length > 1 ? `${events.length} stretches of chatter; the first` : 'Chatter';
-  const better = first.advised_speed_rpm === null && first.decision === null ? 'No override step is better.' : `Better, by the ${page.answer.advice_by}: ${advice(first)}.`;
-  return `${more} from ${fixed(first.start_s, 3)} to ${fixed(first.end_s, 3)} s at ${fixed(first.frequency_hz, 1)} Hz (${typeName(first.type)}). ${better}`;
+  const more = events.length > 1 ? `The cut chatters ${events.length} times, first` : 'The cut chatters';
+  const better = first.advised_speed_rpm === null && first.decision === null ? 'No override step is better.' : `Better speed, by the ${page.answer.advice_by}: ${advice(first)}.`;
+  return `${more} from ${fixed(first.start_s, 3)} to ${fixed(first.end_s, 3)} s at ${hertz(first.frequency_hz)} (${typeName(first.type)}). ${better}`;
 }
 
 export function detectView(page: DetectPage): View {
   let orders: Orders = 'teeth';
-  const choices = buttons('orders', 'Orders', [['teeth', 'Orders of the teeth'], ['spindle', 'of the spindle'], ['none', 'none']], orders);
+  const choices = buttons('orders', 'Orders', [['teeth', 'Tooth orders'], ['spindle', 'Spindle orders'], ['none', 'None']], orders);
   return {
     product: 'Steadyrest chatter detect',
     title: page.process,
-    facts: `<b>${plain(page.answer.seconds)} s</b> at <b>${fixed(page.answer.sample_rate_hz, 0)} Hz</b> · <b>${page.teeth}</b> ${page.teeth === 1 ? 'tooth' : 'teeth'} · ${escapeHtml(page.machine)}`,
+    facts: `<b>${plain(page.answer.seconds)} s</b> at <b>${fixed(page.answer.sample_rate_hz, 0)} Hz</b> · <b>${counted(page.teeth, 'tooth', 'teeth')}</b> · ${escapeHtml(page.machine)}`,
     verdict: verdict(page),
     body:
       section('Spectrogram', host('spectrogram', 'tall') + host('signal', 'low') + host('speed', 'low'), '', choices) +
-      (page.answer.events.length > 0 ? section('Stretches of chatter', eventsTable(page.answer)) : ''),
+      (page.answer.events.length > 0 ? section('Where it chatters', eventsTable(page.answer)) : ''),
     explanation: [
-      ['Spectrogram', 'Power of the signal over time and frequency, in dB against its strongest cell. A forced vibration lies on the multiples of the tooth passing frequency; chatter lies between them.'],
-      ['Orders', 'Multiples of the tooth passing frequency (teeth × speed) or of the speed itself. With runout the forced vibration is on those of the spindle.'],
+      ['Spectrogram', 'Signal power over time and frequency, in dB relative to the strongest cell. Forced vibration lies on multiples of the tooth-passing frequency; chatter lies between them.'],
+      ['Orders', 'Multiples of the tooth-passing frequency (teeth × speed) or of the spindle speed itself. With runout, forced vibration lies on the spindle orders.'],
       TYPES,
-      ['Better speed', 'By the rule of thumb: the override step at which whole waves of this frequency fit between two teeth; it knows neither the depth nor the border. By the deepest step: with a process file, the step with the deepest border. By the planner: with a process file and a depth, what <code>chatter plan</code> answers.'],
+      ['Better speed', 'By the rule of thumb: the override step at which a whole number of chatter waves fits between two teeth; it knows neither depth nor border. By the deepest step: with a process file, the step with the deepest border. By the planner: with a process file and a depth, the answer of <code>chatter plan</code>.'],
     ],
     draw: (theme) => {
       plot('spectrogram', spectrogramPlot(page, orders, theme), theme);

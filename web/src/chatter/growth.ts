@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a vibration grows on its way through a period, and the speed that makes it.
+// How far a vibration grows on its way through a period, and the spindle speed behind it.
 import type { Maybe } from '../frame/data';
 import { section } from '../frame/html';
-import { fixed, plain } from '../frame/numbers';
-import { figures } from '../frame/table';
+import { fixed, hertz, plain, rpm } from '../frame/numbers';
+import { type Figure, figures } from '../frame/table';
 import type { Theme } from '../frame/theme';
-import type { View } from '../frame/view';
-import { roomy } from '../plot/axes';
-import type { Dot, Layer } from '../plot/layers';
+import type { Term, View } from '../frame/view';
+import { axisFor } from '../plot/axes';
+import { type Dot, type Layer, rules } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
+import { reading } from '../plot/reading';
+import { spindlePlot } from '../plot/speed';
+import { scaled } from '../plot/values';
 import { type GrowthPage, lawText } from './data';
 import { TYPES, typeName } from './words';
 
@@ -37,7 +40,7 @@ function scaleOf(page: GrowthPage): Scale {
   return { unit: unit as string, times: times as number, end: end * (times as number) };
 }
 
-const scaled = (values: readonly number[], by: number) => values.map((v) => v * by);
+const timeAxis = (scale: Scale) => ({ name: `time in ${scale.unit}`, min: 0, max: scale.end });
 
 function periods(page: GrowthPage, scale: Scale): number[] {
   const period = (page.law_period_s ?? 0) * scale.times;
@@ -53,17 +56,16 @@ function growthPlot(page: GrowthPage, theme: Theme): Plot {
   const peak = peakOf(page);
   const worst = page.courses[page.worst];
   const seen: Maybe[] = (worst?.log_growth ?? []).filter((v) => v !== null && v > -12);
-  const [min, max] = roomy(seen, true);
   const layers: Layer[] = [
-    { kind: 'rules', at: periods(page, scale), axis: 'x', colour: theme.rapid, dashed: true },
-    { kind: 'rules', at: [0], axis: 'y', colour: theme.faint },
+    rules('x', periods(page, scale), theme.rapid, true),
+    rules('y', [0], theme.faint),
   ];
   page.courses.forEach((c, i) => {
     if (i !== page.worst) {
-      layers.push({ kind: 'line', name: 'from other beginnings in the period', x: scaled(c.time_s, scale.times), y: c.log_growth, colour: theme.rapid, width: 1 });
+      layers.push({ kind: 'line', name: 'from other starts within the period', x: scaled(c.time_s, scale.times), y: c.log_growth, colour: theme.rapid, width: 1 });
     }
   });
-  layers.push({ kind: 'line', name: 'from the worst beginning', x: scaled(worst?.time_s ?? [], scale.times), y: worst?.log_growth ?? [], colour: theme.run.without, width: 2.4 });
+  layers.push({ kind: 'line', name: 'from the worst start', x: scaled(worst?.time_s ?? [], scale.times), y: worst?.log_growth ?? [], colour: theme.run.without, width: 2.4 });
   const share = (peak.time_s * scale.times) / scale.end;
   const side: Partial<Dot> = share < 0.15 ? { side: 'right' } : share > 0.85 ? { side: 'left', lift: 16 } : { side: 'top' };
   layers.push({
@@ -76,73 +78,68 @@ function growthPlot(page: GrowthPage, theme: Theme): Plot {
   });
   return {
     title: 'Growth of a vibration',
-    x: { name: `time in ${scale.unit}`, min: 0, max: scale.end },
-    y: { name: 'ln of the largest growth', min, max },
+    x: timeAxis(scale),
+    y: axisFor('ln of the largest growth', seen, true),
     group: 'period',
     layers,
     readout: (t) => {
       const times = worst?.time_s ?? [];
       const i = times.findIndex((v) => v * scale.times >= t);
       const value = worst?.log_growth[i];
-      return i < 0 || value == null || t < (times[0] ?? 0) * scale.times ? undefined : `<b>${plain(t)} ${scale.unit}</b><br>ln ${fixed(value, 2)}: ${plain(Math.exp(value), 3)}-fold`;
+      return i < 0 || value == null || t < (times[0] ?? 0) * scale.times ? undefined : reading(`${plain(t)} ${scale.unit}`, [`ln ${fixed(value, 2)}: ${plain(Math.exp(value), 3)}-fold`]);
     },
   };
 }
 
 function speedPlot(page: GrowthPage, theme: Theme): Plot {
   const scale = scaleOf(page);
-  const [min, max] = roomy(page.speed.speed_rpm);
-  return {
-    title: 'Spindle speed',
-    x: { name: `time in ${scale.unit}`, min: 0, max: scale.end },
-    y: { name: 'spindle speed in rev/min', min, max },
-    group: 'period',
-    layers: [
-      { kind: 'rules', at: periods(page, scale), axis: 'x', colour: theme.rapid, dashed: true },
-      { kind: 'line', name: 'spindle speed', x: scaled(page.speed.time_s, scale.times), y: page.speed.speed_rpm, colour: theme.run.with, width: 2 },
-    ],
-  };
+  const beneath = [rules('x', periods(page, scale), theme.rapid, true)];
+  return spindlePlot({ x: timeAxis(scale), group: 'period', t: scaled(page.speed.time_s, scale.times), rpm: page.speed.speed_rpm, colour: theme.run.with, beneath });
 }
 
 function verdict(page: GrowthPage): string {
   const a = page.answer;
   const peak = peakOf(page);
   const [unit, times] = page.law_period_s !== null && page.law_period_s >= 2 ? ['s', 1] : ['ms', 1000];
-  const after = `${plain((peak.time_s - peak.start_s) * times, 3)} ${unit} after it begins`;
+  const after = `${plain((peak.time_s - peak.start_s) * times, 3)} ${unit} after it starts`;
   const grows =
     peak.log_growth <= 0
-      ? 'No vibration grows on its way'
+      ? 'No vibration grows on the way'
       : a.stable
-        ? `On its way a vibration grows ${plain(a.peak_growth, 3)}-fold at worst, ${after}, and dies in the end`
-        : `Within what is shown a vibration grows ${plain(a.peak_growth, 3)}-fold at worst, ${after}, and it grows on`;
+        ? `On the way a vibration grows up to ${plain(a.peak_growth, 3)}-fold, ${after}, before it dies`
+        : `Within the time shown, a vibration grows up to ${plain(a.peak_growth, 3)}-fold, ${after}, and keeps growing`;
   const period = a.law === 'constant' ? 'tooth pass' : 'period of the law';
-  return `The cut is ${a.stable ? 'stable' : `unstable${a.type === 'none' ? '' : ` (${typeName(a.type)})`}`}: a ${period} multiplies a vibration by ${plain(a.spectral_radius)} in the long run. ${grows}.`;
+  return `The cut is ${a.stable ? 'stable' : `unstable${a.type === 'none' ? '' : ` (${typeName(a.type)})`}`}: in the long run, each ${period} multiplies a vibration by ${plain(a.spectral_radius)}. ${grows}.`;
 }
+
+function rowsOf(page: GrowthPage): Figure[] {
+  const a = page.answer;
+  return [
+    { label: `Spectral radius per ${a.law === 'constant' ? 'tooth pass' : 'period'}`, value: plain(a.spectral_radius, 6) },
+    { label: 'Its natural logarithm', value: plain(a.log_radius, 6) },
+    { label: 'Peak growth', value: plain(a.peak_growth, 4) },
+    ...(a.frequency_hz === null ? [] : [{ label: 'Dominant frequency', value: hertz(a.frequency_hz) }]),
+    { label: 'Tooth pass', value: `${plain(page.pass_s * 1000, 4)} ms` },
+    ...(page.law_period_s === null ? [] : [{ label: 'Period of the law', value: `${plain(page.law_period_s * 1000, 4)} ms` }]),
+  ];
+}
+
+const WORST_START: Term = ['Worst start', 'Under a law, growth depends on when within the period the vibration starts. The heavy curve is the worst of the starts drawn.'];
 
 export function growthView(page: GrowthPage): View {
   const a = page.answer;
   const constant = a.law === 'constant';
-  const rows = [
-    { label: `spectral radius of a ${constant ? 'tooth pass' : 'period'}`, value: plain(a.spectral_radius, 6) },
-    { label: 'its logarithm', value: plain(a.log_radius, 6) },
-    { label: 'worst growth on the way', value: plain(a.peak_growth, 4) },
-    ...(a.frequency_hz === null ? [] : [{ label: 'strongest frequency', value: `${fixed(a.frequency_hz, 1)} Hz` }]),
-    { label: 'a tooth pass lasts', value: `${plain(page.pass_s * 1000, 4)} ms` },
-    ...(page.law_period_s === null ? [] : [{ label: 'a period of the law lasts', value: `${plain(page.law_period_s * 1000, 4)} ms` }]),
-  ];
   return {
     product: 'Steadyrest chatter radius',
     title: page.process,
-    facts: `<b>${fixed(a.speed_rpm, 0)} rev/min</b> · <b>${plain(a.depth_mm)} mm</b> deep · <b>${lawText(a)}</b>`,
+    facts: `<b>${rpm(a.speed_rpm)}</b> · <b>${plain(a.depth_mm)} mm</b> deep · <b>${lawText(a)}</b>`,
     verdict: verdict(page),
-    body:
-      section(constant ? 'Growth from pass to pass' : 'Growth over the period', host('growth', 'high') + host('speed')) +
-      section('Figures', figures(rows)),
+    body: section(constant ? 'Growth from pass to pass' : 'Growth over the period', host('growth', 'high') + host('speed')) + section('Figures', figures(rowsOf(page))),
     explanation: [
-      ['Spectral radius', 'What a tooth pass, or a whole period of the law, multiplies a vibration by in the long run. Below 1 it dies in the end, however much it has grown on its way.'],
+      ['Spectral radius', 'What a tooth pass, or a whole period of the law, multiplies a vibration by in the long run. Below 1 the vibration dies in the end, however much it grows on the way.'],
       TYPES,
-      ['Growth', 'As a natural logarithm: 0 is as large as at the beginning, 2.3 ten times, 4.6 a hundred times. The largest later displacement over the largest within one pass before the beginning, of all vibrations the worst. A cut that is stable in the long run may still leave its marks while a vibration passes through its peak.'],
-      ...(constant ? [] : ([['Worst beginning', 'Under a law it matters at which moment of the period a vibration begins; the heavy curve is the worst of the beginnings that are drawn.']] as const)),
+      ['Growth', 'As a natural logarithm: 0 is no growth, 2.3 is ten times, 4.6 a hundred times. It is the largest displacement at that moment over the largest in the one pass before the start, for the worst of all vibrations. A cut that is stable in the long run can still mark the part while a vibration passes its peak.'],
+      ...(constant ? [] : [WORST_START]),
     ],
     draw: (theme) => {
       plot('growth', growthPlot(page, theme), theme);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stability lobes: speed × depth, shaded by the spectral radius, with the border.
+// Stability lobes: speed × depth, shaded by the spectral radius, with the border.
 import { section } from '../frame/html';
-import { fixed, plain } from '../frame/numbers';
-import { type Cell, table } from '../frame/table';
+import { fixed, hertz, measure, plain, rpm } from '../frame/numbers';
+import { type Cell, numeric, table, valued } from '../frame/table';
 import type { Theme } from '../frame/theme';
 import type { Term, View } from '../frame/view';
 import { roomy } from '../plot/axes';
 import type { ColourScale } from '../plot/key';
-import type { Dot, Layer } from '../plot/layers';
+import { type Dot, type Layer, rules } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
+import { reading } from '../plot/reading';
 import { type LobeColumns, type LobesPage, type Point, lawText } from './data';
 import { type Grid, type Level, classRaster, radiusLevels, valueAt } from './raster';
 import { TYPES, typeName } from './words';
@@ -22,10 +23,10 @@ export interface Marked {
 
 export interface LobeView {
   lobes: LobeColumns;
-  /** ρ is that of one tooth pass (constant speed), else of a period of the law. */
+  /** ρ is per tooth pass (constant speed), otherwise per period of the law. */
   perPass: boolean;
   marked?: Marked | undefined;
-  /** A line at the depth that is wanted. */
+  /** The requested depth, drawn as a line. */
   wanted_mm?: number;
   names: { border: string; marked: string };
 }
@@ -65,7 +66,7 @@ function stepLayers(lobes: LobeColumns, theme: Theme): Layer[] {
   ];
 }
 
-/** Around the border and the wanted depth: a plan is worked out far deeper than it is read. */
+/** Up to a little above the border and the requested depth: a plan is computed far deeper than anybody reads it. */
 function shownDepth({ lobes, wanted_mm }: LobeView): number {
   const whole = lobes.map.depth_mm.at(-1) ?? 1;
   if (wanted_mm === undefined || lobes.border.depth_mm.some((d) => d === null)) {
@@ -86,19 +87,19 @@ export function lobePlot(view: LobeView, theme: Theme): Plot {
   others.forEach((o, i) => layers.push({ kind: 'line', name: o.name, x: o.speed_rpm, y: o.depth_mm, colour: otherColour(i, theme), width: 1.8, dashed: true }));
   layers.push({ kind: 'line', name: view.names.border, x: border.speed_rpm, y: border.depth_mm, colour: theme.text, width: 2.2 });
   if (view.wanted_mm !== undefined) {
-    layers.push({ kind: 'rules', name: 'the wanted depth', at: [view.wanted_mm], axis: 'y', colour: theme.text, dashed: true });
+    layers.push({ ...rules('y', [view.wanted_mm], theme.text, true), name: 'requested depth' });
   }
   layers.push(...stepLayers(view.lobes, theme), ...markLayer(view, theme));
   return {
     title: 'Stability lobes',
-    x: { name: 'spindle speed in rev/min', min: x[0], max: area ? x[1] : x[0] + 1 },
+    x: { name: 'spindle speed in rpm', min: x[0], max: area ? x[1] : x[0] + 1 },
     y: { name: 'depth of cut in mm', min: y[0], max: area ? shownDepth(view) : y[1] },
     plane: true,
     scale: radiusScale(levels, view.perPass),
     layers,
     readout: (speed, depth) => {
       const log = valueAt(grid, speed, depth);
-      return `<b>${fixed(speed, 0)} rev/min, ${fixed(depth, 3)} mm</b><br>${radiusText(log, view.perPass)}: ${log < 0 ? 'stable' : 'unstable'}`;
+      return reading(`${rpm(speed)}, ${measure(depth, 3, 'mm')}`, [`${radiusText(log, view.perPass)}: ${log < 0 ? 'stable' : 'unstable'}`]);
     },
   };
 }
@@ -109,7 +110,7 @@ function edge(value: number, perPass: boolean): string {
 
 function radiusScale(levels: readonly Level[], perPass: boolean): ColourScale {
   return {
-    title: `${perPass ? 'Spectral radius ρ of a tooth pass' : 'ln ρ of a modulation period'}: left stable, right unstable`,
+    title: `${perPass ? 'Spectral radius ρ per tooth pass' : 'ln ρ per modulation period'}: stable left, unstable right`,
     cells: levels.map((l, i) => ({ colour: l.colour, upTo: edge(l.to, perPass), marked: l.from === 0 && i > 0 })),
   };
 }
@@ -119,12 +120,12 @@ export function drawLobes(view: LobeView, theme: Theme): void {
 }
 
 export function frequencyText(frequency_hz: number | null): string {
-  return frequency_hz === null ? '' : `, ${fixed(frequency_hz, 1)} Hz`;
+  return frequency_hz === null ? '' : `, ${hertz(frequency_hz)}`;
 }
 
 function pointLabel(point: Point, perPass: boolean): string {
   const radius = radiusText(point.log_radius, perPass);
-  return point.stable || point.frequency_hz === null ? radius : `${radius}\n${fixed(point.frequency_hz, 1)} Hz`;
+  return point.stable || point.frequency_hz === null ? radius : `${radius}\n${hertz(point.frequency_hz)}`;
 }
 
 function stepsTable(page: LobesPage): string {
@@ -134,35 +135,34 @@ function stepsTable(page: LobesPage): string {
   const most = page.map.depth_mm.at(-1) ?? 0;
   const wanted = page.answer.point?.depth_mm;
   const rows = page.steps.map((s): Cell[] => {
-    const limit = s.limit_depth_mm === null ? { html: `over ${plain(most)}`, sort: most } : fixed(s.limit_depth_mm, 3);
+    const limit = s.limit_depth_mm === null ? valued(`over ${plain(most)}`, most) : fixed(s.limit_depth_mm, 3);
     const stable = wanted !== undefined && (s.limit_depth_mm === null || s.limit_depth_mm > wanted);
     return [`${plain(s.percent)} %`, fixed(s.speed_rpm, 0), limit, ...(wanted === undefined ? [] : [stable ? 'stable' : 'chatters'])];
   });
-  const number = (head: string) => ({ head, number: true });
-  const columns = [number('override'), number('rev/min'), number('border, mm'), ...(wanted === undefined ? [] : [{ head: `at ${plain(wanted)} mm` }])];
-  return section('Override steps of the machine', table({ id: 'steps', columns, rows, sortable: true }));
+  const columns = [numeric('Override'), numeric('Speed, rpm'), numeric('Border, mm'), ...(wanted === undefined ? [] : [{ head: `At ${plain(wanted)} mm` }])];
+  return section('Override steps', table({ id: 'steps', columns, rows, sortable: true }));
 }
 
 export const LOBE_TERMS: readonly Term[] = [
-  ['Border', 'The depth at which the cut is just stable (ρ = 1), at each speed the lowest. Deeper than the border a vibration grows from tooth to tooth: chatter. The border is worked out exactly and is refined between the speeds of the map.'],
-  ['Spectral radius ρ', 'What one tooth pass multiplies a small vibration by in the long run. Below 1 the vibration dies, above 1 it grows. Under a speed law it is that of a whole period of the law, and its logarithm is shown.'],
-  ['Colours', 'The map between its points, by straight lines; beside the border they follow the border.'],
+  ['Border', 'The depth at which the cut is just stable (ρ = 1), at each speed the lowest. At less depth a vibration dies; at more it grows from tooth to tooth: chatter. The border is computed exactly, and refined between the speeds of the map.'],
+  ['Spectral radius ρ', 'What one tooth pass multiplies a small vibration by in the long run. Below 1 the vibration dies, above 1 it grows. Under a speed law it is for a whole period of the law, and its logarithm is shown.'],
+  ['Colours', 'ρ, interpolated between the points of the map; near the border the colours follow the border.'],
   TYPES,
 ];
 
-export const STEP_TERM: Term = ['Override step', 'A step of the spindle override that the machine has: the speeds that can be set while the program runs.'];
-const SKETCH: Term = ['Zero-order sketch', 'The border from the mean of the cutting forces alone (after Altintas and Budak), as most programs draw it, for comparison. It has no lobes of the flip type.'];
+export const STEP_TERM: Term = ['Override step', 'A position of the machine’s spindle override: the speeds that can be set while the program runs.'];
+const SKETCH: Term = ['Zero-order sketch', 'The border from the mean cutting forces alone (after Altintas and Budak), as most software draws it, for comparison. It has no flip lobes.'];
 
 function verdict(page: LobesPage, perPass: boolean): string {
   const point = page.answer.point;
   const known = page.border.depth_mm.flatMap((d, i) => (d === null ? [] : [{ d, n: page.border.speed_rpm[i] ?? 0 }]));
   const low = known.reduce<{ d: number; n: number } | undefined>((a, b) => (a && a.d <= b.d ? a : b), undefined);
-  const lowest = low ? `The lowest border is ${fixed(low.d, 3)} mm at ${fixed(low.n, 0)} rev/min.` : 'All points of the map are stable.';
+  const lowest = low ? `The border is lowest at ${rpm(low.n)}: ${measure(low.d, 3, 'mm')}.` : 'Every point of the map is stable.';
   if (!point) {
     return lowest;
   }
-  const where = `${fixed(point.speed_rpm, 0)} rev/min and ${plain(point.depth_mm)} mm`;
-  const step = perPass ? 'Every tooth pass' : 'Every period of the law';
+  const where = `${rpm(point.speed_rpm)} and ${plain(point.depth_mm)}\u00a0mm`;
+  const step = perPass ? 'Each tooth pass' : 'Each period of the law';
   const times = `${step} multiplies a vibration by ${plain(point.spectral_radius)}`;
   return point.stable
     ? `At ${where} the cut is stable. ${times}. ${lowest}`
@@ -176,7 +176,7 @@ export function lobesView(page: LobesPage): View {
     lobes: page,
     perPass,
     marked: point && { ...point, label: pointLabel(point, perPass) },
-    names: { border: perPass ? 'border, ρ = 1' : 'border under the law, ρ = 1', marked: 'the wanted cut' },
+    names: { border: perPass ? 'border, ρ = 1' : 'border under the law, ρ = 1', marked: 'requested cut' },
   };
   return {
     product: 'Steadyrest chatter lobes',

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a quantity over two axes, as a canvas that a plot stretches over its box.
+// A quantity over two axes as a canvas that a plot stretches over its box.
 import type { Maybe } from '../frame/data';
 import { fixed } from '../frame/numbers';
 import type { Scheme } from '../frame/theme';
 import { niceStep } from '../plot/axes';
 import type { ColourScale } from '../plot/key';
 import { lowerBound } from '../plot/thin';
+import { quantile } from '../plot/values';
 
 export interface Level {
   from: number;
@@ -23,13 +24,13 @@ const UNSTABLE: Record<Scheme, string[]> = {
   dark: ['#33261d', '#553521', '#7a4626', '#a35a2b', '#cc7031'],
 };
 const GROWING = [1, 1.1, 1.25, 1.5, 2];
-const MOST = 0.9; // of the points are within the even steps
+/** This share of the points is within the even steps. */
+const MOST = 0.9;
 const DYING = [1, 0.9, 0.8, 0.65, 0.5];
 
-/** Classes of ln ρ on both sides of the border: steps of ρ where `perPass`, even steps of ln ρ else. */
+/** Classes of ln ρ on both sides of the border: steps of ρ if `perPass`, otherwise even steps of ln ρ. */
 export function radiusLevels(logs: readonly Maybe[], perPass: boolean, scheme: Scheme): Level[] {
-  const sizes = logs.flatMap((v) => (v === null ? [] : [Math.abs(v)])).sort((a, b) => a - b);
-  const reach = Math.max(sizes[Math.floor(MOST * (sizes.length - 1))] ?? 0, 0.1);
+  const reach = Math.max(quantile(logs.map((v) => (v === null ? null : Math.abs(v))), MOST) ?? 0, 0.1);
   const step = niceStep(reach, 5);
   const even = GROWING.map((_, i) => i * step);
   const up = perPass ? GROWING.map(Math.log) : even;
@@ -61,7 +62,7 @@ function paint(width: number, height: number, colourAt: (column: number, row: nu
   return canvas;
 }
 
-/** Index and share of the interval that holds x. */
+/** Index of the interval around x, and how far along it x is. */
 function place(grid: readonly number[], x: number): [number, number] {
   let low = 0;
   let high = grid.length - 1;
@@ -81,7 +82,7 @@ export interface Grid {
   value: readonly Maybe[];
 }
 
-/** Between the grid's points by straight lines. */
+/** Interpolated between the grid's points. */
 export function valueAt(grid: Grid, x: number, y: number): number {
   const [i, u] = place(grid.x, x);
   const [j, v] = place(grid.y, y);
@@ -97,7 +98,7 @@ export interface Border {
   y: readonly Maybe[];
 }
 
-/** The border at x by straight lines; undefined: it is not known there. */
+/** The border at x, interpolated; undefined: not known there. */
 export function borderAt(border: Border, x: number): number | undefined {
   const at = lowerBound(border.x, x);
   const [x1, y1] = [border.x[at], border.y[at]];
@@ -107,7 +108,7 @@ export function borderAt(border: Border, x: number): number | undefined {
   return y0 + ((y1 - y0) * (x - x0)) / (x1 - x0);
 }
 
-/** Is a point of the grid about (x, y) stable although it is above the border? Then islands are near. */
+/** Is a point of the grid next to (x, y) stable above the border? Then islands of stability are near. */
 function stableAbove(grid: Grid, border: Border, x: number, y: number): boolean {
   const [i] = place(grid.x, x);
   const [j] = place(grid.y, y);
@@ -120,7 +121,7 @@ function stableAbove(grid: Grid, border: Border, x: number, y: number): boolean 
   );
 }
 
-/** Between points of the grid straight lines know less than the border does. */
+/** The border is known better than the grid: near it, it decides the sign. */
 export function valueBeside(grid: Grid, border: Border, x: number, y: number): number {
   const value = valueAt(grid, x, y);
   const limit = borderAt(border, x);
@@ -132,7 +133,7 @@ export function valueBeside(grid: Grid, border: Border, x: number, y: number): n
 const MAP_WIDTH = 1100;
 const MAP_HEIGHT = 560;
 
-/** The grid in the colours of its classes; borders between classes are sharp. */
+/** The grid in the colours of its classes, with sharp edges between them. */
 export function classRaster(grid: Grid, levels: readonly Level[], border: Border): HTMLCanvasElement {
   const colours = levels.map((l) => bytes(l.colour));
   const [x0 = 0, x1 = 0, y0 = 0, y1 = 0] = [grid.x[0], grid.x.at(-1), grid.y[0], grid.y.at(-1)];
@@ -143,13 +144,13 @@ export function classRaster(grid: Grid, levels: readonly Level[], border: Border
   });
 }
 
-// Paper for the noise, dark for what is loud.
+// Paper for noise, dark for loud.
 const LOUDNESS: Record<Scheme, string[]> = {
   light: ['#ffffff', '#dbeaf4', '#9cc7e0', '#4f97c7', '#1d5f9c', '#0a2f5c'],
   dark: ['#14181d', '#16293a', '#1d4a6d', '#2d7bb0', '#7cbde6', '#f0f8ff'],
 };
 
-/** A colour on the straight way through `stops`; share 0 … 1. */
+/** A colour mixed from the two stops around it; share 0 … 1. */
 function between(stops: readonly number[][], share: number): number[] {
   const at = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
   const i = Math.min(Math.floor(at), stops.length - 2);
@@ -166,7 +167,7 @@ export function loudnessRaster(levels_db: readonly number[], columns: number, ro
 export function loudnessScale(low_db: number, scheme: Scheme): ColourScale {
   const stops = LOUDNESS[scheme];
   return {
-    title: 'Power against the strongest cell, dB',
+    title: 'Power relative to the strongest cell, dB',
     cells: stops.map((colour, i) => ({ colour, upTo: fixed((low_db * (stops.length - 1 - i)) / (stops.length - 1), 0) })),
   };
 }

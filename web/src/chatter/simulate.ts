@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cut in time: displacement, force, and what the tool does once a revolution.
+// A cut over time: displacement, force, and where the tool is once a revolution.
 import { section } from '../frame/html';
-import { fixed, plain } from '../frame/numbers';
-import { figures } from '../frame/table';
-import type { Theme } from '../frame/theme';
-import type { View } from '../frame/view';
-import { roomy } from '../plot/axes';
+import { hertz, measure, plain, rpm, um } from '../frame/numbers';
+import { type Figure, figures } from '../frame/table';
+import { type Theme, curveColour } from '../frame/theme';
+import type { Term, View } from '../frame/view';
+import { axisFor } from '../plot/axes';
 import type { Layer } from '../plot/layers';
-import { type Plot, host, plot } from '../plot/plot';
+import { type Plot, host, panels, plot } from '../plot/plot';
 import { type SimulatePage, lawText } from './data';
 
-/** What x and y are. */
+/** What x and y mean. */
 const AXES = {
-  milling: { x: 'x, along the feed', y: 'y, across it' },
+  milling: { x: 'x, along the feed', y: 'y, across the feed' },
   turning: { x: 'x, into the work', y: 'y, along the cutting speed' },
 };
+/** So that each of two bands shows through the other. */
 const BAND = 0.55;
+/** Of the palette. */
+const GREY = 7;
+
+const DISPLACEMENT = 'displacement in µm';
+const FORCE = 'force on the tool in N';
+const timeAxis = (page: SimulatePage) => ({ name: 'time in s', min: 0, max: page.envelope.t_s.at(-1) ?? 1 });
 
 function axisColours(theme: Theme): { x: string; y: string; force: string } {
-  return { x: theme.run.with, y: theme.run.without, force: theme.scheme === 'light' ? '#4f5b66' : '#a9b4be' };
+  return { x: theme.run.with, y: theme.run.without, force: curveColour(theme, GREY) };
 }
 
 /** Does the tool move along y at all? */
@@ -30,27 +37,26 @@ function motionPlot(page: SimulatePage, theme: Theme): Plot {
   const { t_s, x_low_um, x_high_um, y_low_um, y_high_um } = page.envelope;
   const colours = axisColours(theme);
   const both = movesInY(page);
-  const [min, max] = roomy([...x_low_um, ...x_high_um, ...(both ? [...y_low_um, ...y_high_um] : [])], true);
   const layers: Layer[] = [{ kind: 'band', name: AXES[page.operation].x, x: t_s, low: x_low_um, high: x_high_um, colour: colours.x, opacity: both ? BAND : 0.85, outlined: true }];
   if (both) {
     layers.push({ kind: 'band', name: AXES[page.operation].y, x: t_s, low: y_low_um, high: y_high_um, colour: colours.y, opacity: BAND, outlined: true });
   }
-  return { title: 'Displacement', x: { name: 'time in s', min: 0, max: t_s.at(-1) ?? 1 }, y: { name: 'displacement in µm', min, max }, group: 'time', layers };
+  const shown = [...x_low_um, ...x_high_um, ...(both ? [...y_low_um, ...y_high_um] : [])];
+  return { title: 'Displacement', x: timeAxis(page), y: axisFor(DISPLACEMENT, shown, true), group: 'time', layers };
 }
 
 function forcePlot(page: SimulatePage, theme: Theme): Plot {
   const { t_s, force_low_N, force_high_N } = page.envelope;
-  const [min, max] = roomy(force_high_N, true);
   return {
     title: 'Force',
-    x: { name: 'time in s', min: 0, max: t_s.at(-1) ?? 1 },
-    y: { name: 'force on the tool in N', min, max },
+    x: timeAxis(page),
+    y: axisFor(FORCE, force_high_N, true),
     group: 'time',
     layers: [{ kind: 'band', name: 'force, all directions', x: t_s, low: force_low_N, high: force_high_N, colour: axisColours(theme).force, opacity: 0.8, outlined: true }],
   };
 }
 
-/** Revolutions of the last stretch, from its end. */
+/** The last stretch in revolutions, counted from its start. */
 function lastTurns(page: SimulatePage): { turn: number[]; min: number; max: number } {
   const end = page.last.turn.at(-1) ?? 0;
   const first = Math.floor(page.last.turn[0] ?? 0);
@@ -62,20 +68,18 @@ function lastPlots(page: SimulatePage, theme: Theme): [Plot, Plot] {
   const colours = axisColours(theme);
   const { x_um, y_um, fx_N, fy_N } = page.last;
   const both = movesInY(page);
-  const x = { name: 'revolutions of the spindle', min, max };
-  const [m0, m1] = roomy([...x_um, ...(both ? y_um : [])], true);
-  const [f0, f1] = roomy([...fx_N, ...fy_N], true);
+  const x = { name: 'spindle revolutions', min, max };
   const motion: Layer[] = [{ kind: 'line', name: AXES[page.operation].x, x: turn, y: x_um, colour: colours.x, width: 1.6 }];
   if (both) {
     motion.push({ kind: 'line', name: AXES[page.operation].y, x: turn, y: y_um, colour: colours.y, width: 1.6 });
   }
   return [
-    { title: 'Displacement, the last revolutions', group: 'last', x, y: { name: 'displacement in µm', min: m0, max: m1 }, layers: motion },
+    { title: 'Displacement over the last revolutions', group: 'last', x, y: axisFor(DISPLACEMENT, [...x_um, ...(both ? y_um : [])], true), layers: motion },
     {
-      title: 'Force, the last revolutions',
+      title: 'Force over the last revolutions',
       group: 'last',
       x,
-      y: { name: 'force on the tool in N', min: f0, max: f1 },
+      y: axisFor(FORCE, [...fx_N, ...fy_N], true),
       layers: [
         { kind: 'line', name: AXES[page.operation].x, x: turn, y: fx_N, colour: colours.x, width: 1.4 },
         { kind: 'line', name: AXES[page.operation].y, x: turn, y: fy_N, colour: colours.y, width: 1.4 },
@@ -88,79 +92,83 @@ function turnsPlot(page: SimulatePage, theme: Theme): Plot {
   const { t_s, x_um, y_um } = page.turns;
   const colours = axisColours(theme);
   const both = movesInY(page);
-  const [min, max] = roomy([...x_um, ...(both ? y_um : [])]);
   const dots = (values: readonly number[]) => t_s.map((t, i) => ({ x: t, y: values[i] ?? 0 }));
   const layers: Layer[] = [{ kind: 'dots', name: AXES[page.operation].x, dots: dots(x_um), colour: colours.x, size: 4, opacity: 0.8 }];
   if (both) {
     layers.push({ kind: 'dots', name: AXES[page.operation].y, dots: dots(y_um), colour: colours.y, size: 4, opacity: 0.8 });
   }
-  return { title: 'Once a revolution', x: { name: 'time in s', min: 0, max: page.envelope.t_s.at(-1) ?? 1 }, y: { name: 'displacement in µm', min, max }, layers };
+  return { title: 'Once a revolution', x: timeAxis(page), y: axisFor(DISPLACEMENT, [...x_um, ...(both ? y_um : [])]), layers };
 }
 
-/** Each sample over the one before; the axis that moves more. */
+/** Each sample against the one before, on the axis that moves more. */
 function returnPlot(page: SimulatePage, theme: Theme): Plot {
   const swing = (values: readonly number[]) => Math.max(...values, -Infinity) - Math.min(...values, Infinity);
   const name = swing(page.turns.y_um) > swing(page.turns.x_um) ? 'y' : 'x';
   const values = name === 'y' ? page.turns.y_um : page.turns.x_um;
   const colour = axisColours(theme)[name];
-  const [min, max] = roomy(values);
   const pairs = values.slice(1).map((v, i) => ({ x: values[i] ?? 0, y: v }));
   const half = Math.floor(pairs.length / 2);
   const later = page.turns.between === 1 ? 'one revolution later' : `${page.turns.between} revolutions later`;
+  const square = axisFor(`displacement ${name} in µm, ${later}`, values);
+  const diagonal = [square.min, square.max];
   return {
     title: 'Return map',
-    x: { name: `${name} in µm, once a revolution`, min, max, ticks: 5 },
-    y: { name: `${name} in µm, ${later}`, min, max, ticks: 6 },
+    x: { ...axisFor(`displacement ${name} in µm, once a revolution`, values), ticks: 5 },
+    y: { ...square, ticks: 6 },
     plane: true,
     layers: [
-      { kind: 'line', x: [min, max], y: [min, max], colour: theme.rule, width: 1 },
-      { kind: 'dots', name: 'first half of the time', dots: pairs.slice(0, half), colour: theme.rapid, size: 4 },
+      { kind: 'line', x: diagonal, y: diagonal, colour: theme.rule, width: 1 },
+      { kind: 'dots', name: 'first half', dots: pairs.slice(0, half), colour: theme.rapid, size: 4 },
       { kind: 'dots', name: 'second half', dots: pairs.slice(half), colour, size: 5 },
     ],
   };
 }
 
-function rowsOf(page: SimulatePage): { label: string; value: string }[] {
+/** What a growth factor counts by. */
+const passOf = (page: SimulatePage) => (page.operation === 'turning' ? 'revolution' : 'tooth');
+
+function rowsOf(page: SimulatePage): Figure[] {
   const a = page.answer;
-  const um = (v: number | null) => (v === null ? [] : [`${fixed(v, 2)} µm`]);
-  const optional = (label: string, value: number | null) => um(value).map((text) => ({ label, value: text }));
+  const optional = (label: string, value: number | null) => (value === null ? [] : [{ label, value: um(value, 2) }]);
   return [
-    { label: `growth of a small vibration per ${page.operation === 'turning' ? 'revolution' : 'tooth'}`, value: plain(a.growth_per_tooth, 5) },
-    { label: 'largest displacement', value: `${fixed(a.peak_um, 2)} µm` },
-    ...optional('forced amplitude', a.forced_um),
-    ...optional('RMS of what does not repeat', a.chatter_rms_um),
-    ...(a.chatter_frequency_hz === null ? [] : [{ label: 'chatter frequency', value: `${fixed(a.chatter_frequency_hz, 1)} Hz` }]),
-    { label: 'largest force', value: `${fixed(a.force_peak_N, 1)} N` },
-    { label: 'largest power', value: `${fixed(a.power_peak_W, 0)} W` },
-    // A tool that is stiff across the feed leaves the wall where it is.
-    ...(movesInY(page) ? [...optional('finished wall: mean place', a.wall_error_um), ...optional('finished wall: highest less lowest', a.wall_range_um)] : []),
+    { label: `Growth of a small vibration per ${passOf(page)}`, value: plain(a.growth_per_tooth, 5) },
+    { label: 'Peak displacement', value: um(a.peak_um, 2) },
+    ...optional('Forced amplitude', a.forced_um),
+    ...optional('Chatter (vibration that does not repeat), RMS', a.chatter_rms_um),
+    ...(a.chatter_frequency_hz === null ? [] : [{ label: 'Chatter frequency', value: hertz(a.chatter_frequency_hz) }]),
+    { label: 'Peak force', value: measure(a.force_peak_N, 1, 'N') },
+    { label: 'Peak power', value: measure(a.power_peak_W, 0, 'W') },
+    // A tool that is rigid across the feed does not move the wall.
+    ...(movesInY(page) ? [...optional('Finished wall, mean offset', a.wall_error_um), ...optional('Finished wall, peak to valley', a.wall_range_um)] : []),
   ];
 }
 
 function verdict(page: SimulatePage): string {
   const a = page.answer;
-  const at = a.chatter_frequency_hz === null ? '' : ` at ${fixed(a.chatter_frequency_hz, 1)} Hz`;
+  const at = a.chatter_frequency_hz === null ? '' : ` at ${hertz(a.chatter_frequency_hz)}`;
   const sense = a.stable ? 'The cut is stable' : `The cut chatters${at}`;
-  return `${sense}: each ${page.operation === 'turning' ? 'revolution' : 'tooth'} multiplies a small vibration by ${plain(a.growth_per_tooth)}. The tool moves by up to ${fixed(a.peak_um, 1)} µm, the force reaches ${fixed(a.force_peak_N, 0)} N.`;
+  return `${sense}: each ${passOf(page)} multiplies a small vibration by ${plain(a.growth_per_tooth)}. The tool moves by up to ${um(a.peak_um)}; the force peaks at ${measure(a.force_peak_N, 0, 'N')}.`;
 }
+
+const WALL: Term = ['Finished wall', 'What the last teeth leave: its mean offset (above 0, the tool cuts too deep) and its height from the lowest to the highest point.'];
 
 export function simulateView(page: SimulatePage): View {
   const a = page.answer;
   return {
     product: 'Steadyrest chatter simulate',
     title: page.process,
-    facts: `<b>${fixed(a.speed_rpm, 0)} rev/min</b> · <b>${plain(a.depth_mm)} mm</b> deep · <b>${lawText(a)}</b>`,
+    facts: `<b>${rpm(a.speed_rpm)}</b> · <b>${plain(a.depth_mm)} mm</b> deep · <b>${lawText(a)}</b>`,
     verdict: verdict(page),
     body:
-      section('Displacement and force', host('motion') + host('force', 'low'), 'Bands reach from the lowest to the highest value within a stretch of time.') +
-      section('The last revolutions', `<div class="panels">${host('last-motion')}${host('last-force')}</div>`) +
-      section('Once a revolution', `<div class="panels">${host('turns', 'high')}${host('return', 'high')}</div>`) +
+      section('Displacement and force', host('motion') + host('force', 'low'), 'Each band reaches from the lowest to the highest value in its stretch of time.') +
+      section('The last revolutions', panels(['last-motion', 'last-force'])) +
+      section('Once a revolution', panels(['turns', 'return'], 'high')) +
       section('Figures', figures(rowsOf(page))),
     explanation: [
-      ['Displacement', 'Of the tool from where it is without a force. A forced vibration repeats with every pass; what does not repeat is chatter.'],
-      ['Once a revolution', 'The displacement once in every turn of the spindle, always at the same angle. A stable cut settles on one point, chatter with the period doubled on two, quasi-periodic chatter on a closed curve. The return map draws each of these values over the one before.'],
-      [page.operation === 'turning' ? 'Growth per revolution' : 'Growth per tooth', 'What one pass multiplies a small vibration by, before the tool leaves the cut.'],
-      ...(!movesInY(page) || a.wall_error_um === null ? [] : [['Finished wall', 'What the last teeth leave: its mean place (above 0: too much is cut off) and the height from its lowest to its highest point.'] as const]),
+      ['Displacement', 'How far the tool is from its position without force. Forced vibration repeats with every pass; what does not repeat is chatter.'],
+      ['Once a revolution', 'The displacement sampled once per spindle revolution, always at the same angle. A stable cut settles on one point, period-doubling (flip) chatter on two, quasi-periodic (Hopf) chatter on a closed curve. The return map plots each sample against the one before.'],
+      [`Growth per ${passOf(page)}`, 'What one pass multiplies a small vibration by, before the tool leaves the cut.'],
+      ...(!movesInY(page) || a.wall_error_um === null ? [] : [WALL]),
     ],
     draw: (theme) => {
       plot('motion', motionPlot(page, theme), theme);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page of `cut` holds; steadyrest/trial/cut/report_data.hpp is its source.
+// What the page of `cut` holds. Its source is steadyrest/trial/cut/report_data.hpp.
 import type { Head, Maybe } from '../frame/data';
 
 export interface Figures {
@@ -35,7 +35,7 @@ export interface ReasonTime {
   seconds: number;
 }
 
-/** Of a tool that vibrates in the cut. */
+/** How a tool vibrates in the cut. */
 export interface VibrationFigures {
   vibration_rms_um: number;
   vibration_peak_um: number;
@@ -58,17 +58,17 @@ export interface Run {
   figures: Figures;
   trace: Trace;
   reasons: ReasonTime[];
-  /** Where the cut of a process was simulated. */
+  /** If the cutting process was simulated. */
   vibration?: { figures: VibrationFigures; course: VibrationCourse };
 }
 
-/** Why a feed would hold the limit on a line. */
+/** How it is known which feed holds the limit on a line. */
 export type HeldBy =
-  /** Radius and servo gain, in closed form. */
+  /** From radius and servo gain. */
   | 'closed form'
-  /** The error of the record, taken as growing with the square of the feed. */
+  /** From the recorded error, which grows with the square of the feed. */
   | 'record'
-  /** The feed that was driven does. */
+  /** The actual feed held it. */
   | 'driven';
 
 export interface WorstLine {
@@ -76,29 +76,29 @@ export interface WorstLine {
   text: string;
   without_um: Maybe;
   with_um: Maybe;
-  /** Driven where the error was largest. */
+  /** Actual feed where the error was largest. */
   feed_without_mm_min: Maybe;
   feed_with_mm_min: Maybe;
   /** Of the path there; null: straight. */
   radius_mm: Maybe;
-  /** Would hold the limit there; null: any feed does, or nothing is known. */
+  /** The feed that holds the limit there; null: any feed does, or nothing is known. */
   hold_feed_mm_min: Maybe;
   held_by: HeldBy;
 }
 
-/** Estimates of one axis's motion against the truth, beside the backward difference of its counts. */
+/** RMS errors of one axis's motion: estimated, and by the backward difference of its counts. */
 export interface MotionFigures {
   axis: string;
   velocity_rms_mm_s: number;
   acceleration_rms_mm_s2: number;
   difference_velocity_rms_mm_s: number;
   difference_acceleration_rms_mm_s2: number;
-  /** null: there was no bound. */
+  /** null: no bound was given. */
   velocity_coverage_ratio: Maybe;
   acceleration_coverage_ratio: Maybe;
 }
 
-/** A reading of the probe, and what the thermal room made of it. */
+/** A probe reading, and what the thermal room made of it. */
 export interface ProbeFigures {
   time_s: number;
   line: number;
@@ -110,7 +110,7 @@ export interface ProbeFigures {
   sentence: string;
 }
 
-/** Something about the program that the machine will not do as it is written. */
+/** Something in the program that the machine will not do as written. */
 export interface Warning {
   line: number;
   text: string;
@@ -129,11 +129,11 @@ export interface Report extends Head {
   override_table: OverrideStep[];
   without: Run;
   with: Run;
-  /** The worst with the layer and the worst without it. */
+  /** Those with the layer and those without it. */
   worst_lines: WorstLine[];
   motion: MotionFigures[];
   probes: ProbeFigures[];
-  /** The first of them, and how many there are in all. */
+  /** The first few, and how many there are in all. */
   warnings?: Warning[];
   warning_count?: number;
 }

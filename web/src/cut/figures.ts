@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables and sentences of the page of `cut`, as text.
-import { change, fixed, twoDigits } from '../frame/numbers';
+// The figures and sentences of the page of `cut`, as text.
+import { change, fixed, heldPercent, measure, percent, twoDigits, um } from '../frame/numbers';
 import type { Figures, MotionFigures, VibrationFigures } from './data';
 
 export function micrometres(mm: number): string {
-  return `${fixed(mm * 1000, 1)} µm`;
+  return um(mm * 1000);
 }
 
 export function seconds(s: number): string {
-  return `${fixed(s, 2)} s`;
+  return measure(s, 2, 's');
 }
 
 export function overLimitShare(figures: Figures): number {
@@ -23,7 +23,7 @@ export interface FigureRow {
   change: string;
 }
 
-/** The table of figures, as text. */
+/** The table of figures. */
 export function figureRows(without: Figures, withLayer: Figures): FigureRow[] {
   const row = (
     key: string,
@@ -38,17 +38,16 @@ export function figureRows(without: Figures, withLayer: Figures): FigureRow[] {
     with: show(value(withLayer)),
     change: compare ? change(value(without), value(withLayer)) : '',
   });
-  const percent = (ratio: number) => `${fixed(ratio * 100, 2)} %`;
   const count = (n: number) => fixed(n, 0);
   return [
-    row('contour_error_max_mm', 'Contour error, largest', (f) => f.contour_error_max_mm, micrometres),
+    row('contour_error_max_mm', 'Contour error, max', (f) => f.contour_error_max_mm, micrometres),
     row('contour_error_rms_mm', 'Contour error, RMS', (f) => f.contour_error_rms_mm, micrometres),
-    row('over_limit_s', 'Time over the limit', (f) => f.over_limit_s, seconds),
-    row('over_limit_ratio', 'Samples over the limit', overLimitShare, percent),
-    row('tracking_error_max_mm', 'Tracking error, largest', (f) => f.tracking_error_max_mm, micrometres),
+    row('over_limit_s', 'Time over limit', (f) => f.over_limit_s, seconds),
+    row('over_limit_ratio', 'Samples over limit', overLimitShare, (share) => percent(share, 2)),
+    row('tracking_error_max_mm', 'Tracking error, max', (f) => f.tracking_error_max_mm, micrometres),
     row('cycle_time_s', 'Cycle time', (f) => f.cycle_time_s, seconds),
-    row('cutting_time_s', 'of which in the cut', (f) => f.cutting_time_s, seconds),
-    row('override_changes', 'Changes of the feed override', (f) => f.override_changes, count, false),
+    row('cutting_time_s', 'Cutting time', (f) => f.cutting_time_s, seconds),
+    row('override_changes', 'Feed override changes', (f) => f.override_changes, count, false),
   ];
 }
 
@@ -63,7 +62,7 @@ export interface MotionRow {
 
 const ROTARY = 'ABC';
 
-/** The table of the axes' motion, as text: velocity and acceleration of each axis. */
+/** The table of axis motion: velocity and acceleration of each axis. */
 export function motionRows(motion: readonly MotionFigures[]): MotionRow[] {
   return motion.flatMap((m) => {
     const length = ROTARY.includes(m.axis) ? 'rad' : 'mm';
@@ -72,9 +71,9 @@ export function motionRows(motion: readonly MotionFigures[]): MotionRow[] {
       quantity,
       difference: `${twoDigits(naive)} ${length}/${unit}`,
       estimate: `${twoDigits(ours)} ${length}/${unit}`,
-      // An axis that stands has nothing to be finer than.
+      // On an axis at rest the differences are exact: there is nothing to improve on.
       finer: ours > 0 && naive > 0 ? `${twoDigits(naive / ours)} ×` : '–',
-      coverage: coverage === null ? 'no bound' : `${fixed(Math.floor(coverage * 10_000) / 100, 2)} %`,
+      coverage: coverage === null ? 'no bound' : heldPercent(coverage),
     });
     return [
       row('velocity', 's', m.difference_velocity_rms_mm_s, m.velocity_rms_mm_s, m.velocity_coverage_ratio),
@@ -83,50 +82,50 @@ export function motionRows(motion: readonly MotionFigures[]): MotionRow[] {
   });
 }
 
-/** What the layer was worth, in one sentence. */
+/** What the layer gained, in one sentence. */
 export function verdict(without: Figures, withLayer: Figures, limit_um: number): string {
   if (without.samples === 0 && withLayer.samples === 0) {
-    return 'The program does not cut: there is nothing to compare.';
+    return 'The program does not cut, so there is nothing to compare.';
   }
   const before = without.contour_error_max_mm;
   const after = withLayer.contour_error_max_mm;
   const time = change(without.cycle_time_s, withLayer.cycle_time_s);
   const kept = after * 1000 <= limit_um;
   const limit = kept
-    ? `stays within the limit of ${fixed(limit_um, 1)} µm`
-    : `is over the limit of ${fixed(limit_um, 1)} µm for ${seconds(withLayer.over_limit_s)}`;
-  const sameTime = time === '–' || time === '0.0 %';
+    ? `stays within the ${um(limit_um)} limit`
+    : `exceeds the ${um(limit_um)} limit for ${seconds(withLayer.over_limit_s)}`;
+  const sameTime = time === '–' || time === '0.0\u00a0%';
   return (
-    `With the layer the largest contour error is ${micrometres(after)} instead of ${micrometres(before)} ` +
+    `With the layer, the contour error peaks at ${micrometres(after)} instead of ${micrometres(before)} ` +
     `and ${limit}; the cycle takes ${seconds(withLayer.cycle_time_s)} instead of ` +
     `${seconds(without.cycle_time_s)}${sameTime ? '' : ` (${time})`}.`
   );
 }
 
-/** What became of the tool's vibration, in one sentence; empty where the machine cut air. */
+/** What became of the tool's vibration, in one sentence; empty if the machine cut air. */
 export function vibrationVerdict(without: VibrationFigures | undefined, withLayer: VibrationFigures | undefined): string {
   if (!without || !withLayer) {
     return '';
   }
-  return `The tool vibrates by up to ${fixed(withLayer.vibration_peak_um, 1)} µm instead of ${fixed(without.vibration_peak_um, 1)} µm.`;
+  return `The tool vibrates by up to ${um(withLayer.vibration_peak_um)} instead of ${um(without.vibration_peak_um)}.`;
 }
 
-/** The table of the vibration, as text. */
+/** The table of vibration figures. */
 export function vibrationRows(without: VibrationFigures, withLayer: VibrationFigures): FigureRow[] {
   const row = (key: keyof VibrationFigures, label: string, unit: string, decimals: number): FigureRow => {
     const [a, b] = [without[key], withLayer[key]];
-    const show = (v: number | null) => (v === null ? '–' : `${fixed(v, decimals)} ${unit}`);
+    const show = (v: number | null) => measure(v, decimals, unit);
     return { key, label, without: show(a), with: show(b), change: a === null || b === null ? '–' : change(a, b) };
   };
-  // A tool that is stiff across the feed leaves the wall where it is.
+  // A tool that is rigid across the feed does not move the wall.
   const moved = [without, withLayer].some((v) => v.surface_range_um !== null && v.surface_range_um > 0);
   return [
-    row('unforced_rms_um', 'Chatter: what does not repeat, RMS', 'µm', 2),
+    row('unforced_rms_um', 'Chatter (vibration that does not repeat), RMS', 'µm', 2),
     row('vibration_rms_um', 'Vibration, RMS', 'µm', 1),
-    row('vibration_peak_um', 'Largest displacement', 'µm', 1),
-    ...(moved ? [row('surface_range_um', 'Finished wall, highest less lowest', 'µm', 1), row('surface_error_um', 'Finished wall, mean place', 'µm', 1)] : []),
+    row('vibration_peak_um', 'Peak displacement', 'µm', 1),
+    ...(moved ? [row('surface_range_um', 'Finished wall, peak to valley', 'µm', 1), row('surface_error_um', 'Finished wall, mean offset', 'µm', 1)] : []),
     row('chip_peak_um', 'Thickest chip', 'µm', 0),
-    row('force_peak_n', 'Largest force on the tool', 'N', 1),
-    row('power_peak_w', 'Largest power at the spindle', 'W', 0),
+    row('force_peak_n', 'Peak force on the tool', 'N', 1),
+    row('power_peak_w', 'Peak spindle power', 'W', 0),
   ];
 }

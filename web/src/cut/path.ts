@@ -2,7 +2,7 @@
 import { type Box } from '../plot/equal_aspect';
 import type { Trace } from './data';
 
-/** Class of what is no cut: rapids, and samples without a finite value. */
+/** Class of rapids and of samples without a finite value. */
 export const NOT_CUTTING = -1;
 
 export type Plane = 'xy' | 'xz' | 'yz';
@@ -18,7 +18,7 @@ export function columns(trace: Trace, plane: Plane): [(number | null)[], (number
   return [trace[h], trace[v]];
 }
 
-/** The box around the cut of all traces (around everything when nothing is cut). */
+/** The box around all cutting moves of the traces, or around everything if nothing is cut. */
 export function boundingBox(traces: readonly Trace[], plane: Plane): Box | undefined {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   for (const onlyCut of [true, false]) {
@@ -90,7 +90,7 @@ export function polylinesByClass(
       const goesOn: Polylines | undefined = current?.cls === cls ? current.lines : undefined;
       const lines = goesOn ?? begin(cls, previous);
       if (goesOn && Math.abs(x - last.x) < smallest_mm && Math.abs(y - last.y) < smallest_mm) {
-        // Too short to see: the last point of the stretch moves on.
+        // Too short to see: the last point moves on instead.
         lines.x[lines.x.length - 1] = x;
         lines.y[lines.y.length - 1] = y;
       } else {
@@ -104,7 +104,7 @@ export function polylinesByClass(
   return out;
 }
 
-/** Finds the sample nearest to a point of the view; cells of a grid keep it quick. */
+/** Finds the sample nearest to a point of the view; a grid keeps it quick. */
 export class NearestSample {
   private readonly cells = new Map<number, number[]>();
   private readonly cell_mm: number;
@@ -137,7 +137,7 @@ export class NearestSample {
     }
   }
 
-  /** Index of the nearest sample within `reach_mm`; of equally near ones the worst. */
+  /** Index of the nearest sample within `reach_mm`; of samples about equally near, the worst. */
   find(x: number, y: number, reach_mm: number): number | undefined {
     if (!this.box) {
       return undefined;

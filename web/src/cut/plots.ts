@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plots of a cut: the path coloured by its error, and quantities along the program.
 import type { Maybe } from '../frame/data';
-import { fixed } from '../frame/numbers';
+import { capital } from '../frame/html';
+import { fixed, measure, um } from '../frame/numbers';
 import type { Theme } from '../frame/theme';
+import { niceAbove } from '../plot/axes';
 import type { ColourScale } from '../plot/key';
-import type { Layer } from '../plot/layers';
+import { type Layer, rules } from '../plot/layers';
 import type { Plot } from '../plot/plot';
+import { reading, readingTable } from '../plot/reading';
 import { lowerBound, nearestIndex } from '../plot/thin';
 import { RUNS, type Report, type RunName, type Trace } from './data';
 import { NOT_CUTTING, NearestSample, type Plane, boundingBox, columns, polylinesByClass } from './path';
-import { type ErrorClass, classOf, niceAbove } from './scale';
+import { type ErrorClass, classOf } from './scale';
 
 export type Abscissa = 'path_mm' | 'time_s';
 
 const NAMES: Record<RunName, string> = { without: 'without the layer', with: 'with the layer' };
-/** More samples than these are merged where they are too close to be seen apart. */
+/** Beyond this many samples, those too close to be seen apart are merged. */
 const MOST_SAMPLES = 20_000;
 const PATH_PX = 4000;
 
 export function errorScale(classes: readonly ErrorClass[], theme: Theme): ColourScale {
   return {
-    title: 'Contour error up to, µm (upright mark: the limit)',
+    title: 'Contour error up to … µm; the upright mark is the limit',
     cells: classes.map((c, i) => ({ colour: c.colour, upTo: fixed(c.to_um, c.to_um < 10 && c.to_um % 1 !== 0 ? 1 : 0), marked: c.over && !classes[i - 1]?.over })),
     beside: { name: 'not cutting', colour: theme.rapid, mark: 'line' },
   };
@@ -32,11 +35,11 @@ function pathLayers(trace: Trace, plane: Plane, classes: readonly ErrorClass[], 
     const error = trace.contour_error_um[i];
     return trace.cutting[i] === 1 && error != null ? classOf(classes, error) : NOT_CUTTING;
   });
-  const lines = [...polylinesByClass(h, v, classOfSample, smallest_mm)].sort(([a], [b]) => a - b); // the worst lies on top
+  const lines = [...polylinesByClass(h, v, classOfSample, smallest_mm)].sort(([a], [b]) => a - b); // the worst on top
   return lines.map(([cls, { x, y }]): Layer => ({ kind: 'line', x, y, ...(cls === NOT_CUTTING ? { colour: theme.rapid, width: 0.8 } : { colour: classes[cls]?.colour ?? theme.text, width: 2.2 }) }));
 }
 
-/** Everything of the trace: a path has more to it than its picture. */
+/** The whole trace: the CSV of a path holds more than its picture. */
 function pathColumns(trace: Trace) {
   return Object.entries(trace).map(([head, values]) => ({ head, values: values as Maybe[] }));
 }
@@ -67,13 +70,12 @@ export function pathPlot(report: Report, run: RunName, plane: Plane, classes: re
 }
 
 function sample(t: Trace, i: number): string {
-  return [
-    `<b>Line ${t.line[i]}</b>`,
-    `contour error <b>${fixed(t.contour_error_um[i], 1)} µm</b>`,
+  return reading(`Line ${t.line[i]}`, [
+    `contour error <b>${um(t.contour_error_um[i])}</b>`,
     `X ${fixed(t.x_mm[i], 3)}  Y ${fixed(t.y_mm[i], 3)}  Z ${fixed(t.z_mm[i], 3)}`,
-    `at ${fixed(t.path_mm[i], 2)} mm, ${fixed(t.time_s[i], 3)} s`,
-    `override ${fixed(t.override_percent[i], 0)} %, feed ${fixed(t.feed_mm_min[i], 0)} mm/min`,
-  ].join('<br>');
+    `at ${measure(t.path_mm[i], 2, 'mm')}, ${measure(t.time_s[i], 3, 's')}`,
+    `override ${measure(t.override_percent[i], 0, '%')}, feed ${measure(t.feed_mm_min[i], 0, 'mm/min')}`,
+  ]);
 }
 
 interface Quantity {
@@ -101,7 +103,7 @@ function end(report: Report, of: Abscissa): number {
 
 const most = (values: readonly Maybe[], sign: 1 | -1 = 1) => values.reduce<number>((m, v) => Math.max(m, sign * (v ?? 0)), 0);
 
-/** Of the cut: a rapid runs off the top. */
+/** Covers the cut; a rapid runs off the top. */
 function range(report: Report, course: Quantity): [number, number] {
   const both = RUNS.map((r) => course.column(report[r].trace).map((v, i) => (report[r].trace.cutting[i] === 1 ? v : null)));
   const top = Math.max(...both.map((v) => most(v)));
@@ -112,21 +114,19 @@ function range(report: Report, course: Quantity): [number, number] {
   return [-niceAbove(Math.max(...both.map((v) => most(v, -1)), least)), niceAbove(Math.max(top, least))];
 }
 
-/** All quantities of both runs at one place. */
+/** All quantities of both runs at one place along the program. */
 function courseReading(report: Report, of: Abscissa, x: number): string {
   const at = RUNS.map((r) => nearestIndex(report[r].trace[of], x));
-  const row = (label: string, cells: string[]) => `<tr><td>${label}</td>${cells.map((c) => `<td class="n">${c}</td>`).join('')}</tr>`;
-  const head = of === 'path_mm' ? `${fixed(x, 2)} mm` : `${fixed(x, 3)} s`;
-  return `<table class="tooltip"><tr><th>${head}</th><th>without</th><th>with</th></tr>${row('line', RUNS.map((r, k) => String(report[r].trace.line[at[k] ?? -1] ?? '–')))}${COURSES.map((c) =>
-    row(c.name, RUNS.map((r, k) => fixed(c.column(report[r].trace)[at[k] ?? -1], c.decimals))),
-  ).join('')}</table>`;
+  const lines = RUNS.map((r, k) => String(report[r].trace.line[at[k] ?? -1] ?? '–'));
+  const quantities = COURSES.map((c) => ({ name: c.name, values: RUNS.map((r, k) => fixed(c.column(report[r].trace)[at[k] ?? -1], c.decimals)) }));
+  return readingTable(of === 'path_mm' ? measure(x, 2, 'mm') : measure(x, 3, 's'), RUNS, [{ name: 'line', values: lines }, ...quantities]);
 }
 
 export function coursePlot(report: Report, course: Quantity, of: Abscissa, theme: Theme): Plot {
   const [min, max] = range(report, course);
-  const limits: Layer = { kind: 'rules', at: [report.limit_um, -report.limit_um], axis: 'y', colour: theme.limit, dashed: true, name: `limit ±${fixed(report.limit_um, 1)} µm` };
+  const limits: Layer = { ...rules('y', [report.limit_um, -report.limit_um], theme.limit, true), name: `limit ±${um(report.limit_um)}` };
   return {
-    title: `${course.name[0]?.toUpperCase()}${course.name.slice(1)} along the program`,
+    title: `${capital(course.name)} along the program`,
     x: { name: abscissaName(of), min: 0, max: end(report, of) },
     y: { name: course.name, min, max },
     group: 'course',
@@ -146,7 +146,7 @@ export function coursePlot(report: Report, course: Quantity, of: Abscissa, theme
   };
 }
 
-/** Path length at each instant, by straight lines between the samples. */
+/** Path length at each instant, interpolated between the samples. */
 export function pathAt(trace: Trace, times: readonly Maybe[]): Maybe[] {
   return times.map((t) => {
     if (t === null || trace.time_s.length === 0) {
@@ -160,9 +160,9 @@ export function pathAt(trace: Trace, times: readonly Maybe[]): Maybe[] {
 }
 
 export const VIBRATIONS = [
-  { id: 'vibration-peak', name: 'largest displacement of the tool in µm', key: 'peak_um' },
-  { id: 'vibration-chatter', name: 'chatter: what does not repeat from tooth to tooth, RMS in µm', key: 'unforced_um' },
-  { id: 'vibration-speed', name: 'spindle speed in rev/min', key: 'speed_rpm' },
+  { id: 'vibration-peak', name: 'peak displacement of the tool in µm', key: 'peak_um' },
+  { id: 'vibration-chatter', name: 'chatter (vibration that does not repeat from tooth to tooth), RMS in µm', key: 'unforced_um' },
+  { id: 'vibration-speed', name: 'spindle speed in rpm', key: 'speed_rpm' },
 ] as const;
 
 export function vibrationPlot(report: Report, what: (typeof VIBRATIONS)[number], of: Abscissa, theme: Theme): Plot {
@@ -173,7 +173,7 @@ export function vibrationPlot(report: Report, what: (typeof VIBRATIONS)[number],
   });
   const top = Math.max(...layers.map((l) => (l.kind === 'line' ? most(l.y) : 0)), 1e-3);
   return {
-    title: `${what.name[0]?.toUpperCase()}${what.name.slice(1)}`,
+    title: capital(what.name),
     x: { name: abscissaName(of), min: 0, max: end(report, of) },
     y: { name: what.name, min: 0, max: niceAbove(top * 1.05) },
     group: 'vibration',

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one colour scale of both paths: classes of |contour error|, the limit always a border.
 import type { Scheme } from '../frame/theme';
+import { niceAbove } from '../plot/axes';
 
 export interface ErrorClass {
   from_um: number;
@@ -17,16 +18,6 @@ const OVER = {
   light: ['#f2a33c', '#e8772e', '#d0472a', '#a31f2b', '#6b0f2a'],
   dark: ['#f7c46c', '#f79a4b', '#f2703f', '#e5484d', '#ff8fa3'],
 };
-
-/** A number with one or two leading digits, not below x: 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times 10ⁿ. */
-export function niceAbove(x: number): number {
-  if (!(x > 0) || !Number.isFinite(x)) {
-    return 1;
-  }
-  const power = 10 ** Math.floor(Math.log10(x));
-  const step = [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((s) => s * power >= x * (1 - 1e-9)) ?? 10;
-  return step * power;
-}
 
 /** Four classes within the limit; above it as many as the largest error needs. */
 export function errorClasses(limit_um: number, largest_um: number, scheme: Scheme): ErrorClass[] {
@@ -55,7 +46,7 @@ export function errorClasses(limit_um: number, largest_um: number, scheme: Schem
   return classes;
 }
 
-/** Index of the class that holds |error|; the last one takes all above it. */
+/** Index of the class of |error|; the last takes all above it. */
 export function classOf(classes: readonly ErrorClass[], error_um: number): number {
   const size = Math.abs(error_um);
   const index = classes.findIndex((c) => size <= c.to_um);

@@ -8,7 +8,7 @@ export function element(id: string): HTMLElement {
   return found;
 }
 
-/** Fills an element that may be absent. */
+/** Fills an element that need not exist. */
 export function put(id: string, html: string): void {
   const where = document.getElementById(id);
   if (where) {
@@ -16,9 +16,13 @@ export function put(id: string, html: string): void {
   }
 }
 
-/** Calls back with the pressed button's value; a group that is not on the page has no buttons. */
+/** Calls back with the value of the pressed button or the chosen option. The page need not have such a control. */
 export function onChoice(id: string, callback: (value: string) => void): void {
-  const buttons = [...(document.getElementById(id)?.querySelectorAll('button') ?? [])];
+  const control = document.getElementById(id);
+  if (control instanceof HTMLSelectElement) {
+    control.addEventListener('change', () => callback(control.value));
+  }
+  const buttons = [...(control?.querySelectorAll('button') ?? [])];
   for (const button of buttons) {
     button.addEventListener('click', () => {
       buttons.forEach((b) => b.setAttribute('aria-pressed', String(b === button)));

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-import { type Head, parsePage } from './data';
+import { type ByPage, type Head, parsePage } from './data';
 import { element } from './dom';
+import { none } from './html';
 import { onSort } from './table';
 import { onSchemeChange, theme } from './theme';
 import { type View, show } from './view';
 
-/** Shows what a page's data make, or why they make none, and draws it again when size, scheme or paper change. */
-export function start(views: Record<string, (page: never) => View>): void {
-  const page = parsePage(element('report-data').textContent ?? '', Object.keys(views));
+/** Makes a page from its data; each maker knows its own data's type. */
+export type Maker = (page: never) => View;
+
+/** Shows the page's data, or why it cannot, and redraws when window, colour scheme or paper change. */
+export function start(makers: ByPage<Maker>): void {
+  const parsed = parsePage(element('report-data').textContent ?? '', makers);
   const host = element('report');
-  if (typeof page === 'string') {
-    host.innerHTML = `<p class="none" id="no-data">${page}</p>`;
+  if (typeof parsed === 'string') {
+    host.innerHTML = none(parsed, 'no-data');
     return;
   }
-  const view = (views[page.schema] as (page: Head) => View)(page);
+  const view = (parsed.value as (page: Head) => View)(parsed.head);
   let printing = false;
   const draw = () => view.draw(theme(printing));
   const print = (now: boolean) => {
@@ -21,7 +25,7 @@ export function start(views: Record<string, (page: never) => View>): void {
     document.documentElement.classList.toggle('printing', now);
     draw();
   };
-  show(host, view, page);
+  show(host, view, parsed.head);
   onSort(host);
   view.bind?.(draw);
   onSchemeChange(draw);

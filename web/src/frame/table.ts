@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one table of all pages. On a narrow screen each row becomes a block of labelled cells (style.css).
+// The one table of all pages. On a narrow screen each row turns into a block of labelled cells (table.css).
+import type { Maybe } from './data';
 import { escapeHtml } from './html';
 
 export interface Column {
   head: string;
-  /** Digits to the right, one under the other. */
+  /** Aligned right, with digits of equal width. */
   number?: boolean;
-  /** Over this column and its neighbours of the same group. */
+  /** A head over this column and its neighbours of the same group. */
   group?: string;
 }
 
-/** Text, or HTML with what the row is sorted by (null: always last). */
+/** Text, or HTML with a key to sort by (null: always last). */
 export type Cell = string | { html: string; sort?: number | string | null; look?: string };
 
 export interface Table {
@@ -19,9 +20,9 @@ export interface Table {
   /** The first cell of each row names it. */
   rows: readonly (readonly Cell[])[];
   rowLook?: (index: number) => string;
-  /** By a press on a column's head. */
+  /** By a click on a column head. */
   sortable?: boolean;
-  /** As the rows are given: a column, from its largest or last. */
+  /** The column that the rows come sorted by, largest first. */
   sorted?: number;
   caption?: string;
 }
@@ -59,9 +60,9 @@ function cell(table: Table, value: Cell, i: number): string {
   return i === 0 ? `<th scope="row"${attributes}><span>${html}</span></th>` : `<td${attributes}><span>${html}</span></td>`;
 }
 
-/** More columns than that are set closer, */
+/** Tables of more columns are set closer, */
 const MANY = 9;
-/** and so few have room on a telephone. */
+/** and those of no more than these fit on a phone. */
 const FEW = 4;
 
 export function table(what: Table): string {
@@ -71,9 +72,25 @@ export function table(what: Table): string {
   return `<table id="${what.id}" class="data${width}">${caption}${head(what)}<tbody>${rows.join('')}</tbody></table>`;
 }
 
-/** Two columns: what, and how much; the value is HTML. */
-export function figures(rows: readonly { label: string; value: string }[], id = 'figures'): string {
-  return table({ id, columns: [{ head: '' }, { head: '', number: true }], rows: rows.map((r) => [r.label, { html: r.value }]) });
+/** A column of numbers. */
+export const numeric = (head: string, group?: string): Column => ({ head, number: true, ...(group === undefined ? {} : { group }) });
+
+/** A number as shown, sorted by its value. */
+export const valued = (html: string, sort: Maybe): Cell => ({ html, sort });
+
+/** A table of numbers whose first column names the row. */
+export function numbers(id: string, heads: readonly string[], rows: readonly (readonly Cell[])[]): string {
+  return table({ id, columns: heads.map((head, i) => (i === 0 ? { head } : numeric(head))), rows });
+}
+
+/** A name, and its value as HTML. */
+export interface Figure {
+  label: string;
+  value: string;
+}
+
+export function figures(rows: readonly Figure[]): string {
+  return numbers('figures', ['', ''], rows.map((r) => [r.label, { html: r.value }]));
 }
 
 function keyOf(row: HTMLTableRowElement, column: number): number | string | undefined {
@@ -83,7 +100,7 @@ function keyOf(row: HTMLTableRowElement, column: number): number | string | unde
   return text === '' || text === '–' ? undefined : Number.isFinite(value) ? value : text;
 }
 
-/** Rows by a column; those without a value stay last. */
+/** Sorts by a column; rows without a value stay last. */
 function sortRows(body: HTMLTableSectionElement, column: number, descending: boolean): void {
   const sign = descending ? -1 : 1;
   const rows = [...body.rows].map((row) => ({ row, key: keyOf(row, column) }));
@@ -95,7 +112,7 @@ function sortRows(body: HTMLTableSectionElement, column: number, descending: boo
   body.append(...rows.map((r) => r.row));
 }
 
-/** A press on a head sorts, from the largest; a second one turns the order. */
+/** A click on a head sorts: numbers from the largest, text from A. A second click reverses the order. */
 export function onSort(root: HTMLElement): void {
   root.addEventListener('click', (event) => {
     const head = (event.target as HTMLElement).closest('button.sort')?.closest('th');

@@ -2,7 +2,7 @@
 
 export type Scheme = 'light' | 'dark';
 
-/** Colours of the plots; the page's own are in style.css. */
+/** Colours of the plots; those of the page are in style.css. */
 export interface Theme {
   scheme: Scheme;
   /** On paper plots are drawn as vectors. */
@@ -14,7 +14,7 @@ export interface Theme {
   rapid: string;
   limit: string;
   run: { without: string; with: string };
-  /** More curves beside one another. */
+  /** A palette for many curves in one plot. */
   other: readonly string[];
 }
 
@@ -43,9 +43,14 @@ const THEMES: Record<Scheme, Omit<Theme, 'printing'>> = {
   },
 };
 
+/** From the palette, again from its start when it runs out. */
+export function curveColour({ other, text }: Theme, i: number): string {
+  return other[i % other.length] ?? text;
+}
+
 const dark = () => window.matchMedia('(prefers-color-scheme: dark)');
 
-/** Paper is white whatever the screen is. */
+/** Paper is white whatever the screen's scheme. */
 export function theme(printing = false): Theme {
   return { ...THEMES[!printing && dark().matches ? 'dark' : 'light'], printing };
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one frame of all pages: head, verdict, body, how to read it, how it was made.
 import type { Head, Made } from './data';
-import { escapeHtml, section } from './html';
+import { capital, escapeHtml, section } from './html';
 import { table } from './table';
 import type { Theme } from './theme';
 
-/** A word of the page and what it means; HTML. */
+/** A term on the page and what it means; HTML. */
 export type Term = readonly [string, string];
 
-/** A page: its text with hosts of plots in it, and what draws into them. */
+/** A page: its text with places for plots, and what draws into them. */
 export interface View {
   product: string;
   title: string;
-  /** HTML, as are `verdict` and `body`. */
+  /** HTML, like `verdict` and `body`. */
   facts: string;
   verdict: string;
   body: string;
@@ -21,17 +21,17 @@ export interface View {
   bind?: (redraw: () => void) => void;
 }
 
-/** Of no use on paper. */
+/** No use on paper. */
 const PLOTS =
-  '<dt class="on-screen">Plots</dt><dd class="on-screen">Ctrl + wheel or + and − zoom, Shift + wheel stretches the height, a drag moves, “Whole” goes back. PNG saves the picture as it is shown, CSV the values behind it.</dd>';
+  '<dt class="on-screen">Plots</dt><dd class="on-screen">Zoom with Ctrl + wheel or + and −; Shift + wheel zooms the height. Drag to pan; “Fit” shows the whole plot again. PNG saves the picture as shown, CSV the values behind it.</dd>';
 
 function explanation(terms: readonly Term[]): string {
   return `<section class="explanation"><h2>How to read this</h2><dl>${terms.map(([term, text]) => `<dt>${term}</dt><dd>${text}</dd>`).join('')}${PLOTS}</dl></section>`;
 }
 
-/** Sentences that the verb said, each in a line; empty where there are none. HTML. */
+/** What the verb had to say, one sentence a line; empty if nothing. HTML. */
 export function said(id: string, sentences: readonly string[]): string {
-  const whole = (text: string) => `${text.charAt(0).toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
+  const whole = (text: string) => `${capital(text)}${/[.!?]$/.test(text) ? '' : '.'}`;
   return sentences.length === 0 ? '' : `<ul class="notes" id="${id}">${sentences.map((s) => `<li>${escapeHtml(whole(s))}</li>`).join('')}</ul>`;
 }
 
@@ -40,7 +40,7 @@ function provenance(made: Made | undefined): string {
     return '';
   }
   const date = made.date === null ? 'left out, so that the same command gives the same bytes' : `<time datetime="${escapeHtml(made.date)}">${escapeHtml(made.date)}</time>`;
-  const inputs = made.inputs.map((i) => [i.file, { html: i.sha256 === null ? 'not a file that can be read again' : `<code>${escapeHtml(i.sha256)}</code>`, look: 'hash' }]);
+  const inputs = made.inputs.map((i) => [i.file, { html: i.sha256 === null ? 'a stream, which cannot be read again' : `<code>${escapeHtml(i.sha256)}</code>`, look: 'hash' }]);
   const list = inputs.length === 0 ? '' : table({ id: 'inputs', columns: [{ head: 'Input' }, { head: 'SHA-256' }], rows: inputs });
   return section(
     'How this was made',

@@ -7,19 +7,28 @@ export interface Axis {
   name: string;
   min?: number;
   max?: number;
-  /** Wanted count of ticks, */
+  /** How many ticks to aim at, */
   ticks?: number;
-  /** or what lies between two of them when all is shown. */
+  /** or the distance between them while the whole axis is shown. */
   step?: number;
-  /** Logarithmic; of y alone. */
+  /** Logarithmic; y only. */
   log?: boolean;
 }
 
-/** 1, 2 or 5 times a power of ten, about `count` of them in the range. */
+/** The least of `leads` × 10ⁿ that is not below `value`. */
+function leastOf(leads: readonly number[], value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return (leads.find((lead) => lead * power >= value * (1 - 1e-9)) ?? 10) * power;
+}
+
+/** 1, 2 or 5 × 10ⁿ, so that about `count` steps make up the range. */
 export function niceStep(range: number, count: number): number {
-  const rough = range / Math.max(count, 1);
-  const power = 10 ** Math.floor(Math.log10(rough));
-  return ([1, 2, 5, 10].find((m) => m * power >= rough * (1 - 1e-9)) ?? 10) * power;
+  return leastOf([1, 2, 5, 10], range / Math.max(count, 1));
+}
+
+/** A round number not below `value`, for the end of an axis or scale; 1 if there is nothing to show. */
+export function niceAbove(value: number): number {
+  return value > 0 && Number.isFinite(value) ? leastOf([1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10], value) : 1;
 }
 
 export function span(values: readonly Maybe[]): [number, number] {
@@ -48,6 +57,12 @@ export function roomy(values: readonly Maybe[], withZero = false): [number, numb
   return [under, Math.ceil((to + 0.04 * reach) / step) * step];
 }
 
+/** An axis with room for these values. */
+export function axisFor(name: string, values: readonly Maybe[], withZero = false): Axis & { min: number; max: number } {
+  const [min, max] = roomy(values, withZero);
+  return { name, min, max };
+}
+
 function decimalsOf(interval: number): number {
   return Math.max(0, -Math.floor(Math.log10(interval) + 1e-9));
 }
@@ -55,7 +70,7 @@ function decimalsOf(interval: number): number {
 const MOST_DECIMALS = 5;
 const WIDE = 1e6;
 
-/** As wide as the margin has room for: `largest` of the values that are to be written. */
+/** No wider than the margin; `largest`: of all values to be written. */
 function labelOf(v: number, interval: number | undefined, largest: number): string {
   if (interval === undefined) {
     return short(v);
@@ -64,7 +79,7 @@ function labelOf(v: number, interval: number | undefined, largest: number): stri
   return decimals > MOST_DECIMALS || largest >= WIDE ? plain(Math.abs(v) < 1e-6 * interval ? 0 : v, 3) : fixed(v, decimals);
 }
 
-/** `count`: of ticks that have room; `shown`: the part of the axis that is in view. */
+/** `count`: how many ticks have room; `shown`: the part of the axis in view. */
 export function axisOption(axis: Axis, theme: Theme, count: number, shown?: [number, number]) {
   const known = axis.min !== undefined && axis.max !== undefined;
   const range = known ? (axis.max as number) - (axis.min as number) : undefined;
@@ -80,7 +95,7 @@ export function axisOption(axis: Axis, theme: Theme, count: number, shown?: [num
     ...(axis.min === undefined ? { scale: true } : { min: axis.min }),
     ...(axis.max === undefined ? {} : { max: axis.max }),
     ...(axis.log ? { minInterval: 1 } : {}),
-    // Not `interval`, which would count from `min`: so the ticks are multiples. A given step begins at the axis's end.
+    // `interval` counts from `min`, which suits a given step only; `splitNumber` puts the ticks on round multiples.
     interval: step ?? null,
     ...(interval === undefined || view === undefined ? {} : { splitNumber: view / interval }),
     axisLine: { show: true, onZero: false, lineStyle: { color: theme.faint } },

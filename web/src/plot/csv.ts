@@ -14,7 +14,7 @@ interface Block {
   columns: Columns[];
 }
 
-/** Spreadsheets guess encodings: heads keep to letters that all of them have. */
+/** Spreadsheets guess encodings, so heads keep to ASCII. */
 function ascii(text: string): string {
   return text.replace(/µ/g, 'u').replace(/°/g, 'deg ').replace(/²/g, '2').replace(/³/g, '3').replace(/ρ/g, 'rho').replace(/±/g, '+/-').replace(/[−–]/g, '-');
 }
@@ -43,7 +43,7 @@ function columnsOf(layer: Layer): Block | undefined {
 
 const same = (a: readonly Maybe[], b: readonly Maybe[]) => a === b || (a.length === b.length && a.every((v, i) => v === b[i]));
 
-/** Columns of the named layers; those over the same values of x share them. */
+/** The columns of the named layers; layers with the same x share one column of it. */
 export function columnsOfPlot(plot: Plot): Columns[] {
   const blocks: Block[] = [];
   for (const layer of plot.layers) {

@@ -12,31 +12,31 @@ export interface Plot {
   x: Axis;
   y: Axis;
   layers: Layer[];
-  /** Zoom acts on both axes at once; else on x, and on y by itself. */
+  /** Zooms both axes at once; otherwise x and y zoom separately. */
   plane?: boolean;
-  /** One unit is as long across as up; x and y are the least that is shown. */
+  /** One unit is as long across as up; the axes are widened to fit. */
   equal?: boolean;
-  /** Plots of one group are zoomed together: along x, planes along both. */
+  /** Plots of one group zoom together: along x, planes along both axes. */
   group?: string;
   scale?: ColourScale;
-  /** What the pointer reads; without it the values of the named layers. `reach`: 14 px in units of x. */
+  /** What the tip at the pointer says; by default the values of the named layers. `reach`: 14 px in units of x. */
   readout?: (x: number, y: number, reach: number) => Reading | string | undefined;
-  /** What CSV holds; without it the named layers. */
+  /** What the CSV holds; by default the named layers. */
   columns?: () => Columns[];
 }
 
 export interface Drawn {
   chart: echarts.ECharts;
-  /** With its true values, */
+  /** With true values, */
   plot: Plot;
-  /** and as it is drawn: a logarithmic axis as logarithms. */
+  /** and as drawn: a logarithmic axis as logarithms. */
   shown: Plot;
   theme: Theme;
 }
 
 const drawn = new WeakMap<HTMLElement, Drawn>();
 
-/** What is drawn in a host now. */
+/** What is now drawn in a place. */
 export function drawnIn(where: HTMLElement): Drawn | undefined {
   return drawn.get(where);
 }

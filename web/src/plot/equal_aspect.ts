@@ -7,7 +7,7 @@ export interface Box {
   top: number;
 }
 
-/** The box widened so that one unit is as long across as up in an area of this size. */
+/** Widens the box so that one unit is as long across as up in an area of this size. */
 export function withEqualAspect(box: Box, width_px: number, height_px: number): Box {
   const margin = 1.06;
   const smallest = 1e-3;

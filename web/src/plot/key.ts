@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plot's curves and colours mean: on the page and in the saved picture.
+// What a plot's curves and colours mean, on the page and in the saved picture.
 import { escapeHtml } from '../frame/html';
 import type { Layer } from './layers';
 
@@ -9,15 +9,15 @@ export interface Key {
   name: string;
   colour: string;
   mark: Mark;
-  /** Of an area, as in the plot. */
+  /** That of the area in the plot. */
   opacity?: number;
 }
 
-/** Colours of a quantity, each up to the number beneath its right edge. */
+/** Colours of a quantity; each is for values up to the number under its right edge. */
 export interface ColourScale {
   title: string;
   cells: readonly { colour: string; upTo: string; /** An upright mark at its left edge. */ marked?: boolean }[];
-  /** A line that is not of the scale. */
+  /** A line outside the scale. */
   beside?: Key;
 }
 
@@ -36,7 +36,7 @@ function markOf(layer: Layer): Mark {
   }
 }
 
-/** Fainter than that a swatch is not seen. */
+/** A fainter swatch cannot be seen. */
 const LEAST_OPACITY = 0.15;
 
 /** Each name once. */

@@ -11,7 +11,7 @@ export interface Dot {
   label?: string;
   /** Where the label is. */
   side?: 'left' | 'right' | 'top' | 'bottom';
-  /** Upwards from there, px. */
+  /** Raises the label, px. */
   lift?: number;
 }
 
@@ -33,7 +33,7 @@ interface Band {
   high: readonly Maybe[];
   colour: string;
   opacity: number;
-  /** So that it is seen where it has no height. */
+  /** To show where it has no height. */
   outlined?: boolean;
 }
 interface Dots {
@@ -65,16 +65,21 @@ interface Rules {
   width?: number;
   dashed?: boolean;
 }
-/** Ticks above the picture, at values of x. */
+/** Ticks along the top, at values of x. */
 interface Ticks {
   kind: 'ticks';
   ticks: readonly { x: number; label: string; strong: boolean }[];
   colour: string;
 }
 
-/** A layer with a name is in the key, in the read-out and in the CSV; `quiet` keeps it out of the key. */
+/** A layer with a name appears in key, tip and CSV; `quiet` keeps it out of the key. */
 export type Layer = (Line | Band | Dots | Raster | Spans | Rules | Ticks) & { name?: string; quiet?: boolean };
 export type LayerOf<Kind extends Layer['kind']> = Extract<Layer, { kind: Kind }>;
+
+/** Lines across the whole plot at these values of an axis. */
+export function rules(axis: 'x' | 'y', at: readonly number[], colour: string, dashed = false): Layer {
+  return { kind: 'rules', axis, at, colour, dashed };
+}
 
 const LABEL_PX = 44;
 
@@ -86,7 +91,7 @@ interface Box {
   height: number;
 }
 
-/** A series that draws one thing, in pixels. */
+/** A series that draws one shape in pixels. */
 function custom(z: number, item: (box: Box, api: Api) => object) {
   return { type: 'custom', silent: true, clip: true, z, data: [[0, 0]], renderItem: (params: { coordSys: Box }, api: Api) => item(params.coordSys, api) };
 }
@@ -100,7 +105,7 @@ export function rising(x: readonly Maybe[]): boolean {
   return true;
 }
 
-/** The points in view; of many, each pixel column keeps its extremes. */
+/** The points in view. Many points are thinned; each stretch keeps its extremes. */
 export function pointsOf(layer: LayerOf<'line'>, from: number, to: number): (readonly [Maybe, Maybe])[] {
   if (layer.x.length > 2 * BUCKETS && rising(layer.x)) {
     return thin(layer.x, layer.y, from, to, BUCKETS);
@@ -124,7 +129,7 @@ function lineSeries(layer: LayerOf<'line'>, theme: Theme, z: number, view: [numb
 
 const FAR = 1e6;
 
-/** What lies between two curves, as one polygon; where a curve has no value it reaches out of the picture. */
+/** The area between two curves as one polygon; where a curve has no value, the area runs off the plot. */
 function bandSeries(band: LayerOf<'band'>, z: number) {
   const points = [
     ...band.x.map((x, i) => [x ?? 0, band.high[i] ?? FAR]),
@@ -194,7 +199,7 @@ function ticksSeries(layer: LayerOf<'ticks'>, theme: Theme, z: number) {
 
 const MOST_RASTER_PX = 4096;
 
-/** In the shape that it is drawn in: an image among vectors keeps its own. */
+/** Redrawn at the proportions of its place: an image among vectors is not stretched. */
 function shaped(canvas: HTMLCanvasElement, width: number, height: number): HTMLCanvasElement {
   const sharpness = Math.min(2, MOST_RASTER_PX / Math.max(width, height));
   const out = document.createElement('canvas');

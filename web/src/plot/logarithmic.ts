@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plot with a logarithmic axis of y is drawn as its logarithms on an even axis of whole decades: ECharts' own
-// logarithmic axis loses values below 1 where its ends are given, and its decades where they are not.
+// A plot with a logarithmic y axis is drawn as logarithms on a linear axis of whole decades: ECharts' own
+// logarithmic axis loses values below 1 if its ends are given, and whole decades if they are not.
 import type { Maybe } from '../frame/data';
 import type { Theme } from '../frame/theme';
 import { type Axis, span } from './axes';
 import type { Plot } from './drawn';
 import type { Layer } from './layers';
 
-/** Where a value is drawn; null: nowhere, since it has no logarithm. */
+/** Where a value is drawn; null: nowhere, as it has no logarithm. */
 export function heightOf(axis: Axis, value: number): number;
 export function heightOf(axis: Axis, value: Maybe): Maybe;
 export function heightOf(axis: Axis, value: Maybe): Maybe {
@@ -41,7 +41,7 @@ function between(min: number, max: number, theme: Theme): Layer {
   return { kind: 'rules', axis: 'y', at: decades.flatMap((d) => [2, 3, 4, 5, 6, 7, 8, 9].map((k) => d + Math.log10(k))), colour: theme.rule, width: 0.4 };
 }
 
-/** The plot as it is drawn. */
+/** The plot as drawn. */
 export function withDecades(plot: Plot, theme: Theme): Plot {
   if (!plot.y.log) {
     return plot;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plot as a picture by itself: its name, what is drawn upwards in which unit, its key and its colours above it.
+// A plot as a picture of its own, with its title, the name of its y axis, key and colour scale above it.
+import { capital } from '../frame/html';
 import type { Theme } from '../frame/theme';
 import { FONT, type echarts } from './echarts';
 import { type ColourScale, type Key, keysOf } from './key';
@@ -29,7 +30,7 @@ function mark(pen: Pen, key: Key, x: number, y: number): void {
   pen.setLineDash([]);
 }
 
-/** Keys in lines; gives the height that they take. With `draw` false it measures only. */
+/** The key, wrapped into lines; returns its height. With `draw` false it only measures. */
 function keys(pen: Pen, all: readonly Key[], theme: Theme, width: number, top: number, draw: boolean): number {
   let [x, y] = [PAD_PX, top + LINE_PX / 2];
   for (const key of all) {
@@ -89,7 +90,7 @@ export function picture(chart: echarts.ECharts, plot: Plot, theme: Theme): HTMLC
   pen.fillText(plot.title, PAD_PX, PAD_PX + LINE_PX / 2);
   prepare();
   pen.fillStyle = theme.faint;
-  pen.fillText(`${plot.y.name.charAt(0).toUpperCase()}${plot.y.name.slice(1)}`, PAD_PX, PAD_PX + 1.5 * LINE_PX);
+  pen.fillText(capital(plot.y.name), PAD_PX, PAD_PX + 1.5 * LINE_PX);
   keys(pen, all, theme, width, head, true);
   if (plot.scale) {
     scale(pen, plot.scale, theme, width, head + keyHeight);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one plot of all pages: a figure with its name, its key, zoom, PNG and CSV, and layers in it.
+// The one plot of all pages: a figure with name, key, zoom, PNG, CSV, and its layers.
 import { element, put } from '../frame/dom';
 import { escapeHtml } from '../frame/html';
 import type { Theme } from '../frame/theme';
@@ -19,17 +19,22 @@ export type { Plot };
 const MARGIN = { left: 62, right: 18, top: 12, bottom: 42 };
 const TICKS_PX = 24;
 
-/** The place of a plot; `kind`: low, high, tall, square. */
+/** A place for a plot; `kind`: low, high, tall, square. */
 export function host(id: string, kind = ''): string {
   return `<figure class="frame" id="${id}-frame"><figcaption><span class="name" id="${id}-name"></span><span class="key-line" id="key-${id}"></span>${TOOLS}</figcaption>
     <div class="plot ${kind}" id="${id}"></div><div class="scale-line" id="scale-${id}"></div></figure>`;
+}
+
+/** Places for plots side by side. */
+export function panels(ids: readonly string[], kind = ''): string {
+  return `<div class="panels">${ids.map((id) => host(id, kind)).join('')}</div>`;
 }
 
 function margins(plot: Plot) {
   return plot.layers.some((l) => l.kind === 'ticks') ? { ...MARGIN, top: MARGIN.top + TICKS_PX } : MARGIN;
 }
 
-/** Where both axes have one scale they are widened to the host. */
+/** With one scale for both axes, they are widened to fill the place. */
 function fitted(plot: Plot, width: number, height: number): Plot {
   if (!plot.equal) {
     return plot;
@@ -39,7 +44,7 @@ function fitted(plot: Plot, width: number, height: number): Plot {
   return { ...plot, x: { ...plot.x, min: left, max: right }, y: { ...plot.y, min: bottom, max: top } };
 }
 
-/** All of the picture but the zoom; `shown`: what is in view of x and y. */
+/** Everything but the zoom; `shown`: what is in view. */
 function option(plot: Plot, theme: Theme, width: number, height: number, shown?: Window) {
   const view = shown?.x ?? [plot.x.min ?? -Infinity, plot.x.max ?? Infinity];
   return {
@@ -54,7 +59,7 @@ function size(chart: echarts.ECharts, plot: Plot): [number, number] {
   return [Math.max(chart.getWidth() - left - right, 50), Math.max(chart.getHeight() - top - bottom, 50)];
 }
 
-/** On paper as vectors, on the screen as pixels: the first are sharp, the second quick. */
+/** Vectors on paper, because they are sharp; pixels on the screen, because they are quick. */
 function chartIn(where: HTMLElement, theme: Theme): echarts.ECharts {
   const before = drawnIn(where);
   if (before && before.theme.printing === theme.printing) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies under the pointer.
+// The tip at the pointer.
 import type { Maybe } from '../frame/data';
 import { escapeHtml } from '../frame/html';
 import { plain } from '../frame/numbers';
@@ -9,10 +9,21 @@ import type { Plot } from './drawn';
 import { heightOf, valueAtHeight } from './logarithmic';
 import { nearestIndex } from './thin';
 
-/** HTML, and the point that it speaks of. */
+/** HTML, and the point that it describes. */
 export interface Reading {
   html: string;
   at?: [number, number];
+}
+
+/** Where the pointer is, then one line for each thing there; HTML. */
+export function reading(where: string, lines: readonly string[]): string {
+  return [`<b>${where}</b>`, ...lines].join('<br>');
+}
+
+/** The same as a table: a row for each quantity, a column for each curve. */
+export function readingTable(where: string, columns: readonly string[], rows: readonly { name: string; values: readonly string[] }[]): string {
+  const cells = (values: readonly string[]) => values.map((v) => `<td class="n">${v}</td>`).join('');
+  return `<table class="tooltip"><tr><th>${where}</th>${columns.map((c) => `<th>${c}</th>`).join('')}</tr>${rows.map((r) => `<tr><td>${r.name}</td>${cells(r.values)}</tr>`).join('')}</table>`;
 }
 
 const REACH_PX = 14;
@@ -34,7 +45,7 @@ export function valuesAt(plot: Plot, x: number): string | undefined {
   return rows.length === 0 ? undefined : [`${escapeHtml(plot.x.name)} <b>${plain(x)}</b>`, ...rows].join('<br>');
 }
 
-/** A box beside the pointer and a ring about what it speaks of. */
+/** A box beside the pointer and a ring around the point that it describes. */
 export function follow(host: HTMLElement, chart: echarts.ECharts, plotted: () => Plot | undefined): void {
   const made = (name: string) => {
     const found = host.appendChild(document.createElement('div'));
@@ -45,13 +56,13 @@ export function follow(host: HTMLElement, chart: echarts.ECharts, plotted: () =>
   const hide = () => {
     tip.style.display = ring.style.display = 'none';
   };
-  const show = (px: number, py: number, plot: Plot, reading: Reading) => {
-    tip.innerHTML = reading.html;
+  const show = (px: number, py: number, plot: Plot, { html, at }: Reading) => {
+    tip.innerHTML = html;
     tip.style.display = 'block';
     const right = px + 16 + tip.offsetWidth < host.clientWidth;
     tip.style.left = `${right ? px + 16 : Math.max(0, px - 16 - tip.offsetWidth)}px`;
     tip.style.top = `${Math.max(0, py - tip.offsetHeight - 8)}px`;
-    const [x, y] = reading.at ? (chart.convertToPixel({ gridIndex: 0 }, [reading.at[0], heightOf(plot.y, reading.at[1])]) as number[]) : [];
+    const [x, y] = at ? (chart.convertToPixel({ gridIndex: 0 }, [at[0], heightOf(plot.y, at[1])]) as number[]) : [];
     ring.style.cssText = x === undefined ? 'display:none' : `display:block;left:${x}px;top:${y}px`;
   };
   chart.getZr().on('mousemove', (e: { offsetX: number; offsetY: number }) => {
@@ -63,11 +74,11 @@ export function follow(host: HTMLElement, chart: echarts.ECharts, plotted: () =>
     }
     const [x = 0, y = 0] = chart.convertFromPixel({ gridIndex: 0 }, at) as number[];
     const [beside = 0] = chart.convertFromPixel({ gridIndex: 0 }, [e.offsetX + REACH_PX, e.offsetY]) as number[];
-    const reading = plot.readout ? plot.readout(x, valueAtHeight(plot.y, y), Math.abs(beside - x)) : valuesAt(plot, x);
-    if (reading === undefined) {
+    const read = plot.readout ? plot.readout(x, valueAtHeight(plot.y, y), Math.abs(beside - x)) : valuesAt(plot, x);
+    if (read === undefined) {
       hide();
     } else {
-      show(e.offsetX, e.offsetY, plot, typeof reading === 'string' ? { html: reading } : reading);
+      show(e.offsetX, e.offsetY, plot, typeof read === 'string' ? { html: read } : read);
     }
   });
   chart.getZr().on('globalout', hide);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** Stretches of x in which each curve keeps its lowest and highest value. */
+/** Stretches of x; a curve keeps its lowest and highest value in each. */
 export const BUCKETS = 1500;
 
 export type Point = [number, number | null];
@@ -70,7 +70,7 @@ export function lowerBound(x: readonly (number | null)[], limit: number): number
   return low;
 }
 
-/** Index of the value nearest to `at`, x not decreasing; −1 beyond the end. */
+/** Index of the value nearest to `at`; −1 beyond the end. x must not decrease. */
 export function nearestIndex(x: readonly (number | null)[], at: number): number {
   const last = x.length - 1;
   if (last < 0 || at > (x[last] ?? Infinity)) {

@@ -8,11 +8,11 @@ import { showWhole, zoomBy } from './zoom';
 const FACTOR = 2;
 
 const button = (tool: string, text: string, title: string) => `<button type="button" data-tool="${tool}" title="${title}">${text}</button>`;
-export const TOOLS = `<span class="tools" role="group" aria-label="Plot">${[
+export const TOOLS = `<span class="tools" role="group" aria-label="Plot tools">${[
   button('in', '+', 'Zoom in'),
   button('out', '−', 'Zoom out'),
-  button('whole', 'Whole', 'Show the whole plot'),
-  button('png', 'PNG', 'Save the picture'),
+  button('whole', 'Fit', 'Show the whole plot'),
+  button('png', 'PNG', 'Save as a picture'),
   button('csv', 'CSV', 'Save the values'),
 ].join('')}</span>`;
 
@@ -48,7 +48,7 @@ function use(tool: string, where: HTMLElement): void {
     case 'whole':
       return showWhole(where);
     case 'png':
-      // Not `toBlob`, which waits until the browser is idle: the file belongs to the press of the button.
+      // Not `toBlob`, which waits until the browser is idle: the file must be saved within the click.
       return save(`${fileName(where.id)}.png`, picture(chart, plot, theme).toDataURL());
     case 'csv':
       return saveText(`${fileName(where.id)}.csv`, csvOf(plot.columns?.() ?? columnsOfPlot(plot)));

@@ -2,7 +2,7 @@
 import type { echarts } from './echarts';
 import { type Drawn, type Plot, drawnIn } from './drawn';
 
-/** What is in view; undefined where the axis finds its own ends. */
+/** What is in view; undefined if the axis finds its own ends. */
 export interface Window {
   x?: [number, number] | undefined;
   y?: [number, number] | undefined;
@@ -13,7 +13,7 @@ interface Range {
   end: number;
 }
 
-/** Both axes, or each by its own key; in percent of the axes. A plot that is drawn again over the same axes keeps its view. */
+/** Ctrl + wheel zooms both axes of a plane, otherwise x; Shift + wheel zooms y. A plot redrawn over the same axes keeps its view. */
 export function zoomOption(plot: Plot, before?: Drawn): object[] {
   const kept = before && before.plot.x.name === plot.x.name && before.plot.y.name === plot.y.name ? ranges(before.chart) : [];
   const inside = { type: 'inside', filterMode: 'none', preventDefaultMouseMove: false };
@@ -23,7 +23,7 @@ export function zoomOption(plot: Plot, before?: Drawn): object[] {
   ];
 }
 
-/** A wheel without a key scrolls the page; the chart would keep it. */
+/** A wheel without a key scrolls the page; the chart would swallow it. */
 export function letPageScroll(where: HTMLElement): void {
   for (const type of ['wheel', 'mousewheel']) {
     const keep = (event: Event) => (event as WheelEvent).ctrlKey || (event as WheelEvent).shiftKey || event.stopPropagation();
@@ -51,7 +51,7 @@ export function inView(chart: echarts.ECharts, plot: Plot): Window {
   return { x: part(plot.x, x), y: part(plot.y, y) };
 }
 
-/** `factor` > 1 shows less; about the middle of the view. Of a plane both axes, else x alone. */
+/** Zooms about the middle of the view, both axes of a plane, otherwise x; `factor` > 1 zooms in. */
 export function zoomBy(where: HTMLElement, factor: number): void {
   const drawn = drawnIn(where);
   if (drawn) {
@@ -78,7 +78,7 @@ export function showWhole(where: HTMLElement): void {
 
 const near = (a: readonly Range[], b: readonly Range[]) => a.every((r, i) => Math.abs(r.start - (b[i]?.start ?? 0)) < 1e-9 && Math.abs(r.end - (b[i]?.end ?? 0)) < 1e-9);
 
-/** A plot was zoomed: it and those of its group are drawn for what is in view now; heights are shared by planes alone. */
+/** A plot was zoomed: redraws it and those of its group for what is now in view. Only planes share heights. */
 export function onZoom(where: HTMLElement, redraw: (where: HTMLElement) => void): void {
   const source = drawnIn(where);
   if (!source) {

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// A displacement over the hours of a log: measured, modelled, and what is left.
+// A displacement over the hours of a log: measured, modelled, and the residual.
 import type { Maybe } from '../frame/data';
-import { fixed, plain } from '../frame/numbers';
+import { plain, um } from '../frame/numbers';
 import type { Theme } from '../frame/theme';
-import { roomy, span } from '../plot/axes';
-import type { Layer } from '../plot/layers';
+import { axisFor } from '../plot/axes';
+import { type Layer, rules } from '../plot/layers';
 import type { Plot } from '../plot/plot';
+import { reading } from '../plot/reading';
+import { spindlePlot } from '../plot/speed';
 import { nearestIndex } from '../plot/thin';
+import { largestSize, minus, quantile } from '../plot/values';
+import { BAND, bandEdges, bandLayer } from './band';
 import type { MeasuredCourse, SpeedSteps } from './data';
 
-/** 95 % of what is measured lies within that many standard deviations. */
-export const BAND = 1.96;
-/** More time than so many usual steps is a gap. */
+/** More time than this many usual steps is a gap. */
 const GAP_STEPS = 10;
 
-/** A curve over time with a hole where time has passed that is not recorded. */
+/** A curve over time, with a hole wherever the log has one. */
 export function broken(t: readonly number[], values: readonly Maybe[]): { t: number[]; v: Maybe[] } {
   const steps = t.slice(1).map((v, i) => v - (t[i] as number));
-  const usual = [...steps].sort((a, b) => a - b)[Math.floor(steps.length / 2)] ?? 0;
+  const usual = quantile(steps, 0.5) ?? 0;
   const out = { t: [] as number[], v: [] as Maybe[] };
   t.forEach((at, i) => {
     if (i > 0 && at - (t[i - 1] as number) > GAP_STEPS * usual) {
@@ -30,96 +32,86 @@ export function broken(t: readonly number[], values: readonly Maybe[]): { t: num
   return out;
 }
 
-/** An axis, and the column of the log that it is taken from. */
+/** An axis, and the column of the log that it comes from. */
 export const nameOf = (axis: MeasuredCourse) => (axis.channel === axis.axis ? axis.axis : `${axis.axis} (${axis.channel})`);
 
-function left(axis: MeasuredCourse): Maybe[] {
-  return axis.measured_um.map((v, i) => {
-    const model = axis.modelled_um[i];
-    return v === null || model === null || model === undefined ? null : v - model;
-  });
-}
+const residual = (axis: MeasuredCourse) => minus(axis.measured_um, axis.modelled_um);
+const time = (axis: MeasuredCourse) => ({ name: 'log time in h', min: axis.t_h[0] ?? 0, max: axis.t_h.at(-1) ?? 1 });
 
-const wide = (axis: MeasuredCourse) => axis.sd_um.map((sd) => BAND * (sd ?? 0));
-const time = (axis: MeasuredCourse) => ({ name: 'time of the log in h', min: axis.t_h[0] ?? 0, max: axis.t_h.at(-1) ?? 1 });
-
-/** Readings were used up to somewhere before the end. */
+/** Readings were used for a part of the log only. */
 export function goesOn(axis: MeasuredCourse): boolean {
   return axis.fitted_to_h > axis.fitted_from_h && (axis.t_h.at(-1) ?? 0) > axis.fitted_to_h * (1 + 1e-6);
 }
 
-/** Shaded: where readings were used. Nothing where that is all. */
+/** Shades the part of the log whose readings were used; nothing if they all were. */
 function used(axis: MeasuredCourse, theme: Theme): Layer[] {
-  return !goesOn(axis) ? [] : [{ kind: 'spans', name: 'readings were used', spans: [[axis.fitted_from_h, axis.fitted_to_h]], colour: theme.faint, opacity: 0.1 }];
+  return goesOn(axis) ? [{ kind: 'spans', name: 'readings used', spans: [[axis.fitted_from_h, axis.fitted_to_h]], colour: theme.faint, opacity: 0.1 }] : [];
 }
 
 /** Is the model fitted to what was measured, or does it forecast it? */
 export type Model = 'modelled' | 'forecast';
 
+/** What is under the pointer at a time of the log. */
+function readAt(axis: MeasuredCourse, t: number, lines: (i: number) => string[]): string {
+  const i = nearestIndex(axis.t_h, t);
+  return reading(`${plain(axis.t_h[i])} h`, lines(i));
+}
+
+const BAND_NAME = '95 % band of the model';
+
 /** A forecast has its 95 % band about it. */
 export function coursePlot(axis: MeasuredCourse, model: Model, theme: Theme): Plot {
   const banded = model === 'forecast';
-  const half = wide(axis);
-  const edge = (sign: number) => axis.modelled_um.map((v, i) => (v === null ? null : v + sign * (half[i] ?? 0)));
-  const [min, max] = roomy([...axis.measured_um, ...axis.modelled_um, ...(banded ? [...edge(-1), ...edge(1)] : [])], true);
+  const edges = banded ? bandEdges(axis.modelled_um, axis.sd_um).flat() : [];
   const measured = broken(axis.t_h, axis.measured_um);
   const modelled = broken(axis.t_h, axis.modelled_um);
-  const rest = left(axis);
+  const rest = residual(axis);
   return {
     title: `${nameOf(axis)}: measured and ${model}`,
     x: time(axis),
-    y: { name: `displacement ${nameOf(axis)} in µm`, min, max },
+    y: axisFor(`displacement ${nameOf(axis)} in µm`, [...axis.measured_um, ...axis.modelled_um, ...edges], true),
     group: 'time',
     layers: [
       ...used(axis, theme),
-      { kind: 'rules', at: [0], axis: 'y', colour: theme.faint },
-      ...(banded ? [{ kind: 'band', name: 'the 95 % band of the model', x: axis.t_h, low: edge(-1), high: edge(1), colour: theme.run.with, opacity: 0.18 } as Layer] : []),
+      rules('y', [0], theme.faint),
+      ...(banded ? [bandLayer(BAND_NAME, axis.t_h, axis.modelled_um, axis.sd_um, theme.run.with)] : []),
       { kind: 'line', name: 'measured', x: measured.t, y: measured.v, colour: theme.run.without, width: 4 },
       { kind: 'line', name: model, x: modelled.t, y: modelled.v, colour: theme.run.with, width: 1.6 },
     ],
-    readout: (t) => {
-      const i = nearestIndex(axis.t_h, t);
-      return `<b>${plain(axis.t_h[i])} h</b><br>measured ${fixed(axis.measured_um[i], 1)} µm<br>${model} ${fixed(axis.modelled_um[i], 1)} µm<br>left ${fixed(rest[i], 1)} µm`;
-    },
+    readout: (t) => readAt(axis, t, (i) => [`measured ${um(axis.measured_um[i])}`, `${model} ${um(axis.modelled_um[i])}`, `residual ${um(rest[i])}`]),
   };
 }
 
 export function residualPlot(axis: MeasuredCourse, model: Model, theme: Theme): Plot {
-  const rest = left(axis);
-  const half = wide(axis);
+  const rest = residual(axis);
+  const zero = axis.t_h.map(() => 0);
   const shown = broken(axis.t_h, rest);
-  const [low, high] = span([...rest, ...half, ...half.map((v) => -v)]);
-  const [, max] = roomy([0, Math.max(-low, high)], true);
+  const name = `residual of ${nameOf(axis)} (measured − ${model}) in µm`;
+  const { max } = axisFor(name, [0, largestSize([...rest, ...bandEdges(zero, axis.sd_um).flat()])], true);
   return {
-    title: `${nameOf(axis)}: measured less ${model}`,
+    title: `${nameOf(axis)}: measured − ${model}`,
     x: time(axis),
-    y: { name: `${nameOf(axis)}: measured less ${model} in µm`, min: -max, max },
+    y: { name, min: -max, max },
     group: 'time',
     layers: [
       ...used(axis, theme),
-      { kind: 'band', name: 'the 95 % band of the model', x: axis.t_h, low: half.map((v) => -v), high: half, colour: theme.run.with, opacity: 0.18 },
-      { kind: 'rules', at: [0], axis: 'y', colour: theme.faint },
-      { kind: 'line', name: `measured less ${model}`, x: shown.t, y: shown.v, colour: theme.run.without, width: 1.6 },
+      bandLayer(BAND_NAME, axis.t_h, zero, axis.sd_um, theme.run.with),
+      rules('y', [0], theme.faint),
+      { kind: 'line', name: 'residual', x: shown.t, y: shown.v, colour: theme.run.without, width: 1.6 },
     ],
-    readout: (t) => {
-      const i = nearestIndex(axis.t_h, t);
-      return `<b>${plain(axis.t_h[i])} h</b><br>left ${fixed(rest[i], 1)} µm<br>95 % band ±${fixed(half[i], 1)} µm`;
-    },
+    readout: (t) => readAt(axis, t, (i) => [`residual ${um(rest[i])}`, `95 % band ±${um(BAND * (axis.sd_um[i] ?? 0))}`]),
   };
 }
 
 export function speedPlot(speed: SpeedSteps, axis: MeasuredCourse, theme: Theme): Plot {
   const end = axis.t_h.at(-1) ?? 0;
-  const at = speed.t_h.flatMap((t, i) => [t, speed.t_h[i + 1] ?? Math.max(t, end)]);
-  const rpm = speed.speed_rpm.flatMap((v) => [v, v]);
-  const [min, max] = roomy(rpm, true);
-  return {
-    title: 'Spindle speed',
+  return spindlePlot({
     x: time(axis),
-    y: { name: 'spindle speed in rev/min', min, max },
     group: 'time',
-    layers: [...used(axis, theme), { kind: 'line', name: 'spindle speed', x: at, y: rpm, colour: theme.faint, width: 2 }],
-  };
+    t: speed.t_h.flatMap((t, i) => [t, speed.t_h[i + 1] ?? Math.max(t, end)]),
+    rpm: speed.speed_rpm.flatMap((v) => [v, v]),
+    colour: theme.faint,
+    withZero: true,
+    beneath: used(axis, theme),
+  });
 }
-
-export const um = (v: Maybe | undefined) => (v === null || v === undefined ? '–' : `${fixed(v, 2)}\u00a0µm`);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pages of the thermal verbs hold; steadyrest/apps/thermal_page is their source. `answer`
+// What the pages of the thermal verbs hold. Their source is steadyrest/apps/page/thermal; `answer`
 // is what the verb prints with --json.
 import type { Head as PageHead, Maybe } from '../frame/data';
 
@@ -21,7 +21,7 @@ export interface Course {
 export interface Correction {
   t_min: number;
   delta_um: number;
-  /** Of all corrections up to here. */
+  /** Sum of all corrections so far. */
   total_um: number;
 }
 
@@ -96,17 +96,17 @@ export interface Regime {
   temperature_c: Maybe[][];
 }
 
-/** What was measured beside what the model makes of the inputs. */
+/** What was measured, and what the model makes of the inputs. */
 export interface MeasuredCourse {
   axis: string;
   channel: string;
-  /** Up to there readings were used. */
+  /** Readings were used in this time only. */
   fitted_from_h: number;
   fitted_to_h: number;
   t_h: number[];
   measured_um: Maybe[];
   modelled_um: Maybe[];
-  /** Of a reading about the model. */
+  /** Standard deviation of a reading about the model. */
   sd_um: Maybe[];
 }
 
@@ -116,7 +116,7 @@ export interface SpeedSteps {
 }
 
 export interface FittedAxis extends MeasuredCourse {
-  /** Place of the sensor that the displacement follows best; null where the log has none. */
+  /** Index of the sensor that the displacement follows best; null if the log has none. */
   best_sensor: number | null;
   over: Over[];
   /** In each regime. */
@@ -146,19 +146,19 @@ export interface FitPage extends Head {
     }[];
     modes: { axis: string; tau_min: number; rest_tau_min: number }[];
     notes: string[];
-    /** Where the bands do not hold what they promise. */
+    /** Given if the bands do not hold what they promise. */
     warnings?: string[];
   };
   sensors: string[];
   regimes: Regime[];
-  /** Each speed from its time to the next. */
+  /** Each speed holds from its time to the next. */
   speed: SpeedSteps;
   axes: FittedAxis[];
 }
 
 export type Page = ForecastPage | PlanPage | BatchPage | FitPage | ReplayPage;
 
-/** What is left of a displacement when corrections are taken off; both values where one is made. */
+/** What corrections leave of a displacement; both values where one is made. */
 export function residual(course: PlannedCourse): { t_min: number[]; um: number[] } {
   const t: number[] = [];
   const um: number[] = [];

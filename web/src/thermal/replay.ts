@@ -1,42 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// A passport set against a log: measured and forecast.
+// A passport tried on a log: measured against forecast.
 import { escapeHtml, section } from '../frame/html';
-import { fixed, plain } from '../frame/numbers';
+import { counted, fixed, percent, plain, um } from '../frame/numbers';
+import { numbers } from '../frame/table';
 import type { View } from '../frame/view';
 import { host, plot } from '../plot/plot';
-import { BAND, coursePlot, goesOn, residualPlot, speedPlot, um } from './course';
+import { BAND } from './band';
+import { coursePlot, goesOn, residualPlot, speedPlot } from './course';
 import type { MeasuredCourse, ReplayPage } from './data';
-import { named } from './tables';
 
 const measured = (axis: MeasuredCourse) => axis.measured_um.some((v) => v !== null);
 
 function verdict(page: ReplayPage): string {
   return page.answer.axes
     .map((a) => {
-      const end = `at the end ${fixed(a.end_um, 1)}\u00a0± ${fixed(BAND * a.end_sd_um, 1)}\u00a0µm`;
-      const worth = a.rms_um === null ? 'not measured' : `off by ${um(a.rms_um)} RMS from what was measured; the 95 % band holds ${fixed(100 * (a.coverage ?? 0), 1)} % of it`;
+      const end = `at the end ${fixed(a.end_um, 1)}\u00a0± ${um(BAND * a.end_sd_um)}`;
+      const worth = a.rms_um === null ? 'not measured' : `RMS error ${um(a.rms_um, 2)} against the readings, of which the 95 % band holds ${percent(a.coverage ?? 0)}`;
       return `<b>${escapeHtml(a.axis)}</b>: ${end}; ${worth}.`;
     })
     .join('<br>');
 }
 
 export function replayView(page: ReplayPage): View {
-  const rows = page.answer.axes.map((a) => [a.axis, um(a.end_um), `±${um(BAND * a.end_sd_um)}`, um(a.rms_um), a.coverage === null ? '–' : `${fixed(100 * a.coverage, 1)} %`]);
+  const rows = page.answer.axes.map((a) => [a.axis, um(a.end_um, 2), `±${um(BAND * a.end_sd_um, 2)}`, um(a.rms_um, 2), percent(a.coverage)]);
+  const shaded = page.axes.some(goesOn) ? ' Shaded: readings set the state; after that it is a forecast.' : '';
   return {
     product: 'Steadyrest thermal forecast',
     title: page.title,
-    facts: `<b>${page.axes.length}</b> ${page.axes.length === 1 ? 'axis' : 'axes'} · <b>${plain(page.answer.minutes / 60, 3)} h</b> of recorded inputs`,
+    facts: `<b>${counted(page.axes.length, 'axis', 'axes')}</b> · <b>${plain(page.answer.minutes / 60, 3)} h</b> of recorded inputs`,
     verdict: verdict(page),
     body:
       section(
         'Measured and forecast',
         `${page.axes.map((a, i) => host(`course-${i}`, 'high') + (measured(a) ? host(`residual-${i}`) : '')).join('')}${host('speed', 'low')}`,
-        `The forecast has the recorded speed and temperatures.${page.axes.some(goesOn) ? ' Shaded: readings set the state; from there on it is a forecast.' : ''}`,
-      ) + section('Figures', named('figures', ['axis', 'at the end', '95 %', 'off, RMS', '95 % band holds'], rows)),
+        `The forecast runs on the recorded speed and temperatures.${shaded}`,
+      ) + section('Figures', numbers('figures', ['Axis', 'At the end', '95 % band at the end', 'RMS error', '95 % band holds'], rows)),
     explanation: [
-      ['Forecast', 'What the passport makes of the recorded speed and temperatures. Where readings set the state first, that time is shaded; from there on nothing of the gauge is used.'],
-      ['95 % band', 'About the forecast: 95 % of the readings should lie within. Off, RMS: of measured less forecast, beyond the shaded time.'],
-      ['Measured less forecast', 'What the forecast would have left in the part, with its band about zero.'],
+      ['Forecast', 'What the passport makes of the recorded speed and temperatures. If readings set the state first, that time is shaded; after it, the gauge counts only where it re-zeroes the forecast.'],
+      ['95 % band', 'The band about the forecast that should hold 95 % of the readings. How much it holds, and the RMS error, count from the end of the shaded time.'],
+      ['Residual', 'Measured minus forecast: the error that the forecast would have left in the part, with the band about zero.'],
     ],
     draw: (theme) => {
       page.axes.forEach((a, i) => {

@@ -1,37 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages that the chatter verbs wrote, in a real browser, opened from disk.
 import { readFile } from 'node:fs/promises';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, describe, expect, it } from 'vitest';
 import type { DetectPage, FitPage, GrowthPage, LobesPage, Page, PlanPage, SimulatePage } from '../../src/chatter/data';
 import { choiceText } from '../../src/chatter/plan';
-import { fixed, plain } from '../../src/frame/numbers';
-import { type OpenPage, closeBrowser, haveWritten, openFromDisk, share, written } from './browser';
+import { fixed, hertz, measure, plain, rpm, um } from '../../src/frame/numbers';
+import { closeBrowser, haveWritten, openFromDisk, share, written } from './browser';
+import { openWritten } from './written';
 
 afterAll(closeBrowser);
 
-const NAMES = ['lobes', 'growth', 'simulate', 'detect', 'chatter-plan', 'tap'];
+const FOLDERS = { lobes: 'lobes', growth: 'growth', simulate: 'simulate', detect: 'detect', plan: 'chatter-plan', tap: 'tap' };
 
 describe.runIf(haveWritten)('the pages of the chatter verbs', () => {
-  const opened = new Map<string, { open: OpenPage; page: Page }>();
-  const at = <T extends Page>(name: string): { open: OpenPage; page: T } => opened.get(name) as { open: OpenPage; page: T };
+  const at = openWritten<Page>(FOLDERS);
 
-  beforeAll(async () => {
-    for (const name of NAMES) {
-      const { html, data } = written<Page>(name);
-      opened.set(name, { open: await openFromDisk(html), page: data });
-    }
-  });
-  afterAll(async () => {
-    for (const { open } of opened.values()) {
-      await open.close();
-    }
-  });
-
-  it('show lobes: the wanted cut with its radius and frequency, a row for each override step', async () => {
+  it('show lobes: the requested cut with its radius and frequency, a row for each override step', async () => {
     const { open, page } = at<LobesPage>('lobes');
     const verdict = (await open.page.textContent('#verdict')) ?? '';
     expect(verdict).toContain(plain(page.answer.point?.spectral_radius));
-    expect(verdict).toContain(`${fixed(page.answer.point?.frequency_hz, 1)} Hz`);
+    expect(verdict).toContain(hertz(page.answer.point?.frequency_hz));
     const rows = await open.page.locator('#steps tbody tr').allTextContents();
     expect(rows.length).toBe(page.steps.length);
     expect(rows.filter((r) => r.includes('chatters')).length).toBe(page.steps.filter((s) => s.limit_depth_mm !== null && s.limit_depth_mm <= 1).length);
@@ -45,7 +33,7 @@ describe.runIf(haveWritten)('the pages of the chatter verbs', () => {
     const { open } = at<LobesPage>('lobes');
     const tip = open.page.locator('#lobes .tip');
     await open.page.locator('#lobes').hover({ position: { x: 300, y: 60 } });
-    expect(await tip.textContent()).toMatch(/rev\/min.*ρ [\d.]+: unstable/);
+    expect(await tip.textContent()).toMatch(/rpm.*ρ [\d.]+: unstable/);
     await open.page.locator('#lobes').hover({ position: { x: 300, y: 455 } });
     expect(await tip.textContent()).toMatch(/ρ 0\.\d+: stable/);
   });
@@ -60,11 +48,11 @@ describe.runIf(haveWritten)('the pages of the chatter verbs', () => {
   it('show the cut: figures of the answer', async () => {
     const { open, page } = at<SimulatePage>('simulate');
     const figures = (await open.page.textContent('#figures')) ?? '';
-    expect(figures).toContain(`${fixed(page.answer.peak_um, 2)} µm`);
-    expect(figures).toContain(`${fixed(page.answer.chatter_frequency_hz, 1)} Hz`);
+    expect(figures).toContain(um(page.answer.peak_um, 2));
+    expect(figures).toContain(hertz(page.answer.chatter_frequency_hz));
   });
 
-  it('show the recording: each stretch of chatter, and the orders that are asked for', async () => {
+  it('show the recording: where it chatters, and the chosen orders', async () => {
     const { open, page } = at<DetectPage>('detect');
     const rows = await open.page.locator('#events tbody tr').allTextContents();
     expect(rows.length).toBe(page.answer.events.length);
@@ -77,14 +65,14 @@ describe.runIf(haveWritten)('the pages of the chatter verbs', () => {
   });
 
   it('show the plan: a row for each alternative, the chosen one marked', async () => {
-    const { open, page } = at<PlanPage>('chatter-plan');
+    const { open, page } = at<PlanPage>('plan');
     expect(await open.page.locator('#alternatives tbody tr').count()).toBe(page.answer.alternatives.length);
     expect(await open.page.locator('#alternatives tr.chosen th:first-child').allTextContents()).toEqual([choiceText(page.answer)]);
     const verdict = (await open.page.textContent('#verdict')) ?? '';
-    expect(verdict).toContain('110 % = 5500 rev/min');
+    expect(verdict).toContain(`110\u00a0% = ${rpm(5500)}`);
     // What the programmed speed would do, and what is gained.
-    expect(verdict).toContain(`the cut chatters at ${fixed(page.answer.chatter_frequency_hz, 1)} Hz`);
-    expect(verdict).toContain(`${fixed(page.answer.limit_depth_mm, 3)} mm`);
+    expect(verdict).toContain(`the cut chatters at ${hertz(page.answer.chatter_frequency_hz)}`);
+    expect(verdict).toContain(measure(page.answer.limit_depth_mm, 3, 'mm'));
     expect(await open.page.locator('#notes li').count()).toBe(page.answer.notes.length);
     expect(await open.page.locator('#best-speeds tbody tr').count()).toBe(page.answer.best_speeds.length);
   });

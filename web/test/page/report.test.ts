@@ -5,7 +5,7 @@ import { inflateSync } from 'node:zlib';
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { Report } from '../../src/cut/data';
-import { figureRows, motionRows } from '../../src/cut/figures';
+import { figureRows, micrometres, motionRows } from '../../src/cut/figures';
 import { errorClasses } from '../../src/cut/scale';
 import { emptyReport, makeReport } from '../fixture';
 import { type OpenPage, closeBrowser, colours, fill, haveWritten, openFromDisk, template, written } from './browser';
@@ -91,8 +91,8 @@ describe('a report with data', () => {
 
   it('opens with what the layer was worth', async () => {
     const worth = await text(open.page, '.worth[data-key="contour_error_max_mm"]');
-    expect(worth).toContain(`${(report.without.figures.contour_error_max_mm * 1000).toFixed(1)} µm`);
-    expect(worth).toContain(`${(report.with.figures.contour_error_max_mm * 1000).toFixed(1)} µm`);
+    expect(worth).toContain(micrometres(report.without.figures.contour_error_max_mm));
+    expect(worth).toContain(micrometres(report.with.figures.contour_error_max_mm));
   });
 
   it('lists the worst lines by what the layer left, and by any column that is pressed', async () => {
@@ -101,15 +101,15 @@ describe('a report with data', () => {
     const size = (values: number[]) => values.map(Math.abs);
     expect(falling(size(await column(4)))).toBe(true);
     expect((await column(1)).length).toBe(report.worst_lines.length);
-    for (const [name, index] of [['without, µm', 3], ['driven, mm/min', 6], ['would hold, mm/min', 7]] as const) {
+    for (const [name, index] of [['Without, µm', 3], ['Actual feed, mm/min', 6], ['Holding feed, mm/min', 7]] as const) {
       await open.page.click(`#worst th button:text-is("${name}")`);
       expect(falling(size(await column(index))), name).toBe(true);
       await open.page.click(`#worst th button:text-is("${name}")`);
       expect(falling(size(await column(index)).reverse()), `${name}, rising`).toBe(true);
     }
-    await open.page.click('#worst th button:text-is("with, µm")');
+    await open.page.click('#worst th button:text-is("With, µm")');
     const held = await open.page.locator('#worst tbody tr').allTextContents();
-    expect(held.some((r) => r.includes('closed form')) && held.some((r) => r.includes('driven feed'))).toBe(true);
+    expect(held.some((r) => r.includes('closed form')) && held.some((r) => r.includes('actual feed'))).toBe(true);
   });
 
   it('says when, by what command and out of what it was made', async () => {
@@ -151,7 +151,7 @@ describe('a report with data', () => {
     await open.page.locator('#path-without').hover({ position: { x: at[0] ?? 0, y: at[1] ?? 0 } });
     const tip = open.page.locator('#path-without .tip');
     expect(await tip.isVisible()).toBe(true);
-    expect(await tip.textContent()).toMatch(/Line \d+contour error [−\d.]+ µm/);
+    expect(await tip.textContent()).toMatch(/Line \d+contour error [−\d.]+\sµm/);
   });
 
   it('keeps one millimetre as long across as up in every view', async () => {

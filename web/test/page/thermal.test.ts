@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages that the thermal verbs wrote, in a real browser, opened from disk.
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { fixed } from '../../src/frame/numbers';
+import { afterAll, describe, expect, it } from 'vitest';
+import { fixed, um } from '../../src/frame/numbers';
 import { broken } from '../../src/thermal/course';
 import { type BatchPage, type FitPage, type ForecastPage, type Page, type PlanPage, type ReplayPage, residual } from '../../src/thermal/data';
-import { type OpenPage, closeBrowser, haveWritten, openFromDisk, share, written } from './browser';
+import { closeBrowser, haveWritten, openFromDisk, share, written } from './browser';
+import { openWritten } from './written';
 
 afterAll(closeBrowser);
 
-describe('what is left of a displacement', () => {
+describe('what corrections leave of a displacement', () => {
   it('jumps where a correction is made, and has both values there', () => {
     const left = residual({
       axis: 'Z',
@@ -24,7 +25,7 @@ describe('what is left of a displacement', () => {
 });
 
 describe('a curve over time', () => {
-  it('has a hole where time has passed that is not recorded', () => {
+  it('has a hole wherever the log has one', () => {
     const curve = broken([0, 1, 2, 50, 51], [1, 2, null, 4, 5]);
     expect(curve.t).toEqual([0, 1, 2, 50, 50, 51]);
     expect(curve.v).toEqual([1, 2, null, null, 4, 5]);
@@ -33,23 +34,10 @@ describe('a curve over time', () => {
 
 const WITHOUT = '#b4501e';
 const WITH = '#1b6aa5';
-const FOLDERS: Record<string, string> = { forecast: 'forecast', plan: 'thermal-plan', batch: 'batch/batch', fit: 'thermal-fit', replay: 'replay' };
+const FOLDERS = { forecast: 'forecast', plan: 'thermal-plan', batch: 'batch/batch', fit: 'thermal-fit', replay: 'replay' };
 
 describe.runIf(haveWritten)('the pages of the thermal verbs', () => {
-  const opened = new Map<string, { open: OpenPage; page: Page }>();
-  const at = <T extends Page>(name: string): { open: OpenPage; page: T } => opened.get(name) as { open: OpenPage; page: T };
-
-  beforeAll(async () => {
-    for (const [name, folder] of Object.entries(FOLDERS)) {
-      const { html, data } = written<Page>(folder);
-      opened.set(name, { open: await openFromDisk(html), page: data });
-    }
-  });
-  afterAll(async () => {
-    for (const { open } of opened.values()) {
-      await open.close();
-    }
-  });
+  const at = openWritten<Page>(FOLDERS);
 
   it('show both curves of the plan, and its figures', async () => {
     const { open, page } = at<PlanPage>('plan');
@@ -79,7 +67,7 @@ describe.runIf(haveWritten)('the pages of the thermal verbs', () => {
     known.courses.forEach((c) => (c.sd_um = c.t_min.map((t) => t / 100)));
     const html = written('forecast').html.replace(/(<script id="report-data"[^>]*>)[^<]*/, (_, head: string) => head + JSON.stringify(known));
     const other = await openFromDisk(html);
-    expect(await other.page.textContent('#verdict')).toMatch(/95 % of the errors at the end are within ±5.9 µm/);
+    expect(await other.page.textContent('#verdict')).toMatch(/95 % of the errors at the end are within ±5.9\sµm/);
     expect(await other.page.textContent('#key-course-0')).toContain('95 %');
     await other.close();
   });
@@ -88,7 +76,7 @@ describe.runIf(haveWritten)('the pages of the thermal verbs', () => {
     const { open, page } = at<FitPage>('fit');
     const axis = page.axes[0] as FitPage['axes'][number];
     const over = axis.over[0] as (typeof axis.over)[number];
-    expect(await open.page.textContent('#told-0')).toContain(`${fixed(over.spread_um, 1)} µm`);
+    expect(await open.page.textContent('#told-0')).toContain(um(over.spread_um));
     expect(await open.page.textContent('#verdict')).toContain(fixed(page.answer.axes[0]?.rms_um, 2));
     expect(await open.page.locator('#figures tbody tr').count()).toBe(1);
     expect(axis.t_h.length).toBe(axis.modelled_um.length);
@@ -115,10 +103,10 @@ describe.runIf(haveWritten)('the pages of the thermal verbs', () => {
     two.axes[0]?.over.push({ correlation: -0.25, mean_c: 33, mean_um: 10, slope_um_k: -1, residual_rms_um: 4.5, spread_um: 12.5, spread_at_c: 33, spread_from_um: 5 });
     const html = written('thermal-fit').html.replace(/(<script id="report-data"[^>]*>)[^<]*/, (_, head: string) => head + JSON.stringify(two));
     const other = await openFromDisk(html);
-    expect(await other.page.textContent('#told-0')).not.toContain('12.5 µm');
+    expect(await other.page.textContent('#told-0')).not.toContain(um(12.5));
     const before = await other.page.locator('#over-0 canvas').screenshot();
     await other.page.selectOption('#sensor-0', '1');
-    expect(await other.page.textContent('#told-0')).toContain('12.5 µm');
+    expect(await other.page.textContent('#told-0')).toContain(um(12.5));
     expect((await other.page.locator('#over-0 canvas').screenshot()).equals(before)).toBe(false);
     expect(other.complaints).toEqual([]);
     await other.close();
@@ -138,7 +126,7 @@ describe.runIf(haveWritten)('the pages of the thermal verbs', () => {
     const { open, page } = at<BatchPage>('batch');
     const verdict = (await open.page.textContent('#verdict')) ?? '';
     expect(verdict).toContain(`${fixed(page.answer.online.improvement, 1)} times`);
-    expect(verdict).toContain('no part is worse');
+    expect(verdict).toContain('No part gets worse');
     expect(await share(open, 'day', WITHOUT)).toBeGreaterThan(0.0005);
     expect(await share(open, 'day', WITH)).toBeGreaterThan(0.0005);
   });

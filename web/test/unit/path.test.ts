@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import { NOT_CUTTING, NearestSample, boundingBox, polylinesByClass } from '../../src/cut/path';
-import { classOf, errorClasses, niceAbove } from '../../src/cut/scale';
+import { classOf, errorClasses } from '../../src/cut/scale';
+import { niceAbove } from '../../src/plot/axes';
 import { withEqualAspect } from '../../src/plot/equal_aspect';
 import { emptyReport, makeReport } from '../fixture';
 

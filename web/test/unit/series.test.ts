@@ -39,13 +39,18 @@ describe('thinning', () => {
 });
 
 describe('the data element', () => {
-  const parse = (text: string) => parsePage(text, ['steadyrest-report/1']);
-  it('gives the report', () => expect(parse(JSON.stringify(makeReport(50)))).toMatchObject({ limit_um: 10 }));
+  const parse = (text: string) => parsePage(text, { 'steadyrest-report/1': 'a report', 'steadyrest-chatter/1': { lobes: 'lobes' } });
+  it('gives the report', () => expect(parse(JSON.stringify(makeReport(50)))).toMatchObject({ head: { limit_um: 10 }, value: 'a report' }));
+  it('is told apart by schema and kind', () => expect(parse('{"schema":"steadyrest-chatter/1","kind":"lobes"}')).toMatchObject({ value: 'lobes' }));
   it('is refused with a sentence when it is empty, broken or of another kind', () => {
     expect(parse('"@MARK@"')).toContain('no data');
     expect(parse('{')).toContain('not valid JSON');
     expect(parse('{"schema":"other/2"}')).toContain('other/2');
     expect(parse('{"schema":"<img src=x>"}')).not.toContain('<');
+    for (const kind of ['nothing', 'constructor', 7]) {
+      expect(parse(JSON.stringify({ schema: 'steadyrest-chatter/1', kind }))).toContain(`Its data is steadyrest-chatter/1, ${kind}.`);
+    }
+    expect(parse('{"schema":"constructor"}')).toContain('constructor');
   });
 });
 

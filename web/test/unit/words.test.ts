@@ -28,7 +28,7 @@ describe('what a verb said', () => {
 
 describe('the vibration', () => {
   it('is in the verdict where a cut was simulated', () => {
-    expect(vibrationVerdict(vibration(236, 0), vibration(31.25, 0))).toBe('The tool vibrates by up to 31.3 µm instead of 236.0 µm.');
+    expect(vibrationVerdict(vibration(236, 0), vibration(31.25, 0))).toBe('The tool vibrates by up to 31.3\u00a0µm instead of 236.0\u00a0µm.');
     expect(vibrationVerdict(undefined, undefined)).toBe('');
   });
   it('tells of the wall only where the tool can move across it', () => {
@@ -37,25 +37,25 @@ describe('the vibration', () => {
   });
 });
 
-describe('an axis that stands', () => {
-  it('is not finer nought times', () => {
-    const stands = { axis: 'Y', velocity_rms_mm_s: 2e-6, acceleration_rms_mm_s2: 1e-5, difference_velocity_rms_mm_s: 0, difference_acceleration_rms_mm_s2: 0, velocity_coverage_ratio: 1, acceleration_coverage_ratio: 1 };
-    expect(motionRows([stands]).map((r) => r.finer)).toEqual(['–', '–']);
+describe('an axis at rest', () => {
+  it('has nothing to improve on', () => {
+    const atRest = { axis: 'Y', velocity_rms_mm_s: 2e-6, acceleration_rms_mm_s2: 1e-5, difference_velocity_rms_mm_s: 0, difference_acceleration_rms_mm_s2: 0, velocity_coverage_ratio: 1, acceleration_coverage_ratio: 1 };
+    expect(motionRows([atRest]).map((r) => r.finer)).toEqual(['–', '–']);
   });
 });
 
 describe('a plan without a choice', () => {
   const of = (more: Partial<PlanPage['answer']>) => nothing({ depth_mm: 4, likely_depth_mm: null, helping_override_percent: null, ...more } as PlanPage['answer']);
   it('says what would be stable, but never that 0 mm is', () => {
-    expect(of({ likely_depth_mm: 1.5625 })).toBe('No override step and no speed law keeps 4 mm stable. Up to 1.56 mm is likely to be.');
-    expect(of({ likely_depth_mm: 0 })).toBe('No override step and no speed law keeps 4 mm stable.');
+    expect(of({ likely_depth_mm: 1.5625 })).toBe('No override step and no speed law keeps 4\u00a0mm stable. Up to 1.56\u00a0mm is likely to be stable.');
+    expect(of({ likely_depth_mm: 0 })).toBe('No override step and no speed law keeps 4\u00a0mm stable.');
   });
-  it('names the step that helps where laws alone were asked for', () => {
-    expect(of({ helping_override_percent: 105, likely_depth_mm: 0 })).toBe('No speed law keeps 4 mm stable; a constant override of 105 % would.');
+  it('names the step that helps although only laws were asked for', () => {
+    expect(of({ helping_override_percent: 105, likely_depth_mm: 0 })).toBe('No speed law keeps 4\u00a0mm stable; a constant override of 105\u00a0% does.');
   });
 });
 
-describe('a stretch of the work', () => {
+describe('the length of a transition', () => {
   it('is in seconds when it is short', () => {
     expect([0.0033333, 0.08333, 7.0782, 60, undefined].map(duration)).toEqual(['0.2 s', '5 s', '7.08 min', '60 min', '– min']);
   });

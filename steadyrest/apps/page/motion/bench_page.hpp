@@ -45,7 +45,7 @@ struct PageData {
 [[nodiscard]] kernel::outcome::Result<PageData> page_data(
     motion::offline::Benchmark benchmark, std::vector<motion::offline::RequirementRow> requirement);
 
-/// Schema: web/src/bench/data.ts.
+/// Schema: web/src/motion/data.ts.
 [[nodiscard]] Json to_page(const PageData& data);
 
 }  // namespace steadyrest::apps::page

@@ -55,7 +55,7 @@ struct EstimatePage {
   double count_mm = 0.0;
 };
 
-/// The page of `motion estimate`. Schema: web/src/motion/estimate.ts.
+/// The page of `motion estimate`. Schema: web/src/motion/data.ts.
 [[nodiscard]] Json estimate_page(const Json& answer, const EstimatePage& page,
                                  const EstimateCourse& course);
 

@@ -1,8 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page of `motion bench` holds; steadyrest/apps/motion_bench/bench_json.cpp is its source.
-
+// What the pages of the motion verbs hold. Their source is steadyrest/apps/page/motion.
 import type { Head, Maybe } from '../frame/data';
 
+/** The lowest and highest value and the widest bound of each stretch of ticks; null: none. */
+export interface Course {
+  low: Maybe[];
+  high: Maybe[];
+  bound: Maybe[];
+}
+
+export interface EstimatePage extends Head {
+  kind: 'estimate';
+  log: string;
+  count_mm: number;
+  answer: {
+    estimator: string;
+    ticks: number;
+    edges: number;
+    rows: number;
+    clock_s: number;
+    lag_s: number;
+    jumps: number;
+    /** How many findings, including those left out of `findings`. */
+    reports: number;
+    findings: { line: number; what: string; to_do: string }[];
+    /** The log was read to its end. */
+    complete: boolean;
+    /** If the log is of cycles. */
+    cycle: { mean_s: number; jitter_rms_s: number; missed_cycles: number; gaps: number } | null;
+  };
+  /** Ticks in one stretch. */
+  ticks_each: number;
+  t_s: number[];
+  position_mm: Course;
+  velocity_mm_s: Course;
+  acceleration_mm_s2: Course;
+}
+
+/** Of one estimator in one scene. */
 export interface Figures {
   rms: Maybe;
   max: Maybe;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page that `steadyrest motion bench` wrote, in a real browser, opened from disk.
+// The pages that the motion verbs wrote, in a real browser, opened from disk.
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { type Bench, scenes } from '../../src/bench/data';
+import { type Bench, scenes } from '../../src/motion/data';
 import { digits, short } from '../../src/frame/numbers';
 import { type OpenPage, closeBrowser, haveWritten, openFromDisk, writtenHtml } from './browser';
 
