@@ -91,13 +91,6 @@ steadyrest_headers(steadyrest_test_headers_not_hot HEADERS ${test_headers} ${tex
 steadyrest_headers(steadyrest_program_headers HEADERS <CLI/CLI.hpp> ${text_headers}
   DEPENDS CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json OPTIONS ${steadyrest_not_hot_options})
 
-# Code of the program itself, which is not hot.
-function(steadyrest_program_code target)
-  steadyrest_not_hot(${target})
-  target_compile_options(${target} PRIVATE "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:${steadyrest_pch_false_positives}>")
-  target_precompile_headers(${target} REUSE_FROM steadyrest_program_headers)
-endfunction()
-
 # All test executables of the label `threads`: what ThreadSanitizer is worth building for.
 add_custom_target(threads_tests)
 
@@ -116,6 +109,7 @@ function(steadyrest_test)
   target_compile_options(${target} PRIVATE "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:${steadyrest_pch_false_positives}>")
   if(T_NOT_HOT)
     steadyrest_not_hot(${target})
+    target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
     target_precompile_headers(${target} REUSE_FROM steadyrest_test_headers_not_hot)
   else()
     target_precompile_headers(${target} REUSE_FROM steadyrest_test_headers)
