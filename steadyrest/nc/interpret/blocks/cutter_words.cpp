@@ -14,12 +14,12 @@ namespace {
 constexpr std::string_view kForbidden = "cutter_comp_on";
 
 constexpr bool is_probe(int motion) noexcept {
-  return motion >= 382 && motion <= 385;
+  return motion >= g::kProbeOrFail && motion <= g::kProbeAway;
 }
 
 /// G10 L2 or L20 for the work offset in force.
 bool sets_active_offset(const Step& step, const State& state) noexcept {
-  return step.code(GGroup::non_modal) == 100 && step.has('L') &&
+  return step.code(GGroup::non_modal) == g::kSetData && step.has('L') &&
          (step['L'] == 2.0 || step['L'] == 20.0) && step.has('P') &&
          (step['P'] == 0.0 || step['P'] == static_cast<double>(state.active_offset + 1));
 }
@@ -31,7 +31,7 @@ bool sets_active_offset(const Step& step, const State& state) noexcept {
 bool Interpreter::check_cutter(const Step& step) {
   const int code = step.code(GGroup::cutter);
   const bool before = state_.cutter_side != 0;
-  const bool behind = code == 400 ? false : code != kNoCode || before;
+  const bool behind = code == g::kCutterOff ? false : code != kNoCode || before;
   return (!before || cutter_permits_what_comes_before(step)) &&
          (!behind || cutter_permits_what_comes_behind(step));
 }
@@ -41,13 +41,13 @@ bool Interpreter::cutter_permits_what_comes_before(const Step& step) {
   const auto forbid = [&](char letter, int word, std::string_view what) {
     return refuse_code(step, letter, word, kForbidden, what);
   };
-  if (code > 400) {
+  if (code > g::kCutterOff) {
     return forbid('G', code / 10, "cutter radius compensation while it is on already");
   }
   const int io = step.code(MGroup::io);
   const int override_switch = step.code(MGroup::override_switch);
   const int plane = step.code(GGroup::plane);
-  if (step.code(MGroup::tool_change) == 6) {
+  if (step.code(MGroup::tool_change) == m::kToolChange) {
     return forbid('M', 6, "a tool change while cutter radius compensation is on");
   }
   if (io != kNoCode) {
@@ -57,9 +57,9 @@ bool Interpreter::cutter_permits_what_comes_before(const Step& step) {
     return forbid('M', override_switch,
                   "an override switch while cutter radius compensation is on");
   }
-  if (plane != kNoCode && (plane == 170   ? Plane::xy
-                           : plane == 180 ? Plane::zx
-                                          : Plane::yz) != state_.plane) {
+  if (plane != kNoCode && (plane == g::kPlaneXy   ? Plane::xy
+                           : plane == g::kPlaneZx ? Plane::zx
+                                                  : Plane::yz) != state_.plane) {
     return forbid('G', plane / 10, "another plane while cutter radius compensation is on");
   }
   return true;
@@ -76,8 +76,9 @@ bool Interpreter::cutter_permits_what_comes_behind(const Step& step) {
   const int length = step.code(GGroup::tool_length);
   const int path = step.code(GGroup::path_mode);
   const int retract = step.code(GGroup::retract);
-  const bool clears = (non_modal == 921 || non_modal == 922) && state_.g92 != Axes{};
-  const bool shifts = clears || (non_modal == 923 && state_.g92 != state_.g92_stored);
+  const bool clears =
+      (non_modal == g::kForgetOrigin || non_modal == g::kOriginOff) && state_.g92 != Axes{};
+  const bool shifts = clears || (non_modal == g::kOriginOn && state_.g92 != state_.g92_stored);
   if (shifts) {  // the control takes it and goes on from another place
     return refuse_code(step, 'G', 92, "cutter_comp_shift",
                        "an axis offset that goes or comes while cutter radius compensation is on");
@@ -87,19 +88,21 @@ bool Interpreter::cutter_permits_what_comes_behind(const Step& step) {
       Rule{work != kNoCode, work, "a work offset while cutter radius compensation is on"},
       Rule{path != kNoCode, path, "a path mode while cutter radius compensation is on"},
       Rule{retract != kNoCode, retract, "a retract mode while cutter radius compensation is on"},
-      Rule{sets_active_offset(step, state_), 100,
+      Rule{sets_active_offset(step, state_), g::kSetData,
            "new data of the active work offset while cutter radius compensation is on"},
-      Rule{non_modal == 280 || non_modal == 281 || non_modal == 300 || non_modal == 301, non_modal,
-           "a reference point while cutter radius compensation is on"},
-      Rule{non_modal == 520 || non_modal == 920, non_modal,
+      Rule{non_modal == g::kHome || non_modal == g::kStoreHome || non_modal == g::kSecondHome ||
+               non_modal == g::kStoreSecondHome,
+           non_modal, "a reference point while cutter radius compensation is on"},
+      Rule{non_modal == g::kShift || non_modal == g::kSetOrigin, non_modal,
            "an axis offset while cutter radius compensation is on"},
       Rule{is_cycle(motion_now_), motion_now_,
            "a canned cycle while cutter radius compensation is on"},
       Rule{is_probe(motion_now_), motion_now_, "probing while cutter radius compensation is on"},
-      Rule{motion_now_ >= 50 && motion_now_ <= 53, motion_now_,
+      Rule{motion_now_ >= g::kCubicSpline && motion_now_ <= g::kSplineEnd, motion_now_,
            "a spline while cutter radius compensation is on"},
-      Rule{motion_now_ == 330 || motion_now_ == 331 || motion_now_ == 760, motion_now_,
-           "threading while cutter radius compensation is on"},
+      Rule{motion_now_ == g::kThread || motion_now_ == g::kRigidTap ||
+               motion_now_ == g::kThreadCycle,
+           motion_now_, "threading while cutter radius compensation is on"},
   };
   for (const Rule& rule : rules) {
     if (rule.broken) {
@@ -114,7 +117,7 @@ bool Interpreter::set_cutter(const Step& step) {
   if (code == kNoCode) {
     return true;
   }
-  if (code == 400) {
+  if (code == g::kCutterOff) {
     return end_cutter(step);
   }
   if (state_.plane == Plane::yz) {
@@ -158,9 +161,9 @@ bool Interpreter::end_cutter(const Step& step) {
 // G41.1 and G42.1 name the diameter; G41 and G42 a tool of the table, without D the one in the
 // spindle.
 bool Interpreter::cutter_tool(const Step& step, int code, CutterCompensation::Tool& tool) {
-  tool.side = code < 420 ? -1 : 1;
+  tool.side = code < g::kCutterRight ? -1 : 1;
   const bool turned = state_.plane == Plane::zx;
-  if (code == 411 || code == 421) {
+  if (code == g::kCutterLeftBy || code == g::kCutterRightBy) {
     if (!step.has('D')) {
       return refuse_code(step, 'G', code / 10, "word_missing",
                          "cutter radius compensation without the tool's diameter (D)");

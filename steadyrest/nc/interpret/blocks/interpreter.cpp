@@ -129,7 +129,7 @@ bool Interpreter::decode(const Block& block, Step& step) {
   if (!decode_linuxcnc(block, step)) {
     return false;
   }
-  step.machine_frame = step.code(GGroup::non_modal) == 530;
+  step.machine_frame = step.code(GGroup::non_modal) == g::kMachineFrame;
   return true;
 }
 
@@ -153,9 +153,9 @@ bool Interpreter::act(const Step& step) {
 bool Interpreter::set_feed(const Step& step) {
   const int mode = step.code(GGroup::feed_mode);
   if (mode != kNoCode) {
-    const FeedMode wanted = mode == 930   ? FeedMode::inverse_time
-                            : mode == 940 ? FeedMode::per_minute
-                                          : FeedMode::per_revolution;
+    const FeedMode wanted = mode == g::kInverseTime ? FeedMode::inverse_time
+                            : mode == g::kPerMinute ? FeedMode::per_minute
+                                                    : FeedMode::per_revolution;
     // LinuxCNC forgets the feed also when the mode was in force already.
     if (wanted != state_.feed_mode || config_.dialect == Dialect::linuxcnc) {
       state_.feed_mode = wanted;
@@ -186,13 +186,13 @@ bool Interpreter::set_feed(const Step& step) {
 
 bool Interpreter::set_spindle_speed(const Step& step) {
   const int mode = step.code(GGroup::spindle_mode);
-  if (mode == 960) {
+  if (mode == g::kCuttingSpeed) {
     if (!step.has('S')) {
       return refuse_code(step, 'G', 96, "speed_missing", "G96 without its cutting speed (S)");
     }
     state_.surface_speed = true;
     state_.spindle_limit_rev_s = step.has('D') ? std::abs(step['D']) / 60.0 : 0.0;
-  } else if (mode == 970) {
+  } else if (mode == g::kSpindleSpeed) {
     state_.surface_speed = false;
     state_.surface_speed_mm_s = 0.0;
     state_.spindle_limit_rev_s = 0.0;
@@ -250,7 +250,7 @@ bool Interpreter::change_tool(const Step& step) {
   if (code == kNoCode) {
     return true;
   }
-  if (code == 61) {
+  if (code == m::kToolInSpindle) {
     if (!step.has('Q') || step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0) {
       return refuse_code(step, 'M', 61, "tool_missing",
                          "M61 without the number of the tool in the spindle (Q)");
@@ -284,7 +284,7 @@ void Interpreter::load_tool() {
 bool Interpreter::set_spindle(const Step& step) {
   const int code = step.code(MGroup::spindle);
   if (code != kNoCode) {
-    state_.spindle_direction = code == 3 ? 1 : code == 4 ? -1 : 0;
+    state_.spindle_direction = code == m::kClockwise ? 1 : code == m::kCounterClockwise ? -1 : 0;
     emit_spindle();
   }
   return true;
@@ -296,7 +296,7 @@ void Interpreter::set_coolant(const Step& step) {
     return;
   }
   const auto bits = static_cast<unsigned>(state_.coolant);
-  const unsigned wanted = code == 9 ? 0U : code == 7 ? bits | 1U : bits | 2U;
+  const unsigned wanted = code == m::kCoolantOff ? 0U : code == m::kMist ? bits | 1U : bits | 2U;
   state_.coolant = static_cast<double>(wanted);
   emit_event(EventKind::coolant, state_.coolant);
 }
@@ -307,9 +307,9 @@ bool Interpreter::set_override(const Step& step) {
     return true;
   }
   const bool off = step.has('P') && step['P'] == 0.0;
-  if (code == 48 || code == 49) {
-    state_.override_off = code == 49;
-  } else if (code == 50) {
+  if (code == m::kOverridesOn || code == m::kOverridesOff) {
+    state_.override_off = code == m::kOverridesOff;
+  } else if (code == m::kFeedOverride) {
     state_.override_off = off;
   }
   // M51 rules the spindle override, M52 adaptive feed, M53 feed hold: no influence on the moves.
@@ -318,7 +318,7 @@ bool Interpreter::set_override(const Step& step) {
 
 bool Interpreter::stop(const Step& step) {
   const int code = step.code(MGroup::stopping);
-  if (code == 2 || code == 30) {
+  if (code == m::kEnd || code == m::kEndAndRewind) {
     if (!end_cutter(step)) {
       return false;
     }
@@ -329,7 +329,7 @@ bool Interpreter::stop(const Step& step) {
     if (fault != CutterCompensation::Fault::none) {
       return cutter_fault(step, fault);
     }
-    emit_event(EventKind::stop, code == 1 ? 1.0 : 0.0);
+    emit_event(EventKind::stop, code == m::kOptionalStop ? 1.0 : 0.0);
   }
   return true;
 }

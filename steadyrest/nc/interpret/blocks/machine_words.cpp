@@ -10,14 +10,14 @@ namespace steadyrest::nc::interpret {
 // only the machine knows.
 bool Interpreter::set_io(const Step& step) {
   const int code = step.code(MGroup::io);
-  if (code >= 62 && code <= 65 && !step.has('P')) {
+  if (code >= m::kOutputOnWithMove && code <= m::kOutputOff && !step.has('P')) {
     return refuse_code(step, 'M', code, "word_missing", "an output without its number (P)");
   }
-  if (code == 66 && step.has('P') == step.has('E')) {
+  if (code == m::kWaitForInput && step.has('P') == step.has('E')) {
     return refuse_code(step, 'M', code, "word_missing",
                        "M66 needs the number of one input: P (digital) or E (analog)");
   }
-  if ((code == 67 || code == 68) && !(step.has('E') && step.has('Q'))) {
+  if ((code == m::kAnalogWithMove || code == m::kAnalog) && !(step.has('E') && step.has('Q'))) {
     return refuse_code(step, 'M', code, "word_missing",
                        "an analog output without its number (E) or value (Q)");
   }
@@ -28,14 +28,14 @@ bool Interpreter::keep_modes(const Step& step) {
   const int code = step.code(MGroup::modes);
   KeptModes& kept = kept_.back();
   switch (code) {
-    case 70:
-    case 73:
-      kept = {.state = state_, .restores_itself = code == 73};
+    case m::kKeepModes:
+    case m::kKeepModesForCall:
+      kept = {.state = state_, .restores_itself = code == m::kKeepModesForCall};
       return true;
-    case 71:
+    case m::kForgetModes:
       kept = {};
       return true;
-    case 72:
+    case m::kRestoreModes:
       if (!kept.state) {
         return refuse_code(step, 'M', 72, "modes_not_kept",
                            "M72 where no modes are kept; M70 or M73 comes before, in the same "
@@ -103,8 +103,8 @@ bool Interpreter::call_program(const Step& step) {
   if (code == kNoCode) {
     return true;
   }
-  program_call_.kind = code == 98 ? ProgramCall::Kind::call : ProgramCall::Kind::end;
-  if (code == 99) {
+  program_call_.kind = code == m::kCall ? ProgramCall::Kind::call : ProgramCall::Kind::end;
+  if (code == m::kReturn) {
     return true;
   }
   if (!step.has('P') || step['P'] != std::floor(step['P']) || step['P'] < 0.0) {

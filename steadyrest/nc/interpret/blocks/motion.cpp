@@ -39,32 +39,33 @@ bool Interpreter::move(const Step& step) {
   if (motion == -1) {
     return true;
   }
-  if (motion == 800) {
-    state_.motion = 800;
+  if (motion == g::kCycleEnd) {
+    state_.motion = g::kCycleEnd;
     return true;
   }
   if (is_cycle(motion)) {
     return cycle(step);
   }
-  if (!spline_points_.empty() && motion != 52 && motion != 53) {
+  if (!spline_points_.empty() && motion != g::kSplinePoint && motion != g::kSplineEnd) {
     return refuse_code(step, 'G', motion / 10, "spline_words",
                        "another motion among the control points of G5.2; G5.3 ends them");
   }
-  if (motion >= 50 && motion <= 53) {
+  if (motion >= g::kCubicSpline && motion <= g::kSplineEnd) {
     return spline(step);
   }
   state_.motion = motion;
   cubic_goes_on_ = false;
-  if (motion == 330 || motion == 331) {
+  if (motion == g::kThread || motion == g::kRigidTap) {
     return thread(step);
   }
-  if (motion == 760) {
+  if (motion == g::kThreadCycle) {
     return thread_cycle(step);
   }
-  if (motion >= 382 && motion <= 385) {
+  if (motion >= g::kProbeOrFail && motion <= g::kProbeAway) {
     return probe(step);
   }
-  return motion == 20 || motion == 30 ? arc(step) : straight(step);
+  return motion == g::kArcClockwise || motion == g::kArcCounterClockwise ? arc(step)
+                                                                         : straight(step);
 }
 
 // LinuxCNC 2.9 takes the tool's offset off on its way to machine coordinates, but for A, B and C.
@@ -150,7 +151,7 @@ bool Interpreter::has_feed(const Step& step) {
 }
 
 bool Interpreter::straight(const Step& step) {
-  const bool cutting = motion_now_ == 10;
+  const bool cutting = motion_now_ == g::kLinear;
   if (cutting && !has_feed(step)) {
     return false;
   }
@@ -198,7 +199,7 @@ bool Interpreter::probe(const Step& step) {
     start[i] += (*beside_)[i];
   }
   const double distance = std::hypot(end[0] - start[0], end[1] - start[1], end[2] - start[2]);
-  const bool may_fail = motion_now_ == 383 || motion_now_ == 385;
+  const bool may_fail = motion_now_ == g::kProbe || motion_now_ == g::kProbeAway;
   if (!(distance > 0.0) && !may_fail) {
     return refuse_code(step, 'G', 38, "probe_too_short", "a probing move that goes nowhere");
   }
@@ -237,8 +238,8 @@ bool Interpreter::arc_centre(const Step& step, const PlaneAxes& axes, const Axes
   const PlanePoint stop{.first = end[axes.first], .second = end[axes.second]};
   const ArcTolerance tolerance = arc_tolerance(state_.unit_mm != 1.0);
   if (step.has('R')) {
-    const auto found =
-        centre_from_radius(start, stop, step['R'] * state_.unit_mm, motion_now_ == 20, tolerance);
+    const auto found = centre_from_radius(start, stop, step['R'] * state_.unit_mm,
+                                          motion_now_ == g::kArcClockwise, tolerance);
     if (!found) {
       return arc_fault(step, found.error());
     }
@@ -301,7 +302,7 @@ bool Interpreter::arc(const Step& step) {
   move_.centre_mm[axes.second] = centre.second;
   move_.normal = {};
   move_.normal[axes.normal] = 1.0;
-  move_.turns = static_cast<int>(motion_now_ == 20 ? -turns : turns);
+  move_.turns = static_cast<int>(motion_now_ == g::kArcClockwise ? -turns : turns);
   const PathMode mode = state_.path_mode;
   if (step.exact_stop) {
     state_.path_mode = PathMode::exact_stop;

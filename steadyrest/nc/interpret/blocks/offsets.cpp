@@ -8,17 +8,17 @@
 namespace steadyrest::nc::interpret {
 
 bool Interpreter::set_modes(const Step& step) {
-  if (step.code(GGroup::non_modal) == 40) {
+  if (step.code(GGroup::non_modal) == g::kDwell) {
     emit_dwell(step['P']);
   }
   const int plane = step.code(GGroup::plane);
   if (plane != kNoCode) {
-    state_.plane = plane == 170 ? Plane::xy : plane == 180 ? Plane::zx : Plane::yz;
+    state_.plane = plane == g::kPlaneXy ? Plane::xy : plane == g::kPlaneZx ? Plane::zx : Plane::yz;
   }
   set_units(step);
   const int diameter = step.code(GGroup::lathe_diameter);
   if (diameter != kNoCode) {
-    state_.diameter = diameter == 70;
+    state_.diameter = diameter == g::kDiameter;
   }
   if (!set_cutter(step) || !set_tool_length(step) || !set_work_offset(step) ||
       !set_path_mode(step)) {
@@ -26,15 +26,15 @@ bool Interpreter::set_modes(const Step& step) {
   }
   const int distance = step.code(GGroup::distance);
   if (distance != kNoCode) {
-    state_.incremental = distance == 910;
+    state_.incremental = distance == g::kIncremental;
   }
   const int centre = step.code(GGroup::arc_centre);
   if (centre != kNoCode) {
-    state_.centre_absolute = centre == 901;
+    state_.centre_absolute = centre == g::kCentreAbsolute;
   }
   const int retract = step.code(GGroup::retract);
   if (retract != kNoCode) {
-    state_.retract_to_initial = retract == 980;
+    state_.retract_to_initial = retract == g::kRetractToInitial;
   }
   return true;
 }
@@ -44,7 +44,7 @@ void Interpreter::set_units(const Step& step) {
   if (units == kNoCode) {
     return;
   }
-  state_.unit_mm = units == 200 ? kMmPerInch : 1.0;
+  state_.unit_mm = units == g::kInch ? kMmPerInch : 1.0;
   if (step.work_feed) {
     state_.feed_unit_mm = state_.unit_mm;
   }
@@ -92,10 +92,10 @@ void Interpreter::update_offset() noexcept {
 
 bool Interpreter::set_tool_length(const Step& step) {
   switch (step.code(GGroup::tool_length)) {
-    case 430:
-    case 432: {
+    case g::kToolLength:
+    case g::kAddToolLength: {
       std::int32_t number = state_.tool_in_spindle;
-      if (step.code(GGroup::tool_length) == 432 && !step.has('H')) {
+      if (step.code(GGroup::tool_length) == g::kAddToolLength && !step.has('H')) {
         return refuse_code(step, 'G', 43, "tool_missing", "G43.2 without the tool's number (H)");
       }
       if (step.has('H') && !tool_number(step, 'H', number)) {
@@ -103,19 +103,20 @@ bool Interpreter::set_tool_length(const Step& step) {
       }
       const Tool* const tool = find_tool(number);
       for (std::size_t i = 0; tool != nullptr && i < tool->offset.size(); ++i) {
-        const double base = step.code(GGroup::tool_length) == 432 ? state_.tool_offset[i] : 0.0;
+        const double base =
+            step.code(GGroup::tool_length) == g::kAddToolLength ? state_.tool_offset[i] : 0.0;
         state_.tool_offset[i] = base + tool->offset[i];
       }
       break;
     }
-    case 431:
+    case g::kToolLengthByWords:
       for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
         if (step.has(kAxisLetters[i])) {
           state_.tool_offset[i] = component(step, i);
         }
       }
       break;
-    case 490:
+    case g::kToolLengthOff:
       state_.tool_offset = {};
       break;
     default:
@@ -136,8 +137,8 @@ bool Interpreter::set_work_offset(const Step& step) {
   if (step.zero_offset) {
     state_.work_offset_on = false;
   } else if (code != kNoCode) {
-    const auto active =
-        static_cast<std::size_t>(code <= 590 ? (code - 540) / 10 : 5 + (code - 590));
+    const auto active = static_cast<std::size_t>(
+        code <= g::kWorkOffset6 ? (code - g::kWorkOffset1) / 10 : 5 + (code - g::kWorkOffset6));
     // LinuxCNC goes on with what it has when the system is in force already, although a program may
     // have set its numbers (#5221 …) anew.
     if (active != state_.active_offset || !state_.work_offset_on) {
@@ -158,15 +159,15 @@ bool Interpreter::set_path_mode(const Step& step) {
     rounding_mm_ = step.rounding_mm;
   }
   switch (step.code(GGroup::path_mode)) {
-    case 610:
+    case g::kExactPath:
       state_.path_mode = PathMode::exact_path;
       state_.path_tolerance_mm = 0.0;
       break;
-    case 611:
+    case g::kExactStop:
       state_.path_mode = PathMode::exact_stop;
       state_.path_tolerance_mm = 0.0;
       break;
-    case 640:
+    case g::kContinuous:
       state_.path_mode = PathMode::continuous;
       // A negative P means "none given" on LinuxCNC.
       state_.path_tolerance_mm =
@@ -184,21 +185,21 @@ bool Interpreter::set_path_mode(const Step& step) {
 bool Interpreter::non_modal(const Step& step) {
   const int code = step.code(GGroup::non_modal);
   switch (code) {
-    case 100:
+    case g::kSetData:
       return set_data(step);
-    case 280:
-    case 300:
-      return home(step, code == 280 ? 0 : 1);
-    case 281:
-    case 301: {
-      state_.home[code == 281 ? 0 : 1] = to_machine(state_.position);
+    case g::kHome:
+    case g::kSecondHome:
+      return home(step, code == g::kHome ? 0 : 1);
+    case g::kStoreHome:
+    case g::kStoreSecondHome: {
+      state_.home[code == g::kStoreHome ? 0 : 1] = to_machine(state_.position);
       return true;
     }
-    case 520:
-    case 920:
-    case 921:
-    case 922:
-    case 923:
+    case g::kShift:
+    case g::kSetOrigin:
+    case g::kForgetOrigin:
+    case g::kOriginOff:
+    case g::kOriginOn:
       return set_g92(step, code);
     default:
       return true;
@@ -207,16 +208,16 @@ bool Interpreter::non_modal(const Step& step) {
 
 bool Interpreter::set_g92(const Step& step, int code) {
   switch (code) {
-    case 921:
+    case g::kForgetOrigin:
       state_.g92 = {};
       state_.g92_stored = {};
       state_.g92_on = false;
       break;
-    case 922:
+    case g::kOriginOff:
       state_.g92 = {};
       state_.g92_on = false;
       break;
-    case 923:
+    case g::kOriginOn:
       state_.g92 = state_.g92_stored;
       state_.g92_on = true;
       break;
@@ -224,12 +225,12 @@ bool Interpreter::set_g92(const Step& step, int code) {
       for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
         if (step.has(kAxisLetters[i])) {
           const double value = component(step, i);
-          state_.g92[i] = code == 520 ? value : state_.g92[i] + state_.position[i] - value;
+          state_.g92[i] = code == g::kShift ? value : state_.g92[i] + state_.position[i] - value;
         }
       }
       state_.g92_stored = state_.g92;
       state_.g92_on = true;
-      (code == 520 ? state_.g52_used : state_.g92_used) = true;
+      (code == g::kShift ? state_.g52_used : state_.g92_used) = true;
       break;
   }
   update_offset();

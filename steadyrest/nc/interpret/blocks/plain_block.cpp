@@ -17,7 +17,8 @@ constexpr std::uint32_t kRotaryAxes = 0b111000;  // in Axes
 bool Interpreter::is_plain(const Step& step) const noexcept {
   const int motion = step.code(GGroup::motion);
   const int now = motion != kNoCode ? motion : state_.motion;
-  return !step.others && config_.dialect == read::Dialect::linuxcnc && (now == 0 || now == 10) &&
+  return !step.others && config_.dialect == read::Dialect::linuxcnc &&
+         (now == g::kRapid || now == g::kLinear) &&
          (motion != kNoCode || (step.mask & kAxisMask) != 0) && state_.cutter_side == 0 &&
          !cutter_->active() && spline_points_.empty();
 }
@@ -54,7 +55,7 @@ bool Interpreter::execute_plain(const Step& step, bool filled) {
   }
   state_.motion = motion_now_;
   cubic_goes_on_ = false;
-  const bool cutting = motion_now_ == 10;
+  const bool cutting = motion_now_ == g::kLinear;
   const bool fed = state_.feed_mode == FeedMode::per_minute && state_.feed_mm_s > 0.0;
   if (cutting && !fed && !has_feed(step)) {
     return false;

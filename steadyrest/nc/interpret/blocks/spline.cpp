@@ -9,17 +9,13 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
-constexpr int kCubic = 50;
-constexpr int kQuadratic = 51;
-constexpr int kPoints = 52;
-constexpr int kEnd = 53;
 constexpr std::size_t kMostPoints = 10'000;
 
 }  // namespace
 
 bool Interpreter::spline(const Step& step) {
   const int code = motion_now_;
-  if (state_.plane != Plane::xy && (code == kCubic || code == kQuadratic)) {
+  if (state_.plane != Plane::xy && (code == g::kCubicSpline || code == g::kQuadraticSpline)) {
     return refuse_code(step, 'G', 5, "spline_off_xy", "a spline outside of the XY plane (G17)");
   }
   for (const char letter : std::string_view{"ZABCUVW"}) {
@@ -27,7 +23,7 @@ bool Interpreter::spline(const Step& step) {
       return refuse(step, letter, "axis_in_spline", "a spline moves X and Y alone");
     }
   }
-  if (code == kEnd) {
+  if (code == g::kSplineEnd) {
     return end_spline(step);
   }
   if (state_.feed_mode == FeedMode::inverse_time) {
@@ -37,7 +33,9 @@ bool Interpreter::spline(const Step& step) {
   if (!has_feed(step)) {
     return false;
   }
-  return code == kCubic ? cubic(step) : code == kQuadratic ? quadratic(step) : control_point(step);
+  return code == g::kCubicSpline       ? cubic(step)
+         : code == g::kQuadraticSpline ? quadratic(step)
+                                       : control_point(step);
 }
 
 bool Interpreter::cubic(const Step& step) {
@@ -111,7 +109,7 @@ bool Interpreter::control_point(const Step& step) {
     }
     spline_points_.push_back({state_.position[0], state_.position[1], step['P']});
     spline_end_ = state_.position;
-    state_.motion = kPoints;
+    state_.motion = g::kSplinePoint;
     cubic_goes_on_ = false;
   } else if (step.has('L')) {
     return refuse(step, 'L', "spline_words", "the order (L) stands in the first block of a spline");

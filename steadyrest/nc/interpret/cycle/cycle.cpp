@@ -40,10 +40,11 @@ bool Interpreter::remember_cycle(const Step& step) {
   };
   const PlaneAxes axes = axes_of(state_.plane);
   const int code = motion_now_;
-  const bool pecks = code == 730 || code == 830;
-  const bool dwells = code == 820 || code == 860 || code == 880 || code == 890;
-  const bool taps = code == 840 || code == 740;
-  const bool back = code == 870;
+  const bool pecks = code == g::kBreakChips || code == g::kPeck;
+  const bool dwells = code == g::kDrillDwell || code == g::kBoreStopOut ||
+                      code == g::kBoreHandOut || code == g::kBoreDwell;
+  const bool taps = code == g::kTapRight || code == g::kTapLeft;
+  const bool back = code == g::kBackBore;
   if (fresh && (taps || fanuc)) {
     memory.dwell_s = 0.0;
   }
@@ -105,7 +106,7 @@ bool Interpreter::measure_hole(const Step& step, Hole& hole) {
   const double high = std::max(hole.initial_mm, hole.retract_mm);
   hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
   const double depth = hole.retract_mm - hole.bottom_mm;
-  const bool pecks = motion_now_ == 730 || motion_now_ == 830;
+  const bool pecks = motion_now_ == g::kBreakChips || motion_now_ == g::kPeck;
   const double moves = repeats_of(step) * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
   if (!(moves <= kMostMoves)) {
     return refuse(step, step.has('L') ? 'L' : 'Q', "out_of_range",
@@ -174,30 +175,30 @@ bool Interpreter::cycle(const Step& step) {
 bool Interpreter::drill(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
   switch (motion_now_) {
-    case 730:
-    case 830:
+    case g::kBreakChips:
+    case g::kPeck:
       return peck(step, hole);
-    case 740:
-    case 840:
+    case g::kTapLeft:
+    case g::kTapRight:
       return tap(step, hole);
-    case 860:
-    case 880:
+    case g::kBoreStopOut:
+    case g::kBoreHandOut:
       return bore(step, hole);
-    case 870:
+    case g::kBackBore:
       return back_bore(step, hole);
-    case 850:
+    case g::kBoreFeedOut:
       emit_normal(MoveKind::linear, normal, hole.bottom_mm);
       emit_normal(MoveKind::linear, normal, hole.retract_mm);
       emit_normal(MoveKind::rapid, normal, hole.clear_mm);
       return true;
-    case 890:
+    case g::kBoreDwell:
       emit_normal(MoveKind::linear, normal, hole.bottom_mm);
       emit_dwell(state_.cycle.dwell_s);
       emit_normal(MoveKind::linear, normal, hole.clear_mm);
       return true;
     default:  // G81, G82
       emit_normal(MoveKind::linear, normal, hole.bottom_mm);
-      if (motion_now_ == 820) {
+      if (motion_now_ == g::kDrillDwell) {
         emit_dwell(state_.cycle.dwell_s);
       }
       emit_normal(MoveKind::rapid, normal, hole.clear_mm);
@@ -216,7 +217,7 @@ bool Interpreter::peck(const Step& step, const Hole& hole) {
   }
   for (double depth = hole.retract_mm - peck_mm; depth > hole.bottom_mm; depth -= peck_mm) {
     emit_normal(MoveKind::linear, normal, depth);
-    if (motion_now_ == 830) {
+    if (motion_now_ == g::kPeck) {
       emit_normal(MoveKind::rapid, normal, hole.retract_mm);
     }
     emit_normal(MoveKind::rapid, normal, depth + kPeckClearance_mm);
@@ -227,7 +228,7 @@ bool Interpreter::peck(const Step& step, const Hole& hole) {
 }
 
 bool Interpreter::tap(const Step& step, const Hole& hole) {
-  const int into = motion_now_ == 840 ? 1 : -1;
+  const int into = motion_now_ == g::kTapRight ? 1 : -1;
   if (state_.spindle_direction != into) {
     return refuse_code(step, 'G', motion_now_ / 10, "spindle_direction",
                        into > 0 ? "right-hand tapping needs the spindle turning clockwise (M3)"
@@ -264,7 +265,7 @@ bool Interpreter::bore(const Step& step, const Hole& hole) {
   emit_dwell(state_.cycle.dwell_s);
   state_.spindle_direction = 0;
   emit_spindle();
-  if (motion_now_ == 880) {
+  if (motion_now_ == g::kBoreHandOut) {
     emit_event(EventKind::stop, 0.0);
     state_.position[hole.axes.normal] = hole.clear_mm;  // by hand: no move of the program
   } else {

@@ -46,7 +46,7 @@ bool Interpreter::thread(const Step& step) {
     return false;
   }
   const double pitch_mm = step['K'] * state_.unit_mm;
-  if (motion_now_ == 330) {
+  if (motion_now_ == g::kThread) {
     emit_thread(end, pitch_mm);
     return true;
   }

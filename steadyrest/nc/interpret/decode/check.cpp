@@ -11,11 +11,11 @@ namespace steadyrest::nc::interpret {
 namespace {
 
 constexpr bool uses_axes(int non_modal) noexcept {
-  return non_modal == 100 || non_modal == 280 || non_modal == 300 || non_modal == 520 ||
-         non_modal == 920;
+  return non_modal == g::kSetData || non_modal == g::kHome || non_modal == g::kSecondHome ||
+         non_modal == g::kShift || non_modal == g::kSetOrigin;
 }
 constexpr bool is_arc(int code) noexcept {
-  return code == 20 || code == 30;
+  return code == g::kArcClockwise || code == g::kArcCounterClockwise;
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ bool Interpreter::choose_motion(const Step& step) {
   const bool axes_taken = uses_axes(non_modal);
   motion_now_ = -1;
   if (motion != kNoCode) {
-    if (motion == 800) {
+    if (motion == g::kCycleEnd) {
       if (axis_words && !axes_taken) {
         return refuse_code(step, 'G', 80, "axis_words_with_g80",
                            "axis words in a block whose G80 ends motion");
@@ -36,8 +36,9 @@ bool Interpreter::choose_motion(const Step& step) {
     } else if (axes_taken) {
       return refuse_code(step, 'G', motion / 10, "two_users_of_axis_words",
                          "two G words in one block that both use the axis words");
-    } else if (!axis_words && (is_cycle(motion) || motion == 330 || motion == 331 ||
-                               motion == 760 || motion == 50 || motion == 51)) {
+    } else if (!axis_words && (is_cycle(motion) || motion == g::kThread || motion == g::kRigidTap ||
+                               motion == g::kThreadCycle || motion == g::kCubicSpline ||
+                               motion == g::kQuadraticSpline)) {
       return refuse_code(step, 'G', motion / 10, "axis_words_missing",
                          "a motion without any axis word");
     }
@@ -45,15 +46,15 @@ bool Interpreter::choose_motion(const Step& step) {
     return true;
   }
   if (axes_taken) {
-    if (!axis_words && (non_modal == 520 || non_modal == 920)) {
+    if (!axis_words && (non_modal == g::kShift || non_modal == g::kSetOrigin)) {
       return refuse_code(step, 'G', non_modal / 10, "axis_words_missing",
                          "an offset without any axis word");
     }
     return true;
   }
-  const bool tool_length_takes = step.code(GGroup::tool_length) == 431;
+  const bool tool_length_takes = step.code(GGroup::tool_length) == g::kToolLengthByWords;
   if (axis_words && !tool_length_takes) {
-    if (state_.motion == -1 || state_.motion == 800) {
+    if (state_.motion == -1 || state_.motion == g::kCycleEnd) {
       for (const char letter : kAxisLetters) {
         if (step.has(letter)) {
           return refuse(step, letter, "no_motion_mode",
@@ -63,7 +64,8 @@ bool Interpreter::choose_motion(const Step& step) {
     }
     motion_now_ = state_.motion;
   }
-  if (!axis_words && (step.mask & kCentreMask) != 0 && is_arc(state_.motion) && non_modal != 100) {
+  if (!axis_words && (step.mask & kCentreMask) != 0 && is_arc(state_.motion) &&
+      non_modal != g::kSetData) {
     motion_now_ = state_.motion;
   }
   return true;
@@ -103,14 +105,14 @@ bool Interpreter::check_values(const Step& step) {
 
 bool Interpreter::check_non_modal(const Step& step) {
   const int non_modal = step.code(GGroup::non_modal);
-  if (non_modal == 40 && !(step.has('P') && step['P'] >= 0.0)) {
+  if (non_modal == g::kDwell && !(step.has('P') && step['P'] >= 0.0)) {
     return refuse_code(step, 'G', 4, "dwell_missing", "a dwell without its time (P from 0)");
   }
-  if (non_modal == 40 && step['P'] > 1e6) {
+  if (non_modal == g::kDwell && step['P'] > 1e6) {
     return refuse(step, 'P', "out_of_range", "a dwell of more than 1000000 s");
   }
   if (step.machine_frame) {
-    const bool straight = motion_now_ == 0 || motion_now_ == 10;
+    const bool straight = motion_now_ == g::kRapid || motion_now_ == g::kLinear;
     const bool lone = config_.dialect == read::Dialect::sinumerik && (step.mask & kAxisMask) == 0 &&
                       step.code(GGroup::motion) == kNoCode;
     if (!straight && !lone) {
@@ -118,7 +120,8 @@ bool Interpreter::check_non_modal(const Step& step) {
                          "machine coordinates need G0 or G1 in force");
     }
     const int distance = step.code(GGroup::distance);
-    if (!lone && (distance == 910 || (distance != 900 && state_.incremental))) {
+    if (!lone &&
+        (distance == g::kIncremental || (distance != g::kAbsolute && state_.incremental))) {
       return refuse_code(step, 'G', 53, "g53_incremental",
                          "machine coordinates while G91 is in force");
     }
@@ -144,40 +147,47 @@ bool Interpreter::check_unused(const Step& step) {
                    std::string{"a "} + letter + " word, but no word of the block uses it");
   };
   const int io = step.code(MGroup::io);
-  const bool orients = step.code(MGroup::spindle) == 19;
-  const bool compensates = step.code(GGroup::cutter) > 400;
-  if (unused('D', compensates || step.code(GGroup::spindle_mode) == 960) ||
-      unused('E', io >= 66 || motion == 760) ||
-      unused('H', tool_length == 430 || tool_length == 432 || motion == 760)) {
+  const bool orients = step.code(MGroup::spindle) == m::kOrient;
+  const bool compensates = step.code(GGroup::cutter) > g::kCutterOff;
+  if (unused('D', compensates || step.code(GGroup::spindle_mode) == g::kCuttingSpeed) ||
+      unused('E', io >= m::kWaitForInput || motion == g::kThreadCycle) ||
+      unused('H', tool_length == g::kToolLength || tool_length == g::kAddToolLength ||
+                      motion == g::kThreadCycle)) {
     return false;
   }
   const bool arc = is_arc(motion);
-  const bool tool_data = non_modal == 100;
-  const bool spline = motion == 50 || motion == 51;
-  const bool threads = motion == 760;
-  if (unused('I', arc || spline || threads || motion == 870 || motion == 331 || tool_data) ||
-      unused('J', arc || spline || threads || motion == 870 || tool_data) ||
-      unused('K', arc || threads || motion == 870 || motion == 330 || motion == 331)) {
+  const bool tool_data = non_modal == g::kSetData;
+  const bool spline = motion == g::kCubicSpline || motion == g::kQuadraticSpline;
+  const bool threads = motion == g::kThreadCycle;
+  if (unused('I', arc || spline || threads || motion == g::kBackBore || motion == g::kRigidTap ||
+                      tool_data) ||
+      unused('J', arc || spline || threads || motion == g::kBackBore || tool_data) ||
+      unused('K', arc || threads || motion == g::kBackBore || motion == g::kThread ||
+                      motion == g::kRigidTap)) {
     return false;
   }
-  if (unused('L', compensates || drilling || threads || motion == 52 || non_modal == 100 ||
-                      io == 66 || step.code(MGroup::program) == 98)) {
+  if (unused('L', compensates || drilling || threads || motion == g::kSplinePoint ||
+                      non_modal == g::kSetData || io == m::kWaitForInput ||
+                      step.code(MGroup::program) == m::kCall)) {
     return false;
   }
-  const bool p_override = override_switch >= 50;
-  const bool p_elsewhere = (io >= 62 && io <= 66) || orients || step.code(MGroup::program) == 98;
-  if (unused('P', p_elsewhere || arc || motion == 50 || motion == 52 || threads ||
-                      non_modal == 40 || non_modal == 100 || p_override ||
-                      step.code(GGroup::path_mode) == 640 || motion == 820 || motion == 860 ||
-                      motion == 880 || motion == 890 || motion == 840 || motion == 740)) {
+  const bool p_override = override_switch >= m::kFeedOverride;
+  const bool p_elsewhere = (io >= m::kOutputOnWithMove && io <= m::kWaitForInput) || orients ||
+                           step.code(MGroup::program) == m::kCall;
+  if (unused('P', p_elsewhere || arc || motion == g::kCubicSpline || motion == g::kSplinePoint ||
+                      threads || non_modal == g::kDwell || non_modal == g::kSetData || p_override ||
+                      step.code(GGroup::path_mode) == g::kContinuous || motion == g::kDrillDwell ||
+                      motion == g::kBoreStopOut || motion == g::kBoreHandOut ||
+                      motion == g::kBoreDwell || motion == g::kTapRight || motion == g::kTapLeft)) {
     return false;
   }
-  if (unused('Q', motion == 50 || threads || motion == 730 || motion == 830 ||
-                      step.code(GGroup::path_mode) == 640 || step.code(MGroup::tool_change) == 61 ||
-                      tool_data || io >= 66 || orients)) {
+  if (unused('Q', motion == g::kCubicSpline || threads || motion == g::kBreakChips ||
+                      motion == g::kPeck || step.code(GGroup::path_mode) == g::kContinuous ||
+                      step.code(MGroup::tool_change) == m::kToolInSpindle || tool_data ||
+                      io >= m::kWaitForInput || orients)) {
     return false;
   }
-  return !unused('R', arc || drilling || threads || non_modal == 100 || orients);
+  return !unused('R', arc || drilling || threads || non_modal == g::kSetData || orients);
 }
 
 }  // namespace steadyrest::nc::interpret

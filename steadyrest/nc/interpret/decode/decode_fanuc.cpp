@@ -20,17 +20,22 @@ struct Note {
 };
 
 constexpr std::array kNotes = {
-    Note{50, "g_code_not_interpreted", "G5 (high-speed machining) is not interpreted"},
-    Note{51, "g_code_not_interpreted", "G5.1 (contour control, Q1) is not interpreted"},
-    Note{52, "g_code_not_interpreted", "G5.2 is not interpreted"},
-    Note{53, "g_code_not_interpreted", "G5.3 is not interpreted"},
-    Note{331, "ambiguous_code", "G33.1 is no code of this dialect"},
-    Note{382, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
-    Note{383, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
-    Note{384, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
-    Note{385, "g_code_not_interpreted", "a probing move is a macro of its control (G31) here"},
-    Note{70, "g_code_not_interpreted", "G7/G07 is another function on every control"},
-    Note{80, "g_code_not_interpreted", "G8/G08 (look-ahead control) is not interpreted"},
+    Note{g::kCubicSpline, "g_code_not_interpreted", "G5 (high-speed machining) is not interpreted"},
+    Note{g::kQuadraticSpline, "g_code_not_interpreted",
+         "G5.1 (contour control, Q1) is not interpreted"},
+    Note{g::kSplinePoint, "g_code_not_interpreted", "G5.2 is not interpreted"},
+    Note{g::kSplineEnd, "g_code_not_interpreted", "G5.3 is not interpreted"},
+    Note{g::kRigidTap, "ambiguous_code", "G33.1 is no code of this dialect"},
+    Note{g::kProbeOrFail, "g_code_not_interpreted",
+         "a probing move is a macro of its control (G31) here"},
+    Note{g::kProbe, "g_code_not_interpreted",
+         "a probing move is a macro of its control (G31) here"},
+    Note{g::kProbeAwayOrFail, "g_code_not_interpreted",
+         "a probing move is a macro of its control (G31) here"},
+    Note{g::kProbeAway, "g_code_not_interpreted",
+         "a probing move is a macro of its control (G31) here"},
+    Note{g::kDiameter, "g_code_not_interpreted", "G7/G07 is another function on every control"},
+    Note{g::kRadius, "g_code_not_interpreted", "G8/G08 (look-ahead control) is not interpreted"},
     Note{150, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
     Note{160, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
     Note{270, "g_code_not_interpreted", "the reference check (G27) is not interpreted"},
@@ -39,7 +44,8 @@ constexpr std::array kNotes = {
          "interpreted"},
     Note{310, "g_code_not_interpreted", "a skip move (G31) ends where the machine decides"},
     Note{320, "lathe_code", "G32 threads on a lathe; lathe programs are not interpreted"},
-    Note{330, "ambiguous_code", "G33 takes F as pitch here; its rounding differs between controls"},
+    Note{g::kThread, "ambiguous_code",
+         "G33 takes F as pitch here; its rounding differs between controls"},
     Note{500, "lathe_code",
          "G50 sets the spindle limit or the origin on a lathe and ends scaling "
          "on a mill; write G92 for an origin"},
@@ -49,10 +55,12 @@ constexpr std::array kNotes = {
     Note{670, "macro_call", "the end of a modal macro call (G67) is not interpreted"},
     Note{680, "g_code_not_interpreted", "coordinate rotation (G68) is not interpreted"},
     Note{690, "g_code_not_interpreted", "coordinate rotation (G69) is not interpreted"},
-    Note{760, "g_code_not_interpreted", "fine boring (G76) shifts by a machine parameter"},
-    Note{870, "g_code_not_interpreted", "back boring (G87) shifts by a machine parameter"},
-    Note{880, "g_code_not_interpreted", "G88 stops for the operator's hand"},
-    Note{930, "g_code_not_interpreted", "inverse-time feed (G93) is not interpreted here"},
+    Note{g::kThreadCycle, "g_code_not_interpreted",
+         "fine boring (G76) shifts by a machine parameter"},
+    Note{g::kBackBore, "g_code_not_interpreted", "back boring (G87) shifts by a machine parameter"},
+    Note{g::kBoreHandOut, "g_code_not_interpreted", "G88 stops for the operator's hand"},
+    Note{g::kInverseTime, "g_code_not_interpreted",
+         "inverse-time feed (G93) is not interpreted here"},
 };
 
 constexpr std::string_view kLengthLetters = "XYZIJKRQ";
@@ -94,28 +102,28 @@ bool Interpreter::fanuc_g(const Word& word, Step& step) {
     case 90:  // G9 exact stop, this block
       step.exact_stop = true;
       return true;
-    case 541:
+    case 541:  // G54.1
       return refuse_word(step.line, word, "g_code_not_interpreted",
                          "additional work offsets (G54.1 P) are not interpreted");
-    case 640:  // G64 cutting mode, G61 exact stop mode: stops at every end point
-      return put_g(word, 640, step);
-    case 610:
-      return put_g(word, 611, step);
-    case 281:
-    case 301:
-    case 331:
-    case 431:
-    case 432:
-    case 521:
-    case 591:
-    case 592:
-    case 593:
-    case 611:
-    case 901:
-    case 911:
-    case 921:
-    case 922:
-    case 923:
+    case g::kContinuous:  // G64 cutting mode, G61 exact stop mode: stops at every end point
+      return put_g(word, g::kContinuous, step);
+    case g::kExactPath:
+      return put_g(word, g::kExactStop, step);
+    case g::kStoreHome:
+    case g::kStoreSecondHome:
+    case g::kRigidTap:
+    case g::kToolLengthByWords:
+    case g::kAddToolLength:
+    case 521:  // G52.1
+    case g::kWorkOffset7:
+    case g::kWorkOffset8:
+    case g::kWorkOffset9:
+    case g::kExactStop:
+    case g::kCentreAbsolute:
+    case g::kCentreIncremental:
+    case g::kForgetOrigin:
+    case g::kOriginOff:
+    case g::kOriginOn:
       return refuse_word(step.line, word, "ambiguous_code",
                          "this decimal G word means something else, or nothing, on each control");
     default:
@@ -135,11 +143,12 @@ bool Interpreter::fanuc_m(const Word& word, Step& step) {
 }
 
 bool Interpreter::fanuc_letter(const Word& word, Step& step) {
-  const bool dwell = step.code(GGroup::non_modal) == 40;
+  const bool dwell = step.code(GGroup::non_modal) == g::kDwell;
   char letter = word.letter;
   double value = word.value;
   if (letter == 'U' || letter == 'V' || letter == 'W') {
-    if (step.code(GGroup::non_modal) != 280 && step.code(GGroup::non_modal) != 300) {
+    if (step.code(GGroup::non_modal) != g::kHome &&
+        step.code(GGroup::non_modal) != g::kSecondHome) {
       return refuse_word(
           step.line, word, "lathe_word",
           "U, V and W are increments on a lathe; lathe programs are not interpreted");
@@ -157,15 +166,15 @@ bool Interpreter::fanuc_letter(const Word& word, Step& step) {
         !word.decimal_point && config_.decimal_rule == DecimalRule::least_increment;
     return put_letter(word, 'P', increments ? value * 1e-3 : value, step);
   }
-  if (step.code(MGroup::program) == 98 && (letter == 'P' || letter == 'L')) {
+  if (step.code(MGroup::program) == m::kCall && (letter == 'P' || letter == 'L')) {
     return put_letter(word, letter, value, step);
   }
-  if (letter == 'P' && step.code(MGroup::program) == 99) {
+  if (letter == 'P' && step.code(MGroup::program) == m::kReturn) {
     return refuse_word(step.line, word, "flow_control",
                        "M99 with a block number (P) is a jump, which is not interpreted");
   }
   if (letter == 'P') {
-    if (step.code(GGroup::non_modal) == 100) {
+    if (step.code(GGroup::non_modal) == g::kSetData) {
       return put_letter(word, 'P', value, step);  // which work offset
     }
     const bool with_time = dwell || is_cycle(step.code(GGroup::motion)) ||
@@ -178,7 +187,7 @@ bool Interpreter::fanuc_letter(const Word& word, Step& step) {
   }
   if (!word.decimal_point && config_.decimal_rule == DecimalRule::least_increment) {
     const int units = step.code(GGroup::units);
-    const bool inch = units == kNoCode ? state_.unit_mm != 1.0 : units == 200;
+    const bool inch = units == kNoCode ? state_.unit_mm != 1.0 : units == g::kInch;
     if (kLengthLetters.find(letter) != std::string_view::npos) {
       value *= inch ? 1e-4 : 1e-3;
     } else if (kAngleLetters.find(letter) != std::string_view::npos) {
@@ -196,7 +205,7 @@ bool Interpreter::fanuc_letter(const Word& word, Step& step) {
 // M98 P…: eight digits are four of repeats and four of the program's number; or P and L.
 bool Interpreter::fanuc_call(Step& step) {
   constexpr double kNumbers = 10000.0;
-  if (step.code(MGroup::program) != 98 || !step.has('P')) {
+  if (step.code(MGroup::program) != m::kCall || !step.has('P')) {
     return true;
   }
   const double p = step['P'];
@@ -227,27 +236,29 @@ bool Interpreter::fanuc_finish(Step& step) {
     return false;
   }
   const int non_modal = step.code(GGroup::non_modal);
-  if (non_modal == 530) {
+  if (non_modal == g::kMachineFrame) {
     step.machine_frame = true;
   }
   // G28 in one block with G0/G1: the motion word is modal only, the axis words belong to G28.
-  if ((non_modal == 280 || non_modal == 300) && step.code(GGroup::motion) != kNoCode) {
+  if ((non_modal == g::kHome || non_modal == g::kSecondHome) &&
+      step.code(GGroup::motion) != kNoCode) {
     const std::int16_t motion = step.code(GGroup::motion);
-    if (motion != 0 && motion != 10) {
+    if (motion != g::kRapid && motion != g::kLinear) {
       return refuse(step, 'G', "two_users_of_axis_words",
                     "two G words in one block that both use the axis words");
     }
     state_.motion = motion;
     step.g[static_cast<std::size_t>(GGroup::motion)] = kNoCode;
   }
-  if ((non_modal == 280 || non_modal == 300) && (step.mask & kAxisMask) == 0) {
+  if ((non_modal == g::kHome || non_modal == g::kSecondHome) && (step.mask & kAxisMask) == 0) {
     return refuse_code(step, 'G', non_modal / 10, "axis_words_missing",
                        "a reference point without axes; write G91 G28 Z0");
   }
-  if (step.code(GGroup::tool_length) == 430 && !step.has('H')) {
+  if (step.code(GGroup::tool_length) == g::kToolLength && !step.has('H')) {
     return refuse_code(step, 'G', 43, "tool_missing", "G43 without its offset number (H)");
   }
-  if ((non_modal == 520 && state_.g92_used) || (non_modal == 920 && state_.g52_used)) {
+  if ((non_modal == g::kShift && state_.g92_used) ||
+      (non_modal == g::kSetOrigin && state_.g52_used)) {
     return refuse_code(step, 'G', non_modal / 10, "ambiguous_code",
                        "G52 and G92 in one program: which of them goes first differs");
   }

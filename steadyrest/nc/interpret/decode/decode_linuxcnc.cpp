@@ -21,7 +21,7 @@ bool Interpreter::decode_linuxcnc(const Block& block, Step& step) {
       continue;
     }
     if (word.letter == 'G' && motion == kNoCode && (word.value == 0.0 || word.value == 1.0)) {
-      motion = word.value == 0.0 ? 0 : 10;
+      motion = word.value == 0.0 ? g::kRapid : g::kLinear;
       continue;
     }
     const bool accepted = word.letter == '@' || word.letter == '^' ? take_polar(word, step)
@@ -70,7 +70,7 @@ bool Interpreter::take_g(const Word& word, Step& step) {
 
 bool Interpreter::put_g(const Word& word, int code, Step& step) {
   const GroupOfG found = group_of_g(code);
-  const bool compensates = found.group == GGroup::cutter && code != 400;
+  const bool compensates = found.group == GGroup::cutter && code != g::kCutterOff;
   if (!found.known || (compensates && config_.dialect != read::Dialect::linuxcnc)) {
     const std::string_view note = known_but_refused_g(code);
     return note.empty()
@@ -79,10 +79,9 @@ bool Interpreter::put_g(const Word& word, int code, Step& step) {
   }
   step.others = step.others || found.group != GGroup::motion;
   std::int16_t& place = step.g[static_cast<std::size_t>(found.group)];
-  constexpr int kEndOfCycle = 800;  // stands beside another motion and yields to it
   if (place != kNoCode && found.group == GGroup::motion &&
-      (place == kEndOfCycle || code == kEndOfCycle)) {
-    place = static_cast<std::int16_t>(place == kEndOfCycle ? code : place);
+      (place == g::kCycleEnd || code == g::kCycleEnd)) {  // G80 yields to another motion
+    place = static_cast<std::int16_t>(place == g::kCycleEnd ? code : place);
     return true;
   }
   if (place != kNoCode) {
@@ -122,7 +121,7 @@ bool Interpreter::put_m(const Word& word, int code, Step& step) {
   const GroupOfM found = group_of_m(code);
   const bool programs = found.group == MGroup::program && config_.dialect != read::Dialect::fanuc;
   const bool linuxcnc_alone =
-      found.group == MGroup::io || found.group == MGroup::modes || programs || code == 19;
+      found.group == MGroup::io || found.group == MGroup::modes || programs || code == m::kOrient;
   if (!found.known || (linuxcnc_alone && config_.dialect != read::Dialect::linuxcnc)) {
     const std::string_view note = known_but_refused_m(code);
     return note.empty()

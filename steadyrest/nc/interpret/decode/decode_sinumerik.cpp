@@ -17,20 +17,29 @@ using read::Word;
 
 struct Translation {
   int theirs;
-  int ours;  // G code times ten
+  g::Code ours;
 };
 
 // Codes with the same meaning under the same or another number.
 constexpr std::array kTranslations = {
-    Translation{0, 0},     Translation{1, 10},    Translation{2, 20},    Translation{3, 30},
-    Translation{4, 40},    Translation{17, 170},  Translation{18, 180},  Translation{19, 190},
-    Translation{40, 400},  Translation{53, 530},  Translation{54, 540},  Translation{55, 550},
-    Translation{56, 560},  Translation{57, 570},  Translation{505, 580}, Translation{506, 590},
-    Translation{507, 591}, Translation{508, 592}, Translation{509, 593}, Translation{60, 611},
-    Translation{64, 640},  Translation{641, 640}, Translation{642, 640}, Translation{643, 640},
-    Translation{644, 640}, Translation{70, 200},  Translation{71, 210},  Translation{700, 200},
-    Translation{710, 210}, Translation{90, 900},  Translation{91, 910},  Translation{93, 930},
-    Translation{94, 940},  Translation{95, 950},  Translation{96, 960},  Translation{97, 970},
+    Translation{0, g::kRapid},         Translation{1, g::kLinear},
+    Translation{2, g::kArcClockwise},  Translation{3, g::kArcCounterClockwise},
+    Translation{4, g::kDwell},         Translation{17, g::kPlaneXy},
+    Translation{18, g::kPlaneZx},      Translation{19, g::kPlaneYz},
+    Translation{40, g::kCutterOff},    Translation{53, g::kMachineFrame},
+    Translation{54, g::kWorkOffset1},  Translation{55, g::kWorkOffset2},
+    Translation{56, g::kWorkOffset3},  Translation{57, g::kWorkOffset4},
+    Translation{505, g::kWorkOffset5}, Translation{506, g::kWorkOffset6},
+    Translation{507, g::kWorkOffset7}, Translation{508, g::kWorkOffset8},
+    Translation{509, g::kWorkOffset9}, Translation{60, g::kExactStop},
+    Translation{64, g::kContinuous},   Translation{641, g::kContinuous},
+    Translation{642, g::kContinuous},  Translation{643, g::kContinuous},
+    Translation{644, g::kContinuous},  Translation{70, g::kInch},
+    Translation{71, g::kMillimetre},   Translation{700, g::kInch},
+    Translation{710, g::kMillimetre},  Translation{90, g::kAbsolute},
+    Translation{91, g::kIncremental},  Translation{93, g::kInverseTime},
+    Translation{94, g::kPerMinute},    Translation{95, g::kPerRevolution},
+    Translation{96, g::kCuttingSpeed}, Translation{97, g::kSpindleSpeed},
 };
 
 struct Note {
@@ -129,7 +138,7 @@ bool Interpreter::sinumerik_m(const Word& word, Step& step) {
   }
   constexpr std::array kKnown = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 30.0};
   if (word.value == 17.0) {
-    step.m[static_cast<std::size_t>(MGroup::program)] = 99;
+    step.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
     return true;
   }
   if (std::ranges::find(kKnown, word.value) == kKnown.end()) {
@@ -141,7 +150,7 @@ bool Interpreter::sinumerik_m(const Word& word, Step& step) {
 
 bool Interpreter::sinumerik_letter(const Word& word, Step& step) {
   const char letter = word.letter;
-  const bool dwell = step.code(GGroup::non_modal) == 40;
+  const bool dwell = step.code(GGroup::non_modal) == g::kDwell;
   if (word.qualifier == Qualifier::text) {
     if (letter != 'T') {
       return refuse_word(step.line, word, "bad_value", "a string where a number belongs");
@@ -173,7 +182,7 @@ bool Interpreter::sinumerik_letter(const Word& word, Step& step) {
     if (place != kNoCode) {
       return refuse_word(step.line, word, "word_twice", "a second D word in one block");
     }
-    place = word.value == 0.0 ? 490 : 430;
+    place = word.value == 0.0 ? g::kToolLengthOff : g::kToolLength;
     return true;
   }
   if (std::string_view{"EHLOPQR"}.find(letter) != std::string_view::npos) {
@@ -200,7 +209,7 @@ bool Interpreter::sinumerik_name(const Word& word, Step& step) {
     if (step.block->words().size() > 1 || word.has_value) {
       return refuse_word(step.line, word, "subprogram_end", "RET stands in a block of its own");
     }
-    step.m[static_cast<std::size_t>(MGroup::program)] = 99;
+    step.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
     return true;
   }
   constexpr std::array<std::pair<std::string_view, char>, 4> kFrames = {
@@ -257,22 +266,22 @@ bool Interpreter::sinumerik_finish(Step& step) {
     return refuse_word(step.line, step.block->words().front(), "unused_word",
                        "RPL without ROT or AROT");
   }
-  if (step.code(GGroup::non_modal) == 530) {
+  if (step.code(GGroup::non_modal) == g::kMachineFrame) {
     step.machine_frame = true;
     step.g[static_cast<std::size_t>(GGroup::non_modal)] = kNoCode;
   }
-  if (step.code(GGroup::non_modal) == 40 && (step.mask & kAxisMask) != 0) {
+  if (step.code(GGroup::non_modal) == g::kDwell && (step.mask & kAxisMask) != 0) {
     return refuse(step, 'G', "g4_with_motion", "a dwell (G4) stands in a block of its own");
   }
   // Constant cutting speed brings feed per revolution with it.
   std::int16_t& feed_mode = step.g[static_cast<std::size_t>(GGroup::feed_mode)];
-  if (step.code(GGroup::spindle_mode) == 960) {
+  if (step.code(GGroup::spindle_mode) == g::kCuttingSpeed) {
     if (feed_mode != kNoCode) {
       return refuse(step, 'G', "same_modal_group",
                     "G96 is itself a feed type in this dialect; no other beside it");
     }
     if (state_.feed_mode != FeedMode::per_revolution) {
-      feed_mode = 950;
+      feed_mode = g::kPerRevolution;
     }
   }
   return true;

@@ -104,13 +104,13 @@ bool Interpreter::frame_settles(const Step& step) {
       moved & (step.incremental | (state_.incremental ? ~step.absolute : 0U));
   const bool pending = (incremental & state_.frame_pending) != 0 ||
                        (state_.frame_turned && (incremental & plane) != 0);
-  if (pending || (step.code(GGroup::distance) == 910 && moved != 0)) {
+  if (pending || (step.code(GGroup::distance) == g::kIncremental && moved != 0)) {
     return refuse_word(
         step.line, step.block->words().front(), "frame_incremental",
         "an increment behind a new frame: whether it contains the frame's shift is a "
         "setting of the control; program the axis absolutely first");
   }
-  const bool arc = motion_now_ == 20 || motion_now_ == 30;
+  const bool arc = motion_now_ == g::kArcClockwise || motion_now_ == g::kArcCounterClockwise;
   if (state_.frame_turned && ((moved & plane) != 0 || arc) && (moved & plane) != plane) {
     return refuse_word(step.line, step.block->words().front(), "frame_axis",
                        "the first move in X or Y behind a rotation names both");

@@ -8,41 +8,69 @@ namespace steadyrest::nc::interpret {
 namespace {
 
 struct Range {
-  int first;  // G times ten
+  int first;
   int last;
   GGroup group;
 };
 
 constexpr std::array kGroups = {
-    Range{0, 0, GGroup::motion},           Range{10, 10, GGroup::motion},
-    Range{20, 20, GGroup::motion},         Range{30, 30, GGroup::motion},
-    Range{40, 40, GGroup::non_modal},      Range{70, 80, GGroup::lathe_diameter},
-    Range{100, 100, GGroup::non_modal},    Range{170, 170, GGroup::plane},
-    Range{180, 180, GGroup::plane},        Range{190, 190, GGroup::plane},
-    Range{200, 200, GGroup::units},        Range{210, 210, GGroup::units},
-    Range{280, 281, GGroup::non_modal},    Range{300, 301, GGroup::non_modal},
-    Range{330, 331, GGroup::motion},       Range{50, 53, GGroup::motion},
-    Range{760, 760, GGroup::motion},       Range{382, 385, GGroup::motion},
-    Range{400, 400, GGroup::cutter},       Range{410, 411, GGroup::cutter},
-    Range{420, 421, GGroup::cutter},       Range{430, 432, GGroup::tool_length},
-    Range{490, 490, GGroup::tool_length},  Range{520, 520, GGroup::non_modal},
-    Range{530, 530, GGroup::non_modal},    Range{540, 540, GGroup::work_offset},
-    Range{550, 550, GGroup::work_offset},  Range{560, 560, GGroup::work_offset},
-    Range{570, 570, GGroup::work_offset},  Range{580, 580, GGroup::work_offset},
-    Range{590, 593, GGroup::work_offset},  Range{610, 611, GGroup::path_mode},
-    Range{640, 640, GGroup::path_mode},    Range{730, 730, GGroup::motion},
-    Range{740, 740, GGroup::motion},       Range{800, 800, GGroup::motion},
-    Range{810, 810, GGroup::motion},       Range{820, 820, GGroup::motion},
-    Range{830, 830, GGroup::motion},       Range{840, 840, GGroup::motion},
-    Range{850, 850, GGroup::motion},       Range{860, 860, GGroup::motion},
-    Range{870, 870, GGroup::motion},       Range{880, 880, GGroup::motion},
-    Range{890, 890, GGroup::motion},       Range{900, 900, GGroup::distance},
-    Range{901, 901, GGroup::arc_centre},   Range{910, 910, GGroup::distance},
-    Range{911, 911, GGroup::arc_centre},   Range{920, 923, GGroup::non_modal},
-    Range{930, 930, GGroup::feed_mode},    Range{940, 940, GGroup::feed_mode},
-    Range{950, 950, GGroup::feed_mode},    Range{960, 960, GGroup::spindle_mode},
-    Range{970, 970, GGroup::spindle_mode}, Range{980, 980, GGroup::retract},
-    Range{990, 990, GGroup::retract},
+    Range{g::kRapid, g::kRapid, GGroup::motion},
+    Range{g::kLinear, g::kLinear, GGroup::motion},
+    Range{g::kArcClockwise, g::kArcClockwise, GGroup::motion},
+    Range{g::kArcCounterClockwise, g::kArcCounterClockwise, GGroup::motion},
+    Range{g::kDwell, g::kDwell, GGroup::non_modal},
+    Range{g::kDiameter, g::kRadius, GGroup::lathe_diameter},
+    Range{g::kSetData, g::kSetData, GGroup::non_modal},
+    Range{g::kPlaneXy, g::kPlaneXy, GGroup::plane},
+    Range{g::kPlaneZx, g::kPlaneZx, GGroup::plane},
+    Range{g::kPlaneYz, g::kPlaneYz, GGroup::plane},
+    Range{g::kInch, g::kInch, GGroup::units},
+    Range{g::kMillimetre, g::kMillimetre, GGroup::units},
+    Range{g::kHome, g::kStoreHome, GGroup::non_modal},
+    Range{g::kSecondHome, g::kStoreSecondHome, GGroup::non_modal},
+    Range{g::kThread, g::kRigidTap, GGroup::motion},
+    Range{g::kCubicSpline, g::kSplineEnd, GGroup::motion},
+    Range{g::kThreadCycle, g::kThreadCycle, GGroup::motion},
+    Range{g::kProbeOrFail, g::kProbeAway, GGroup::motion},
+    Range{g::kCutterOff, g::kCutterOff, GGroup::cutter},
+    Range{g::kCutterLeft, g::kCutterLeftBy, GGroup::cutter},
+    Range{g::kCutterRight, g::kCutterRightBy, GGroup::cutter},
+    Range{g::kToolLength, g::kAddToolLength, GGroup::tool_length},
+    Range{g::kToolLengthOff, g::kToolLengthOff, GGroup::tool_length},
+    Range{g::kShift, g::kShift, GGroup::non_modal},
+    Range{g::kMachineFrame, g::kMachineFrame, GGroup::non_modal},
+    Range{g::kWorkOffset1, g::kWorkOffset1, GGroup::work_offset},
+    Range{g::kWorkOffset2, g::kWorkOffset2, GGroup::work_offset},
+    Range{g::kWorkOffset3, g::kWorkOffset3, GGroup::work_offset},
+    Range{g::kWorkOffset4, g::kWorkOffset4, GGroup::work_offset},
+    Range{g::kWorkOffset5, g::kWorkOffset5, GGroup::work_offset},
+    Range{g::kWorkOffset6, g::kWorkOffset9, GGroup::work_offset},
+    Range{g::kExactPath, g::kExactStop, GGroup::path_mode},
+    Range{g::kContinuous, g::kContinuous, GGroup::path_mode},
+    Range{g::kBreakChips, g::kBreakChips, GGroup::motion},
+    Range{g::kTapLeft, g::kTapLeft, GGroup::motion},
+    Range{g::kCycleEnd, g::kCycleEnd, GGroup::motion},
+    Range{g::kDrill, g::kDrill, GGroup::motion},
+    Range{g::kDrillDwell, g::kDrillDwell, GGroup::motion},
+    Range{g::kPeck, g::kPeck, GGroup::motion},
+    Range{g::kTapRight, g::kTapRight, GGroup::motion},
+    Range{g::kBoreFeedOut, g::kBoreFeedOut, GGroup::motion},
+    Range{g::kBoreStopOut, g::kBoreStopOut, GGroup::motion},
+    Range{g::kBackBore, g::kBackBore, GGroup::motion},
+    Range{g::kBoreHandOut, g::kBoreHandOut, GGroup::motion},
+    Range{g::kBoreDwell, g::kBoreDwell, GGroup::motion},
+    Range{g::kAbsolute, g::kAbsolute, GGroup::distance},
+    Range{g::kCentreAbsolute, g::kCentreAbsolute, GGroup::arc_centre},
+    Range{g::kIncremental, g::kIncremental, GGroup::distance},
+    Range{g::kCentreIncremental, g::kCentreIncremental, GGroup::arc_centre},
+    Range{g::kSetOrigin, g::kOriginOn, GGroup::non_modal},
+    Range{g::kInverseTime, g::kInverseTime, GGroup::feed_mode},
+    Range{g::kPerMinute, g::kPerMinute, GGroup::feed_mode},
+    Range{g::kPerRevolution, g::kPerRevolution, GGroup::feed_mode},
+    Range{g::kCuttingSpeed, g::kCuttingSpeed, GGroup::spindle_mode},
+    Range{g::kSpindleSpeed, g::kSpindleSpeed, GGroup::spindle_mode},
+    Range{g::kRetractToInitial, g::kRetractToInitial, GGroup::retract},
+    Range{g::kRetractToR, g::kRetractToR, GGroup::retract},
 };
 
 constexpr std::size_t kCodes = 1000;
@@ -66,19 +94,20 @@ struct Note {
 };
 
 constexpr std::array kRefusedG = {
-    Note{410, 411,
+    Note{g::kCutterLeft, g::kCutterLeftBy,
          "cutter radius compensation (G41) is not interpreted; let the CAM system "
          "compensate"},
-    Note{420, 421,
+    Note{g::kCutterRight, g::kCutterRightBy,
          "cutter radius compensation (G42) is not interpreted; let the CAM system "
          "compensate"},
     Note{700, 722, "a lathe cycle is not interpreted"},
 };
 
 constexpr std::array kRefusedM = {
-    Note{19, 19, "spindle orientation (M19) is not interpreted in this dialect"},
-    Note{62, 73, "M62-M73 are not interpreted in this dialect"},
-    Note{98, 99, "a subprogram call or return (M98, M99) is not interpreted in this dialect"},
+    Note{m::kOrient, m::kOrient, "spindle orientation (M19) is not interpreted in this dialect"},
+    Note{m::kOutputOnWithMove, m::kKeepModesForCall, "M62-M73 are not interpreted in this dialect"},
+    Note{m::kCall, m::kReturn,
+         "a subprogram call or return (M98, M99) is not interpreted in this dialect"},
     Note{100, 199, "a user-defined M word (M100-M199) does what only its machine knows"},
 };
 
@@ -94,46 +123,46 @@ GroupOfG group_of_g(int code) noexcept {
 
 GroupOfM group_of_m(int code) noexcept {
   switch (code) {
-    case 0:
-    case 1:
-    case 2:
-    case 30:
-    case 60:
+    case m::kStop:
+    case m::kOptionalStop:
+    case m::kEnd:
+    case m::kEndAndRewind:
+    case m::kPalletStop:
       return {.known = true, .group = MGroup::stopping};
-    case 6:
-    case 61:
+    case m::kToolChange:
+    case m::kToolInSpindle:
       return {.known = true, .group = MGroup::tool_change};
-    case 3:
-    case 4:
-    case 5:
-    case 19:
+    case m::kClockwise:
+    case m::kCounterClockwise:
+    case m::kSpindleStop:
+    case m::kOrient:
       return {.known = true, .group = MGroup::spindle};
-    case 7:
-    case 8:
-    case 9:
+    case m::kMist:
+    case m::kFlood:
+    case m::kCoolantOff:
       return {.known = true, .group = MGroup::coolant};
-    case 48:
-    case 49:
-    case 50:
-    case 51:
-    case 52:
-    case 53:
+    case m::kOverridesOn:
+    case m::kOverridesOff:
+    case m::kFeedOverride:
+    case m::kSpindleOverride:
+    case m::kAdaptiveFeed:
+    case m::kFeedHold:
       return {.known = true, .group = MGroup::override_switch};
-    case 62:
-    case 63:
-    case 64:
-    case 65:
-    case 66:
-    case 67:
-    case 68:
+    case m::kOutputOnWithMove:
+    case m::kOutputOffWithMove:
+    case m::kOutputOn:
+    case m::kOutputOff:
+    case m::kWaitForInput:
+    case m::kAnalogWithMove:
+    case m::kAnalog:
       return {.known = true, .group = MGroup::io};
-    case 70:
-    case 71:
-    case 72:
-    case 73:
+    case m::kKeepModes:
+    case m::kForgetModes:
+    case m::kRestoreModes:
+    case m::kKeepModesForCall:
       return {.known = true, .group = MGroup::modes};
-    case 98:
-    case 99:
+    case m::kCall:
+    case m::kReturn:
       return {.known = true, .group = MGroup::program};
     default:
       return {};

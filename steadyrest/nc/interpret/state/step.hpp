@@ -7,6 +7,7 @@
 #include <limits>
 #include <string_view>
 
+#include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/read/text/block.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -47,7 +48,7 @@ inline constexpr std::int16_t kNoCode = -1;
 
 /// A block in the one vocabulary that the interpreter executes, whatever dialect it came from.
 ///
-/// Codes are those of LinuxCNC, G times ten (G43.1 = 431); words are addressed by letter. The
+/// Codes are those of LinuxCNC (words.hpp); words are addressed by letter. The
 /// dialects' decoders translate into it: words that mean something else there get their place here
 /// (CR= is R, TURN= is P − 1, SUPA is G53 …).
 struct Step {
@@ -138,7 +139,8 @@ inline constexpr auto kAxisOfLetter = [] {
 
 /// A canned cycle, G81–G89 and the drilling and tapping ones that stand apart.
 [[nodiscard]] constexpr bool is_cycle(int code) noexcept {
-  return code == 730 || code == 740 || (code > 800 && code <= 890);
+  return code == g::kBreakChips || code == g::kTapLeft ||
+         (code > g::kCycleEnd && code <= g::kBoreDwell);
 }
 
 }  // namespace steadyrest::nc::interpret
