@@ -10,7 +10,7 @@ namespace steadyrest::nc::interpret {
 
 bool Interpreter::set_data(const Step& step) {
   const double form = step.has('L') ? step['L'] : -1.0;
-  if (config_.dialect == read::Dialect::fanuc) {
+  if (rules_->g10_adds) {
     return set_fanuc_data(step, form);
   }
   if (form == 2.0 || form == 20.0) {

@@ -4,12 +4,11 @@
 #include <utility>
 
 #include <steadyrest/nc/interpret/blocks/interpreter.hpp>
-#include <steadyrest/nc/interpret/parameters/codes.hpp>
+#include <steadyrest/nc/interpret/decode/codes.hpp>
 
 namespace steadyrest::nc::interpret {
 
 using read::Block;
-using read::Dialect;
 using read::Word;
 
 kernel::outcome::Result<Interpreter> Interpreter::make(Config config) {
@@ -46,7 +45,8 @@ kernel::outcome::Result<Interpreter> Interpreter::make(Config config) {
   return Interpreter(std::move(config));
 }
 
-Interpreter::Interpreter(Config config) : config_(std::move(config)) {
+Interpreter::Interpreter(Config config)
+    : config_(std::move(config)), rules_(&rules_of(config_.dialect)) {
   for (const char letter : config_.axes) {
     axes_allowed_ |= Step::bit(letter);
   }
@@ -64,7 +64,7 @@ Interpreter::Interpreter(Config config) : config_(std::move(config)) {
   state_.feed_unit_mm = state_.unit_mm;
   state_.tool_in_spindle = config_.tool_in_spindle;
   state_.selected_tool = config_.tool_in_spindle;
-  state_.retract_to_initial = config_.dialect == Dialect::fanuc;  // G98 when switched on
+  state_.retract_to_initial = rules_->starts_with_g98;
   state_.position = config_.start;
   update_offset();
   state_.position = to_work(config_.start);
@@ -89,11 +89,10 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   }
   cutter_->bind(sink);
   sink_ = state_.cutter_side != 0 ? static_cast<Sink*>(cutter_.get()) : &sink;
-  step_.reset(block);
   if (block.words().front().qualifier == read::Qualifier::fine) {
     return set_fine(block.words().front());
   }
-  if (!decode(block, step_)) {
+  if (!decode(block)) {
     return false;
   }
   if (is_plain(step_)) {
@@ -110,27 +109,21 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
 }
 
 bool Interpreter::survey(const Block& block) {
-  step_.reset(block);
   if (!block.words().empty() && block.words().front().qualifier == read::Qualifier::fine) {
     return true;
   }
-  return decode(block, step_);
+  return decode(block);
 }
 
-bool Interpreter::decode(const Block& block, Step& step) {
-  switch (config_.dialect) {
-    case Dialect::fanuc:
-      return decode_fanuc(block, step);
-    case Dialect::sinumerik:
-      return decode_sinumerik(block, step);
-    case Dialect::linuxcnc:
-      break;
+bool Interpreter::decode(const Block& block) {
+  step_.reset(block);
+  const bool accepted = rules_->decode(
+      {.config = config_, .state = state_, .axes = axes_allowed_, .refusals = refusals_}, block,
+      step_);
+  if (step_.motion_mode != kNoCode) {
+    state_.motion = step_.motion_mode;
   }
-  if (!decode_linuxcnc(block, step)) {
-    return false;
-  }
-  step.machine_frame = step.code(GGroup::non_modal) == g::kMachineFrame;
-  return true;
+  return accepted;
 }
 
 bool Interpreter::act(const Step& step) {
@@ -139,7 +132,7 @@ bool Interpreter::act(const Step& step) {
     state_.speed_modulation = step.modulation == 1;
   }
   move_.speed_modulation = state_.speed_modulation;
-  if (config_.dialect != Dialect::linuxcnc) {
+  if (rules_->units_first) {
     set_units(step);
   }
   return set_feed(step) && set_spindle_speed(step) && select_tool(step) && change_tool(step) &&
@@ -156,8 +149,7 @@ bool Interpreter::set_feed(const Step& step) {
     const FeedMode wanted = mode == g::kInverseTime ? FeedMode::inverse_time
                             : mode == g::kPerMinute ? FeedMode::per_minute
                                                     : FeedMode::per_revolution;
-    // LinuxCNC forgets the feed also when the mode was in force already.
-    if (wanted != state_.feed_mode || config_.dialect == Dialect::linuxcnc) {
+    if (wanted != state_.feed_mode || rules_->feed_mode_clears_feed) {
       state_.feed_mode = wanted;
       state_.feed_mm_s = 0.0;
       state_.feed_deg_s = 0.0;
@@ -345,33 +337,17 @@ void Interpreter::emit_event(EventKind kind, double value) {
 
 bool Interpreter::refuse_word(std::uint32_t line, const Word& word, std::string_view reason,
                               std::string_view text) {
-  refused_ = {.line = line,
-              .word = read::printable(word.text.empty() ? word.name : word.text),
-              .reason = std::string{reason},
-              .text = std::string{text}};
-  return false;
+  return refusals_.word(line, word, reason, text);
 }
 
 bool Interpreter::refuse(const Step& step, char letter, std::string_view reason,
                          std::string_view text) {
-  for (const Word& word : step.block->words()) {
-    if (word.letter == letter) {
-      return refuse_word(step.line, word, reason, text);
-    }
-  }
-  // The letter is the place into which the dialect's own word was translated.
-  const auto words = step.block->words();
-  return refuse_word(step.line, words.back(), reason, text);
+  return refusals_.letter(step, letter, reason, text);
 }
 
 bool Interpreter::refuse_code(const Step& step, char letter, int code, std::string_view reason,
                               std::string_view text) {
-  for (const Word& word : step.block->words()) {
-    if (word.letter == letter && static_cast<int>(word.value) == code) {
-      return refuse_word(step.line, word, reason, text);
-    }
-  }
-  return refuse_word(step.line, step.block->words().front(), reason, text);
+  return refusals_.code(step, letter, code, reason, text);
 }
 
 }  // namespace steadyrest::nc::interpret

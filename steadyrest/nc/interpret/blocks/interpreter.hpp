@@ -11,11 +11,13 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/interpret/parameters/parameters.hpp>
 #include <steadyrest/nc/interpret/state/arc.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/interpret/state/cutter_compensation.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/interpret/state/refusals.hpp>
 #include <steadyrest/nc/interpret/state/state.hpp>
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/read/text/block.hpp>
@@ -40,7 +42,7 @@ class Interpreter {
   bool execute(const read::Block& block, Sink& sink);
 
   [[nodiscard]] bool finished() const noexcept { return finished_; }
-  [[nodiscard]] const read::Refused& refused() const noexcept { return refused_; }
+  [[nodiscard]] const read::Refused& refused() const noexcept { return refusals_.last(); }
   [[nodiscard]] const State& state() const noexcept { return state_; }
   /// The last block was nothing but a straight move: of the state its position, motion and feed
   /// alone may be others than before.
@@ -74,30 +76,7 @@ class Interpreter {
  private:
   explicit Interpreter(Config config);
 
-  // decoding, one file for each dialect
-  bool decode(const read::Block& block, Step& step);
-  bool decode_linuxcnc(const read::Block& block, Step& step);
-  bool decode_fanuc(const read::Block& block, Step& step);
-  bool decode_sinumerik(const read::Block& block, Step& step);
-  bool take_polar(const read::Word& word, Step& step);
-  bool take_g(const read::Word& word, Step& step);
-  bool take_m(const read::Word& word, Step& step);
-  [[nodiscard]] bool is_modulation(const read::Word& word) const noexcept;
-  bool take_modulation(const read::Word& word, Step& step);
-  bool take_letter(const read::Word& word, Step& step);
-  bool put_g(const read::Word& word, int code, Step& step);
-  bool put_m(const read::Word& word, int code, Step& step);
-  bool put_letter(const read::Word& word, char letter, double value, Step& step);
-  bool fanuc_g(const read::Word& word, Step& step);
-  bool fanuc_m(const read::Word& word, Step& step);
-  bool fanuc_letter(const read::Word& word, Step& step);
-  bool fanuc_finish(Step& step);
-  bool fanuc_call(Step& step);
-  bool sinumerik_g(const read::Word& word, Step& step);
-  bool sinumerik_m(const read::Word& word, Step& step);
-  bool sinumerik_letter(const read::Word& word, Step& step);
-  bool sinumerik_name(const read::Word& word, Step& step);
-  bool sinumerik_finish(Step& step);
+  bool decode(const read::Block& block);
   bool set_frame(const Step& step);
   bool set_fine(const read::Word& word);
   bool frame_settles(const Step& step);
@@ -224,6 +203,7 @@ class Interpreter {
   static constexpr double kLargestValue = 1e7;
 
   Config config_;
+  const DialectRules* rules_;
   State state_;
   std::unique_ptr<Parameters> parameters_ = std::make_unique<Parameters>();
   Step step_{};
@@ -251,7 +231,7 @@ class Interpreter {
   bool arc_allowed_ = true;    ///< false from G40 to the next straight move
   double rounding_mm_ = 0.0;   ///< sinumerik ADIS in force
   std::string selected_name_;  ///< sinumerik T="NAME", until M6
-  read::Refused refused_;
+  Refusals refusals_;
 };
 
 }  // namespace steadyrest::nc::interpret

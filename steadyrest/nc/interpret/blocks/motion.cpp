@@ -70,13 +70,13 @@ bool Interpreter::move(const Step& step) {
 
 // LinuxCNC 2.9 takes the tool's offset off on its way to machine coordinates, but for A, B and C.
 bool Interpreter::tool_stays(std::size_t axis) const noexcept {
-  return config_.dialect == read::Dialect::linuxcnc && is_rotary(axis);
+  return rules_->rotary_tool_in_machine_frame && is_rotary(axis);
 }
 
 // G53: the named axes go to machine coordinates, the machine's others stay. The tool's length stays
 // in force on SINUMERIK, on the others it is suppressed as well.
 void Interpreter::machine_end(const Step& step, Axes& end) {
-  const bool keeps_tool = config_.dialect == read::Dialect::sinumerik;
+  const bool keeps_tool = rules_->tool_in_machine_frame;
   Axes machine = to_machine(end);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (step.has(kAxisLetters[i])) {

@@ -176,7 +176,7 @@ bool Interpreter::set_path_mode(const Step& step) {
     default:
       break;
   }
-  if (config_.dialect == read::Dialect::sinumerik && state_.path_mode == PathMode::continuous) {
+  if (rules_->rounding_distance && state_.path_mode == PathMode::continuous) {
     state_.path_tolerance_mm = rounding_mm_;
   }
   return true;

@@ -17,8 +17,7 @@ constexpr std::uint32_t kRotaryAxes = 0b111000;  // in Axes
 bool Interpreter::is_plain(const Step& step) const noexcept {
   const int motion = step.code(GGroup::motion);
   const int now = motion != kNoCode ? motion : state_.motion;
-  return !step.others && config_.dialect == read::Dialect::linuxcnc &&
-         (now == g::kRapid || now == g::kLinear) &&
+  return !step.others && rules_->short_way && (now == g::kRapid || now == g::kLinear) &&
          (motion != kNoCode || (step.mask & kAxisMask) != 0) && state_.cutter_side == 0 &&
          !cutter_->active() && spline_points_.empty();
 }

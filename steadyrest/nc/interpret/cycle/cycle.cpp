@@ -24,9 +24,8 @@ double repeats_of(const Step& step) noexcept {
 // Sticky words: they stay while the same cycle goes on from block to block.
 bool Interpreter::remember_cycle(const Step& step) {
   CycleMemory& memory = state_.cycle;
-  // LinuxCNC keeps words within one cycle, FANUC from cycle to cycle until G80.
-  const bool fanuc = config_.dialect == read::Dialect::fanuc;
-  const bool fresh = fanuc ? !is_cycle(state_.motion) : state_.motion != motion_now_;
+  const bool stay = rules_->cycle_words_stay;
+  const bool fresh = stay ? !is_cycle(state_.motion) : state_.motion != motion_now_;
   if (!is_cycle(state_.motion) || memory.begins_anew) {
     memory.initial = state_.position[axes_of(state_.plane).normal] / state_.unit_mm;
     memory.begins_anew = false;
@@ -45,14 +44,15 @@ bool Interpreter::remember_cycle(const Step& step) {
                       code == g::kBoreHandOut || code == g::kBoreDwell;
   const bool taps = code == g::kTapRight || code == g::kTapLeft;
   const bool back = code == g::kBackBore;
-  if (fresh && (taps || fanuc)) {
+  if (fresh && (taps || stay)) {
     memory.dwell_s = 0.0;
   }
   const std::array words = {
       Sticky{'R', &memory.retract, true, "a canned cycle without its retract plane (R)"},
       Sticky{normal, &memory.bottom, true, "a canned cycle without the depth of its hole"},
       Sticky{'Q', &memory.peck, pecks, "a peck cycle without the depth of a peck (Q)"},
-      Sticky{'P', &memory.dwell_s, dwells && !fanuc, "a cycle with a dwell, without its time (P)"},
+      Sticky{'P', &memory.dwell_s, dwells && rules_->cycle_needs_dwell,
+             "a cycle with a dwell, without its time (P)"},
       Sticky{"IJK"[axes.first], &memory.ijk[axes.first], back, "G87 without its shift (I J K)"},
       Sticky{"IJK"[axes.second], &memory.ijk[axes.second], back, "G87 without its shift (I J K)"},
       Sticky{"IJK"[axes.normal], &memory.ijk[axes.normal], back,
@@ -149,7 +149,7 @@ bool Interpreter::cycle(const Step& step) {
     return false;
   }
   state_.motion = motion_now_;
-  const bool lifts = config_.dialect != read::Dialect::fanuc;  // FANUC first goes over the hole
+  const bool lifts = rules_->cycle_lifts_first;
   if (lifts && hole.initial_mm < hole.retract_mm) {
     emit_normal(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
   }
@@ -236,7 +236,7 @@ bool Interpreter::tap(const Step& step, const Hole& hole) {
                                   "counter-clockwise (M4)");
   }
   const std::size_t normal = hole.axes.normal;
-  if (config_.dialect == read::Dialect::linuxcnc && state_.plane != Plane::xy) {
+  if (rules_->taps_in_xy_alone && state_.plane != Plane::xy) {
     return refuse_code(step, 'G', motion_now_ / 10, "tapping_off_xy",
                        "LinuxCNC 2.9 moves other axes than those programmed when it taps outside "
                        "of G17");

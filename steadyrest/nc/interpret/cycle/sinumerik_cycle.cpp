@@ -61,11 +61,7 @@ struct Interpreter::DrillCall {
 };
 
 bool Interpreter::refuse_call(const Flow& call, std::string_view reason, std::string_view text) {
-  refused_ = {.line = move_.line,
-              .word = read::printable(call.label.view()),
-              .reason = std::string{reason},
-              .text = std::string{text}};
-  return false;
+  return refusals_.call(move_.line, call, reason, text);
 }
 
 bool Interpreter::execute_cycle(const read::Block& block, Sink& sink) {

@@ -57,10 +57,11 @@ struct Step {
   std::array<double, 26> value;
   std::array<std::int16_t, kGGroups> g;
   std::array<std::int16_t, kMGroups> m;
-  std::uint32_t absolute = 0;     ///< words that are absolute whatever G90/G91 say
-  std::uint32_t incremental = 0;  ///< words that are incremental whatever G90/G91 say
-  bool others = false;            ///< a word that is none of motion, F and axis words
-  bool polar = false;             ///< X and Y are given by @ and ^
+  std::uint32_t absolute = 0;          ///< words that are absolute whatever G90/G91 say
+  std::uint32_t incremental = 0;       ///< words that are incremental whatever G90/G91 say
+  bool others = false;                 ///< a word that is none of motion, F and axis words
+  std::int16_t motion_mode = kNoCode;  ///< fanuc G0 or G1 beside G28: mode alone, it moves nothing
+  bool polar = false;                  ///< X and Y are given by @ and ^
   double polar_radius = std::numeric_limits<double>::quiet_NaN();  ///< as written; NaN: not given
   double polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
   bool machine_frame = false;   ///< G53 that rules this block (also sinumerik SUPA)
@@ -82,6 +83,7 @@ struct Step {
     absolute = 0;
     incremental = 0;
     others = false;
+    motion_mode = kNoCode;
     polar = false;
     polar_radius = polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
     machine_frame = false;

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/nc/interpret/parameters/codes.hpp>
+#include <steadyrest/nc/interpret/decode/codes.hpp>
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/rewrite/walk/said.hpp>
 

@@ -113,7 +113,7 @@ bool Interpreter::check_non_modal(const Step& step) {
   }
   if (step.machine_frame) {
     const bool straight = motion_now_ == g::kRapid || motion_now_ == g::kLinear;
-    const bool lone = config_.dialect == read::Dialect::sinumerik && (step.mask & kAxisMask) == 0 &&
+    const bool lone = rules_->machine_frame_alone && (step.mask & kAxisMask) == 0 &&
                       step.code(GGroup::motion) == kNoCode;
     if (!straight && !lone) {
       return refuse_code(step, 'G', 53, "g53_without_straight_motion",

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/decode/fanuc/fanuc.hpp>
+#include <steadyrest/nc/interpret/decode/step_writer.hpp>
 
-// FANUC-style milling programs (G code system of the machining-centre controls, also Haas and Mazak
-// EIA). Codes that lathes give another meaning are refused, not guessed.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -66,49 +65,61 @@ constexpr std::array kNotes = {
 constexpr std::string_view kLengthLetters = "XYZIJKRQ";
 constexpr std::string_view kAngleLetters = "ABC";
 
-}  // namespace
+class FanucDecoder final : public StepWriter {
+ public:
+  FanucDecoder(const Decoding& in, Step& step) noexcept
+      : StepWriter(in, {.numbered_programs = true}, step) {}
+  bool block(const Block& block);
 
-bool Interpreter::decode_fanuc(const Block& block, Step& step) {
+ private:
+  bool g_word(const Word& word);
+  bool m_word(const Word& word);
+  bool letter_word(const Word& word);
+  bool finish();
+  bool program_call();
+};
+
+bool FanucDecoder::block(const Block& block) {
   if (block.words().empty()) {
     return true;
   }
   // The codes first: G4 decides what X and P are, G20/G21 what an increment is.
   for (const Word& word : block.words()) {
-    if (word.letter == 'G' ? !fanuc_g(word, step) : word.letter == 'M' && !fanuc_m(word, step)) {
+    if (word.letter == 'G' ? !g_word(word) : word.letter == 'M' && !m_word(word)) {
       return false;
     }
   }
   for (const Word& word : block.words()) {
-    if (word.letter != 'G' && word.letter != 'M' && !fanuc_letter(word, step)) {
+    if (word.letter != 'G' && word.letter != 'M' && !letter_word(word)) {
       return false;
     }
   }
-  return fanuc_finish(step);
+  return finish();
 }
 
-bool Interpreter::fanuc_g(const Word& word, Step& step) {
+bool FanucDecoder::g_word(const Word& word) {
   const double tenfold = word.value * 10.0;
   const double rounded = std::round(tenfold);
   if (!(rounded >= 0.0 && rounded < 1e5) || std::abs(tenfold - rounded) > 1e-3) {
-    return refuse_word(step.line, word, "unknown_g_code", "a G word that is not known");
+    return refuse(word, "unknown_g_code", "a G word that is not known");
   }
   const int code = static_cast<int>(rounded);
   for (const Note& note : kNotes) {
     if (note.code == code) {
-      return refuse_word(step.line, word, note.reason, note.text);
+      return refuse(word, note.reason, note.text);
     }
   }
   switch (code) {
     case 90:  // G9 exact stop, this block
-      step.exact_stop = true;
+      step_.exact_stop = true;
       return true;
     case 541:  // G54.1
-      return refuse_word(step.line, word, "g_code_not_interpreted",
-                         "additional work offsets (G54.1 P) are not interpreted");
+      return refuse(word, "g_code_not_interpreted",
+                    "additional work offsets (G54.1 P) are not interpreted");
     case g::kContinuous:  // G64 cutting mode, G61 exact stop mode: stops at every end point
-      return put_g(word, g::kContinuous, step);
+      return put_g(word, g::kContinuous);
     case g::kExactPath:
-      return put_g(word, g::kExactStop, step);
+      return put_g(word, g::kExactStop);
     case g::kStoreHome:
     case g::kStoreSecondHome:
     case g::kRigidTap:
@@ -124,70 +135,68 @@ bool Interpreter::fanuc_g(const Word& word, Step& step) {
     case g::kForgetOrigin:
     case g::kOriginOff:
     case g::kOriginOn:
-      return refuse_word(step.line, word, "ambiguous_code",
-                         "this decimal G word means something else, or nothing, on each control");
+      return refuse(word, "ambiguous_code",
+                    "this decimal G word means something else, or nothing, on each control");
     default:
-      return put_g(word, code, step);
+      return put_g(word, code);
   }
 }
 
-bool Interpreter::fanuc_m(const Word& word, Step& step) {
+bool FanucDecoder::m_word(const Word& word) {
   if (is_modulation(word)) {
-    return take_modulation(word, step);
+    return take_m(word);
   }
   if (word.value == 60.0 || word.value == 61.0 || (word.value >= 50.0 && word.value <= 53.0)) {
-    return refuse_word(step.line, word, "machine_builders_code",
-                       "an M word that every machine builder gives his own meaning");
+    return refuse(word, "machine_builders_code",
+                  "an M word that every machine builder gives his own meaning");
   }
-  return take_m(word, step);
+  return take_m(word);
 }
 
-bool Interpreter::fanuc_letter(const Word& word, Step& step) {
-  const bool dwell = step.code(GGroup::non_modal) == g::kDwell;
+bool FanucDecoder::letter_word(const Word& word) {
+  const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
   char letter = word.letter;
   double value = word.value;
   if (letter == 'U' || letter == 'V' || letter == 'W') {
-    if (step.code(GGroup::non_modal) != g::kHome &&
-        step.code(GGroup::non_modal) != g::kSecondHome) {
-      return refuse_word(
-          step.line, word, "lathe_word",
-          "U, V and W are increments on a lathe; lathe programs are not interpreted");
+    if (step_.code(GGroup::non_modal) != g::kHome &&
+        step_.code(GGroup::non_modal) != g::kSecondHome) {
+      return refuse(word, "lathe_word",
+                    "U, V and W are increments on a lathe; lathe programs are not interpreted");
     }
     letter = letter == 'U' ? 'X' : letter == 'V' ? 'Y' : 'Z';
-    step.incremental |= Step::bit(letter);
+    step_.incremental |= Step::bit(letter);
   }
   if (letter == 'D') {
     // A radius or length number without G41/G42/G43 is a preparation that moves nothing.
-    return refuse_word(step.line, word, "unused_word",
-                       "a D word, but cutter radius compensation is not interpreted");
+    return refuse(word, "unused_word",
+                  "a D word, but cutter radius compensation is not interpreted");
   }
   if (dwell && letter == 'X') {  // G4 X: seconds, with or without point as the rule says
     const bool increments =
-        !word.decimal_point && config_.decimal_rule == DecimalRule::least_increment;
-    return put_letter(word, 'P', increments ? value * 1e-3 : value, step);
+        !word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment;
+    return put_letter(word, 'P', increments ? value * 1e-3 : value);
   }
-  if (step.code(MGroup::program) == m::kCall && (letter == 'P' || letter == 'L')) {
-    return put_letter(word, letter, value, step);
+  if (step_.code(MGroup::program) == m::kCall && (letter == 'P' || letter == 'L')) {
+    return put_letter(word, letter, value);
   }
-  if (letter == 'P' && step.code(MGroup::program) == m::kReturn) {
-    return refuse_word(step.line, word, "flow_control",
-                       "M99 with a block number (P) is a jump, which is not interpreted");
+  if (letter == 'P' && step_.code(MGroup::program) == m::kReturn) {
+    return refuse(word, "flow_control",
+                  "M99 with a block number (P) is a jump, which is not interpreted");
   }
   if (letter == 'P') {
-    if (step.code(GGroup::non_modal) == g::kSetData) {
-      return put_letter(word, 'P', value, step);  // which work offset
+    if (step_.code(GGroup::non_modal) == g::kSetData) {
+      return put_letter(word, 'P', value);  // which work offset
     }
-    const bool with_time = dwell || is_cycle(step.code(GGroup::motion)) ||
-                           (step.code(GGroup::motion) == kNoCode && is_cycle(state_.motion));
+    const bool with_time = dwell || is_cycle(step_.code(GGroup::motion)) ||
+                           (step_.code(GGroup::motion) == kNoCode && is_cycle(in_.state.motion));
     if (!with_time) {
-      return refuse_word(step.line, word, "unused_word",
-                         "a P word, but no word of the block uses it");
+      return refuse(word, "unused_word", "a P word, but no word of the block uses it");
     }
-    return put_letter(word, 'P', value * 1e-3, step);  // milliseconds
+    return put_letter(word, 'P', value * 1e-3);  // milliseconds
   }
-  if (!word.decimal_point && config_.decimal_rule == DecimalRule::least_increment) {
-    const int units = step.code(GGroup::units);
-    const bool inch = units == kNoCode ? state_.unit_mm != 1.0 : units == g::kInch;
+  if (!word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment) {
+    const int units = step_.code(GGroup::units);
+    const bool inch = units == kNoCode ? in_.state.unit_mm != 1.0 : units == g::kInch;
     if (kLengthLetters.find(letter) != std::string_view::npos) {
       value *= inch ? 1e-4 : 1e-3;
     } else if (kAngleLetters.find(letter) != std::string_view::npos) {
@@ -195,74 +204,91 @@ bool Interpreter::fanuc_letter(const Word& word, Step& step) {
     }
   }
   if (letter == 'K' &&
-      is_cycle(step.code(GGroup::motion) == kNoCode ? state_.motion : step.code(GGroup::motion))) {
+      is_cycle(step_.code(GGroup::motion) == kNoCode ? in_.state.motion
+                                                     : step_.code(GGroup::motion))) {
     letter = 'L';  // the number of repeats is K on these controls
     value = word.value;
   }
-  return put_letter(word, letter, value, step);
+  return put_letter(word, letter, value);
 }
 
 // M98 P…: eight digits are four of repeats and four of the program's number; or P and L.
-bool Interpreter::fanuc_call(Step& step) {
+bool FanucDecoder::program_call() {
   constexpr double kNumbers = 10000.0;
-  if (step.code(MGroup::program) != m::kCall || !step.has('P')) {
+  if (step_.code(MGroup::program) != m::kCall || !step_.has('P')) {
     return true;
   }
-  const double p = step['P'];
-  if (step.has('L') && (!(step['L'] >= 1.0) || p >= kNumbers)) {
-    return refuse(step, 'L', "bad_value",
-                  p >= kNumbers ? "repeats both in L and in the digits of P"
-                                : "the number of repeats (L) is at least 1");
+  const double p = step_['P'];
+  if (step_.has('L') && (!(step_['L'] >= 1.0) || p >= kNumbers)) {
+    return in_.refusals.letter(step_, 'L', "bad_value",
+                               p >= kNumbers ? "repeats both in L and in the digits of P"
+                                             : "the number of repeats (L) is at least 1");
   }
   if (p >= kNumbers) {
-    step.set('L', std::floor(p / kNumbers));
-    step.set('P', std::fmod(p, kNumbers));
+    step_.set('L', std::floor(p / kNumbers));
+    step_.set('P', std::fmod(p, kNumbers));
   }
   return true;
 }
 
 // Where these controls do otherwise than LinuxCNC.
-bool Interpreter::fanuc_finish(Step& step) {
-  if (step.code(GGroup::units) != kNoCode) {
-    for (const Word& word : step.block->words()) {
+bool FanucDecoder::finish() {
+  if (step_.code(GGroup::units) != kNoCode) {
+    for (const Word& word : step_.block->words()) {
       if (word.calculated) {
-        return refuse_word(step.line, word, "units_beside_variables",
-                           "a calculated value beside G20 or G21: which unit it is rounded in is "
-                           "not known; write the units in a block before");
+        return refuse(word, "units_beside_variables",
+                      "a calculated value beside G20 or G21: which unit it is rounded in is "
+                      "not known; write the units in a block before");
       }
     }
   }
-  if (!fanuc_call(step)) {
+  if (!program_call()) {
     return false;
   }
-  const int non_modal = step.code(GGroup::non_modal);
+  const int non_modal = step_.code(GGroup::non_modal);
   if (non_modal == g::kMachineFrame) {
-    step.machine_frame = true;
+    step_.machine_frame = true;
   }
   // G28 in one block with G0/G1: the motion word is modal only, the axis words belong to G28.
   if ((non_modal == g::kHome || non_modal == g::kSecondHome) &&
-      step.code(GGroup::motion) != kNoCode) {
-    const std::int16_t motion = step.code(GGroup::motion);
+      step_.code(GGroup::motion) != kNoCode) {
+    const std::int16_t motion = step_.code(GGroup::motion);
     if (motion != g::kRapid && motion != g::kLinear) {
-      return refuse(step, 'G', "two_users_of_axis_words",
-                    "two G words in one block that both use the axis words");
+      return in_.refusals.letter(step_, 'G', "two_users_of_axis_words",
+                                 "two G words in one block that both use the axis words");
     }
-    state_.motion = motion;
-    step.g[static_cast<std::size_t>(GGroup::motion)] = kNoCode;
+    step_.motion_mode = motion;
+    step_.g[static_cast<std::size_t>(GGroup::motion)] = kNoCode;
   }
-  if ((non_modal == g::kHome || non_modal == g::kSecondHome) && (step.mask & kAxisMask) == 0) {
-    return refuse_code(step, 'G', non_modal / 10, "axis_words_missing",
-                       "a reference point without axes; write G91 G28 Z0");
+  if ((non_modal == g::kHome || non_modal == g::kSecondHome) && (step_.mask & kAxisMask) == 0) {
+    return in_.refusals.code(step_, 'G', non_modal / 10, "axis_words_missing",
+                             "a reference point without axes; write G91 G28 Z0");
   }
-  if (step.code(GGroup::tool_length) == g::kToolLength && !step.has('H')) {
-    return refuse_code(step, 'G', 43, "tool_missing", "G43 without its offset number (H)");
+  if (step_.code(GGroup::tool_length) == g::kToolLength && !step_.has('H')) {
+    return in_.refusals.code(step_, 'G', 43, "tool_missing", "G43 without its offset number (H)");
   }
-  if ((non_modal == g::kShift && state_.g92_used) ||
-      (non_modal == g::kSetOrigin && state_.g52_used)) {
-    return refuse_code(step, 'G', non_modal / 10, "ambiguous_code",
-                       "G52 and G92 in one program: which of them goes first differs");
+  if ((non_modal == g::kShift && in_.state.g92_used) ||
+      (non_modal == g::kSetOrigin && in_.state.g52_used)) {
+    return in_.refusals.code(step_, 'G', non_modal / 10, "ambiguous_code",
+                             "G52 and G92 in one program: which of them goes first differs");
   }
   return true;
+}
+
+bool decode(const Decoding& in, const Block& block, Step& step) {
+  return FanucDecoder(in, step).block(block);
+}
+
+}  // namespace
+
+const DialectRules& fanuc_rules() noexcept {
+  static constexpr DialectRules kRules{.decode = decode,
+                                       .starts_with_g98 = true,
+                                       .g10_adds = true,
+                                       .cycle_words_stay = true,
+                                       .cycle_needs_dwell = false,
+                                       .cycle_lifts_first = false};
+  return kRules;
 }
 
 }  // namespace steadyrest::nc::interpret

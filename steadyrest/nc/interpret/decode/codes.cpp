@@ -2,7 +2,7 @@
 #include <array>
 #include <cstddef>
 
-#include <steadyrest/nc/interpret/parameters/codes.hpp>
+#include <steadyrest/nc/interpret/decode/codes.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {

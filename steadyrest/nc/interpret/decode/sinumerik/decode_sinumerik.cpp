@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/decode/sinumerik/sinumerik.hpp>
+#include <steadyrest/nc/interpret/decode/step_writer.hpp>
 
-// SINUMERIK 840D/828D programs in Siemens' own language (not the ISO dialect).
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -77,41 +77,52 @@ bool equal(std::string_view text, std::string_view upper_name) noexcept {
 constexpr std::array<std::string_view, 8> kWithoutEffect = {"STOPRE", "FNORM", "CFC",  "CFTCP",
                                                             "CFIN",   "FFWOF", "SOFT", "MSG"};
 
-}  // namespace
+class SinumerikDecoder final : public StepWriter {
+ public:
+  SinumerikDecoder(const Decoding& in, Step& step) noexcept : StepWriter(in, {}, step) {}
+  bool block(const Block& block);
 
-bool Interpreter::decode_sinumerik(const Block& block, Step& step) {
+ private:
+  bool g_word(const Word& word);
+  bool m_word(const Word& word);
+  bool letter_word(const Word& word);
+  bool name_word(const Word& word);
+  bool finish();
+};
+
+bool SinumerikDecoder::block(const Block& block) {
   for (const Word& word : block.words()) {
-    if (word.letter == 'G' && !sinumerik_g(word, step)) {
+    if (word.letter == 'G' && !g_word(word)) {
       return false;
     }
   }
   for (const Word& word : block.words()) {
     const bool accepted = word.letter == 'G'   ? true
-                          : word.letter == 'M' ? sinumerik_m(word, step)
-                          : word.letter == 0   ? sinumerik_name(word, step)
-                                               : sinumerik_letter(word, step);
+                          : word.letter == 'M' ? m_word(word)
+                          : word.letter == 0   ? name_word(word)
+                                               : letter_word(word);
     if (!accepted) {
       return false;
     }
   }
-  return sinumerik_finish(step);
+  return finish();
 }
 
-bool Interpreter::sinumerik_g(const Word& word, Step& step) {
+bool SinumerikDecoder::g_word(const Word& word) {
   if (word.qualifier != Qualifier::none || word.value != std::floor(word.value)) {
-    return refuse_word(step.line, word, "unknown_g_code", "a G word that is not known");
+    return refuse(word, "unknown_g_code", "a G word that is not known");
   }
   const double value = word.value;
   if (value == 9.0) {
-    step.exact_stop = true;
+    step_.exact_stop = true;
     return true;
   }
   if (value == 500.0) {
-    if (step.code(GGroup::work_offset) != kNoCode || step.zero_offset) {
-      return refuse_word(step.line, word, "same_modal_group",
-                         "a second G word of the same modal group in one block");
+    if (step_.code(GGroup::work_offset) != kNoCode || step_.zero_offset) {
+      return refuse(word, "same_modal_group",
+                    "a second G word of the same modal group in one block");
     }
-    step.zero_offset = true;
+    step_.zero_offset = true;
     return true;
   }
   if (value == 601.0 || value == 602.0 || value == 603.0) {
@@ -119,107 +130,104 @@ bool Interpreter::sinumerik_g(const Word& word, Step& step) {
   }
   for (const Note& note : kNotes) {
     if (value == note.code) {
-      return refuse_word(step.line, word, "g_code_not_interpreted", note.text);
+      return refuse(word, "g_code_not_interpreted", note.text);
     }
   }
   for (const Translation& translation : kTranslations) {
     if (value == translation.theirs) {
       // G70 and G71 are for geometry alone: feeds stay in the control's basic unit, mm.
-      step.work_feed = step.work_feed && translation.theirs != 70 && translation.theirs != 71;
-      return put_g(word, translation.ours, step);
+      step_.work_feed = step_.work_feed && translation.theirs != 70 && translation.theirs != 71;
+      return put_g(word, translation.ours);
     }
   }
-  return refuse_word(step.line, word, "unknown_g_code", "a G word that is not known");
+  return refuse(word, "unknown_g_code", "a G word that is not known");
 }
 
-bool Interpreter::sinumerik_m(const Word& word, Step& step) {
+bool SinumerikDecoder::m_word(const Word& word) {
   if (is_modulation(word)) {
-    return take_modulation(word, step);
+    return take_m(word);
   }
   constexpr std::array kKnown = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 30.0};
   if (word.value == 17.0) {
-    step.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
+    step_.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
     return true;
   }
   if (std::ranges::find(kKnown, word.value) == kKnown.end()) {
-    return refuse_word(step.line, word, "unknown_m_code",
-                       "an M word that every machine builder gives his own meaning");
+    return refuse(word, "unknown_m_code",
+                  "an M word that every machine builder gives his own meaning");
   }
-  return take_m(word, step);
+  return take_m(word);
 }
 
-bool Interpreter::sinumerik_letter(const Word& word, Step& step) {
+bool SinumerikDecoder::letter_word(const Word& word) {
   const char letter = word.letter;
-  const bool dwell = step.code(GGroup::non_modal) == g::kDwell;
+  const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
   if (word.qualifier == Qualifier::text) {
     if (letter != 'T') {
-      return refuse_word(step.line, word, "bad_value", "a string where a number belongs");
+      return refuse(word, "bad_value", "a string where a number belongs");
     }
-    if (config_.tools) {
-      return refuse_word(step.line, word, "no_such_tool",
-                         "a tool by name, but the tool table has numbers");
+    if (in_.config.tools) {
+      return refuse(word, "no_such_tool", "a tool by name, but the tool table has numbers");
     }
-    step.tool_name = word.text;
+    step_.tool_name = word.text;
     return true;
   }
   if (dwell && letter == 'F') {
-    return put_letter(word, 'P', word.value, step);
+    return put_letter(word, 'P', word.value);
   }
   if (dwell && letter == 'S') {
-    if (!(state_.spindle_speed_rev_s > 0.0)) {
-      return refuse_word(step.line, word, "spindle_speed_missing",
-                         "a dwell in revolutions, but no spindle speed is in force");
+    if (!(in_.state.spindle_speed_rev_s > 0.0)) {
+      return refuse(word, "spindle_speed_missing",
+                    "a dwell in revolutions, but no spindle speed is in force");
     }
-    return put_letter(word, 'P', word.value / state_.spindle_speed_rev_s, step);
+    return put_letter(word, 'P', word.value / in_.state.spindle_speed_rev_s);
   }
   if (letter == 'D') {  // D0 takes the tool's length off, D1 puts it on
     if (word.value != std::floor(word.value) || word.value < 0.0 ||
-        (config_.tools && word.value > 1.0)) {
-      return refuse_word(step.line, word, "no_such_tool",
-                         "a cutting edge that is not in the tool table");
+        (in_.config.tools && word.value > 1.0)) {
+      return refuse(word, "no_such_tool", "a cutting edge that is not in the tool table");
     }
-    std::int16_t& place = step.g[static_cast<std::size_t>(GGroup::tool_length)];
+    std::int16_t& place = step_.g[static_cast<std::size_t>(GGroup::tool_length)];
     if (place != kNoCode) {
-      return refuse_word(step.line, word, "word_twice", "a second D word in one block");
+      return refuse(word, "word_twice", "a second D word in one block");
     }
     place = word.value == 0.0 ? g::kToolLengthOff : g::kToolLength;
     return true;
   }
   if (std::string_view{"EHLOPQR"}.find(letter) != std::string_view::npos) {
-    return refuse_word(step.line, word, "unknown_word",
-                       letter == 'L' ? "a subprogram call (L)"
-                                     : "an address that is not interpreted in this dialect");
+    return refuse(word, "unknown_word",
+                  letter == 'L' ? "a subprogram call (L)"
+                                : "an address that is not interpreted in this dialect");
   }
   if (word.qualifier == Qualifier::absolute) {
-    step.absolute |= Step::bit(letter);
+    step_.absolute |= Step::bit(letter);
   } else if (word.qualifier == Qualifier::incremental) {
-    step.incremental |= Step::bit(letter);
+    step_.incremental |= Step::bit(letter);
   }
   const bool takes_qualifier = ((kAxisMask | kCentreMask) & Step::bit(letter)) != 0;
   if (word.qualifier != Qualifier::none && !takes_qualifier) {
-    return refuse_word(step.line, word, "bad_value",
-                       "AC( ) and IC( ) belong to axis and centre words");
+    return refuse(word, "bad_value", "AC( ) and IC( ) belong to axis and centre words");
   }
-  return put_letter(word, letter, word.value, step);
+  return put_letter(word, letter, word.value);
 }
 
-bool Interpreter::sinumerik_name(const Word& word, Step& step) {
+bool SinumerikDecoder::name_word(const Word& word) {
   const auto without_effect = [&](std::string_view known) { return equal(word.name, known); };
   if (equal(word.name, "RET")) {
-    if (step.block->words().size() > 1 || word.has_value) {
-      return refuse_word(step.line, word, "subprogram_end", "RET stands in a block of its own");
+    if (step_.block->words().size() > 1 || word.has_value) {
+      return refuse(word, "subprogram_end", "RET stands in a block of its own");
     }
-    step.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
+    step_.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
     return true;
   }
   constexpr std::array<std::pair<std::string_view, char>, 4> kFrames = {
       {{"TRANS", 'T'}, {"ATRANS", 't'}, {"ROT", 'R'}, {"AROT", 'r'}}};
   for (const auto& [name, frame] : kFrames) {
     if (equal(word.name, name)) {
-      if (step.frame != 0 || word.has_value) {
-        return refuse_word(step.line, word, "frame", "a frame stands in a block of its own");
+      if (step_.frame != 0 || word.has_value) {
+        return refuse(word, "frame", "a frame stands in a block of its own");
       }
-      step.frame = frame;
+      step_.frame = frame;
       return true;
     }
   }
@@ -227,64 +235,78 @@ bool Interpreter::sinumerik_name(const Word& word, Step& step) {
     return true;  // transformations are refused: none can be on
   }
   if (equal(word.name, "SUPA")) {
-    step.machine_frame = true;
+    step_.machine_frame = true;
     return true;
   }
   if (std::ranges::any_of(kWithoutEffect, without_effect)) {
     return true;
   }
   if (!word.has_value) {
-    return refuse_word(step.line, word, "missing_value", "a word without its value");
+    return refuse(word, "missing_value", "a word without its value");
   }
   if (word.qualifier != Qualifier::none) {
-    return refuse_word(step.line, word, "bad_value", "a plain number belongs here");
+    return refuse(word, "bad_value", "a plain number belongs here");
   }
   if (equal(word.name, "RPL")) {
-    step.frame_angle_deg = word.value;
+    step_.frame_angle_deg = word.value;
     return true;
   }
   if (equal(word.name, "CR")) {
-    return put_letter(word, 'R', word.value, step);
+    return put_letter(word, 'R', word.value);
   }
   if (equal(word.name, "TURN")) {
     if (word.value != std::floor(word.value) || word.value < 0.0 || word.value > 999.0) {
-      return refuse_word(step.line, word, "arc_turns",
-                         "the number of further turns is a whole number from 0 to 999");
+      return refuse(word, "arc_turns",
+                    "the number of further turns is a whole number from 0 to 999");
     }
-    return put_letter(word, 'P', word.value + 1.0, step);
+    return put_letter(word, 'P', word.value + 1.0);
   }
   // ADIS, ADISPOS: how far before a corner the rounding may begin.
   if (word.value < 0.0) {
-    return refuse_word(step.line, word, "out_of_range", "a negative distance");
+    return refuse(word, "out_of_range", "a negative distance");
   }
-  step.rounding_mm = word.value * state_.unit_mm;
+  step_.rounding_mm = word.value * in_.state.unit_mm;
   return true;
 }
 
-bool Interpreter::sinumerik_finish(Step& step) {
-  if (!std::isnan(step.frame_angle_deg) && step.frame != 'R' && step.frame != 'r') {
-    return refuse_word(step.line, step.block->words().front(), "unused_word",
-                       "RPL without ROT or AROT");
+bool SinumerikDecoder::finish() {
+  if (!std::isnan(step_.frame_angle_deg) && step_.frame != 'R' && step_.frame != 'r') {
+    return in_.refusals.block(step_, "unused_word", "RPL without ROT or AROT");
   }
-  if (step.code(GGroup::non_modal) == g::kMachineFrame) {
-    step.machine_frame = true;
-    step.g[static_cast<std::size_t>(GGroup::non_modal)] = kNoCode;
+  if (step_.code(GGroup::non_modal) == g::kMachineFrame) {
+    step_.machine_frame = true;
+    step_.g[static_cast<std::size_t>(GGroup::non_modal)] = kNoCode;
   }
-  if (step.code(GGroup::non_modal) == g::kDwell && (step.mask & kAxisMask) != 0) {
-    return refuse(step, 'G', "g4_with_motion", "a dwell (G4) stands in a block of its own");
+  if (step_.code(GGroup::non_modal) == g::kDwell && (step_.mask & kAxisMask) != 0) {
+    return in_.refusals.letter(step_, 'G', "g4_with_motion",
+                               "a dwell (G4) stands in a block of its own");
   }
   // Constant cutting speed brings feed per revolution with it.
-  std::int16_t& feed_mode = step.g[static_cast<std::size_t>(GGroup::feed_mode)];
-  if (step.code(GGroup::spindle_mode) == g::kCuttingSpeed) {
+  std::int16_t& feed_mode = step_.g[static_cast<std::size_t>(GGroup::feed_mode)];
+  if (step_.code(GGroup::spindle_mode) == g::kCuttingSpeed) {
     if (feed_mode != kNoCode) {
-      return refuse(step, 'G', "same_modal_group",
-                    "G96 is itself a feed type in this dialect; no other beside it");
+      return in_.refusals.letter(step_, 'G', "same_modal_group",
+                                 "G96 is itself a feed type in this dialect; no other beside it");
     }
-    if (state_.feed_mode != FeedMode::per_revolution) {
+    if (in_.state.feed_mode != FeedMode::per_revolution) {
       feed_mode = g::kPerRevolution;
     }
   }
   return true;
+}
+
+bool decode(const Decoding& in, const Block& block, Step& step) {
+  return SinumerikDecoder(in, step).block(block);
+}
+
+}  // namespace
+
+const DialectRules& sinumerik_rules() noexcept {
+  static constexpr DialectRules kRules{.decode = decode,
+                                       .machine_frame_alone = true,
+                                       .tool_in_machine_frame = true,
+                                       .rounding_distance = true};
+  return kRules;
 }
 
 }  // namespace steadyrest::nc::interpret

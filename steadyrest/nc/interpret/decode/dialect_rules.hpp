@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/interpret/state/refusals.hpp>
+#include <steadyrest/nc/interpret/state/state.hpp>
+#include <steadyrest/nc/interpret/state/step.hpp>
+#include <steadyrest/nc/read/text/block.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// What a decoder sees: it reads the modal state and changes nothing.
+struct Decoding {
+  const Config& config;
+  const State& state;
+  std::uint32_t axes;  ///< mask of the axis letters that the machine has
+  Refusals& refusals;
+};
+
+/// Translates the words of a block into a step that has been reset. False when the block is
+/// refused.
+using Decoder = bool (*)(const Decoding& in, const read::Block& block, Step& step);
+
+/// A dialect: its decoder, and how the same step is executed where dialects differ. Each dialect's
+/// folder has its own; `rules_of` is their table.
+struct DialectRules {
+  Decoder decode;
+  bool units_first = true;             ///< in a block; on linuxcnc F acts in the units before it
+  bool feed_mode_clears_feed = false;  ///< also where the mode was in force already
+  bool starts_with_g98 = false;
+  bool machine_frame_alone = false;           ///< G53 stands in blocks without a move
+  bool tool_in_machine_frame = false;         ///< the tool's length stays in force under G53 …
+  bool rotary_tool_in_machine_frame = false;  ///< … at least that of A, B and C, there and in G28
+  bool rounding_distance = false;             ///< a distance stays in force for continuous mode
+  bool g10_adds = false;          ///< G10 has L2 alone: P0 is the external offset, G91 adds
+  bool cycle_words_stay = false;  ///< from one drilling cycle to the next, until G80
+  bool cycle_needs_dwell = true;  ///< P must be given where a cycle dwells
+  bool cycle_lifts_first = true;  ///< to the R plane before it goes to the hole
+  bool taps_in_xy_alone = false;
+  bool short_way = false;  ///< plain lines may go past the checks: see plain_block.hpp
+};
+
+[[nodiscard]] const DialectRules& rules_of(read::Dialect dialect) noexcept;
+
+}  // namespace steadyrest::nc::interpret

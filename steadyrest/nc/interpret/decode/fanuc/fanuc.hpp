@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// FANUC-style milling programs: G code system of the machining-centre controls, also Haas and
+/// Mazak EIA. Codes that lathes give another meaning are refused, not guessed.
+[[nodiscard]] const DialectRules& fanuc_rules() noexcept;
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <steadyrest/nc/interpret/decode/linuxcnc/linuxcnc.hpp>
+#include <steadyrest/nc/interpret/decode/step_writer.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+using read::Block;
+using read::Word;
+
+class LinuxcncDecoder final : public StepWriter {
+ public:
+  LinuxcncDecoder(const Decoding& in, Step& step) noexcept
+      : StepWriter(
+            in, {.cutter_compensation = true, .outputs_and_modes = true, .numbered_programs = true},
+            step) {}
+
+  bool take(const Word& word) {
+    switch (word.letter) {
+      case '@':
+      case '^':
+        return take_polar(word);
+      case 'G':
+        return take_g(word);
+      case 'M':
+        return take_m(word);
+      default:
+        return put_letter(word, word.letter, word.value);
+    }
+  }
+
+  bool finish() {
+    step_.machine_frame = step_.code(GGroup::non_modal) == g::kMachineFrame;
+    if (!step_.polar) {
+      return true;
+    }
+    if ((step_.mask & (Step::bit('X') | Step::bit('Y'))) != 0) {
+      return in_.refusals.letter(step_, step_.has('X') ? 'X' : 'Y', "polar_and_axis_words",
+                                 "polar coordinates (@ ^) beside an X or Y word");
+    }
+    if (in_.state.plane != Plane::xy) {
+      return in_.refusals.block(step_, "polar_off_xy", "polar coordinates (@ ^) outside of G17");
+    }
+    step_.set('X', 0.0);  // for the checks: both axes are programmed
+    step_.set('Y', 0.0);
+    return true;
+  }
+
+ private:
+  bool take_polar(const Word& word) {
+    double& place = word.letter == '@' ? step_.polar_radius : step_.polar_angle_deg;
+    if (!std::isnan(place)) {
+      return refuse(word, "word_twice", "a second polar word of its kind in one block");
+    }
+    place = word.value;
+    step_.polar = true;
+    step_.others = true;
+    return true;
+  }
+
+  bool take_g(const Word& word) {
+    const double tenfold = word.value * 10.0;
+    const double code = std::round(tenfold);
+    if (!(code >= 0.0 && code < 1000.0) || std::abs(tenfold - code) > 1e-3) {
+      return refuse(word, "unknown_g_code", "a G word that is not known");
+    }
+    return put_g(word, static_cast<int>(code));
+  }
+};
+
+bool decode(const Decoding& in, const Block& block, Step& step) {
+  LinuxcncDecoder decoder(in, step);
+  const std::uint32_t plain = in.axes | Step::bit('F');
+  std::int16_t& motion = step.g[static_cast<std::size_t>(GGroup::motion)];
+  for (const Word& word : block.words()) {
+    // What nearly all words are, without a call.
+    const std::uint32_t bit = Step::bit(word.letter);
+    if ((bit & plain & ~step.mask) != 0) {
+      step.set(word.letter, word.value);
+      continue;
+    }
+    if (word.letter == 'G' && motion == kNoCode && (word.value == 0.0 || word.value == 1.0)) {
+      motion = word.value == 0.0 ? g::kRapid : g::kLinear;
+      continue;
+    }
+    if (!decoder.take(word)) {
+      return false;
+    }
+  }
+  return decoder.finish();
+}
+
+}  // namespace
+
+const DialectRules& linuxcnc_rules() noexcept {
+  static constexpr DialectRules kRules{.decode = decode,
+                                       .units_first = false,
+                                       .feed_mode_clears_feed = true,
+                                       .rotary_tool_in_machine_frame = true,
+                                       .taps_in_xy_alone = true,
+                                       .short_way = true};
+  return kRules;
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// Puts words into a step: the part of decoding that all dialects share. A decoder translates what
+/// its dialect says otherwise and hands the rest over.
+class StepWriter {
+ public:
+  /// Words that not every dialect has.
+  struct Vocabulary {
+    bool cutter_compensation = false;  ///< G41, G42
+    bool outputs_and_modes = false;    ///< M19, M62 to M73
+    bool numbered_programs = false;    ///< M98, M99
+  };
+
+  StepWriter(const Decoding& in, Vocabulary vocabulary, Step& step) noexcept
+      : in_(in), vocabulary_(vocabulary), step_(step) {}
+
+  /// A G word by its code in `words.hpp`.
+  bool put_g(const read::Word& word, int code);
+  /// An M word as it is written.
+  bool take_m(const read::Word& word);
+  /// A value under a letter, which need not be the word's own.
+  bool put_letter(const read::Word& word, char letter, double value);
+
+ protected:
+  bool refuse(const read::Word& word, std::string_view reason, std::string_view text) {
+    return in_.refusals.word(step_.line, word, reason, text);
+  }
+  /// One of the two words of `Config::modulation_on` and `modulation_off`.
+  [[nodiscard]] bool is_modulation(const read::Word& word) const noexcept;
+
+  const Decoding& in_;
+  Vocabulary vocabulary_;
+  Step& step_;
+
+ private:
+  bool put_m(const read::Word& word, int code);
+  bool put_modulation(const read::Word& word);
+};
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include <steadyrest/nc/interpret/state/step.hpp>
+#include <steadyrest/nc/read/text/block.hpp>
+#include <steadyrest/nc/read/text/refused.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// Keeps why a block is refused. Whatever states a reason returns false, so that the caller can
+/// return it.
+class Refusals {
+ public:
+  [[nodiscard]] const read::Refused& last() const noexcept { return last_; }
+
+  bool word(std::uint32_t line, const read::Word& word, std::string_view reason,
+            std::string_view text);
+  /// For the word of a letter. Where a decoder put another word in the letter's place, the block's
+  /// last one is shown.
+  bool letter(const Step& step, char letter, std::string_view reason, std::string_view text);
+  /// For a G or M word, by the whole part of its number; the block's first word where it is absent.
+  bool code(const Step& step, char letter, int number, std::string_view reason,
+            std::string_view text);
+  /// For the block as a whole: its first word is shown.
+  bool block(const Step& step, std::string_view reason, std::string_view text);
+  /// For a call: its name is shown.
+  bool call(std::uint32_t line, const read::Flow& call, std::string_view reason,
+            std::string_view text);
+
+ private:
+  read::Refused last_;
+};
+
+}  // namespace steadyrest::nc::interpret
