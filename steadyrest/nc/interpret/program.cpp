@@ -36,17 +36,17 @@ class Counter final : public Sink {
 
 class ProgramRun::Run {
  public:
-  Run(LineSource& source, const Config& config, Interpreter interpreter, Sink& sink)
+  Run(LineSource& source, const Config& config, std::unique_ptr<Interpreter> interpreter, Sink& sink)
       : files_(source, config.subprogram_folders),
         reader_(config.dialect),
         interpreter_(std::move(interpreter)),
-        flow_(files_, interpreter_.parameters(), reader_, config),
-        macro_(interpreter_.state()),
+        flow_(files_, interpreter_->parameters(), reader_, config),
+        macro_(interpreter_->state()),
         dialect_(config.dialect),
         block_delete_(config.block_delete),
         counter_(sink, report_) {
     if (config.dialect == read::Dialect::linuxcnc) {
-      reader_.set_values(&interpreter_.parameters());
+      reader_.set_values(&interpreter_->parameters());
     } else if (config.dialect == read::Dialect::fanuc) {
       reader_.set_values(&macro_);
     } else {
@@ -58,7 +58,7 @@ class ProgramRun::Run {
   Run& operator=(const Run&) = delete;
   ~Run() = default;
 
-  bool step() { return !interpreter_.finished() && next_line() && line(); }
+  bool step() { return !interpreter_->finished() && next_line() && line(); }
 
   Report take() {
     if (!report_.refused.empty() && !source_failed_ && files_.in_main()) {
@@ -78,7 +78,7 @@ class ProgramRun::Run {
     at_top_ = files_.in_main() && !flow_.repeating();
     in_main_ = files_.in_main();
     line_ = files_.now().number();
-    interpreter_.at_line(line_);
+    interpreter_->at_line(line_);
     if (flow_.passing_over()) {
       return follow(flow_.pass_over(block_));
     }
@@ -105,17 +105,17 @@ class ProgramRun::Run {
       return follow(flow_.act(block_));
     }
     executed_ = true;
-    if (!interpreter_.execute(block_, counter_)) {
-      return refuse(interpreter_.refused());
+    if (!interpreter_->execute(block_, counter_)) {
+      return refuse(interpreter_->refused());
     }
     report_.blocks += block_.words().empty() ? 0U : 1U;
-    if (sinumerik && interpreter_.finished() && flow_.in_call()) {
+    if (sinumerik && interpreter_->finished() && flow_.in_call()) {
       return refuse({.line = block_.line(),
                      .word = {},
                      .reason = "subprogram_end",
                      .text = "the end of a program in a subprogram; write M17 or RET"});
     }
-    const Interpreter::ProgramCall& call = interpreter_.program_call();
+    const Interpreter::ProgramCall& call = interpreter_->program_call();
     switch (call.kind) {
       case Interpreter::ProgramCall::Kind::none:
         return true;
@@ -132,7 +132,7 @@ class ProgramRun::Run {
   }
 
   Asked& asked() noexcept {
-    return dialect_ == read::Dialect::fanuc ? macro_.asked() : interpreter_.parameters().asked();
+    return dialect_ == read::Dialect::fanuc ? macro_.asked() : interpreter_->parameters().asked();
   }
 
   bool same_as_ahead(const LineSource& source) noexcept {
@@ -150,7 +150,7 @@ class ProgramRun::Run {
       return follow(flow_.call_named(block_));
     }
     ++report_.blocks;
-    return interpreter_.execute_cycle(block_, counter_) || refuse(interpreter_.refused());
+    return interpreter_->execute_cycle(block_, counter_) || refuse(interpreter_->refused());
   }
 
   bool end_of_subprogram() {
@@ -186,14 +186,14 @@ class ProgramRun::Run {
 
   /// Tells the interpreter of calls that began or ended.
   bool follow(bool accepted) {
-    const std::size_t calls = interpreter_.parameters().calls();
+    const std::size_t calls = interpreter_->parameters().calls();
     again_ = calls_ == calls;
     for (; calls_ < calls; ++calls_) {
-      interpreter_.enter_call();
+      interpreter_->enter_call();
       typed_.enter(block_.flow());
     }
     for (; calls_ > calls; --calls_) {
-      interpreter_.leave_call(counter_);
+      interpreter_->leave_call(counter_);
       typed_.leave();
     }
     return accepted || refuse(flow_.refused());
@@ -260,8 +260,8 @@ class ProgramRun::Run {
       }
       if (!reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
         add(reader_.refused());
-      } else if (!block_.words().empty() && !interpreter_.survey(block_)) {
-        add(interpreter_.refused());
+      } else if (!block_.words().empty() && !interpreter_->survey(block_)) {
+        add(interpreter_->refused());
       }
     }
   }
@@ -281,7 +281,7 @@ class ProgramRun::Run {
 
   ProgramFiles files_;
   Reader reader_;
-  Interpreter interpreter_;
+  std::unique_ptr<Interpreter> interpreter_;
   FlowControl flow_;
   MacroVariables macro_;
   SinumerikVariables typed_;
@@ -332,7 +332,7 @@ bool ProgramRun::executed() const noexcept {
   return run_->executed_;
 }
 bool ProgramRun::moved_alone() const noexcept {
-  return run_->executed_ && run_->interpreter_.moved_alone() && run_->reader_.numbers_alone();
+  return run_->executed_ && run_->interpreter_->moved_alone() && run_->reader_.numbers_alone();
 }
 bool ProgramRun::at_top() const noexcept {
   return run_->at_top_;
@@ -351,9 +351,9 @@ std::vector<std::string> ProgramRun::subprogram_files() const {
 }
 
 ProgramRun::Kept ProgramRun::kept() const {
-  Kept kept{.tools = run_->interpreter_.tools().value_or(std::vector<Tool>{}), .variables = {}};
+  Kept kept{.tools = run_->interpreter_->tools().value_or(std::vector<Tool>{}), .variables = {}};
   if (run_->dialect_ == read::Dialect::linuxcnc) {
-    run_->interpreter_.parameters().list(kept.variables);
+    run_->interpreter_->parameters().list(kept.variables);
   } else if (run_->dialect_ == read::Dialect::fanuc) {
     run_->macro_.list(kept.variables);
   } else {
@@ -362,7 +362,7 @@ ProgramRun::Kept ProgramRun::kept() const {
   return kept;
 }
 const State& ProgramRun::state() const noexcept {
-  return run_->interpreter_.state();
+  return run_->interpreter_->state();
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include <steadyrest/nc/interpret/blocks/interpreter.hpp>
@@ -9,9 +10,8 @@
 namespace steadyrest::nc::interpret {
 
 using read::Block;
-using read::Word;
 
-kernel::outcome::Result<Interpreter> Interpreter::make(Config config) {
+kernel::outcome::Result<std::unique_ptr<Interpreter>> Interpreter::make(Config config) {
   const auto refuse = [](std::string what, std::string to_do) {
     return std::unexpected(kernel::outcome::Refusal{.kind = kernel::outcome::Kind::bad_input,
                                                     .file = {},
@@ -42,70 +42,56 @@ kernel::outcome::Result<Interpreter> Interpreter::make(Config config) {
       !std::ranges::all_of(config.home, finite)) {
     return refuse("an offset or start position that is not finite", "give finite numbers");
   }
-  return Interpreter(std::move(config));
+  return std::unique_ptr<Interpreter>(new Interpreter(std::move(config)));
 }
 
-Interpreter::Interpreter(Config config)
-    : config_(std::move(config)), rules_(&rules_of(config_.dialect)) {
-  for (const char letter : config_.axes) {
-    axes_allowed_ |= Step::bit(letter);
-  }
-  state_.work_offset = config_.work_offset;
-  state_.rotation_deg = config_.rotation_deg;
-  state_.active_offset = config_.active_offset;
-  state_.work_in_force = state_.work_offset[state_.active_offset];
-  state_.external = config_.external;
-  state_.g92 = config_.g92_on ? config_.g92 : Axes{};
-  state_.g92_stored = config_.g92;
-  state_.g92_on = config_.g92_on;
-  state_.tool_offset = config_.tool_offset;
-  state_.home = config_.home;
-  state_.unit_mm = config_.inch ? kMmPerInch : 1.0;
-  state_.feed_unit_mm = state_.unit_mm;
-  state_.tool_in_spindle = config_.tool_in_spindle;
-  state_.selected_tool = config_.tool_in_spindle;
-  state_.retract_to_initial = rules_->starts_with_g98;
-  state_.position = config_.start;
-  update_offset();
-  state_.position = to_work(config_.start);
-  parameters_->keep(config_.numbers);
+Interpreter::Interpreter(Config config) : control_(std::move(config)) {
+  parameters_.bind(control_.state, control_.config);
+  parameters_.keep(control_.config.numbers);
 }
 
 bool Interpreter::execute(const Block& block, Sink& sink) {
   program_call_.kind = ProgramCall::Kind::none;
-  const bool filled = std::exchange(plain_before_, false);
-  if (block.deleted() && config_.block_delete) {
+  const bool follows = plain_.forget();
+  if (block.deleted() && control_.config.block_delete) {
     return true;
   }
+  if (block.words().empty() && !block.end_mark()) {
+    return true;
+  }
+  cutter_.send_to(sink);
   if (block.end_mark()) {
     finished_ = true;
-    cutter_->bind(sink);
-    cutter_->on_event(
-        {.kind = EventKind::end, .line = block.line(), .value = 0.0, .tool_name = {}});
+    cutter_.end_mark(block.line());
     return true;
   }
-  if (block.words().empty()) {
-    return true;
-  }
-  cutter_->bind(sink);
-  sink_ = state_.cutter_side != 0 ? static_cast<Sink*>(cutter_.get()) : &sink;
   if (block.words().front().qualifier == read::Qualifier::fine) {
-    return set_fine(block.words().front());
+    return frames_.set_fine(block.words().front());
   }
   if (!decode(block)) {
     return false;
   }
-  if (is_plain(step_)) {
-    return execute_plain(step_, filled);
+  if (plain_.takes(step_)) {
+    return plain_.execute(step_, follows);
   }
   if (step_.frame != 0) {
-    return set_frame(step_);
+    return frames_.set(step_);
   }
-  if (!(check(step_) && frame_settles(step_) && act(step_))) {
+  if (!(check_.choose_motion(step_) && check_.check(step_) && frames_.settle(step_) &&
+        act(step_))) {
     return false;
   }
-  return !modal_cycle_ || motion_now_ < 0 || (step_.mask & kAxisMask) == 0 ||
-         drill_call(*modal_cycle_);
+  return step_.moves_by < 0 || (step_.mask & kAxisMask) == 0 || cycle_calls_.after_move();
+}
+
+bool Interpreter::execute_cycle(const Block& block, Sink& sink) {
+  if (block.deleted() && control_.config.block_delete) {
+    return true;
+  }
+  cutter_.send_to(sink);
+  control_.state.line = block.line();
+  out_.begin_block(block.line());
+  return cycle_calls_.call(block.flow());
 }
 
 bool Interpreter::survey(const Block& block) {
@@ -115,239 +101,156 @@ bool Interpreter::survey(const Block& block) {
   return decode(block);
 }
 
+void Interpreter::leave_call(Sink& sink) {
+  cutter_.send_to(sink);
+  if (modes_.leave_call()) {
+    plain_.forget();
+  }
+}
+
 bool Interpreter::decode(const Block& block) {
   step_.reset(block);
-  const bool accepted = rules_->decode(
-      {.config = config_, .state = state_, .axes = axes_allowed_, .refusals = refusals_}, block,
-      step_);
+  const bool accepted = control_.rules.decode({.config = control_.config,
+                                               .state = control_.state,
+                                               .axes = control_.axes,
+                                               .refusals = control_.refusals},
+                                              block, step_);
   if (step_.motion_mode != kNoCode) {
-    state_.motion = step_.motion_mode;
+    control_.state.motion = step_.motion_mode;
   }
   return accepted;
 }
 
 bool Interpreter::act(const Step& step) {
-  move_.line = step.line;
+  out_.begin_block(step.line);
   if (step.modulation >= 0) {
-    state_.speed_modulation = step.modulation == 1;
+    control_.state.speed_modulation = step.modulation == 1;
   }
-  move_.speed_modulation = state_.speed_modulation;
-  if (rules_->units_first) {
-    set_units(step);
+  if (control_.rules.units_first) {
+    modes_.units(step);
   }
-  return set_feed(step) && set_spindle_speed(step) && select_tool(step) && change_tool(step) &&
-         keep_modes(step) && set_spindle(step) && (set_coolant(step), true) && set_override(step) &&
-         set_io(step) && set_modes(step) && non_modal(step) && move(step) && call_program(step) &&
-         stop(step);
+  machine_.feed(step);
+  if (!machine_.spindle_speed(step) || !machine_.select_tool(step) || !machine_.change_tool(step) ||
+      !modes_.keep(step)) {
+    return false;
+  }
+  machine_.spindle(step);
+  machine_.coolant(step);
+  machine_.overrides(step);
+  if (!machine_.outputs(step)) {
+    return false;
+  }
+  if (step.code(GGroup::non_modal) == g::kDwell) {
+    out_.dwell(step['P']);
+  }
+  modes_.plane_and_units(step);
+  if (!cutter_.set(step) || !offsets_.tool_length(step) || !offsets_.work_offset(step)) {
+    return false;
+  }
+  modes_.path(step);
+  modes_.distance_and_retract(step);
+  return non_modal(step) && move(step) && call_program(step) && stop(step);
 }
 
-// mm/min, mm/rev or 1/min to the inner unit. On LinuxCNC an F word acts in the units that were in
-// force before the block: it comes before G20/G21 in the order of execution.
-bool Interpreter::set_feed(const Step& step) {
-  const int mode = step.code(GGroup::feed_mode);
-  if (mode != kNoCode) {
-    const FeedMode wanted = mode == g::kInverseTime ? FeedMode::inverse_time
-                            : mode == g::kPerMinute ? FeedMode::per_minute
-                                                    : FeedMode::per_revolution;
-    if (wanted != state_.feed_mode || rules_->feed_mode_clears_feed) {
-      state_.feed_mode = wanted;
-      state_.feed_mm_s = 0.0;
-      state_.feed_deg_s = 0.0;
-    }
+bool Interpreter::non_modal(const Step& step) {
+  const int code = step.code(GGroup::non_modal);
+  switch (code) {
+    case g::kSetData:
+      return data_.set(step);
+    case g::kHome:
+    case g::kSecondHome:
+      motion_.home(step, code == g::kHome ? 0 : 1);
+      return true;
+    case g::kStoreHome:
+    case g::kStoreSecondHome:
+      offsets_.store_home(code);
+      return true;
+    case g::kShift:
+    case g::kSetOrigin:
+    case g::kForgetOrigin:
+    case g::kOriginOff:
+    case g::kOriginOn:
+      offsets_.origin(step, code);
+      return true;
+    default:
+      return true;
   }
-  if (!step.has('F')) {
+}
+
+bool Interpreter::move(const Step& step) {
+  const int motion = step.moves_by;
+  if (motion == -1) {
     return true;
   }
-  const double unit = state_.feed_unit_mm;
-  switch (state_.feed_mode) {
-    case FeedMode::per_minute:
-      state_.feed_mm_s = step['F'] * unit / 60.0;
-      state_.feed_deg_s = step['F'] / 60.0;
-      break;
-    case FeedMode::inverse_time:
-      state_.feed_mm_s = step['F'] / 60.0;
-      state_.feed_deg_s = state_.feed_mm_s;
-      break;
-    case FeedMode::per_revolution:
-      state_.feed_mm_s = step['F'] * unit;
-      state_.feed_deg_s = step['F'];
-      break;
-  }
-  return true;
-}
-
-bool Interpreter::set_spindle_speed(const Step& step) {
-  const int mode = step.code(GGroup::spindle_mode);
-  if (mode == g::kCuttingSpeed) {
-    if (!step.has('S')) {
-      return refuse_code(step, 'G', 96, "speed_missing", "G96 without its cutting speed (S)");
-    }
-    state_.surface_speed = true;
-    state_.spindle_limit_rev_s = step.has('D') ? std::abs(step['D']) / 60.0 : 0.0;
-  } else if (mode == g::kSpindleSpeed) {
-    state_.surface_speed = false;
-    state_.surface_speed_mm_s = 0.0;
-    state_.spindle_limit_rev_s = 0.0;
-  }
-  if (!step.has('S')) {
+  if (motion == g::kCycleEnd) {
+    control_.state.motion = g::kCycleEnd;
     return true;
   }
-  if (state_.surface_speed) {  // m/min, after G20 ft/min
-    constexpr double kMmPerFoot = 304.8;
-    const bool inch = state_.unit_mm != 1.0;
-    state_.surface_speed_mm_s = step['S'] * (inch ? kMmPerFoot : 1000.0) / 60.0;
-    state_.spindle_speed_rev_s = 0.0;
-  } else {
-    state_.spindle_speed_rev_s = step['S'] / 60.0;
+  if (is_cycle(motion)) {
+    return drilling_.cycle(step);
   }
-  if (state_.spindle_direction != 0) {
-    emit_spindle();
+  if (splines_.open() && motion != g::kSplinePoint && motion != g::kSplineEnd) {
+    return control_.refusals.code(
+        step, 'G', motion / 10, "spline_words",
+        "another motion among the control points of G5.2; G5.3 ends them");
   }
-  return true;
+  if (motion >= g::kCubicSpline && motion <= g::kSplineEnd) {
+    return splines_.spline(step);
+  }
+  control_.state.motion = motion;
+  splines_.interrupt();
+  switch (motion) {
+    case g::kThread:
+    case g::kRigidTap:
+      return threading_.thread(step);
+    case g::kThreadCycle:
+      return threading_.cycle(step);
+    case g::kProbeOrFail:
+    case g::kProbe:
+    case g::kProbeAwayOrFail:
+    case g::kProbeAway:
+      return motion_.probe(step);
+    case g::kArcClockwise:
+    case g::kArcCounterClockwise:
+      return motion_.arc(step);
+    default:
+      return motion_.straight(step);
+  }
 }
 
-const Tool* Interpreter::find_tool(std::int32_t number) const noexcept {
-  static constexpr Tool kNoTool{};
-  if (number == 0 || !config_.tools) {
-    if (config_.tools) {
-      const auto found = std::ranges::find(*config_.tools, 0, &Tool::number);
-      return found == config_.tools->end() ? &kNoTool : &*found;
-    }
-    return &kNoTool;
-  }
-  const auto found = std::ranges::find(*config_.tools, number, &Tool::number);
-  return found == config_.tools->end() ? nullptr : &*found;
-}
-
-bool Interpreter::tool_number(const Step& step, char letter, std::int32_t& number) {
-  number = static_cast<std::int32_t>(step[letter]);
-  return find_tool(number) != nullptr ||
-         refuse(step, letter, "no_such_tool", "a tool that is not in the tool table");
-}
-
-bool Interpreter::select_tool(const Step& step) {
-  if (!step.tool_name.empty()) {
-    selected_name_ = step.tool_name;
-    state_.selected_tool = 0;
-    return true;
-  }
-  if (step.has('T')) {
-    selected_name_.clear();
-  }
-  return !step.has('T') || tool_number(step, 'T', state_.selected_tool);
-}
-
-bool Interpreter::change_tool(const Step& step) {
-  const int code = step.code(MGroup::tool_change);
+bool Interpreter::call_program(const Step& step) {
+  const int code = step.code(MGroup::program);
   if (code == kNoCode) {
     return true;
   }
-  if (code == m::kToolInSpindle) {
-    if (!step.has('Q') || step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0) {
-      return refuse_code(step, 'M', 61, "tool_missing",
-                         "M61 without the number of the tool in the spindle (Q)");
-    }
-    read_position_anew();
-    if (!tool_number(step, 'Q', state_.tool_in_spindle)) {
-      return false;
-    }
-    load_tool();
+  program_call_.kind = code == m::kCall ? ProgramCall::Kind::call : ProgramCall::Kind::end;
+  if (code == m::kReturn) {
     return true;
   }
-  state_.spindle_direction = 0;
-  emit_spindle();
-  state_.tool_in_spindle = state_.selected_tool;
-  load_tool();
-  read_position_anew();
-  sink_->on_event({.kind = EventKind::tool_change,
-                   .line = step.line,
-                   .value = static_cast<double>(state_.tool_in_spindle),
-                   .tool_name = selected_name_});
-  return true;
-}
-
-// #5401 … show the tool of the last change; rs274 leaves them as they are at T0 M6.
-void Interpreter::load_tool() {
-  if (const Tool* const tool = place_of_tool(state_.tool_in_spindle); tool != nullptr) {
-    state_.tool = *tool;
+  if (!step.has('P') || step['P'] != std::floor(step['P']) || step['P'] < 0.0) {
+    return control_.refusals.code(step, 'M', 98, "word_missing",
+                                  "M98 without the program's number (P)");
   }
-}
-
-bool Interpreter::set_spindle(const Step& step) {
-  const int code = step.code(MGroup::spindle);
-  if (code != kNoCode) {
-    state_.spindle_direction = code == m::kClockwise ? 1 : code == m::kCounterClockwise ? -1 : 0;
-    emit_spindle();
-  }
-  return true;
-}
-
-void Interpreter::set_coolant(const Step& step) {
-  const int code = step.code(MGroup::coolant);
-  if (code == kNoCode) {
-    return;
-  }
-  const auto bits = static_cast<unsigned>(state_.coolant);
-  const unsigned wanted = code == m::kCoolantOff ? 0U : code == m::kMist ? bits | 1U : bits | 2U;
-  state_.coolant = static_cast<double>(wanted);
-  emit_event(EventKind::coolant, state_.coolant);
-}
-
-bool Interpreter::set_override(const Step& step) {
-  const int code = step.code(MGroup::override_switch);
-  if (code == kNoCode) {
-    return true;
-  }
-  const bool off = step.has('P') && step['P'] == 0.0;
-  if (code == m::kOverridesOn || code == m::kOverridesOff) {
-    state_.override_off = code == m::kOverridesOff;
-  } else if (code == m::kFeedOverride) {
-    state_.override_off = off;
-  }
-  // M51 rules the spindle override, M52 adaptive feed, M53 feed hold: no influence on the moves.
+  program_call_.number = static_cast<std::int32_t>(step['P']);
+  program_call_.repeats = step.has('L') ? step['L'] : 1.0;
   return true;
 }
 
 bool Interpreter::stop(const Step& step) {
   const int code = step.code(MGroup::stopping);
   if (code == m::kEnd || code == m::kEndAndRewind) {
-    if (!end_cutter(step)) {
+    if (!cutter_.end(step)) {
       return false;
     }
     finished_ = true;
-    emit_event(EventKind::end, 0.0);
+    out_.event(EventKind::end, 0.0);
   } else if (code != kNoCode) {
-    const CutterCompensation::Fault fault = cutter_->stop(state_.unit_mm != 1.0);
-    if (fault != CutterCompensation::Fault::none) {
-      return cutter_fault(step, fault);
+    if (!cutter_.stop(step)) {
+      return false;
     }
-    emit_event(EventKind::stop, code == m::kOptionalStop ? 1.0 : 0.0);
+    out_.event(EventKind::stop, code == m::kOptionalStop ? 1.0 : 0.0);
   }
   return true;
-}
-
-void Interpreter::emit_spindle() {
-  const double speed = state_.surface_speed ? 0.0 : state_.spindle_speed_rev_s;
-  emit_event(EventKind::spindle, state_.spindle_direction * speed);
-}
-
-void Interpreter::emit_event(EventKind kind, double value) {
-  sink_->on_event({.kind = kind, .line = move_.line, .value = value, .tool_name = {}});
-}
-
-bool Interpreter::refuse_word(std::uint32_t line, const Word& word, std::string_view reason,
-                              std::string_view text) {
-  return refusals_.word(line, word, reason, text);
-}
-
-bool Interpreter::refuse(const Step& step, char letter, std::string_view reason,
-                         std::string_view text) {
-  return refusals_.letter(step, letter, reason, text);
-}
-
-bool Interpreter::refuse_code(const Step& step, char letter, int code, std::string_view reason,
-                              std::string_view text) {
-  return refusals_.code(step, letter, code, reason, text);
 }
 
 }  // namespace steadyrest::nc::interpret

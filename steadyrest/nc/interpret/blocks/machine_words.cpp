@@ -1,117 +1,158 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/blocks/machine_words.hpp>
+#include <steadyrest/nc/interpret/control/tool_table.hpp>
 
-// M words beside spindle, coolant and stops: outputs and inputs, kept modes, programs by number.
 namespace steadyrest::nc::interpret {
 
-// M62 to M68 move nothing. An input (M66) is taken to answer 0, as rs274 does: what it really says
-// only the machine knows.
-bool Interpreter::set_io(const Step& step) {
-  const int code = step.code(MGroup::io);
-  if (code >= m::kOutputOnWithMove && code <= m::kOutputOff && !step.has('P')) {
-    return refuse_code(step, 'M', code, "word_missing", "an output without its number (P)");
+void MachineWords::feed(const Step& step) noexcept {
+  const int mode = step.code(GGroup::feed_mode);
+  if (mode != kNoCode) {
+    const FeedMode wanted = mode == g::kInverseTime ? FeedMode::inverse_time
+                            : mode == g::kPerMinute ? FeedMode::per_minute
+                                                    : FeedMode::per_revolution;
+    if (wanted != state_.feed_mode || control_.rules.feed_mode_clears_feed) {
+      state_.feed_mode = wanted;
+      state_.feed_mm_s = 0.0;
+      state_.feed_deg_s = 0.0;
+    }
   }
-  if (code == m::kWaitForInput && step.has('P') == step.has('E')) {
-    return refuse_code(step, 'M', code, "word_missing",
-                       "M66 needs the number of one input: P (digital) or E (analog)");
+  if (!step.has('F')) {
+    return;
   }
-  if ((code == m::kAnalogWithMove || code == m::kAnalog) && !(step.has('E') && step.has('Q'))) {
-    return refuse_code(step, 'M', code, "word_missing",
-                       "an analog output without its number (E) or value (Q)");
+  const double unit = state_.feed_unit_mm;
+  switch (state_.feed_mode) {
+    case FeedMode::per_minute:
+      state_.feed_mm_s = step['F'] * unit / 60.0;
+      state_.feed_deg_s = step['F'] / 60.0;
+      break;
+    case FeedMode::inverse_time:
+      state_.feed_mm_s = step['F'] / 60.0;
+      state_.feed_deg_s = state_.feed_mm_s;
+      break;
+    case FeedMode::per_revolution:
+      state_.feed_mm_s = step['F'] * unit;
+      state_.feed_deg_s = step['F'];
+      break;
+  }
+}
+
+bool MachineWords::spindle_speed(const Step& step) {
+  const int mode = step.code(GGroup::spindle_mode);
+  if (mode == g::kCuttingSpeed) {
+    if (!step.has('S')) {
+      return refusals_.code(step, 'G', 96, "speed_missing", "G96 without its cutting speed (S)");
+    }
+    state_.surface_speed = true;
+    state_.spindle_limit_rev_s = step.has('D') ? std::abs(step['D']) / 60.0 : 0.0;
+  } else if (mode == g::kSpindleSpeed) {
+    state_.surface_speed = false;
+    state_.surface_speed_mm_s = 0.0;
+    state_.spindle_limit_rev_s = 0.0;
+  }
+  if (!step.has('S')) {
+    return true;
+  }
+  if (state_.surface_speed) {  // m/min, after G20 ft/min
+    constexpr double kMmPerFoot = 304.8;
+    const bool inch = state_.unit_mm != 1.0;
+    state_.surface_speed_mm_s = step['S'] * (inch ? kMmPerFoot : 1000.0) / 60.0;
+    state_.spindle_speed_rev_s = 0.0;
+  } else {
+    state_.spindle_speed_rev_s = step['S'] / 60.0;
+  }
+  if (state_.spindle_direction != 0) {
+    out_.spindle();
   }
   return true;
 }
 
-bool Interpreter::keep_modes(const Step& step) {
-  const int code = step.code(MGroup::modes);
-  KeptModes& kept = kept_.back();
-  switch (code) {
-    case m::kKeepModes:
-    case m::kKeepModesForCall:
-      kept = {.state = state_, .restores_itself = code == m::kKeepModesForCall};
-      return true;
-    case m::kForgetModes:
-      kept = {};
-      return true;
-    case m::kRestoreModes:
-      if (!kept.state) {
-        return refuse_code(step, 'M', 72, "modes_not_kept",
-                           "M72 where no modes are kept; M70 or M73 comes before, in the same "
-                           "subprogram");
-      }
-      restore_modes(*kept.state);
-      return true;
-    default:
-      return true;
+bool MachineWords::select_tool(const Step& step) {
+  if (!step.tool_name.empty()) {
+    selected_name_ = step.tool_name;
+    state_.selected_tool = 0;
+    return true;
   }
+  if (step.has('T')) {
+    selected_name_.clear();
+  }
+  return !step.has('T') || tool_number(control_, step, 'T', state_.selected_tool);
 }
 
-// All modes but that of motion; positions and offsets' values are not modes.
-void Interpreter::restore_modes(const State& kept) {
-  plain_before_ = false;
-  state_.unit_mm = kept.unit_mm;
-  state_.feed_unit_mm = kept.feed_unit_mm;
-  state_.plane = kept.plane;
-  state_.incremental = kept.incremental;
-  state_.centre_absolute = kept.centre_absolute;
-  state_.retract_to_initial = kept.retract_to_initial;
-  state_.diameter = kept.diameter;
-  state_.feed_mode = kept.feed_mode;
-  state_.feed_mm_s = kept.feed_mm_s;
-  state_.feed_deg_s = kept.feed_deg_s;
-  state_.path_mode = kept.path_mode;
-  state_.path_tolerance_mm = kept.path_tolerance_mm;
-  state_.override_off = kept.override_off;
-  state_.surface_speed = kept.surface_speed;
-  state_.surface_speed_mm_s = kept.surface_speed_mm_s;
-  state_.spindle_limit_rev_s = kept.spindle_limit_rev_s;
-  state_.spindle_speed_rev_s = kept.spindle_speed_rev_s;
-  state_.tool_offset = kept.tool_offset;
-  if (state_.active_offset != kept.active_offset) {
-    state_.active_offset = kept.active_offset;
-    state_.work_in_force = state_.work_offset[kept.active_offset];
-  }
-  if (state_.spindle_direction != kept.spindle_direction) {
-    state_.spindle_direction = kept.spindle_direction;
-    emit_spindle();
-  }
-  if (state_.coolant != kept.coolant) {
-    state_.coolant = kept.coolant;
-    emit_event(EventKind::coolant, state_.coolant);
-  }
-  update_offset();
-}
-
-void Interpreter::enter_call() {
-  kept_.emplace_back();
-}
-
-void Interpreter::leave_call(Sink& sink) {
-  const KeptModes kept = kept_.back();
-  kept_.pop_back();
-  if (kept.state && kept.restores_itself) {
-    cutter_->bind(sink);
-    sink_ = state_.cutter_side != 0 ? static_cast<Sink*>(cutter_.get()) : &sink;
-    restore_modes(*kept.state);
-  }
-}
-
-bool Interpreter::call_program(const Step& step) {
-  const int code = step.code(MGroup::program);
+// The control takes the machine's position: behind G40 not that of the contour.
+bool MachineWords::change_tool(const Step& step) {
+  const int code = step.code(MGroup::tool_change);
   if (code == kNoCode) {
     return true;
   }
-  program_call_.kind = code == m::kCall ? ProgramCall::Kind::call : ProgramCall::Kind::end;
-  if (code == m::kReturn) {
+  if (code == m::kToolInSpindle) {
+    if (!step.has('Q') || step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0) {
+      return refusals_.code(step, 'M', 61, "tool_missing",
+                            "M61 without the number of the tool in the spindle (Q)");
+    }
+    state_.position = out_.take_beside(state_.position);
+    if (!tool_number(control_, step, 'Q', state_.tool_in_spindle)) {
+      return false;
+    }
+    load_tool(control_);
     return true;
   }
-  if (!step.has('P') || step['P'] != std::floor(step['P']) || step['P'] < 0.0) {
-    return refuse_code(step, 'M', 98, "word_missing", "M98 without the program's number (P)");
+  state_.spindle_direction = 0;
+  out_.spindle();
+  state_.tool_in_spindle = state_.selected_tool;
+  load_tool(control_);
+  state_.position = out_.take_beside(state_.position);
+  out_.event(EventKind::tool_change, static_cast<double>(state_.tool_in_spindle), selected_name_);
+  return true;
+}
+
+void MachineWords::spindle(const Step& step) {
+  const int code = step.code(MGroup::spindle);
+  if (code != kNoCode) {
+    state_.spindle_direction = code == m::kClockwise ? 1 : code == m::kCounterClockwise ? -1 : 0;
+    out_.spindle();
   }
-  program_call_.number = static_cast<std::int32_t>(step['P']);
-  program_call_.repeats = step.has('L') ? step['L'] : 1.0;
+}
+
+void MachineWords::coolant(const Step& step) {
+  const int code = step.code(MGroup::coolant);
+  if (code == kNoCode) {
+    return;
+  }
+  const auto bits = static_cast<unsigned>(state_.coolant);
+  const unsigned wanted = code == m::kCoolantOff ? 0U : code == m::kMist ? bits | 1U : bits | 2U;
+  state_.coolant = static_cast<double>(wanted);
+  out_.event(EventKind::coolant, state_.coolant);
+}
+
+void MachineWords::overrides(const Step& step) noexcept {
+  const int code = step.code(MGroup::override_switch);
+  if (code == kNoCode) {
+    return;
+  }
+  const bool off = step.has('P') && step['P'] == 0.0;
+  if (code == m::kOverridesOn || code == m::kOverridesOff) {
+    state_.override_off = code == m::kOverridesOff;
+  } else if (code == m::kFeedOverride) {
+    state_.override_off = off;
+  }
+  // M51 rules the spindle override, M52 adaptive feed, M53 feed hold: no influence on the moves.
+}
+
+bool MachineWords::outputs(const Step& step) {
+  const int code = step.code(MGroup::io);
+  if (code >= m::kOutputOnWithMove && code <= m::kOutputOff && !step.has('P')) {
+    return refusals_.code(step, 'M', code, "word_missing", "an output without its number (P)");
+  }
+  if (code == m::kWaitForInput && step.has('P') == step.has('E')) {
+    return refusals_.code(step, 'M', code, "word_missing",
+                          "M66 needs the number of one input: P (digital) or E (analog)");
+  }
+  if ((code == m::kAnalogWithMove || code == m::kAnalog) && !(step.has('E') && step.has('Q'))) {
+    return refusals_.code(step, 'M', code, "word_missing",
+                          "an analog output without its number (E) or value (Q)");
+  }
   return true;
 }
 

@@ -2,10 +2,8 @@
 #include <bit>
 #include <cmath>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/blocks/plain_block.hpp>
 
-// Nearly all lines of a long program are G0 or G1, F and axis words. Of all that check() and act()
-// look for, only what is done here can come of such a block.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -14,16 +12,16 @@ constexpr std::uint32_t kRotaryAxes = 0b111000;  // in Axes
 
 }  // namespace
 
-bool Interpreter::is_plain(const Step& step) const noexcept {
+bool PlainBlock::takes(const Step& step) const noexcept {
   const int motion = step.code(GGroup::motion);
   const int now = motion != kNoCode ? motion : state_.motion;
-  return !step.others && rules_->short_way && (now == g::kRapid || now == g::kLinear) &&
+  return !step.others && control_.rules.short_way && (now == g::kRapid || now == g::kLinear) &&
          (motion != kNoCode || (step.mask & kAxisMask) != 0) && state_.cutter_side == 0 &&
-         !cutter_->active() && spline_points_.empty();
+         !cutter_.active() && !splines_.open();
 }
 
-/// end_point() of a plain block; false where check_values() finds a fault.
-bool Interpreter::plain_end(const Step& step, Axes& end) const noexcept {
+// end_point() of such a block; false where check_values() finds a fault.
+bool PlainBlock::end_of(const Step& step, Axes& end) const noexcept {
   end = state_.position;
   bool fits = !step.has('F') || (step['F'] >= 0.0 && step['F'] <= kLargestValue);
   const double x_scale = state_.diameter ? 0.5 * state_.unit_mm : state_.unit_mm;
@@ -39,40 +37,33 @@ bool Interpreter::plain_end(const Step& step, Axes& end) const noexcept {
   return fits;
 }
 
-/// `filled`: the move before came of a plain block, too, so that its modes are those in force.
-bool Interpreter::execute_plain(const Step& step, bool filled) {
+bool PlainBlock::execute(Step& step, bool follows) {
   const int motion = step.code(GGroup::motion);
-  motion_now_ = motion != kNoCode ? motion : state_.motion;
+  step.moves_by = motion != kNoCode ? motion : state_.motion;
   Axes end;
-  if (!plain_end(step, end)) {
-    return check_values(step);
+  if (!end_of(step, end)) {
+    return BlockCheck(control_).check_values(step);
   }
-  move_.line = step.line;
-  move_.speed_modulation = state_.speed_modulation;
+  out_.begin_block(step.line);
   if (step.has('F')) {
-    set_feed(step);
+    machine_.feed(step);
   }
-  state_.motion = motion_now_;
-  cubic_goes_on_ = false;
-  const bool cutting = motion_now_ == g::kLinear;
+  state_.motion = step.moves_by;
+  splines_.interrupt();
+  const bool cutting = step.moves_by == g::kLinear;
   const bool fed = state_.feed_mode == FeedMode::per_minute && state_.feed_mm_s > 0.0;
-  if (cutting && !fed && !has_feed(step)) {
+  if (cutting && !fed && !has_feed(step, state_, refusals_)) {
     return false;
   }
-  arc_allowed_ = true;
+  cutter_.goes_straight();
   const MoveKind kind = cutting ? MoveKind::linear : MoveKind::rapid;
-  if (!filled || (step.mask & kRotaryMask) != 0) {
-    plain_before_ = !beside_;
-    emit(kind, end);
+  if (!follows || (step.mask & kRotaryMask) != 0) {
+    was_last_ = !out_.beside();
+    out_.move(kind, end);
     return true;
   }
-  plain_before_ = true;
-  move_.kind = kind;
-  move_.start = state_.position;
-  move_.end = end;
-  move_.feed_mm_s = cutting ? state_.feed_mm_s : 0.0;
-  state_.position = end;
-  sink_->on_move(move_);
+  was_last_ = true;
+  out_.move_on(kind, end);
   return true;
 }
 

@@ -3,10 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/check/block_check.hpp>
 
-// What a block must and must not contain, before anything of it acts. The rules are those that
-// LinuxCNC 2.9 shows (docs "G-code overview", and rs274 by experiment).
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -20,35 +18,34 @@ constexpr bool is_arc(int code) noexcept {
 
 }  // namespace
 
-// Which motion the block makes: its own G word, or the modal one when axis words ask for it.
-bool Interpreter::choose_motion(const Step& step) {
+bool BlockCheck::choose_motion(Step& step) const {
   const int motion = step.code(GGroup::motion);
   const int non_modal = step.code(GGroup::non_modal);
   const bool axis_words = (step.mask & kAxisMask) != 0;
   const bool axes_taken = uses_axes(non_modal);
-  motion_now_ = -1;
+  step.moves_by = -1;
   if (motion != kNoCode) {
     if (motion == g::kCycleEnd) {
       if (axis_words && !axes_taken) {
-        return refuse_code(step, 'G', 80, "axis_words_with_g80",
-                           "axis words in a block whose G80 ends motion");
+        return refusals_.code(step, 'G', 80, "axis_words_with_g80",
+                              "axis words in a block whose G80 ends motion");
       }
     } else if (axes_taken) {
-      return refuse_code(step, 'G', motion / 10, "two_users_of_axis_words",
-                         "two G words in one block that both use the axis words");
+      return refusals_.code(step, 'G', motion / 10, "two_users_of_axis_words",
+                            "two G words in one block that both use the axis words");
     } else if (!axis_words && (is_cycle(motion) || motion == g::kThread || motion == g::kRigidTap ||
                                motion == g::kThreadCycle || motion == g::kCubicSpline ||
                                motion == g::kQuadraticSpline)) {
-      return refuse_code(step, 'G', motion / 10, "axis_words_missing",
-                         "a motion without any axis word");
+      return refusals_.code(step, 'G', motion / 10, "axis_words_missing",
+                            "a motion without any axis word");
     }
-    motion_now_ = motion;
+    step.moves_by = motion;
     return true;
   }
   if (axes_taken) {
     if (!axis_words && (non_modal == g::kShift || non_modal == g::kSetOrigin)) {
-      return refuse_code(step, 'G', non_modal / 10, "axis_words_missing",
-                         "an offset without any axis word");
+      return refusals_.code(step, 'G', non_modal / 10, "axis_words_missing",
+                            "an offset without any axis word");
     }
     return true;
   }
@@ -57,38 +54,38 @@ bool Interpreter::choose_motion(const Step& step) {
     if (state_.motion == -1 || state_.motion == g::kCycleEnd) {
       for (const char letter : kAxisLetters) {
         if (step.has(letter)) {
-          return refuse(step, letter, "no_motion_mode",
-                        "an axis word, but no G word is in force that uses it");
+          return refusals_.letter(step, letter, "no_motion_mode",
+                                  "an axis word, but no G word is in force that uses it");
         }
       }
     }
-    motion_now_ = state_.motion;
+    step.moves_by = state_.motion;
   }
   if (!axis_words && (step.mask & kCentreMask) != 0 && is_arc(state_.motion) &&
       non_modal != g::kSetData) {
-    motion_now_ = state_.motion;
+    step.moves_by = state_.motion;
   }
   return true;
 }
 
-bool Interpreter::check(const Step& step) {
-  return choose_motion(step) && check_values(step) && check_non_modal(step) && check_unused(step) &&
-         check_cutter(step);
+bool BlockCheck::check(const Step& step) const {
+  return check_values(step) && check_non_modal(step) && check_unused(step) && check_cutter(step);
 }
 
-bool Interpreter::check_values(const Step& step) {
+bool BlockCheck::check_values(const Step& step) const {
   for (std::uint32_t left = step.mask; left != 0; left &= left - 1) {
     const auto letter = static_cast<char>('A' + std::countr_zero(left));
     if (!(std::abs(step[letter]) <= kLargestValue)) {
-      return refuse(step, letter, "out_of_range",
-                    "a value beyond every machine; at most 10000000 in magnitude is allowed");
+      return refusals_.letter(
+          step, letter, "out_of_range",
+          "a value beyond every machine; at most 10000000 in magnitude is allowed");
     }
   }
   if (step.has('F') && step['F'] < 0.0) {
-    return refuse(step, 'F', "out_of_range", "a negative feed");
+    return refusals_.letter(step, 'F', "out_of_range", "a negative feed");
   }
   if (step.has('S') && step['S'] < 0.0) {
-    return refuse(step, 'S', "out_of_range", "a negative spindle speed");
+    return refusals_.letter(step, 'S', "out_of_range", "a negative spindle speed");
   }
   constexpr std::uint32_t kWhole = Step::bit('T') | Step::bit('H') | Step::bit('L');
   for (const char letter : {'T', 'H', 'L'}) {
@@ -96,55 +93,57 @@ bool Interpreter::check_values(const Step& step) {
       break;
     }
     if (step.has(letter) && (step[letter] != std::floor(step[letter]) || step[letter] < 0.0)) {
-      return refuse(step, letter, "not_an_integer",
-                    std::string{"a "} + letter + " word that is not a whole number from 0");
+      return refusals_.letter(
+          step, letter, "not_an_integer",
+          std::string{"a "} + letter + " word that is not a whole number from 0");
     }
   }
   return true;
 }
 
-bool Interpreter::check_non_modal(const Step& step) {
+bool BlockCheck::check_non_modal(const Step& step) const {
   const int non_modal = step.code(GGroup::non_modal);
   if (non_modal == g::kDwell && !(step.has('P') && step['P'] >= 0.0)) {
-    return refuse_code(step, 'G', 4, "dwell_missing", "a dwell without its time (P from 0)");
+    return refusals_.code(step, 'G', 4, "dwell_missing", "a dwell without its time (P from 0)");
   }
   if (non_modal == g::kDwell && step['P'] > 1e6) {
-    return refuse(step, 'P', "out_of_range", "a dwell of more than 1000000 s");
+    return refusals_.letter(step, 'P', "out_of_range", "a dwell of more than 1000000 s");
   }
   if (step.machine_frame) {
-    const bool straight = motion_now_ == g::kRapid || motion_now_ == g::kLinear;
-    const bool lone = rules_->machine_frame_alone && (step.mask & kAxisMask) == 0 &&
+    const bool straight = step.moves_by == g::kRapid || step.moves_by == g::kLinear;
+    const bool lone = rules_.machine_frame_alone && (step.mask & kAxisMask) == 0 &&
                       step.code(GGroup::motion) == kNoCode;
     if (!straight && !lone) {
-      return refuse_code(step, 'G', 53, "g53_without_straight_motion",
-                         "machine coordinates need G0 or G1 in force");
+      return refusals_.code(step, 'G', 53, "g53_without_straight_motion",
+                            "machine coordinates need G0 or G1 in force");
     }
     const int distance = step.code(GGroup::distance);
     if (!lone &&
         (distance == g::kIncremental || (distance != g::kAbsolute && state_.incremental))) {
-      return refuse_code(step, 'G', 53, "g53_incremental",
-                         "machine coordinates while G91 is in force");
+      return refusals_.code(step, 'G', 53, "g53_incremental",
+                            "machine coordinates while G91 is in force");
     }
   }
   return true;
 }
 
-bool Interpreter::check_unused(const Step& step) {
+bool BlockCheck::check_unused(const Step& step) const {
   constexpr std::uint32_t kNeedUse = Step::bit('D') | Step::bit('E') | Step::bit('H') |
                                      Step::bit('L') | Step::bit('P') | Step::bit('Q') |
                                      Step::bit('R') | kCentreMask;
   if ((step.mask & kNeedUse) == 0) {
     return true;
   }
-  const int motion = motion_now_;
+  const int motion = step.moves_by;
   const int non_modal = step.code(GGroup::non_modal);
   const int override_switch = step.code(MGroup::override_switch);
   const int tool_length = step.code(GGroup::tool_length);
   const bool drilling = is_cycle(motion);
   const auto unused = [&](char letter, bool used) {
     return step.has(letter) && !used &&
-           !refuse(step, letter, "unused_word",
-                   std::string{"a "} + letter + " word, but no word of the block uses it");
+           !refusals_.letter(
+               step, letter, "unused_word",
+               std::string{"a "} + letter + " word, but no word of the block uses it");
   };
   const int io = step.code(MGroup::io);
   const bool orients = step.code(MGroup::spindle) == m::kOrient;
@@ -188,6 +187,26 @@ bool Interpreter::check_unused(const Step& step) {
     return false;
   }
   return !unused('R', arc || drilling || threads || non_modal == g::kSetData || orients);
+}
+
+bool has_feed(const Step& step, const State& state, Refusals& refusals) {
+  if (state.feed_mode == FeedMode::inverse_time) {
+    if (!step.has('F')) {
+      return refusals.letter(step, 'G', "feed_missing",
+                             "an F word is needed in every cutting block of G93");
+    }
+    return step['F'] > 0.0 || refusals.letter(step, 'F', "feed_missing", "a feed of zero");
+  }
+  if (!(state.feed_mm_s > 0.0)) {
+    return refusals.letter(step, step.has('F') ? 'F' : 'G', "feed_missing",
+                           "a cutting move, but no feed (F) is in force");
+  }
+  if (state.feed_mode == FeedMode::per_revolution && state.spindle_speed_rev_s == 0.0 &&
+      state.surface_speed_mm_s == 0.0) {
+    return refusals.letter(step, 'G', "spindle_speed_missing",
+                           "feed per revolution, but no spindle speed (S) is in force");
+  }
+  return true;
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -57,9 +57,10 @@ struct Step {
   std::array<double, 26> value;
   std::array<std::int16_t, kGGroups> g;
   std::array<std::int16_t, kMGroups> m;
-  std::uint32_t absolute = 0;          ///< words that are absolute whatever G90/G91 say
-  std::uint32_t incremental = 0;       ///< words that are incremental whatever G90/G91 say
-  bool others = false;                 ///< a word that is none of motion, F and axis words
+  std::uint32_t absolute = 0;     ///< words that are absolute whatever G90/G91 say
+  std::uint32_t incremental = 0;  ///< words that are incremental whatever G90/G91 say
+  bool others = false;            ///< a word that is none of motion, F and axis words
+  int moves_by = -1;  ///< by which motion the block moves, chosen by the checks; −1 none
   std::int16_t motion_mode = kNoCode;  ///< fanuc G0 or G1 beside G28: mode alone, it moves nothing
   bool polar = false;                  ///< X and Y are given by @ and ^
   double polar_radius = std::numeric_limits<double>::quiet_NaN();  ///< as written; NaN: not given
@@ -83,6 +84,7 @@ struct Step {
     absolute = 0;
     incremental = 0;
     others = false;
+    moves_by = -1;
     motion_mode = kNoCode;
     polar = false;
     polar_radius = polar_angle_deg = std::numeric_limits<double>::quiet_NaN();

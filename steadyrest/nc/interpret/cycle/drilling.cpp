@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <steadyrest/nc/interpret/cycle/cycle.hpp>
+#include <steadyrest/nc/interpret/check/block_check.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/cycle/drilling.hpp>
 
-// Canned cycles G73, G74, G81–G89. The sequence of moves is LinuxCNC 2.9's (documentation
-// "Canned cycles" and rs274 by experiment).
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -22,10 +22,10 @@ double repeats_of(const Step& step) noexcept {
 }  // namespace
 
 // Sticky words: they stay while the same cycle goes on from block to block.
-bool Interpreter::remember_cycle(const Step& step) {
+bool Drilling::remember(const Step& step) {
   CycleMemory& memory = state_.cycle;
-  const bool stay = rules_->cycle_words_stay;
-  const bool fresh = stay ? !is_cycle(state_.motion) : state_.motion != motion_now_;
+  const bool stay = control_.rules.cycle_words_stay;
+  const bool fresh = stay ? !is_cycle(state_.motion) : state_.motion != step.moves_by;
   if (!is_cycle(state_.motion) || memory.begins_anew) {
     memory.initial = state_.position[axes_of(state_.plane).normal] / state_.unit_mm;
     memory.begins_anew = false;
@@ -38,7 +38,7 @@ bool Interpreter::remember_cycle(const Step& step) {
     std::string_view text;
   };
   const PlaneAxes axes = axes_of(state_.plane);
-  const int code = motion_now_;
+  const int code = step.moves_by;
   const bool pecks = code == g::kBreakChips || code == g::kPeck;
   const bool dwells = code == g::kDrillDwell || code == g::kBoreStopOut ||
                       code == g::kBoreHandOut || code == g::kBoreDwell;
@@ -51,7 +51,7 @@ bool Interpreter::remember_cycle(const Step& step) {
       Sticky{'R', &memory.retract, true, "a canned cycle without its retract plane (R)"},
       Sticky{normal, &memory.bottom, true, "a canned cycle without the depth of its hole"},
       Sticky{'Q', &memory.peck, pecks, "a peck cycle without the depth of a peck (Q)"},
-      Sticky{'P', &memory.dwell_s, dwells && rules_->cycle_needs_dwell,
+      Sticky{'P', &memory.dwell_s, dwells && control_.rules.cycle_needs_dwell,
              "a cycle with a dwell, without its time (P)"},
       Sticky{"IJK"[axes.first], &memory.ijk[axes.first], back, "G87 without its shift (I J K)"},
       Sticky{"IJK"[axes.second], &memory.ijk[axes.second], back, "G87 without its shift (I J K)"},
@@ -62,82 +62,84 @@ bool Interpreter::remember_cycle(const Step& step) {
     if (step.has(word.letter)) {
       *word.place = step[word.letter];
     } else if (word.needed && fresh) {
-      return refuse_code(step, 'G', code / 10, "cycle_word_missing", word.text);
+      return refusals_.code(step, 'G', code / 10, "cycle_word_missing", word.text);
     }
   }
   if (taps && step.has('P') && step['P'] < 0.0) {
-    return refuse(step, 'P', "out_of_range", "a dwell of negative time");
+    return refusals_.letter(step, 'P', "out_of_range", "a dwell of negative time");
   }
   if (pecks && !(memory.peck > 0.0)) {
-    return refuse(step, 'Q', "out_of_range", "the depth of a peck (Q) must be above zero");
+    return refusals_.letter(step, 'Q', "out_of_range",
+                            "the depth of a peck (Q) must be above zero");
   }
   return true;
 }
 
-bool Interpreter::check_cycle(const Step& step) {
+bool Drilling::check(const Step& step) {
   for (const char letter : std::string_view{"ABCUVW"}) {
     if (step.has(letter)) {
-      return refuse(step, letter, "axis_in_cycle", "this axis cannot move in a canned cycle");
+      return refusals_.letter(step, letter, "axis_in_cycle",
+                              "this axis cannot move in a canned cycle");
     }
   }
   if (state_.feed_mode == FeedMode::inverse_time) {
-    return refuse_code(step, 'G', motion_now_ / 10, "cycle_in_inverse_time",
-                       "a canned cycle while inverse-time feed (G93) is in force");
+    return refusals_.code(step, 'G', step.moves_by / 10, "cycle_in_inverse_time",
+                          "a canned cycle while inverse-time feed (G93) is in force");
   }
   if (repeats_of(step) < 1.0) {
-    return refuse(step, 'L', "out_of_range", "the number of repeats (L) is at least 1");
+    return refusals_.letter(step, 'L', "out_of_range", "the number of repeats (L) is at least 1");
   }
-  return has_feed(step);
+  return has_feed(step, state_, refusals_);
 }
 
 // The levels of the hole by the sticky words; refused where they are in the wrong order or too many
 // moves would follow from them.
-bool Interpreter::measure_hole(const Step& step, Hole& hole) {
+bool Drilling::measure(const Step& step, Hole& hole) {
   const CycleMemory& memory = state_.cycle;
   const double unit = state_.unit_mm;
   hole.initial_mm = memory.initial * unit;
   hole.retract_mm = memory.retract * unit + (state_.incremental ? hole.initial_mm : 0.0);
   hole.bottom_mm = memory.bottom * unit + (state_.incremental ? hole.retract_mm : 0.0);
   if (hole.retract_mm < hole.bottom_mm) {
-    return refuse(step, step.has('R') ? 'R' : kNormalLetters[hole.axes.normal],
-                  "retract_below_bottom",
-                  "the retract plane (R) lies below the bottom of the hole");
+    return refusals_.letter(step, step.has('R') ? 'R' : kNormalLetters[hole.axes.normal],
+                            "retract_below_bottom",
+                            "the retract plane (R) lies below the bottom of the hole");
   }
   const double high = std::max(hole.initial_mm, hole.retract_mm);
   hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
   const double depth = hole.retract_mm - hole.bottom_mm;
-  const bool pecks = motion_now_ == g::kBreakChips || motion_now_ == g::kPeck;
+  const bool pecks = step.moves_by == g::kBreakChips || step.moves_by == g::kPeck;
   const double moves = repeats_of(step) * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
   if (!(moves <= kMostMoves)) {
-    return refuse(step, step.has('L') ? 'L' : 'Q', "out_of_range",
-                  "a cycle of more than a million moves");
+    return refusals_.letter(step, step.has('L') ? 'L' : 'Q', "out_of_range",
+                            "a cycle of more than a million moves");
   }
   return true;
 }
 
 // Over the next hole at the given height, then down to the retract plane.
-void Interpreter::go_to_hole(const Step& step, const Hole& hole, double height_mm) {
+void Drilling::go_to(const Step& step, const Hole& hole, double height_mm) {
   Axes over = state_.position;
   for (const std::size_t axis : {hole.axes.first, hole.axes.second}) {
     if (step.has(kAxisLetters[axis])) {
-      const double value = component(step, axis);
+      const double value = component(step, axis, state_);
       over[axis] = state_.incremental ? over[axis] + value : value;
     }
   }
   if (step.polar) {
     over[0] = state_.position[0];
     over[1] = state_.position[1];
-    polar_point(step, over);
+    polar_point(step, state_, over);
   }
   over[hole.axes.normal] = height_mm;
-  emit(MoveKind::rapid, over);
+  out_.move(MoveKind::rapid, over);
   if (height_mm != hole.retract_mm) {
-    emit_normal(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
+    out_.along(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
   }
 }
 
-bool Interpreter::cycle(const Step& step) {
-  if (!check_cycle(step) || !remember_cycle(step)) {
+bool Drilling::cycle(const Step& step) {
+  if (!check(step) || !remember(step)) {
     return false;
   }
   Hole hole{.axes = axes_of(state_.plane),
@@ -145,13 +147,13 @@ bool Interpreter::cycle(const Step& step) {
             .retract_mm = 0.0,
             .bottom_mm = 0.0,
             .clear_mm = 0.0};
-  if (!measure_hole(step, hole)) {
+  if (!measure(step, hole)) {
     return false;
   }
-  state_.motion = motion_now_;
-  const bool lifts = rules_->cycle_lifts_first;
+  state_.motion = step.moves_by;
+  const bool lifts = control_.rules.cycle_lifts_first;
   if (lifts && hole.initial_mm < hole.retract_mm) {
-    emit_normal(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
+    out_.along(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
   }
   const PathMode path_mode = state_.path_mode;
   state_.path_mode = PathMode::exact_path;
@@ -164,7 +166,7 @@ bool Interpreter::cycle(const Step& step) {
   const double repeats = repeats_of(step);
   bool accepted = true;
   for (double repeat = 0.0; repeat < repeats && accepted; repeat += 1.0) {
-    go_to_hole(step, hole, height);
+    go_to(step, hole, height);
     accepted = drill(step, hole);
     height = hole.clear_mm;
   }
@@ -172,9 +174,9 @@ bool Interpreter::cycle(const Step& step) {
   return accepted;
 }
 
-bool Interpreter::drill(const Step& step, const Hole& hole) {
+bool Drilling::drill(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
-  switch (motion_now_) {
+  switch (step.moves_by) {
     case g::kBreakChips:
     case g::kPeck:
       return peck(step, hole);
@@ -187,100 +189,102 @@ bool Interpreter::drill(const Step& step, const Hole& hole) {
     case g::kBackBore:
       return back_bore(step, hole);
     case g::kBoreFeedOut:
-      emit_normal(MoveKind::linear, normal, hole.bottom_mm);
-      emit_normal(MoveKind::linear, normal, hole.retract_mm);
-      emit_normal(MoveKind::rapid, normal, hole.clear_mm);
+      out_.along(MoveKind::linear, normal, hole.bottom_mm);
+      out_.along(MoveKind::linear, normal, hole.retract_mm);
+      out_.along(MoveKind::rapid, normal, hole.clear_mm);
       return true;
     case g::kBoreDwell:
-      emit_normal(MoveKind::linear, normal, hole.bottom_mm);
-      emit_dwell(state_.cycle.dwell_s);
-      emit_normal(MoveKind::linear, normal, hole.clear_mm);
+      out_.along(MoveKind::linear, normal, hole.bottom_mm);
+      out_.dwell(state_.cycle.dwell_s);
+      out_.along(MoveKind::linear, normal, hole.clear_mm);
       return true;
     default:  // G81, G82
-      emit_normal(MoveKind::linear, normal, hole.bottom_mm);
-      if (motion_now_ == g::kDrillDwell) {
-        emit_dwell(state_.cycle.dwell_s);
+      out_.along(MoveKind::linear, normal, hole.bottom_mm);
+      if (step.moves_by == g::kDrillDwell) {
+        out_.dwell(state_.cycle.dwell_s);
       }
-      emit_normal(MoveKind::rapid, normal, hole.clear_mm);
+      out_.along(MoveKind::rapid, normal, hole.clear_mm);
       return true;
   }
 }
 
 // G83 clears the chips by going up to the R plane, G73 only breaks them.
-bool Interpreter::peck(const Step& step, const Hole& hole) {
+bool Drilling::peck(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
   const double peck_mm = state_.cycle.peck * state_.unit_mm;
   const double furthest_mm = std::max(std::abs(hole.retract_mm), std::abs(hole.bottom_mm));
   if (furthest_mm - peck_mm == furthest_mm) {  // there would be no end
-    return refuse_code(step, 'G', motion_now_ / 10, "out_of_range",
-                       "so far out a peck is lost in rounding");
+    return refusals_.code(step, 'G', step.moves_by / 10, "out_of_range",
+                          "so far out a peck is lost in rounding");
   }
   for (double depth = hole.retract_mm - peck_mm; depth > hole.bottom_mm; depth -= peck_mm) {
-    emit_normal(MoveKind::linear, normal, depth);
-    if (motion_now_ == g::kPeck) {
-      emit_normal(MoveKind::rapid, normal, hole.retract_mm);
+    out_.along(MoveKind::linear, normal, depth);
+    if (step.moves_by == g::kPeck) {
+      out_.along(MoveKind::rapid, normal, hole.retract_mm);
     }
-    emit_normal(MoveKind::rapid, normal, depth + kPeckClearance_mm);
+    out_.along(MoveKind::rapid, normal, depth + kPeckClearance_mm);
   }
-  emit_normal(MoveKind::linear, normal, hole.bottom_mm);
-  emit_normal(MoveKind::rapid, normal, hole.clear_mm);
+  out_.along(MoveKind::linear, normal, hole.bottom_mm);
+  out_.along(MoveKind::rapid, normal, hole.clear_mm);
   return true;
 }
 
-bool Interpreter::tap(const Step& step, const Hole& hole) {
-  const int into = motion_now_ == g::kTapRight ? 1 : -1;
+bool Drilling::tap(const Step& step, const Hole& hole) {
+  const int into = step.moves_by == g::kTapRight ? 1 : -1;
   if (state_.spindle_direction != into) {
-    return refuse_code(step, 'G', motion_now_ / 10, "spindle_direction",
-                       into > 0 ? "right-hand tapping needs the spindle turning clockwise (M3)"
-                                : "left-hand tapping needs the spindle turning "
-                                  "counter-clockwise (M4)");
+    return refusals_.code(step, 'G', step.moves_by / 10, "spindle_direction",
+                          into > 0 ? "right-hand tapping needs the spindle turning clockwise (M3)"
+                                   : "left-hand tapping needs the spindle turning "
+                                     "counter-clockwise (M4)");
   }
   const std::size_t normal = hole.axes.normal;
-  if (rules_->taps_in_xy_alone && state_.plane != Plane::xy) {
-    return refuse_code(step, 'G', motion_now_ / 10, "tapping_off_xy",
-                       "LinuxCNC 2.9 moves other axes than those programmed when it taps outside "
-                       "of G17");
+  if (control_.rules.taps_in_xy_alone && state_.plane != Plane::xy) {
+    return refusals_.code(
+        step, 'G', step.moves_by / 10, "tapping_off_xy",
+        "LinuxCNC 2.9 moves other axes than those programmed when it taps outside "
+        "of G17");
   }
   const bool override_off = state_.override_off;
   state_.override_off = true;
-  emit_normal(MoveKind::linear, normal, hole.bottom_mm);
+  out_.along(MoveKind::linear, normal, hole.bottom_mm);
   state_.spindle_direction = -into;
-  emit_spindle();
-  emit_dwell(state_.cycle.dwell_s);
-  emit_normal(MoveKind::linear, normal, hole.clear_mm);
+  out_.spindle();
+  out_.dwell(state_.cycle.dwell_s);
+  out_.along(MoveKind::linear, normal, hole.clear_mm);
   state_.spindle_direction = into;
-  emit_spindle();
+  out_.spindle();
   state_.override_off = override_off;
   return true;
 }
 
 // G86: out with the spindle standing. G88: the operator brings the tool out by hand.
-bool Interpreter::bore(const Step& step, const Hole& hole) {
+bool Drilling::bore(const Step& step, const Hole& hole) {
   const int direction = state_.spindle_direction;
   if (direction == 0) {
-    return refuse_code(step, 'G', motion_now_ / 10, "spindle_stands",
-                       "a boring cycle while the spindle stands");
+    return refusals_.code(step, 'G', step.moves_by / 10, "spindle_stands",
+                          "a boring cycle while the spindle stands");
   }
-  emit_normal(MoveKind::linear, hole.axes.normal, hole.bottom_mm);
-  emit_dwell(state_.cycle.dwell_s);
+  out_.along(MoveKind::linear, hole.axes.normal, hole.bottom_mm);
+  out_.dwell(state_.cycle.dwell_s);
   state_.spindle_direction = 0;
-  emit_spindle();
-  if (motion_now_ == g::kBoreHandOut) {
-    emit_event(EventKind::stop, 0.0);
+  out_.spindle();
+  if (step.moves_by == g::kBoreHandOut) {
+    out_.event(EventKind::stop, 0.0);
     state_.position[hole.axes.normal] = hole.clear_mm;  // by hand: no move of the program
   } else {
-    emit_normal(MoveKind::rapid, hole.axes.normal, hole.clear_mm);
+    out_.along(MoveKind::rapid, hole.axes.normal, hole.clear_mm);
   }
   state_.spindle_direction = direction;
-  emit_spindle();
+  out_.spindle();
   return true;
 }
 
 // G87: in beside the axis with the spindle standing, then boring upwards from below.
-bool Interpreter::back_bore(const Step& step, const Hole& hole) {
+bool Drilling::back_bore(const Step& step, const Hole& hole) {
   const int direction = state_.spindle_direction;
   if (direction == 0) {
-    return refuse_code(step, 'G', 87, "spindle_stands", "a boring cycle while the spindle stands");
+    return refusals_.code(step, 'G', 87, "spindle_stands",
+                          "a boring cycle while the spindle stands");
   }
   const CycleMemory& memory = state_.cycle;
   const double unit = state_.unit_mm;
@@ -290,34 +294,28 @@ bool Interpreter::back_bore(const Step& step, const Hole& hole) {
   Axes beside = above;
   beside[axes.first] += memory.ijk[axes.first] * unit;
   beside[axes.second] += memory.ijk[axes.second] * unit;
-  emit(MoveKind::rapid, beside);
+  out_.move(MoveKind::rapid, beside);
   state_.spindle_direction = 0;
-  emit_spindle();
-  emit_normal(MoveKind::rapid, axes.normal, hole.bottom_mm);
+  out_.spindle();
+  out_.along(MoveKind::rapid, axes.normal, hole.bottom_mm);
   Axes below = above;
   below[axes.normal] = hole.bottom_mm;
-  emit(MoveKind::rapid, below);
+  out_.move(MoveKind::rapid, below);
   state_.spindle_direction = direction;
-  emit_spindle();
-  emit_normal(MoveKind::linear, axes.normal, upper);
-  emit_normal(MoveKind::linear, axes.normal, hole.bottom_mm);
+  out_.spindle();
+  out_.along(MoveKind::linear, axes.normal, upper);
+  out_.along(MoveKind::linear, axes.normal, hole.bottom_mm);
   state_.spindle_direction = 0;
-  emit_spindle();
+  out_.spindle();
   beside[axes.normal] = hole.bottom_mm;
-  emit(MoveKind::rapid, beside);
-  emit_normal(MoveKind::rapid, axes.normal, hole.clear_mm);
+  out_.move(MoveKind::rapid, beside);
+  out_.along(MoveKind::rapid, axes.normal, hole.clear_mm);
   Axes end = above;
   end[axes.normal] = hole.clear_mm;
-  emit(MoveKind::rapid, end);
+  out_.move(MoveKind::rapid, end);
   state_.spindle_direction = direction;
-  emit_spindle();
+  out_.spindle();
   return true;
-}
-
-void Interpreter::emit_normal(MoveKind kind, std::size_t axis, double value) {
-  Axes end = state_.position;
-  end[axis] = value;
-  emit(kind, end);
 }
 
 }  // namespace steadyrest::nc::interpret

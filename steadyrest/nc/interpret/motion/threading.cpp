@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/motion/threading.hpp>
 
-// G33, G33.1 and G76: the feed follows the spindle.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -16,60 +16,58 @@ double word_or(const Step& step, char letter, double otherwise) noexcept {
 
 }  // namespace
 
-bool Interpreter::spindle_turns(const Step& step) {
+bool Threading::spindle_turns(const Step& step) {
   return (state_.spindle_direction != 0 &&
           (state_.spindle_speed_rev_s != 0.0 || state_.surface_speed_mm_s != 0.0)) ||
-         refuse_code(step, 'G', motion_now_ / 10, "spindle_stands",
-                     "threading while the spindle stands");
+         refusals_.code(step, 'G', step.moves_by / 10, "spindle_stands",
+                        "threading while the spindle stands");
 }
 
-void Interpreter::emit_thread(const Axes& end, double pitch_mm) {
+void Threading::emit(const Axes& end, double pitch_mm) {
   const FeedMode mode = state_.feed_mode;
   const double feed = state_.feed_mm_s;
   state_.feed_mode = FeedMode::per_revolution;
   state_.feed_mm_s = std::abs(pitch_mm);
-  emit(MoveKind::thread, end);
+  out_.move(MoveKind::thread, end);
   state_.feed_mode = mode;
   state_.feed_mm_s = feed;
 }
 
 // K is the travel in a revolution. G33.1 turns the spindle back at the end and goes out again.
-bool Interpreter::thread(const Step& step) {
+bool Threading::thread(const Step& step) {
   if (!step.has('K')) {
-    return refuse_code(step, 'G', 33, "pitch_missing", "a thread without its pitch (K)");
+    return refusals_.code(step, 'G', 33, "pitch_missing", "a thread without its pitch (K)");
   }
   if (!spindle_turns(step)) {
     return false;
   }
-  Axes end;
-  if (!end_point(step, end)) {
-    return false;
-  }
+  const Axes end = end_point(step, control_);
   const double pitch_mm = step['K'] * state_.unit_mm;
-  if (motion_now_ == g::kThread) {
-    emit_thread(end, pitch_mm);
+  if (step.moves_by == g::kThread) {
+    emit(end, pitch_mm);
     return true;
   }
   for (const char letter : std::string_view{"ABCUVW"}) {
     if (step.has(letter)) {
-      return refuse(step, letter, "axis_in_cycle", "rigid tapping moves X, Y and Z alone");
+      return refusals_.letter(step, letter, "axis_in_cycle",
+                              "rigid tapping moves X, Y and Z alone");
     }
   }
   if (pitch_mm == 0.0) {
-    return refuse(step, 'K', "out_of_range", "a pitch of zero");
+    return refusals_.letter(step, 'K', "out_of_range", "a pitch of zero");
   }
   const Axes start = state_.position;
   const int direction = state_.spindle_direction;
-  emit_thread(end, pitch_mm);
+  emit(end, pitch_mm);
   state_.spindle_direction = -direction;
-  emit_spindle();
-  emit_thread(start, pitch_mm);
+  out_.spindle();
+  emit(start, pitch_mm);
   state_.spindle_direction = direction;
-  emit_spindle();
+  out_.spindle();
   return true;
 }
 
-struct Interpreter::ThreadCycle {
+struct Threading::Cycle {
   double pitch_mm;
   double peak_mm;     ///< I: from the drive line to the thread's peak
   double first_mm;    ///< J: depth of the first pass
@@ -85,16 +83,17 @@ struct Interpreter::ThreadCycle {
   double drive_mm;  ///< where X stands
 };
 
-bool Interpreter::read_thread_cycle(const Step& step, ThreadCycle& cycle) {
+bool Threading::read(const Step& step, Cycle& cycle) {
   for (const char letter : std::string_view{"PIJK"}) {
     if (!step.has(letter)) {
-      return refuse_code(step, 'G', 76, "cycle_word_missing",
-                         std::string{"G76 without its "} + letter + " word");
+      return refusals_.code(step, 'G', 76, "cycle_word_missing",
+                            std::string{"G76 without its "} + letter + " word");
     }
   }
   for (const char letter : std::string_view{"ABCUVW"}) {
     if (step.has(letter)) {
-      return refuse(step, letter, "axis_in_cycle", "this axis cannot move in a canned cycle");
+      return refusals_.letter(step, letter, "axis_in_cycle",
+                              "this axis cannot move in a canned cycle");
     }
   }
   const double unit = state_.unit_mm;
@@ -113,13 +112,13 @@ bool Interpreter::read_thread_cycle(const Step& step, ThreadCycle& cycle) {
            .exit = ends == 2.0 || ends == 3.0,
            .start_mm = state_.position[2],
            .drive_mm = state_.position[0]};
-  return thread_is_possible(step, cycle);
+  return is_possible(step, cycle);
 }
 
-bool Interpreter::thread_is_possible(const Step& step, const ThreadCycle& cycle) {
+bool Threading::is_possible(const Step& step, const Cycle& cycle) {
   const double springs = cycle.springs;
   const auto wrong = [&](bool is, char letter, std::string_view text) {
-    return is && !refuse(step, letter, "out_of_range", text);
+    return is && !refusals_.letter(step, letter, "out_of_range", text);
   };
   return !(wrong(!(cycle.pitch_mm > 0.0), 'P', "a pitch (P) that is not above zero") ||
            wrong(cycle.peak_mm == 0.0, 'I', "G76 with I zero: it tells inside from outside") ||
@@ -137,32 +136,29 @@ bool Interpreter::thread_is_possible(const Step& step, const ThreadCycle& cycle)
                  "a thread of more than 100000 passes"));
 }
 
-bool Interpreter::thread_cycle(const Step& step) {
-  ThreadCycle cycle{};
-  if (!read_thread_cycle(step, cycle) || !spindle_turns(step)) {
+bool Threading::cycle(const Step& step) {
+  Cycle cycle{};
+  if (!read(step, cycle) || !spindle_turns(step)) {
     return false;
   }
-  Axes end;
-  if (!end_point(step, end)) {
-    return false;
-  }
+  const Axes end = end_point(step, control_);
   cycle.end_mm = end[2];
-  double pass = 1.0;
+  double number = 1.0;
   for (double depth = cycle.first_mm; depth < cycle.full_mm;
-       depth = cycle.first_mm * std::pow(++pass, 1.0 / cycle.degression)) {
-    thread_pass(cycle, depth);
+       depth = cycle.first_mm * std::pow(++number, 1.0 / cycle.degression)) {
+    pass(cycle, depth);
   }
   for (double spring = 0.0; spring <= cycle.springs; spring += 1.0) {
-    thread_pass(cycle, cycle.full_mm);
+    pass(cycle, cycle.full_mm);
   }
   Axes out = state_.position;
   out[0] = cycle.drive_mm;
   out[2] = cycle.end_mm;
-  emit(MoveKind::rapid, out);
+  out_.move(MoveKind::rapid, out);
   return true;
 }
 
-void Interpreter::thread_pass(const ThreadCycle& cycle, double depth_mm) {
+void Threading::pass(const Cycle& cycle, double depth_mm) {
   const double side = cycle.peak_mm > 0.0 ? 1.0 : -1.0;  // inside: the tool goes outwards
   const double along = cycle.end_mm > cycle.start_mm ? 1.0 : -1.0;
   const double left_mm = cycle.full_mm - depth_mm;
@@ -181,20 +177,20 @@ void Interpreter::thread_pass(const ThreadCycle& cycle, double depth_mm) {
     at[2] = z;
     return at;
   };
-  emit(MoveKind::rapid, to(clear, begin));
+  out_.move(MoveKind::rapid, to(clear, begin));
   if (cycle.entry) {
-    emit_thread(to(surface, begin), taper_pitch_mm);
-    emit_thread(to(cut, begin + along * cycle.taper_mm), taper_pitch_mm);
+    emit(to(surface, begin), taper_pitch_mm);
+    emit(to(cut, begin + along * cycle.taper_mm), taper_pitch_mm);
   } else {
-    emit(MoveKind::rapid, to(cut, begin));
+    out_.move(MoveKind::rapid, to(cut, begin));
   }
   if (cycle.exit) {
-    emit_thread(to(cut, end - along * cycle.taper_mm), cycle.pitch_mm);
-    emit_thread(to(surface + 0.0, end), taper_pitch_mm);
+    emit(to(cut, end - along * cycle.taper_mm), cycle.pitch_mm);
+    emit(to(surface + 0.0, end), taper_pitch_mm);
   } else {
-    emit_thread(to(cut, end), cycle.pitch_mm);
+    emit(to(cut, end), cycle.pitch_mm);
   }
-  emit(MoveKind::rapid, to(clear, end));
+  out_.move(MoveKind::rapid, to(clear, end));
 }
 
 }  // namespace steadyrest::nc::interpret

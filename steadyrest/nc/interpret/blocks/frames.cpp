@@ -2,20 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/blocks/frames.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/state/frame.hpp>
 
-// The programmed frame of the dialect `sinumerik`: TRANS, ATRANS, ROT and AROT about Z.
-//
-//   machine = settable offset + fine offset + Rs·(shift + Rp·position) + tool
-//
-// TRANS and ROT delete the programmed frame before; ATRANS and AROT build on it, so that ATRANS
-// goes along the turned axes.
 namespace steadyrest::nc::interpret {
 
-bool Interpreter::set_frame(const Step& step) {
+bool Frames::set(const Step& step) {
   const auto refuse_frame = [&](std::string_view reason, std::string_view text) {
-    return refuse_word(step.line, step.block->words().front(), reason, text);
+    return refusals_.block(step, reason, text);
   };
   const bool codes = std::ranges::any_of(step.g, [](int code) { return code != kNoCode; }) ||
                      std::ranges::any_of(step.m, [](int code) { return code != kNoCode; });
@@ -50,7 +45,7 @@ bool Interpreter::set_frame(const Step& step) {
   } else if (!turns) {
     Axes added{};
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
-      added[i] = step.has(kAxisLetters[i]) ? component(step, i) : 0.0;
+      added[i] = step.has(kAxisLetters[i]) ? component(step, i, state_) : 0.0;
     }
     added = turned(added, angle);
     for (std::size_t i = 0; i < added.size(); ++i) {
@@ -65,36 +60,33 @@ bool Interpreter::set_frame(const Step& step) {
     }
   }
   state_.frame_turned = state_.frame_turned || angle != old_angle;
-  update_offset();
+  update_offset(state_);
   return true;
 }
 
-// $P_IFRAME[X,FI]: "The written settable frame is immediately included in the calculation"; the
-// programmed frame stays, and the next G54 … takes what is stored ($P_UIFR). It moves nothing.
-bool Interpreter::set_fine(const read::Word& word) {
+bool Frames::set_fine(const read::Word& word) {
   const std::size_t axis = kAxisLetters.find(word.letter);
-  if ((axes_allowed_ & Step::bit(word.letter)) == 0) {
-    return refuse_word(state_.line, word, "no_such_axis", "an axis that the machine does not have");
+  if ((control_.axes & Step::bit(word.letter)) == 0) {
+    return refusals_.word(state_.line, word, "no_such_axis",
+                          "an axis that the machine does not have");
   }
   if (state_.unit_mm != 1.0) {
-    return refuse_word(state_.line, word, "frame",
-                       "a fine offset in an inch program: its unit is a setting of the control");
+    return refusals_.word(state_.line, word, "frame",
+                          "a fine offset in an inch program: its unit is a setting of the control");
   }
   if (!(std::abs(word.value) <= 1e7)) {
-    return refuse_word(state_.line, word, "out_of_range", "a value beyond every machine");
+    return refusals_.word(state_.line, word, "out_of_range", "a value beyond every machine");
   }
   if (state_.frame_fine[axis] != word.value) {
     state_.frame_pending |= Step::bit(word.letter);
   }
   state_.frame_fine[axis] = word.value;
-  update_offset();
+  update_offset(state_);
   return true;
 }
 
-// Whether an increment behind a new frame contains the frame's shift is a setting of the control
-// (42440), so the axis must be programmed absolutely first; after a rotation X and Y together.
-bool Interpreter::frame_settles(const Step& step) {
-  if ((state_.frame_pending == 0 && !state_.frame_turned) || motion_now_ < 0 ||
+bool Frames::settle(const Step& step) {
+  if ((state_.frame_pending == 0 && !state_.frame_turned) || step.moves_by < 0 ||
       step.machine_frame) {
     return true;
   }
@@ -105,15 +97,15 @@ bool Interpreter::frame_settles(const Step& step) {
   const bool pending = (incremental & state_.frame_pending) != 0 ||
                        (state_.frame_turned && (incremental & plane) != 0);
   if (pending || (step.code(GGroup::distance) == g::kIncremental && moved != 0)) {
-    return refuse_word(
-        step.line, step.block->words().front(), "frame_incremental",
+    return refusals_.block(
+        step, "frame_incremental",
         "an increment behind a new frame: whether it contains the frame's shift is a "
         "setting of the control; program the axis absolutely first");
   }
-  const bool arc = motion_now_ == g::kArcClockwise || motion_now_ == g::kArcCounterClockwise;
+  const bool arc = step.moves_by == g::kArcClockwise || step.moves_by == g::kArcCounterClockwise;
   if (state_.frame_turned && ((moved & plane) != 0 || arc) && (moved & plane) != plane) {
-    return refuse_word(step.line, step.block->words().front(), "frame_axis",
-                       "the first move in X or Y behind a rotation names both");
+    return refusals_.block(step, "frame_axis",
+                           "the first move in X or Y behind a rotation names both");
   }
   state_.frame_pending &= ~moved;
   state_.frame_turned = state_.frame_turned && (moved & plane) != plane;

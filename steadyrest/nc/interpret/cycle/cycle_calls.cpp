@@ -3,11 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/cycle/cycle_calls.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
 
-// CYCLE81, 82, 84, 85, 86 as the manual "Cycles" of the 840D gives their sequences; CYCLE800()
-// alone.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -53,65 +51,63 @@ double coarse_pitch(double size) noexcept {
 }  // namespace
 
 /// One hole, in mm along the normal axis of the plane.
-struct Interpreter::DrillCall {
+struct CycleCalls::Hole {
   std::size_t normal = 2;
   double start_mm = 0.0;  ///< reference plane and safety clearance
   double bottom_mm = 0.0;
   double retract_mm = 0.0;
 };
 
-bool Interpreter::refuse_call(const Flow& call, std::string_view reason, std::string_view text) {
-  return refusals_.call(move_.line, call, reason, text);
+bool CycleCalls::refuse(const Flow& call, std::string_view reason,
+                                  std::string_view text) {
+  return refusals_.call(out_.line(), call, reason, text);
 }
 
-bool Interpreter::execute_cycle(const read::Block& block, Sink& sink) {
-  if (block.deleted() && config_.block_delete) {
-    return true;
-  }
-  const Flow& call = block.flow();
-  sink_ = &sink;
-  state_.line = block.line();
-  move_.line = block.line();
+bool CycleCalls::call(const Flow& call) {
   if (call.kind != read::FlowKind::modal_cycle) {
-    return drill_call(call);
+    return drill(call);
   }
-  modal_cycle_.reset();
-  DrillCall hole;
+  modal_.reset();
+  Hole hole;
   if (call.label.view().empty()) {
     return true;
   }
-  if (!drill_planes(call, hole)) {
+  if (!planes(call, hole)) {
     return false;
   }
-  modal_cycle_ = call;
+  modal_ = call;
   return true;
 }
 
-bool Interpreter::drill_planes(const Flow& call, DrillCall& hole) {
+bool CycleCalls::after_move() {
+  return !modal_ || drill(*modal_);
+}
+
+bool CycleCalls::planes(const Flow& call, Hole& hole) {
   const std::string_view name = call.label.view();
   const auto* const known =
       std::ranges::find_if(kKnown, [&](const Known& one) { return read::equal(name, one.name); });
   if (known == kKnown.end()) {
-    return refuse_call(call, "cycle_not_interpreted",
-                       "a cycle that is not interpreted; CYCLE81, 82, 84, 85 and 86 are");
+    return refuse(call, "cycle_not_interpreted",
+                  "a cycle that is not interpreted; CYCLE81, 82, 84, 85 and 86 are");
   }
   for (std::size_t i = known->values; i < call.count; ++i) {
     if (value(call, i) != 0.0) {
-      return refuse_call(call, "cycle_value",
-                         "a value of newer versions of the cycle, which is not interpreted; leave "
-                         "it out");
+      return refuse(call, "cycle_value",
+                    "a value of newer versions of the cycle, which is not interpreted; leave "
+                    "it out");
     }
   }
   if (!given(call, kRtp) || !given(call, kRfp) || (!given(call, kDp) && !given(call, kDpr))) {
-    return refuse_call(call, "cycle_word_missing",
-                       "a cycle without its retraction plane, reference plane or depth");
+    return refuse(call, "cycle_word_missing",
+                  "a cycle without its retraction plane, reference plane or depth");
   }
   const double unit = state_.unit_mm;
   const double reference = value(call, kRfp);
   const double relative = reference - std::abs(value(call, kDpr));
   const bool absolute = given(call, kDp) && value(call, kDpr) == 0.0;
   if (given(call, kDp) && !absolute && std::abs(relative - value(call, kDp)) > 1e-6) {
-    return refuse_call(call, "cycle_depth", "a depth given twice, differently (DP and DPR)");
+    return refuse(call, "cycle_depth", "a depth given twice, differently (DP and DPR)");
   }
   hole.normal = axes_of(state_.plane).normal;
   hole.start_mm = (reference + std::abs(value(call, kSdis))) * unit;
@@ -120,106 +116,106 @@ bool Interpreter::drill_planes(const Flow& call, DrillCall& hole) {
   constexpr double kLargest = 1e7;
   for (const double height : {hole.start_mm, hole.bottom_mm, hole.retract_mm}) {
     if (!(std::abs(height) <= kLargest)) {
-      return refuse_call(call, "out_of_range", "a value beyond every machine");
+      return refuse(call, "out_of_range", "a value beyond every machine");
     }
   }
   return (hole.bottom_mm < hole.start_mm && hole.start_mm <= hole.retract_mm) ||
-         refuse_call(call, "cycle_planes",
-                     "the planes of a cycle are not in order: retraction plane, reference plane "
-                     "and safety clearance, depth");
+         refuse(call, "cycle_planes",
+                "the planes of a cycle are not in order: retraction plane, reference plane "
+                "and safety clearance, depth");
 }
 
-bool Interpreter::drill_call(const Flow& call) {
+bool CycleCalls::drill(const Flow& call) {
   if (read::equal(call.label.view(), "CYCLE800")) {
     return call.count == 0 ||
-           refuse_call(call, "transformation", "swivelling (CYCLE800) is not interpreted");
+           refuse(call, "transformation", "swivelling (CYCLE800) is not interpreted");
   }
-  DrillCall hole;
-  if (!drill_planes(call, hole)) {
+  Hole hole;
+  if (!planes(call, hole)) {
     return false;
   }
   const double dwell = value(call, kDtb);
   if (!(dwell >= 0.0 && dwell <= 1e6)) {
-    return refuse_call(call, "out_of_range",
-                       "a dwell in revolutions (negative) or of more than 1000000 s");
+    return refuse(call, "out_of_range",
+                  "a dwell in revolutions (negative) or of more than 1000000 s");
   }
   const char number = call.label.view().back();
   if (number != '4' && number != '5' && !(state_.feed_mm_s > 0.0)) {
-    return refuse_call(call, "feed_missing", "a drilling cycle, but no feed (F) is in force");
+    return refuse(call, "feed_missing", "a drilling cycle, but no feed (F) is in force");
   }
   if (state_.feed_mode == FeedMode::inverse_time) {
-    return refuse_call(call, "cycle_in_inverse_time",
-                       "a drilling cycle while inverse-time feed (G93) is in force");
+    return refuse(call, "cycle_in_inverse_time",
+                  "a drilling cycle while inverse-time feed (G93) is in force");
   }
   if (number == '5' && !(value(call, 6) > 0.0 && value(call, 7) > 0.0)) {
-    return refuse_call(call, "feed_missing", "CYCLE85 without its feeds (FFR, RFF)");
+    return refuse(call, "feed_missing", "CYCLE85 without its feeds (FFR, RFF)");
   }
-  emit_normal(MoveKind::rapid, hole.normal, hole.start_mm);
+  out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
   switch (number) {
     case '4':
-      return tap_call(call, hole);
+      return tap(call, hole);
     case '5':
-      ream_call(call, hole);
+      ream(call, hole);
       return true;
     case '6':
-      bore_call(call, hole);
+      bore(call, hole);
       return true;
     default:
       break;
   }
-  emit_normal(MoveKind::linear, hole.normal, hole.bottom_mm);
+  out_.along(MoveKind::linear, hole.normal, hole.bottom_mm);
   if (number == '2' && dwell > 0.0) {
-    emit_dwell(dwell);
+    out_.dwell(dwell);
   }
-  emit_normal(MoveKind::rapid, hole.normal, hole.retract_mm);
+  out_.along(MoveKind::rapid, hole.normal, hole.retract_mm);
   return true;
 }
 
 // (RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF): in and out with feeds of their own.
-void Interpreter::ream_call(const Flow& call, const DrillCall& hole) {
+void CycleCalls::ream(const Flow& call, const Hole& hole) {
   const double feed = state_.feed_mm_s;
   const double scale =
       state_.feed_unit_mm / (state_.feed_mode == FeedMode::per_minute ? 60.0 : 1.0);
   state_.feed_mm_s = value(call, 6) * scale;
-  emit_normal(MoveKind::linear, hole.normal, hole.bottom_mm);
+  out_.along(MoveKind::linear, hole.normal, hole.bottom_mm);
   if (value(call, kDtb) > 0.0) {
-    emit_dwell(value(call, kDtb));
+    out_.dwell(value(call, kDtb));
   }
   state_.feed_mm_s = value(call, 7) * scale;
-  emit_normal(MoveKind::linear, hole.normal, hole.start_mm);
+  out_.along(MoveKind::linear, hole.normal, hole.start_mm);
   state_.feed_mm_s = feed;
-  emit_normal(MoveKind::rapid, hole.normal, hole.retract_mm);
+  out_.along(MoveKind::rapid, hole.normal, hole.retract_mm);
 }
 
 // (RTP, RFP, SDIS, DP, DPR, DTB, SDIR, RPA, RPO, RPAP, POSS): the spindle stands while it goes out.
-void Interpreter::bore_call(const Flow& call, const DrillCall& hole) {
+void CycleCalls::bore(const Flow& call, const Hole& hole) {
   const PlaneAxes axes = axes_of(state_.plane);
   const Axes above = state_.position;
   const double unit = state_.unit_mm;
   state_.spindle_direction = value(call, 6) == 4.0 ? -1 : 1;
-  emit_spindle();
-  emit_normal(MoveKind::linear, hole.normal, hole.bottom_mm);
+  out_.spindle();
+  out_.along(MoveKind::linear, hole.normal, hole.bottom_mm);
   if (value(call, kDtb) > 0.0) {
-    emit_dwell(value(call, kDtb));
+    out_.dwell(value(call, kDtb));
   }
   const int direction = state_.spindle_direction;
   state_.spindle_direction = 0;
-  emit_spindle();
+  out_.spindle();
   Axes aside = state_.position;
   aside[axes.first] += value(call, 7) * unit;
   aside[axes.second] += value(call, 8) * unit;
   aside[axes.normal] += value(call, 9) * unit;
-  emit(MoveKind::rapid, aside);
-  emit_normal(MoveKind::rapid, hole.normal, hole.start_mm);
+  out_.move(MoveKind::rapid, aside);
+  out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
   Axes out = above;
   out[axes.normal] = hole.retract_mm;
-  emit(MoveKind::rapid, out);
+  out_.move(MoveKind::rapid, out);
   state_.spindle_direction = direction;
-  emit_spindle();
+  out_.spindle();
 }
 
 // (RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1): the feed follows the spindle.
-bool Interpreter::tap_call(const Flow& call, const DrillCall& hole) {
+bool CycleCalls::tap(const Flow& call, const Hole& hole) {
   const double size = value(call, 7);
   const double pitch =
       size != 0.0 ? coarse_pitch(std::abs(size)) : std::abs(value(call, 8)) * state_.unit_mm;
@@ -227,16 +223,16 @@ bool Interpreter::tap_call(const Flow& call, const DrillCall& hole) {
   const double speed = value(call, 10);
   const double out = value(call, 11) != 0.0 ? value(call, 11) : speed;
   if (!(pitch > 0.0) || (size != 0.0 && value(call, 8) != 0.0)) {
-    return refuse_call(call, "pitch_missing",
-                       "CYCLE84 without its pitch: a size M3 to M48 (MPIT) or the pitch (PIT)");
+    return refuse(call, "pitch_missing",
+                  "CYCLE84 without its pitch: a size M3 to M48 (MPIT) or the pitch (PIT)");
   }
   if (!(speed > 0.0) || !(out > 0.0)) {
-    return refuse_call(call, "speed_missing", "CYCLE84 without its spindle speed (SST)");
+    return refuse(call, "speed_missing", "CYCLE84 without its spindle speed (SST)");
   }
   const double after = value(call, 6);
   if (after != 3.0 && after != 4.0 && after != 5.0) {
-    return refuse_call(call, "bad_value",
-                       "CYCLE84 without what the spindle does after it (SDAC: 3, 4 or 5)");
+    return refuse(call, "bad_value",
+                  "CYCLE84 without what the spindle does after it (SDAC: 3, 4 or 5)");
   }
   const State kept = state_;
   state_.surface_speed = false;
@@ -244,22 +240,22 @@ bool Interpreter::tap_call(const Flow& call, const DrillCall& hole) {
   state_.feed_mm_s = pitch;
   state_.spindle_direction = left ? -1 : 1;
   state_.spindle_speed_rev_s = speed / 60.0;
-  emit_spindle();
-  emit_normal(MoveKind::thread, hole.normal, hole.bottom_mm);
+  out_.spindle();
+  out_.along(MoveKind::thread, hole.normal, hole.bottom_mm);
   if (value(call, kDtb) > 0.0) {
-    emit_dwell(value(call, kDtb));
+    out_.dwell(value(call, kDtb));
   }
   state_.spindle_direction = -state_.spindle_direction;
   state_.spindle_speed_rev_s = out / 60.0;
-  emit_spindle();
-  emit_normal(MoveKind::thread, hole.normal, hole.start_mm);
+  out_.spindle();
+  out_.along(MoveKind::thread, hole.normal, hole.start_mm);
   state_.feed_mode = kept.feed_mode;
   state_.feed_mm_s = kept.feed_mm_s;
   state_.surface_speed = kept.surface_speed;
   state_.spindle_speed_rev_s = kept.spindle_speed_rev_s;
   state_.spindle_direction = after == 3.0 ? 1 : after == 4.0 ? -1 : 0;
-  emit_spindle();
-  emit_normal(MoveKind::rapid, hole.normal, hole.retract_mm);
+  out_.spindle();
+  out_.along(MoveKind::rapid, hole.normal, hole.retract_mm);
   return true;
 }
 

@@ -1,40 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 
-#include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/blocks/offset_data.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/control/tool_table.hpp>
 #include <steadyrest/nc/interpret/state/frame.hpp>
 
-// G10: work offsets (L2, L20) and the tool table (L1, L10, L11).
 namespace steadyrest::nc::interpret {
 
-bool Interpreter::set_data(const Step& step) {
+bool OffsetData::set(const Step& step) {
   const double form = step.has('L') ? step['L'] : -1.0;
-  if (rules_->g10_adds) {
-    return set_fanuc_data(step, form);
+  if (control_.rules.g10_adds) {
+    return added_work(step, form);
   }
   if (form == 2.0 || form == 20.0) {
-    return set_work_data(step, form);
+    return work(step, form);
   }
   if (form == 1.0 || form == 10.0 || form == 11.0) {
-    return set_tool_data(step, form);
+    return tool(step, form);
   }
-  return refuse_code(step, 'G', 10, "g10_form",
-                     "this form of G10 is not interpreted; L1, L10, L11 (tool table), L2 and L20 "
-                     "(work offsets) are");
+  return refusals_.code(
+      step, 'G', 10, "g10_form",
+      "this form of G10 is not interpreted; L1, L10, L11 (tool table), L2 and L20 "
+      "(work offsets) are");
 }
 
-bool Interpreter::set_work_data(const Step& step, double form) {
+bool OffsetData::work(const Step& step, double form) {
   const double number = step.has('P') ? step['P'] : -1.0;
   if (number != std::floor(number) || number < 0.0 || number > 9.0) {
-    return refuse_code(step, 'G', 10, "g10_form",
-                       "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
+    return refusals_.code(step, 'G', 10, "g10_form",
+                          "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
   }
   if (step.has('R') && form == 20.0) {
-    return refuse(step, 'R', "g10_form", "a rotation (R) in G10 L20; G10 L2 takes one");
+    return refusals_.letter(step, 'R', "g10_form", "a rotation (R) in G10 L20; G10 L2 takes one");
   }
   if (!state_.work_offset_on && number == 0.0) {
-    return refuse_code(step, 'G', 10, "g10_form", "no work offset is active");
+    return refusals_.code(step, 'G', 10, "g10_form", "no work offset is active");
   }
   const std::size_t set =
       number == 0.0 ? state_.active_offset : static_cast<std::size_t>(number) - 1;
@@ -45,7 +46,7 @@ bool Interpreter::set_work_data(const Step& step, double form) {
   if (form == 2.0) {
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
       if (step.has(kAxisLetters[i])) {
-        offset[i] = component(step, i);
+        offset[i] = component(step, i, state_);
       }
     }
   } else {
@@ -58,7 +59,7 @@ bool Interpreter::set_work_data(const Step& step, double form) {
   state_.work_in_force = offset;
   const double before_deg = state_.rotation_in_force_deg;
   Axes place = turned(state_.position, before_deg);
-  update_offset();
+  update_offset(state_);
   // LinuxCNC 2.9 leaves G92 out of account where the rotation changes: from here on it has X and Y
   // at another place than the machine, and an axis that is not programmed goes there.
   if (state_.rotation_in_force_deg != before_deg) {
@@ -74,43 +75,43 @@ bool Interpreter::set_work_data(const Step& step, double form) {
 
 // L2 alone: P1 to P6 are G54 to G59, P0 is the external offset that is added to all of them; on a
 // Haas P0 is G52. In G91 the words are added to what the offset has.
-bool Interpreter::set_fanuc_data(const Step& step, double form) {
+bool OffsetData::added_work(const Step& step, double form) {
   if (form != 2.0) {
-    return refuse_code(step, 'G', 10, "g10_form",
-                       "this form of G10 is not interpreted; L2 (work offsets) is");
+    return refusals_.code(step, 'G', 10, "g10_form",
+                          "this form of G10 is not interpreted; L2 (work offsets) is");
   }
   const double number = step.has('P') ? step['P'] : -1.0;
   if (number != std::floor(number) || number < 0.0 || number > 6.0) {
-    return refuse_code(step, 'G', 10, "g10_form",
-                       "G10 L2 names no work offset; P0 (external) to P6 (G59) are allowed");
+    return refusals_.code(step, 'G', 10, "g10_form",
+                          "G10 L2 names no work offset; P0 (external) to P6 (G59) are allowed");
   }
-  if (number == 0.0 && !config_.external_offset) {
-    return refuse_code(step, 'G', 10, "g10_form", "G10 L2 P0 is G52 on this control; write G52");
+  if (number == 0.0 && !control_.config.external_offset) {
+    return refusals_.code(step, 'G', 10, "g10_form", "G10 L2 P0 is G52 on this control; write G52");
   }
   if (step.has('R')) {
-    return refuse(step, 'R', "unused_word", "an R word with G10 L2");
+    return refusals_.letter(step, 'R', "unused_word", "an R word with G10 L2");
   }
   Axes& offset =
       number == 0.0 ? state_.external : state_.work_offset[static_cast<std::size_t>(number) - 1];
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (step.has(kAxisLetters[i])) {
-      offset[i] = component(step, i) + (state_.incremental ? offset[i] : 0.0);
+      offset[i] = component(step, i, state_) + (state_.incremental ? offset[i] : 0.0);
     }
   }
   if (number == static_cast<double>(state_.active_offset) + 1.0) {
     state_.work_in_force = offset;
   }
-  update_offset();
+  update_offset(state_);
   return true;
 }
 
 // L20: `offset` so that the machine stands where the words say, in the coordinates turned by it.
-void Interpreter::place_here(const Step& step, double rotation_deg, Axes& offset) const {
-  const Axes machine = to_machine(state_.position);
+void OffsetData::place_here(const Step& step, double rotation_deg, Axes& offset) const {
+  const Axes machine = to_machine(state_, state_.position);
   if (rotation_deg == 0.0) {
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
       if (step.has(kAxisLetters[i])) {
-        offset[i] = machine[i] - state_.g92[i] - state_.tool_offset[i] - component(step, i);
+        offset[i] = machine[i] - state_.g92[i] - state_.tool_offset[i] - component(step, i, state_);
       }
     }
     return;
@@ -121,7 +122,8 @@ void Interpreter::place_here(const Step& step, double rotation_deg, Axes& offset
   }
   Axes shift = turned(from_origin, -rotation_deg);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
-    shift[i] = step.has(kAxisLetters[i]) ? shift[i] - state_.g92[i] - component(step, i) : 0.0;
+    shift[i] =
+        step.has(kAxisLetters[i]) ? shift[i] - state_.g92[i] - component(step, i, state_) : 0.0;
   }
   shift = turned(shift, rotation_deg);
   for (std::size_t i = 0; i < shift.size(); ++i) {
@@ -129,17 +131,9 @@ void Interpreter::place_here(const Step& step, double rotation_deg, Axes& offset
   }
 }
 
-Tool* Interpreter::place_of_tool(std::int32_t number) {
-  if (!config_.tools) {
-    return nullptr;
-  }
-  const auto found = std::ranges::find(*config_.tools, number, &Tool::number);
-  return found == config_.tools->end() ? nullptr : &*found;
-}
-
 // L10 in rotated coordinates: X or Y that is not named stays where the tool's old data have it.
-void Interpreter::place_tool(const Step& step, const Axes& machine, const Axes& frame,
-                             double turn_deg, Tool& tool) const {
+void OffsetData::place_tool(const Step& step, const Axes& machine, const Axes& frame,
+                            double turn_deg, Tool& tool) const {
   Axes tip{};
   for (std::size_t i = 0; i < 2; ++i) {
     tip[i] = machine[i] - frame[i] - tool.offset[i];
@@ -147,7 +141,7 @@ void Interpreter::place_tool(const Step& step, const Axes& machine, const Axes& 
   tip = turned(tip, -turn_deg);
   for (std::size_t i = 0; i < 2; ++i) {
     if (step.has(kAxisLetters[i])) {
-      tip[i] = component(step, i) + state_.g92[i];
+      tip[i] = component(step, i, state_) + state_.g92[i];
     }
   }
   tip = turned(tip, turn_deg);
@@ -158,47 +152,48 @@ void Interpreter::place_tool(const Step& step, const Axes& machine, const Axes& 
 
 // L1 sets a tool's data; L10 and L11 so that the tip would stand at the given place of the present
 // work offset or of G59.3. What is in force changes with the next G43.
-bool Interpreter::set_tool_data(const Step& step, double form) {
+bool OffsetData::tool(const Step& step, double form) {
   const double number = step.has('P') ? step['P'] : -1.0;
-  Tool* const tool = number == std::floor(number) && number > 0.0 && number < 1e6
-                         ? place_of_tool(static_cast<std::int32_t>(number))
-                         : nullptr;
-  if (tool == nullptr) {
-    return refuse_code(step, 'G', 10, "no_such_tool",
-                       "G10 names a tool (P) that is not in the tool table");
+  Tool* const place = number == std::floor(number) && number > 0.0 && number < 1e6
+                          ? place_of_tool(control_.config, static_cast<std::int32_t>(number))
+                          : nullptr;
+  if (place == nullptr) {
+    return refusals_.code(step, 'G', 10, "no_such_tool",
+                          "G10 names a tool (P) that is not in the tool table");
   }
   constexpr std::size_t kFixtures = 8;  // G59.3
   const Axes& frame = form == 11.0 ? state_.work_offset[kFixtures] : state_.work_in_force;
-  const Axes machine = to_machine(state_.position);
+  const Axes machine = to_machine(state_, state_.position);
   const double turn_deg = form == 10.0 ? state_.rotation_in_force_deg : 0.0;
   if (turn_deg != 0.0) {
-    place_tool(step, machine, frame, turn_deg, *tool);
+    place_tool(step, machine, frame, turn_deg, *place);
   }
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (!step.has(kAxisLetters[i]) || (turn_deg != 0.0 && i < 2)) {
       continue;
     }
-    const double value = component(step, i);
+    const double value = component(step, i, state_);
     const double shift = form == 10.0 ? state_.g92[i] : 0.0;
-    tool->offset[i] = form == 1.0 ? value : machine[i] - frame[i] - shift - value;
+    place->offset[i] = form == 1.0 ? value : machine[i] - frame[i] - shift - value;
   }
   if (step.has('R')) {
-    tool->diameter_mm = 2.0 * step['R'] * state_.unit_mm;
+    place->diameter_mm = 2.0 * step['R'] * state_.unit_mm;
   }
   if (step.has('I')) {
-    tool->front_angle_deg = step['I'];
+    place->front_angle_deg = step['I'];
   }
   if (step.has('J')) {
-    tool->back_angle_deg = step['J'];
+    place->back_angle_deg = step['J'];
   }
   if (step.has('Q')) {
     if (step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0 || step['Q'] > 9.0) {
-      return refuse(step, 'Q', "out_of_range", "a lathe tool's orientation (Q) is 0 to 9");
+      return refusals_.letter(step, 'Q', "out_of_range",
+                              "a lathe tool's orientation (Q) is 0 to 9");
     }
-    tool->orientation = static_cast<std::int32_t>(step['Q']);
+    place->orientation = static_cast<std::int32_t>(step['Q']);
   }
-  if (tool->number == state_.tool_in_spindle) {
-    load_tool();
+  if (place->number == state_.tool_in_spindle) {
+    load_tool(control_);
   }
   return true;
 }

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/nc/interpret/blocks/modes.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
+
+namespace steadyrest::nc::interpret {
+
+void Modes::units(const Step& step) noexcept {
+  const int code = step.code(GGroup::units);
+  if (code == kNoCode) {
+    return;
+  }
+  state_.unit_mm = code == g::kInch ? kMmPerInch : 1.0;
+  if (step.work_feed) {
+    state_.feed_unit_mm = state_.unit_mm;
+  }
+}
+
+void Modes::plane_and_units(const Step& step) noexcept {
+  const int plane = step.code(GGroup::plane);
+  if (plane != kNoCode) {
+    state_.plane = plane == g::kPlaneXy ? Plane::xy : plane == g::kPlaneZx ? Plane::zx : Plane::yz;
+  }
+  units(step);
+  const int diameter = step.code(GGroup::lathe_diameter);
+  if (diameter != kNoCode) {
+    state_.diameter = diameter == g::kDiameter;
+  }
+}
+
+void Modes::path(const Step& step) noexcept {
+  if (step.rounding_mm >= 0.0) {
+    rounding_mm_ = step.rounding_mm;
+  }
+  switch (step.code(GGroup::path_mode)) {
+    case g::kExactPath:
+      state_.path_mode = PathMode::exact_path;
+      state_.path_tolerance_mm = 0.0;
+      break;
+    case g::kExactStop:
+      state_.path_mode = PathMode::exact_stop;
+      state_.path_tolerance_mm = 0.0;
+      break;
+    case g::kContinuous:
+      state_.path_mode = PathMode::continuous;
+      // A negative P means "none given" on LinuxCNC.
+      state_.path_tolerance_mm =
+          step.has('P') && step['P'] > 0.0 ? step['P'] * state_.unit_mm : 0.0;
+      break;
+    default:
+      break;
+  }
+  if (control_.rules.rounding_distance && state_.path_mode == PathMode::continuous) {
+    state_.path_tolerance_mm = rounding_mm_;
+  }
+}
+
+void Modes::distance_and_retract(const Step& step) noexcept {
+  const int distance = step.code(GGroup::distance);
+  if (distance != kNoCode) {
+    state_.incremental = distance == g::kIncremental;
+  }
+  const int centre = step.code(GGroup::arc_centre);
+  if (centre != kNoCode) {
+    state_.centre_absolute = centre == g::kCentreAbsolute;
+  }
+  const int retract = step.code(GGroup::retract);
+  if (retract != kNoCode) {
+    state_.retract_to_initial = retract == g::kRetractToInitial;
+  }
+}
+
+bool Modes::keep(const Step& step) {
+  const int code = step.code(MGroup::modes);
+  Kept& kept = kept_.back();
+  switch (code) {
+    case m::kKeepModes:
+    case m::kKeepModesForCall:
+      kept = {.state = state_, .restores_itself = code == m::kKeepModesForCall};
+      return true;
+    case m::kForgetModes:
+      kept = {};
+      return true;
+    case m::kRestoreModes:
+      if (!kept.state) {
+        return refusals_.code(step, 'M', 72, "modes_not_kept",
+                              "M72 where no modes are kept; M70 or M73 comes before, in the same "
+                              "subprogram");
+      }
+      restore(*kept.state);
+      return true;
+    default:
+      return true;
+  }
+}
+
+// All modes but that of motion; positions and offsets' values are not modes.
+void Modes::restore(const State& kept) {
+  state_.unit_mm = kept.unit_mm;
+  state_.feed_unit_mm = kept.feed_unit_mm;
+  state_.plane = kept.plane;
+  state_.incremental = kept.incremental;
+  state_.centre_absolute = kept.centre_absolute;
+  state_.retract_to_initial = kept.retract_to_initial;
+  state_.diameter = kept.diameter;
+  state_.feed_mode = kept.feed_mode;
+  state_.feed_mm_s = kept.feed_mm_s;
+  state_.feed_deg_s = kept.feed_deg_s;
+  state_.path_mode = kept.path_mode;
+  state_.path_tolerance_mm = kept.path_tolerance_mm;
+  state_.override_off = kept.override_off;
+  state_.surface_speed = kept.surface_speed;
+  state_.surface_speed_mm_s = kept.surface_speed_mm_s;
+  state_.spindle_limit_rev_s = kept.spindle_limit_rev_s;
+  state_.spindle_speed_rev_s = kept.spindle_speed_rev_s;
+  state_.tool_offset = kept.tool_offset;
+  if (state_.active_offset != kept.active_offset) {
+    state_.active_offset = kept.active_offset;
+    state_.work_in_force = state_.work_offset[kept.active_offset];
+  }
+  if (state_.spindle_direction != kept.spindle_direction) {
+    state_.spindle_direction = kept.spindle_direction;
+    out_.spindle();
+  }
+  if (state_.coolant != kept.coolant) {
+    state_.coolant = kept.coolant;
+    out_.event(EventKind::coolant, state_.coolant);
+  }
+  update_offset(state_);
+}
+
+void Modes::enter_call() {
+  kept_.emplace_back();
+}
+
+bool Modes::leave_call() {
+  const Kept kept = kept_.back();
+  kept_.pop_back();
+  if (!kept.state || !kept.restores_itself) {
+    return false;
+  }
+  restore(*kept.state);
+  return true;
+}
+
+}  // namespace steadyrest::nc::interpret

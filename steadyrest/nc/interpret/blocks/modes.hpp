@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <steadyrest/nc/interpret/control/stage.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// Modes that stay in force, and M70 to M73, which keep them and bring them back.
+class Modes : private Stage {
+ public:
+  using Stage::Stage;
+
+  void units(const Step& step) noexcept;
+  void plane_and_units(const Step& step) noexcept;
+  void path(const Step& step) noexcept;
+  void distance_and_retract(const Step& step) noexcept;
+  bool keep(const Step& step);
+  /// A subprogram begins or ends: what M70 and M73 have kept belongs to it. True where the modes of
+  /// before come back.
+  void enter_call();
+  bool leave_call();
+
+ private:
+  struct Kept {
+    std::optional<State> state;
+    bool restores_itself = false;  ///< M73
+  };
+  void restore(const State& kept);
+
+  std::vector<Kept> kept_{1};
+  double rounding_mm_ = 0.0;  ///< sinumerik ADIS in force
+};
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/nc/interpret/control/control.hpp>
+#include <steadyrest/nc/interpret/state/refusals.hpp>
+#include <steadyrest/nc/interpret/state/state.hpp>
+#include <steadyrest/nc/interpret/state/step.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// Far beyond every machine; values above lose their meaning in the arithmetic that follows.
+inline constexpr double kLargestValue = 1e7;
+
+/// What a block must and must not contain, before anything of it acts. Reads the state and changes
+/// nothing. The rules are those that LinuxCNC 2.9 shows (docs "G-code overview", and rs274 by
+/// experiment). All return false when the block is refused.
+class BlockCheck {
+ public:
+  explicit BlockCheck(Control& control) noexcept
+      : state_(control.state), rules_(control.rules), refusals_(control.refusals) {}
+
+  /// Sets `moves_by`: the block's own G word, or the modal one when axis words ask for it.
+  bool choose_motion(Step& step) const;
+  /// Everything else; `moves_by` is set.
+  bool check(const Step& step) const;
+  /// Numbers within their range.
+  bool check_values(const Step& step) const;
+
+ private:
+  bool check_non_modal(const Step& step) const;
+  bool check_unused(const Step& step) const;
+  bool check_cutter(const Step& step) const;
+  bool cutter_permits_what_comes_before(const Step& step) const;
+  bool cutter_permits_what_comes_behind(const Step& step) const;
+
+  const State& state_;
+  const DialectRules& rules_;
+  Refusals& refusals_;
+};
+
+/// A feed is in force for a cutting move, and a spindle speed where the feed needs one.
+bool has_feed(const Step& step, const State& state, Refusals& refusals);
+
+}  // namespace steadyrest::nc::interpret

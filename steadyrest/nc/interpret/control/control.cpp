@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <steadyrest/nc/interpret/control/control.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
+
+namespace steadyrest::nc::interpret {
+
+Control::Control(Config start) : config(std::move(start)), rules(rules_of(config.dialect)) {
+  for (const char letter : config.axes) {
+    axes |= Step::bit(letter);
+  }
+  state.work_offset = config.work_offset;
+  state.rotation_deg = config.rotation_deg;
+  state.active_offset = config.active_offset;
+  state.work_in_force = state.work_offset[state.active_offset];
+  state.external = config.external;
+  state.g92 = config.g92_on ? config.g92 : Axes{};
+  state.g92_stored = config.g92;
+  state.g92_on = config.g92_on;
+  state.tool_offset = config.tool_offset;
+  state.home = config.home;
+  state.unit_mm = config.inch ? kMmPerInch : 1.0;
+  state.feed_unit_mm = state.unit_mm;
+  state.tool_in_spindle = config.tool_in_spindle;
+  state.selected_tool = config.tool_in_spindle;
+  state.retract_to_initial = rules.starts_with_g98;
+  state.position = config.start;
+  update_offset(state);
+  state.position = to_work(state, config.start);
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/interpret/state/refusals.hpp>
+#include <steadyrest/nc/interpret/state/state.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// What a control holds while it executes a program. All stages share it.
+struct Control {
+  /// `start` is taken as it is: see Interpreter::make.
+  explicit Control(Config start);
+  Control(const Control&) = delete;
+  Control& operator=(const Control&) = delete;
+  ~Control() = default;
+
+  Config config;  ///< G10 changes its tool table
+  const DialectRules& rules;
+  std::uint32_t axes = 0;  ///< mask of the axis letters that the machine has
+  State state;
+  Refusals refusals;
+};
+
+}  // namespace steadyrest::nc::interpret

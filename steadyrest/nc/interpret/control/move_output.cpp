@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/control/move_output.hpp>
+#include <steadyrest/nc/interpret/state/move_table.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+bool only_rotary_moves(const Axes& from, const Axes& to) noexcept {
+  bool rotary = false;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from[i] != to[i]) {
+      if (!is_rotary(i)) {
+        return false;
+      }
+      rotary = true;
+    }
+  }
+  return rotary;
+}
+
+}  // namespace
+
+Move& MoveOutput::fill(MoveKind kind, const Axes& end) noexcept {
+  current_.kind = kind;
+  current_.start = state_.position;
+  current_.end = end;
+  current_.offset = state_.offset;
+  current_.rotation_deg = state_.rotation_in_force_deg;
+  const bool cutting = kind != MoveKind::rapid;
+  current_.feed_mode = state_.feed_mode;
+  current_.feed_mm_s = !cutting                                  ? 0.0
+                       : only_rotary_moves(state_.position, end) ? state_.feed_deg_s
+                                                                 : state_.feed_mm_s;
+  current_.path_mode = state_.path_mode;
+  current_.path_tolerance_mm = state_.path_tolerance_mm;
+  current_.spindle_rev_s =
+      state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
+  current_.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
+  current_.spindle_limit_rev_s = state_.spindle_limit_rev_s;
+  current_.override_locked = state_.override_off || kind == MoveKind::thread;
+  current_.dwell_s = 0.0;
+  current_.speed_modulation = state_.speed_modulation;
+  return current_;
+}
+
+void MoveOutput::move(MoveKind kind, const Axes& end) {
+  fill(kind, end);
+  if (beside_) {
+    time_by_contour();
+    current_.start = take_beside(current_.start);
+  }
+  state_.position = end;
+  sink_->on_move(current_);
+  current_.machine_axes = 0;
+}
+
+void MoveOutput::dwell(double seconds) {
+  Move out;
+  out.kind = MoveKind::dwell;
+  out.line = current_.line;
+  out.start = state_.position;
+  out.end = state_.position;
+  out.offset = state_.offset;
+  out.rotation_deg = state_.rotation_in_force_deg;
+  out.feed_mode = state_.feed_mode;
+  out.path_mode = state_.path_mode;
+  out.path_tolerance_mm = state_.path_tolerance_mm;
+  out.spindle_rev_s =
+      state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
+  out.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
+  out.spindle_limit_rev_s = state_.spindle_limit_rev_s;
+  out.override_locked = state_.override_off;
+  out.dwell_s = seconds;
+  for (std::size_t i = 0; beside_ && i < out.end.size(); ++i) {
+    out.start[i] += (*beside_)[i];
+    out.end[i] = out.start[i];
+  }
+  sink_->on_move(out);
+}
+
+void MoveOutput::along(MoveKind kind, std::size_t axis, double value) {
+  Axes end = state_.position;
+  end[axis] = value;
+  move(kind, end);
+}
+
+void MoveOutput::spindle() {
+  const double speed = state_.surface_speed ? 0.0 : state_.spindle_speed_rev_s;
+  event(EventKind::spindle, state_.spindle_direction * speed);
+}
+
+void MoveOutput::event(EventKind kind, double value, std::string_view tool_name) {
+  sink_->on_event({.kind = kind, .line = current_.line, .value = value, .tool_name = tool_name});
+}
+
+void MoveOutput::time_by_contour() noexcept {
+  if (current_.feed_mode == FeedMode::inverse_time && current_.kind != MoveKind::rapid) {
+    current_.feed_mm_s *= path_length(current_);
+    current_.feed_mode = FeedMode::per_minute;
+  }
+}
+
+Axes MoveOutput::take_beside(Axes point) noexcept {
+  for (std::size_t i = 0; beside_ && i < point.size(); ++i) {
+    point[i] += (*beside_)[i];
+  }
+  beside_.reset();
+  return point;
+}
+
+}  // namespace steadyrest::nc::interpret

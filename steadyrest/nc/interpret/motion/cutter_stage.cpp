@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string_view>
+
+#include <steadyrest/nc/interpret/control/tool_table.hpp>
+#include <steadyrest/nc/interpret/motion/cutter_stage.hpp>
+
+// When compensation may come and go, as LinuxCNC 2.9 shows (rs274 by experiment).
+namespace steadyrest::nc::interpret {
+
+bool CutterStage::stop(const Step& step) {
+  const Fault fault = compensation_.stop(state_.unit_mm != 1.0);
+  return fault == Fault::none || refuse(step, fault);
+}
+
+void CutterStage::end_mark(std::uint32_t line) {
+  compensation_.on_event({.kind = EventKind::end, .line = line, .value = 0.0, .tool_name = {}});
+}
+
+void CutterStage::send_to(Sink& sink) noexcept {
+  compensation_.bind(sink);
+  if (state_.cutter_side != 0) {
+    out_.send_to(compensation_);
+  } else {
+    out_.send_to(sink);
+  }
+}
+
+bool CutterStage::set(const Step& step) {
+  const int code = step.code(GGroup::cutter);
+  if (code == kNoCode) {
+    return true;
+  }
+  if (code == g::kCutterOff) {
+    return end(step);
+  }
+  if (state_.plane == Plane::yz) {
+    return refusals_.code(step, 'G', code / 10, "cutter_comp_plane",
+                          "cutter radius compensation outside of G17 and G18");
+  }
+  CutterCompensation::Tool tool;
+  if (!choose_tool(step, code, tool)) {
+    return false;
+  }
+  compensation_.begin(state_.plane, tool, out_.take_beside(state_.position));
+  out_.send_to(compensation_);
+  state_.cutter_side = compensation_.side();
+  return true;
+}
+
+bool CutterStage::end(const Step& step) {
+  if (compensation_.active() && compensation_.entered()) {
+    const Fault fault = compensation_.end(state_.unit_mm != 1.0);
+    if (fault != Fault::none) {
+      return refuse(step, fault);
+    }
+    Axes beside = compensation_.machine();
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+      beside[i] -= state_.position[i];
+    }
+    out_.stand_beside(beside);
+    arc_allowed_ = false;
+  }
+  compensation_.forget();
+  out_.send_to(*compensation_.out());
+  state_.cutter_side = 0;
+  state_.cutter_shift = {};
+  return true;
+}
+
+// G41.1 and G42.1 name the diameter; G41 and G42 a tool of the table, without D the one in the
+// spindle.
+bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::Tool& tool) {
+  tool.side = code < g::kCutterRight ? -1 : 1;
+  const bool turned = state_.plane == Plane::zx;
+  if (code == g::kCutterLeftBy || code == g::kCutterRightBy) {
+    if (!step.has('D')) {
+      return refusals_.code(step, 'G', code / 10, "word_missing",
+                            "cutter radius compensation without the tool's diameter (D)");
+    }
+    if (step.has('L') && !turned) {
+      return refusals_.letter(step, 'L', "cutter_comp_plane",
+                              "the edge's orientation of a lathe tool (L) outside of G18");
+    }
+    tool.radius_mm = 0.5 * step['D'] * state_.unit_mm;
+    tool.orientation = step.has('L') ? static_cast<int>(step['L']) : 0;
+    return true;
+  }
+  std::int32_t number = state_.tool_in_spindle;
+  if (step.has('D')) {
+    if (step['D'] != std::floor(step['D']) || step['D'] < 0.0) {
+      return refusals_.letter(step, 'D', "not_an_integer",
+                              "a tool's number (D) is a whole number from 0");
+    }
+    if (step['D'] != 0.0 && !tool_number(control_, step, 'D', number)) {
+      return false;
+    }
+  }
+  if (!control_.config.tools) {
+    return refusals_.code(step, 'G', code / 10, "tool_radius_unknown",
+                          "cutter radius compensation, but no tool table says the tool's diameter");
+  }
+  const interpret::Tool* const found = find_tool(control_.config, number);
+  tool.radius_mm = found == nullptr ? 0.0 : 0.5 * found->diameter_mm;
+  tool.orientation = found == nullptr ? 0 : found->orientation;
+  return turned || tool.orientation == 0 || tool.orientation == 9 ||
+         refusals_.code(step, 'G', code / 10, "cutter_comp_plane",
+                        "cutter radius compensation with a lathe tool outside of G18");
+}
+
+bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
+  if (step.machine_frame) {
+    return refusals_.code(step, 'G', 53, "cutter_comp_on",
+                          "machine coordinates while cutter radius compensation is on");
+  }
+  const Axes start = state_.position;
+  const Move& move = out_.fill(kind, end);
+  out_.time_by_contour();
+  const bool inch = state_.unit_mm != 1.0;
+  const Fault fault = kind == MoveKind::arc ? compensation_.arc(move, start, inch)
+                                            : compensation_.line(move, start, inch);
+  if (fault != Fault::none) {
+    return refuse(step, fault);
+  }
+  state_.position = end;
+  const Axes centre = compensation_.centre(end);
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    state_.cutter_shift[i] = centre[i] - end[i];
+  }
+  return true;
+}
+
+bool CutterStage::refuse(const Step& step, Fault fault) {
+  const auto because = [&](std::string_view reason, std::string_view text) {
+    return refusals_.block(step, reason, text);
+  };
+  switch (fault) {
+    case Fault::entry_too_short:
+      return because("cutter_comp_entry",
+                     "the entry move of cutter radius compensation is not longer than the tool's "
+                     "radius");
+    case Fault::entry_arc:
+      return because("cutter_comp_entry",
+                     "no arc leads from here to the offset of the entry arc's end");
+    case Fault::arc_too_small:
+      return because("cutter_comp_arc", "the tool's radius is not less than that of the arc");
+    case Fault::same_centre:
+      return because("cutter_comp_arc", "a corner between two arcs about the same centre");
+    case Fault::does_not_fit:
+      return because("cutter_comp_gouge",
+                     "the tool does not fit into the corner before this move without gouging");
+    case Fault::runs_backwards:
+    case Fault::arc_broken:
+      return because("cutter_comp_gouge",
+                     "the move before this one cannot be reached by the tool without gouging");
+    case Fault::after_stop:
+      return because("cutter_comp_stop",
+                     "a program stop before a concave corner under cutter radius compensation; "
+                     "the control would gouge there");
+    case Fault::too_many_waiting:
+    case Fault::none:
+      break;
+  }
+  return because("cutter_comp_queue",
+                 "too many blocks without a move in the plane under cutter radius compensation");
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string_view>
+
+#include <steadyrest/nc/interpret/check/block_check.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/motion/motion.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+unsigned named_axes(const Step& step) noexcept {
+  unsigned axes = 0;
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    axes |= step.has(kAxisLetters[i]) ? 1U << i : 0U;
+  }
+  return axes;
+}
+
+}  // namespace
+
+bool Motion::straight(const Step& step) {
+  const bool cutting = step.moves_by == g::kLinear;
+  if (cutting && !has_feed(step, state_, refusals_)) {
+    return false;
+  }
+  const Axes end = end_point(step, control_);
+  const PathMode mode = state_.path_mode;
+  if (step.exact_stop) {
+    state_.path_mode = PathMode::exact_stop;
+  }
+  cutter_.goes_straight();
+  const MoveKind kind = cutting ? MoveKind::linear : MoveKind::rapid;
+  if (cutter_.active()) {
+    return cutter_.compensate(step, kind, end);
+  }
+  if (step.machine_frame) {
+    out_.current().machine_axes = named_axes(step);
+  }
+  out_.move(kind, end);
+  state_.path_mode = mode;
+  return true;
+}
+
+// G38.2 to G38.5: where it really ends only the machine knows. It is given as programmed; the probe
+// is taken to touch there and the axes to stand 0.254 mm (after G20 0.01 in, which is the same)
+// before, as in LinuxCNC's own interpreter without a machine.
+bool Motion::probe(const Step& step) {
+  constexpr double kBefore_mm = 0.254;
+  if (state_.feed_mode == FeedMode::per_revolution) {
+    return refusals_.code(step, 'G', 38, "probe_per_revolution",
+                          "probing while feed per revolution (G95) is in force");
+  }
+  if (!has_feed(step, state_, refusals_)) {
+    return false;
+  }
+  const Axes end = end_point(step, control_);
+  for (std::size_t i = 3; i < end.size(); ++i) {
+    if (end[i] != state_.position[i]) {
+      return refusals_.letter(step, kAxisLetters[i], "probe_axis",
+                              "probing moves X, Y and Z alone");
+    }
+  }
+  Axes start = state_.position;
+  for (std::size_t i = 0; out_.beside() && i < start.size(); ++i) {
+    start[i] += (*out_.beside())[i];
+  }
+  const double distance = std::hypot(end[0] - start[0], end[1] - start[1], end[2] - start[2]);
+  const bool may_fail = step.moves_by == g::kProbe || step.moves_by == g::kProbeAway;
+  if (!(distance > 0.0) && !may_fail) {
+    return refusals_.code(step, 'G', 38, "probe_too_short", "a probing move that goes nowhere");
+  }
+  out_.move(MoveKind::probe, end);
+  parameters_.record_probe(end);
+  for (std::size_t i = 0; i < 3 && distance > 0.0; ++i) {
+    state_.position[i] -= kBefore_mm * (end[i] - start[i]) / distance;
+  }
+  return true;
+}
+
+bool Motion::refuse_arc(const Step& step, ArcFault fault) {
+  const char letter = step.has('R') ? 'R' : step.has('I') ? 'I' : step.has('J') ? 'J' : 'K';
+  switch (fault) {
+    case ArcFault::radius_too_small:
+      return refusals_.letter(step, letter, "arc_radius_too_small",
+                              "the radius does not reach from the arc's start to its end");
+    case ArcFault::no_chord:
+      return refusals_.letter(
+          step, letter, "arc_without_chord",
+          "an arc by radius whose end is its start; write a full circle with I J K");
+    case ArcFault::zero_radius:
+      return refusals_.letter(step, letter, "arc_zero_radius",
+                              "the arc's centre lies on its start or end");
+    case ArcFault::does_not_close:
+      break;
+  }
+  return refusals_.letter(step, letter, "arc_does_not_close",
+                          "the arc's end lies on another radius than its start");
+}
+
+bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end,
+                        PlanePoint& centre) {
+  constexpr std::string_view kCentreLetters = "IJK";
+  const PlanePoint start{.first = state_.position[axes.first],
+                         .second = state_.position[axes.second]};
+  const PlanePoint stop{.first = end[axes.first], .second = end[axes.second]};
+  const ArcTolerance tolerance = arc_tolerance(state_.unit_mm != 1.0);
+  if (step.has('R')) {
+    const auto found = centre_from_radius(start, stop, step['R'] * state_.unit_mm,
+                                          step.moves_by == g::kArcClockwise, tolerance);
+    if (!found) {
+      return refuse_arc(step, found.error());
+    }
+    centre = *found;
+    return true;
+  }
+  const auto coordinate = [&](std::size_t axis, double from) {
+    const char letter = kCentreLetters[axis];
+    if (!step.has(letter)) {
+      return from;
+    }
+    const std::uint32_t bit = Step::bit(letter);
+    const bool absolute =
+        (step.absolute & bit) != 0 || (state_.centre_absolute && (step.incremental & bit) == 0);
+    return (absolute ? 0.0 : from) + step[letter] * state_.unit_mm;
+  };
+  if (state_.centre_absolute &&
+      !(step.has(kCentreLetters[axes.first]) && step.has(kCentreLetters[axes.second]))) {
+    return refusals_.letter(step, 'G', "arc_centre_missing",
+                            "absolute arc centres (G90.1) need both centre words of the plane");
+  }
+  centre = {.first = coordinate(axes.first, start.first),
+            .second = coordinate(axes.second, start.second)};
+  const auto checked = check_centre(start, stop, centre, tolerance);
+  return checked.has_value() || refuse_arc(step, checked.error());
+}
+
+bool Motion::arc_words(const Step& step, const PlaneAxes& axes) {
+  const bool by_centre = (step.mask & kCentreMask) != 0;
+  if (!by_centre && !step.has('R')) {
+    return refusals_.letter(step, 'G', "arc_centre_missing",
+                            "an arc without radius (R) or centre (I J K)");
+  }
+  if (by_centre && step.has('R')) {
+    return refusals_.letter(step, 'R', "arc_centre_twice",
+                            "an arc with both radius and centre words");
+  }
+  const char foreign = "IJK"[axes.normal];
+  if (step.has(foreign)) {
+    return refusals_.letter(step, foreign, "arc_centre_off_plane",
+                            "a centre word that does not belong to the arc's plane");
+  }
+  const double turns = step.has('P') ? step['P'] : 1.0;
+  if (turns != std::floor(turns) || turns < 1.0 || turns > 1e6) {
+    return refusals_.letter(step, 'P', "arc_turns", "the number of turns is a whole number from 1");
+  }
+  return true;
+}
+
+bool Motion::arc(const Step& step) {
+  if (!has_feed(step, state_, refusals_)) {
+    return false;
+  }
+  if (!cutter_.arc_allowed()) {
+    return refusals_.letter(step, 'G', "arc_after_cutter_comp",
+                            "the move behind G40 must be a straight line, not an arc");
+  }
+  const PlaneAxes axes = axes_of(state_.plane);
+  const Axes end = end_point(step, control_);
+  PlanePoint centre;
+  if (!arc_words(step, axes) || !arc_centre(step, axes, end, centre)) {
+    return false;
+  }
+  Move& move = out_.current();
+  move.centre_mm = {state_.position[0], state_.position[1], state_.position[2]};
+  move.centre_mm[axes.first] = centre.first;
+  move.centre_mm[axes.second] = centre.second;
+  move.normal[axes.normal] = 1.0;
+  const double turns = step.has('P') ? step['P'] : 1.0;
+  move.turns = static_cast<int>(step.moves_by == g::kArcClockwise ? -turns : turns);
+  const PathMode mode = state_.path_mode;
+  if (step.exact_stop) {
+    state_.path_mode = PathMode::exact_stop;
+  }
+  bool accepted = true;
+  if (cutter_.active()) {
+    accepted = cutter_.compensate(step, MoveKind::arc, end);
+  } else {
+    out_.move(MoveKind::arc, end);
+  }
+  state_.path_mode = mode;
+  move.centre_mm = {};
+  move.normal = {};
+  move.turns = 0;
+  return accepted;
+}
+
+// By way of the given point to the reference point; only the named axes go there, all when none is.
+void Motion::home(const Step& step, std::size_t which) {
+  const bool some = (step.mask & kAxisMask) != 0;
+  Axes end = end_point(step, control_);
+  out_.move(MoveKind::rapid, end);
+  const Axes reference = to_work(state_, state_.home[which]);
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (!some || step.has(kAxisLetters[i])) {
+      end[i] = reference[i] + (tool_stays(control_.rules, i) ? state_.tool_offset[i] : 0.0);
+    }
+  }
+  out_.move(MoveKind::rapid, end);
+}
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include <steadyrest/nc/interpret/control/stage.hpp>
+#include <steadyrest/nc/interpret/motion/cutter_stage.hpp>
+#include <steadyrest/nc/interpret/parameters/parameters.hpp>
+#include <steadyrest/nc/interpret/state/arc.hpp>
+
+namespace steadyrest::nc::interpret {
+
+/// The moves of a block by itself: straight lines, arcs, probing, reference points.
+class Motion : private Stage {
+ public:
+  Motion(Control& control, MoveOutput& out, CutterStage& cutter, Parameters& parameters) noexcept
+      : Stage(control, out), cutter_(cutter), parameters_(parameters) {}
+
+  bool straight(const Step& step);
+  bool arc(const Step& step);
+  bool probe(const Step& step);
+  /// G28 (`which` 0), G30 (1).
+  void home(const Step& step, std::size_t which);
+
+ private:
+  bool arc_words(const Step& step, const PlaneAxes& axes);
+  bool arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end, PlanePoint& centre);
+  bool refuse_arc(const Step& step, ArcFault fault);
+
+  CutterStage& cutter_;
+  Parameters& parameters_;
+};
+
+}  // namespace steadyrest::nc::interpret

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+
+#include <steadyrest/nc/interpret/check/block_check.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/motion/splines.hpp>
+
+namespace steadyrest::nc::interpret {
+namespace {
+
+constexpr std::size_t kMostPoints = 10'000;
+
+}  // namespace
+
+bool Splines::spline(const Step& step) {
+  const int code = step.moves_by;
+  if (state_.plane != Plane::xy && (code == g::kCubicSpline || code == g::kQuadraticSpline)) {
+    return refusals_.code(step, 'G', 5, "spline_off_xy", "a spline outside of the XY plane (G17)");
+  }
+  for (const char letter : std::string_view{"ZABCUVW"}) {
+    if (step.has(letter)) {
+      return refusals_.letter(step, letter, "axis_in_spline", "a spline moves X and Y alone");
+    }
+  }
+  if (code == g::kSplineEnd) {
+    return end(step);
+  }
+  if (state_.feed_mode == FeedMode::inverse_time) {
+    return refusals_.code(step, 'G', 5, "spline_in_inverse_time",
+                          "a spline while inverse-time feed (G93) is in force");
+  }
+  if (!has_feed(step, state_, refusals_)) {
+    return false;
+  }
+  return code == g::kCubicSpline       ? cubic(step)
+         : code == g::kQuadraticSpline ? quadratic(step)
+                                       : control_point(step);
+}
+
+bool Splines::words(const Step& step, std::string_view text) {
+  return refusals_.code(step, 'G', 5, "spline_words", text);
+}
+
+bool Splines::cubic(const Step& step) {
+  if (step.has('I') != step.has('J')) {
+    return refusals_.letter(step, step.has('I') ? 'I' : 'J', "spline_words",
+                            "G5 takes both I and J, or neither behind another G5");
+  }
+  if (!step.has('P') || !step.has('Q')) {
+    return words(step, "G5 without its second control point (P and Q, from the end)");
+  }
+  if (!step.has('I') && !cubic_goes_on_) {
+    return words(step, "G5 without its first control point (I and J), not behind another G5");
+  }
+  const Axes end = end_point(step, control_);
+  const double unit = state_.unit_mm;
+  const std::array<double, 2> first =
+      step.has('I') ? std::array{step['I'] * unit, step['J'] * unit}
+                    : std::array{-cubic_tangent_mm_[0], -cubic_tangent_mm_[1]};
+  cubic_tangent_mm_ = {step['P'] * unit, step['Q'] * unit};
+  const Axes& start = state_.position;
+  const std::array points = {
+      SplinePoint{start[0], start[1], 1.0},
+      SplinePoint{start[0] + first[0], start[1] + first[1], 1.0},
+      SplinePoint{end[0] + cubic_tangent_mm_[0], end[1] + cubic_tangent_mm_[1], 1.0},
+      SplinePoint{end[0], end[1], 1.0}};
+  emit(points, 4, end);
+  cubic_goes_on_ = true;
+  return true;
+}
+
+bool Splines::quadratic(const Step& step) {
+  if (!step.has('I') || !step.has('J')) {
+    return words(step, "G5.1 without its control point (I and J, from the start)");
+  }
+  const Axes end = end_point(step, control_);
+  const double unit = state_.unit_mm;
+  const Axes& start = state_.position;
+  const std::array points = {
+      SplinePoint{start[0], start[1], 1.0},
+      SplinePoint{start[0] + step['I'] * unit, start[1] + step['J'] * unit, 1.0},
+      SplinePoint{end[0], end[1], 1.0}};
+  emit(points, 3, end);
+  cubic_goes_on_ = false;
+  return true;
+}
+
+bool Splines::control_point(const Step& step) {
+  if (!step.has('X') || !step.has('Y')) {
+    return words(step, "a control point without X or Y");
+  }
+  if (!step.has('P') || !(step['P'] > 0.0)) {
+    return words(step, "a control point without its weight (P above zero)");
+  }
+  if (points_.size() >= kMostPoints) {
+    return refusals_.letter(step, 'X', "spline_words",
+                            "a spline of more than 10000 control points");
+  }
+  if (points_.empty()) {
+    order_ = step.has('L') ? static_cast<int>(step['L']) : 3;
+    if (order_ < 2 || order_ > 8) {
+      return refusals_.letter(step, 'L', "spline_words", "the order of a spline (L) is 2 to 8");
+    }
+    points_.push_back({state_.position[0], state_.position[1], step['P']});
+    end_ = state_.position;
+    state_.motion = g::kSplinePoint;
+    cubic_goes_on_ = false;
+  } else if (step.has('L')) {
+    return refusals_.letter(step, 'L', "spline_words",
+                            "the order (L) stands in the first block of a spline");
+  }
+  if (state_.incremental) {
+    return refusals_.letter(step, 'X', "spline_words", "control points in G91 are not interpreted");
+  }
+  end_ = end_point(step, control_);
+  points_.push_back({end_[0], end_[1], step['P']});
+  return true;
+}
+
+bool Splines::end(const Step& step) {
+  if (points_.empty()) {
+    return words(step, "G5.3 without G5.2 before it");
+  }
+  if (static_cast<int>(points_.size()) < order_) {
+    return words(step, "a spline of fewer control points than its order");
+  }
+  emit(points_, order_, end_);
+  points_.clear();
+  state_.motion = -1;
+  return true;
+}
+
+void Splines::emit(std::span<const SplinePoint> points, int order, const Axes& end) {
+  out_.current().spline = points;
+  out_.current().spline_order = order;
+  const PathMode mode = state_.path_mode;
+  out_.move(MoveKind::spline, end);
+  state_.cycle.begins_anew = true;
+  state_.path_mode = mode;
+  out_.current().spline = {};
+  out_.current().spline_order = 0;
+}
+
+}  // namespace steadyrest::nc::interpret
