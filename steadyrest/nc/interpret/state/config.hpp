@@ -21,6 +21,8 @@ struct Tool {
   double front_angle_deg = 0.0;  ///< I, J, Q of the tool table: lathe tools
   double back_angle_deg = 0.0;
   std::int32_t orientation = 0;
+
+  friend bool operator==(const Tool&, const Tool&) = default;
 };
 
 /// Work offsets G54–G59.3, in this order; for sinumerik G54–G57, G505 ….

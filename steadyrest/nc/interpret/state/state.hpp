@@ -36,6 +36,8 @@ struct CycleMemory {
   std::array<double, 3> ijk{};  ///< I, J, K words of G87: shifts in the plane, upper depth
   double initial = 0.0;         ///< where the normal axis stood when the row of cycles began
   bool begins_anew = false;     ///< a spline stood between: the row begins where it ended
+
+  friend bool operator==(const CycleMemory&, const CycleMemory&) = default;
 };
 
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
@@ -94,6 +96,8 @@ struct State {
   Axes cutter_shift{};    ///< tool's centre − programmed point while it is on
   bool diameter = false;  ///< G7
   std::uint32_t line = 0;
+
+  friend bool operator==(const State&, const State&) = default;
 };
 
 }  // namespace steadyrest::nc::interpret
