@@ -191,7 +191,7 @@ void print_row(const char* name, const Figures& figures, double reference_s) {
 std::shared_ptr<const nc::plan::PlannedPath> read_program(const std::string& file,
                                                           const Machine& machine) {
   nc::interpret::Config config;
-  config.dialect = static_cast<nc::read::Dialect>(machine.control.dialect);
+  config.dialect = machine.control.dialect;
   nc::plan::PathBuilder builder(machine);
   const auto report = take(nc::interpret::run_file(file, config, builder));
   if (!report.refused.empty()) {

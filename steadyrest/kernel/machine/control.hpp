@@ -3,11 +3,10 @@
 
 #include <cstdint>
 
+#include <steadyrest/kernel/machine/dialect.hpp>
 #include <steadyrest/kernel/machine/unlimited.hpp>
 
 namespace steadyrest::kernel::machine {
-
-enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
 
 /// How the control plans motion along the path.
 struct Control {

@@ -36,7 +36,8 @@ class Counter final : public Sink {
 
 class ProgramRun::Run {
  public:
-  Run(LineSource& source, const Config& config, std::unique_ptr<Interpreter> interpreter, Sink& sink)
+  Run(LineSource& source, const Config& config, std::unique_ptr<Interpreter> interpreter,
+      Sink& sink)
       : files_(source, config.subprogram_folders),
         reader_(config.dialect),
         interpreter_(std::move(interpreter)),

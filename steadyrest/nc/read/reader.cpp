@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstddef>
 #include <string>
 
 #include <steadyrest/nc/read/letter/letter_line.hpp>
@@ -10,10 +12,30 @@
 namespace steadyrest::nc::read {
 namespace {
 
-// The longest lines, line end included: LinuxCNC 2.9 takes 253 characters (measured: 252 and LF are
-// read, one more is "Command too long"); the others are ours, far above what the controls store.
-constexpr std::size_t longest_line(Dialect dialect) noexcept {
-  return dialect == Dialect::linuxcnc ? 253 : dialect == Dialect::sinumerik ? 514 : 1024;
+/// How the lines of a dialect are read.
+struct Rules {
+  bool (*read)(Reading& reading, std::string_view line, std::uint32_t number, Block& block);
+  std::size_t longest;           ///< line, its end included
+  bool values_are_numbers;       ///< unless the line says otherwise: see Reader::numbers_alone
+  bool percent_closes_unopened;  ///< a program may end with % without having begun with it
+  bool archive_name;             ///< its first line may be %_N_NAME, as the control writes it
+};
+
+template <class Line>
+bool read_with(Reading& reading, std::string_view line, std::uint32_t number, Block& block) {
+  return Line(reading, line, number, block).read();
+}
+
+// The longest lines: LinuxCNC 2.9 takes 253 characters (measured: 252 and LF are read, one more is
+// "Command too long"); the others are ours, far above what the controls store.
+constexpr std::array<Rules, 3> kRules = {{
+    {read_with<LetterLine>, 253, true, false, false},    // linuxcnc
+    {read_with<LetterLine>, 1024, false, true, false},   // fanuc
+    {read_with<SinumerikLine>, 514, false, true, true},  // sinumerik
+}};
+
+constexpr const Rules& rules_of(Dialect dialect) noexcept {
+  return kRules[static_cast<std::size_t>(dialect)];
 }
 
 std::string_view trimmed(std::string_view text) noexcept {
@@ -34,7 +56,7 @@ bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) 
       percent_opened_ = true;
       return true;
     }
-    if (percent_opened_ || reading_.dialect != Dialect::linuxcnc) {
+    if (percent_opened_ || rules_of(reading_.dialect).percent_closes_unopened) {
       block.set_end_mark();
       return true;
     }
@@ -49,10 +71,11 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
                   Block& block) {
   block.reset(number);
   reading_.numbers_alone = false;
-  if (line.size() + ending_length > longest_line(reading_.dialect)) {
+  const Rules& rules = rules_of(reading_.dialect);
+  if (line.size() + ending_length > rules.longest) {
     return reading_.refuse(number, line.substr(0, 16), "line_too_long",
                            "a line of " + std::to_string(line.size()) + " characters; " +
-                               std::to_string(longest_line(reading_.dialect)) +
+                               std::to_string(rules.longest) +
                                " are allowed in this dialect, line end included");
   }
   std::size_t first = 0;
@@ -62,9 +85,8 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   if (first == line.size()) {
     return true;
   }
-  if (reading_.dialect == Dialect::sinumerik && number == 1 &&
-      line.substr(first).starts_with("%_N_")) {
-    return true;  // the name of the program, as the control writes it into archives
+  if (rules.archive_name && number == 1 && line.substr(first).starts_with("%_N_")) {
+    return true;
   }
   if (line[first] == '%') {
     const bool accepted = percent(line, number, block);
@@ -72,10 +94,8 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
     return accepted;
   }
   seen_line_ = true;
-  reading_.numbers_alone = reading_.dialect == Dialect::linuxcnc;
-  const bool accepted = reading_.dialect == Dialect::sinumerik
-                            ? SinumerikLine(reading_, line, number, block).read()
-                            : LetterLine(reading_, line, number, block).read();
+  reading_.numbers_alone = rules.values_are_numbers;
+  const bool accepted = rules.read(reading_, line, number, block);
   reading_.numbers_alone = reading_.numbers_alone && accepted;
   if (reading_.values != nullptr && !reading_.numbers_alone) {
     accepted && !(block_delete_ && block.deleted()) ? reading_.values->commit()
@@ -85,7 +105,8 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
 }
 
 bool Reader::ends_program(std::string_view line) const noexcept {
-  return percent_opened_ && reading_.dialect == Dialect::linuxcnc && trimmed(line) == "%";
+  return percent_opened_ && !rules_of(reading_.dialect).percent_closes_unopened &&
+         trimmed(line) == "%";
 }
 
 bool Reader::read_flow(std::string_view line, std::uint32_t number, Block& block) {

@@ -29,7 +29,6 @@ constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "modbus", "opc
 /// Those that have an adapter; a file with another is refused.
 constexpr auto kBuiltPorts = std::span(kPorts).first<1>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
-constexpr std::array<string_view, 3> kDialects = {"linuxcnc", "fanuc", "sinumerik"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
 constexpr std::array<string_view, 3> kStrategies = {"contour_priority", "feed_priority",
                                                     "combined"};
@@ -69,8 +68,8 @@ std::span<const Key<Machine>> top_keys() noexcept {
 
 std::span<const Key<Control>> control_keys() noexcept {
   static const std::array kKeys = {
-      Key<Control>{"dialect", choice<Control, &Control::dialect>(kDialects), 0, 0,
-                   "Language of the control's NC programs.", kMust},
+      Key<Control>{"dialect", choice<Control, &Control::dialect>(kernel::machine::kDialectNames), 0,
+                   0, "Language of the control's NC programs.", kMust},
       Key<Control>{
           "interpolator_period_ms", &Control::interpolator_period_s, 0.05, 100,
           "Time between set-points from the interpolator; a whole multiple of `servo_period_ms`."},
@@ -384,7 +383,7 @@ string_view word(Mode mode) noexcept {
   return pick(kModes, mode);
 }
 string_view word(Dialect dialect) noexcept {
-  return pick(kDialects, dialect);
+  return pick(kernel::machine::kDialectNames, dialect);
 }
 string_view word(Coding coding) noexcept {
   return pick(kCodings, coding);

@@ -42,18 +42,6 @@ CLI::Option* add_common(Verb& verb, ProgramOptions& options) {
 
 constexpr const char* kOtherDialect = "Control the program is written for, if not the machine's";
 
-std::string dialect_name(kernel::machine::Dialect dialect) {
-  switch (dialect) {
-    case kernel::machine::Dialect::linuxcnc:
-      return "linuxcnc";
-    case kernel::machine::Dialect::fanuc:
-      return "fanuc";
-    case kernel::machine::Dialect::sinumerik:
-      return "sinumerik";
-  }
-  return "";
-}
-
 }  // namespace
 
 void add_program_options(Verb& verb, ProgramOptions& options) {
@@ -106,7 +94,7 @@ Result<Config> program_config(const ProgramOptions& options,
                               const kernel::machine::Machine& machine) {
   ProgramOptions of_machine = options;
   if (of_machine.dialect.empty()) {
-    of_machine.dialect = dialect_name(machine.control.dialect);
+    of_machine.dialect = nc::read::name(machine.control.dialect);
   }
   of_machine.axes.clear();
   for (const kernel::machine::Axis& axis : machine.axes) {

@@ -70,12 +70,6 @@ Method written(CompensationMethod method, kernel::machine::Dialect dialect) {
   return dialect == kernel::machine::Dialect::fanuc ? Method::fanuc : Method::linuxcnc;
 }
 
-std::string_view dialect_name(nc::read::Dialect dialect) {
-  return dialect == nc::read::Dialect::sinumerik ? "sinumerik"
-         : dialect == nc::read::Dialect::fanuc   ? "fanuc"
-                                                 : "linuxcnc";
-}
-
 }  // namespace
 
 std::expected<Way, Refusals> way_of(const RewriteOptions& options,
@@ -84,27 +78,25 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
   using Dialect = kernel::machine::Dialect;
   const kernel::machine::Compensation& compensation = machine.compensation;
   if (options.r_parameter != kNoParameter && program != nc::read::Dialect::sinumerik) {
-    return refuse(fmt::format("--r-parameter with a program of dialect {}", dialect_name(program)),
-                  "leave it out; only SINUMERIK controls have R-parameters");
+    return refuse(
+        fmt::format("--r-parameter with a program of dialect {}", nc::read::name(program)),
+        "leave it out; only SINUMERIK controls have R-parameters");
   }
   if (!options.control.empty() && program != nc::read::Dialect::fanuc) {
     return refuse(fmt::format("--control {} with a program of dialect {}", options.control,
-                              dialect_name(program)),
+                              nc::read::name(program)),
                   "leave it out, or choose --dialect fanuc");
   }
-  const Dialect own = program == nc::read::Dialect::sinumerik ? Dialect::sinumerik
-                      : program == nc::read::Dialect::fanuc   ? Dialect::fanuc
-                                                              : Dialect::linuxcnc;
   const CompensationMethod method = method_of(options, compensation);
-  const Dialect needed = passport::dialect_of(method, own);
-  if (needed != own) {
+  const Dialect needed = passport::dialect_of(method, program);
+  if (needed != program) {
     return refuse(
         fmt::format("{} writes corrections by \"{}\", which is for {}; the program is read as {}",
                     machine.file, passport::word(method), passport::word(needed),
-                    dialect_name(program)),
+                    nc::read::name(program)),
         "give the machine file of the control the program is for");
   }
-  if (own == Dialect::sinumerik && method == CompensationMethod::by_dialect) {
+  if (program == Dialect::sinumerik && method == CompensationMethod::by_dialect) {
     return refuse("no method for corrections in dialect sinumerik",
                   "add [compensation] to the machine file (method = \"r_parameter\", "
                   "\"setting_data\" or \"frame_fine\"), or give --r-parameter N");
@@ -114,11 +106,11 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
                                : static_cast<std::uint32_t>(options.r_parameter);
   // What the machine file says of its own method is not said of another.
   const bool as_in_file = method == compensation.method && r_parameter == compensation.r_parameter;
-  return Way{.method = written(method, own),
+  return Way{.method = written(method, program),
              .r_parameter = r_parameter,
              .sign = compensation.sign < 0 ? -1 : 1,
              .external_offset_free =
-                 compensation.external_offset_free && written(method, own) == Method::fanuc,
+                 compensation.external_offset_free && written(method, program) == Method::fanuc,
              .cleared_after_abort = compensation.cleared_after_abort && as_in_file,
              .increment_mm = compensation.least_increment_mm};
 }
@@ -147,7 +139,7 @@ std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options
   for (const std::string name : kTold) {
     std::vector<std::string> values = given(options, name);
     if (values.empty() && name == "dialect") {
-      values = {std::string(dialect_name(dialect))};
+      values = {std::string(nc::read::name(dialect))};
     } else if (values.empty() && name == "window-s") {
       values = {fmt::format("{:g}", options.window_s)};
     }

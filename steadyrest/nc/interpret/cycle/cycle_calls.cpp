@@ -58,8 +58,7 @@ struct CycleCalls::Hole {
   double retract_mm = 0.0;
 };
 
-bool CycleCalls::refuse(const Flow& call, std::string_view reason,
-                                  std::string_view text) {
+bool CycleCalls::refuse(const Flow& call, std::string_view reason, std::string_view text) {
   return refusals_.call(out_.line(), call, reason, text);
 }
 

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+
 #include <steadyrest/nc/read/text/dialect.hpp>
 
 namespace steadyrest::nc::read {
 
+using kernel::machine::kDialectNames;
+
 std::optional<Dialect> dialect_from_name(std::string_view name) noexcept {
-  if (name == "linuxcnc") {
-    return Dialect::linuxcnc;
-  }
-  if (name == "fanuc") {
-    return Dialect::fanuc;
-  }
-  if (name == "sinumerik") {
-    return Dialect::sinumerik;
+  for (std::size_t i = 0; i < kDialectNames.size(); ++i) {
+    if (kDialectNames[i] == name) {
+      return static_cast<Dialect>(i);
+    }
   }
   return std::nullopt;
 }
 
 std::string_view name(Dialect dialect) noexcept {
-  return dialect == Dialect::linuxcnc ? "linuxcnc"
-         : dialect == Dialect::fanuc  ? "fanuc"
-                                      : "sinumerik";
+  return kDialectNames[static_cast<std::size_t>(dialect)];
 }
 
 }  // namespace steadyrest::nc::read

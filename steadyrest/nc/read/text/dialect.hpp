@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string_view>
 
+#include <steadyrest/kernel/machine/dialect.hpp>
+
 namespace steadyrest::nc::read {
 
-/// The families of controls whose programs are read.
-enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
+using kernel::machine::Dialect;
 
 /// `linuxcnc`, `fanuc`, `sinumerik`; nothing for any other name.
 [[nodiscard]] std::optional<Dialect> dialect_from_name(std::string_view name) noexcept;
