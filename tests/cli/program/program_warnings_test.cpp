@@ -78,13 +78,12 @@ TEST(ProgramWarnings, AreThoseOfEachVerbThatHasTheMachine) {
     const std::string line = verb + program + " --machine " + kMill;
     EXPECT_THAT(
         warned(answer_of(line + " --variables " + variables(scratch))),
-        ElementsAre(
-            HasSubstr("3: cuts with the spindle stopped: no S"),
-            HasSubstr("4: S30000 is outside the spindle's 0 … 24000 rev/min"),
-            HasSubstr("5: the move takes X to 536.603 mm, outside of its travel -500 … 500"),
-            HasSubstr("5: the feed of 20000 mm/min is more than the axes can do here"),
-            HasSubstr("9: the move takes X to 507.321 mm"),
-            HasSubstr("10: a rapid takes X to 501.000 mm")))
+        ElementsAre(HasSubstr("3: cuts with the spindle stopped: no S"),
+                    HasSubstr("4: S30000 is outside the spindle's 0 … 24000 rev/min"),
+                    HasSubstr("5: the move takes X to 536.603 mm, outside its travel -500 … 500"),
+                    HasSubstr("5: the feed of 20000 mm/min is more than the axes can do here"),
+                    HasSubstr("9: the move takes X to 507.321 mm"),
+                    HasSubstr("10: a rapid takes X to 501.000 mm")))
         << "the circle of line 7 reaches X499, the arc of line 9 bulges beyond its ends";
     EXPECT_THAT(warned(answer_of(line)),
                 ElementsAre(HasSubstr("3: cuts with"), HasSubstr("4: S30000"),

@@ -26,7 +26,7 @@ using Decoder = bool (*)(const Decoding& in, const read::Block& block, Step& ste
 /// A dialect: its decoder, and how the same step is executed where dialects differ. Each dialect's
 /// folder has its own; `rules_of` is their table.
 struct DialectRules {
-  Decoder decode;
+  Decoder decode = nullptr;
   bool units_first = true;             ///< in a block; on linuxcnc F acts in the units before it
   bool feed_mode_clears_feed = false;  ///< also where the mode was in force already
   bool starts_with_g98 = false;

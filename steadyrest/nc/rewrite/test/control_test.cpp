@@ -309,8 +309,8 @@ TEST_F(Sinumerik, VerifyCatchesEachFault) {
                "R50=-0.0200 ;STEADYREST Z-0.0200");
   EXPECT_THAT(
       shop_.fault(kGrowth, replaced(replaced(text_, second, ""), "G2 X20", second + "G2 X20")),
-      HasSubstr("no safe place"));
-  EXPECT_THAT(shop_.fault(kGrowth, moved("G1 X100")), HasSubstr("no safe place"));
+      HasSubstr("not a safe place"));
+  EXPECT_THAT(shop_.fault(kGrowth, moved("G1 X100")), HasSubstr("not a safe place"));
   EXPECT_THAT(shop_.fault(kGrowth, moved("G0 Z5")), HasSubstr("acts at"));
   EXPECT_THAT(shop_.fault(kGrowth, replaced(text_, "R50=0.0000 ;STEADYREST head Z\n", "")),
               HasSubstr("head"));

@@ -67,7 +67,7 @@ TEST(MachineCheck, SaysNothingOfAProgramThatFits) {
 TEST(MachineCheck, NamesTheLineThatLeavesTheTravel) {
   EXPECT_THAT(
       warned(kHead + "G1 X601 F1000\nX10\nG0 Y-1\nG0 Z5\nM2\n", kAll),
-      ElementsAre(HasSubstr("4: the move takes X to 601.000 mm, outside of its travel 0 … 600"),
+      ElementsAre(HasSubstr("4: the move takes X to 601.000 mm, outside its travel 0 … 600"),
                   HasSubstr("6: a rapid takes Y to -1.000 mm"),
                   HasSubstr("7: a rapid takes Z to 5.000 mm")));
   // The arc's ends are inside, its bulge is not.
