@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
+#include <steadyrest/passport/keys/choice.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 
 namespace steadyrest::passport {
 namespace {
 
 using kernel::machine::Axis;
-using kernel::machine::Chatter;
 using kernel::machine::Coding;
-using kernel::machine::Contour;
-using kernel::machine::ContourStrategy;
 using kernel::machine::Control;
 using kernel::machine::Dialect;
 using kernel::machine::Encoder;
-using kernel::machine::Envelope;
 using kernel::machine::Friction;
 using kernel::machine::Machine;
 using kernel::machine::Mode;
 using kernel::machine::PortKind;
 using kernel::machine::Simulation;
-using kernel::machine::SpeedLaw;
 using kernel::machine::Spindle;
 
 using std::string_view;
@@ -30,22 +26,6 @@ constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "modbus", "opc
 constexpr auto kBuiltPorts = std::span(kPorts).first<1>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
-constexpr std::array<string_view, 3> kStrategies = {"contour_priority", "feed_priority",
-                                                    "combined"};
-constexpr std::array<string_view, 7> kLaws = {"constant", "square", "pulse", "triangle",
-                                              "sine",     "random", "stop"};
-template <class S, auto Member>
-Choice<S> choice(std::span<const string_view> words) {
-  using Enum = std::remove_cvref_t<decltype(std::declval<S&>().*Member)>;
-  return {words, [](S& section, std::size_t i) { section.*Member = static_cast<Enum>(i); },
-          [](const S& section) { return static_cast<std::size_t>(section.*Member); }};
-}
-
-template <class Enum, std::size_t N>
-string_view pick(const std::array<string_view, N>& words, Enum value) noexcept {
-  const auto i = static_cast<std::size_t>(value);
-  return i < N ? words[i] : "?";
-}
 
 constexpr auto kMust = Need::mandatory;
 constexpr auto kMay = Need::optional;
@@ -267,83 +247,6 @@ std::span<const Key<Spindle>> spindle_keys() noexcept {
   return kKeys;
 }
 
-std::span<const Key<Contour>> contour_keys() noexcept {
-  static const std::array kKeys = {
-      Key<Contour>{"enabled", &Contour::enabled, 0, 0, "Whether the contour room corrects at all."},
-      Key<Contour>{"strategy", choice<Contour, &Contour::strategy>(kStrategies), 0, 0,
-                   "What comes first: the smallest error, the highest feed within the limit, or a "
-                   "weighted sum of both."},
-      Key<Contour>{"limit_um", &Contour::limit_mm, 0.01, 1e5, "Largest contour error allowed."},
-      Key<Contour>{"target_um", &Contour::target_mm, 0, 1e5,
-                   "Contour priority: errors below this count as equal."},
-      Key<Contour>{"min_percent", &Contour::min_ratio, 0, 1000,
-                   "The layer never asks for less than this share of the programmed feed."},
-      Key<Contour>{"max_percent", &Contour::max_ratio, 0.1, 1000, "Nor for more than this."},
-      Key<Contour>{"weight_contour", &Contour::weight_contour, 0, 1000,
-                   "Combined strategy: weight of the contour error."},
-      Key<Contour>{"weight_feed", &Contour::weight_feed, 0, 1000,
-                   "Combined strategy: weight of the feed."},
-      Key<Contour>{"margin_percent", &Contour::margin, 0, 90,
-                   "Share of the limit kept in reserve against what the model does not know."},
-  };
-  return kKeys;
-}
-
-std::span<const Key<Chatter>> chatter_keys() noexcept {
-  static const std::array kKeys = {
-      Key<Chatter>{"enabled", &Chatter::enabled, 0, 0,
-                   "Whether the spindle's speed may be modulated at all."},
-      Key<Chatter>{
-          "law", choice<Chatter, &Chatter::law>(kLaws), 0, 0,
-          "Shape of the modulation: a square wave, a pulse up for a quarter of the period, "
-          "a triangle, a sine, random, a brief fall (`stop`), or `constant` for none."},
-      Key<Chatter>{"amplitude_percent", &Chatter::amplitude_ratio, 0, 90,
-                   "Swing to either side of the mean speed. Either this or `amplitude_rpm`."},
-      Key<Chatter>{"amplitude_rpm", &Chatter::amplitude_rev_s, 0, 1e5,
-                   "The same as a speed; 0 = `amplitude_percent` counts."},
-      Key<Chatter>{"period_s", &Chatter::period_s, 0.02, 600, "Time of one whole swing."},
-      Key<Chatter>{"mean_percent", &Chatter::mean_ratio, 10, 200,
-                   "Mean speed as a share of the programmed one."},
-      Key<Chatter>{"feed_per_tooth_min_percent", &Chatter::min_feed_per_tooth_ratio, 1, 100,
-                   "Smallest feed per tooth as a share of the programmed one: bounds the swing "
-                   "upwards."},
-      Key<Chatter>{"feed_per_tooth_max_percent", &Chatter::max_feed_per_tooth_ratio, 100, 1000,
-                   "Largest feed per tooth: the feed follows when the spindle slows down."},
-      Key<Chatter>{"m_code_on", &Chatter::m_code_on, 0, 9999,
-                   "M word that switches the modulation on in the program; 0 = it is always on and "
-                   "the program has no say."},
-      Key<Chatter>{"m_code_off", &Chatter::m_code_off, 0, 9999, "M word that switches it off."},
-      Key<Chatter>{"seed", &Chatter::seed, 0, 9007199254740992.0, "Seed of the random law."},
-  };
-  return kKeys;
-}
-
-std::span<const Key<Envelope>> envelope_keys() noexcept {
-  static const std::array kKeys = {
-      Key<Envelope>{"min_feed_percent", &Envelope::min_feed_ratio, 0, 1000,
-                    "Smallest feed override that is ever written."},
-      Key<Envelope>{"max_feed_percent", &Envelope::max_feed_ratio, 1, 1000,
-                    "Largest feed override that is ever written."},
-      Key<Envelope>{"feed_fall_percent_s", &Envelope::feed_fall_1_s, 0.1, 1e6,
-                    "How fast the feed override may fall."},
-      Key<Envelope>{"feed_rise_percent_s", &Envelope::feed_rise_1_s, 0.1, 1e6,
-                    "How fast it may rise."},
-      Key<Envelope>{"min_spindle_percent", &Envelope::min_spindle_ratio, 0, 1000,
-                    "Smallest spindle override that is ever written."},
-      Key<Envelope>{"max_spindle_percent", &Envelope::max_spindle_ratio, 1, 1000,
-                    "Largest spindle override that is ever written."},
-      Key<Envelope>{"spindle_slew_percent_s", &Envelope::spindle_slew_1_s, 0.1, 1e6,
-                    "How fast the spindle override may change."},
-      Key<Envelope>{"max_offset_um", &Envelope::max_offset_mm, 0, 10000,
-                    "Largest axis offset that is ever written."},
-      Key<Envelope>{"offset_slew_um_s", &Envelope::offset_slew_mm_s, 0.001, 1e6,
-                    "How fast an axis offset may change."},
-      Key<Envelope>{"stale_after_ms", &Envelope::stale_after_s, 0.1, 60000,
-                    "Older input is not acted on."},
-  };
-  return kKeys;
-}
-
 std::span<const Key<Simulation>> simulation_keys() noexcept {
   static const std::array kKeys = {
       Key<Simulation>{"seed", &Simulation::seed, 0, 9007199254740992.0,
@@ -387,12 +290,6 @@ string_view word(Dialect dialect) noexcept {
 }
 string_view word(Coding coding) noexcept {
   return pick(kCodings, coding);
-}
-string_view word(ContourStrategy strategy) noexcept {
-  return pick(kStrategies, strategy);
-}
-string_view word(SpeedLaw law) noexcept {
-  return pick(kLaws, law);
 }
 
 }  // namespace steadyrest::passport
