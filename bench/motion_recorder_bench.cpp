@@ -13,6 +13,7 @@
 #include <steadyrest/motion/online/edges/edge_inputs.hpp>
 #include <steadyrest/motion/online/edges/edge_ring.hpp>
 #include <steadyrest/motion/online/edges/edge_stream.hpp>
+#include <steadyrest/motion/online/edges/quadrature_decoder.hpp>
 
 namespace steadyrest::motion::online {
 namespace {

@@ -28,6 +28,65 @@ Cut narrow_cut(double mean, double s, double middle, double width) noexcept {
           mean + s * middle, s * s * even / most};
 }
 
+/// The cell's borders in each model's standard deviations from its mean.
+struct Borders {
+  Lanes alpha{};
+  Lanes beta{};
+  Lanes nearest{};  ///< how far inside the mean lies
+  Lanes deviation{};
+};
+
+Borders borders_of(const ModelBank& bank, const Lanes& variance, double low, double high) noexcept {
+  Borders out;
+  for (std::size_t j = 0; j < kModels; ++j) {
+    out.deviation[j] = std::sqrt(variance[j]);
+    const double inverse = 1.0 / out.deviation[j];
+    out.alpha[j] = (low - bank.x[j]) * inverse;
+    out.beta[j] = (high - bank.x[j]) * inverse;
+    out.nearest[j] = std::min(-out.alpha[j], out.beta[j]);
+  }
+  return out;
+}
+
+/// The cuts of all models by the difference of both tails.
+struct Cuts {
+  Lanes share{};
+  Lanes z{};
+  Lanes r{};
+  Lanes lost{};  ///< share of the variance that is cut away
+};
+
+Cuts cuts_at(const Borders& at, const Lanes& mean, const Lanes& variance) noexcept {
+  constexpr double kFarthest = 30.0;  // beyond it density and tail are nothing
+  Lanes share_a{};
+  Lanes share_b{};
+  Lanes density_a{};
+  Lanes density_b{};
+  for (std::size_t j = 0; j < kModels; ++j) {
+    const Tail beyond_alpha = upper_tail(std::min(kFarthest, std::abs(at.alpha[j])));
+    const Tail beyond_beta = upper_tail(std::min(kFarthest, std::abs(at.beta[j])));
+    share_a[j] = beyond_alpha.share;
+    density_a[j] = beyond_alpha.density;
+    share_b[j] = beyond_beta.share;
+    density_b[j] = beyond_beta.density;
+  }
+  Cuts out;
+  for (std::size_t j = 0; j < kModels; ++j) {
+    // Outside, both tails are counted from the nearer side: nothing cancels.
+    const double within = 1.0 - share_a[j] - share_b[j];
+    const double outside = std::abs(share_a[j] - share_b[j]);
+    out.share[j] = std::min(-at.alpha[j], at.beta[j]) >= 0.0 ? within : outside;
+    const double inverse = 1.0 / std::max(out.share[j], kLeastShare);
+    const double shift = (density_a[j] - density_b[j]) * inverse;
+    out.lost[j] =
+        shift * shift - (at.alpha[j] * density_a[j] - at.beta[j] * density_b[j]) * inverse;
+    const double gain = 1.0 / std::min(1.0 - 1e-6, std::max(out.lost[j], 1e-9));
+    out.z[j] = mean[j] + at.deviation[j] * shift * gain;
+    out.r[j] = variance[j] * std::max(1e-6, 1.0 - out.lost[j]) * gain;
+  }
+  return out;
+}
+
 }  // namespace
 
 Lanes ModelBank::position_variance() const noexcept {
@@ -158,62 +217,25 @@ void ModelBank::set(std::size_t j, const Moments& m) noexcept {
 CellSight see_cell(const ModelBank& bank, double low, double high) noexcept {
   CellSight out;
   out.variance = bank.position_variance();
-  Lanes alpha{};
-  Lanes beta{};
-  Lanes nearest{};
-  Lanes deviation{};
-  for (std::size_t j = 0; j < kModels; ++j) {
-    deviation[j] = std::sqrt(out.variance[j]);
-    const double inverse = 1.0 / deviation[j];
-    alpha[j] = (low - bank.x[j]) * inverse;
-    beta[j] = (high - bank.x[j]) * inverse;
-    nearest[j] = std::min(-alpha[j], beta[j]);
-  }
-  if (std::min(std::min(nearest[0], nearest[1]), std::min(nearest[2], nearest[3])) > kFarOff) {
+  const Borders at = borders_of(bank, out.variance, low, high);
+  const Lanes& near = at.nearest;
+  if (std::min(std::min(near[0], near[1]), std::min(near[2], near[3])) > kFarOff) {
     return out;
   }
-  constexpr double kFarthest = 30.0;  // beyond it density and tail are nothing
-  Lanes share_a{};
-  Lanes share_b{};
-  Lanes density_a{};
-  Lanes density_b{};
+  const Cuts cuts = cuts_at(at, bank.x, out.variance);
   for (std::size_t j = 0; j < kModels; ++j) {
-    const Tail beyond_alpha = upper_tail(std::min(kFarthest, std::abs(alpha[j])));
-    const Tail beyond_beta = upper_tail(std::min(kFarthest, std::abs(beta[j])));
-    share_a[j] = beyond_alpha.share;
-    density_a[j] = beyond_alpha.density;
-    share_b[j] = beyond_beta.share;
-    density_b[j] = beyond_beta.density;
-  }
-  Lanes share{};
-  Lanes z{};
-  Lanes r{};
-  Lanes lost{};  // share of the variance that is cut away
-  for (std::size_t j = 0; j < kModels; ++j) {
-    // Outside, both tails are counted from the nearer side: nothing cancels.
-    const double within = 1.0 - share_a[j] - share_b[j];
-    const double outside = std::abs(share_a[j] - share_b[j]);
-    share[j] = std::min(-alpha[j], beta[j]) >= 0.0 ? within : outside;
-    const double inverse = 1.0 / std::max(share[j], kLeastShare);
-    const double shift = (density_a[j] - density_b[j]) * inverse;
-    lost[j] = shift * shift - (alpha[j] * density_a[j] - beta[j] * density_b[j]) * inverse;
-    const double gain = 1.0 / std::min(1.0 - 1e-6, std::max(lost[j], 1e-9));
-    z[j] = bank.x[j] + deviation[j] * shift * gain;
-    r[j] = out.variance[j] * std::max(1e-6, 1.0 - lost[j]) * gain;
-  }
-  for (std::size_t j = 0; j < kModels; ++j) {
-    Cut c{share[j], z[j], r[j]};
-    const double width = beta[j] - alpha[j];
-    const double middle = 0.5 * (alpha[j] + beta[j]);
-    if (nearest[j] > kFarOff) {
+    Cut c{cuts.share[j], cuts.z[j], cuts.r[j]};
+    const double width = at.beta[j] - at.alpha[j];
+    const double middle = 0.5 * (at.alpha[j] + at.beta[j]);
+    if (at.nearest[j] > kFarOff) {
       c = {};
     } else if (width < kNarrow && std::abs(middle) < kFarOff) {
-      c = narrow_cut(bank.x[j], deviation[j], middle, width);
-    } else if (share[j] < kLeastShare) {
+      c = narrow_cut(bank.x[j], at.deviation[j], middle, width);
+    } else if (cuts.share[j] < kLeastShare) {
       const double cell = high - low;
-      c = {kLeastShare, alpha[j] > 0.0 ? low : high,
+      c = {kLeastShare, at.alpha[j] > 0.0 ? low : high,
            std::min(0.01 * out.variance[j], 0.01 * cell * cell)};
-    } else if (lost[j] <= 1e-9) {
+    } else if (cuts.lost[j] <= 1e-9) {
       c.r = -1.0;
     }
     const bool says = c.r >= 0.0;

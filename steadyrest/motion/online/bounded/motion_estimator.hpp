@@ -73,6 +73,13 @@ class MotionEstimator final : public Estimator {
     double x = 0.0;
     double variance = 0.0;
   };
+  /// Shares of a hypothesis' probability that change over in a tick.
+  struct Exchange {
+    double hand_over = 0.0;  ///< from a model to the next ones
+    double starts = 0.0;     ///< from standstill to all models
+    Lanes stops{};           ///< from the model to standstill
+    Lanes stays{};
+  };
   struct Mixed {
     double x = 0.0;
     double v = 0.0;
@@ -89,6 +96,9 @@ class MotionEstimator final : public Estimator {
   void sampled(const Tick& tick) noexcept;
   Mixed look(const Tick& tick) noexcept;
   void take_over(std::size_t j, const Lanes& part, double part_rest) noexcept;
+  [[nodiscard]] Exchange exchange() const noexcept;
+  void hand_over(const Exchange& gives) noexcept;
+  [[nodiscard]] double come_to_rest(const Exchange& gives) noexcept;
   void mix() noexcept;
   [[nodiscard]] Estimate finish(const Tick& tick, double now_s, const Mixed& mixed,
                                 const MotionIntervals& sure) const noexcept;

@@ -105,29 +105,25 @@ void MotionEstimator::take_over(std::size_t j, const Lanes& part, double part_re
   bank_.set(j, mixed);
 }
 
-void MotionEstimator::mix() noexcept {
+/// What each model gives to standstill in this tick, and what it keeps.
+MotionEstimator::Exchange MotionEstimator::exchange() const noexcept {
   const double cycle = config_.cycle_s;
-  const double hand_over = tuning_.switch_1_s * cycle;
-  const double starts = tuning_.start_1_s * cycle;
-  Lanes stops{};  // from the model to standstill
-  Lanes stays{};
+  Exchange out;
+  out.hand_over = tuning_.switch_1_s * cycle;
+  out.starts = tuning_.start_1_s * cycle;
   for (std::size_t i = 0; i < kModels; ++i) {
     const double variance = bank_.d2[i] + bank_.u23[i] * bank_.u23[i] * bank_.d3[i];
     const double v2 = 0.5 * bank_.v[i] * bank_.v[i];
     const double e = tuning_.stop_1_s * cycle * exp_of_minus(std::min(4.0, v2 / (variance + 1e-6)));
-    stops[i] = v2 > 4.0 * variance ? 0.01 * e : e;
-    stays[i] = 1.0 - stops[i] - hand_over * kNeighbours[i];
+    out.stops[i] = v2 > 4.0 * variance ? 0.01 * e : e;
+    out.stays[i] = 1.0 - out.stops[i] - out.hand_over * kNeighbours[i];
   }
-  Lanes next{};
-  for (std::size_t i = 0; i < kModels; ++i) {
-    double from_others = 0.0;
-    for (std::size_t k = 0; k < kModels; ++k) {
-      from_others += kNear[k][i] * weight_[k];
-    }
-    next[i] = weight_rest_ * (starts / kModels) + hand_over * from_others + weight_[i] * stays[i];
-  }
-  // In a fast cycle one model in a tick takes over from the others what four ticks hand over: the
-  // cost of a tick stays even.
+  return out;
+}
+
+/// In a fast cycle one model in a tick takes over from the others what four ticks hand over: the
+/// cost of a tick stays even.
+void MotionEstimator::hand_over(const Exchange& gives) noexcept {
   const bool fast = config_.cycle_s < kSlowCycle;
   const std::size_t models = fast ? 1 : kModels;
   const double ticks = fast ? static_cast<double>(kModels) : 1.0;
@@ -136,10 +132,10 @@ void MotionEstimator::mix() noexcept {
     turn_ = (turn_ + 1) % kModels;
     Lanes part{};
     for (std::size_t i = 0; i < kModels; ++i) {
-      part[i] = weight_[i] * kNear[j][i] * hand_over * ticks;
+      part[i] = weight_[i] * kNear[j][i] * gives.hand_over * ticks;
     }
-    part[j] = weight_[j] * stays[j];
-    const double part_rest = weight_rest_ * (starts / kModels) * ticks;
+    part[j] = weight_[j] * gives.stays[j];
+    const double part_rest = weight_rest_ * (gives.starts / kModels) * ticks;
     const double whole = sum(part) + part_rest;
     if (whole > 1e-300) {
       const double inverse = 1.0 / whole;
@@ -149,11 +145,15 @@ void MotionEstimator::mix() noexcept {
       take_over(j, part, part_rest * inverse);
     }
   }
-  const double rest_stays = weight_rest_ * (1.0 - starts);
+}
+
+/// Standstill becomes the mixture of itself and of the models that have stopped; its new weight.
+double MotionEstimator::come_to_rest(const Exchange& gives) noexcept {
+  const double rest_stays = weight_rest_ * (1.0 - gives.starts);
   Lanes stopped{};
   Lanes x{};
   for (std::size_t i = 0; i < kModels; ++i) {
-    stopped[i] = weight_[i] * stops[i];
+    stopped[i] = weight_[i] * gives.stops[i];
     x[i] = stopped[i] * bank_.x[i];
   }
   const double next_rest = rest_stays + sum(stopped);
@@ -170,11 +170,27 @@ void MotionEstimator::mix() noexcept {
     rest_ = {mean, std::max((rest_stays * (rest_.variance + d * d) + sum(variance)) * inverse,
                             kLeastVariance)};
   }
+  return next_rest;
+}
+
+void MotionEstimator::mix() noexcept {
+  const Exchange gives = exchange();
+  Lanes next{};
+  for (std::size_t i = 0; i < kModels; ++i) {
+    double from_others = 0.0;
+    for (std::size_t k = 0; k < kModels; ++k) {
+      from_others += kNear[k][i] * weight_[k];
+    }
+    next[i] = weight_rest_ * (gives.starts / kModels) + gives.hand_over * from_others +
+              weight_[i] * gives.stays[i];
+  }
+  hand_over(gives);
+  const double next_rest = come_to_rest(gives);
+  // What all give is what all get: the sum of the weights stays 1.
   for (std::size_t i = 0; i < kModels; ++i) {
     weight_[i] = std::max(next[i], kLeastWeight);
   }
-  weight_rest_ =
-      std::max(next_rest, kLeastWeight);  // what all give is what all get: the sum stays 1
+  weight_rest_ = std::max(next_rest, kLeastWeight);
 }
 
 }  // namespace steadyrest::motion::online

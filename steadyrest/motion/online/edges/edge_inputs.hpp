@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <steadyrest/motion/online/edges/edge_recorder.hpp>
+#include <steadyrest/motion/online/edges/latched_decoder.hpp>
 
 /// How the inputs that machines have fill the `LatchedDecoder`. Freestanding like the recorder.
 ///

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <steadyrest/motion/online/edges/edge_recorder.hpp>
+#include <steadyrest/motion/online/edges/edge_event.hpp>
 
 namespace steadyrest::motion::online {
 

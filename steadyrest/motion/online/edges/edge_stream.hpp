@@ -6,7 +6,7 @@
 #include <span>
 
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/motion/online/edges/edge_recorder.hpp>
+#include <steadyrest/motion/online/edges/edge_event.hpp>
 #include <steadyrest/motion/online/estimator/estimator.hpp>
 
 namespace steadyrest::motion::online {

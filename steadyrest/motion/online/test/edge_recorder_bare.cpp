@@ -2,6 +2,7 @@
 // The recorder as a microcontroller would build it: see edge_recorder_bare.sh.
 #include <steadyrest/motion/online/edges/edge_inputs.hpp>
 #include <steadyrest/motion/online/edges/edge_ring.hpp>
+#include <steadyrest/motion/online/edges/quadrature_decoder.hpp>
 
 namespace motion = steadyrest::motion::online;
 

@@ -8,8 +8,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
-#include <steadyrest/motion/online/edges/edge_recorder.hpp>
 #include <steadyrest/motion/online/edges/edge_ring.hpp>
+#include <steadyrest/motion/online/edges/latched_decoder.hpp>
+#include <steadyrest/motion/online/edges/quadrature_decoder.hpp>
 
 namespace steadyrest::motion::online {
 namespace {
