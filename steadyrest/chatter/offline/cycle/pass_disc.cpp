@@ -94,39 +94,43 @@ std::optional<PassDisc> PassDisc::make(const PassMatrix& pass, double center_mm,
   return std::nullopt;
 }
 
-/// False: more terms are needed; then `terms_` is 0 where no number of them will do.
-bool PassDisc::sample(std::size_t terms) {
+/// The values of all functions at `terms`/2 points of the upper half of the rim.
+PassDisc::Rim PassDisc::rim(std::size_t terms) const {
   const std::size_t functions = pass_->functions();
   const std::size_t points = terms / 2;
-  std::vector<Complex> value(functions * points);
+  Rim out{.points = points,
+          .value = std::vector<Complex>(functions * points),
+          .back = std::vector<Complex>(points)};
   std::vector<Lanes> lanes(functions);
-  std::vector<Complex> back(points);
-  double largest = 0.0;
   for (std::size_t j = 0; j < points; j += kLanes) {
     Lanes z;
     for (std::size_t i = 0; i < kLanes; ++i) {
       const double angle =
           2.0 * std::numbers::pi * (static_cast<double>(j + i) + 0.5) / static_cast<double>(terms);
-      back[j + i] = std::polar(1.0, -angle);
-      z[i] = center_mm_ + radius_mm_ * std::conj(back[j + i]);
+      out.back[j + i] = std::polar(1.0, -angle);
+      z[i] = center_mm_ + radius_mm_ * std::conj(out.back[j + i]);
     }
     pass_->values(z, lanes.data());
     for (std::size_t f = 0; f < functions; ++f) {
       for (std::size_t i = 0; i < kLanes; ++i) {
-        value[f * points + j + i] = lanes[f][i];
-        largest = std::max(largest, std::norm(lanes[f][i]));
+        out.value[f * points + j + i] = lanes[f][i];
+        out.largest = std::max(out.largest, std::norm(lanes[f][i]));
       }
     }
   }
-  largest = std::sqrt(largest);
-  if (!(largest < kMostOnRim)) {
-    terms_ = 0;
-    return false;
-  }
+  out.largest = std::sqrt(out.largest);
+  return out;
+}
+
+/// The coefficients by the mean over the rim, f_k = Σ value·e^(−ikφ); uses the rim up.
+void PassDisc::transform(Rim& rim, std::size_t terms) {
+  const std::size_t functions = pass_->functions();
+  const std::size_t points = rim.points;
   terms_ = terms;
   number_.assign(functions * terms, 0.0);
+  const Complex* const back = rim.back.data();
   for (std::size_t f = 0; f < functions; ++f) {
-    Complex* const v = &value[f * points];
+    Complex* const v = &rim.value[f * points];
     for (std::size_t k = 0; k < terms; ++k) {
       double sum = 0.0;
       for (std::size_t j = 0; j < points; ++j) {
@@ -137,7 +141,12 @@ bool PassDisc::sample(std::size_t terms) {
       number_[f * terms + k] = sum / static_cast<double>(points);
     }
   }
-  const double least = std::max(kLeastTerm, kRounding * largest);
+}
+
+/// Drops the terms at the end that say nothing; false: they have not died away.
+bool PassDisc::cut_tail(double least) {
+  const std::size_t functions = pass_->functions();
+  const std::size_t terms = terms_;
   const auto size = [&](std::size_t k) {
     double most = 0.0;
     for (std::size_t f = 0; f < functions; ++f) {
@@ -158,6 +167,17 @@ bool PassDisc::sample(std::size_t terms) {
   terms_ = needed;
   number_.resize(functions * needed);
   return true;
+}
+
+/// False: more terms are needed; then `terms_` is 0 where no number of them will do.
+bool PassDisc::sample(std::size_t terms) {
+  Rim on_rim = rim(terms);
+  if (!(on_rim.largest < kMostOnRim)) {
+    terms_ = 0;
+    return false;
+  }
+  transform(on_rim, terms);
+  return cut_tail(std::max(kLeastTerm, kRounding * on_rim.largest));
 }
 
 void PassDisc::g(std::span<const Complex> xi, double depth_mm, std::span<Complex> out) const {

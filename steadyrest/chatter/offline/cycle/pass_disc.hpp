@@ -38,7 +38,16 @@ class PassDisc {
  private:
   PassDisc(const PassMatrix& pass, double center_mm, double radius_mm)
       : pass_(&pass), center_mm_(center_mm), radius_mm_(radius_mm) {}
+  struct Rim {
+    std::size_t points = 0;
+    std::vector<Complex> value;  ///< of each function in turn, `points` apart
+    std::vector<Complex> back;   ///< e^(−iφ) of each point
+    double largest = 0.0;        ///< of the values
+  };
   [[nodiscard]] bool sample(std::size_t terms);
+  [[nodiscard]] Rim rim(std::size_t terms) const;
+  void transform(Rim& rim, std::size_t terms);
+  [[nodiscard]] bool cut_tail(double least);
 
   const PassMatrix* pass_;
   double center_mm_;
