@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <steadyrest/chatter/online/speed_law.hpp>
@@ -41,96 +42,140 @@ struct CutSignal {
   std::vector<double> value, speed_rev_s, angle_rev;
 };
 
-inline CutSignal simulate(const CutModel& m, double seconds, double rate_hz = 10e3) {
-  constexpr std::size_t kFine = 4;
-  constexpr std::size_t kPasses = 5;
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const double h = 1.0 / (rate_hz * kFine);
-  const auto steps = static_cast<std::size_t>(seconds * rate_hz) * kFine;
-  const double entry = m.up ? 0.0 : std::acos(2.0 * m.immersion - 1.0);
-  const double exit = m.up ? std::acos(1.0 - 2.0 * m.immersion) : std::numbers::pi;
-  const auto entry_step = static_cast<std::size_t>(m.air_s * rate_hz) * kFine;
-  const SpeedLaw law(m.law);
-  const double pitch = 1.0 / static_cast<double>(m.teeth);
-  std::vector<double> angle(steps);
-  std::array<std::vector<double>, 2> q{std::vector<double>(steps), std::vector<double>(steps)};
-  std::array<double, 2> x{}, v{};
-  std::array<std::size_t, kPasses> back{};
-  CutSignal out{.rate_hz = rate_hz, .value = {}, .speed_rev_s = {}, .angle_rev = {}};
-  double theta = 0.0;
-  for (std::size_t i = 0; i < steps; ++i) {
-    const double speed = m.speed_rev_s * (1.0 + m.rva * law.at(m.rvf * theta));
-    angle[i] = theta;
-    q[0][i] = x[0];
-    q[1][i] = x[1];
-    std::array<std::array<double, 2>, kPasses> old{};
+class CutSimulation {
+ public:
+  CutSimulation(const CutModel& model, double seconds, double rate_hz)
+      : m_(model),
+        h_(1.0 / (rate_hz * kFine)),
+        steps_(static_cast<std::size_t>(seconds * rate_hz) * kFine),
+        entry_step_(static_cast<std::size_t>(m_.air_s * rate_hz) * kFine),
+        angle_(steps_),
+        q_{std::vector<double>(steps_), std::vector<double>(steps_)},
+        out_{.rate_hz = rate_hz, .value = {}, .speed_rev_s = {}, .angle_rev = {}} {}
+
+  CutSignal run() {
+    const SpeedLaw law(m_.law);
+    for (std::size_t i = 0; i < steps_; ++i) {
+      const double speed = m_.speed_rev_s * (1.0 + m_.rva * law.at(m_.rvf * theta_));
+      angle_[i] = theta_;
+      q_[0][i] = x_[0];
+      q_[1][i] = x_[1];
+      const Surfaces old = look_back(i);
+      if (i == entry_step_) {
+        v_ = {m_.kick_mm_s, m_.kick_mm_s};
+      }
+      const double acceleration = vibrate(force(i, old));
+      if (i % kFine == 0) {
+        out_.value.push_back(m_.accelerometer ? acceleration : q_[0][i]);
+        out_.speed_rev_s.push_back(speed);
+        out_.angle_rev.push_back(theta_);
+      }
+      theta_ += speed * h_;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  static constexpr std::size_t kFine = 4;
+  static constexpr std::size_t kPasses = 5;
+  static constexpr double kTurn = 2.0 * std::numbers::pi;
+  using Pair = std::array<double, 2>;
+  using Surfaces = std::array<Pair, kPasses>;
+
+  /// Where the tool was when the teeth before this one passed.
+  Surfaces look_back(std::size_t i) {
+    const double pitch = 1.0 / static_cast<double>(m_.teeth);
+    Surfaces old{};
     for (std::size_t p = 0; p < kPasses; ++p) {
-      const double at = theta - pitch * static_cast<double>(p + 1);
-      while (back[p] + 1 < i && angle[back[p] + 1] <= at) {
-        ++back[p];
+      const double at = theta_ - pitch * static_cast<double>(p + 1);
+      while (back_[p] + 1 < i && angle_[back_[p] + 1] <= at) {
+        ++back_[p];
       }
-      const std::size_t b = back[p];
+      const std::size_t b = back_[p];
       if (at > 0.0 && b + 1 <= i) {
-        const double share = (at - angle[b]) / (angle[b + 1] - angle[b]);
-        old[p] = {q[0][b] + share * (q[0][b + 1] - q[0][b]),
-                  q[1][b] + share * (q[1][b + 1] - q[1][b])};
+        const double share = (at - angle_[b]) / (angle_[b + 1] - angle_[b]);
+        old[p] = {q_[0][b] + share * (q_[0][b + 1] - q_[0][b]),
+                  q_[1][b] + share * (q_[1][b + 1] - q_[1][b])};
       }
     }
-    std::array<double, 2> force{};
-    if (i == entry_step) {
-      v = {m.kick_mm_s, m.kick_mm_s};
+    return old;
+  }
+
+  /// Thickness of the chip of tooth j; 0 where it is out of the cut.
+  [[nodiscard]] double chip_mm(std::size_t j, double s, double c, const Surfaces& old) const {
+    const double radius = j == 0 ? m_.runout_mm : 0.0;
+    const double before = j + 1 == m_.teeth ? m_.runout_mm : 0.0;  // the tooth in front
+    double chip = m_.feed_mm * s + (m_.teeth > 1 ? radius - before : 0.0);
+    if (m_.regenerates) {
+      const double now = x_[0] * s + x_[1] * c;
+      double least = 1e9;
+      for (std::size_t p = 0; p < kPasses; ++p) {
+        least = std::min(
+            least, static_cast<double>(p) * m_.feed_mm * s + now - (old[p][0] * s + old[p][1] * c));
+      }
+      chip += least;
     }
-    for (std::size_t j = 0; j < m.teeth; ++j) {
-      const double turns = theta + pitch * static_cast<double>(j);
+    return std::max(chip, 0.0);
+  }
+
+  [[nodiscard]] Pair force(std::size_t i, const Surfaces& old) const {
+    const double entry = m_.up ? 0.0 : std::acos(2.0 * m_.immersion - 1.0);
+    const double exit = m_.up ? std::acos(1.0 - 2.0 * m_.immersion) : std::numbers::pi;
+    const double pitch = 1.0 / static_cast<double>(m_.teeth);
+    Pair force{};
+    for (std::size_t j = 0; j < m_.teeth; ++j) {
+      const double turns = theta_ + pitch * static_cast<double>(j);
       const double phi = kTurn * (turns - std::floor(turns));
-      if (i < entry_step || phi < entry || phi > exit) {
+      if (i < entry_step_ || phi < entry || phi > exit) {
         continue;
       }
       const double s = std::sin(phi);
       const double c = std::cos(phi);
-      const double radius = j == 0 ? m.runout_mm : 0.0;
-      const double before = j + 1 == m.teeth ? m.runout_mm : 0.0;  // the tooth in front
-      double chip = m.feed_mm * s + (m.teeth > 1 ? radius - before : 0.0);
-      if (m.regenerates) {
-        const double now = x[0] * s + x[1] * c;
-        double least = 1e9;
-        for (std::size_t p = 0; p < kPasses; ++p) {
-          least = std::min(least, static_cast<double>(p) * m.feed_mm * s + now -
-                                      (old[p][0] * s + old[p][1] * c));
-        }
-        chip += least;
-      }
-      chip = std::max(chip, 0.0);
-      const double t = m.tangential_n_mm2 * m.depth_mm * chip;
-      const double r = m.radial_n_mm2 * m.depth_mm * chip;
+      const double chip = chip_mm(j, s, c, old);
+      const double t = m_.tangential_n_mm2 * m_.depth_mm * chip;
+      const double r = m_.radial_n_mm2 * m_.depth_mm * chip;
       force[0] += -t * c - r * s;
       force[1] += t * s - r * c;
     }
+    return force;
+  }
+
+  /// One step of both modes under the force; the acceleration in x at its start.
+  double vibrate(const Pair& force) {
     double acceleration = 0.0;
     for (std::size_t d = 0; d < 2; ++d) {
-      const double w = kTurn * m.frequency_hz[d];
-      const double z = m.damping_ratio[d];
+      const double w = kTurn * m_.frequency_hz[d];
+      const double z = m_.damping_ratio[d];
       const double wd = w * std::sqrt(1.0 - z * z);
-      const double rest = force[d] / m.stiffness_n_mm[d];
+      const double rest = force[d] / m_.stiffness_n_mm[d];
       if (d == 0) {
-        acceleration = w * w * (rest - x[0]) - 2.0 * z * w * v[0];
+        acceleration = w * w * (rest - x_[0]) - 2.0 * z * w * v_[0];
       }
-      const double e = std::exp(-z * w * h);
-      const double co = std::cos(wd * h);
-      const double si = std::sin(wd * h);
-      const double a = x[d] - rest;
-      const double b = (v[d] + z * w * a) / wd;
-      x[d] = rest + e * (a * co + b * si);
-      v[d] = e * (wd * (b * co - a * si) - z * w * (a * co + b * si));
+      const double e = std::exp(-z * w * h_);
+      const double co = std::cos(wd * h_);
+      const double si = std::sin(wd * h_);
+      const double a = x_[d] - rest;
+      const double b = (v_[d] + z * w * a) / wd;
+      x_[d] = rest + e * (a * co + b * si);
+      v_[d] = e * (wd * (b * co - a * si) - z * w * (a * co + b * si));
     }
-    if (i % kFine == 0) {
-      out.value.push_back(m.accelerometer ? acceleration : q[0][i]);
-      out.speed_rev_s.push_back(speed);
-      out.angle_rev.push_back(theta);
-    }
-    theta += speed * h;
+    return acceleration;
   }
-  return out;
+
+  CutModel m_;
+  double h_;
+  std::size_t steps_;
+  std::size_t entry_step_;
+  std::vector<double> angle_;
+  std::array<std::vector<double>, 2> q_;
+  Pair x_{}, v_{};
+  std::array<std::size_t, kPasses> back_{};
+  double theta_ = 0.0;
+  CutSignal out_;
+};
+
+inline CutSignal simulate(const CutModel& m, double seconds, double rate_hz = 10e3) {
+  return CutSimulation(m, seconds, rate_hz).run();
 }
 
 /// RMS about the mean from `first` on.
