@@ -36,6 +36,29 @@ void put_levels(const Structure& structure, const Eigen::VectorXd& level_um, The
   }
 }
 
+/// Where the passport's levels and gains stand among the fit's; −1: a polynomial without its first
+/// term, and a table's level at 0 rpm, have their places too, and are known to be nought.
+std::vector<Eigen::Index> places(const Structure& structure, const ThermalMode& mode) {
+  const auto levels = static_cast<Eigen::Index>(structure.levels());
+  const auto gains = static_cast<Eigen::Index>(structure.ambient.size());
+  const auto terms = static_cast<Eigen::Index>(structure.level_terms());
+  std::vector<Eigen::Index> out;
+  for (Eigen::Index first = 0; first < levels; first += terms) {
+    for (std::size_t q = 1; q <= mode.polynomial_mm.size(); ++q) {
+      const auto found = std::ranges::find(structure.power, static_cast<int>(q));
+      out.push_back(found == structure.power.end() ? -1
+                                                   : first + (found - structure.power.begin()));
+    }
+    for (std::size_t k = 0; k < mode.level_mm.size(); ++k) {
+      out.push_back(k == 0 ? -1 : first + static_cast<Eigen::Index>(k) - 1);
+    }
+  }
+  for (Eigen::Index j = 0; j < gains; ++j) {
+    out.push_back(levels + j);
+  }
+  return out;
+}
+
 }  // namespace
 
 ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const LinearFit& fit,
@@ -80,22 +103,7 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
     out.ambient.push_back(std::move(ambient));
   }
   out.zero_mm = mm_from_um(zero_um);
-  // A polynomial without its first term, and a table's level at 0 rpm, still have their places in
-  // the passport: known to be nought.
-  std::vector<Eigen::Index> place;
-  for (Eigen::Index first = 0; first < levels; first += terms) {
-    for (std::size_t q = 1; q <= out.mode.front().polynomial_mm.size(); ++q) {
-      const auto found = std::ranges::find(structure.power, static_cast<int>(q));
-      place.push_back(found == structure.power.end() ? -1
-                                                     : first + (found - structure.power.begin()));
-    }
-    for (std::size_t k = 0; k < out.mode.front().level_mm.size(); ++k) {
-      place.push_back(k == 0 ? -1 : first + static_cast<Eigen::Index>(k) - 1);
-    }
-  }
-  for (Eigen::Index j = 0; j < gains; ++j) {
-    place.push_back(levels + j);
-  }
+  const std::vector<Eigen::Index> place = places(structure, out.mode.front());
   for (std::size_t r = 0; r < place.size(); ++r) {
     for (std::size_t c = 0; c <= r; ++c) {
       out.covariance.push_back(place[r] < 0 || place[c] < 0 ? 0.0
