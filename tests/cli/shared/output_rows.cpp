@@ -26,9 +26,8 @@ const std::string kRibPlan = "examples/plans/rib-pocket.json";
 const std::string kCorrected = "examples/plans/rib-pocket-compensated.ngc";
 const std::string kEdges = "examples/logs/sine-edges.csv";
 
-std::vector<OutputRow> all() {
+std::vector<OutputRow> of_cut() {
   const std::string batch = "examples/thermal-batch/";
-  const std::string test = "examples/thermal/spindle-test.csv";
   return {
       {"cut",
        batch + "plate.ngc --machine " + batch + "machine.toml --batch 2",
@@ -36,6 +35,11 @@ std::vector<OutputRow> all() {
          "out",
          {"out/report.html", "out/report.json", "out/batch/report.html", "out/batch/report.json"}}},
        {batch + "plate.ngc", batch + "machine.toml"}},
+  };
+}
+
+std::vector<OutputRow> of_chatter() {
+  return {
       {"chatter simulate",
        kSlot + " --speed-rpm 5000 --depth-mm 0.5 --seconds 0.2",
        {file("out.csv"), report()},
@@ -59,6 +63,11 @@ std::vector<OutputRow> all() {
        "examples/logs/slot-chatter.csv --machine " + kVmc + " --teeth 2",
        {report()},
        {"examples/logs/slot-chatter.csv", kVmc}},
+  };
+}
+
+std::vector<OutputRow> of_motion() {
+  return {
       {"motion bench",
        "--scenes constant --phases 1",
        {{"--output", "out.csv", {"out.csv", "out.requirement.csv"}},
@@ -71,6 +80,12 @@ std::vector<OutputRow> all() {
            " --input edges --count-mm 0.001 --cycle-hz 1000 --max-acceleration 25 --max-jerk 300",
        {file("out.csv"), report()},
        {kEdges}},
+  };
+}
+
+std::vector<OutputRow> of_thermal() {
+  const std::string test = "examples/thermal/spindle-test.csv";
+  return {
       {"thermal fit",
        test + " --modes 1 --levels table",
        {file("passport.toml"), report()},
@@ -88,6 +103,11 @@ std::vector<OutputRow> all() {
        {file("machine.toml")},
        {kPaper + "plan.json", kPaper + "measured.csv", kPaper + "machine.toml",
         kPaper + "cyclogram.toml"}},
+  };
+}
+
+std::vector<OutputRow> of_program() {
+  return {
       {"program moves", kRib + " --dialect linuxcnc", {file("moves.csv")}, {kRib}},
       {"program time",
        kRib + " --machine " + kMill,
@@ -99,6 +119,14 @@ std::vector<OutputRow> all() {
        {kRib, kRibPlan, kMill}},
       {"program strip", kCorrected, {file("out.ngc")}, {kCorrected}},
   };
+}
+
+std::vector<OutputRow> all() {
+  std::vector<OutputRow> rows;
+  for (const auto& some : {of_cut(), of_chatter(), of_motion(), of_thermal(), of_program()}) {
+    rows.insert(rows.end(), some.begin(), some.end());
+  }
+  return rows;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/chatter/chatter_events.hpp>
 #include <steadyrest/apps/cli/chatter/verb_chatter_detect.hpp>
 #include <steadyrest/apps/cli/shared/log_options.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
@@ -48,13 +49,7 @@ struct Options {
   LogOptions format;
 };
 
-/// One stretch of chatter.
-struct Event {
-  double start_s = 0.0;
-  double end_s = 0.0;
-  double frequency_hz = 0.0;  ///< median over the stretch
-  double speed_rev_s = 0.0;   ///< mean over the stretch
-  bool flip = false;          ///< what most spectra said
+struct Event : ChatterEvent {
   online::SpeedTable::Advice advice;
   std::optional<offline::Plan> plan;  ///< where process and depth are known
 };
@@ -115,66 +110,6 @@ std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
                options.signal);
   }
   return std::nullopt;
-}
-
-/// Gathers what the spectra of one stretch say.
-class Stretch {
- public:
-  explicit Stretch(double start_s) : start_s_(start_s) {}
-
-  void add(const online::Detector::Output& heard, double speed_rev_s) {
-    frequency_hz_.push_back(heard.frequency_hz);
-    flips_ += heard.kind == online::Detector::Kind::flip ? 1 : 0;
-    speeds_rev_s_ += speed_rev_s;
-  }
-
-  [[nodiscard]] Event finished(double end_s) {
-    const auto half = static_cast<std::ptrdiff_t>(frequency_hz_.size() / 2);
-    std::ranges::nth_element(frequency_hz_, frequency_hz_.begin() + half);
-    Event event;
-    event.start_s = start_s_;
-    event.end_s = end_s;
-    event.frequency_hz = frequency_hz_[static_cast<std::size_t>(half)];
-    event.speed_rev_s = speeds_rev_s_ / static_cast<double>(frequency_hz_.size());
-    event.flip = 2 * flips_ > frequency_hz_.size();
-    return event;
-  }
-
- private:
-  double start_s_;
-  std::vector<double> frequency_hz_;
-  std::size_t flips_ = 0;
-  double speeds_rev_s_ = 0.0;
-};
-
-std::vector<Event> events_of(const offline::RecordedSignal& signal, online::Detector& detector,
-                             Progress& progress) {
-  constexpr std::size_t kBetweenUpdates = 65536;
-  const std::size_t samples = signal.value.size();
-  std::vector<Event> out;
-  std::optional<Stretch> open;
-  double t_s = signal.start_s;
-  for (std::size_t i = 0; i < samples; ++i) {
-    t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
-    const auto& heard =
-        detector.update({.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i]});
-    if (heard.fresh && heard.chatter) {
-      if (!open) {
-        open.emplace(t_s);
-      }
-      open->add(heard, signal.speed_rev_s[i]);
-    } else if (heard.fresh && open) {
-      out.push_back(open->finished(t_s));
-      open.reset();
-    }
-    if (i % kBetweenUpdates == 0) {
-      progress.update(static_cast<double>(i) / static_cast<double>(samples), "listening");
-    }
-  }
-  if (open) {
-    out.push_back(open->finished(t_s));
-  }
-  return out;
 }
 
 /// What `chatter plan` says of the cut, asked once for speeds that are nearly the same.
@@ -342,7 +277,10 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
                                    detector->window()),
                        "give a longer recording: a few tenths of a second", options.signal));
   }
-  auto events = events_of(*signal, *detector, progress);
+  std::vector<Event> events;
+  for (const ChatterEvent& heard : chatter_events(*signal, *detector, progress)) {
+    events.push_back({heard, {}, {}});
+  }
   std::optional<AskedPlans> plans;
   if (process && options.depth_mm) {
     plans.emplace(*process, machine, *options.depth_mm);

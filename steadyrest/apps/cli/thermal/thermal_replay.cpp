@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -20,6 +21,7 @@ namespace steadyrest::apps::cli {
 namespace {
 
 namespace offline = thermal::offline;
+using kernel::machine::Thermal;
 using kernel::machine::ThermalAxis;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
@@ -132,6 +134,73 @@ Json page_of(const Answer& answer, const offline::Log& log, const std::vector<Ax
   return page::replay_page(answer.json, log, shown);
 }
 
+std::optional<double> from_s(const ThermalReplayOptions& options, const offline::Log& log) {
+  return options.from_min ? std::optional(log.origin_s + 60.0 * *options.from_min) : std::nullopt;
+}
+
+Result<AxisReplay> replay_axis(const ThermalReplayOptions& options, const Thermal& passport,
+                               const ThermalAxis& axis, const offline::Log& log) {
+  const auto channel = channel_of(axis.name, log, options.channels);
+  if (!channel) {
+    return std::unexpected(channel.error());
+  }
+  offline::ReplayRequest request;
+  request.channel = *channel;
+  request.state_s = passport.state_s;
+  request.rezero_s = 60.0 * options.rezero_min;
+  request.from_s = from_s(options, log);
+  if (request.rezero_s > 0.0 && !request.channel) {
+    return std::unexpected(refusal(options.log,
+                                   fmt::format("{} is not measured in the log", axis.name),
+                                   fmt::format("name its column: --channel z_um={}", axis.name)));
+  }
+  auto points = offline::replay(axis, log, request);
+  if (!points) {
+    return std::unexpected(points.error());
+  }
+  const auto worth = offline::score(*points, axis.noise_mm);
+  return AxisReplay{axis.name, axis.noise_mm, std::move(*points), worth};
+}
+
+Result<std::vector<AxisReplay>> replay_axes(const ThermalReplayOptions& options,
+                                            const Thermal& passport, const offline::Log& log) {
+  std::vector<AxisReplay> out;
+  for (const ThermalAxis& axis : passport.axis) {
+    if (!options.axes.empty() && std::ranges::find(options.axes, axis.name) == options.axes.end()) {
+      continue;
+    }
+    auto one = replay_axis(options, passport, axis, log);
+    if (!one) {
+      return std::unexpected(one.error());
+    }
+    out.push_back(std::move(*one));
+  }
+  if (out.empty()) {
+    return std::unexpected(refusal(options.machine,
+                                   "the passport has none of the axes that are named",
+                                   "choose an axis of the passport"));
+  }
+  return out;
+}
+
+Answer answer_of(const std::vector<AxisReplay>& axes, const offline::Log& log) {
+  Answer answer;
+  answer.json["max_um"] = 0.0;
+  answer.json["minutes"] =
+      (axes.front().point.back().time_s - axes.front().point.front().time_s) / 60.0;
+  answer.json["axes"] = Json::array();
+  Table table({"axis", "end um", "95 %", "rms um", "95 % holds"});
+  for (const AxisReplay& axis : axes) {
+    put(answer, table, axis);
+  }
+  answer.json["notes"] = log.notes;
+  answer.text = table.text();
+  for (const std::string& note : log.notes) {
+    answer.text += note + "\n";
+  }
+  return answer;
+}
+
 }  // namespace
 
 Outcome replay_thermal_log(const ThermalReplayOptions& options) {
@@ -143,62 +212,21 @@ Outcome replay_thermal_log(const ThermalReplayOptions& options) {
   if (!log) {
     return refused(log.error());
   }
-  std::vector<AxisReplay> axes;
-  for (const ThermalAxis& axis : passport->axis) {
-    if (!options.axes.empty() && std::ranges::find(options.axes, axis.name) == options.axes.end()) {
-      continue;
-    }
-    const auto channel = channel_of(axis.name, *log, options.channels);
-    if (!channel) {
-      return refused(channel.error());
-    }
-    offline::ReplayRequest request;
-    request.channel = *channel;
-    request.state_s = passport->state_s;
-    request.rezero_s = 60.0 * options.rezero_min;
-    if (options.from_min) {
-      request.from_s = log->origin_s + 60.0 * *options.from_min;
-    }
-    if (request.rezero_s > 0.0 && !request.channel) {
-      return refused(refusal(options.log, fmt::format("{} is not measured in the log", axis.name),
-                             fmt::format("name its column: --channel z_um={}", axis.name)));
-    }
-    auto points = offline::replay(axis, *log, request);
-    if (!points) {
-      return refused(points.error());
-    }
-    const auto worth = offline::score(*points, axis.noise_mm);
-    axes.push_back({axis.name, axis.noise_mm, std::move(*points), worth});
-  }
-  if (axes.empty()) {
-    return refused(refusal(options.machine, "the passport has none of the axes that are named",
-                           "choose an axis of the passport"));
+  const auto axes = replay_axes(options, *passport, *log);
+  if (!axes) {
+    return refused(axes.error());
   }
   if (!options.output.empty()) {
     if (const auto written =
-            kernel::file::write_file(options.output, csv_of(axes, *log, options.step_s));
+            kernel::file::write_file(options.output, csv_of(*axes, *log, options.step_s));
         !written) {
       return refused(written.error());
     }
   }
-  Answer answer;
-  answer.json["max_um"] = 0.0;
-  answer.json["minutes"] =
-      (axes.front().point.back().time_s - axes.front().point.front().time_s) / 60.0;
-  answer.json["axes"] = Json::array();
-  Table table({"axis", "end um", "95 %", "rms um", "95 % holds"});
-  for (const AxisReplay& axis : axes) {
-    put(answer, table, axis);
-  }
-  answer.json["notes"] = log->notes;
-  answer.text = table.text();
-  for (const std::string& note : log->notes) {
-    answer.text += note + "\n";
-  }
+  Answer answer = answer_of(*axes, *log);
   if (!options.report.empty()) {
-    const double from_s = options.from_min ? log->origin_s + 60.0 * *options.from_min
-                                           : -std::numeric_limits<double>::infinity();
-    put_report(answer, options.report, page_of(answer, *log, axes, from_s));
+    const double from = from_s(options, *log).value_or(-std::numeric_limits<double>::infinity());
+    put_report(answer, options.report, page_of(answer, *log, *axes, from));
   }
   return answer;
 }

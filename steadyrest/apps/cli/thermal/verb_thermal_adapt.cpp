@@ -1,57 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 
-#include <steadyrest/apps/cli/shared/log_options.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/cli/shared/value_check.hpp>
-#include <steadyrest/apps/cli/thermal/thermal_options.hpp>
-#include <steadyrest/apps/cli/thermal/thermal_parts.hpp>
-#include <steadyrest/apps/cli/thermal/thermal_plan_file.hpp>
+#include <steadyrest/apps/cli/thermal/adapt_inputs.hpp>
 #include <steadyrest/apps/cli/thermal/verb_thermal_adapt.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/edit/thermal_edit.hpp>
-#include <steadyrest/passport/file/thermal_passport.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 #include <steadyrest/thermal/offline/adapt/adapt.hpp>
-#include <steadyrest/thermal/offline/log/measured.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
 
 using kernel::machine::Thermal;
-using kernel::outcome::Kind;
 using kernel::outcome::Reason;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using kernel::units::mm_from_um;
 using kernel::units::um_from_mm;
 using thermal::offline::Gains;
-
-struct Options {
-  std::string plan;
-  std::string measured;
-  ThermalOptions thermal;  ///< where the plan does not name its machine and work
-  std::string output;
-  double tolerance_um = 0.0;
-  double noise_um = 0.0;
-  LogOptions format;
-  std::string started;
-};
-
-std::unexpected<Refusal> refuse(std::string file, std::size_t line, std::string what,
-                                std::string to_do) {
-  return std::unexpected(
-      Refusal{Kind::bad_input, std::move(file), line, std::move(what), std::move(to_do)});
-}
 
 struct Learnt {
   std::string axis;
@@ -60,14 +36,14 @@ struct Learnt {
 };
 
 /// The standard deviation of a measured part by what the passport says.
-double noise_mm(const Options& options, double passport_mm) {
+double noise_mm(const AdaptOptions& options, double passport_mm) {
   if (options.noise_um > 0.0) {
     return mm_from_um(options.noise_um);
   }
   return passport_mm > 0.0 ? passport_mm : 0.0005;
 }
 
-std::vector<Learnt> learn(const Options& options, const ThermalPlanFile& plan,
+std::vector<Learnt> learn(const AdaptOptions& options, const ThermalPlanFile& plan,
                           const ThermalJob& job, const std::vector<PlacedPart>& parts) {
   std::vector<Learnt> out;
   for (std::size_t a = 0; a < plan.plan.axes.size(); ++a) {
@@ -106,32 +82,6 @@ std::vector<Learnt> learn(const Options& options, const ThermalPlanFile& plan,
   return out;
 }
 
-struct Level {
-  std::uint32_t number = 0;
-  double share = 1.0;
-};
-
-/// The level that the plan was made for.
-Result<Level> level_of(const ThermalPlanFile& plan, const Thermal& passport) {
-  const double number = plan.level.value_or(passport.level);
-  if (number != std::floor(number) || !(number >= 0.0) ||
-      number >= static_cast<double>(passport.share.size())) {
-    return refuse(plan.plan.file, 0,
-                  fmt::format("level {} has no share; [thermal] shares of the machine file has {}",
-                              number, passport.share.size()),
-                  "give the machine file that the plan was made with");
-  }
-  const Level out{static_cast<std::uint32_t>(number),
-                  passport.share[static_cast<std::size_t>(number)]};
-  if (plan.share && std::abs(*plan.share - out.share) > 1e-9) {
-    return refuse(plan.plan.file, 0,
-                  fmt::format("the plan's k = {} is not the machine file's {} of level {}",
-                              *plan.share, out.share, out.number),
-                  "plan again with the machine file as it is now");
-  }
-  return out;
-}
-
 bool fits(const std::vector<Learnt>& learnt) {
   return std::ranges::all_of(learnt, [](const Learnt& one) { return one.gains.fits; });
 }
@@ -160,7 +110,8 @@ Thermal adapted(Thermal passport, std::uint32_t level, const std::vector<Learnt>
   return passport;
 }
 
-Result<void> write(const Options& options, const std::string& machine, const Thermal& thermal) {
+Result<void> write(const AdaptOptions& options, const std::string& machine,
+                   const Thermal& thermal) {
   const auto text = passport::read_text(machine);
   if (!text) {
     return std::unexpected(text.error());
@@ -208,7 +159,7 @@ std::string text_of(const Json& outliers, bool counted) {
   return text;
 }
 
-std::string text_of(const Level& before, const thermal::offline::LevelChoice& choice,
+std::string text_of(const ThermalLevel& before, const thermal::offline::LevelChoice& choice,
                     const std::vector<Learnt>& learnt, std::size_t parts, const Json& outliers) {
   Table table;
   table.row({"parts", fmt::format("{}", parts)})
@@ -240,89 +191,50 @@ std::string text_of(const Level& before, const thermal::offline::LevelChoice& ch
   return text;
 }
 
-/// The work that the plan was made for; none where nobody names it.
-Result<std::optional<ThermalJob>> work_of(const Options& options, const ThermalPlanFile& plan) {
-  ThermalOptions what = options.thermal;
-  if (what.cyclogram.empty() && what.program.file.empty()) {
-    what.cyclogram = plan.cyclogram;
-    what.program.file = plan.program;
+Json outliers_json(const std::vector<PlacedPart>& parts, const std::vector<bool>& is_outlier) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (is_outlier[i]) {
+      out.push_back({{"line", parts[i].row->line},
+                     {"part", parts[i].row->part},
+                     {"deviation_um", um_from_mm(parts[i].row->deviation_mm)}});
+    }
   }
-  if (what.cyclogram.empty() && what.program.file.empty()) {
-    return std::optional<ThermalJob>{};
-  }
-  for (const auto& axis : plan.plan.axes) {
-    what.axes.emplace_back(1, axis.letter);
-  }
-  auto job = thermal_job(what);
-  if (!job) {
-    return std::unexpected(job.error());
-  }
-  const double total_s = job->cyclogram.total_s();
-  if (std::abs(total_s - plan.plan.total_s) > 1.0 + 1e-4 * total_s) {
-    return refuse(plan.plan.file, 0,
-                  fmt::format("the plan lasts {:.2f} min, {} {:.2f} min", plan.plan.total_s / 60.0,
-                              job->cyclogram.file, total_s / 60.0),
-                  "give the cyclogram or the program that the plan was made for");
-  }
-  return std::optional(std::move(*job));
+  return out;
 }
 
-Outcome run(Options options) {
-  const auto plan = read_thermal_plan(options.plan);
-  if (!plan) {
-    return refused(plan.error());
-  }
-  if (options.thermal.machine.empty()) {
-    options.thermal.machine = plan->machine;
-  }
-  if (options.thermal.machine.empty()) {
-    return refused(Refusal{Kind::bad_input, options.plan, 0, "the plan names no machine file",
-                           "give --machine FILE"});
-  }
-  const auto passport = passport::read_thermal_passport(options.thermal.machine);
-  if (!passport) {
-    return refused(passport.error());
-  }
-  const auto level = level_of(*plan, *passport);
-  const auto rows = thermal::offline::read_measured(
-      options.measured, {format_of(options.format), table::stamp_of(options.started)});
-  if (!level || !rows) {
-    return refused(level ? rows.error() : level.error());
-  }
-  const auto work = work_of(options, *plan);
-  if (!work) {
-    return refused(work.error());
-  }
-  const auto parts = place_parts(*plan, *rows, options.measured, mm_from_um(options.tolerance_um),
-                                 *work ? &(*work)->cyclogram : nullptr);
-  if (!parts) {
-    return refused(parts.error());
-  }
-  const auto learnt = *work ? learn(options, *plan, **work, *parts) : std::vector<Learnt>{};
-  const std::vector<bool> out = outliers(learnt, parts->size());
+/// The next level by all parts that count for it.
+thermal::offline::LevelChoice choose_level(const AdaptOptions& options, const AdaptInputs& in,
+                                           const std::vector<Learnt>& learnt,
+                                           const std::vector<bool>& is_outlier) {
   std::vector<thermal::offline::PartError> errors;
-  Json left_out = Json::array();
-  for (std::size_t i = 0; i < parts->size(); ++i) {
-    const PlacedPart& part = (*parts)[i];
-    if (out[i]) {
-      left_out.push_back({{"line", part.row->line},
-                          {"part", part.row->part},
-                          {"deviation_um", um_from_mm(part.row->deviation_mm)}});
-    }
-    if (!out[i] || !fits(learnt)) {
-      errors.push_back({part.row->deviation_mm, part.tolerance_mm});
+  for (std::size_t i = 0; i < in.parts.size(); ++i) {
+    if (!is_outlier[i] || !fits(learnt)) {
+      errors.push_back({in.parts[i].row->deviation_mm, in.parts[i].tolerance_mm});
     }
   }
   thermal::offline::LevelRule rule;
-  rule.measuring_sd_mm = noise_mm(options, passport->axis.front().noise_mm);
-  const auto choice = thermal::offline::next_level(passport->share, level->number, errors, rule);
+  rule.measuring_sd_mm = noise_mm(options, in.passport.axis.front().noise_mm);
+  return thermal::offline::next_level(in.passport.share, in.level.number, errors, rule);
+}
+
+Outcome run(const AdaptOptions& options) {
+  const auto read = read_adapt_inputs(options);
+  if (!read) {
+    return refused(read.error());
+  }
+  const AdaptInputs& in = *read;
+  const auto learnt = in.work ? learn(options, in.plan, *in.work, in.parts) : std::vector<Learnt>{};
+  const std::vector<bool> is_outlier = outliers(learnt, in.parts.size());
+  const Json left_out = outliers_json(in.parts, is_outlier);
+  const auto choice = choose_level(options, in, learnt, is_outlier);
   Answer answer;
   answer.json = {
       {"level", choice.level},
       {"k", choice.share},
-      {"level_before", level->number},
-      {"k_before", level->share},
-      {"parts", parts->size()},
+      {"level_before", in.level.number},
+      {"k_before", in.level.share},
+      {"parts", in.parts.size()},
       {"outside", choice.outside},
       {"largest_ratio", choice.largest_ratio},
       {"exhausted", choice.exhausted},
@@ -330,10 +242,10 @@ Outcome run(Options options) {
       {"axes", axes_json(learnt)},
       {"fits", fits(learnt)},
       {"reason", kernel::outcome::name(fits(learnt) ? Reason::none : Reason::thermal_model_unfit)}};
-  answer.text = text_of(*level, choice, learnt, parts->size(), left_out);
+  answer.text = text_of(in.level, choice, learnt, in.parts.size(), left_out);
   if (!options.output.empty()) {
-    const Thermal next = adapted(*passport, choice.level, learnt);
-    if (const auto written = write(options, options.thermal.machine, next); !written) {
+    const Thermal next = adapted(in.passport, choice.level, learnt);
+    if (const auto written = write(options, in.machine, next); !written) {
       return refused(written.error());
     }
   }
@@ -349,7 +261,7 @@ void add_verb_thermal_adapt(Session& session) {
                    "Check measured parts against the plan; learn the level k and the model's gains",
                    "thermal adapt examples/paper-thermal/plan.json --measured "
                    "examples/paper-thermal/measured.csv");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AdaptOptions>();
   verb.reads("plan", options->plan, "PLAN.json that the parts were made with")->required();
   verb.reads("--measured", options->measured,
              "CSV: part; transition, time_min or stamps; deviation_um (tool position minus correct "

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include <steadyrest/apps/cli/chatter/chatter_events.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+namespace online = chatter::online;
+
+/// Gathers what the spectra of one stretch say.
+class Stretch {
+ public:
+  explicit Stretch(double start_s) : start_s_(start_s) {}
+
+  void add(const online::Detector::Output& heard, double speed_rev_s) {
+    frequency_hz_.push_back(heard.frequency_hz);
+    flips_ += heard.kind == online::Detector::Kind::flip ? 1 : 0;
+    speeds_rev_s_ += speed_rev_s;
+  }
+
+  [[nodiscard]] ChatterEvent finished(double end_s) {
+    const auto half = static_cast<std::ptrdiff_t>(frequency_hz_.size() / 2);
+    std::ranges::nth_element(frequency_hz_, frequency_hz_.begin() + half);
+    ChatterEvent event;
+    event.start_s = start_s_;
+    event.end_s = end_s;
+    event.frequency_hz = frequency_hz_[static_cast<std::size_t>(half)];
+    event.speed_rev_s = speeds_rev_s_ / static_cast<double>(frequency_hz_.size());
+    event.flip = 2 * flips_ > frequency_hz_.size();
+    return event;
+  }
+
+ private:
+  double start_s_;
+  std::vector<double> frequency_hz_;
+  std::size_t flips_ = 0;
+  double speeds_rev_s_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal& signal,
+                                         chatter::online::Detector& detector, Progress& progress) {
+  constexpr std::size_t kBetweenUpdates = 65536;
+  const std::size_t samples = signal.value.size();
+  std::vector<ChatterEvent> out;
+  std::optional<Stretch> open;
+  double t_s = signal.start_s;
+  for (std::size_t i = 0; i < samples; ++i) {
+    t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
+    const auto& heard =
+        detector.update({.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i]});
+    if (heard.fresh && heard.chatter) {
+      if (!open) {
+        open.emplace(t_s);
+      }
+      open->add(heard, signal.speed_rev_s[i]);
+    } else if (heard.fresh && open) {
+      out.push_back(open->finished(t_s));
+      open.reset();
+    }
+    if (i % kBetweenUpdates == 0) {
+      progress.update(static_cast<double>(i) / static_cast<double>(samples), "listening");
+    }
+  }
+  if (open) {
+    out.push_back(open->finished(t_s));
+  }
+  return out;
+}
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <steadyrest/apps/cli/shared/progress.hpp>
+#include <steadyrest/chatter/offline/signal/signal_file.hpp>
+#include <steadyrest/chatter/online/detector.hpp>
+
+namespace steadyrest::apps::cli {
+
+/// One stretch of chatter in a recorded signal.
+struct ChatterEvent {
+  double start_s = 0.0;
+  double end_s = 0.0;
+  double frequency_hz = 0.0;  ///< median over the stretch
+  double speed_rev_s = 0.0;   ///< mean over the stretch
+  bool flip = false;          ///< what most spectra said
+};
+
+/// What the detector hears from the signal's first sample to its last; the signal has a speed.
+[[nodiscard]] std::vector<ChatterEvent> chatter_events(
+    const chatter::offline::RecordedSignal& signal, chatter::online::Detector& detector,
+    Progress& progress);
+
+}  // namespace steadyrest::apps::cli
