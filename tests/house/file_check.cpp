@@ -32,6 +32,17 @@ void check_shared_data(FileCheck& check) {
   }
 }
 
+void check_length(FileCheck& check) {
+  const std::string& path = check.file.path;
+  const std::size_t lines = lines_in(check.file.text);
+  const std::size_t most = check.rules.most_lines;
+  if (lines > most && (is_cpp(path) || path.ends_with(".ts"))) {
+    check.report("long-file", most + 1,
+                 std::to_string(lines) + " lines, at most " + std::to_string(most) +
+                     ": split it by what it does");
+  }
+}
+
 }  // namespace
 
 void FileCheck::report(std::string_view rule, std::size_t line, std::string what) {
@@ -47,6 +58,7 @@ std::vector<Violation> check_file(const SourceFile& file, const Rules& rules) {
                   .found = {}};
   check_spdx(check);
   check_shared_data(check);
+  check_length(check);
   if (folder && is_cpp(file.path)) {
     check_includes(check);
     check_namespaces(check);

@@ -24,6 +24,8 @@ std::expected<Rules, std::string> read_rules(std::string_view toml_text) {
     const toml::table table = toml::parse(toml_text);
     Rules rules;
     rules.root = table["root"].value_or<std::string>("");
+    rules.most_files = table["size"]["most_files"].value_or<std::size_t>(0);
+    rules.most_lines = table["size"]["most_lines"].value_or<std::size_t>(0);
     if (const toml::array* places = table["place"].as_array()) {
       for (const toml::node& node : *places) {
         const toml::table& entry = *node.as_table();
@@ -36,8 +38,9 @@ std::expected<Rules, std::string> read_rules(std::string_view toml_text) {
     rules.in_cycle_headers = strings(table["in_cycle"]["headers"]);
     rules.in_cycle_words = strings(table["in_cycle"]["words"]);
     rules.noexcept_functions = strings(table["in_cycle"]["noexcept_functions"]);
-    if (rules.root.empty() || rules.places.empty() || rules.in_cycle_folders.empty()) {
-      return std::unexpected("root, [[place]] and in_cycle.folders are needed");
+    if (rules.root.empty() || rules.places.empty() || rules.in_cycle_folders.empty() ||
+        rules.most_files == 0 || rules.most_lines == 0) {
+      return std::unexpected("root, both of [size], [[place]] and in_cycle.folders are needed");
     }
     return rules;
   } catch (const toml::parse_error& error) {

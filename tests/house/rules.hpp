@@ -23,6 +23,8 @@ struct Place {
 /// floors.toml as values.
 struct Rules {
   std::string root;
+  std::size_t most_files = 0;  ///< in a folder
+  std::size_t most_lines = 0;  ///< in a file
   std::vector<Place> places;
   std::vector<std::string> in_cycle_folders;
   std::vector<std::string> in_cycle_headers;
@@ -33,8 +35,8 @@ struct Rules {
 [[nodiscard]] std::expected<Rules, std::string> read_rules(std::string_view toml_text);
 
 struct Violation {
-  std::string rule;  ///< floor, half, shelf, crowded, in-cycle, namespace, spdx, quoted-include,
-                     ///< place, shared-data, unbuilt
+  std::string rule;  ///< floor, half, shelf, crowded, long-file, in-cycle, namespace, spdx,
+                     ///< quoted-include, place, shared-data, unbuilt
   std::string path;
   std::size_t line = 0;
   std::string what;
@@ -48,7 +50,8 @@ struct Violation {
                                                  const Rules& rules);
 
 /// Folders with more files than one can look through; `x.hpp` and `x.cpp` count as one.
-[[nodiscard]] std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree);
+[[nodiscard]] std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree,
+                                                   const Rules& rules);
 
 /// All rules over all files.
 [[nodiscard]] std::vector<Violation> check_tree(const std::vector<SourceFile>& tree,

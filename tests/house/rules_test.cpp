@@ -197,12 +197,27 @@ TEST(Crowded, AFolderHoldsNoMoreThanOneCanLookThrough) {
       tree.push_back({std::string("steadyrest/nc/") + c + ending, ""});
     }
   }
-  EXPECT_THAT(check_crowded(tree), IsEmpty());
+  EXPECT_THAT(check_crowded(tree, rules()), IsEmpty());
   tree.push_back({"steadyrest/nc/test/z_test.cpp", ""});
-  EXPECT_THAT(check_crowded(tree), IsEmpty());
+  EXPECT_THAT(check_crowded(tree, rules()), IsEmpty());
   tree.push_back({"steadyrest/nc/z.hpp", ""});
-  ASSERT_EQ(check_crowded(tree).size(), 1U);
-  EXPECT_EQ(check_crowded(tree).front().path, "steadyrest/nc");
+  ASSERT_EQ(check_crowded(tree, rules()).size(), 1U);
+  EXPECT_EQ(check_crowded(tree, rules()).front().path, "steadyrest/nc");
+}
+
+TEST(LongFile, IsFoundAtItsFirstLineTooMany) {
+  const auto of_lines = [](const std::string& path, int lines) {
+    std::string text = std::string(kSpdx) + "namespace steadyrest::nc {}\n";
+    for (int i = 2; i < lines; ++i) {
+      text += "// a line\n";
+    }
+    return found({path, text});
+  };
+  for (const std::string path : {"steadyrest/nc/x.cpp", "steadyrest/nc/x.hpp", "web/src/x.ts"}) {
+    EXPECT_THAT(of_lines(path, 400), IsEmpty()) << path;
+    EXPECT_THAT(of_lines(path, 401), ElementsAre("long-file:401")) << path;
+  }
+  EXPECT_THAT(of_lines("web/test/x.mjs", 500), IsEmpty());
 }
 
 TEST(InCycle, HeadersOfLocksStreamsAndClocksAreRefused) {

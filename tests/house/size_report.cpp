@@ -8,8 +8,6 @@
 namespace house {
 namespace {
 
-constexpr std::size_t kLongFile = 400;
-
 struct Count {
   std::size_t files = 0;
   std::size_t lines = 0;
@@ -17,10 +15,6 @@ struct Count {
   std::size_t comment_lines = 0;
   std::size_t longest = 0;
 };
-
-std::size_t lines_in(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
-}
 
 std::size_t comment_lines_in(std::string_view text) {
   std::size_t count = 0;
@@ -76,7 +70,7 @@ std::string size_report(const std::vector<SourceFile>& tree, const Rules& rules)
     add(rooms[room_of(file.path, rules.root)], file);
     add(total, file);
     sizes.push_back(lines_in(file.text));
-    if (sizes.back() > kLongFile) {
+    if (sizes.back() > rules.most_lines) {
       longest += fmt::format("  {} ({} lines)\n", file.path, sizes.back());
     }
   }
@@ -91,7 +85,7 @@ std::string size_report(const std::vector<SourceFile>& tree, const Rules& rules)
                      sizes.empty() ? 0 : sizes[sizes.size() / 2],
                      sizes.empty() ? 0 : sizes[sizes.size() * 9 / 10]);
   if (!longest.empty()) {
-    out += fmt::format("longer than {} lines:\n{}", kLongFile, longest);
+    out += fmt::format("longer than {} lines:\n{}", rules.most_lines, longest);
   }
   return out;
 }

@@ -35,6 +35,8 @@ struct Word {
 /// Identifiers and keywords of a blanked text.
 [[nodiscard]] std::vector<Word> words(std::string_view blanked);
 
+[[nodiscard]] std::size_t lines_in(std::string_view text);
+
 [[nodiscard]] std::size_t line_of(std::string_view text, std::size_t offset);
 
 /// `a/b` for `a/b/c.hpp`.

@@ -28,8 +28,7 @@ std::vector<Violation> check_built(const std::vector<SourceFile>& tree, const Ru
   return found;
 }
 
-std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree) {
-  constexpr std::size_t kMostFiles = 15;
+std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree, const Rules& rules) {
   std::map<std::string, std::set<std::string>> folders;
   for (const SourceFile& file : tree) {
     if (is_cpp(file.path)) {
@@ -38,10 +37,10 @@ std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree) {
   }
   std::vector<Violation> found;
   for (const auto& [folder, files] : folders) {
-    if (files.size() > kMostFiles) {
+    if (files.size() > rules.most_files) {
       found.push_back({"crowded", folder, 1,
                        std::to_string(files.size()) + " files (a pair counts once), at most " +
-                           std::to_string(kMostFiles) + ": make shelves"});
+                           std::to_string(rules.most_files) + ": make shelves"});
     }
   }
   return found;
@@ -49,7 +48,7 @@ std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree) {
 
 std::vector<Violation> check_tree(const std::vector<SourceFile>& tree, const Rules& rules) {
   std::vector<Violation> found = check_built(tree, rules);
-  std::ranges::move(check_crowded(tree), std::back_inserter(found));
+  std::ranges::move(check_crowded(tree, rules), std::back_inserter(found));
   for (const SourceFile& file : tree) {
     std::ranges::move(check_file(file, rules), std::back_inserter(found));
   }
