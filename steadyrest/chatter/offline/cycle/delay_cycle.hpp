@@ -108,9 +108,12 @@ class DelayCycle {
 
   DelayCycle() = default;
   void plan(const SpeedProfile& speed, const Config& config);
+  [[nodiscard]] std::vector<Piece> pieces_of_pass(const SpeedProfile& speed,
+                                                  const Config& config) const;
+  void fill(const SpeedProfile& speed, std::size_t pass, std::size_t i);
   void fill_plain(Piece& piece) const;
   void fill_cut(Piece& piece) const;
-  void fill_reads(std::size_t index);
+  void fill_reads(std::size_t pass, std::size_t i);
   [[nodiscard]] Read read_at(double angle_rad) const;
   void delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& state,
                Eigen::Ref<Eigen::VectorXd> out) const;

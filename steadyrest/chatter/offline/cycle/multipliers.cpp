@@ -142,7 +142,35 @@ struct Frame {
     triangle /= scale;
     log_scale += std::log(scale);
   }
+
+  /// Through one period; false: it grew beyond all numbers.
+  bool drive(DelayCycle& cycle) {
+    triangle = Eigen::MatrixXd::Identity(basis.cols(), basis.cols());
+    log_scale = 0.0;
+    for (std::size_t p = 0; p < cycle.passes(); ++p) {
+      for (Index i = 0; i < basis.cols(); ++i) {
+        cycle.advance(p, basis.col(i));
+      }
+      if (!basis.allFinite()) {
+        return false;
+      }
+      renew();
+    }
+    return true;
+  }
 };
+
+/// Eigenvalues of a map of one or two dimensions, the larger first.
+std::vector<Complex> eigenvalues(const Eigen::MatrixXd& map) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map);
+  const auto& e = eigen.eigenvalues();
+  const bool swap = map.rows() > 1 && std::abs(e[1]) > std::abs(e[0]);
+  std::vector<Complex> out{e[swap ? 1 : 0]};
+  if (map.rows() > 1) {
+    out.push_back(e[swap ? 0 : 1]);
+  }
+  return out;
+}
 
 /// The period's map within the subspace that two vectors settle on has the two dominant multipliers
 /// as its eigenvalues; both directions are renewed at each pass, so that neither is lost in the
@@ -162,32 +190,17 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, double tolerance, Multiplier
     // The basis at the period's end is that at the next one's start, so that it settles on the
     // dominant directions from period to period.
     const Eigen::MatrixXd start = frame.basis.leftCols(std::min<Index>(2, k));
-    frame.triangle = Eigen::MatrixXd::Identity(k, k);
-    frame.log_scale = 0.0;
-    for (std::size_t p = 0; p < cycle.passes(); ++p) {
-      for (Index i = 0; i < k; ++i) {
-        cycle.advance(p, frame.basis.col(i));
-      }
-      if (!frame.basis.allFinite()) {
-        out.log_modulus = {kBeyondLog};
-        out.vector = start.col(0);
-        return {1.0};
-      }
-      frame.renew();
+    if (!frame.drive(cycle)) {
+      out.log_modulus = {kBeyondLog};
+      out.vector = start.col(0);
+      return {1.0};
     }
     out.passes_done += cycle.passes() * static_cast<std::size_t>(k);
     const Index pair = start.cols();
     // The period's map within the leading pair: the triangle gives it in the new basis, `turn`
     // brings that back to the old one.
     const Eigen::MatrixXd turn = start.transpose() * frame.basis.leftCols(pair);
-    const Eigen::MatrixXd map = turn * frame.triangle.topLeftCorner(pair, pair);
-    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map);
-    const auto& e = eigen.eigenvalues();
-    const bool swap = pair > 1 && std::abs(e[1]) > std::abs(e[0]);
-    value.assign(1, e[swap ? 1 : 0]);
-    if (pair > 1) {
-      value.push_back(e[swap ? 0 : 1]);
-    }
+    value = eigenvalues(turn * frame.triangle.topLeftCorner(pair, pair));
     const double log_modulus = std::log(std::max(std::abs(value[0]), 1e-300)) + frame.log_scale;
     out.residual = std::abs(log_modulus - before);
     out.log_modulus = {log_modulus};

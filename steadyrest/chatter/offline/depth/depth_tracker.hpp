@@ -41,6 +41,8 @@ class DepthTracker {
   [[nodiscard]] std::size_t helped() const noexcept { return helped_; }
 
  private:
+  static constexpr double kMostXi = 3.0;  ///< smaller multipliers are left to Arnoldi's method
+
   struct Root {
     Complex xi;
     Complex slope;  ///< dξ/da

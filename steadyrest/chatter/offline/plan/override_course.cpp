@@ -74,6 +74,30 @@ void add(std::vector<SpeedRamp>& course, const SpeedRamp& ramp) {
   course.push_back(ramp);
 }
 
+Result<Channel> spindle_channel(const Machine& machine) {
+  return Channel::make({.table = machine.spindle_override,
+                        .min_ratio = machine.envelope.min_spindle_ratio,
+                        .max_ratio = machine.envelope.max_spindle_ratio,
+                        .fall_1_s = machine.envelope.spindle_slew_1_s,
+                        .rise_1_s = machine.envelope.spindle_slew_1_s,
+                        .max_step_s = machine.envelope.stale_after_s,
+                        .latched = machine.spindle_override.latched_word});
+}
+
+kernel::signal::Frame frame_in_cut(const Machine& machine, double programmed_rev_s) {
+  kernel::signal::Frame frame;
+  frame.motion = kernel::signal::Motion::feed;
+  // Only ratios matter: feed and path speed are in units of the programmed feed.
+  frame.programmed_feed_mm_s = 1.0;
+  frame.path_speed_mm_s = 1.0;
+  frame.spindle_programmed_rev_s = programmed_rev_s;
+  // The operator's switch at its highest step, so that the panel clips nothing; the planner says in
+  // a note how high it must be.
+  frame.spindle.panel_ratio = *std::ranges::max_element(machine.spindle_override.ratio);
+  frame.spindle.effective_ratio = 1.0;
+  return frame;
+}
+
 }  // namespace
 
 Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double programmed_rev_s,
@@ -82,13 +106,7 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
   if (!modulator) {
     return std::unexpected(modulator.error());
   }
-  auto spindle = Channel::make({.table = machine.spindle_override,
-                                .min_ratio = machine.envelope.min_spindle_ratio,
-                                .max_ratio = machine.envelope.max_spindle_ratio,
-                                .fall_1_s = machine.envelope.spindle_slew_1_s,
-                                .rise_1_s = machine.envelope.spindle_slew_1_s,
-                                .max_step_s = machine.envelope.stale_after_s,
-                                .latched = machine.spindle_override.latched_word});
+  auto spindle = spindle_channel(machine);
   if (!spindle) {
     return std::unexpected(spindle.error());
   }
@@ -106,16 +124,7 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
   // Whole periods, so that the period taken begins at phase 0 of the law.
   const auto settle = static_cast<std::size_t>(std::ceil(kSettle_s / period_s)) + 2;
 
-  kernel::signal::Frame frame;
-  frame.motion = kernel::signal::Motion::feed;
-  // Only ratios matter: feed and path speed are in units of the programmed feed.
-  frame.programmed_feed_mm_s = 1.0;
-  frame.path_speed_mm_s = 1.0;
-  frame.spindle_programmed_rev_s = programmed_rev_s;
-  // The operator's switch at its highest step, so that the panel clips nothing; the planner says in
-  // a note how high it must be.
-  frame.spindle.panel_ratio = *std::ranges::max_element(machine.spindle_override.ratio);
-  frame.spindle.effective_ratio = 1.0;
+  kernel::signal::Frame frame = frame_in_cut(machine, programmed_rev_s);
   double speed = programmed_rev_s;
   const double reach = machine.spindle.acceleration_rev_s2 * dt_s;
   std::vector<SpeedRamp> course;

@@ -54,6 +54,9 @@ class MotionEstimator final : public Estimator {
   [[nodiscard]] std::uint64_t contradictions() const noexcept { return bound_.contradictions(); }
 
  private:
+  static constexpr double kLeastVariance = 1e-10;  ///< counts²
+  static constexpr double kMostVariance = 0.09;
+
   /// How standstill begins and ends; see tuning() for the values.
   struct Tuning {
     double start_speed =

@@ -16,7 +16,6 @@ constexpr std::array<Lanes, kModels> kNear{{{0.0, 0.5, 0.25, 0.125},
 constexpr Lanes kNeighbours{0.875, 1.25, 1.25, 0.875};  ///< their sums
 constexpr double kSlowCycle = 0.002;                    ///< s
 constexpr double kLeastWeight = 1e-12;
-constexpr double kLeastVariance = 1e-10;
 constexpr double kRestSpeedVariance = 0.01;          ///< (count/s)²
 constexpr double kRestAccelerationVariance = 100.0;  ///< (count/s²)²
 

@@ -139,64 +139,62 @@ bool Expression::bracket(double& out) {
   return true;
 }
 
+/// What a comparison or a logical operator says.
+bool Expression::holds(Operator op, double a, double b) noexcept {
+  const double apart = std::abs(a - b);  // NaN behind 4 MOD 0: neither EQ nor NE
+  switch (op) {
+    case Operator::eq:
+      return apart < kEqual;
+    case Operator::ne:
+      return apart >= kEqual;
+    case Operator::gt:
+      return a > b;
+    case Operator::ge:
+      return a >= b;
+    case Operator::lt:
+      return a < b;
+    case Operator::le:
+      return a <= b;
+    case Operator::both:
+      return a != 0.0 && b != 0.0;
+    case Operator::either:
+      return a != 0.0 || b != 0.0;
+    default:  // XOR
+      return (a != 0.0) != (b != 0.0);
+  }
+}
+
 bool Expression::apply(Operator op, double& left, double right) {
-  const double a = left;
-  const auto truth = [](bool yes) { return yes ? 1.0 : 0.0; };
-  const double apart = std::abs(a - right);  // NaN behind 4 MOD 0: neither EQ nor NE
   switch (op) {
     case Operator::power:
       // std::pow would return NaN.
-      if (a < 0.0 && right != std::floor(right)) {
+      if (left < 0.0 && right != std::floor(right)) {
         return fail("not_finite", "a negative number to a power that is not whole");
       }
-      left = std::pow(a, right);
+      left = std::pow(left, right);
       break;
     case Operator::times:
-      left = a * right;
+      left *= right;
       break;
     case Operator::over:
       if (right == 0.0) {
         return fail("division_by_zero", "a division by zero");
       }
-      left = a / right;
+      left /= right;
       break;
     case Operator::modulo:
       // rs274's MOD is never negative; std::fmod takes the dividend's sign.
-      left = std::fmod(a, right);
+      left = std::fmod(left, right);
       left += left < 0.0 ? std::abs(right) : 0.0;
       break;
     case Operator::plus:
-      left = a + right;
+      left += right;
       break;
     case Operator::minus:
-      left = a - right;
+      left -= right;
       break;
-    case Operator::eq:
-      left = truth(apart < kEqual);
-      break;
-    case Operator::ne:
-      left = truth(apart >= kEqual);
-      break;
-    case Operator::gt:
-      left = truth(a > right);
-      break;
-    case Operator::ge:
-      left = truth(a >= right);
-      break;
-    case Operator::lt:
-      left = truth(a < right);
-      break;
-    case Operator::le:
-      left = truth(a <= right);
-      break;
-    case Operator::both:
-      left = truth(a != 0.0 && right != 0.0);
-      break;
-    case Operator::either:
-      left = truth(a != 0.0 || right != 0.0);
-      break;
-    case Operator::one:
-      left = truth((a != 0.0) != (right != 0.0));
+    default:
+      left = holds(op, left, right) ? 1.0 : 0.0;
       break;
   }
   return true;

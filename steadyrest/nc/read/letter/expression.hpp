@@ -40,6 +40,7 @@ class Expression : public Climber<Expression> {
   static constexpr char kClosing = ']';
   bool operand(double& out);
   bool bracket(double& out);
+  [[nodiscard]] static bool holds(Operator op, double a, double b) noexcept;
   bool apply(Operator op, double& left, double right);
   bool function(double& out);
   bool named_function(std::string_view name, double& out);
