@@ -110,11 +110,7 @@ void Interpreter::leave_call(Sink& sink) {
 
 bool Interpreter::decode(const Block& block) {
   step_.reset(block);
-  const bool accepted = control_.rules.decode({.config = control_.config,
-                                               .state = control_.state,
-                                               .axes = control_.axes,
-                                               .refusals = control_.refusals},
-                                              block, step_);
+  const bool accepted = control_.rules.decode(decoding_, block, step_);
   if (step_.motion_mode != kNoCode) {
     control_.state.motion = step_.motion_mode;
   }

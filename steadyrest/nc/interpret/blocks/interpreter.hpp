@@ -77,6 +77,10 @@ class Interpreter {
   bool stop(const Step& step);
 
   Control control_;
+  Decoding decoding_{.config = control_.config,
+                     .state = control_.state,
+                     .axes = control_.axes,
+                     .refusals = control_.refusals};
   Parameters parameters_;
   MoveOutput out_{control_.state};
   BlockCheck check_{control_};

@@ -17,15 +17,6 @@ void CutterStage::end_mark(std::uint32_t line) {
   compensation_.on_event({.kind = EventKind::end, .line = line, .value = 0.0, .tool_name = {}});
 }
 
-void CutterStage::send_to(Sink& sink) noexcept {
-  compensation_.bind(sink);
-  if (state_.cutter_side != 0) {
-    out_.send_to(compensation_);
-  } else {
-    out_.send_to(sink);
-  }
-}
-
 bool CutterStage::set(const Step& step) {
   const int code = step.code(GGroup::cutter);
   if (code == kNoCode) {

@@ -13,7 +13,10 @@ class CutterStage : private Stage {
   using Stage::Stage;
 
   /// Where moves go from here on, through the compensation where it is on.
-  void send_to(Sink& sink) noexcept;
+  void send_to(Sink& sink) noexcept {
+    compensation_.bind(sink);
+    out_.send_to(state_.cutter_side != 0 ? static_cast<Sink&>(compensation_) : sink);
+  }
   /// The block's G40 … G42.
   bool set(const Step& step);
   /// G40: also at the end of the program.

@@ -84,7 +84,6 @@ struct Step {
     absolute = 0;
     incremental = 0;
     others = false;
-    moves_by = -1;
     motion_mode = kNoCode;
     polar = false;
     polar_radius = polar_angle_deg = std::numeric_limits<double>::quiet_NaN();

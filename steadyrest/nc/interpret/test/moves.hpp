@@ -19,7 +19,7 @@ struct Kept final : public Sink {
 };
 
 /// Moves of a text that must be accepted.
-inline std::vector<Move> moves_of(std::string_view text, Config config = {}) {
+inline std::vector<Move> moves_of(std::string_view text, const Config& config = {}) {
   Kept kept;
   const auto report = run_text(text, config, kept);
   EXPECT_TRUE(report.has_value());
@@ -31,7 +31,7 @@ inline std::vector<Move> moves_of(std::string_view text, Config config = {}) {
 }
 
 /// Identifier of the first refusal; empty when the text is accepted.
-inline std::string reason_of(std::string_view text, Config config = {}) {
+inline std::string reason_of(std::string_view text, const Config& config = {}) {
   Kept kept;
   const auto report = run_text(text, config, kept);
   return !report || report->refused.empty() ? std::string{} : report->refused.front().reason;
