@@ -107,7 +107,9 @@ Result<MotionStage> MotionStage::make(const Machine& machine) {
 }
 
 void MotionStage::restart(Axis& axis) const noexcept {
-  axis.estimator = axis.fresh;
+  if (axis.started) {
+    axis.estimator = axis.fresh;
+  }
   axis.estimate = {};
   axis.started = false;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <steadyrest/sim/heat/thermal_growth.hpp>
-#include <steadyrest/thermal/online/offset_governor.hpp>
+#include <steadyrest/trial/batch/acting_layer.hpp>
 #include <steadyrest/trial/batch/batch.hpp>
 #include <steadyrest/trial/batch/believed_axis.hpp>
 #include <steadyrest/trial/batch/text_shifts.hpp>
@@ -58,11 +58,11 @@ class Clockwork {
 
 class Day {
  public:
-  Day(const Job& job, sim::ThermalGrowth growth, thermal::online::OffsetGovernor governor,
-      std::vector<BelievedAxis> axes, Trace original)
+  Day(const Job& job, sim::ThermalGrowth growth, ActingLayer layer, std::vector<BelievedAxis> axes,
+      Trace original)
       : job_(job),
         growth_(std::move(growth)),
-        governor_(std::move(governor)),
+        layer_(std::move(layer)),
         axes_(std::move(axes)),
         original_(std::move(original)),
         cyclogram_(thermal::offline::cyclogram_of(job.cyclogram, job.program)) {
@@ -72,9 +72,7 @@ class Day {
     const kernel::machine::Thermal& thermal = job.machine.thermal;
     out_.band_mm = thermal.share[thermal.level] * job.tolerance_mm;
     out_.program_s = cyclogram_.total_s();
-    sensors_ = thermal.sensors().size();
-    govern({}, false, growth_.read_room_c());
-    governor_.zero_here();
+    layer_.begin(growth_.read_room_c());
   }
 
   Result<Batch> run() {
@@ -106,8 +104,8 @@ class Day {
       if (number_ > 1) {
         axis.measure(now.probe_mm.back());
         // The probe finds what the offset has left.
-        governor_.measure(axis.row(), {.displacement_mm = now.probe_mm.back() + offset_mm(axis),
-                                       .sd_mm = job_.machine.simulation.probe_noise_mm});
+        layer_.probe(axis.row(), now.probe_mm.back() + offset_mm(axis),
+                     job_.machine.simulation.probe_noise_mm);
       }
     }
     const auto text = corrected();
@@ -185,9 +183,8 @@ class Day {
     const double share = cuts ? transition->cut_share() : 0.0;
     const bool coolant = transition != nullptr && transition->coolant;
     const double room_c = growth_.read_room_c();
-    const sim::ThermalGrowth::Input heat{
-        .speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = share, .coolant = coolant};
-    growth_.update(heat);
+    growth_.update(
+        {.speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = share, .coolant = coolant});
     for (BelievedAxis& axis : axes_) {
       axis.update(kStep_s,
                   {.speed_rev_s = speed_rev_s,
@@ -197,29 +194,16 @@ class Day {
                    .coolant = coolant},
                   room_c);
     }
-    govern(heat, cuts, room_c);
+    layer_.pass({.speed_rev_s = speed_rev_s,
+                 .feed_mm_s = feed_mm_s,
+                 .cutting = share,
+                 .coolant = coolant,
+                 .room_c = room_c});
     ++step_;
   }
 
-  /// The frame that the layer gets of this second.
-  void govern(const sim::ThermalGrowth::Input& machine, bool cuts, double room_c) {
-    kernel::signal::Frame frame;
-    frame.time_s = growth_.time_s();
-    frame.cycle = step_;
-    frame.axis_count = static_cast<std::uint8_t>(job_.machine.axes.size());
-    frame.spindle_actual_rev_s = machine.speed_rev_s;
-    frame.path_speed_mm_s = machine.feed_mm_s;
-    feeds_due_ += machine.cutting;
-    const bool feeds = feeds_due_ >= 0.5;
-    feeds_due_ -= feeds ? 1.0 : 0.0;
-    frame.motion = feeds ? kernel::signal::Motion::feed : kernel::signal::Motion::idle;
-    frame.coolant = machine.coolant;
-    std::fill_n(frame.temperature_c.begin(), sensors_, room_c);
-    governor_.update(frame, kernel::outcome::Reason::none, cuts);
-  }
-
   [[nodiscard]] double offset_mm(const BelievedAxis& axis) const noexcept {
-    return governor_.output().request.offset_mm[axis.row()];
+    return layer_.offset_mm(axis.row());
   }
 
   std::array<double, kWays> errors(const nc::interpret::Axes& text_mm) const {
@@ -255,8 +239,7 @@ class Day {
 
   const Job& job_;
   sim::ThermalGrowth growth_;
-  thermal::online::OffsetGovernor governor_;
-  std::size_t sensors_ = 0;
+  ActingLayer layer_;
   std::vector<BelievedAxis> axes_;
   Trace original_;
   thermal::offline::Cyclogram cyclogram_;
@@ -264,7 +247,6 @@ class Day {
   std::array<Sum, kWays> whole_;
   std::uint32_t number_ = 0;
   std::uint64_t step_ = 0;
-  double feeds_due_ = 0.0;  ///< feed moves that the frames have not shown yet, in seconds
 };
 
 Result<std::vector<BelievedAxis>> believed(const Job& job) {
@@ -317,14 +299,11 @@ Result<Batch> run(const Job& job) {
   if (!original) {
     return std::unexpected(original.error());
   }
-  // It gets a frame a second here, each of them fresh.
-  kernel::machine::Machine slow = job.machine;
-  slow.envelope.stale_after_s = std::max(slow.envelope.stale_after_s, kStep_s);
-  auto governor = thermal::online::OffsetGovernor::make(slow);
-  if (!governor) {
-    return std::unexpected(governor.error());
+  auto layer = ActingLayer::make(job.machine);
+  if (!layer) {
+    return std::unexpected(layer.error());
   }
-  return Day(job, *std::move(growth), *std::move(governor), *std::move(axes), *std::move(original))
+  return Day(job, *std::move(growth), *std::move(layer), *std::move(axes), *std::move(original))
       .run();
 }
 

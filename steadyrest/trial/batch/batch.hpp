@@ -83,9 +83,10 @@ struct Batch {
   [[nodiscard]] std::size_t worse(Way way) const noexcept;
 };
 
-/// Thermal states step in closed form once a second by the program's cyclogram: hours take
-/// milliseconds. Before each part but the first the probe reads each axis, and the state filter
-/// takes the readings (thermal/online/state_filter).
+/// Thermal states step in closed form once a second by the program's cyclogram, so that hours take
+/// less than a second. Before each part but the first the probe reads each axis. In the text, the
+/// state filter takes the readings (thermal/online/state_filter); on line they come to the layer
+/// with its frames, and the offset counts that its envelope has let through (acting_layer).
 ///
 /// Refused: a machine without a thermal passport or none of whose displacements is an axis, what
 /// the planner and nc/rewrite refuse.
