@@ -74,6 +74,7 @@ struct Recording {
   Machine machine;
   std::vector<PathSegment> path;
   std::vector<kernel::signal::Frame> frame;
+  std::vector<kernel::signal::InForce> in_force;  ///< what came down with each
 };
 
 Recording record(int kind, double period_s) {
@@ -82,7 +83,10 @@ Recording record(int kind, double period_s) {
   out.machine.control.interpolator_period_s = period_s;
   out.path = make_path(kind);
   ClosedLoop loop(out.machine, out.path);
-  loop.disturb = [&](kernel::signal::Frame& frame) { out.frame.push_back(frame); };
+  loop.disturb = [&](kernel::signal::Frame& frame) {
+    out.frame.push_back(frame);
+    out.in_force.push_back(loop.in_force());
+  };
   loop.run(0.01, 0.0, 30.0);
   return out;
 }
@@ -151,8 +155,10 @@ void Governor(benchmark::State& state) {
   recording.machine.contour.strategy =
       static_cast<kernel::machine::ContourStrategy>(state.range(2));
   FeedGovernor governor = FeedGovernor::make(recording.machine).value();
+  std::size_t next = 0;
   time_calls(state, recording, [&](const kernel::signal::Frame& frame) {
-    benchmark::DoNotOptimize(governor.update(frame));
+    benchmark::DoNotOptimize(governor.update(frame, recording.in_force[next]));
+    next = (next + 1) % recording.in_force.size();
   });
 }
 // Feed priority on all paths; all strategies on the pocket, at 1 and 4 ms.

@@ -56,9 +56,9 @@ class Timed {
     governor_ = std::make_unique<FeedGovernor>(FeedGovernor::make(config_).value());
     next_ = 0;
   }
-  void update(const kernel::signal::Frame& frame) {
+  void update(const kernel::signal::Frame& frame, const kernel::signal::InForce& in_force) {
     const auto before = Clock::now();
-    const FeedGovernor::Output output = governor_->update(frame);
+    const FeedGovernor::Output output = governor_->update(frame, in_force);
     const double took_s = std::chrono::duration<double>(Clock::now() - before).count();
     if (!output.decided) {
       return;
@@ -89,8 +89,8 @@ void cut(const Machine& machine, const Path& path, Timed& bounded, Timed& exhaus
   layer.set_mode(kernel::machine::Mode::act);
   while (!port->finished()) {
     const auto frame = port->read().value();
-    bounded.update(frame);
-    exhaustive.update(frame);
+    bounded.update(frame, layer.in_force());
+    exhaustive.update(frame, layer.in_force());
     port->write(layer.update(frame)).value();
   }
 }

@@ -70,7 +70,7 @@ void governor_cycle(benchmark::State& state) {
     if (state.range(1) != 0) {
       frame.coolant = !frame.coolant;
     }
-    benchmark::DoNotOptimize(governor.update(frame, kernel::outcome::Reason::none, true));
+    benchmark::DoNotOptimize(governor.update(frame, kernel::outcome::Reason::none, true, {}));
   }
 }
 BENCHMARK(governor_cycle)

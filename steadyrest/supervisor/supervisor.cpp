@@ -207,19 +207,16 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
     last_frame_.path = {};  // their owner may not outlive the cycle
     last_frame_.vibration = {};
   }
+  const signal::InForce come_down = in_force();
   if (contour_) {
-    estimates_.contour = contour_->update(frame);
+    estimates_.contour = contour_->update(frame, come_down);
   }
   if (chatter_) {
     hear(frame, fit);
-    estimates_.chatter = chatter_->update(frame);
+    estimates_.chatter = chatter_->update(frame, come_down);
   }
   if (thermal_) {
-    // What is not written stands nowhere.
-    static constexpr signal::AxisValues kNothing{};
-    const bool written = state_.mode_in_force == Mode::act && !state_.interrupted;
-    estimates_.thermal = thermal_->update(frame, unfit, state_.tool_in_cut,
-                                          written ? &offset_.state().offset_mm : &kNothing);
+    estimates_.thermal = thermal_->update(frame, unfit, state_.tool_in_cut, come_down);
   }
 }
 
@@ -283,11 +280,6 @@ void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decision
   const bool stuck = !offset_available_ && kernel::override::is_wish(decisions.offset.reason);
   command.offset_reason = stuck ? Reason::port_cannot_write : offset.reason;
   handed_back_ = handed_back_ && offset.at_zero;
-  const bool in_force =
-      decisions.unfit == Reason::none && kernel::override::is_wish(decisions.offset.reason);
-  if (thermal_ && !in_force) {
-    thermal_->yield_to(offset.offset_mm);
-  }
 }
 
 signal::Command Supervisor::update(const signal::Frame& frame, const Requests& requests,

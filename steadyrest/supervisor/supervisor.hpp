@@ -15,6 +15,7 @@
 #include <steadyrest/kernel/port/port.hpp>
 #include <steadyrest/kernel/signal/command.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/in_force.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
 #include <steadyrest/supervisor/frame_check.hpp>
 #include <steadyrest/supervisor/frame_clock.hpp>
@@ -32,6 +33,8 @@ namespace steadyrest::supervisor {
 /// mode in force stays act.
 /// Time. FrameClock makes good time of the frames' stamps; rooms, envelopes and words are fed with
 /// nothing else. What it doubts gives no credit to any slew and settles no word.
+/// What the envelopes have let through comes down to the rooms with the next frame (InForce); no
+/// room keeps a copy of it.
 /// Thread cutting and tapping hold feed and spindle where they are, from the first frame that shows
 /// them to the first fit one that shows something else, whatever the mode and the input; the
 /// operator still wins.
@@ -107,6 +110,9 @@ class Supervisor {
   /// The last cycle's frame as the rooms decided by it: with the motion room's estimates, without
   /// its path.
   [[nodiscard]] const kernel::signal::Frame& frame() const noexcept { return last_frame_; }
+
+  /// What has come of the requests so far: the rooms get it with the next frame.
+  [[nodiscard]] kernel::signal::InForce in_force() const noexcept;
 
   void set_mode(kernel::machine::Mode mode) noexcept { state_.mode_wanted = mode; }
   /// Another modulation of the spindle's speed from now on; false and nothing changes where the

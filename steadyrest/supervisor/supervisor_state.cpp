@@ -17,9 +17,6 @@ void Supervisor::begin_at_panel() noexcept {
     }
   }
   offset_.reset();
-  if (thermal_) {
-    thermal_->yield_to({});
-  }
   handed_back_ = true;
 }
 
@@ -46,6 +43,15 @@ void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
   }
 }
 
+/// Read off envelopes and words, so that whatever was taken back or given up is not in it.
+kernel::signal::InForce Supervisor::in_force() const noexcept {
+  using kernel::machine::Mode;
+  return {.feed = feed_ ? feed_->in_force() : kernel::signal::RatioInForce{},
+          .spindle = spindle_ ? spindle_->in_force() : kernel::signal::RatioInForce{},
+          .offset_mm = offset_.state().offset_mm,
+          .written = state_.mode_in_force == Mode::act && !state_.interrupted};
+}
+
 Supervisor::Written Supervisor::written() const noexcept {
   return {.feed = feed_ ? feed_->state() : Channel::State{},
           .spindle = spindle_ ? spindle_->state() : Channel::State{},
@@ -69,9 +75,6 @@ void Supervisor::not_delivered() noexcept {
     spindle_->take_back(before_.spindle);
   }
   put_back(before_);
-  if (thermal_) {
-    thermal_->yield_to(before_.offset.offset_mm);
-  }
   state_.interrupted = true;
 }
 

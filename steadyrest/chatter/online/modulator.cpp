@@ -12,13 +12,14 @@ namespace {
 using kernel::outcome::Reason;
 using kernel::override::kRatioTolerance;
 using kernel::signal::Frame;
+using kernel::signal::InForce;
 using kernel::signal::Motion;
 
 /// What the actual speed must be above before the feed rises again: its noise must not move steps.
 constexpr double kRoomToRise = 0.998;
 /// An actual speed below this share of the programmed one is not shown, or the spindle stands.
 constexpr double kStands = 1e-3;
-/// What was asked counts for this many delays at least, twice as many at most.
+/// What the control was told counts for this many delays at least, twice as many at most.
 constexpr double kDelaysKept = 1.5;
 
 bool all_finite(std::initializer_list<double> values) noexcept {
@@ -182,6 +183,15 @@ double Modulator::feed_in_force(const Frame& frame) const noexcept {
   return std::max(frame.feed.effective_ratio, runs);
 }
 
+/// The words of the cycle before, which act a scan and a dead time later.
+void Modulator::note_words(const InForce& in_force) noexcept {
+  state_.coming_spindle.note(state_.time_s, kDelaysKept * spindle_delay_s_,
+                             in_force.spindle.word_ratio);
+  if (feed_) {
+    state_.coming_feed.note(state_.time_s, kDelaysKept * feed_delay_s_, in_force.feed.word_ratio);
+  }
+}
+
 void Modulator::choose_step(double ratio, const Limits& limits, double floor) noexcept {
   const std::size_t last = std::clamp(
       spindle_.floor_step(limits.high + kRatioTolerance).value_or(lowest_), lowest_, highest_);
@@ -203,23 +213,24 @@ void Modulator::choose_step(double ratio, const Limits& limits, double floor) no
   }
 }
 
-void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swing& swing,
-                            bool slewed, Output& output) noexcept {
+void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swing& swing, bool late,
+                            Output& output) noexcept {
   const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
-  const double feed = std::max(feed_in_force(frame), state_.coming_feed.most());
+  const bool fed = output.feed.reason != Reason::none;
+  const double asked = fed ? output.feed.ratio : feed_ ? frame.feed.panel_ratio : 0.0;
+  const double feed = std::max({feed_in_force(frame), asked, state_.coming_feed.most()});
   const double floor = coupled ? feed / config_.max_feed_per_tooth_ratio : 0.0;
   choose_step(state_.ratio, limits, floor);
   const double chosen = spindle_.ratio(state_.step);
   const double nearest = spindle_.ratio(spindle_.nearest_step(state_.ratio).value_or(0));
   output.spindle.ratio = chosen;
-  state_.coming_spindle.note(frame.time_s, kDelaysKept * spindle_delay_s_, chosen);
   if (state_.fade < 1.0) {
     output.spindle.reason = Reason::chatter_fading;
   } else if (nearest < floor - kRatioTolerance && chosen > nearest) {
     output.spindle.reason = Reason::chatter_feed_late;
   } else if (swing.narrowed) {
     output.spindle.reason = Reason::chatter_swing_narrowed;
-  } else if (slewed && !jumps(state_.modulation.law)) {
+  } else if (late && !jumps(state_.modulation.law)) {
     output.spindle.reason = Reason::chatter_drive_limit;
   } else {
     output.spindle.reason = Reason::chatter_modulating;
@@ -228,15 +239,6 @@ void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swin
 
 /// `ahead`: the lowest speed ratio from now until the feed could answer.
 void Modulator::ask_feed(const Frame& frame, double ahead, Output& output) noexcept {
-  couple_feed(frame, ahead, output);
-  const bool asked = output.feed.reason != Reason::none;
-  state_.coming_feed.note(frame.time_s, kDelaysKept * feed_delay_s_,
-                          asked   ? output.feed.ratio
-                          : feed_ ? frame.feed.panel_ratio
-                                  : 0.0);
-}
-
-void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) noexcept {
   const double actual = speed_ratio(frame);
   output.feed_per_tooth_ratio = actual > kStands ? frame.feed.effective_ratio / actual : 1.0;
   const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
@@ -244,8 +246,10 @@ void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) no
     state_.fed = false;
     return;
   }
-  const double slowest =
-      std::max(std::min({ahead, actual, state_.coming_spindle.least()}), spindle_.ratio(lowest_));
+  const double coming =
+      std::min({actual, state_.coming_spindle.least(),
+                state_.stepped ? spindle_.ratio(state_.step) : spindle_.max_ratio()});
+  const double slowest = std::max(std::min(ahead, coming), spindle_.ratio(lowest_));
   double cap = std::min(config_.max_feed_per_tooth_ratio * slowest, config_.max_feed_ratio);
   const double panel = frame.feed.panel_ratio;
   const double least = config_.min_feed_per_tooth_ratio * actual;
@@ -268,10 +272,8 @@ void Modulator::couple_feed(const Frame& frame, double ahead, Output& output) no
   if (!down || feed_->ratio(*down) < lowest - kRatioTolerance) {
     // Too coarse a table: the swing ends where this feed allows it. What is asked already, it
     // follows still.
-    cap = std::min(
-        config_.max_feed_per_tooth_ratio *
-            std::max(std::min(actual, state_.coming_spindle.least()), spindle_.ratio(lowest_)),
-        config_.max_feed_ratio);
+    cap = std::min(config_.max_feed_per_tooth_ratio * std::max(coming, spindle_.ratio(lowest_)),
+                   config_.max_feed_ratio);
     down = feed_->floor_step(cap + kRatioTolerance);
     if (!down || panel <= cap + kRatioTolerance ||
         feed_->ratio(*down) < config_.min_feed_ratio - kRatioTolerance) {
@@ -302,12 +304,13 @@ Modulator::Output Modulator::withdraw(Reason reason) noexcept {
   return output;
 }
 
-Modulator::Output Modulator::update(const Frame& frame) noexcept {
+Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force) noexcept {
   const Reason fault = fault_of(frame);
   const double passed_s = state_.started ? frame.time_s - state_.time_s : 0.0;
   if (std::isfinite(frame.time_s)) {
     state_.time_s = frame.time_s;
     state_.started = true;
+    note_words(in_force);
   }
   if (fault != Reason::none) {
     return withdraw(fault);
@@ -329,14 +332,14 @@ Modulator::Output Modulator::update(const Frame& frame) noexcept {
   }
   const Limits within = limits(frame);
   if (!state_.stepped) {
-    state_.ratio = frame.spindle.effective_ratio;
+    state_.ratio = in_force.spindle.ratio;
   }
   const Swing fitted = swing(within, speed_rev_s);
   const double now = std::clamp(goal(fitted, state_.phase), within.low, within.high);
-  const double reach = dt_s * std::min(config_.slew_1_s, config_.acceleration_rev_s2 / speed_rev_s);
+  const double reach = dt_s > 0.0 ? dt_s * config_.acceleration_rev_s2 / speed_rev_s : 0.0;
   const double moved = std::clamp(now, state_.ratio - reach, state_.ratio + reach);
   state_.ratio = std::clamp(moved, within.low, within.high);
-  const bool slewed = std::abs(state_.ratio - now) > kRatioTolerance;
+  const bool late = std::abs(state_.ratio - now) > kRatioTolerance;
 
   Output output;
   output.active = active;
@@ -351,7 +354,7 @@ Modulator::Output Modulator::update(const Frame& frame) noexcept {
   const double step_ahead = spindle_.ratio(spindle_.nearest_step(ahead).value_or(0));
   // The feed first: what it is asked now bounds what the spindle may be asked.
   ask_feed(frame, std::min(ahead, std::max(step_ahead, spindle_.ratio(lowest_))), output);
-  ask_spindle(frame, within, fitted, slewed, output);
+  ask_spindle(frame, within, fitted, late, output);
   return output;
 }
 

@@ -6,12 +6,13 @@
 #include <cstdint>
 #include <optional>
 
-#include <steadyrest/chatter/online/recent_asks.hpp>
+#include <steadyrest/chatter/online/recent_words.hpp>
 #include <steadyrest/chatter/online/speed_law.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/override/table.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/in_force.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
 
 namespace steadyrest::chatter::online {
@@ -32,19 +33,24 @@ struct Modulation {
 /// amplitude (RVA·m, or amplitude/n), g the fade:
 ///   φ̇ = 1/period while it is active: a change of anything never makes the phase jump
 ///   goal = 1 + g·(m + A·S(φ) − 1), ġ = ±1/fade;  m is moved, then A narrowed, to fit the limits
-///   ratio follows the goal by at most min(slew, a/n)·Δt
+///   ratio follows the goal by at most (a/n)·Δt, a the drive's acceleration
 ///   step: the nearest one within the limits, held until another is nearer by `hysteresis` of the
 ///   way between them
 /// Limits: [min_ratio, max_ratio], the speeds of the spindle, the operator's switch unless the
 /// layer may exceed it, and (largest feed)/min_feed_per_tooth.
 ///
+/// What is asked is a wish: how fast it comes into force is the envelope's, and what came of it so
+/// far comes in with the frame.
+///
 /// Feed per tooth q = feed ratio ÷ speed ratio, of the programmed one; band [q₁, q₂].
-///   feed ≤ q₂·min(goal from now to one feed delay ahead, actual speed, steps asked of the spindle
-///   within its last 1.5 delays), a step of the feed's table: the feed falls before the spindle and
-///   rises behind it, and does not rise while a lower speed is still on its way;
-///   speed ≥ (feed in force, or asked and still to come)/q₂: the spindle waits for the feed, and
-///   where the feed cannot follow (M49, no override) the swing ends there; where the layer may
-///   exceed the panel the feed is also raised to q₁·(actual speed).
+///   feed ≤ q₂·min(goal from now to one feed delay ahead, actual speed, the step asked of the
+///   spindle, the words that its control was told within its last 1.5 delays), a step of the feed's
+///   table: the feed falls before the spindle and rises behind it, and does not rise while a lower
+///   speed is still on its way;
+///   speed ≥ (feed that the machine shows, or that is asked, or that the control was told and is
+///   still to come)/q₂: the spindle waits for the feed, and where the feed cannot follow (M49, no
+///   override) the swing ends there; where the layer may exceed the panel the feed is also raised
+///   to q₁·(actual speed).
 /// Where the operator or another room lowers the feed, q falls below q₁: that is theirs. Feed per
 /// revolution follows the spindle by itself and is left alone.
 ///
@@ -66,7 +72,6 @@ class Modulator {
     double max_ratio = 1.2;
     double min_rev_s = 0.0;  ///< of the spindle
     double max_rev_s = kernel::machine::kUnlimited;
-    double slew_1_s = 2.0;  ///< 1/s, > 0: as fast as the envelope lets the ratio go
     double acceleration_rev_s2 = kernel::machine::kUnlimited;  ///< of the drive, > 0
     double min_feed_per_tooth_ratio = 0.8;                     ///< (0, 1]
     double max_feed_per_tooth_ratio = 1.2;                     ///< ≥ 1
@@ -83,7 +88,7 @@ class Modulator {
     kernel::signal::FeedRequest feed{.room = kernel::signal::Room::chatter};
     double phase = 0.0;       ///< in periods, [0, 1)
     double fade = 0.0;        ///< g
-    double goal_ratio = 1.0;  ///< before slew and steps
+    double goal_ratio = 1.0;  ///< before drive and steps
     double ratio = 1.0;       ///< before the steps
     double mean_ratio = 1.0;  ///< as it fits into the limits
     double amplitude_ratio = 0.0;
@@ -101,10 +106,10 @@ class Modulator {
     double ratio = 1.0;
     std::size_t step = 0;
     std::size_t feed_step = 0;
-    RecentAsks coming_feed;     ///< asked of the feed, may not be in force yet
-    RecentAsks coming_spindle;  ///< asked of the spindle
-    bool stepped = false;       ///< `step` is in force
-    bool fed = false;           ///< `feed_step` is
+    RecentWords coming_feed;     ///< told to the control, may not act yet
+    RecentWords coming_spindle;  ///< the same of the spindle
+    bool stepped = false;        ///< `step` is asked
+    bool fed = false;            ///< `feed_step` is
   };
 
   /// Refuses: tables that are none, fewer than two steps within the limits, values outside of the
@@ -115,7 +120,8 @@ class Modulator {
       const kernel::machine::Machine& machine);
 
   /// One cycle.
-  Output update(const kernel::signal::Frame& frame) noexcept;
+  Output update(const kernel::signal::Frame& frame,
+                const kernel::signal::InForce& in_force) noexcept;
 
   /// Other settings from now on; false and nothing changes when one is outside of its range.
   [[nodiscard]] bool change(const Modulation& modulation) noexcept;
@@ -146,11 +152,11 @@ class Modulator {
   [[nodiscard]] double goal(const Swing& swing, double phase) const noexcept;
   [[nodiscard]] double lowest_goal_ahead(const Swing& swing) const noexcept;
   [[nodiscard]] double feed_in_force(const kernel::signal::Frame& frame) const noexcept;
+  void note_words(const kernel::signal::InForce& in_force) noexcept;
   void choose_step(double ratio, const Limits& limits, double floor) noexcept;
   void ask_spindle(const kernel::signal::Frame& frame, const Limits& limits, const Swing& swing,
-                   bool slewed, Output& output) noexcept;
+                   bool late, Output& output) noexcept;
   void ask_feed(const kernel::signal::Frame& frame, double ahead, Output& output) noexcept;
-  void couple_feed(const kernel::signal::Frame& frame, double ahead, Output& output) noexcept;
   Output withdraw(kernel::outcome::Reason reason) noexcept;
 
   Config config_;

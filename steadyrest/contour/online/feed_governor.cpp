@@ -15,7 +15,6 @@ using kernel::signal::Frame;
 using kernel::signal::Motion;
 using kernel::signal::Point;
 
-constexpr double kResyncS = 0.25;  // the control shows another ratio for that long
 constexpr double kUnexplainedMemoryS = 1.0;
 constexpr double kMostReserve = 0.6;  // of the limit
 
@@ -125,39 +124,10 @@ double FeedGovernor::limit_mm() const noexcept {
          std::min(reserve_mm, kMostReserve * contour.limit_mm);
 }
 
-/// The kernel's envelope, as far as this room can know it.
-void FeedGovernor::follow_envelope(const Frame& frame, double dt) noexcept {
-  const auto& request = state_.last.request;
-  const Forecast::Timing& timing = forecast_.timing();
-  const bool may_exceed = config_.machine.feed_override.layer_may_exceed_panel;
-  const double panel = frame.feed.panel_ratio;
-  const double target = state_.engaged ? request.ratio : panel;
-  double& ratio = state_.envelope_ratio;
-  ratio = std::clamp(target, ratio - timing.fall_1_s * dt, ratio + timing.rise_1_s * dt);
-  if (!may_exceed) {
-    ratio = std::min(ratio, panel);
-  }
-  history_[history_at_] = state_.engaged ? forecast_.floor_ratio(ratio) : ratio;
+void FeedGovernor::remember(const kernel::signal::RatioInForce& in_force) noexcept {
+  state_.in_force_ratio = in_force.ratio;
+  history_[history_at_] = in_force.word_ratio;
   history_at_ = (history_at_ + 1) % kHistory;
-
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  const auto window = static_cast<std::size_t>(
-      std::clamp((timing.dead_s + timing.scan_s) / std::max(cycle_s_, 1e-4) + 4.0, 4.0,
-                 static_cast<double>(kHistory)));
-  for (std::size_t back = 1; back <= window; ++back) {
-    const double value = history_[(history_at_ + kHistory - back) % kHistory];
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  const double shown = frame.feed.effective_ratio;
-  const bool agrees = shown >= low - 1e-3 && shown <= high + 1e-3;
-  state_.mismatch_s = agrees ? 0.0 : state_.mismatch_s + dt;
-  if (state_.mismatch_s > kResyncS) {
-    ratio = shown;
-    history_.fill(shown);
-    state_.mismatch_s = 0.0;
-  }
 }
 
 /// The ratios already under way: at each time the largest of those that may act then.
@@ -310,10 +280,12 @@ void FeedGovernor::watch_effect(const Frame& frame, double dt) noexcept {
   state_.speed_mm_s = frame.path_speed_mm_s;
 }
 
-FeedGovernor::Output FeedGovernor::update(const Frame& frame) noexcept {
+FeedGovernor::Output FeedGovernor::update(const Frame& frame,
+                                          const kernel::signal::InForce& in_force) noexcept {
   if (!config_.machine.contour.enabled) {
     return {};
   }
+  remember(in_force.feed);
   if (!is_fit(frame)) {
     servo_.pause();
     state_.started = false;
@@ -326,11 +298,10 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame) noexcept {
     // The clock jumped: what was timed by it is void.
     state_.next_decision_s = state_.next_objective_s = frame.time_s;
     state_.fallen_s = frame.time_s - config_.pause_s;
-    state_.mismatch_s = state_.idle_effect_s = 0.0;
+    state_.idle_effect_s = 0.0;
   }
   if (frame.age_s > config_.machine.envelope.stale_after_s) {
     servo_.pause();
-    follow_envelope(frame, std::clamp(dt, 0.0, 0.1));
     return state_.last = withdraw(Reason::input_stale, {});
   }
 
@@ -363,9 +334,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame) noexcept {
     state_.next_decision_s =
         std::max(state_.next_decision_s, frame.time_s - decision_s_) + decision_s_;
   }
-  state_.last = output;
-  follow_envelope(frame, std::clamp(dt, 0.0, 0.1));
-  return output;
+  return state_.last = output;
 }
 
 }  // namespace steadyrest::contour::online

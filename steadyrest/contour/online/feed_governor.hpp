@@ -16,6 +16,7 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/in_force.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
 
 namespace steadyrest::contour::online {
@@ -63,7 +64,8 @@ struct Candidate {
 /// `reserve`: half of the largest backlash, which encoders on the motors cannot see, and three
 /// times the RMS of what the model did not explain, beyond the margin. Changes: a rise needs 2 %
 /// room (15 % within `pause_s` after a fall); a fall is immediate. It only plans with the slew
-/// limits; the kernel's envelope enforces them.
+/// limits; the kernel's envelope enforces them, and what it has let through comes in with the
+/// frame: there every plan begins, and the words of the last cycles are what is still under way.
 ///
 /// Withdraws (ratio 1): input not finite or stale, threading and tapping, no cutting within reach
 /// ahead. Bounded: a search looks no further once its forecasts have taken `work_share` of a
@@ -107,8 +109,7 @@ class FeedGovernor {
     double time_s = 0.0;
     double next_decision_s = 0.0;
     double next_objective_s = 0.0;
-    double envelope_ratio = 1.0;  ///< what the envelope is taken to have reached
-    double mismatch_s = 0.0;      ///< since when the control shows another ratio
+    double in_force_ratio = 1.0;  ///< what the envelope has let through
     double fallen_s = -1e9;       ///< time of the last fall
     double wanted_ratio = 1.0;    ///< of the objective's last search
     ObjectiveSearch objective;
@@ -129,7 +130,8 @@ class FeedGovernor {
   static kernel::outcome::Result<FeedGovernor> make(const kernel::machine::Machine& machine);
 
   /// One cycle. The request stands until the next call.
-  Output update(const kernel::signal::Frame& frame) noexcept;
+  Output update(const kernel::signal::Frame& frame,
+                const kernel::signal::InForce& in_force) noexcept;
 
   [[nodiscard]] const ContourError& contour_error() const noexcept { return contour_; }
   [[nodiscard]] const ServoModel& servo_model() const noexcept { return servo_; }
@@ -154,8 +156,8 @@ class FeedGovernor {
   void observe(const kernel::signal::Frame& frame, const ContourError::Output& error,
                double dt) noexcept;
   void refresh_model(double dt) noexcept;
-  void follow_envelope(const kernel::signal::Frame& frame, double dt) noexcept;
   void watch_effect(const kernel::signal::Frame& frame, double dt) noexcept;
+  void remember(const kernel::signal::RatioInForce& in_force) noexcept;
   bool look(const kernel::signal::Frame& frame, const ContourError::Output& error) noexcept;
   void extrapolate(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
@@ -192,7 +194,7 @@ class FeedGovernor {
   double decision_s_ = 0.01;
   std::size_t search_steps_ = 0;            ///< of the forecasts of one search, by `work_share`
   double reach_s_ = 0.1;                    ///< how far ahead in time the path must be known
-  std::array<double, kHistory> history_{};  ///< ratio let through, by cycle
+  std::array<double, kHistory> history_{};  ///< what the control was told, by cycle
   std::size_t history_at_ = 0;
   State state_;
 };

@@ -69,8 +69,8 @@ struct FeedGovernor::Search {
         outset(from),
         output(into),
         limit_mm(governor.limit_mm()),
-        in_force(governor.forecast_.floor_ratio(governor.state_.envelope_ratio)) {
-    plan.start = of.state_.envelope_ratio;
+        in_force(governor.forecast_.floor_ratio(governor.state_.in_force_ratio)) {
+    plan.start = of.state_.in_force_ratio;
     plan.floor = of.candidate_.front();
     plan.hold_s = of.decision_s_;
   }
@@ -207,7 +207,7 @@ std::size_t FeedGovernor::wanted_candidate(const Outset& outset, Output& output)
 /// The highest candidate up to `wanted` that the override can rise to within one decision.
 std::size_t FeedGovernor::reachable_candidate(std::size_t wanted) const noexcept {
   const double soon =
-      state_.envelope_ratio + forecast_.timing().rise_1_s * decision_s_ + kSameRatio;
+      state_.in_force_ratio + forecast_.timing().rise_1_s * decision_s_ + kSameRatio;
   std::size_t top = 0;
   while (top < wanted && candidate_[top] <= soon) {
     ++top;
@@ -264,7 +264,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   output.predicted_at_mm = choice.forecast.at_mm;
   output.step = table_step_[choice.candidate];
   const double ratio = candidate_[choice.candidate];
-  const double in_force = forecast_.floor_ratio(state_.envelope_ratio);
+  const double in_force = forecast_.floor_ratio(state_.in_force_ratio);
   const bool falls = ratio < std::min(in_force, before) - kSameRatio;
   if (falls) {
     state_.fallen_s = state_.time_s;

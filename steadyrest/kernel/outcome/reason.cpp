@@ -53,7 +53,7 @@ constexpr std::array kEntries = {
     Entry{Reason::chatter_swing_narrowed, "chatter_swing_narrowed",
           "The limits are too tight for the full modulation: it is shifted or narrowed."},
     Entry{Reason::chatter_drive_limit, "chatter_drive_limit",
-          "The modulation is too fast for the drive or the slew limit."},
+          "The modulation is too fast for the drive."},
     Entry{Reason::chatter_feed_late, "chatter_feed_late",
           "The spindle waits for the feed to come down, to hold the feed per tooth."},
     Entry{Reason::chatter_detected, "chatter_detected", "The cut chatters."},

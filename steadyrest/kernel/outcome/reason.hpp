@@ -40,7 +40,7 @@ enum class Reason : std::uint16_t {
   chatter_feed_raised = 402,   ///< feed raised: the feed per tooth would fall below its band
   chatter_fading = 403,        ///< the swing grows or shrinks
   chatter_swing_narrowed = 404,   ///< the limits leave less room than the swing needs
-  chatter_drive_limit = 405,      ///< the drive or the slew limit cannot follow the law
+  chatter_drive_limit = 405,      ///< the drive cannot follow the law
   chatter_feed_late = 406,        ///< the spindle waits until the feed is slow enough
   chatter_detected = 420,         ///< the detector hears chatter
   chatter_better_speed = 421,     ///< the planner's table has a speed that reaches deeper

@@ -97,6 +97,10 @@ void OffsetArbiter::add(const signal::OffsetRequest& request) noexcept {
     withdrawn_ = graver(withdrawn_, Reason::input_not_finite);
     return;
   }
+  if (!std::ranges::all_of(request.slope_mm_s, [](double mm_s) { return mm_s >= 0.0; })) {
+    withdrawn_ = graver(withdrawn_, Reason::input_out_of_range);
+    return;
+  }
   if (!is_wish(request.reason)) {
     withdrawn_ = graver(withdrawn_, request.reason);
     return;
@@ -107,6 +111,7 @@ void OffsetArbiter::add(const signal::OffsetRequest& request) noexcept {
   }
   for (std::size_t axis = 0; axis < signal::kMaxAxes; ++axis) {
     sum_.offset_mm[axis] += request.offset_mm[axis];
+    sum_.slope_mm_s[axis] = std::min(sum_.slope_mm_s[axis], request.slope_mm_s[axis]);
   }
 }
 

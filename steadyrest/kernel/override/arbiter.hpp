@@ -16,8 +16,9 @@
 ///   spindle  chatter's wish wins, since stability hangs on the exact speed and a mean of two
 ///   serves
 ///            neither; among other rooms the wish nearest to 1.
-///   offset   wishes add, axis by axis; the clamp is the envelope's. One withdrawn or unfit summand
-///            makes the sum unknown, so that the envelope freezes.
+///   offset   wishes add, axis by axis, and the slowest slope holds; the clamp is the envelope's.
+///            One withdrawn or unfit summand makes the sum unknown, so that the envelope freezes. A
+///            slope that is none or negative is unfit.
 ///
 /// A ratio that is not finite, negative or above kMaxRequestRatio is unfit: that request becomes
 /// neutral with the reason. All O(1) for each request, noexcept, without allocation.

@@ -64,6 +64,13 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
           .reason = stuck ? outcome::Reason::port_cannot_write : wanted.reason};
 }
 
+signal::RatioInForce Channel::in_force() const noexcept {
+  const RatioEnvelope::State& envelope = envelope_.state();
+  const Handover::State handover = handover_.state();
+  return {.ratio = handover_.available() ? envelope.ratio : envelope.panel_ratio,
+          .word_ratio = handover.masked ? table().ratio(handover.word.step) : envelope.panel_ratio};
+}
+
 void Channel::see_panel(const signal::OverrideState& panel) noexcept {
   static_cast<void>(envelope_.see_panel(panel));
   if (!handover_.state().masked) {

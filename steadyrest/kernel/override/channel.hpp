@@ -7,6 +7,7 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/override/envelope.hpp>
 #include <steadyrest/kernel/override/handover.hpp>
+#include <steadyrest/kernel/signal/in_force.hpp>
 
 namespace steadyrest::kernel::override {
 
@@ -45,6 +46,9 @@ class Channel {
   Output update(const RatioEnvelope::Input& input) noexcept;
   /// A cycle in which nothing is written shows the panel all the same.
   void see_panel(const signal::OverrideState& panel) noexcept;
+
+  /// What the last update let through, or what holds since (see_panel, take_back, reset, restore).
+  [[nodiscard]] signal::RatioInForce in_force() const noexcept;
 
   [[nodiscard]] const Table& table() const noexcept { return handover_.table(); }
   /// What is on the machine is not known: begins at the panel, without a mask.

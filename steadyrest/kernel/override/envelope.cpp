@@ -166,14 +166,17 @@ outcome::Result<OffsetEnvelope> OffsetEnvelope::make(const Config& config) {
   return OffsetEnvelope(config);
 }
 
-bool OffsetEnvelope::approach(const signal::AxisValues& target_mm, double step_mm) noexcept {
+bool OffsetEnvelope::approach(const signal::AxisValues& target_mm,
+                              const signal::AxisValues& slope_mm_s, double step_s) noexcept {
   bool reached = true;
   for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {
     const double limit_mm = config_.max_mm[axis];
+    const double asked = slope_mm_s[axis] >= 0.0 ? slope_mm_s[axis] : 0.0;
+    const double step_mm = std::min(asked, config_.slew_mm_s) * step_s;
     double& offset_mm = state_.offset_mm[axis];
     offset_mm =
         std::clamp(toward(offset_mm, target_mm[axis], step_mm, step_mm), -limit_mm, limit_mm);
-    reached = reached && offset_mm == target_mm[axis];
+    reached = reached && (offset_mm == target_mm[axis] || asked <= config_.slew_mm_s);
   }
   return reached;
 }
@@ -187,7 +190,7 @@ void OffsetEnvelope::restore(const State& state) noexcept {
 }
 
 OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
-  const double step_mm = config_.slew_mm_s * credit_s(input.step_s, config_.max_step_s);
+  const double step_s = credit_s(input.step_s, config_.max_step_s);
   const auto& request = input.request;
   const bool finite = all_finite(request.offset_mm);
   Reason unfit = std::isfinite(input.step_s) ? input.unfit : Reason::input_not_finite;
@@ -201,13 +204,13 @@ OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
           std::clamp(request.offset_mm[axis], -config_.max_mm[axis], config_.max_mm[axis]);
     }
     output.reason = target_mm == request.offset_mm ? request.reason : Reason::clamped;
-    if (!approach(target_mm, step_mm)) {
+    if (!approach(target_mm, request.slope_mm_s, step_s)) {
       output.reason = Reason::slew_limited;
     }
   } else {
     output.reason = unfit != Reason::none ? unfit : request.reason;
     if (!input.tool_in_cut && !request.tool_in_cut) {
-      approach({}, step_mm);
+      approach({}, signal::any_slope(), step_s);
     }
   }
   output.offset_mm = state_.offset_mm;

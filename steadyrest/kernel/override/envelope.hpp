@@ -101,7 +101,8 @@ class RatioEnvelope {
 
 /// Envelope of the axis offsets.
 ///
-/// Law, for each axis: in force of a wish the offset moves to clamp(wish, ±max) by at most slew·Δt.
+/// Law, for each axis: in force of a wish the offset moves to clamp(wish, ±max) by at most
+/// min(slew, the request's slope)·Δt; a slope that is none counts as 0.
 /// Without a wish, or with unfit input, it freezes where it is; once no tool is in the cut it ramps
 /// to 0 at the same slew. An axis with max = 0 never gets an offset.
 class OffsetEnvelope {
@@ -140,7 +141,9 @@ class OffsetEnvelope {
 
  private:
   explicit OffsetEnvelope(const Config& config) noexcept : config_(config) {}
-  bool approach(const signal::AxisValues& target_mm, double step_mm) noexcept;
+  /// False when the slew, not the slope that was asked for, kept an axis from its target.
+  bool approach(const signal::AxisValues& target_mm, const signal::AxisValues& slope_mm_s,
+                double step_s) noexcept;
 
   Config config_;
   State state_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,8 +13,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Reason;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
-using kernel::signal::AxisValues;
 using kernel::signal::Frame;
+using kernel::signal::InForce;
 using kernel::signal::Motion;
 
 namespace {
@@ -25,7 +24,6 @@ constexpr double kStands_rev_s = 0.01;  ///< slower is the noise of a standing e
 constexpr double kGap_s = 60.0;         ///< what happened in longer gaps is not known
 constexpr double kBeyondSpeed = 1.2;    ///< of the fastest that was fitted
 constexpr double kThere_mm = 1e-4;      ///< nearer to the wish is there
-constexpr double kUntold = std::numeric_limits<double>::quiet_NaN();
 
 bool feeds(Motion motion) noexcept {
   return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
@@ -93,11 +91,9 @@ Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
   }
   OffsetGovernor made;
   made.max_offset_mm_ = std::min(thermal.max_offset_mm, machine.envelope.max_offset_mm);
-  made.slope_mm_s_ = std::min(thermal.slope_mm_s, machine.envelope.offset_slew_mm_s);
-  made.retract_slope_mm_s_ = std::min(std::max(thermal.retract_slope_mm_s, thermal.slope_mm_s),
-                                      machine.envelope.offset_slew_mm_s);
+  made.slope_mm_s_ = thermal.slope_mm_s;
+  made.retract_slope_mm_s_ = std::max(thermal.retract_slope_mm_s, thermal.slope_mm_s);
   made.sensors_ = sensors.size();
-  made.max_step_s_ = machine.envelope.stale_after_s;
   const std::size_t axes = std::min(machine.axes.size(), kernel::signal::kMaxAxes);
   for (std::size_t i = 0; i < axes; ++i) {
     const auto of =
@@ -205,27 +201,27 @@ Reason OffsetGovernor::fault(const Axis& axis, const Frame& frame) const noexcep
 }
 
 /// What fades keeps to the slower slope: a sensor that fails for a second must not take it all.
-Reason OffsetGovernor::move(Axis& axis, const Frame& frame, bool tool_in_cut,
-                            double step_s) const noexcept {
+Reason OffsetGovernor::ask(const Axis& axis, const Frame& frame, bool tool_in_cut,
+                           double let_through_mm) noexcept {
+  double& wish = output_.request.offset_mm[axis.index];
+  double& slope_mm_s = output_.request.slope_mm_s[axis.index];
   const Reason faulty = fault(axis, frame);
-  const bool held = must_hold(frame.motion) || (faulty != Reason::none && tool_in_cut);
-  if (held) {
+  if (must_hold(frame.motion) || (faulty != Reason::none && tool_in_cut)) {
+    slope_mm_s = 0.0;
     return faulty != Reason::none ? faulty : Reason::thermal_held;
   }
   const double whole = axis.reference_mm - axis.filter.displacement_mm();
   const double within = std::clamp(whole, -max_offset_mm_, max_offset_mm_);
-  const double wish = faulty == Reason::none ? within : 0.0;
+  wish = faulty == Reason::none ? within : 0.0;
   const bool slowly = tool_in_cut || feeds(frame.motion) || faulty != Reason::none;
-  const double step_mm = (slowly ? slope_mm_s_ : retract_slope_mm_s_) * step_s;
-  axis.offset_mm += std::clamp(wish - axis.offset_mm, -step_mm, step_mm);
-  axis.offset_mm = std::clamp(axis.offset_mm, -max_offset_mm_, max_offset_mm_);
+  slope_mm_s = slowly ? slope_mm_s_ : retract_slope_mm_s_;
   if (faulty != Reason::none) {
     return faulty;
   }
   if (within != whole) {
     return Reason::thermal_clamped;
   }
-  return std::abs(wish - axis.offset_mm) > kThere_mm ? Reason::thermal_following
+  return std::abs(wish - let_through_mm) > kThere_mm ? Reason::thermal_following
                                                      : Reason::thermal_correcting;
 }
 
@@ -251,48 +247,33 @@ void OffsetGovernor::probe(const Frame& frame) noexcept {
 
 const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason unfit,
                                                      bool tool_in_cut,
-                                                     const AxisValues* standing_mm) noexcept {
+                                                     const InForce& in_force) noexcept {
   output_.request.tool_in_cut = tool_in_cut;
   for (Axis& axis : axes_) {
-    axis.told_mm = standing_mm != nullptr ? (*standing_mm)[axis.index] : kUntold;
+    axis.standing_mm = in_force.written ? in_force.offset_mm[axis.index] : 0.0;
   }
   if (unfit != Reason::none || !std::isfinite(frame.time_s)) {
     output_.request.reason = unfit != Reason::none ? unfit : Reason::input_not_finite;
     return output_;
   }
-  const double elapsed_s = state_.in_force ? frame.time_s - state_.time_s : 0.0;
-  const double step_s = std::clamp(elapsed_s, 0.0, max_step_s_);
-  state_.in_force = true;
   drive_on(frame);
   probe(frame);
   output_.request.reason = axes_.empty() ? Reason::none : Reason::thermal_correcting;
-  for (Axis& axis : axes_) {
-    const Reason reason = move(axis, frame, tool_in_cut, step_s);
+  for (const Axis& axis : axes_) {
+    const Reason reason = ask(axis, frame, tool_in_cut, in_force.offset_mm[axis.index]);
     if (weight(reason) > weight(output_.request.reason)) {
       output_.request.reason = reason;
     }
-    output_.request.offset_mm[axis.index] = axis.offset_mm;
     output_.displacement_mm[axis.index] = axis.filter.displacement_mm();
     output_.sd_mm[axis.index] = axis.filter.sd_mm();
   }
   return output_;
 }
 
-void OffsetGovernor::yield_to(const AxisValues& standing_mm) noexcept {
-  for (Axis& axis : axes_) {
-    const double stands = standing_mm[axis.index];
-    if (std::isfinite(stands)) {
-      axis.offset_mm = std::clamp(axis.offset_mm, std::min(0.0, stands), std::max(0.0, stands));
-    }
-    output_.request.offset_mm[axis.index] = axis.offset_mm;
-  }
-  state_.in_force = false;
-}
-
 void OffsetGovernor::zero_here() noexcept {
   step();
   for (Axis& axis : axes_) {
-    axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm();
+    axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm;
   }
 }
 
@@ -309,7 +290,7 @@ StateFilter::Verdict OffsetGovernor::measure(std::size_t axis,
   }
   step();
   return of->filter.measure(
-      {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm(),
+      {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm,
        .sd_mm = reading.sd_mm});
 }
 
@@ -317,7 +298,7 @@ void OffsetGovernor::rezero(std::size_t axis, const StateFilter::Reading& readin
   if (Axis* of = find(axis); of != nullptr) {
     step();
     of->filter.rezero(
-        {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm(),
+        {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm,
          .sd_mm = reading.sd_mm});
   }
 }
@@ -326,9 +307,7 @@ OffsetGovernor::State OffsetGovernor::state() const noexcept {
   State state = state_;
   state.sensors = watch_.state();
   for (const Axis& axis : axes_) {
-    state.axis[axis.index] = {.filter = axis.filter.state(),
-                              .reference_mm = axis.reference_mm,
-                              .offset_mm = axis.offset_mm};
+    state.axis[axis.index] = {.filter = axis.filter.state(), .reference_mm = axis.reference_mm};
   }
   return state;
 }
@@ -349,10 +328,6 @@ void OffsetGovernor::restore(const State& state) noexcept {
       axis.filter.restore(of.filter);
       axis.reference_mm = of.reference_mm;
     }
-    if (std::isfinite(of.offset_mm)) {
-      axis.offset_mm = std::clamp(of.offset_mm, -max_offset_mm_, max_offset_mm_);
-    }
-    output_.request.offset_mm[axis.index] = axis.offset_mm;
   }
 }
 
@@ -366,7 +341,7 @@ void OffsetGovernor::reset() noexcept {
   for (Axis& axis : axes_) {
     axis.filter.reset();
     axis.reference_mm = 0.0;
-    axis.offset_mm = 0.0;
+    axis.standing_mm = 0.0;
   }
 }
 

@@ -5,41 +5,42 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/kernel/signal/in_force.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 #include <steadyrest/thermal/online/state_filter.hpp>
 
 namespace steadyrest::thermal::online {
 
-/// Moves the axes against the displacement that the machine has now, cycle by cycle.
+/// Asks for the offsets that work against the displacement that the machine has now, cycle by
+/// cycle.
 ///
 /// The forecast is driven by what the machine does, not by the cyclogram: by the frames' own time,
 /// spindle speed, path speed and temperatures. So a pause of the job is a pause of its heat. What
 /// drives it is handed on once a second, speed and feed by their mean, and where cutting, coolant
 /// or the standing of the spindle changes.
 ///
-/// For each axis o, with the displacement δ, the displacement r at which the workpiece's zero was
+/// For each axis, with the displacement δ, the displacement r at which the workpiece's zero was
 /// set, and m the smaller of the two largest offsets of the machine file:
-///   wish = clamp(r − δ, ±m),   o moves to it by at most slope·Δt,   Δt ≤ `stale_after_s`
-/// In a thread, tap or probing move o is held. While a temperature is not known or not believed
-/// (sensor_watch.hpp) that the axis needs, while the spindle turns faster than 1.2 times what was
-/// fitted, and while its readings do not fit the model, o is held as long as a tool is in the cut;
-/// once none is, it fades to 0 by the slope. With unfit input it is held, and the envelope alone
-/// acts. slope is the smaller one of the thermal slope and of the envelope's slew, whatever the
-/// forecast does: no step that would mark the surface can come from here. Where the machine file
-/// gives a retract slope, that one holds instead while no tool is in the cut, nothing is fed
+///   wish = clamp(r − δ, ±m),   and no faster than slope
+/// The envelope leads the offset there, by that slope or by its own slew, whichever is slower; what
+/// it has let through comes in with the frame. In a thread, tap or probing move the slope is 0: the
+/// offset is held. While a temperature is not known or not believed (sensor_watch.hpp) that the
+/// axis needs, while the spindle turns faster than 1.2 times what was fitted, and while its
+/// readings do not fit the model, it is held as long as a tool is in the cut; once none is, the
+/// wish is 0. With unfit input the room withdraws. The slope is that of the machine file whatever
+/// the forecast does: no step that would mark the surface can come from here. Where the machine
+/// file gives a retract slope, that one holds instead while no tool is in the cut, nothing is fed
 /// and nothing fades.
 ///
 /// A probe reading that a frame brings is taken once, by its number. What stood there in the first
 /// frame after make(), reset() or restore() is not: nobody knows with which offset it was made. A
-/// reading says how far the axis is off with the offset that stands on the machine: where the
-/// caller does not name that one, what was asked for stands.
+/// reading says how far the axis is off with the offset that stands on the machine.
 ///
 /// After a gap of more than a minute between frames the machine counts as having stood meanwhile.
 /// Online code: bounded, noexcept, no allocation after make().
@@ -62,7 +63,6 @@ class OffsetGovernor {
   struct AxisState {
     StateFilter::State filter;
     double reference_mm = 0.0;  ///< r
-    double offset_mm = 0.0;     ///< o
   };
 
   /// What heats the machine but for the temperatures.
@@ -81,7 +81,6 @@ class OffsetGovernor {
     double path_mm = 0.0;     ///< ∫ path speed over it
     double time_s = 0.0;
     bool started = false;
-    bool in_force = false;  ///< the last request was, so that o may move on from it
     SensorWatch::State sensors;
     double unwatched_s = 0.0;  ///< the watch has not been told of yet
   };
@@ -92,15 +91,10 @@ class OffsetGovernor {
       const kernel::machine::Machine& machine);
 
   /// One cycle. `unfit`: why the frame must not be acted on, or none. `tool_in_cut`: by what is
-  /// known of the machine. `standing_mm`: the offsets that stand on the machine; nullptr: those of
-  /// the last request do.
+  /// known of the machine.
   const Output& update(const kernel::signal::Frame& frame, kernel::outcome::Reason unfit,
-                       bool tool_in_cut,
-                       const kernel::signal::AxisValues* standing_mm = nullptr) noexcept;
+                       bool tool_in_cut, const kernel::signal::InForce& in_force) noexcept;
 
-  /// The request was not in force, and no more than that stands on the machine: o is cut to it, and
-  /// goes on from there one cycle later.
-  void yield_to(const kernel::signal::AxisValues& standing_mm) noexcept;
   /// The workpiece's zero has just been set: from here on only what changes is corrected.
   void zero_here() noexcept;
   /// A probe finds the axis off by `reading` from where it should be, with the offset that stands.
@@ -111,9 +105,9 @@ class OffsetGovernor {
 
   [[nodiscard]] const Output& output() const noexcept { return output_; }
   [[nodiscard]] State state() const noexcept;
-  /// What is not finite in it starts anew; offsets beyond the clamp are cut to it.
+  /// What is not finite in it starts anew.
   void restore(const State& state) noexcept;
-  /// Cold, and nothing stands on the machine.
+  /// Cold.
   void reset() noexcept;
 
  private:
@@ -124,12 +118,7 @@ class OffsetGovernor {
     std::array<std::size_t, kMaxThermalAmbients> sensor{};  ///< in the frame
     StateFilter filter;
     double reference_mm = 0.0;
-    double offset_mm = 0.0;
-    double told_mm = std::numeric_limits<double>::quiet_NaN();  ///< stands, by the caller
-
-    [[nodiscard]] double standing_mm() const noexcept {
-      return std::isfinite(told_mm) ? told_mm : offset_mm;
-    }
+    double standing_mm = 0.0;  ///< offset on the machine
   };
 
   OffsetGovernor() = default;
@@ -140,14 +129,13 @@ class OffsetGovernor {
   [[nodiscard]] Axis* find(std::size_t axis) noexcept;
   [[nodiscard]] kernel::outcome::Reason fault(const Axis& axis,
                                               const kernel::signal::Frame& frame) const noexcept;
-  kernel::outcome::Reason move(Axis& axis, const kernel::signal::Frame& frame, bool tool_in_cut,
-                               double step_s) const noexcept;
+  kernel::outcome::Reason ask(const Axis& axis, const kernel::signal::Frame& frame,
+                              bool tool_in_cut, double let_through_mm) noexcept;
 
   std::vector<Axis> axes_;
   double max_offset_mm_ = 0.0;
   double slope_mm_s_ = 0.0;
   double retract_slope_mm_s_ = 0.0;
-  double max_step_s_ = 0.1;
   State state_;  ///< `axis` and `sensors` are filled in by state() alone
   std::size_t sensors_ = 0;
   SensorWatch watch_;

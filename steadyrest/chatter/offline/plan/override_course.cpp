@@ -125,13 +125,18 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
   const auto settle = static_cast<std::size_t>(std::ceil(kSettle_s / period_s)) + 2;
 
   kernel::signal::Frame frame = frame_in_cut(machine, programmed_rev_s);
+  double feed_asked = 1.0;
   double speed = programmed_rev_s;
   const double reach = machine.spindle.acceleration_rev_s2 * dt_s;
   std::vector<SpeedRamp> course;
   for (std::size_t i = 0; i < (settle + 1) * cycles; ++i) {
     frame.time_s = static_cast<double>(i) * dt_s;
     frame.spindle_actual_rev_s = speed;
-    const auto asked = modulator->update(frame);
+    const auto asked =
+        modulator->update(frame, {.feed = {.ratio = feed_asked, .word_ratio = feed_asked},
+                                  .spindle = spindle->in_force(),
+                                  .written = true});
+    feed_asked = std::min(1.0, asked.feed.ratio);
     const auto written = spindle->update({.step_s = i > 0 ? dt_s : 0.0,
                                           .ratio = asked.spindle.ratio,
                                           .reason = asked.spindle.reason,
@@ -139,7 +144,7 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
                                           .unfit = Reason::none,
                                           .hold = false});
     frame.spindle.effective_ratio = spindle_word.pass(i, written.ratio);
-    frame.feed.effective_ratio = feed_word.pass(i, std::min(1.0, asked.feed.ratio));
+    frame.feed.effective_ratio = feed_word.pass(i, feed_asked);
     frame.path_speed_mm_s = frame.feed.effective_ratio;
     const double goal = frame.spindle.effective_ratio * programmed_rev_s;
     // The drive's constant acceleration; power and torque limits are left to drive_limits.

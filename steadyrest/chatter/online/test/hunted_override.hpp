@@ -32,6 +32,8 @@ class HuntedOverride {
         dead_s_(config.table.dead_time_s) {}
 
   [[nodiscard]] const kernel::override::Table& table() const noexcept { return channel_.table(); }
+  /// What the envelope has let through.
+  [[nodiscard]] kernel::signal::RatioInForce told() const noexcept { return channel_.in_force(); }
   /// What the machine does at this time, which never goes back.
   double in_force(double time_s) {
     while (!coming_.empty() && coming_.front().first <= time_s) {

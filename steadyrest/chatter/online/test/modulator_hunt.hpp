@@ -25,7 +25,7 @@ struct Hunt {
   std::uint64_t words = 0;    ///< changes of a masked word
   std::uint64_t outside = 0;  ///< a request outside of the limits, or not neutral unasked
   std::uint64_t phase_jumps = 0;
-  std::uint64_t speed_jumps = 0;     ///< the swing moved faster than slew and drive
+  std::uint64_t speed_jumps = 0;     ///< the swing moved faster than the drive
   std::uint64_t feed_per_tooth = 0;  ///< asked, or in force at the machine, above the band
   std::uint64_t invalid_codes = 0;
   std::uint64_t words_outside = 0;  ///< a mixture of two words decoded outside of [from, to]
@@ -97,7 +97,7 @@ class Scene {
     c.max_ratio = std::max(c.min_ratio + dice_.within(0.21, 0.6), 0.7);
     c.max_rev_s = dice_.one_in(2) ? kernel::machine::kUnlimited : dice_.within(40.0, 80.0);
     c.min_rev_s = dice_.one_in(2) ? 0.0 : dice_.within(0.0, 30.0);
-    c.slew_1_s = dice_.within(0.2, 20.0);
+    slew_1_s_ = dice_.within(0.2, 20.0);
     c.acceleration_rev_s2 = dice_.within(1.0, 400.0);
     c.min_feed_per_tooth_ratio = dice_.within(0.5, 1.0);
     c.max_feed_per_tooth_ratio = dice_.within(1.0, 1.5);
@@ -115,8 +115,8 @@ class Scene {
     return {.table = table,
             .min_ratio = low,
             .max_ratio = high,
-            .fall_1_s = config_.slew_1_s,
-            .rise_1_s = config_.slew_1_s,
+            .fall_1_s = slew_1_s_,
+            .rise_1_s = slew_1_s_,
             .latched = !walked_};
   }
 
@@ -229,7 +229,9 @@ class Scene {
     }
     const Frame& frame = is_spoilt_ ? spoilt_ : frame_;
     const Modulator::State before = modulator_.state();
-    const Modulator::Output out = modulator_.update(frame);
+    const kernel::signal::InForce told{
+        .feed = feed_.told(), .spindle = spindle_.told(), .written = true};
+    const Modulator::Output out = modulator_.update(frame, told);
     check_request(out, frame);
     check_swing(before, out, frame);
     const bool hold = frame.motion == kernel::signal::Motion::thread ||
@@ -338,7 +340,8 @@ class Scene {
         out.ratio >= frame_.spindle.panel_ratio - 1e-9) {
       return;  // begins at the override in force; a limit holds at once
     }
-    const double reach = dt_s * config_.slew_1_s + 1e-9;
+    const double reach =
+        dt_s * config_.acceleration_rev_s2 / std::abs(frame.spindle_programmed_rev_s) + 1e-9;
     const bool limited = out.ratio < before.ratio;  // a lower limit of the speed holds at once
     if (std::abs(out.ratio - before.ratio) > reach && !limited) {
       fault(hunt_.speed_jumps, "ratio jumps", out.ratio - before.ratio);
@@ -346,6 +349,7 @@ class Scene {
   }
 
   Dice dice_;
+  double slew_1_s_ = 2.0;  ///< of both envelopes
   bool calm_;  ///< only the modulation changes, so that its band of the feed per tooth is strict
   Modulator::Config config_;
   bool walked_;

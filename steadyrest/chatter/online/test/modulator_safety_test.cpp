@@ -46,7 +46,8 @@ Minute minute_of(const Modulation& modulation) {
     out.greatest_feed_per_tooth = std::max(
         out.greatest_feed_per_tooth, frame.feed.effective_ratio / frame.spindle.effective_ratio);
     out.lowest_speed_ratio = std::min(out.lowest_speed_ratio, frame.spindle.effective_ratio);
-    const auto asked = modulator.update(frame);
+    const auto asked =
+        modulator.update(frame, {.feed = feed.told(), .spindle = spindle.told(), .written = true});
     spindle.drive(t, asked.spindle, frame.spindle, kernel::outcome::Reason::none, false);
     feed.drive(t, asked.feed, frame.feed, kernel::outcome::Reason::none, false);
   }

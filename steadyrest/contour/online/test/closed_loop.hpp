@@ -97,6 +97,10 @@ class ClosedLoop {
     return s_ >= last.position_mm + last.length_mm - 1e-3 && speed_ < 0.1;
   }
   FeedGovernor& governor() { return governor_; }
+  /// What the override was told last, as the envelope would hand it down.
+  [[nodiscard]] kernel::signal::InForce in_force() const {
+    return {.feed = {.ratio = slewed_, .word_ratio = word_}, .written = true};
+  }
 
   LoopSample step() {
     override_step();
@@ -109,7 +113,7 @@ class ClosedLoop {
     }
     LoopSample sample;
     if (with_layer) {
-      sample.output = governor_.update(frame);
+      sample.output = governor_.update(frame, in_force());
       request_ = sample.output.request.ratio;
       wishes_ = sample.output.request.ratio < 1.0 ||
                 static_cast<unsigned>(sample.output.request.reason) >= 200;
@@ -157,15 +161,16 @@ class ClosedLoop {
     const double target = !with_layer ? fixed_ratio : wishes_ ? std::min(request_, panel) : panel;
     slewed_ = std::clamp(target, slewed_ - envelope.feed_fall_1_s * period_,
                          slewed_ + envelope.feed_rise_1_s * period_);
-    double word = panel;
+    slewed_ = with_layer ? std::min(slewed_, panel) : slewed_;
+    word_ = panel;
     if (wishes_ || !with_layer) {
-      word = 0.0;
+      word_ = 0.0;
       for (const double ratio : machine_.feed_override.ratio) {
-        word = ratio <= slewed_ + 1e-9 ? ratio : word;
+        word_ = ratio <= slewed_ + 1e-9 ? ratio : word_;
       }
     }
     if (time_ + 1e-12 >= next_scan_) {
-      pipeline_.push_back({time_ + machine_.feed_override.dead_time_s, word});
+      pipeline_.push_back({time_ + machine_.feed_override.dead_time_s, word_});
       next_scan_ += machine_.feed_override.scan_period_s;
     }
     while (!pipeline_.empty() && pipeline_.front().time <= time_ + 1e-12) {
@@ -280,6 +285,7 @@ class ClosedLoop {
   double request_ = 1.0;
   bool wishes_ = false;
   double slewed_ = 1.0;
+  double word_ = 1.0;
   double effective_ = 1.0;
   double next_scan_ = 0.0;
   std::deque<Word> pipeline_;

@@ -32,6 +32,9 @@ using test::PathMaker;
 using test::PathSegment;
 using test::pocket;
 
+/// Nothing of the layer is in force.
+constexpr kernel::signal::InForce kAtPanel{};
+
 std::vector<PathSegment> circle(double radius, double feed_mm_min, double turns) {
   return PathMaker({radius, 0, 0}, feed_mm_min / 60.0)
       .arc({0, 0, 0}, turns * kTurn)
@@ -132,7 +135,7 @@ TEST(FeedGovernor, AnotherObjectiveCanBePutIn) {
   frame.motion = Motion::feed;
   frame.programmed_feed_mm_s = 66.67;
   frame.axis[0].command_mm = frame.axis[0].actual_mm = 10.0;
-  EXPECT_LE(governor.update(frame).request.ratio, 0.2);
+  EXPECT_LE(governor.update(frame, kAtPanel).request.ratio, 0.2);
 }
 
 TEST(FeedGovernor, AWrongPassportIsOvercomeWithinASecond) {
@@ -240,6 +243,29 @@ TEST(FeedGovernor, TheOperatorsPanelIsNotExceededAndDoesNotWindUp) {
   EXPECT_DOUBLE_EQ(result.sample.back().effective, 0.30);
 }
 
+// Another room, an operator or a thread has held the override at 20 %; nothing that was asked for
+// has come through. The plan begins there, and goes no higher than the slew can within a decision.
+TEST(FeedGovernor, PlansFromWhatTheEnvelopeHasLetThroughNotFromWhatItAskedFor) {
+  const Machine machine = test::mill(50.0);
+  const auto path = circle(60.0, 2000.0, 1.0);
+  ClosedLoop loop(machine, path);
+  loop.with_layer = false;
+  FeedGovernor free = FeedGovernor::make(machine).value();
+  FeedGovernor held = FeedGovernor::make(machine).value();
+  const kernel::signal::InForce at_20{.feed = {.ratio = 0.2, .word_ratio = 0.2}, .written = true};
+  FeedGovernor::Output of_free;
+  FeedGovernor::Output of_held;
+  loop.disturb = [&](kernel::signal::Frame& frame) {
+    of_free = free.update(frame, kAtPanel);
+    of_held = held.update(frame, at_20);
+  };
+  while (loop.step().time_s < 1.0) {
+  }
+  EXPECT_EQ(held.state().in_force_ratio, 0.2);
+  EXPECT_EQ(of_free.request.ratio, 1.0);
+  EXPECT_EQ(of_held.request.ratio, 0.3) << "the next step above 20 % + 2 1/s * 10 ms";
+}
+
 kernel::signal::Frame cutting_frame(const std::vector<PathSegment>& path) {
   kernel::signal::Frame frame;
   frame.path = path;
@@ -256,19 +282,19 @@ TEST(FeedGovernor, WithdrawsInThreadingTappingAndRapids) {
   const auto path = circle(10.0, 4000.0, 4.0);
   FeedGovernor governor = FeedGovernor::make(test::mill(50.0)).value();
   auto frame = cutting_frame(path);
-  EXPECT_LT(governor.update(frame).request.ratio, 1.0);
+  EXPECT_LT(governor.update(frame, kAtPanel).request.ratio, 1.0);
   for (const Motion motion : {Motion::thread, Motion::tap}) {
     frame.time_s += 0.001;
     frame.motion = motion;
-    const auto output = governor.update(frame);
+    const auto output = governor.update(frame, kAtPanel);
     EXPECT_EQ(output.request.ratio, 1.0);
     EXPECT_EQ(output.request.reason, Reason::withdrawn_thread);
   }
   frame.time_s += 0.001;
   frame.motion = Motion::rapid;
   frame.path = {};
-  EXPECT_EQ(governor.update(frame).request.reason, Reason::not_cutting);
-  EXPECT_EQ(governor.update(frame).request.ratio, 1.0);
+  EXPECT_EQ(governor.update(frame, kAtPanel).request.reason, Reason::not_cutting);
+  EXPECT_EQ(governor.update(frame, kAtPanel).request.ratio, 1.0);
 }
 
 TEST(FeedGovernor, IsReadyBeforeTheRapidEnds) {
@@ -293,22 +319,22 @@ TEST(FeedGovernor, WithdrawsWhenInputIsNotFiniteOrStale) {
   FeedGovernor governor = FeedGovernor::make(test::mill(50.0)).value();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   auto frame = cutting_frame(path);
-  governor.update(frame);
+  governor.update(frame, kAtPanel);
   for (double* field : {&frame.axis[1].actual_mm, &frame.axis[0].command_mm, &frame.path_speed_mm_s,
                         &frame.feed.effective_ratio, &frame.time_s}) {
     const double kept = *field;
     *field = nan;
-    const auto output = governor.update(frame);
+    const auto output = governor.update(frame, kAtPanel);
     EXPECT_EQ(output.request.ratio, 1.0);
     EXPECT_EQ(output.request.reason, Reason::input_not_finite);
     *field = kept;
   }
   frame.time_s += 0.001;
   frame.age_s = 1.0;
-  EXPECT_EQ(governor.update(frame).request.reason, Reason::input_stale);
+  EXPECT_EQ(governor.update(frame, kAtPanel).request.reason, Reason::input_stale);
   frame.age_s = 0.0;
   frame.time_s += 0.001;
-  EXPECT_LT(governor.update(frame).request.ratio, 1.0);
+  EXPECT_LT(governor.update(frame, kAtPanel).request.ratio, 1.0);
 }
 
 TEST(FeedGovernor, DoesNotAllocateAfterConstruction) {
@@ -323,11 +349,11 @@ TEST(FeedGovernor, DoesNotAllocateAfterConstruction) {
   FeedGovernor governor = FeedGovernor::make(machine).value();
   const kernel::rt::testing::AllocationGuard guard;
   for (auto& frame : frames) {
-    governor.update(frame);
+    governor.update(frame, kAtPanel);
   }
   for (auto& frame : frames) {
     frame.path = {};
-    governor.update(frame);
+    governor.update(frame, kAtPanel);
   }
 }
 

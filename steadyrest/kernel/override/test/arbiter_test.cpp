@@ -123,6 +123,32 @@ TEST(OffsetArbiter, WishesAddAxisByAxis) {
   EXPECT_EQ(sum.reason, Reason::contour_limit);
 }
 
+TEST(OffsetArbiter, OfTheSlopesThatAreAskedForTheSlowestHoldsOnEachAxis) {
+  OffsetArbiter arbiter;
+  auto slow = offset(0.01, 0.0, true, Reason::contour_limit);
+  slow.slope_mm_s[0] = 0.001;
+  auto fast = offset(0.01, 0.0, true, Reason::contour_limit);
+  fast.slope_mm_s[0] = 0.02;
+  fast.slope_mm_s[2] = 0.0;
+  arbiter.add(slow);
+  arbiter.add(fast);
+  arbiter.add(OffsetRequest{.slope_mm_s = {}});
+  EXPECT_EQ(arbiter.decision().slope_mm_s[0], 0.001);
+  EXPECT_EQ(arbiter.decision().slope_mm_s[1], kInf) << "who asks for nothing holds nothing";
+  EXPECT_EQ(arbiter.decision().slope_mm_s[2], 0.0);
+}
+
+TEST(OffsetArbiter, ASlopeThatIsNoneMakesTheSumUnknown) {
+  for (const double slope_mm_s : {kNan, -0.01}) {
+    OffsetArbiter arbiter;
+    auto request = offset(0.01, 0.0, true, Reason::contour_limit);
+    request.slope_mm_s[2] = slope_mm_s;
+    arbiter.add(request);
+    EXPECT_EQ(arbiter.decision().reason, Reason::input_out_of_range);
+    EXPECT_EQ(arbiter.decision().offset_mm, signal::AxisValues{});
+  }
+}
+
 TEST(OffsetArbiter, OneUnfitSummandMakesTheSumUnknown) {
   OffsetArbiter arbiter;
   arbiter.add(offset(0.01, 0.0, true, Reason::contour_limit));

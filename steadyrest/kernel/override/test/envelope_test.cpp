@@ -246,6 +246,41 @@ TEST(OffsetEnvelope, SlewsAndClampsEachAxis) {
   EXPECT_EQ(output.reason, Reason::clamped);
 }
 
+TEST(OffsetEnvelope, KeepsTheSlowerOfItsSlewAndOfTheSlopeThatIsAskedFor) {
+  OffsetBench bench;
+  bench.input.request.offset_mm[0] = bench.input.request.offset_mm[2] = 0.1;
+  bench.input.request.slope_mm_s[0] = 0.01;
+  bench.input.request.slope_mm_s[2] = 1.0;
+  auto output = bench.cycles(100);
+  EXPECT_NEAR(output.offset_mm[0], 0.001, 1e-12);
+  EXPECT_NEAR(output.offset_mm[2], 0.005, 1e-12);
+  EXPECT_EQ(output.reason, Reason::slew_limited);
+  output = bench.cycles(2000);
+  EXPECT_LT(output.offset_mm[0], 0.1);
+  EXPECT_EQ(output.reason, Reason::contour_limit) << "only the room's own slope holds it";
+  bench.input.request.slope_mm_s[0] = 0.0;
+  EXPECT_EQ(bench.cycles(100).offset_mm[0], output.offset_mm[0]) << "held";
+}
+
+TEST(OffsetEnvelope, ASlopeThatIsNoneMovesNothing) {
+  for (const double slope_mm_s : {kNan, -1.0, -kInf}) {
+    OffsetBench bench;
+    bench.input.request.offset_mm[0] = 0.1;
+    bench.input.request.slope_mm_s[0] = slope_mm_s;
+    EXPECT_EQ(bench.cycles(100).offset_mm[0], 0.0);
+  }
+}
+
+TEST(OffsetEnvelope, RampsOutByItsOwnSlewWhateverSlopeWasAskedFor) {
+  OffsetBench bench;
+  bench.input.request.offset_mm[0] = 0.1;
+  bench.cycles(3000);
+  bench.input.request.slope_mm_s[0] = 0.0;
+  bench.input.request.reason = Reason::none;
+  bench.input.request.tool_in_cut = bench.input.tool_in_cut = false;
+  EXPECT_NEAR(bench.cycles(100).offset_mm[0], 0.095, 1e-9);
+}
+
 TEST(OffsetEnvelope, AnAxisWithoutALimitTakesNoOffset) {
   OffsetBench bench;
   bench.input.request.offset_mm[1] = 0.1;

@@ -29,14 +29,14 @@ std::size_t taken(const Governed& on) {
 TEST(FrameProbe, IsTakenOnceHoweverLongItStands) {
   Governed on;
   on.seconds(1200.0);
-  const double offset = on.governor.output().request.offset_mm[kZ];
+  const double offset = on.offset_mm()[kZ];
   EXPECT_EQ(on.governor.output().probed.reading.number, 0U);
   on.frame.probe = reading(1, 0.002);
-  const auto& probed = on.cycle().probed;
+  const auto probed = on.cycle().probed;
   EXPECT_EQ(probed.reading.number, 1U);
   EXPECT_EQ(probed.verdict.reason, Reason::thermal_reading_taken);
   EXPECT_NEAR(probed.verdict.innovation_mm, 0.002, 1e-4);
-  EXPECT_NEAR(on.seconds(30.0).request.offset_mm[kZ], offset - 0.002, 3e-4);
+  EXPECT_NEAR(on.seconds(30.0).offset_mm[kZ], offset - 0.002, 3e-4);
   EXPECT_EQ(taken(on), 1U);
   EXPECT_EQ(on.governor.output().probed.verdict.reason, Reason::thermal_reading_taken)
       << "what became of it stands until the next";
@@ -79,20 +79,16 @@ TEST(FrameProbe, SaysWhyItWasNotTaken) {
   on.seconds(10.0);
   const double before = on.governor.output().displacement_mm[kZ];
   on.frame.probe = reading(1, kNaN);
-  EXPECT_EQ(on.governor.update(on.frame, Reason::none, true).probed.verdict.reason,
-            Reason::input_not_finite);
+  EXPECT_EQ(on.look().probed.verdict.reason, Reason::input_not_finite);
   on.frame.probe = reading(2, 0.002);
   on.frame.probe.sd_mm = -1.0;
-  EXPECT_EQ(on.governor.update(on.frame, Reason::none, true).probed.verdict.reason,
-            Reason::input_not_finite);
+  EXPECT_EQ(on.look().probed.verdict.reason, Reason::input_not_finite);
   on.frame.probe = reading(3, 0.002);
   on.frame.probe.axis = 1;
-  EXPECT_EQ(on.governor.update(on.frame, Reason::none, true).probed.verdict.reason, Reason::none)
-      << "Y is not corrected";
+  EXPECT_EQ(on.look().probed.verdict.reason, Reason::none) << "Y is not corrected";
   on.frame.probe = reading(4, 0.002);
   on.frame.probe.axis = on.frame.axis_count;
-  EXPECT_EQ(on.governor.update(on.frame, Reason::none, true).probed.verdict.reason,
-            Reason::input_out_of_range);
+  EXPECT_EQ(on.look().probed.verdict.reason, Reason::input_out_of_range);
   EXPECT_EQ(taken(on), 0U);
   EXPECT_NEAR(on.governor.output().displacement_mm[kZ], before, 1e-4) << "but for a second's heat";
 }
@@ -102,13 +98,13 @@ TEST(FrameProbe, IsOfTheOffsetThatStandsOnTheMachine) {
   Governed on;
   on.seconds(1200.0);
   const double grown = on.governor.output().displacement_mm[kZ];
-  const kernel::signal::AxisValues nothing{};
+  on.written = false;
   on.frame.probe = reading(1, grown);
-  const auto& out = on.governor.update(on.frame, Reason::none, true, &nothing);
+  const auto& out = on.look();
   EXPECT_EQ(out.probed.verdict.reason, Reason::thermal_reading_taken);
   EXPECT_NEAR(out.probed.verdict.innovation_mm, 0.0, 1e-5);
   on.governor.zero_here();
-  EXPECT_NEAR(on.seconds(300.0).request.offset_mm[kZ], 0.0, 0.2 * grown)
+  EXPECT_NEAR(on.seconds(300.0).offset_mm[kZ], 0.0, 0.2 * grown)
       << "the zero was set where nothing stood: what had grown is in it";
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/override/envelope.hpp>
 #include <steadyrest/thermal/online/offset_governor.hpp>
 
 /// What the tests of the offset governor stand on: a mill whose Z grows by one thermal mode, and
@@ -43,23 +44,40 @@ inline kernel::machine::Machine mill() {
   return machine;
 }
 
-/// The governor with its frame; time goes on by 0.1 s a cycle.
+/// The governor with its frame, and the envelope as the supervisor has it behind: what it lets
+/// through comes down with the next frame. Time goes on by 0.1 s a cycle.
 class Governed {
  public:
   static constexpr double kCycle_s = 0.1;
 
+  struct Seen : OffsetGovernor::Output {
+    kernel::signal::AxisValues offset_mm{};  ///< that the envelope has let through
+  };
+
   explicit Governed(const kernel::machine::Machine& machine = mill())
-      : governor(OffsetGovernor::make(machine).value()) {
+      : governor(OffsetGovernor::make(machine).value()), envelope(envelope_of(machine)) {
     frame.motion = kernel::signal::Motion::feed;
     frame.spindle_actual_rev_s = 50.0;
     frame.temperature_c[0] = 20.0;
   }
 
-  const OffsetGovernor::Output& cycle() {
-    frame.time_s += kCycle_s;
-    return governor.update(frame, unfit, tool_in_cut);
+  [[nodiscard]] const kernel::signal::AxisValues& offset_mm() const noexcept {
+    return envelope.state().offset_mm;
   }
-  const OffsetGovernor::Output& seconds(double s) {
+  /// The governor alone.
+  const OffsetGovernor::Output& look() {
+    return governor.update(frame, unfit, tool_in_cut,
+                           {.offset_mm = offset_mm(), .written = written});
+  }
+  Seen cycle() { return cycle(kCycle_s); }
+  Seen cycle(double step_s) {
+    frame.time_s += step_s;
+    const OffsetGovernor::Output& out = look();
+    const auto let_through = envelope.update(
+        {.step_s = step_s, .request = out.request, .unfit = unfit, .tool_in_cut = tool_in_cut});
+    return {out, let_through.offset_mm};
+  }
+  Seen seconds(double s) {
     const auto cycles = static_cast<int>(std::lround(s / kCycle_s));
     for (int i = 1; i < cycles; ++i) {
       cycle();
@@ -68,9 +86,19 @@ class Governed {
   }
 
   OffsetGovernor governor;
+  kernel::override::OffsetEnvelope envelope;
   kernel::signal::Frame frame;
   kernel::outcome::Reason unfit = kernel::outcome::Reason::none;
   bool tool_in_cut = true;
+  bool written = true;
+
+ private:
+  static kernel::override::OffsetEnvelope envelope_of(const kernel::machine::Machine& machine) {
+    kernel::override::OffsetEnvelope::Config config{.slew_mm_s = machine.envelope.offset_slew_mm_s,
+                                                    .max_step_s = machine.envelope.stale_after_s};
+    config.max_mm.fill(machine.envelope.max_offset_mm);
+    return kernel::override::OffsetEnvelope::make(config).value();
+  }
 };
 
 }  // namespace steadyrest::thermal::online::test

@@ -193,13 +193,13 @@ TEST(OffsetGovernor, AWildSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
   on.frame.temperature_c[0] = 60.0;
   EXPECT_EQ(on.seconds(300.0).request.reason, Reason::thermal_sensor_wild);
   EXPECT_EQ(on.governor.output().displacement_mm[test::kX], before) << "the model has not seen it";
-  EXPECT_NEAR(on.governor.output().request.offset_mm[test::kX], -0.006, 1e-12);
-  EXPECT_LT(on.governor.output().request.offset_mm[test::kZ], -0.006) << "the other axis goes on";
+  EXPECT_NEAR(on.offset_mm()[test::kX], -0.006, 1e-12);
+  EXPECT_LT(on.offset_mm()[test::kZ], -0.006) << "the other axis goes on";
   on.tool_in_cut = false;
   on.frame.motion = Motion::rapid;
-  EXPECT_EQ(on.seconds(60.0).request.offset_mm[test::kX], 0.0);
+  EXPECT_EQ(on.seconds(60.0).offset_mm[test::kX], 0.0);
   on.frame.temperature_c[0] = 23.5;
-  EXPECT_NEAR(on.seconds(60.0).request.offset_mm[test::kX], -0.007, 1e-12);
+  EXPECT_NEAR(on.seconds(60.0).offset_mm[test::kX], -0.007, 1e-12);
 }
 
 TEST(OffsetGovernor, AStuckSensorIsAsOneThatIsLost) {
@@ -212,7 +212,7 @@ TEST(OffsetGovernor, AStuckSensorIsAsOneThatIsLost) {
       on.frame.time_s += 30.0;
       // The governor's order: Z's sensor is named first.
       on.frame.temperature_c[0] = 22.0 + 2.0 * std::sin(on.frame.time_s / 2000.0);
-      on.governor.update(on.frame, Reason::none, true);
+      on.look();
     }
     return on.governor.output().request.reason;
   };

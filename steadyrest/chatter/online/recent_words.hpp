@@ -7,16 +7,17 @@
 
 namespace steadyrest::chatter::online {
 
-/// The least and the greatest ratio that were asked for lately and may still be on their way to the
-/// machine: each counts for one to two spans. Plain values, two halves instead of a list.
-struct RecentAsks {
+/// The least and the greatest ratio that the control was told lately and that may still be on their
+/// way to the machine: each counts for one to two spans. Plain values, two halves instead of a
+/// list.
+struct RecentWords {
   struct Half {
     double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
   };
   Half now;
   Half before;
-  Half last;            ///< the ask before this one stood until now
+  Half last;            ///< the word before this one held until now
   double ends_s = 0.0;  ///< of the half that runs
 
   /// `span_s` ≥ 0 and the same each time. A time that went back ends the half.
@@ -30,9 +31,9 @@ struct RecentAsks {
     now.most = std::max({now.most, last.most, ratio});
     last = {.least = ratio, .most = ratio};
   }
-  /// Infinity when nothing was asked.
+  /// Infinity when nothing was told.
   [[nodiscard]] double least() const noexcept { return std::min(now.least, before.least); }
-  /// 0 when nothing was asked.
+  /// 0 when nothing was told.
   [[nodiscard]] double most() const noexcept { return std::max(now.most, before.most); }
   [[nodiscard]] bool fit() const noexcept {
     return std::isfinite(ends_s) && now.least >= 0.0 && before.least >= 0.0 && last.least >= 0.0 &&

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/override/channel.hpp>
+#include <steadyrest/kernel/override/test/published_tables.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+using outcome::Reason;
+
+constexpr double kCycle_s = 0.001;
+
+/// A channel at 100 % on the panel that is asked for 50 %; it falls by 10 1/s.
+class Asked {
+ public:
+  Asked() : channel(Channel::make({.table = test::feed_840d()}).value()) {
+    input.panel.panel_code = 0b11010;
+    input.ratio = 0.5;
+    input.reason = Reason::contour_limit;
+  }
+  Channel::Output cycles(int count) {
+    Channel::Output out;
+    for (int i = 0; i < count; ++i) {
+      input.step_s = kCycle_s;
+      out = channel.update(input);
+    }
+    return out;
+  }
+
+  Channel channel;
+  RatioEnvelope::Input input;
+};
+
+TEST(ChannelInForce, IsWhatWasLetThroughNotWhatWasAskedFor) {
+  Asked asked;
+  double before = 1.0;
+  for (int i = 0; i < 100; ++i) {
+    const auto out = asked.cycles(1);
+    const auto in_force = asked.channel.in_force();
+    EXPECT_EQ(in_force.word_ratio, out.ratio);
+    EXPECT_GE(in_force.ratio, in_force.word_ratio - kRatioTolerance)
+        << "the word is the step below";
+    EXPECT_LE(before - in_force.ratio, 10.0 * kCycle_s + 1e-12);
+    before = in_force.ratio;
+  }
+  EXPECT_EQ(before, 0.5);
+  EXPECT_EQ(asked.channel.in_force().word_ratio, 0.5);
+}
+
+TEST(ChannelInForce, IsThePanelsWhereTheOperatorTurnsDown) {
+  Asked asked;
+  asked.cycles(100);
+  asked.input.panel.panel_ratio = 0.2;
+  asked.cycles(1);
+  EXPECT_EQ(asked.channel.in_force().ratio, 0.2);
+  EXPECT_EQ(asked.channel.in_force().word_ratio, 0.2);
+}
+
+TEST(ChannelInForce, ACommandThatWasNotDeliveredIsNotInForce) {
+  Asked asked;
+  asked.cycles(20);
+  const auto before = asked.channel.state();
+  const auto in_force = asked.channel.in_force();
+  asked.cycles(1);
+  EXPECT_LT(asked.channel.in_force().ratio, in_force.ratio);
+  asked.channel.take_back(before);
+  EXPECT_EQ(asked.channel.in_force().ratio, in_force.ratio);
+  EXPECT_EQ(asked.channel.in_force().word_ratio, in_force.word_ratio);
+}
+
+TEST(ChannelInForce, IsThePanelsWhereThePortCannotWrite) {
+  Asked asked;
+  asked.channel =
+      Channel::make({.table = test::feed_840d(), .latched = true, .available = false}).value();
+  asked.cycles(100);
+  EXPECT_EQ(asked.channel.in_force().ratio, 1.0);
+  EXPECT_EQ(asked.channel.in_force().word_ratio, 1.0);
+}
+
+TEST(ChannelInForce, HoldsInAThread) {
+  Asked asked;
+  asked.cycles(20);
+  const auto in_force = asked.channel.in_force();
+  asked.input.hold = true;
+  asked.cycles(100);
+  EXPECT_EQ(asked.channel.in_force().ratio, in_force.ratio);
+}
+
+TEST(ChannelInForce, IsThePanelsWhileNothingIsWritten) {
+  Asked asked;
+  asked.channel.see_panel({.panel_ratio = 0.7});
+  EXPECT_EQ(asked.channel.in_force().ratio, 0.7);
+  EXPECT_EQ(asked.channel.in_force().word_ratio, 0.7);
+}
+
+}  // namespace
+}  // namespace steadyrest::kernel::override
