@@ -19,6 +19,18 @@ constexpr double kLongestStepS = 10.0;  // no source delivers more slowly
 
 }  // namespace
 
+kernel::outcome::Result<FrameClock> FrameClock::make(const Config& config) {
+  if (!(std::isfinite(config.usual_s) && config.usual_s > 0.0)) {
+    return std::unexpected(
+        kernel::outcome::Refusal{.kind = kernel::outcome::Kind::bad_input,
+                                 .file = {},
+                                 .line = 0,
+                                 .what = "the interpolator's period is not above 0",
+                                 .to_do = "correct interpolator_period_ms"});
+  }
+  return FrameClock(config);
+}
+
 FrameClock::Tick FrameClock::begin(double stamp_s) noexcept {
   const double time_s = this->time_s();
   state_ = {.stamp_s = stamp_s,
@@ -97,7 +109,7 @@ void FrameClock::restore(const State& state) noexcept {
   const bool fit = std::isfinite(state.stamp_s) && std::isfinite(state.shift_s) &&
                    std::isfinite(state.candidate_s) && std::isfinite(state.run_from_s) &&
                    std::isfinite(state.usual_s) && state.usual_s > 0.0;
-  state_ = fit ? state : State{.usual_s = usual_s_};
+  state_ = fit ? state : State{.usual_s = config_.usual_s};
 }
 
 }  // namespace steadyrest::supervisor

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::supervisor {
 
@@ -28,6 +29,10 @@ namespace steadyrest::supervisor {
 /// `time_s` never runs backwards; as long as all stamps are good it is the stamp itself, exactly.
 class FrameClock {
  public:
+  struct Config {
+    double usual_s = 0.001;  ///< T to begin with, > 0
+  };
+
   struct Tick {
     double time_s = 0.0;  ///< good time, for the rooms
     /// This stamp in good time, whether it counts or not; `time_s` where it is not finite.
@@ -52,8 +57,7 @@ class FrameClock {
     bool started = false;
   };
 
-  /// `usual_s` > 0: T to begin with.
-  explicit FrameClock(double usual_s) noexcept : usual_s_(usual_s) { state_.usual_s = usual_s; }
+  [[nodiscard]] static kernel::outcome::Result<FrameClock> make(const Config& config);
 
   Tick update(double stamp_s) noexcept;
 
@@ -63,11 +67,14 @@ class FrameClock {
   void restore(const State& state) noexcept;
 
  private:
+  explicit FrameClock(const Config& config) noexcept : config_(config) {
+    state_.usual_s = config.usual_s;
+  }
   Tick begin(double stamp_s) noexcept;
   Tick accept(double stamp_s, double step_s) noexcept;
   Tick doubt(double stamp_s) noexcept;
 
-  double usual_s_;
+  Config config_;
   State state_;
 };
 

@@ -2,10 +2,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <steadyrest/supervisor/listening_stage.hpp>
 
 namespace steadyrest::supervisor {
+
+kernel::outcome::Result<ListeningStage> ListeningStage::make(Config config) {
+  const double sample_rate_hz = config.better.detector.sample_rate_hz;
+  auto better = chatter::online::BetterSpeed::make(std::move(config.better));
+  if (!better) {
+    return std::unexpected(std::move(better.error()));
+  }
+  return ListeningStage(sample_rate_hz, config.depth_mm, std::move(*better));
+}
+
+ListeningStage::State ListeningStage::state() const {
+  return {.better = better_.state(), .out = out_, .last_rev_s = last_rev_s_};
+}
+
+void ListeningStage::restore(const State& state) noexcept {
+  better_.restore(state.better);
+  out_ = state.out;
+  last_rev_s_ = state.last_rev_s;
+}
 
 void ListeningStage::reset() noexcept {
   better_.reset();
@@ -19,11 +39,11 @@ const chatter::online::BetterSpeed::Output& ListeningStage::update(
   const double before_rev_s = last_rev_s_ > 0.0 ? last_rev_s_ : now_rev_s;
   last_rev_s_ = now_rev_s;
   const bool known_rate =
-      std::abs(frame.vibration_rate_hz - config_.sample_rate_hz) <= 1e-6 * config_.sample_rate_hz;
+      std::abs(frame.vibration_rate_hz - sample_rate_hz_) <= 1e-6 * sample_rate_hz_;
   if (!fit || !known_rate || frame.motion != kernel::signal::Motion::feed) {
     return out_;
   }
-  const auto most = static_cast<std::size_t>(config_.sample_rate_hz);
+  const auto most = static_cast<std::size_t>(sample_rate_hz_);
   const std::size_t count = std::min(frame.vibration.size(), most);
   for (std::size_t i = 0; i < count; ++i) {
     const double share = static_cast<double>(i + 1) / static_cast<double>(count);
@@ -31,7 +51,7 @@ const chatter::online::BetterSpeed::Output& ListeningStage::update(
                            .speed_rev_s = before_rev_s + share * (now_rev_s - before_rev_s),
                            .programmed_rev_s = std::abs(frame.spindle_programmed_rev_s),
                            .ratio = frame.spindle.effective_ratio,
-                           .depth_mm = config_.depth_mm});
+                           .depth_mm = depth_mm_});
   }
   return out_;
 }

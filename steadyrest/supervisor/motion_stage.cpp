@@ -77,7 +77,8 @@ double line_mm(const LineTable& lines, std::int64_t line) noexcept {
 
 }  // namespace
 
-Result<MotionStage> MotionStage::make(const Machine& machine) {
+Result<MotionStage> MotionStage::make(const Config& config) {
+  const Machine& machine = config.machine;
   MotionStage stage;
   stage.gap_s_ = kGapCycles * machine.control.interpolator_period_s;
   for (std::size_t i = 0; i < std::min(machine.axes.size(), kernel::signal::kMaxAxes); ++i) {
@@ -89,29 +90,47 @@ Result<MotionStage> MotionStage::make(const Machine& machine) {
     if (!lines) {
       return std::unexpected(std::move(lines.error()));
     }
-    const MotionEstimator::Config config = config_of(machine, axis, line_error_mm(*lines, axis));
-    auto estimator = MotionEstimator::make(config);
+    const MotionEstimator::Config limits = config_of(machine, axis, line_error_mm(*lines, axis));
+    auto estimator = MotionEstimator::make(limits);
     if (!estimator) {
       return std::unexpected(std::move(estimator.error()));
     }
     stage.axes_.push_back({.index = i,
-                           .line_error_mm = std::max(config.line_error_mm, 0.0),
-                           .max_steps_s = kImpossibleSpeed * axis.max_speed_mm_s / config.count_mm,
-                           .clock_s = config.clock_s < config.cycle_s ? config.clock_s : 0.0,
-                           .bounded = config.line_error_mm >= 0.0,
+                           .line_error_mm = std::max(limits.line_error_mm, 0.0),
+                           .max_steps_s = kImpossibleSpeed * axis.max_speed_mm_s / limits.count_mm,
+                           .clock_s = limits.clock_s < limits.cycle_s ? limits.clock_s : 0.0,
+                           .bounded = limits.line_error_mm >= 0.0,
                            .lines = std::move(*lines),
                            .fresh = *estimator,
-                           .estimator = *estimator});
+                           .now = {.estimator = *estimator}});
   }
   return stage;
 }
 
 void MotionStage::restart(Axis& axis) const noexcept {
-  if (axis.started) {
-    axis.estimator = axis.fresh;
+  if (axis.now.started) {
+    axis.now.estimator = axis.fresh;
   }
-  axis.estimate = {};
-  axis.started = false;
+  axis.now.estimate = {};
+  axis.now.started = false;
+}
+
+MotionStage::State MotionStage::state() const {
+  State state;
+  for (const Axis& axis : axes_) {
+    state.axis.push_back(axis.now);
+  }
+  return state;
+}
+
+void MotionStage::restore(const State& state) noexcept {
+  if (state.axis.size() != axes_.size()) {
+    reset();
+    return;
+  }
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    axes_[i].now = state.axis[i];
+  }
 }
 
 void MotionStage::reset() noexcept {
@@ -122,51 +141,51 @@ void MotionStage::reset() noexcept {
 
 /// The record does not go on from where it was.
 bool MotionStage::broken(const Axis& axis, const AxisSample& sample, double time_s) const noexcept {
-  const double passed_s = time_s - axis.time_s;
-  const double steps = static_cast<double>(sample.count) - static_cast<double>(axis.count);
-  return axis.started && (passed_s < 0.0 || passed_s > gap_s_ ||
-                          std::abs(steps) > 2.0 + axis.max_steps_s * passed_s);
+  const double passed_s = time_s - axis.now.time_s;
+  const double steps = static_cast<double>(sample.count) - static_cast<double>(axis.now.count);
+  return axis.now.started && (passed_s < 0.0 || passed_s > gap_s_ ||
+                              std::abs(steps) > 2.0 + axis.max_steps_s * passed_s);
 }
 
 void MotionStage::take_edge(Axis& axis, const AxisSample& sample, double time_s) const noexcept {
   const bool usable = axis.clock_s > 0.0 && std::isfinite(sample.edge_s) && sample.edge_s <= time_s;
   // A stamp that is cut off to the clock may lie just before the tick that it came after.
-  const bool later =
-      !axis.started || (sample.edge_s > axis.edge_s && sample.edge_s >= axis.time_s - axis.clock_s);
+  const bool later = !axis.now.started || (sample.edge_s > axis.now.edge_s &&
+                                           sample.edge_s >= axis.now.time_s - axis.clock_s);
   if (!usable || !later) {
     return;
   }
-  axis.edge_s = sample.edge_s;
-  const std::int64_t steps = axis.started ? sample.count - axis.count : 0;
+  axis.now.edge_s = sample.edge_s;
+  const std::int64_t steps = axis.now.started ? sample.count - axis.now.count : 0;
   const int direction = sample.edge_direction != 0 ? sample.edge_direction
                         : steps > 0                ? 1
                         : steps < 0                ? -1
                                                    : 0;
-  if (!axis.started || direction == 0) {
+  if (!axis.now.started || direction == 0) {
     return;
   }
   const bool up = direction > 0;
   const std::int64_t line = up ? sample.count : sample.count + 1;
   const double others = std::abs(static_cast<double>(steps) - (up ? 1.0 : -1.0));
-  axis.estimator.edge({.t_s = std::max(sample.edge_s, axis.time_s),
-                       .position_mm = line_mm(axis.lines, line),
-                       .line = line,
-                       .direction = static_cast<std::int8_t>(up ? 1 : -1),
-                       .lost = static_cast<std::uint8_t>(std::min(others, kMostLost)),
-                       .sigma_mm = axis.lines.sigma_mm(line)});
+  axis.now.estimator.edge({.t_s = std::max(sample.edge_s, axis.now.time_s),
+                           .position_mm = line_mm(axis.lines, line),
+                           .line = line,
+                           .direction = static_cast<std::int8_t>(up ? 1 : -1),
+                           .lost = static_cast<std::uint8_t>(std::min(others, kMostLost)),
+                           .sigma_mm = axis.lines.sigma_mm(line)});
 }
 
 /// Neither the edges nor the cell are surer than the lines stand.
 void MotionStage::look(Axis& axis, const AxisSample& sample, double time_s) const noexcept {
   take_edge(axis, sample, time_s);
-  axis.estimate =
-      axis.estimator.tick({.t_s = time_s,
-                           .count = sample.count,
-                           .low_mm = line_mm(axis.lines, sample.count) - axis.line_error_mm,
-                           .high_mm = line_mm(axis.lines, sample.count + 1) + axis.line_error_mm});
-  axis.started = true;
-  axis.time_s = time_s;
-  axis.count = sample.count;
+  axis.now.estimate = axis.now.estimator.tick(
+      {.t_s = time_s,
+       .count = sample.count,
+       .low_mm = line_mm(axis.lines, sample.count) - axis.line_error_mm,
+       .high_mm = line_mm(axis.lines, sample.count + 1) + axis.line_error_mm});
+  axis.now.started = true;
+  axis.now.time_s = time_s;
+  axis.now.count = sample.count;
 }
 
 void MotionStage::update(kernel::signal::Frame& frame, bool fit) noexcept {
@@ -188,10 +207,10 @@ void MotionStage::update(kernel::signal::Frame& frame, bool fit) noexcept {
     if (broken(axis, sample, frame.time_s)) {
       restart(axis);
     }
-    if (!axis.started || frame.time_s > axis.time_s) {
+    if (!axis.now.started || frame.time_s > axis.now.time_s) {
       look(axis, sample, frame.time_s);
     }
-    const Estimate& estimate = axis.estimate;
+    const Estimate& estimate = axis.now.estimate;
     if (!std::isfinite(estimate.velocity_mm_s) || !std::isfinite(estimate.acceleration_mm_s2)) {
       restart(axis);
       continue;

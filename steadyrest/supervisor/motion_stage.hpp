@@ -41,11 +41,33 @@ namespace steadyrest::supervisor {
 /// speed cannot give, or time that ran backwards.
 class MotionStage {
  public:
-  static kernel::outcome::Result<MotionStage> make(const kernel::machine::Machine& machine);
+  struct Config {
+    kernel::machine::Machine machine;  ///< axes and their encoders, control
+  };
+
+  struct AxisState {
+    motion::online::MotionEstimator estimator;  ///< a value: its copy goes on as it would
+    bool started = false;
+    double time_s = 0.0;
+    double edge_s = 0.0;  ///< the last one that was seen
+    std::int64_t count = 0;
+    motion::online::Estimate estimate{};
+  };
+  struct State {
+    std::vector<AxisState> axis;  ///< those with an encoder
+  };
+
+  static kernel::outcome::Result<MotionStage> make(const Config& config);
+  static kernel::outcome::Result<MotionStage> make(const kernel::machine::Machine& machine) {
+    return make(Config{machine});
+  }
 
   /// Fills in the estimates; `fit` false: the frame may not be used, the estimates are none.
   void update(kernel::signal::Frame& frame, bool fit) noexcept;
   void reset() noexcept;
+  [[nodiscard]] State state() const;
+  /// Of a stage with the same machine; a state with other axes is not taken.
+  void restore(const State& state) noexcept;
 
  private:
   struct Axis {
@@ -56,12 +78,7 @@ class MotionStage {
     bool bounded = true;
     motion::online::LineTable lines;
     motion::online::MotionEstimator fresh;
-    motion::online::MotionEstimator estimator;
-    bool started = false;
-    double time_s = 0.0;
-    double edge_s = 0.0;  ///< the last one that was seen
-    std::int64_t count = 0;
-    motion::online::Estimate estimate{};
+    AxisState now;
   };
 
   MotionStage() = default;

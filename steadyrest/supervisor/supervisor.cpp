@@ -130,11 +130,15 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
   if (!offset) {
     return std::unexpected(std::move(offset.error()));
   }
+  auto clock = FrameClock::make({.usual_s = machine.control.interpolator_period_s});
+  if (!clock) {
+    return std::unexpected(std::move(clock.error()));
+  }
   auto motion = MotionStage::make(machine);
   if (!motion) {
     return std::unexpected(std::move(motion.error()));
   }
-  Supervisor supervisor(machine, capability, std::move(*motion), *offset);
+  Supervisor supervisor(machine, capability, *clock, std::move(*motion), *offset);
   auto contour = room<contour::online::FeedGovernor>(machine.contour.enabled && *feed, machine);
   if (!contour) {
     return std::unexpected(std::move(contour.error()));
@@ -156,9 +160,9 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
 }
 
 Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capability& capability,
-                       MotionStage motion, const OffsetEnvelope& offset)
+                       const FrameClock& clock, MotionStage motion, const OffsetEnvelope& offset)
     : check_(machine),
-      clock_(machine.control.interpolator_period_s),
+      clock_(clock),
       watchdog_s_(machine.envelope.stale_after_s),
       motion_(std::move(motion)),
       offset_(offset),

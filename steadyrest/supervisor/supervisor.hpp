@@ -149,7 +149,8 @@ class Supervisor {
   };
 
   Supervisor(const kernel::machine::Machine& machine, const kernel::port::Capability& capability,
-             MotionStage motion, const kernel::override::OffsetEnvelope& offset);
+             const FrameClock& clock, MotionStage motion,
+             const kernel::override::OffsetEnvelope& offset);
   kernel::signal::Command update(const kernel::signal::Frame& frame, const Requests& requests,
                                  bool read_now) noexcept;
   kernel::outcome::Reason inspect(const kernel::signal::Frame& frame,

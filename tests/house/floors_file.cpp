@@ -38,6 +38,8 @@ std::expected<Rules, std::string> read_rules(std::string_view toml_text) {
     rules.in_cycle_headers = strings(table["in_cycle"]["headers"]);
     rules.in_cycle_words = strings(table["in_cycle"]["words"]);
     rules.noexcept_functions = strings(table["in_cycle"]["noexcept_functions"]);
+    rules.stage_folder = table["stages"]["folder"].value_or<std::string>("");
+    rules.stage_shape = strings(table["stages"]["shape"]);
     if (rules.root.empty() || rules.places.empty() || rules.in_cycle_folders.empty() ||
         rules.most_files == 0 || rules.most_lines == 0) {
       return std::unexpected("root, both of [size], [[place]] and in_cycle.folders are needed");

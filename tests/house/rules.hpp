@@ -30,13 +30,15 @@ struct Rules {
   std::vector<std::string> in_cycle_headers;
   std::vector<std::string> in_cycle_words;
   std::vector<std::string> noexcept_functions;
+  std::string stage_folder;
+  std::vector<std::string> stage_shape;  ///< text that each stage's class holds
 };
 
 [[nodiscard]] std::expected<Rules, std::string> read_rules(std::string_view toml_text);
 
 struct Violation {
   std::string rule;  ///< floor, half, shelf, crowded, long-file, in-cycle, namespace, spdx,
-                     ///< quoted-include, place, shared-data, unbuilt
+                     ///< quoted-include, place, shared-data, stage, unbuilt
   std::string path;
   std::size_t line = 0;
   std::string what;
@@ -52,6 +54,11 @@ struct Violation {
 /// Folders with more files than one can look through; `x.hpp` and `x.cpp` count as one.
 [[nodiscard]] std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree,
                                                    const Rules& rules);
+
+/// Classes with an update() that the stages' folder holds as members and that lack a part of the
+/// shape.
+[[nodiscard]] std::vector<Violation> check_stages(const std::vector<SourceFile>& tree,
+                                                  const Rules& rules);
 
 /// All rules over all files.
 [[nodiscard]] std::vector<Violation> check_tree(const std::vector<SourceFile>& tree,

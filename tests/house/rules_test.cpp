@@ -314,6 +314,35 @@ TEST(Built, ASourceThatNoListNamesIsFound) {
   EXPECT_EQ(violations[0].rule, "unbuilt");
 }
 
+/// Of a class in the cycle that the supervisor holds as a member.
+std::vector<std::string> held(const std::string& member, const std::string& body) {
+  const auto violations = check_stages(
+      {file("steadyrest/supervisor/layer.hpp", "struct Layer {\n  " + member + "\n};"),
+       file("steadyrest/contour/online/governor.hpp", "class Governor {\n" + body + "\n};")},
+      rules());
+  std::vector<std::string> what;
+  for (const Violation& violation : violations) {
+    EXPECT_EQ(violation.rule, "stage");
+    EXPECT_EQ(violation.path, "steadyrest/contour/online/governor.hpp");
+    what.push_back(violation.what);
+  }
+  return what;
+}
+
+TEST(Stages, HaveConfigMakeStateAndRestore) {
+  const std::string all =
+      "struct Config {};\nstatic Governor make(const Config& c);\nint update(int x) noexcept;\n"
+      "struct State {};\nState state() const;\nvoid restore(const State& s);";
+  const std::string member = "contour::online::Governor governor_;";
+  EXPECT_THAT(held(member, all), IsEmpty());
+  EXPECT_THAT(held("std::optional<contour::online::Governor> governor_;", "int update(int x);"),
+              ElementsAre(HasSubstr("'struct Config'")));
+  EXPECT_THAT(held(member, all.substr(0, all.find("void restore"))),
+              ElementsAre(HasSubstr("restore(")));
+  EXPECT_THAT(held("// contour::online::Governor governor_;", "int update(int x);"), IsEmpty());
+  EXPECT_THAT(held(member, "int look(int x) const;"), IsEmpty()) << "nothing changes in it";
+}
+
 TEST(Tree, ReportsEveryFilesViolations) {
   const auto violations =
       check_tree({file("steadyrest/kernel/a.hpp", "#include <steadyrest/nc/x.hpp>"),

@@ -49,6 +49,7 @@ std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree, const 
 std::vector<Violation> check_tree(const std::vector<SourceFile>& tree, const Rules& rules) {
   std::vector<Violation> found = check_built(tree, rules);
   std::ranges::move(check_crowded(tree, rules), std::back_inserter(found));
+  std::ranges::move(check_stages(tree, rules), std::back_inserter(found));
   for (const SourceFile& file : tree) {
     std::ranges::move(check_file(file, rules), std::back_inserter(found));
   }

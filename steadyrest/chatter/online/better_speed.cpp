@@ -32,48 +32,50 @@ kernel::outcome::Result<BetterSpeed> BetterSpeed::make(Config config) {
 }
 
 BetterSpeed::BetterSpeed(double again_samples, Detector detector, SpeedTable table)
-    : again_samples_(again_samples), detector_(std::move(detector)), table_(std::move(table)) {}
+    : again_samples_(again_samples),
+      table_(std::move(table)),
+      state_{.detector = std::move(detector), .out = {}} {}
 
 const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
-  const bool other_cut =
-      std::abs(input.programmed_rev_s - programmed_rev_s_) > kSameSpeed * programmed_rev_s_;
+  const bool other_cut = std::abs(input.programmed_rev_s - state_.programmed_rev_s) >
+                         kSameSpeed * state_.programmed_rev_s;
   if (std::isfinite(input.programmed_rev_s) && other_cut) {
-    programmed_rev_s_ = input.programmed_rev_s;
-    out_.request = {};
-    answer_ = kernel::outcome::Reason::none;
+    state_.programmed_rev_s = input.programmed_rev_s;
+    state_.out.request = {};
+    state_.answer = kernel::outcome::Reason::none;
   }
-  const bool before = out_.chatter;
-  const auto& heard = detector_.update(
+  const bool before = state_.out.chatter;
+  const auto& heard = state_.detector.update(
       {.value = input.value, .speed_rev_s = input.speed_rev_s, .angle_rev = input.angle_rev});
-  out_.chatter = heard.chatter;
-  out_.kind = heard.kind;
-  out_.frequency_hz = heard.frequency_hz;
-  since_asked_ += 1.0;
-  if (out_.chatter && (!before || since_asked_ >= again_samples_)) {
+  state_.out.chatter = heard.chatter;
+  state_.out.kind = heard.kind;
+  state_.out.frequency_hz = heard.frequency_hz;
+  state_.since_asked += 1.0;
+  if (state_.out.chatter && (!before || state_.since_asked >= again_samples_)) {
     ask(input);
   }
-  const bool answered = answer_ != kernel::outcome::Reason::none;
-  out_.reason = answered ? answer_ : heard.reason;
-  return out_;
+  const bool answered = state_.answer != kernel::outcome::Reason::none;
+  state_.out.reason = answered ? state_.answer : heard.reason;
+  return state_.out;
 }
 
 void BetterSpeed::ask(const Input& input) noexcept {
-  since_asked_ = 0.0;
+  state_.since_asked = 0.0;
   const SpeedTable::Advice advice = table_.ask({.programmed_rev_s = input.programmed_rev_s,
                                                 .ratio = input.ratio,
                                                 .depth_mm = input.depth_mm,
-                                                .frequency_hz = out_.frequency_hz});
-  answer_ = advice.reason;
+                                                .frequency_hz = state_.out.frequency_hz});
+  state_.answer = advice.reason;
   if (advice.speed_rev_s > 0.0) {
-    out_.request = advice.request;
+    state_.out.request = advice.request;
   }
 }
 
 void BetterSpeed::reset() noexcept {
-  detector_.reset();
-  programmed_rev_s_ = since_asked_ = 0.0;
-  answer_ = kernel::outcome::Reason::none;
-  out_ = {};
+  state_.detector.reset();
+  state_.programmed_rev_s = state_.since_asked = 0.0;
+  state_.answer = kernel::outcome::Reason::none;
+  state_.out = {};
 }
 
 }  // namespace steadyrest::chatter::online

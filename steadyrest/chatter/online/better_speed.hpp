@@ -48,24 +48,31 @@ class BetterSpeed {
                                                                      ///< of the last answer
   };
 
+  struct State {
+    Detector detector;  ///< a value: its copy goes on as it would
+    double programmed_rev_s = 0.0;
+    double since_asked = 0.0;  ///< samples
+    kernel::outcome::Reason answer = kernel::outcome::Reason::none;
+    Output out;
+  };
+
   /// Refuses what Detector or SpeedTable refuse, and an again_s that is not above 0.
   [[nodiscard]] static kernel::outcome::Result<BetterSpeed> make(Config config);
 
   /// One sample.
   const Output& update(const Input& input) noexcept;
   void reset() noexcept;
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// Of one that was made from the same detector's setup.
+  void restore(const State& state) noexcept { state_ = state; }
 
  private:
   BetterSpeed(double again_samples, Detector detector, SpeedTable table);
   void ask(const Input& input) noexcept;
 
   double again_samples_;
-  Detector detector_;
   SpeedTable table_;
-  double programmed_rev_s_ = 0.0;
-  double since_asked_ = 0.0;  ///< samples
-  kernel::outcome::Reason answer_ = kernel::outcome::Reason::none;
-  Output out_;
+  State state_;
 };
 
 }  // namespace steadyrest::chatter::online

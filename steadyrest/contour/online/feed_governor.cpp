@@ -44,6 +44,36 @@ void FeedGovernor::reset() noexcept {
   history_.fill(1.0);
 }
 
+FeedGovernor::State FeedGovernor::state() const {
+  State state;
+  static_cast<Course&>(state) = state_;
+  state.contour = contour_.state();
+  state.servo = servo_.state();
+  state.curve = curve_.state();
+  state.ahead = ahead_.state();
+  state.model = model_;
+  state.cycle_s = cycle_s_;
+  state.history = history_;
+  state.history_at = history_at_;
+  return state;
+}
+
+void FeedGovernor::restore(const State& state) noexcept {
+  state_ = static_cast<const Course&>(state);
+  contour_.restore(state.contour);
+  servo_.restore(state.servo);
+  curve_.restore(state.curve);
+  ahead_.restore(state.ahead);
+  model_ = state.model;
+  cycle_s_ = state.cycle_s;
+  for (std::size_t i = 0; i < model_.size(); ++i) {
+    cycle_step_[i] = AxisStep::of(model_[i], cycle_s_);
+  }
+  forecast_.set_model(model_);
+  history_ = state.history;
+  history_at_ = state.history_at % kHistory;
+}
+
 void FeedGovernor::refresh_model(double dt) noexcept {
   bool renew = cycle_s_ == 0.0 || std::abs(dt - cycle_s_) > 0.01 * cycle_s_;
   bool is_other = false;

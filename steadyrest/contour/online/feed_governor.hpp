@@ -78,6 +78,8 @@ struct Candidate {
 /// project's.
 class FeedGovernor {
  public:
+  static constexpr std::size_t kHistory = 1024;
+
   struct Config {
     kernel::machine::Machine machine;   ///< axes, feed_override, contour, envelope, control
     double decision_s = 0.0;            ///< 0 = the override's scan period, 4…10 ms
@@ -104,7 +106,8 @@ class FeedGovernor {
     std::uint32_t forecast_steps = 0;  ///< of all of them
   };
 
-  struct State {
+  /// Of the decisions.
+  struct Course {
     bool started = false;
     double time_s = 0.0;
     double next_decision_s = 0.0;
@@ -126,6 +129,18 @@ class FeedGovernor {
     std::size_t command_cell = 0;
   };
 
+  /// All that update() changes, the parts' own included.
+  struct State : Course {
+    ContourError::State contour;
+    ServoModel::State servo;
+    CommandedCurve::State curve;
+    LookAhead::State ahead;
+    std::array<AxisModel, 3> model{};  ///< that the forecast has been set to
+    double cycle_s = 0.0;
+    std::array<double, kHistory> history{};  ///< what the control was told, by cycle
+    std::size_t history_at = 0;
+  };
+
   static kernel::outcome::Result<FeedGovernor> make(const Config& config);
   static kernel::outcome::Result<FeedGovernor> make(const kernel::machine::Machine& machine);
 
@@ -135,14 +150,17 @@ class FeedGovernor {
 
   [[nodiscard]] const ContourError& contour_error() const noexcept { return contour_; }
   [[nodiscard]] const ServoModel& servo_model() const noexcept { return servo_; }
-  [[nodiscard]] const State& state() const noexcept { return state_; }
+  [[nodiscard]] const Course& course() const noexcept { return state_; }
+  [[nodiscard]] State state() const;
+  /// Of one that was made from the same config. The path's storage must be the same, or the path
+  /// ahead is made anew.
+  void restore(const State& state) noexcept;
   /// No decision takes more: what the share allows, the look in hand (two forecasts), the fall and
   /// one look along it; with an objective its share and the look in hand there.
   [[nodiscard]] std::size_t most_forecast_steps() const noexcept;
   void reset() noexcept;
 
  private:
-  static constexpr std::size_t kHistory = 1024;
   static constexpr double kSameRatio = 1e-9;
 
   struct Choice {
@@ -196,7 +214,7 @@ class FeedGovernor {
   double reach_s_ = 0.1;                    ///< how far ahead in time the path must be known
   std::array<double, kHistory> history_{};  ///< what the control was told, by cycle
   std::size_t history_at_ = 0;
-  State state_;
+  Course state_;
 };
 
 }  // namespace steadyrest::contour::online

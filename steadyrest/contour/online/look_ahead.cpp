@@ -62,6 +62,40 @@ void LookAhead::reset() noexcept {
   complete_ = false;
 }
 
+LookAhead::State LookAhead::state() const {
+  State state{.cell = {},
+              .first = first_,
+              .last = last_,
+              .path = path_data_,
+              .next_segment = next_segment_,
+              .next_offset_mm = next_offset_mm_,
+              .joint_mm_s = joint_mm_s_,
+              .made_to_mm = made_to_mm_,
+              .complete = complete_};
+  for (std::size_t i = first_; i < last_; ++i) {
+    state.cell.push_back(cell(i));
+  }
+  return state;
+}
+
+void LookAhead::restore(const State& state) noexcept {
+  reset();
+  if (state.last - state.first != state.cell.size() || state.cell.size() > kCells) {
+    return;
+  }
+  first_ = state.first;
+  last_ = state.last;
+  for (std::size_t i = first_; i < last_; ++i) {
+    at(i) = state.cell[i - first_];
+  }
+  path_data_ = state.path;
+  next_segment_ = state.next_segment;
+  next_offset_mm_ = state.next_offset_mm;
+  joint_mm_s_ = state.joint_mm_s;
+  made_to_mm_ = state.made_to_mm;
+  complete_ = state.complete;
+}
+
 double LookAhead::known_to_mm() const noexcept {
   return made_to_mm_;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
@@ -42,6 +43,18 @@ class LookAhead {
   static constexpr int kCellsPerCycle = 48;
   static constexpr int kSegmentsPerCycle = 256;
 
+  struct State {
+    std::vector<Cell> cell;  ///< those from `first` to `last`
+    std::size_t first = 0;
+    std::size_t last = 0;
+    const kernel::signal::PathSegment* path = nullptr;  ///< compared, never read
+    std::size_t next_segment = 0;                       ///< where the next cell begins
+    double next_offset_mm = 0.0;
+    double joint_mm_s = 0.0;  ///< speed limit at the next cell's start
+    double made_to_mm = 0.0;
+    bool complete = false;
+  };
+
   explicit LookAhead(const kernel::machine::Machine& machine);
   ~LookAhead();
   LookAhead(LookAhead&&) noexcept;
@@ -67,6 +80,10 @@ class LookAhead {
   [[nodiscard]] double known_to_mm() const noexcept;
   /// The path ends within the known cells.
   [[nodiscard]] bool complete() const noexcept { return complete_; }
+
+  [[nodiscard]] State state() const;
+  /// More cells than there are places start anew.
+  void restore(const State& state) noexcept;
 
   /// One cell added by hand (for paths that are extrapolated and not read).
   void append(Cell cell, double joint_limit_mm_s) noexcept;

@@ -16,8 +16,12 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kCycle_s = 0.004;
 
+FrameClock fresh() {
+  return FrameClock::make({.usual_s = kCycle_s}).value();
+}
+
 FrameClock running() {
-  FrameClock clock(kCycle_s);
+  FrameClock clock = fresh();
   for (int i = 1; i <= 100; ++i) {
     clock.update(kCycle_s * i);
   }
@@ -25,7 +29,7 @@ FrameClock running() {
 }
 
 TEST(FrameClock, WhereAllStampsAreGoodItIsTheStamp) {
-  FrameClock clock(kCycle_s);
+  FrameClock clock = fresh();
   for (int i = 1; i < 100'000; ++i) {
     const double stamp_s = kCycle_s * i;
     const auto tick = clock.update(stamp_s);
@@ -80,7 +84,7 @@ TEST(FrameClock, AGapPassesButGivesNoCredit) {
 }
 
 TEST(FrameClock, ASlowSourceCountsFromItsSeventeenthFrame) {
-  FrameClock clock(kCycle_s);
+  FrameClock clock = fresh();
   double counted_s = 0.0;
   for (int i = 0; i < 100; ++i) {
     counted_s += clock.update(0.075 * i).step_s;
@@ -89,7 +93,7 @@ TEST(FrameClock, ASlowSourceCountsFromItsSeventeenthFrame) {
 }
 
 TEST(FrameClock, LostFramesOfARegularSourceCostTheirTime) {
-  FrameClock clock(kCycle_s);
+  FrameClock clock = fresh();
   double counted_s = 0.0;
   for (int i = 0; i < 10'000; ++i) {
     if (i % 10 != 3) {
@@ -101,10 +105,31 @@ TEST(FrameClock, LostFramesOfARegularSourceCostTheirTime) {
 }
 
 TEST(FrameClock, AStampWithoutResolutionIsNoBeginning) {
-  FrameClock clock(kCycle_s);
+  FrameClock clock = fresh();
   EXPECT_EQ(clock.update(1e300).fault, Reason::input_out_of_range);
   EXPECT_TRUE(clock.update(5.0).set);
   EXPECT_NEAR(clock.update(5.0 + kCycle_s).step_s, kCycle_s, 1e-12);
+}
+
+TEST(FrameClock, ARestoredStateGoesOnAsItWouldHave) {
+  FrameClock clock = running();
+  clock.update(9.0);  // in doubt
+  FrameClock restored = fresh();
+  restored.restore(clock.state());
+  for (int i = 102; i <= 400; ++i) {
+    const double stamp_s = i % 7 == 0 ? 9.0 + kCycle_s * i : kCycle_s * i;
+    const FrameClock::Tick a = clock.update(stamp_s);
+    const FrameClock::Tick b = restored.update(stamp_s);
+    ASSERT_EQ(a.time_s, b.time_s);
+    ASSERT_EQ(a.step_s, b.step_s);
+    ASSERT_EQ(a.good, b.good);
+    ASSERT_EQ(a.fault, b.fault);
+  }
+}
+
+TEST(FrameClock, RefusesAPeriodThatIsNone) {
+  EXPECT_FALSE(FrameClock::make({.usual_s = 0.0}));
+  EXPECT_FALSE(FrameClock::make({.usual_s = kNan}));
 }
 
 TEST(FrameClock, AStateThatIsNotFiniteIsNotRestored) {

@@ -28,7 +28,8 @@ ListeningStage stage() {
   config.table.max_ratio = 1.0;
   config.table.speed_rev_s = {60.0, 70.0, 72.0, 74.0, 100.0};
   config.table.limit_depth_mm = {0.1, 0.1, 2.0, 0.1, 0.1};
-  return {{.sample_rate_hz = kRate_hz, .depth_mm = 1.0}, BetterSpeed::make(config).value()};
+  config.detector.sample_rate_hz = kRate_hz;
+  return ListeningStage::make({.better = config, .depth_mm = 1.0}).value();
 }
 
 /// Frames of a cut: the tooth's passing, and from 0.8 s on a chatter that grows to its size.
@@ -108,6 +109,28 @@ TEST(ListeningStage, ForgetsWhenItIsReset) {
   const auto& out = listener.update(frame, true);
   EXPECT_FALSE(out.chatter);
   EXPECT_EQ(out.request.ratio, 1.0);
+}
+
+TEST(ListeningStage, ARestoredStateGoesOnAsItWouldHave) {
+  auto listener = stage();
+  Cut cut;
+  while (cut.time_s() < 0.9) {
+    listener.update(cut.frame(), true);
+  }
+  auto restored = stage();
+  restored.restore(listener.state());
+  bool heard = false;
+  while (cut.time_s() < 1.5) {
+    const Frame frame = cut.frame();
+    const BetterSpeed::Output a = listener.update(frame, true);
+    const BetterSpeed::Output& b = restored.update(frame, true);
+    ASSERT_EQ(a.chatter, b.chatter);
+    ASSERT_EQ(a.frequency_hz, b.frequency_hz);
+    ASSERT_EQ(a.request.ratio, b.request.ratio);
+    ASSERT_EQ(a.reason, b.reason);
+    heard = heard || a.chatter;
+  }
+  EXPECT_TRUE(heard);
 }
 
 TEST(ListeningStage, TakesNoMemoryInTheCycle) {

@@ -182,6 +182,26 @@ TEST(MotionStage, GivesNoEstimateWithoutAnEncoder) {
   }
 }
 
+TEST(MotionStage, ARestoredStateGoesOnAsItWouldHave) {
+  auto first = MotionStage::make(mill()).value();
+  auto second = MotionStage::make(mill()).value();
+  Sine sine;
+  for (int i = 0; i < 2000; ++i) {
+    auto frame = sine.next();
+    auto again = frame;
+    first.update(frame, true);
+    if (i == 700) {
+      second.restore(first.state());
+    } else if (i > 700) {
+      second.update(again, true);
+      ASSERT_EQ(frame.axis[0].velocity_mm_s, again.axis[0].velocity_mm_s);
+      ASSERT_EQ(frame.axis[0].acceleration_mm_s2, again.axis[0].acceleration_mm_s2);
+      ASSERT_EQ(frame.axis[0].velocity_bound_mm_s, again.axis[0].velocity_bound_mm_s);
+      ASSERT_EQ(frame.axis[0].acceleration_bound_mm_s2, again.axis[0].acceleration_bound_mm_s2);
+    }
+  }
+}
+
 TEST(MotionStage, GivesNoneForAFrameThatIsUnfitAndGoesOnAfterIt) {
   auto stage = MotionStage::make(mill()).value();
   Sine sine;

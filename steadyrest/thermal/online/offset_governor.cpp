@@ -83,7 +83,8 @@ std::unexpected<Refusal> too_many_sensors(std::size_t count) {
 
 }  // namespace
 
-Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
+Result<OffsetGovernor> OffsetGovernor::make(const Config& config) {
+  const machine::Machine& machine = config.machine;
   const machine::Thermal& thermal = machine.thermal;
   const auto sensors = thermal.sensors();
   if (sensors.size() > kernel::signal::kMaxTemperatures) {
@@ -102,10 +103,10 @@ Result<OffsetGovernor> OffsetGovernor::make(const machine::Machine& machine) {
     if (of == thermal.axis.end() || machine.axes[i].rotary) {
       continue;
     }
-    StateFilter::Config config;
-    config.axis = *of;
-    config.max_bias_mm = std::max(made.max_offset_mm_, 0.001);
-    auto filter = StateFilter::make(config);
+    StateFilter::Config model;
+    model.axis = *of;
+    model.max_bias_mm = std::max(made.max_offset_mm_, 0.001);
+    auto filter = StateFilter::make(model);
     if (!filter) {
       return std::unexpected(std::move(filter.error()));
     }
@@ -130,7 +131,7 @@ void OffsetGovernor::step(double elapsed_s, const Running& running) noexcept {
   drive_.coolant = running.coolant;
   for (Axis& axis : axes_) {
     for (std::size_t j = 0; j < axis.ambients; ++j) {
-      drive_.ambient_c[j] = temperature_c_[axis.sensor[j]];
+      drive_.ambient_c[j] = state_.temperature_c[axis.sensor[j]];
     }
     axis.filter.update(elapsed_s, drive_);
   }
@@ -173,8 +174,8 @@ void OffsetGovernor::drive_on(const Frame& frame) noexcept {
   if (first || elapsed_s > kGap_s || state_.pending_s >= kHold_s ||
       !same_class(state_.drive, drive)) {
     step();
-    temperature_c_ = frame.temperature_c;
-    watch_.update(state_.unwatched_s, sensors_, temperature_c_);
+    state_.temperature_c = frame.temperature_c;
+    watch_.update(state_.unwatched_s, sensors_, state_.temperature_c);
     state_.unwatched_s = 0.0;
   }
   if (first) {
@@ -203,8 +204,8 @@ Reason OffsetGovernor::fault(const Axis& axis, const Frame& frame) const noexcep
 /// What fades keeps to the slower slope: a sensor that fails for a second must not take it all.
 Reason OffsetGovernor::ask(const Axis& axis, const Frame& frame, bool tool_in_cut,
                            double let_through_mm) noexcept {
-  double& wish = output_.request.offset_mm[axis.index];
-  double& slope_mm_s = output_.request.slope_mm_s[axis.index];
+  double& wish = state_.last.request.offset_mm[axis.index];
+  double& slope_mm_s = state_.last.request.slope_mm_s[axis.index];
   const Reason faulty = fault(axis, frame);
   if (must_hold(frame.motion) || (faulty != Reason::none && tool_in_cut)) {
     slope_mm_s = 0.0;
@@ -235,12 +236,12 @@ void OffsetGovernor::probe(const Frame& frame) noexcept {
   if (!fresh || frame.probe.number == 0) {
     return;
   }
-  output_.probed = {.reading = frame.probe, .verdict = {}};
+  state_.last.probed = {.reading = frame.probe, .verdict = {}};
   if (frame.probe.axis >= frame.axis_count) {
-    output_.probed.verdict.reason = Reason::input_out_of_range;
+    state_.last.probed.verdict.reason = Reason::input_out_of_range;
     return;
   }
-  output_.probed.verdict =
+  state_.last.probed.verdict =
       measure(frame.probe.axis,
               {.displacement_mm = frame.probe.displacement_mm, .sd_mm = frame.probe.sd_mm});
 }
@@ -248,26 +249,26 @@ void OffsetGovernor::probe(const Frame& frame) noexcept {
 const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason unfit,
                                                      bool tool_in_cut,
                                                      const InForce& in_force) noexcept {
-  output_.request.tool_in_cut = tool_in_cut;
+  state_.last.request.tool_in_cut = tool_in_cut;
   for (Axis& axis : axes_) {
     axis.standing_mm = in_force.written ? in_force.offset_mm[axis.index] : 0.0;
   }
   if (unfit != Reason::none || !std::isfinite(frame.time_s)) {
-    output_.request.reason = unfit != Reason::none ? unfit : Reason::input_not_finite;
-    return output_;
+    state_.last.request.reason = unfit != Reason::none ? unfit : Reason::input_not_finite;
+    return state_.last;
   }
   drive_on(frame);
   probe(frame);
-  output_.request.reason = axes_.empty() ? Reason::none : Reason::thermal_correcting;
+  state_.last.request.reason = axes_.empty() ? Reason::none : Reason::thermal_correcting;
   for (const Axis& axis : axes_) {
     const Reason reason = ask(axis, frame, tool_in_cut, in_force.offset_mm[axis.index]);
-    if (weight(reason) > weight(output_.request.reason)) {
-      output_.request.reason = reason;
+    if (weight(reason) > weight(state_.last.request.reason)) {
+      state_.last.request.reason = reason;
     }
-    output_.displacement_mm[axis.index] = axis.filter.displacement_mm();
-    output_.sd_mm[axis.index] = axis.filter.sd_mm();
+    state_.last.displacement_mm[axis.index] = axis.filter.displacement_mm();
+    state_.last.sd_mm[axis.index] = axis.filter.sd_mm();
   }
-  return output_;
+  return state_.last;
 }
 
 void OffsetGovernor::zero_here() noexcept {
@@ -307,7 +308,9 @@ OffsetGovernor::State OffsetGovernor::state() const noexcept {
   State state = state_;
   state.sensors = watch_.state();
   for (const Axis& axis : axes_) {
-    state.axis[axis.index] = {.filter = axis.filter.state(), .reference_mm = axis.reference_mm};
+    state.axis[axis.index] = {.filter = axis.filter.state(),
+                              .reference_mm = axis.reference_mm,
+                              .standing_mm = axis.standing_mm};
   }
   return state;
 }
@@ -328,14 +331,15 @@ void OffsetGovernor::restore(const State& state) noexcept {
       axis.filter.restore(of.filter);
       axis.reference_mm = of.reference_mm;
     }
+    axis.standing_mm = std::isfinite(of.standing_mm) ? of.standing_mm : 0.0;
+    double& wish = state_.last.request.offset_mm[axis.index];
+    wish = std::isfinite(wish) ? std::clamp(wish, -max_offset_mm_, max_offset_mm_) : 0.0;
   }
 }
 
 void OffsetGovernor::reset() noexcept {
   state_ = {};
   watch_.reset();
-  temperature_c_ = kernel::signal::unknown_temperatures();
-  output_ = {};
   probe_number_ = 0;
   probe_watched_ = false;
   for (Axis& axis : axes_) {

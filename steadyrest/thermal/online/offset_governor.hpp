@@ -46,6 +46,10 @@ namespace steadyrest::thermal::online {
 /// Online code: bounded, noexcept, no allocation after make().
 class OffsetGovernor {
  public:
+  struct Config {
+    kernel::machine::Machine machine;  ///< axes, thermal, envelope
+  };
+
   /// What became of the last reading that a frame brought.
   struct Probed {
     kernel::signal::ProbeReading reading;  ///< number 0: none yet
@@ -63,6 +67,7 @@ class OffsetGovernor {
   struct AxisState {
     StateFilter::State filter;
     double reference_mm = 0.0;  ///< r
+    double standing_mm = 0.0;   ///< offset on the machine at the last update
   };
 
   /// What heats the machine but for the temperatures.
@@ -73,6 +78,7 @@ class OffsetGovernor {
     bool coolant = false;
   };
 
+  /// All of it but for the number of the last probe reading, which a restart forgets by intent.
   struct State {
     std::array<AxisState, kernel::signal::kMaxAxes> axis{};  ///< by the machine's axes
     Running drive;                                           ///< of the time that is pending
@@ -83,12 +89,17 @@ class OffsetGovernor {
     bool started = false;
     SensorWatch::State sensors;
     double unwatched_s = 0.0;  ///< the watch has not been told of yet
+    kernel::signal::Temperatures temperature_c = kernel::signal::unknown_temperatures();
+    Output last;
   };
 
   /// For the axes of the machine that have a thermal passport; rotary ones take no offset. Refuses
   /// passports that cannot be used and more sensors than a frame holds.
+  [[nodiscard]] static kernel::outcome::Result<OffsetGovernor> make(const Config& config);
   [[nodiscard]] static kernel::outcome::Result<OffsetGovernor> make(
-      const kernel::machine::Machine& machine);
+      const kernel::machine::Machine& machine) {
+    return make(Config{machine});
+  }
 
   /// One cycle. `unfit`: why the frame must not be acted on, or none. `tool_in_cut`: by what is
   /// known of the machine.
@@ -103,9 +114,9 @@ class OffsetGovernor {
   /// The same, taken whatever the gate says.
   void rezero(std::size_t axis, const StateFilter::Reading& reading) noexcept;
 
-  [[nodiscard]] const Output& output() const noexcept { return output_; }
+  [[nodiscard]] const Output& output() const noexcept { return state_.last; }
   [[nodiscard]] State state() const noexcept;
-  /// What is not finite in it starts anew.
+  /// What is not finite in it starts anew; a wish beyond the clamp is cut to it.
   void restore(const State& state) noexcept;
   /// Cold.
   void reset() noexcept;
@@ -139,9 +150,7 @@ class OffsetGovernor {
   State state_;  ///< `axis` and `sensors` are filled in by state() alone
   std::size_t sensors_ = 0;
   SensorWatch watch_;
-  kernel::signal::Temperatures temperature_c_ = kernel::signal::unknown_temperatures();
   Drive drive_;  ///< what a filter is handed
-  Output output_;
   std::uint64_t probe_number_ = 0;
   bool probe_watched_ = false;  ///< a frame has been seen
 };

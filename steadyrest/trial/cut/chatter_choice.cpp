@@ -133,12 +133,7 @@ Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process&
   if (!added) {
     return std::unexpected(added.error());
   }
-  auto better = chatter::online::BetterSpeed::make(std::move(config));
-  if (!better) {
-    return std::unexpected(better.error());
-  }
-  return supervisor::ListeningStage({.sample_rate_hz = sensor_rate_hz, .depth_mm = depth_mm},
-                                    *std::move(better));
+  return supervisor::ListeningStage::make({.better = std::move(config), .depth_mm = depth_mm});
 }
 
 std::vector<sim::OperatorAction> operator_for(const std::vector<ChatterChoice>& choices,

@@ -261,9 +261,35 @@ TEST(FeedGovernor, PlansFromWhatTheEnvelopeHasLetThroughNotFromWhatItAskedFor) {
   };
   while (loop.step().time_s < 1.0) {
   }
-  EXPECT_EQ(held.state().in_force_ratio, 0.2);
+  EXPECT_EQ(held.course().in_force_ratio, 0.2);
   EXPECT_EQ(of_free.request.ratio, 1.0);
   EXPECT_EQ(of_held.request.ratio, 0.3) << "the next step above 20 % + 2 1/s * 10 ms";
+}
+
+TEST(FeedGovernor, ARestoredStateGoesOnAsItWouldHave) {
+  const Machine machine = test::mill(50.0);
+  const auto path = pocket(4000.0 / 60.0);
+  ClosedLoop loop(machine, path);
+  FeedGovernor first = FeedGovernor::make(machine).value();
+  FeedGovernor second = FeedGovernor::make(machine).value();
+  std::size_t cycle = 0;
+  loop.disturb = [&](kernel::signal::Frame& frame) {
+    const auto a = first.update(frame, loop.in_force());
+    if (++cycle == 1500) {
+      second.restore(first.state());
+    } else if (cycle > 1500) {
+      const auto b = second.update(frame, loop.in_force());
+      ASSERT_EQ(a.request.ratio, b.request.ratio);
+      ASSERT_EQ(a.request.reason, b.request.reason);
+      ASSERT_EQ(a.error_mm, b.error_mm);
+      ASSERT_EQ(a.predicted_error_mm, b.predicted_error_mm);
+      ASSERT_EQ(a.predicted_at_mm, b.predicted_at_mm);
+      ASSERT_EQ(a.forecast_steps, b.forecast_steps);
+    }
+  };
+  while (loop.step().time_s < 6.0) {
+  }
+  EXPECT_GT(cycle, 1500U);
 }
 
 kernel::signal::Frame cutting_frame(const std::vector<PathSegment>& path) {

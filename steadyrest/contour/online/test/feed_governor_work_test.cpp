@@ -88,12 +88,12 @@ TEST(FeedGovernorWork, AnObjectiveThatDoesNotFitIntoOneDecisionIsFoundOverSevera
     loop.governor() = FeedGovernor::make({.machine = machine, .work_share = work_share}).value();
     bool left = false;
     while (loop.step().time_s < 3.0) {
-      left = left || !loop.governor().state().objective.done();
+      left = left || !loop.governor().course().objective.done();
     }
     EXPECT_EQ(left, work_share < 1.0);
     // The closed form's optimum is 0.18; what the tool has cut already counts in a search.
-    EXPECT_GE(loop.governor().state().wanted_ratio, 0.15);
-    EXPECT_LE(loop.governor().state().wanted_ratio, 0.35);
+    EXPECT_GE(loop.governor().course().wanted_ratio, 0.15);
+    EXPECT_LE(loop.governor().course().wanted_ratio, 0.35);
   }
 }
 

@@ -121,6 +121,16 @@ RC_GTEST_PROP(OffsetGovernorSafety, NoInputLeavesTheClampOrTheSlope, ()) {
   }
 }
 
+TEST(OffsetGovernorSafety, ARestoredWishBeyondTheClampIsCutToIt) {
+  OffsetGovernor governor = OffsetGovernor::make(mill()).value();
+  auto state = governor.state();
+  state.last.request.offset_mm[kZ] = -5.0;
+  state.last.request.offset_mm[kX] = kNaN;
+  governor.restore(state);
+  EXPECT_EQ(governor.output().request.offset_mm[kZ], -0.030);
+  EXPECT_EQ(governor.output().request.offset_mm[kX], 0.0);
+}
+
 TEST(OffsetGovernorSafety, WhatGoesOnAfterARestartIsWhatWouldHaveGoneOn) {
   test::Governed on;
   on.seconds(777.7);
@@ -129,7 +139,16 @@ TEST(OffsetGovernorSafety, WhatGoesOnAfterARestartIsWhatWouldHaveGoneOn) {
   restarted.envelope.restore(on.envelope.state());
   restarted.frame = on.frame;
   for (int i = 0; i < 500; ++i) {
-    EXPECT_EQ(on.cycle().offset_mm, restarted.cycle().offset_mm);
+    on.frame.temperature_c[0] = restarted.frame.temperature_c[0] = 20.0 + 0.01 * i;
+    on.frame.motion = restarted.frame.motion = i % 100 < 50 ? Motion::feed : Motion::probe;
+    const auto a = on.cycle();
+    const auto b = restarted.cycle();
+    EXPECT_EQ(a.offset_mm, b.offset_mm);
+    EXPECT_EQ(a.request.offset_mm, b.request.offset_mm);
+    EXPECT_EQ(a.request.slope_mm_s, b.request.slope_mm_s);
+    EXPECT_EQ(a.request.reason, b.request.reason);
+    EXPECT_EQ(a.displacement_mm, b.displacement_mm);
+    EXPECT_EQ(a.sd_mm, b.sd_mm);
   }
 }
 
