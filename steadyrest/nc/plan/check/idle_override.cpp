@@ -22,8 +22,12 @@ struct Part {
 
 }  // namespace
 
+// The override acts on a segment once F·ratio is below the speed u that the segment reaches without
+// it: below ratio = u/F. Axes, control and the stops between short moves may keep u far below F;
+// then turning the switch changes nothing, and the contour room's requests change nothing either.
 std::optional<Warning> idle_override(const PlannedPath& path,
                                      const kernel::machine::OverrideTable& table) {
+  // The switch's next step below 100 %.
   double step = 0.0;
   for (const double ratio : table.ratio) {
     step = ratio < 1.0 ? std::max(step, ratio) : step;
@@ -38,6 +42,9 @@ std::optional<Warning> idle_override(const PlannedPath& path,
     if (plan.rapid || plan.locked || plan.per_revolution || !(plan.feed_mm_s > 0.0)) {
       continue;
     }
+    // Peak between the junction limits at the segment's own acceleration: v_p² = (v_in² + v_out²)/2
+    // + a·ℓ. Neighbours may bind more, so this is the most that u can be: the warning errs towards
+    // silence.
     const double by_acceleration = std::sqrt(
         0.5 * (entry_mm_s * entry_mm_s + plan.exit_speed_limit_mm_s * plan.exit_speed_limit_mm_s) +
         plan.acceleration_mm_s2 * plan.length_mm);
@@ -55,6 +62,7 @@ std::optional<Warning> idle_override(const PlannedPath& path,
   }
   const auto first = std::ranges::find_if(parts, [step](const Part& p) { return p.ratio <= step; });
   const std::uint32_t line = first->line;
+  // The weighted median: at this ratio the override acts on half of the cutting time.
   std::ranges::sort(parts, {}, &Part::ratio);
   double passed_s = 0.0;
   double acts = 0.0;  // for half of the cut

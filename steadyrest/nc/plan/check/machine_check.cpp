@@ -57,6 +57,8 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
     : machine_(machine),
       known_(known),
       pieces_(machine),
+      // What every linear axis and the control can do: at such a feed no direction overloads any of
+      // them, since |t_i| ≤ 1.
       always_mm_s_(machine.control.max_feed_mm_s) {
   for (const kernel::machine::Axis& axis : machine.axes) {
     const std::size_t at = axis.name.size() == 1 ? kLetters.find(axis.name[0]) : kLetters.size();
@@ -98,6 +100,7 @@ void MachineCheck::on_move(const Move& move) {
 void MachineCheck::check_travel(const Move& move, std::size_t axis) {
   const kernel::machine::Axis& limits = *axis_[axis];
   const Reach reach = goes_to(move, axis);
+  // An axis that does not move is not judged: the move that took it there was.
   const double start_mm = interpret::machine_of(move, move.start)[axis];
   if (reach.low_mm == start_mm && reach.high_mm == start_mm) {
     return;
@@ -116,12 +119,14 @@ void MachineCheck::check_travel(const Move& move, std::size_t axis) {
     }
     return;
   }
+  // A rapid within the travel may go to a fixed position (G28), which says nothing of the part.
   if (move.kind == MoveKind::rapid && !over) {
     return;
   }
   Extent& extent = extent_[axis];
   extent.low_mm = std::min(extent.low_mm, reach.low_mm);
   extent.high_mm = std::max(extent.high_mm, reach.high_mm);
+  // A range wider than the travel fits under no work offset: this can be said without knowing any.
   if (extent.line == 0 &&
       extent.high_mm - extent.low_mm > limits.max_mm - limits.min_mm + kRounding_mm) {
     extent.line = move.line;
@@ -131,6 +136,7 @@ void MachineCheck::check_travel(const Move& move, std::size_t axis) {
 
 void MachineCheck::check_feed(const Move& move) {
   constexpr std::size_t kLinear = 3;
+  // With rotary axes the feed is along X Y Z, or in degrees: the shortcut does not hold.
   const bool turns =
       !std::equal(move.start.begin() + kLinear, move.start.end(), move.end.begin() + kLinear);
   if (!turns && move.feed_mode == interpret::FeedMode::per_minute &&
@@ -144,6 +150,8 @@ void MachineCheck::check_feed(const Move& move) {
   const SegmentPlan& plan = piece_.plan;
   const double feed_mm_s =
       plan.feed_mm_s * (plan.per_revolution ? std::abs(move.spindle_rev_s) : 1.0);
+  // Axis speeds only. An arc's centripetal limit is left to the planner: it slows the arc on every
+  // control, and no F in the program is wrong because of it.
   const double axes_mm_s = move.kind == MoveKind::arc
                                ? pieces_.limits().plane(piece_.segment.axis).speed_mm_s
                                : pieces_.limits().line(piece_.end_direction).speed_mm_s;
@@ -169,6 +177,8 @@ void MachineCheck::check_standing(const Move& move) {
   stands_warned_ = stands;
 }
 
+// From the first tool change on, Z (on a lathe X too) depends on a length that only the tool table
+// knows.
 void MachineCheck::on_event(const Event& event) {
   if (event.kind == EventKind::tool_change) {
     tool_came_ = true;
@@ -187,6 +197,8 @@ void MachineCheck::on_event(const Event& event) {
   }
 }
 
+// Loops and subprograms repeat their lines: one warning for each line, kind and axis. count() goes
+// on beyond the kMost that are kept, up to a bound of its own, so memory stays small.
 void MachineCheck::warn(std::uint32_t line, What what, std::size_t axis, std::string text) {
   if (seen_.size() < kMostSeen && seen_.emplace(line, what, axis).second &&
       warnings_.size() < kMost) {

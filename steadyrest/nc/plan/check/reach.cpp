@@ -16,12 +16,17 @@ constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 /// What is added to the ends of an arc: where it passes the axis' direction from its centre. The
 /// work coordinates may be turned out of the arc's plane.
+// With s1, s2 = what the machine's axis sees of the plane's two directions, a point at angle θ on
+// radius r is at centre + r·(s1·cos θ + s2·sin θ). The extremes are ±r·√(s1² + s2²), at θ =
+// atan2(s2, s1) and opposite. They count where the arc passes these angles.
 void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
   if (axis >= move.normal.size()) {
     return;
   }
   const auto* const largest =
       std::ranges::max_element(move.normal, {}, [](double part) { return std::abs(part); });
+  // Cyclic order keeps first, second, normal right-handed: G18's first direction is Z, as controls
+  // count.
   const auto normal = static_cast<std::size_t>(largest - move.normal.begin());
   const std::size_t first = (normal + 1) % 3;
   const std::size_t second = (normal + 2) % 3;
@@ -34,6 +39,7 @@ void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
     return machine_of(move, at)[axis] - centre_mm;
   };
   const double share = std::hypot(along(first), along(second));
+  // The arc's plane is perpendicular to the axis: the ends say all.
   if (share < 1e-9) {
     return;
   }
@@ -48,9 +54,12 @@ void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
     return std::hypot(at[first] - centre[first], at[second] - centre[second]);
   };
   double swept = behind_start(angle(move.end));
+  // Back at the start, or more than one turn begun: every direction is passed.
   if (std::abs(move.turns) > 1 || swept < 1e-9) {
     swept = kFullTurn;
   }
+  // A bound, not the exact extreme: the larger radius of a spiral, and the whole rise of a helix,
+  // which reaches this axis only where a rotation turns the plane's normal towards it.
   const double bulge_mm = share * std::max(from_centre_mm(move.start), from_centre_mm(move.end));
   const double helix_mm = (move.end[normal] - move.start[normal]) * along(normal);
   const double high_at = std::atan2(along(second), along(first));

@@ -19,10 +19,13 @@ using math::geometry::norm;
 
 namespace {
 
+// A smaller turn is left to the junction law: no axis jumps by more than 1e-4 of the speed there.
 constexpr double kSmoothTurn_rad = 1e-4;
 constexpr double kInPlane = 1e-6;
 constexpr double kRounding = 1e-7;  ///< of lengths, where the pieces are nearly in line
 
+// A vector in the corner's plane: origin at the corner, x along the incoming direction, y to its
+// left (the bend's axis is the normal, so the corner always turns left).
 struct Flat {
   double x = 0.0;
   double y = 0.0;
@@ -61,6 +64,7 @@ struct Curve {
 std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const Point& normal,
                               const Point& direction) {
   Curve out;
+  // The plane of the corner contains both tangents by construction; a line needs no more than that.
   out.tangent = tangent;
   if (s.geometry == Geometry::line) {
     return std::abs(dot(direction, normal)) < kInPlane ? std::optional(out) : std::nullopt;
@@ -91,6 +95,8 @@ std::optional<Flat> meet(const Curve& a, const Curve& b, double r) {
     if (ra <= 0.0 || rb <= 0.0 || d <= 1e-12) {
       return std::nullopt;
     }
+    // Two circles about points d apart: the meeting points lie on their common chord, k from the
+    // first centre, h to either side of the line between the centres.
     const double k = (d * d + ra * ra - rb * rb) / (2.0 * d);
     const double h2 = ra * ra - k * k;
     if (h2 < 0.0) {
@@ -107,6 +113,8 @@ std::optional<Flat> meet(const Curve& a, const Curve& b, double r) {
   const double radius = ring.radius - ring.turn * r;
   const Flat from = r * left_of(line.tangent);
   const Flat to = ring.centre - from;
+  // k = distance along the line to the foot of the centre, h² = radius² − (distance of the centre
+  // from the line)²; the line itself is the piece's, moved by r to the left.
   const double k = inner(to, line.tangent);
   const double h2 = radius * radius - outer(line.tangent, to) * outer(line.tangent, to);
   if (radius <= 0.0 || h2 < 0.0) {
@@ -141,6 +149,8 @@ struct FlatArc {
   Touch after;
 };
 
+// A radius is permitted when the rounding stays within the tolerance of the corner, |C| − r, and
+// takes no more of either piece than there is.
 std::optional<FlatArc> fit(const Curve& a, const Curve& b, double r, const CornerRequest& request) {
   const auto centre = meet(a, b, r);
   if (!centre || length(*centre) - r > request.tolerance_mm * (1.0 + kRounding)) {
@@ -161,6 +171,7 @@ struct Half {
   double secant_less_1 = 0.0;
 };
 Half half_of(const Bend& bend) {
+  // With c = cos(φ/2): 1/c − 1 = (1 − c²)/((1 + c)·c), and 1 − c² = sin²φ/(2·(1 + cos φ)).
   // tan(φ/2) = sin φ/(1 + cos φ); 1/cos(φ/2) − 1 from it without a difference of near numbers,
   // since small turns are the rule.
   const double wide = 1.0 + bend.cosine;
@@ -169,6 +180,7 @@ Half half_of(const Bend& bend) {
   return {bend.sine / wide, sine_squared / ((1.0 + cosine) * cosine)};
 }
 
+// tolerance = r·(1/cos(φ/2) − 1) and room = r·tan(φ/2), each solved for r.
 /// Two lines: in closed form.
 double line_radius(const Half& half, const CornerRequest& request) {
   const double room = std::min(request.room_before_mm, request.room_after_mm);
@@ -184,6 +196,8 @@ double largest_radius(const Curve& a, const Curve& b, const Half& half,
   if (fit(a, b, high, request)) {
     return high;
   }
+  // 50 halvings take the interval below the last digit of a double. What fits is monotonic in r
+  // (corner.hpp), so bisection finds the largest.
   for (int i = 0; i < 50; ++i) {
     const double middle = 0.5 * (low + high);
     (fit(a, b, middle, request) ? low : high) = middle;
@@ -193,6 +207,8 @@ double largest_radius(const Curve& a, const Curve& b, const Half& half,
 
 }  // namespace
 
+// The sine and the cosine together: acos of the cosine alone would lose half the digits of a small
+// turn, and asin of the sine cannot tell φ from π − φ.
 std::optional<Bend> bend_of(const Point& in, const Point& out) noexcept {
   Bend bend;
   bend.axis = cross(in, out);
@@ -216,6 +232,7 @@ std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegme
   const Half half = half_of(bend);
   CornerArc result;
   result.axis = bend.axis;
+  // Lines, by far the most common corner, need neither the plane frame nor the search.
   if (before.geometry == Geometry::line && after.geometry == Geometry::line) {
     result.radius_mm = line_radius(half, request);
     if (!(result.radius_mm > 0.0)) {
@@ -229,6 +246,7 @@ std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegme
     result.taken_before_mm = result.taken_after_mm = taken_mm;
     return result;
   }
+  // In the plane frame the piece before leaves along x, the piece after at the turning angle.
   const auto a = curve_of(before, {1.0, 0.0}, bend.axis, in);
   const auto b = curve_of(after, {bend.cosine, bend.sine}, bend.axis, out);
   if (!a || !b) {

@@ -12,6 +12,8 @@ using kernel::signal::kMaxAxes;
 using kernel::signal::PathSegment;
 using kernel::signal::Point;
 
+// The fields of rotary axes hold rad/s and rad/s², and a direction has rad per mm of path there, so
+// the quotients below come out in mm/s and mm/s² for them too.
 PathLimits::PathLimits(const kernel::machine::Machine& machine)
     : path_acceleration_mm_s2_(machine.control.max_path_acceleration_mm_s2),
       period_s_(machine.control.interpolator_period_s),
@@ -28,6 +30,8 @@ PathLimits::PathLimits(const kernel::machine::Machine& machine)
     speed_[i] = axis.max_speed_mm_s;
     acceleration_[i] = axis.max_acceleration_mm_s2;
     jerk_[i] = axis.max_jerk_mm_s3;
+    // One averaging window serves all axes. A window of A_i/J_i makes a step of the acceleration to
+    // A_i rise at J_i, so the longest window keeps every axis within its jerk.
     if (std::isfinite(jerk_[i])) {
       jerk_time_s_ = std::max(jerk_time_s_, acceleration_[i] / jerk_[i]);
     }
@@ -42,6 +46,8 @@ PathLimits::PathLimits(const kernel::machine::Machine& machine)
   }
 }
 
+// v·|t_i| ≤ V_i and a·|t_i| ≤ A_i for every axis that takes part; the tightest quotient counts.
+// Rounding leaves shares of 1e-16 on axes that do not move: they must not take part.
 SpeedLimits PathLimits::line(const AxisValues& direction) const noexcept {
   SpeedLimits out{kUnlimited, path_acceleration_mm_s2_};
   for (std::size_t i = 0; i < axes_; ++i) {
@@ -54,6 +60,9 @@ SpeedLimits PathLimits::line(const AxisValues& direction) const noexcept {
   return out;
 }
 
+// Over all unit vectors t perpendicular to n the largest |t_i| is √(1 − n_i²). The bound therefore
+// holds on every sector of a circle, and is too strict for a short arc that never points along the
+// slow axis. It depends on the plane alone, which makes it cheap for corners.
 PlaneLimits PathLimits::plane(const Point& normal) const noexcept {
   PlaneLimits out{path_acceleration_mm_s2_, kUnlimited, kUnlimited};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -71,6 +80,8 @@ PlaneLimits PathLimits::plane(const Point& normal) const noexcept {
 
 SpeedLimits PathLimits::circle(double radius_mm, const PlaneLimits& plane) const noexcept {
   const double radius = std::max(1e-9, radius_mm);
+  // The plane's acceleration is one vector: κ_n of it may go across the path, v²/R ≤ κ_n·a; what
+  // Pythagoras leaves is for changing the speed along the path.
   const double total = plane.acceleration_mm_s2;
   double v = std::min(std::sqrt(centripetal_share_ * total * radius), plane.speed_mm_s);
   if (std::isfinite(plane.jerk_mm_s3)) {  // a circle's own jerk is v³/R²
@@ -80,6 +91,10 @@ SpeedLimits PathLimits::circle(double radius_mm, const PlaneLimits& plane) const
   return {v, std::sqrt(std::max(0.0, total * total - normal * normal))};
 }
 
+// Helices, spirals and arcs with further axes share the speed between the plane and what moves
+// along with it. Radius and slope vary on a spiral, so every share is taken where it is largest:
+// the part in the plane at the wide end, the part along at the tight end, where a radian is the
+// shortest path.
 SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
   const double dr = s.radius_end_mm - s.radius_mm;
   const double tight = std::max(1e-9, std::min(s.radius_mm, s.radius_end_mm));
@@ -95,6 +110,8 @@ SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
   SpeedLimits out = {kUnlimited, plane(s.axis).acceleration_mm_s2};
   const double least_slope = std::max(1e-12, std::hypot(dr, s.rise_mm, tight * s.sweep_rad));
   double jerk = kUnlimited;
+  // An axis may see both parts at once (a turned plane); |around| + |along| bounds their sum at
+  // every angle.
   for (std::size_t i = 0; i < axes_; ++i) {
     double around = 0.0;
     double along = 0.0;
@@ -110,11 +127,13 @@ SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
     if (around + along > 1e-12) {
       straight.speed_mm_s = std::min(straight.speed_mm_s, speed_[i] / (around + along));
     }
+    // Without a part along the axis a_plane bounds its acceleration already.
     if (along > 1e-12) {
       straight.acceleration_mm_s2 =
           std::min(straight.acceleration_mm_s2, acceleration_[i] / (around + along));
     }
   }
+  // Only plane_share of the speed runs round the circle: centripetal v²·share²/R = v²/R_eff.
   const double radius_eff = tight / (plane_share * plane_share);
   const double total = out.acceleration_mm_s2;
   double v = std::sqrt(centripetal_share_ * total * radius_eff);
@@ -129,6 +148,8 @@ SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
   return out;
 }
 
+// At a corner axis i changes its velocity by v·|Δt_i| within one period. That is an acceleration of
+// v·|Δt_i|/T on top of the ramp's, so the ramps before and after it get the rest.
 double PathLimits::junction_use(const AxisValues& before, const AxisValues& after,
                                 double speed_mm_s) const noexcept {
   if (junction_share_ >= 1.0) {
@@ -142,6 +163,13 @@ double PathLimits::junction_use(const AxisValues& before, const AxisValues& afte
   return std::min(use, junction_share_);
 }
 
+// Three laws, see the header. Axes that do not change direction have no say.
+// jump: one period T changes an axis' velocity by A_i·T at most.
+// deviation: a circle tangential to both legs at distance δ from the corner has R = δ·sin β/(1 −
+// sin β), and v² = a·R. It is a law of lengths in space, so rotary axes do not take part.
+// facets: a curve of radius R in steps of ℓ turns by ℓ/R at each, so A/|Δt|·ℓ = A·R, the curve's
+// own centripetal limit. Without it fine facets would run faster than the curve they replace, as
+// each jump becomes small.
 double PathLimits::junction_mm_s(const AxisValues& before, const AxisValues& after,
                                  double length_before_mm, double length_after_mm) const noexcept {
   double jump = kUnlimited;
@@ -168,6 +196,7 @@ double PathLimits::junction_mm_s(const AxisValues& before, const AxisValues& aft
   }
   double deviation = 0.0;
   if (deviation_mm_ > 0.0 && norm_before > 0.0 && norm_after > 0.0 && std::isfinite(least_a)) {
+    // sin β = cos(φ/2) = √((1 + cos φ)/2) with the turn φ = π − 2β.
     const double cos_turn = std::clamp(dot / std::sqrt(norm_before * norm_after), -1.0, 1.0);
     const double sin_half =
         std::sqrt(0.5 * (1.0 + cos_turn));  // sine of half the angle between the legs

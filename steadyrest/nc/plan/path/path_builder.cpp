@@ -31,6 +31,9 @@ using math::geometry::subtract;
 
 namespace {
 
+// A move is made in a free place, waits there for merging (waiting_), then for its corner (held_),
+// and goes out when the corner is decided. Three places are enough.
+
 constexpr double kUsable = 1.0 - 1e-6;
 /// A spline is planned as chords that miss it by no more.
 constexpr double kSplineTolerance_mm = 5e-4;
@@ -345,6 +348,7 @@ void PathStream::on_move(const Move& move) {
   }
   accept();
   waiting_ = next_;
+  // The places are 0, 1, 2 and add up to 3: what is left over is the free one.
   next_ = held_ == kNone ? (waiting_ + 1) % kNone : kNone - held_ - waiting_;
 }
 

@@ -82,6 +82,9 @@ AxisValues line_direction(const PathSegment& s) {
 
 }  // namespace
 
+// The sense of rotation goes into the axis: whoever reads a segment knows counter-clockwise arcs
+// alone, with a positive sweep. The normal turns with the work offset's rotation, as the centre
+// does.
 void set_arc(PathSegment& s, const Move& move) {
   s.geometry = Geometry::arc;
   const double sign = move.turns < 0 ? -1.0 : 1.0;
@@ -106,6 +109,8 @@ void set_arc(PathSegment& s, const Move& move) {
   if (std::abs(s.radius_end_mm - s.radius_mm) < kSameRadius_mm) {
     s.radius_end_mm = s.radius_mm;
   }
+  // e1 points from the centre to the start, so the end's angle in this frame is the sweep of the
+  // first turn. |turns| counts turns begun: each beyond the first adds a full one.
   const auto frame = math::geometry::arc_frame(s);
   double angle = std::atan2(dot(to, frame.e2), dot(to, frame.e1));
   if (angle <= 1e-9) {  // the end stands at the start or before it: up to one more turn
@@ -115,6 +120,8 @@ void set_arc(PathSegment& s, const Move& move) {
   s.length_mm = math::geometry::arc_length_mm(s);
 }
 
+// The machine file lists axes in any order after X, Y, Z; the first letter of the name says which
+// of the program's axes one is. A B C turn: rad inside, degrees in the program.
 PieceMaker::PieceMaker(const Machine& machine) : machine_(machine), limits_(machine) {
   constexpr const char* kLetters = "XYZABCUVW";
   axis_of_ = {0, 1, 2, kNoAxis, kNoAxis, kNoAxis, kNoAxis, kNoAxis, kNoAxis};
@@ -157,12 +164,17 @@ double PieceMaker::spindle_of(const PathSegment& s, const Move& move) const {
   if (move.spindle_limit_rev_s > 0.0) {
     most = std::min(most, move.spindle_limit_rev_s);
   }
+  // The spindle's centre line is X = 0 of the machine. One speed for the whole move: its mean
+  // radius.
   const double radius = 0.5 * (std::abs(s.start_mm[0]) + std::abs(s.end_mm[0]));
   const double wanted =
       std::abs(move.surface_speed_mm_s) / (2.0 * std::numbers::pi * std::max(radius, kShortest_mm));
   return std::copysign(std::min(wanted, most), move.surface_speed_mm_s);
 }
 
+// G93 gives moves per second, so feed times length is mm/s. A feed per revolution stays mm/rev in
+// the plan, since the interpolator multiplies it by the actual spindle speed; the segment's own
+// feed is its value at the commanded speed.
 void PieceMaker::set_speed(Piece& out, const Move& move) const {
   SegmentPlan& p = out.plan;
   p.rapid = move.kind == MoveKind::rapid;
@@ -193,6 +205,9 @@ void PieceMaker::limit(Piece& out, const SpeedLimits& limits) const {
   SegmentPlan& p = out.plan;
   const auto& control = machine_.control;
   double speed = std::min(limits.speed_mm_s, p.rapid ? control.rapid_mm_s : control.max_feed_mm_s);
+  // A control cannot work off blocks faster than one per min_block_cycles periods (LinuxCNC:
+  // slightly more than one). The length before rounding counts: the block is what the control
+  // executes.
   if (control.min_block_cycles > 0.0) {
     speed = std::min(speed,
                      out.nominal_mm / (control.min_block_cycles * control.interpolator_period_s));
@@ -201,6 +216,8 @@ void PieceMaker::limit(Piece& out, const SpeedLimits& limits) const {
   p.speed_limit_mm_s = speed;
   p.acceleration_mm_s2 = limits.acceleration_mm_s2;
   p.length_mm = s.length_mm;
+  // A rapid has no F; it goes as fast as axes and control permit, and the rapid override scales
+  // that.
   if (p.rapid) {
     s.feed_mm_s = speed;
     p.feed_mm_s = speed;
@@ -246,6 +263,7 @@ Result<bool> PieceMaker::make(const Move& move, Piece& out) const {
     return refuse("a feed per revolution without a running spindle", "start the spindle first");
   }
   limit(out);
+  // A machine file may leave limits out. With no bound at all the move would take no time.
   if (!std::isfinite(out.plan.speed_limit_mm_s) && !std::isfinite(out.plan.feed_mm_s)) {
     return refuse("a rapid move of axes without a speed limit", "give max_speed of the axes");
   }

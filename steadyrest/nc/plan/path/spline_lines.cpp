@@ -20,6 +20,9 @@ double distance_mm(const SplinePoint& p, const SplinePoint& a, const SplinePoint
   return length > 0.0 ? std::abs(dx * py - dy * px) / length : std::hypot(px, py);
 }
 
+// Halves each knot span and gives out the chords, each when the next is known: the last one can
+// then end on the programmed point itself. Splines lie in the XY plane; the other axes stay where
+// the move begins until that last point.
 class Halving {
  public:
   Halving(const Move& move, double tolerance_mm, const std::function<void(const Move&)>& line)
@@ -41,6 +44,8 @@ class Halving {
     return interpret::spline_at(move_.spline, move_.spline_order, u);
   }
   // NOLINTNEXTLINE(misc-no-recursion): bounded by kMostHalvings
+  // The test looks at the middle of the span alone. An inflexion there puts the middle on the chord
+  // however far the curve swings on either side: hence the least number of halvings.
   void halve(double u0, const SplinePoint& p0, double u1, const SplinePoint& p1, int depth) {
     const double middle = 0.5 * (u0 + u1);
     const SplinePoint p = at(middle);
@@ -82,6 +87,7 @@ void spline_lines(const Move& move, double tolerance_mm,
                   const std::function<void(const Move&)>& line) {
   Halving halving(move, tolerance_mm, line);
   const int spans = interpret::spline_spans(move.spline, move.spline_order);
+  // Knots of these splines are one apart: span i runs from u = i to i + 1.
   for (int i = 0; i < spans; ++i) {
     halving.span(i, i + 1);
   }

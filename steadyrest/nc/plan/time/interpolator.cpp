@@ -18,6 +18,10 @@ using kernel::signal::Motion;
 
 namespace {
 
+// One update: overrides in (take); at standstill the events that are due; in motion one period of
+// the lead (run), then the average behind it (average) and its place on the path (locate). The lead
+// may be segments ahead of the setpoint; the limits of those between bind through lag_.
+
 constexpr double kSpindleTolerance_ratio = 0.05;  ///< "at speed": within 5 % of the command
 constexpr std::size_t kLagCapacity = 1024;
 
@@ -337,6 +341,7 @@ Setpoint Interpolator::update(const Overrides& overrides) noexcept {
     average();
     locate();
   } else if (phase_ == Phase::flush) {
+    // The lead has arrived; the average follows over the N − 1 periods left in its window.
     --flush_;
     average();
     locate();

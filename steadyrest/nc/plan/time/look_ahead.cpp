@@ -26,6 +26,7 @@ double target_mm_s(const SegmentPlan& p, const Overrides& overrides) noexcept {
   return std::min(v, p.speed_limit_mm_s);
 }
 
+// The ring is a power of two, so that an index wraps by a mask.
 LookAhead::LookAhead(std::size_t blocks, double period_s, double jerk_time_s)
     : blocks_(blocks),
       period_s_(period_s),
@@ -34,6 +35,7 @@ LookAhead::LookAhead(std::size_t blocks, double period_s, double jerk_time_s)
       mask_(limits_.size() - 1) {}
 
 bool LookAhead::outdated(double spindle_rev_s) const noexcept {
+  // 0.5 % and not every count of the spindle encoder: planning costs a pass over the window.
   const double drift = std::abs(spindle_rev_s - planned_spindle_rev_s_);
   return follows_spindle_ && drift > kSpindleReplan_ratio * std::abs(planned_spindle_rev_s_);
 }
@@ -43,6 +45,8 @@ bool LookAhead::plan_junction(const PathWindow& path, std::size_t i,
                               const Overrides& overrides) noexcept {
   const SegmentPlan& here = path.plan(i);
   const SegmentPlan& next = path.plan(i + 1);
+  // One segment back from the end of i + 1 to the end of i: the flat part shrinks by the length of
+  // i + 1, and behind it v² may be higher by 2·a for each mm of braking.
   Limit limit = limits_[(i + 1) & mask_];
   const double gain = 2.0 * next.acceleration_mm_s2;
   limit.hold_mm -= next.length_mm;
@@ -56,6 +60,7 @@ bool LookAhead::plan_junction(const PathWindow& path, std::size_t i,
     limit.cap_reach_mm = 0.0;
     limit.cap_square = kNone;
   }
+  // The targets of both neighbours bind here: the slower one must be reached at the joint itself.
   const double c = std::min(
       {here.exit_speed_limit_mm_s, target_mm_s(here, overrides), target_mm_s(next, overrides)});
   const double reach = 0.5 * c * jerk_time_s_;
@@ -63,6 +68,9 @@ bool LookAhead::plan_junction(const PathWindow& path, std::size_t i,
     limit.square = c * c;
     limit.hold_mm = reach;
   } else if (jerk_time_s_ > 0.0 && c * c <= limit.cap_square) {
+    // The braking curve is below c at the joint, but within the reach before it it may be above.
+    // There the average would carry a speed above c through the joint, so c is kept as a second
+    // limit.
     limit.cap_square = c * c;
     limit.cap_reach_mm = reach;
   }
@@ -75,6 +83,8 @@ bool LookAhead::plan_junction(const PathWindow& path, std::size_t i,
   return same;
 }
 
+// Beyond the window nothing is known, so its end counts as a stop. Hence a short look-ahead slows
+// down rows of tiny blocks, as it does on real controls.
 void LookAhead::plan_all(const PathWindow& path, std::size_t from,
                          const Overrides& overrides) noexcept {
   planned_spindle_rev_s_ = overrides.spindle_actual_rev_s;
@@ -102,12 +112,18 @@ void LookAhead::plan_more(const PathWindow& path, std::size_t from,
   limits_[last & mask_] = Limit{};
   for (std::size_t i = last; i-- > from;) {
     follows_spindle_ = follows_spindle_ || path.plan(i + 1).per_revolution;
+    // Each limit depends on its successor alone: one that has kept its value keeps all before it.
+    // Those behind old_last are new and have no old value to compare with.
     if (plan_junction(path, i, overrides) && i < old_last) {
       break;
     }
   }
 }
 
+// The largest v' after this cycle from which the limit ahead can still be met. The cycle covers (v
+// + v')·T/2, the plateau v'·plateau_s, the rest is braking at a. With q = plateau_s + T/2:
+// v'² + 2·a·q·v' ≤ w + 2·a·(room − v·T/2), so v' = √((a·q)² + w + 2·a·(room − v·T/2)) − a·q.
+// √w itself is always allowed: at that speed there is nothing to brake for.
 LookAhead::Bound LookAhead::bound(const PathWindow& path, const Lead& lead, double want_mm_s,
                                   double plateau_s) const noexcept {
   const double v = lead.speed_mm_s;
@@ -131,9 +147,12 @@ LookAhead::Bound LookAhead::bound(const PathWindow& path, const Lead& lead, doub
     if (limit.cap_square < kNone) {
       fit(limit.cap_square, left - limit.cap_reach_mm);
     }
+    // The cycle ends within segment k: what lies behind it has its say in w_k already.
     if (v * half + std::max(best, v - braking * period_s_) * q <= left) {
       break;
     }
+    // The end of k lies within the cycle, where v² falls in a straight line to w: the constant
+    // deceleration (v² − w)/(2·left) over one period.
     if (v * v > limit.square && left > kEndTolerance_mm) {  // falling through the end of k
       best = std::min(best, std::max(0.0, v + half * (limit.square - v * v) / left));
     }

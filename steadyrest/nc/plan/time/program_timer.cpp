@@ -19,6 +19,9 @@ using kernel::signal::Motion;
 using kernel::signal::PathSegment;
 
 namespace {
+// The planned path passes through rings that hold what the interpolator may still read, so memory
+// does not grow with the program. When a ring is full, the interpolator runs until it is not.
+
 constexpr std::size_t kSpare = 1024;  ///< segments between the averaged position and the lead
 constexpr std::size_t kEvents = 256;
 }  // namespace
@@ -81,6 +84,7 @@ class ProgramTimer::Runner final : public PathReceiver {
     time.cyclogram = cyclogram_.transitions();
   }
 
+  // A feed far too low would keep the loops above busy for ever.
   [[nodiscard]] bool stuck() const { return time.total_s > kMost_s; }
 
   PathStream stream;
@@ -89,6 +93,7 @@ class ProgramTimer::Runner final : public PathReceiver {
   Overrides overrides;
 
  private:
+  // One interpolator period, with a spindle as simple as the drive's ramp.
   void step() {
     const double period = machine_.control.interpolator_period_s;
     const std::size_t event = interpolator_->first_event_in_use();
@@ -110,6 +115,8 @@ class ProgramTimer::Runner final : public PathReceiver {
       if (!passed && !in_hand) {
         break;
       }
+      // Its tool counts from the first period of the change: the change's own time is the new
+      // tool's.
       if (e.kind == PathEventKind::tool_change && i >= tools_seen_) {
         time.tools.push_back({static_cast<std::int64_t>(e.value), 0.0});
         tools_seen_ = i + 1;
@@ -126,11 +133,14 @@ class ProgramTimer::Runner final : public PathReceiver {
       line_ = s.line;
       arrival(s.line, time.total_s);
     }
+    // The cyclogram feeds the thermal forecast: the spindle as it really turns. The feed override
+    // is in the path speed already.
     Setpoint in_force = s;
     in_force.spindle_rev_s *= overrides.spindle_ratio;
     cyclogram_.add(in_force, time.tools.back().number, time.total_s, period);
     time.total_s += period;
     time.tools.back().seconds += period;
+    // Who asks for arrivals has no use for the seconds by line, a table as long as the program.
     if (!arrival) {
       if (s.line >= time.line_s.size()) {
         time.line_s.resize(s.line + 1U, 0.0);

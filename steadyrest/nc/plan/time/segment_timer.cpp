@@ -54,6 +54,8 @@ class SegmentTimer::Runner final : public PathReceiver {
         window_(std::bit_ceil(blocks_ + 2)),
         lowest_(window_.size()) {}
 
+  // A junction limit needs the target behind it, so a segment is closed by its successor, and timed
+  // once the look-ahead is full or an event stops the path.
   void on_segment(const PathSegment& segment, const SegmentPlan& plan) override {
     if (plan.spindle_rev_s != 0.0) {
       planned_spindle_rev_s_ = plan.spindle_rev_s;
@@ -98,6 +100,8 @@ class SegmentTimer::Runner final : public PathReceiver {
         planned_spindle_rev_s_ = event.value;
         break;
       case PathEventKind::spindle_wait:
+        // wait() rounds to the nearest period. The interpolator looks once a period whether the
+        // speed is reached, which rounds up: half a period more.
         wait(event, spindle_.seconds_to_speed() + 0.5 * period_s_);
         break;
       case PathEventKind::coolant:
@@ -166,6 +170,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     }
   }
 
+  // Only differences of S count. Near 1e9 mm²/s² the digits left for c² would begin to matter.
   void count_anew() noexcept {
     const double taken = begin_ > 0 ? at(begin_ - 1).sum : 0.0;
     for (std::size_t i = begin_; i < end_; ++i) {

@@ -61,6 +61,7 @@ constexpr Known kAll{.offsets = true, .tools = true};
 const std::string kHead = "G21 G90 G17 G94\nS1000 M3\nG0 X10 Y10 Z-10\n";
 
 TEST(MachineCheck, SaysNothingOfAProgramThatFits) {
+  // Inclusive ends: the largest legal values must not warn.
   EXPECT_THAT(warned(kHead + "G1 X600 Y400 Z-300 F6000\nG0 Z0\nM5\nM2\n", kAll), IsEmpty());
 }
 
@@ -80,6 +81,7 @@ TEST(MachineCheck, NamesTheLineThatLeavesTheTravel) {
 
 TEST(MachineCheck, TurnsWithTheWorkCoordinates) {
   // G54 at X500 Y100, turned by 30°: X100 is at 586.6 mm, X120 at 603.9; X0 Y-120 at 560, −3.9.
+  // Without the rotation X120 would come out at 620 mm and Y-120 at −20.
   const std::string head =
       "G21 G90 G17 G94 G54\nG10 L2 P1 X500 Y100 Z-100 R30\nS1000 M3\nG0 X10 Y10 Z-10\n";
   EXPECT_THAT(warned(head + "G1 X100 Y0 F1000\nX120\nG0 X0 Y-120\nM2\n", kAll),
@@ -104,7 +106,7 @@ TEST(MachineCheck, ArcsReachAsFarAsTheyDoWhereTheWorkCoordinatesTurn) {
 }
 
 TEST(MachineCheck, OfASplineTheCurveCounts) {
-  // Control points at X612, the curve at X599: 590 + 0.75·12.
+  // Control points at X602, outside the travel; the curve reaches 590 + 0.75·12 = 599 mm.
   const std::string curve = "G5 I{0} J5 P{0} Q-5 X590 Y40 F500\nM2\n";
   const std::string head = kHead + "G1 X590 F1000\n";
   EXPECT_THAT(warned(head + fmt::format(fmt::runtime(curve), 12), kAll), IsEmpty());
@@ -113,6 +115,7 @@ TEST(MachineCheck, OfASplineTheCurveCounts) {
 }
 
 TEST(MachineCheck, ReadsInches) {
+  // 23.6 in = 599.44 mm fits, 23.63 in = 600.202 mm does not; 473 in/min = 12014.2 mm/min.
   EXPECT_THAT(
       warned("G20 G90 G17 G94\nS1000 M3\nG0 X1 Y1 Z-1\nG1 X23.6 F472\nX23.63 F473\nM2\n", kAll),
       ElementsAre(HasSubstr("5: the move takes X to 600.202 mm"),
@@ -139,6 +142,7 @@ TEST(MachineCheck, DoesNotJudgeZWithAToolOfUnknownLength) {
 }
 
 TEST(MachineCheck, KnowsWhatTheAxesCanDo) {
+  // Z alone does 6000 mm/min; the same modal F stays legal on X, so only the Z move warns.
   EXPECT_THAT(
       warned(kHead + "G1 X100 F12000\nZ-20\nX50\nM2\n"),
       ElementsAre(HasSubstr("5: the feed of 12000 mm/min is more than the axes can do here, "
@@ -186,6 +190,7 @@ std::optional<Warning> idle(const std::string& text) {
 }
 
 TEST(IdleOverride, SaysWhenTheNextStepChangesNothing) {
+  // F60000 is 1000 mm/s and the axes do 200: only below 20 % does the override begin to act.
   const auto far = idle(kHead + "G1 X500 F60000\nX10\nM2\n");
   ASSERT_TRUE(far);
   EXPECT_EQ(far->line, 4U);
@@ -194,6 +199,7 @@ TEST(IdleOverride, SaysWhenTheNextStepChangesNothing) {
       HasSubstr("next step of the feed override, 90 %, changes nothing for 100 % of the cut"));
   EXPECT_THAT(far->text, HasSubstr("begins to act at about 20 %"));
   // 1 mm lines under exact stop: the axes never come to 6 m/min.
+  // From stop to stop over 1 mm at 1000 mm/s² the peak is √(1·1000) = 31.6 mm/s, 32 % of F6000.
   std::string stairs = kHead + "G61.1\nF6000\n";
   for (int i = 0; i < 50; ++i) {
     stairs += fmt::format("G1 X{}\nY{}\n", 11 + i, 11 + i);

@@ -13,6 +13,7 @@ namespace {
 using kernel::signal::AxisValues;
 
 TEST(PathLimits, ADiagonalUsesBothAxes) {
+  // Along 45° each axis has 1/√2 of the path's speed, so the path may have √2 of the axis'.
   const PathLimits limits(test::mill());
   const double r = std::numbers::sqrt2;
   const auto l = limits.line(AxisValues{1 / r, 1 / r});
@@ -25,6 +26,7 @@ TEST(PathLimits, TheSlowestAxisDecides) {
   m.axes[2].max_speed_mm_s = 20.0;
   m.axes[2].max_acceleration_mm_s2 = 100.0;
   const PathLimits limits(m);
+  // Z takes 0.8 of the path: 20/0.8 = 25 mm/s and 100/0.8 = 125 mm/s².
   const auto l = limits.line(AxisValues{0.6, 0.0, 0.8});
   EXPECT_NEAR(l.speed_mm_s, 25.0, 1e-9);
   EXPECT_NEAR(l.acceleration_mm_s2, 125.0, 1e-9);
@@ -33,6 +35,8 @@ TEST(PathLimits, TheSlowestAxisDecides) {
 TEST(PathLimits, ACircleKeepsItsCentripetalAcceleration) {
   const auto m = test::mill();
   test::Program p;
+  // R = 1 mm with a feed no limit of an axis hinders: v²/R must come out at κ_n·A exactly, and the
+  // tangential rest by Pythagoras.
   p.at = {1, 0, 0};
   p.arc(1, 0, 0, 0, 1, 1000.0);
   const auto path = test::plan_of(m, p);
@@ -42,6 +46,7 @@ TEST(PathLimits, ACircleKeepsItsCentripetalAcceleration) {
 }
 
 TEST(PathLimits, ARightAngleWithoutDeviationJumpsByOnePeriodOfAcceleration) {
+  // δ = 0 leaves the jump alone: Δt_x = Δt_y = 1, so v = A·T = 2000·0.001.
   auto m = test::mill();
   m.control.junction_deviation_mm = 0.0;
   const PathLimits limits(m);
@@ -52,6 +57,7 @@ TEST(PathLimits, TheDeviationLawAtARightAngle) {
   auto m = test::mill();
   m.control.junction_deviation_mm = 0.01;
   const PathLimits limits(m);
+  // The legs enclose 90°: β = 45°.
   const double s = std::sqrt(0.5);
   EXPECT_NEAR(limits.junction_mm_s({1, 0, 0}, {0, 1, 0}, 100, 100),
               std::sqrt(2000.0 * 0.01 * s / (1 - s)), 1e-9);
@@ -59,6 +65,7 @@ TEST(PathLimits, TheDeviationLawAtARightAngle) {
 
 TEST(PathLimits, FacetsOfACurveKeepItsCentripetalLimit) {
   const PathLimits limits(test::mill());
+  // Facets of R·turn on a circle of R = 5 mm: v² = A·R up to the cosine of half the turn.
   const double radius = 5.0;
   const double turn = 0.01;
   const double v = limits.junction_mm_s({1, 0, 0}, {std::cos(turn), std::sin(turn), 0},

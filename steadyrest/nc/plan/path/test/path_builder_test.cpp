@@ -28,6 +28,8 @@ TEST(PathBuilder, MachineCoordinatesAreWorkPlusOffset) {
 }
 
 TEST(PathBuilder, ArcsOfEveryDirectionEndWhereProgrammed) {
+  // turns = 1 is the short way from (10, 0) to (0, 10) counter-clockwise, −1 the long way
+  // clockwise; each further turn adds 2π. The helix rises from Z5 to Z2.
   for (const int turns : {1, -1, 3, -2}) {
     Program p;
     p.at = {10, 0, 5};
@@ -62,6 +64,7 @@ TEST(PathBuilder, ARightAngleIsRoundedWithinTheTolerance) {
   ASSERT_EQ(path.segments.size(), 3U);
   const auto& arc = path.segments[1];
   ASSERT_EQ(arc.geometry, Geometry::arc);
+  // R·(√2 − 1) = tolerance at a right angle; the arc's middle is then the tolerance off the corner.
   const double radius = 0.1 / (std::numbers::sqrt2 - 1.0);
   EXPECT_NEAR(arc.radius_mm, radius, 1e-9);
   EXPECT_NEAR(arc.speed_limit_mm_s, std::sqrt(0.866 * 2000 * radius), 1e-6);
@@ -93,6 +96,8 @@ TEST(PathBuilder, PathIsContiguousAndNeverFurtherFromTheCornersThanTheTolerance)
         EXPECT_LE(path.segments[i - 1].exit_speed_limit_mm_s, segment.speed_limit_mm_s);
       }
       if (segment.geometry == Geometry::arc) {
+        // Distance of an arc from its corner, from its own radius and sweep: independent of how it
+        // was chosen.
         const double deviation = segment.radius_mm * (1 / std::cos(segment.sweep_rad / 2) - 1);
         EXPECT_LE(deviation, p.tolerance_mm * (1 + 1e-9));
       }
@@ -128,6 +133,8 @@ TEST(PathBuilder, EventsStopThePathBeforeTheirSegment) {
   const auto path = builder.take().value();
   ASSERT_EQ(path.events.size(), 3U);
   EXPECT_EQ(path.events[0].kind, PathEventKind::spindle);
+  // A spindle start waits before the first feed move, not where M3 is written: the ramp passes
+  // during rapids.
   EXPECT_EQ(path.events[1].kind, PathEventKind::spindle_wait);
   EXPECT_EQ(path.events[1].segment, 0U);
   EXPECT_EQ(path.events[2].kind, PathEventKind::coolant);
@@ -138,6 +145,7 @@ TEST(PathBuilder, EventsStopThePathBeforeTheirSegment) {
 TEST(PathBuilder, InverseTimeTakesItsTime) {
   Program p;
   p.line(30, 40, 0.5).feed_mode = interpret::FeedMode::inverse_time;
+  // 0.5 moves/s over √(30² + 40²) = 50 mm.
   EXPECT_NEAR(plan_of(mill(), p).segments[0].feed_mm_s, 25.0, 1e-9);
 }
 
@@ -164,6 +172,7 @@ TEST(PathBuilder, LinesWithinTheMergeToleranceBecomeOne) {
   Program p;
   p.mode = interpret::PathMode::continuous;
   p.tolerance_mm = 0.01;
+  // A zigzag 5 µm high in a tolerance of 10 µm: one line. The turn into Y is no part of it.
   for (int i = 1; i <= 20; ++i) {
     p.line(i, (i % 2) * 0.005, 50);
   }
@@ -203,6 +212,7 @@ std::size_t pieces_of_arc(double tolerance_mm) {
 }
 
 TEST(PathBuilder, AnArcFlatterThanTheMergeToleranceIsNoArc) {
+  // 10·(1 − cos 15°) = 0.3407 mm.
   EXPECT_EQ(pieces_of_arc(0.340), 1U);
   EXPECT_EQ(pieces_of_arc(0.342), 0U);
 }
@@ -230,6 +240,8 @@ TEST(PathBuilder, ConstantCuttingSpeedTurnsTheSpindleByTheRadius) {
     move.feed_mode = interpret::FeedMode::per_revolution;
     move.surface_speed_mm_s = -2000.0;
     const auto path = plan_of(m, p);
+    // The cutting speed over the circumference, bounded by the spindle's largest speed at the small
+    // radius.
     const double spindle = std::min(50.0, 2000.0 / (2 * std::numbers::pi * radius));
     EXPECT_NEAR(path.plans[0].spindle_rev_s, -spindle, 1e-9);
     EXPECT_NEAR(path.segments[0].feed_mm_s, 0.2 * spindle, 1e-9);

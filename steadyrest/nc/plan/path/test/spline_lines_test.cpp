@@ -16,6 +16,8 @@ namespace {
 using interpret::Move;
 using interpret::SplinePoint;
 
+// Weight cos 45° in the middle makes the quadratic an exact circle: the curve is known without
+// splines.
 const std::array kQuarterCircle = {SplinePoint{10, 0, 1}, SplinePoint{10, 10, std::sqrt(0.5)},
                                    SplinePoint{0, 10, 1}};
 
@@ -40,6 +42,8 @@ TEST(SplineCurve, ACubicIsBernsteinsPolynomial) {
 TEST(SplineCurve, AUniformOneGoesThroughTheMiddlesOfItsInnerLegs) {
   const std::array points = {SplinePoint{0, 0, 1}, SplinePoint{1, 4, 1}, SplinePoint{5, 4, 1},
                              SplinePoint{6, 0, 1}};
+  // Two quadratic spans: the knot between them is the middle of the inner control leg, ((1 + 5)/2,
+  // 4).
   ASSERT_EQ(interpret::spline_spans(points, 3), 2);
   const SplinePoint p = interpret::spline_at(points, 3, 1.0);
   EXPECT_NEAR(p.x_mm, 3.0, 1e-12);
@@ -69,6 +73,7 @@ TEST(SplineLines, StayWithinTheToleranceAndMeet) {
     length += std::hypot(line.end[0] - line.start[0], line.end[1] - line.start[1]);
   }
   EXPECT_EQ(at, spline.end);
+  // The circle's length 10·π/2; chords are shorter by far less than the bound.
   EXPECT_NEAR(length, 5.0 * std::numbers::pi, 3e-3);
 }
 

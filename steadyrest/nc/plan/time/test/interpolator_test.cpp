@@ -56,6 +56,7 @@ TEST(Interpolator, LineTakesTheClosedFormTimeOfTheTrapezoid) {
       Program p;
       p.line(length, 0, feed);
       const double a = m.axes[0].max_acceleration_mm_s2;
+      // Trapezoid: L/V + V/A; if the feed is never reached, the triangle 2·√(L/A).
       const double full =
           length >= feed * feed / a ? length / feed + feed / a : 2 * std::sqrt(length / a);
       const auto s = run(m, plan_of(m, p));
@@ -131,6 +132,8 @@ TEST(Interpolator, TinySegmentsOfACircleDoNotStop) {
       p.line(10 * std::cos(t), 10 * std::sin(t), 50.0);
     }
     const auto s = run(m, plan_of(m, p));
+    // Length over feed and one ramp each way, as if the path were one line; facets may cost a
+    // tenth.
     const double ideal = 20 * std::numbers::pi / 50.0 + 50.0 / 2000.0;
     EXPECT_LT(seconds(s), 1.1 * ideal + 0.1);
     EXPECT_GT(seconds(s), 0.99 * ideal);
@@ -334,6 +337,8 @@ TEST(Interpolator, WaitsForSpindleAndToolChange) {
 TEST(Interpolator, WaitsForTheSpindleSpeedThatTheOverrideLeaves) {
   auto m = mill();
   m.spindle.max_rev_s = 60.0;
+  // 0.1 rev/s per period: 95 % of 25 rev/s after 237.5 ms, 95 % of 60 (the most, not 100) after
+  // 570.
   // programmed, override, actual at 1 rev/s for each 10 ms from 0, expected wait to 95 % in s
   const struct {
     double programmed, ratio, sign, wait_s;

@@ -34,6 +34,7 @@ TEST(ProgramTimer, PartsAddUpToTheWhole) {
   const auto t = timer.take().value();
   EXPECT_NEAR(t.dwell_s, 1.5, 1e-9);
   EXPECT_NEAR(t.tool_change_s, 2.0, 1e-9);
+  // 100 mm at 200 mm/s and V/A = 0.1 s of ramps.
   EXPECT_NEAR(t.rapid_s, 100.0 / 200.0 + 0.1, 0.003);
   EXPECT_NEAR(t.cut_s, 150.0 / 25.0 + 2 * 25.0 / 2000.0, 0.005);
   EXPECT_NEAR(t.spindle_wait_s, 0.0, 0.003);  // 0.5 s of ramp pass during the rapid move of 0.6 s
@@ -63,6 +64,7 @@ TEST(ProgramTimer, TheMovingWindowGivesTheTimeOfTheWholePath) {
     for (const auto& move : p.moves) {
       timer.on_move(move);
     }
+    // The same path in memory at once: the window may change nothing.
     const double whole_s = static_cast<double>(test::run(m, test::plan_of(m, p)).size()) * 0.001;
     EXPECT_NEAR(timer.take().value().total_s, whole_s, 1e-6);
   }
@@ -117,6 +119,7 @@ TEST(ProgramTimer, OverridesStretchTheTime) {
     timer.on_event({EventKind::end, 9, 0.0});
     return timer.take().value().total_s;
   };
+  // 200 mm at 10 mm/s; the rapid override must not touch a feed move.
   EXPECT_NEAR(seconds(1.0, 1.0), 20.0, 0.05);
   EXPECT_NEAR(seconds(0.5, 1.0), 40.0, 0.05);
   EXPECT_NEAR(seconds(1.0, 0.5), 20.0, 0.05);

@@ -160,6 +160,7 @@ double closed_s(const Machine& m, const Program& p) {
 TEST(SegmentTimer, ALineTakesItsLengthOverTheSpeedAndTheSpeedOverTheAcceleration) {
   const auto m = mill();  // 200 mm/s, 2000 mm/s²
   for (const double feed : {0.5, 10.0, 50.0, 150.0}) {
+    // L/V + V/A, from stop to stop; the end may wait for its period.
     Program p;
     p.line(100, 0, feed);
     const double law_s = 100.0 / feed + feed / 2000.0;
@@ -175,6 +176,7 @@ TEST(SegmentTimer, WithAJerkLimitALineTakesAccelerationOverJerkBesides) {
   const auto m = mill(50000.0);
   Program p;
   p.line(100, 0, 50.0);
+  // The average over A/J adds its length: the textbook S-curve.
   EXPECT_NEAR(closed_s(m, p), 100.0 / 50.0 + 50.0 / 2000.0 + 2000.0 / 50000.0, 0.003);
 }
 
@@ -244,6 +246,8 @@ TEST(SegmentTimer, AFeedPerRevolutionFollowsTheSpindleAsItRampsUp) {
   p.moves.back().spindle_rev_s = 20.0;
   both.on_move(p.moves.back());
   const auto d = both.difference();
+  // 0.1 mm/rev at 10 rev/s is 1 mm/s: 20 mm in 20 s; then 2 mm/s, 10 s. The waits for 95 % of the
+  // speed take 1.9 s and 1.8 s.
   EXPECT_NEAR(d.total_s, 20.0 + 10.0 + 3.8, 0.4);
   expect_near(d, 0.001, 0.02, "per revolution");
 }
