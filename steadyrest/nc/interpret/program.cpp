@@ -34,6 +34,8 @@ class Counter final : public Sink {
 
 }  // namespace
 
+// One line at a time: read it; then it steers the flow (O-words, calls) or is executed. The first
+// refusal ends the run; survey() only adds what else of the text is not known.
 class ProgramRun::Run {
  public:
   Run(LineSource& source, const Config& config, std::unique_ptr<Interpreter> interpreter,
@@ -46,6 +48,8 @@ class ProgramRun::Run {
         dialect_(config.dialect),
         block_delete_(config.block_delete),
         counter_(sink, report_) {
+    // Expressions are evaluated while a line is read, so the reader needs the variables of its
+    // dialect.
     if (config.dialect == read::Dialect::linuxcnc) {
       reader_.set_values(&interpreter_->parameters());
     } else if (config.dialect == read::Dialect::fanuc) {
@@ -84,6 +88,8 @@ class ProgramRun::Run {
       return follow(flow_.pass_over(block_));
     }
     const LineSource& source = files_.now();
+    // Two runs over nearly equal texts, side by side: a line that the other has just split into
+    // words is not split again.
     if (!same_as_ahead(source) &&
         !reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
       return refuse(reader_.refused());
@@ -92,6 +98,7 @@ class ProgramRun::Run {
       return false;
     }
     const bool sinumerik = dialect_ == read::Dialect::sinumerik;
+    // More values than PROC takes show at the subprogram's first block behind PROC.
     if (sinumerik && flow_.in_call() && typed_.values_left() &&
         !(block_.words().empty() && block_.flow().kind == read::FlowKind::none)) {
       return refuse({.line = block_.line(),
@@ -124,6 +131,7 @@ class ProgramRun::Run {
         if (dialect_ == read::Dialect::fanuc) {
           return follow(flow_.call_numbered(block_.line(), call.number, call.repeats));
         }
+        // LinuxCNC takes L0 for no call at all.
         return call.repeats < 0.5 ||
                follow(flow_.call_program(block_.line(), std::to_string(call.number), call.repeats));
       case Interpreter::ProgramCall::Kind::end:
@@ -186,6 +194,7 @@ class ProgramRun::Run {
   }
 
   /// Tells the interpreter of calls that began or ended.
+  // A call that ends and begins again in one step (M98 L, NAME P) leaves the depth as it was.
   bool follow(bool accepted) {
     const std::size_t calls = interpreter_->parameters().calls();
     again_ = calls_ == calls;
@@ -268,6 +277,7 @@ class ProgramRun::Run {
   }
 
   void add(const Refused& refused) {
+    // A hundred lines with G41 are one finding: words count as the same by letter and number.
     const auto head = [](const Refused& one) {
       return std::pair{one.reason, one.word.substr(0, one.word.find_first_of(" .=[(+-#"))};
     };

@@ -12,6 +12,8 @@ using read::FlowKind;
 
 // A label heads one block of its subprogram.
 bool FlowControl::define(const Block& block) {
+  // A label belongs to one subprogram of one file: the same label may head a block in another. A
+  // loop comes back to the same line, which is no second head.
   const std::string key = frames_.back().sub + '\n' + std::to_string(files_.line_begin().file) +
                           '\n' + std::string{block.flow().label.view()};
   const auto [known, fresh] = heads_.try_emplace(key, files_.line_begin());
@@ -34,6 +36,7 @@ bool FlowControl::condition(const Block& block) {
   if (!open(block, files_.line_begin())) {
     return false;
   }
+  // The reader has evaluated the condition already; 0 is false, all else true, as in LinuxCNC.
   if (block.flow().values[0] == 0.0) {
     pass(Passing::to_else, block.flow().label.view());
   }
@@ -61,12 +64,14 @@ bool FlowControl::close(const Block& block, FlowKind head) {
   return true;
 }
 
+// `while` is two words: the head of a while loop and, with the label of an open `do`, its foot.
 bool FlowControl::head_of_while(const Block& block) {
   const bool goes_on = block.flow().values[0] != 0.0;
   const Open* const found = find(block, true);
   if (found != nullptr && found->kind == FlowKind::loop_do) {
     if (goes_on) {
       const Place head = found->head;
+      // What the turn has left open ends with it; the do loop itself stays.
       frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
       return go(block.line(), head);
     }
@@ -89,6 +94,7 @@ bool FlowControl::end_of_while(const Block& block) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                   "endwhile without its while");
   }
+  // The head evaluates its condition again, and opens the loop again if it holds.
   const Place head = found->head;
   drop_to(*found);
   return go(block.line(), head);
@@ -141,6 +147,8 @@ bool FlowControl::next_turn(const Block& block) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                   "continue outside of its while or do loop (a repeat has none)");
   }
+  // `continue` of a do loop goes forward to its `while`, where the condition is; that of a while
+  // loop goes back to the head.
   if (found->kind == FlowKind::loop_do) {
     frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
     pass(Passing::to_condition, block.flow().label.view());

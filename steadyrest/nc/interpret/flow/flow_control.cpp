@@ -9,6 +9,7 @@ namespace steadyrest::nc::interpret {
 using read::Block;
 using read::FlowKind;
 
+// The main program has a frame like every call: labels and open blocks need no special case.
 FlowControl::FlowControl(ProgramFiles& files, Parameters& parameters, read::Reader& reader,
                          const Config& config)
     : files_(files),
@@ -26,6 +27,8 @@ bool FlowControl::refuse(std::uint32_t line, std::string_view label, std::string
   return false;
 }
 
+// Loops and calls alone can make a finite file run for ever, so only what they execute counts. A
+// cycle's moves count as well: time is bounded for every program.
 bool FlowControl::count_line(std::uint64_t moves_before) {
   constexpr std::uint64_t kMovesOfALine = 100;  // a cycle that pecks may make a million
   repeated_lines_ += repeating() ? 1 + moves_before / kMovesOfALine : 0;
@@ -37,6 +40,8 @@ bool FlowControl::count_line(std::uint64_t moves_before) {
                     " lines: the program does not seem to end");
 }
 
+// Passing over means reading O-words only until the one that ends it. The label goes with it, since
+// blocks of other labels may lie in between.
 void FlowControl::pass(Passing how, std::string_view label) {
   passing_ = how;
   passing_label_ = label;
@@ -93,6 +98,7 @@ bool FlowControl::act(const Block& block) {
 // What ends the passing over of lines.
 bool FlowControl::pass_over(Block& block) {
   const auto& source = files_.now();
+  // Nothing behind the closing % belongs to the program.
   if (reader_.ends_program(source.line())) {
     return !refuse_end();
   }
@@ -136,6 +142,7 @@ bool FlowControl::pass_over(Block& block) {
         passing_ = Passing::nothing;
       }
       return true;
+    // The definition that a call was looking for: noted, so that the next call goes there at once.
     case Passing::to_sub:
     case Passing::to_program:
       if (kind == (passing_ == Passing::to_sub ? FlowKind::sub : FlowKind::label)) {
@@ -192,6 +199,7 @@ bool FlowControl::arrived(Block& block) {
   }
 }
 
+// Passing over reads O-words without their values; here the value counts.
 bool FlowControl::evaluate(Block& block) {
   const auto& source = files_.now();
   if (!reader_.read(source.line(), source.number(), source.ending_length(), block)) {
@@ -217,6 +225,7 @@ bool FlowControl::refuse_end() {
 
 FlowControl::Open* FlowControl::find(const Block& block, bool loops_only) {
   auto& open = frames_.back().open;
+  // From the innermost outwards; `continue` and `break` look past the if that they are in.
   const auto found = std::find_if(open.rbegin(), open.rend(), [&](const Open& one) {
     return one.label == block.flow().label.view() && !(loops_only && one.kind == FlowKind::when);
   });
@@ -236,6 +245,7 @@ bool FlowControl::sub(const Block& block) {
                   in_call() ? "a subprogram that begins inside of another"
                             : "a subprogram that is known already");
   }
+  // A definition is not executed where it occurs: its place is noted, its lines are passed over.
   subs_[label] = files_.line_end();
   pass(Passing::to_endsub, label);
   return true;
@@ -247,6 +257,7 @@ bool FlowControl::call(const Block& block) {
     return refuse(block.line(), flow.label.view(), "calls_too_deep",
                   "subprograms that call each other more than ten deep");
   }
+  // #1 to #30 of the caller are put aside before the subprogram can change them.
   parameters_.enter({flow.values.data(), flow.count});
   const std::string label{flow.label.view()};
   return enter(block.line(), label, Passing::to_sub,
@@ -276,6 +287,8 @@ bool FlowControl::enter(std::uint32_t line, std::string_view label, Passing how,
     frames_.push_back(std::move(frame));
     return go(line, found->second);
   }
+  // Not met so far: NAME.ngc where there is one, otherwise further down in this file. Either way
+  // lines are passed over until its definition.
   frames_.push_back(std::move(frame));
   pass(how, label);
   const auto file = files_.find(label);
@@ -297,6 +310,7 @@ bool FlowControl::end_program(std::uint32_t line) {
     return refuse(line, {}, "endless_program",
                   "M99 in the main program: it would begin again for ever");
   }
+  // M98 L5 executes the same frame five times: M99 goes back to the head until none is left.
   Frame& frame = frames_.back();
   if (frame.left > 0.5) {
     frame.left -= 1.0;

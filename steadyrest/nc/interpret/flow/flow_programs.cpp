@@ -28,6 +28,7 @@ std::optional<std::int32_t> program_number(std::string_view line) noexcept {
   skip();
   std::int32_t number = 0;
   std::size_t digits = 0;
+  // Nine digits fit a 32-bit number; program numbers have four or five.
   for (; at < line.size() && read::is_digit(line[at]) && digits < 9; ++at, ++digits) {
     number = number * 10 + (line[at] - '0');
   }
@@ -43,6 +44,7 @@ std::vector<std::string> file_names(std::int32_t number) {
   const std::string plain = std::to_string(number);
   const std::string four = plain.size() < 4 ? std::string(4 - plain.size(), '0') + plain : plain;
   std::vector<std::string> names;
+  // Controls write four digits with leading zeros; CAM systems often leave them out.
   for (const std::string& digits : {four, plain}) {
     for (const std::string_view head : {"O", "o", ""}) {
       for (const std::string_view tail : {"", ".nc", ".NC", ".ngc", ".tap", ".txt"}) {
@@ -59,16 +61,19 @@ std::vector<std::string> file_names(std::int32_t number) {
 
 // Where the programs of a file begin: each behind the line of its number.
 bool FlowControl::note_programs(std::uint32_t line, std::uint32_t file) {
+  // One pass over the file notes every program in it; the second call needs no search.
   const Place back = files_.line_end();
   if (!go(line, {.file = file, .line = 0, .offset = 0})) {
     return false;
   }
   while (files_.next() == read::LineSource::Status::line) {
+    // The first line's % opens the file, a later one closes it.
     const std::string_view text = files_.now().line();
     if (closes(text) && files_.now().number() > 1) {
       break;
     }
     if (const auto number = program_number(text)) {
+      // Of two programs with one number the first counts.
       programs_.try_emplace(std::to_string(*number), files_.line_end());
     }
   }
@@ -99,6 +104,7 @@ bool FlowControl::call_numbered(std::uint32_t line, std::int32_t number, double 
     }
     found = programs_.try_emplace(label, *file).first;
   }
+  // M98 shares #1–#33 with its caller, so no arguments are set.
   return enter_numbered(line, label, found->second, repeats);
 }
 
@@ -120,6 +126,7 @@ bool FlowControl::call_named(const read::Block& block) {
     return refuse(block.line(), name, "calls_too_deep",
                   "subprograms that call each other more than ten deep");
   }
+  // The control does not tell small letters from capitals, but many file systems do.
   std::string big = name;
   std::string small = name;
   std::ranges::transform(name, big.begin(), read::upper);

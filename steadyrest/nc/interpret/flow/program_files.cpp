@@ -18,6 +18,7 @@ Place ProgramFiles::line_end() const noexcept {
 }
 
 LineSource::Status ProgramFiles::next() noexcept {
+  // Where the line begins is where a loop goes back to.
   line_begin_ = line_end();
   return sources_[current_]->next();
 }
@@ -28,6 +29,7 @@ bool ProgramFiles::go(const Place& place) noexcept {
 }
 
 std::optional<Place> ProgramFiles::open(const std::string& path) {
+  // A file is opened once, however often it is called.
   const auto known = std::ranges::find(paths_, path);
   if (known != paths_.end()) {
     return Place{.file = static_cast<std::uint32_t>(known - paths_.begin())};
@@ -50,6 +52,7 @@ std::optional<Place> ProgramFiles::find(std::string_view name) {
 std::optional<Place> ProgramFiles::find(const std::vector<std::string>& names) {
   for (const std::string& folder : folders_) {
     for (const std::string& name : names) {
+      // The folders in their order: the first that has the name wins.
       if (const auto place = open((folder.empty() ? std::string{} : folder + "/") + name)) {
         return place;
       }

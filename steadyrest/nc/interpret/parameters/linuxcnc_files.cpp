@@ -43,6 +43,7 @@ bool take_word(std::string_view& text, char& letter, double& value) noexcept {
   if (text.empty()) {
     return false;
   }
+  // Clearing one bit makes a letter a capital; LinuxCNC reads both.
   letter = static_cast<char>(static_cast<unsigned char>(text.front()) & 0xdfU);
   text.remove_prefix(1);
   const read::Number number = read::read_number(text);
@@ -51,6 +52,8 @@ bool take_word(std::string_view& text, char& letter, double& value) noexcept {
   return number.length != 0;
 }
 
+// One tool a line: words in any order, lengths in the units of the machine's files, angles in
+// degrees. The pocket (P) moves nothing.
 Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_view text,
                        double unit_mm) {
   Tool tool;
@@ -100,6 +103,7 @@ Result<std::vector<Tool>> read_tool_table(const std::string& path, double unit_m
     }
     std::string_view text = without_comment(source->line());
     skip_blanks(text);
+    // Comments and blank lines.
     if (text.empty()) {
       continue;
     }
@@ -116,6 +120,7 @@ namespace {
 // LinuxCNC's numbering: nine values from 5161 (G28), 5181 (G30) and 5211 (G92); work offset n from
 // 5221 + 20·(n − 1), its rotation behind the nine values.
 bool put_variable(Config& config, int number, double value, double unit_mm) {
+  // 5161 and so on are absolute numbers; a slot is the place within its group of nine or twenty.
   const auto slot = [&](int first) { return static_cast<std::size_t>(number - first); };
   const auto scaled = [&](std::size_t axis) { return is_rotary(axis) ? value : value * unit_mm; };
   const auto in = [&](int first) { return number >= first && number < first + 9; };
@@ -125,6 +130,7 @@ bool put_variable(Config& config, int number, double value, double unit_mm) {
     config.home[1][slot(5181)] = scaled(slot(5181));
   } else if (in(5211)) {
     config.g92[slot(5211)] = scaled(slot(5211));
+    // The file counts the systems from 1 (G54).
   } else if (number == 5220) {
     if (!(value >= 1.0 && value <= 9.0)) {
       return false;
@@ -156,6 +162,7 @@ Result<void> read_variables(const std::string& path, double unit_mm, Config& con
     if (status == LineSource::Status::end) {
       break;
     }
+    // A line that could not be read is no `number value` either: it is refused below.
     std::string_view text = status == LineSource::Status::line ? source->line() : "?";
     skip_blanks(text);
     if (text.empty()) {
@@ -169,10 +176,12 @@ Result<void> read_variables(const std::string& path, double unit_mm, Config& con
       return refuse(path, source->number(), "a line that is not `number value`",
                     "name LinuxCNC's variable file");
     }
+    // Numbers that no parameter has are skipped.
     if (number.value < 1.0 || number.value > 1e5) {
       continue;
     }
     const int index = static_cast<int>(number.value);
+    // 5210 says whether the G92 that follows it is in force or only stored.
     config.g92_on = config.g92_on || (index == 5210 && value.value != 0.0);
     if (!put_variable(config, index, value.value, unit_mm)) {
       return refuse(path, source->number(), "an active coordinate system that does not exist",

@@ -10,6 +10,8 @@ namespace {
 
 using read::Lookup;
 
+// Locals, volatile commons and permanent commons of FANUC's custom macro. All start vacant here:
+// what a control keeps from earlier programs is unknown.
 constexpr bool is_kept(int index) noexcept {
   return (index >= 1 && index <= 33) || (index >= 100 && index <= 199) ||
          (index >= 500 && index <= 999);
@@ -47,6 +49,7 @@ constexpr ModeMask mode_of(int index) noexcept {
 }  // namespace
 
 MacroVariables::MacroVariables(const State& state) : state_(state) {
+  // Not a number stands for vacant: FANUC's #0, which differs from 0.
   numbers_.fill(std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -71,9 +74,11 @@ bool MacroVariables::mode(int index, double& value) const {
     value = answer;
     return true;
   };
+  // Whoever rewrites programs must know which modes a line depends on.
   asked_.about_mode(mode_of(index));
   switch (index) {
     case 4001:
+      // Codes are kept times ten (G38.2); FANUC's groups hold whole ones.
       return state_.motion >= 0 && state_.motion <= 30 && yes(state_.motion / 10.0);
     case 4002:
       return yes(state_.plane == Plane::xy ? 17.0 : state_.plane == Plane::zx ? 18.0 : 19.0);
@@ -89,6 +94,7 @@ bool MacroVariables::mode(int index, double& value) const {
     case 4010:
       return yes(state_.retract_to_initial ? 98.0 : 99.0);
     case 4014:
+      // G54 to G59; #4014 has no value for others.
       return state_.active_offset < 6 && yes(54.0 + static_cast<double>(state_.active_offset));
     case 4109:
       return state_.feed_mode == FeedMode::per_minute &&
@@ -112,9 +118,12 @@ bool MacroVariables::position(int index, double& value) const {
       continue;
     }
     const auto axis = static_cast<std::size_t>(index - first);
+    // In an inch program the unit of machine coordinates is a setting of the control.
     if (first == kMachine && state_.unit_mm != 1.0) {
       return false;
     }
+    // 5001 is the programmed position, 5021 that of the machine, 5041 that of the spindle nose in
+    // work coordinates.
     value = state_.position[axis] + (first == kBlockEnd  ? 0.0
                                      : first == kMachine ? state_.offset[axis]
                                                          : state_.tool_offset[axis]);
@@ -139,6 +148,7 @@ Lookup MacroVariables::set_number(int index, double value) {
   if (!is_kept(index)) {
     return index < 1000 ? Lookup::no_such_number : Lookup::read_only;
   }
+  // In force once the block has been read to its end, as on the control.
   pending_.emplace_back(index, value);
   return Lookup::found;
 }
@@ -166,6 +176,8 @@ void MacroVariables::drop() noexcept {
   pending_.clear();
 }
 
+// Least increments of IS-B: a calculated address is rounded to them, as on the control. Other
+// addresses (F, S, P …) are not.
 double MacroVariables::increment(char letter) const {
   constexpr double kMetric = 0.001;
   constexpr double kInch = 0.0001;

@@ -11,6 +11,10 @@ namespace {
 
 using read::Lookup;
 
+// Three stores: numbers, global names, and the local names of each call. #5161 … and the predefined
+// names have no store: they show the state itself, so they never lag behind a G10 or a move. What a
+// line assigns waits until the whole line has been read.
+
 constexpr int kProbe = 5061;       // … 5069, and 5070 whether it touched
 constexpr int kHome = 5161;        // … 5169
 constexpr int kSecondHome = 5181;  // … 5189
@@ -54,6 +58,7 @@ Parameters::Parameters()
 
 void Parameters::keep(std::span<const std::pair<int, double>> numbers) {
   for (const auto& [index, value] : numbers) {
+    // Probe results (#5061 …) are not taken over, and from #5161 on numbers show the state.
     if (index >= 1 && index < kProbe) {
       numbers_[static_cast<std::size_t>(index)] = value;
       set_[static_cast<std::size_t>(index)] = true;
@@ -107,6 +112,7 @@ void Parameters::ask(std::string_view name) const {
   }
 }
 
+// Numbers that a program may write although they show the state.
 double* Parameters::stored(int index, bool& rotary) const noexcept {
   const auto axis_of = [&](int first, Axes& axes) {
     rotary = is_rotary(index - first);
@@ -137,12 +143,15 @@ double* Parameters::stored(int index, bool& rotary) const noexcept {
 
 bool Parameters::of_state(int index, double& value) const {
   const auto in_force = [&](const Axes& axes, int first, double unit_mm) {
+    // Offsets, reference points and tool data in the units of the machine's files, positions in
+    // those of the program; angles are degrees in both.
     value =
         axes[static_cast<std::size_t>(index - first)] / (is_rotary(index - first) ? 1.0 : unit_mm);
     return true;
   };
   if (within(index, kPosition)) {
     Axes shown = state_->position;
+    // Under compensation LinuxCNC shows the tool's centre, not the contour.
     for (std::size_t i = 0; i < shown.size(); ++i) {
       shown[i] += state_->cutter_shift[i];
     }
@@ -226,11 +235,13 @@ Lookup Parameters::number(int index, double& value) const {
   if (within(index, kPosition) && state_->cutter_side != 0) {
     return Lookup::not_while_compensating;
   }
+  // Below #5161 no number shows the state, so the common numbers skip the look-up.
   if (index >= kHome && of_state(index, value)) {
     ask(index);
     return Lookup::found;
   }
   value = numbers_[static_cast<std::size_t>(index)];
+  // The value may come from the control's past: noted, since a rewriter must not rely on it.
   if (!set_[static_cast<std::size_t>(index)]) {
     asked_.about("#" + std::to_string(index));
   }
@@ -238,6 +249,7 @@ Lookup Parameters::number(int index, double& value) const {
 }
 
 const Parameters::Names& Parameters::local_names() const noexcept {
+  // M98 shares the names of its caller; a call by O-word has its own.
   const auto own =
       std::find_if(calls_.rbegin(), calls_.rend(), [](const Call& call) { return !call.shared; });
   return own == calls_.rend() ? main_names_ : own->names;
@@ -294,6 +306,8 @@ Lookup Parameters::set_name(std::string_view name, double value) {
 void Parameters::assign(int index, double value) {
   bool rotary = false;
   if (double* const place = index >= kHome ? stored(index, rotary) : nullptr; place != nullptr) {
+    // Only the stored number changes. LinuxCNC acts on it when the system is selected again, so
+    // what is in force stays.
     *place = rotary ? value : value * config_->data_unit_mm;
     if (index >= kOffsets) {
       asked_.about_offset(std::uint32_t{1}
@@ -326,6 +340,8 @@ void Parameters::drop() noexcept {
 }
 
 void Parameters::record_probe(const Axes& end) {
+  // LinuxCNC would record where the probe touched. Here it is taken to touch at the end, but the
+  // numbers count as unset: a program that uses them is told so.
   for (int axis = 0; axis < kAxes; ++axis) {
     const auto number = static_cast<std::size_t>(kProbe) + static_cast<std::size_t>(axis);
     numbers_[number] =
@@ -340,6 +356,7 @@ void Parameters::enter(std::span<const double> arguments) {
   Call call;
   std::copy_n(numbers_.begin() + 1, kLocals, call.saved.begin());
   std::copy_n(set_.begin() + 1, kLocals, call.saved_set.begin());
+  // A missing argument is 0, and counts as set.
   std::fill_n(numbers_.begin() + 1, kLocals, 0.0);
   std::fill_n(set_.begin() + 1, kLocals, true);
   std::ranges::copy(arguments, numbers_.begin() + 1);
@@ -350,6 +367,7 @@ void Parameters::enter_shared() {
   calls_.emplace_back().shared = true;
 }
 
+// LinuxCNC gives #1 to #30 back to the caller; a value returned shows in #<_value>.
 void Parameters::leave(const double* returned) {
   if (!calls_.back().shared) {
     std::ranges::copy(calls_.back().saved, numbers_.begin() + 1);

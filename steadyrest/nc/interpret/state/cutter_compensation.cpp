@@ -6,12 +6,19 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
+// The contour's points come in as `programmed`; the tool's centre goes out at the tool's radius
+// beside them. Where a move ends depends on the corner behind it, so each waits until the next one
+// is known (cutter_compensation_waiting.cpp). `current_` is the tool's centre at the end of what is
+// planned so far, `start_` where the waiting move begins. Bounds and special cases are those of
+// LinuxCNC 2.9, found with rs274.
+
 constexpr double kMmPerMil = 0.0254;
 
 }  // namespace
 
 void CutterCompensation::begin(Plane plane, const Tool& tool, const Axes& machine) {
   tool_ = tool;
+  // A negative diameter in the tool table puts the tool on the other side.
   if (tool_.radius_mm < 0.0) {
     tool_.radius_mm = -tool_.radius_mm;
     tool_.side = -tool_.side;
@@ -25,10 +32,13 @@ void CutterCompensation::begin(Plane plane, const Tool& tool, const Axes& machin
   machine_ = machine;
 }
 
+// G40: nothing follows that could shorten the waiting moves, so they keep their own end.
 CutterCompensation::Fault CutterCompensation::end(bool inch) {
   return meet_at(current_, inch);
 }
 
+// A program stop lets out what waits, since the operator acts at that point. The move before it can
+// no longer be shortened: a concave corner right after it is refused.
 CutterCompensation::Fault CutterCompensation::stop(bool inch) {
   if (!active() || !entered_) {
     return Fault::none;
@@ -58,6 +68,8 @@ PlanePoint CutterCompensation::to_tool(PlanePoint direction) const noexcept {
   return left() ? normal : PlanePoint{.first = -normal.first, .second = -normal.second};
 }
 
+// The contour's direction from its normal: left_of() twice is a turn by 180°, hence the sign on the
+// left side.
 PlanePoint CutterCompensation::from_tool(PlanePoint normal) const noexcept {
   const PlanePoint direction = left_of(normal);
   return left() ? PlanePoint{.first = -direction.first, .second = -direction.second} : direction;
@@ -65,6 +77,7 @@ PlanePoint CutterCompensation::from_tool(PlanePoint normal) const noexcept {
 
 OffsetCircle CutterCompensation::offset_of(PlanePoint centre, double radius,
                                            int turns) const noexcept {
+  // A counter-clockwise arc has its centre on the left of the path.
   const bool inside = left() == (turns > 0);
   return {.centre = centre,
           .radius = inside ? radius - tool_.radius_mm : radius + tool_.radius_mm,
@@ -89,6 +102,7 @@ CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes&
   const PlanePoint from = point(programmed);
   const PlanePoint to = point(move.end);
   Move offset = move;
+  // The entry: straight from where the tool stands to the offset of the programmed end.
   if (!entered_) {
     current_ = from;
     if (length(between(from, to)) <= radius) {
@@ -107,9 +121,12 @@ CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes&
   }
   const PlanePoint direction = unit(way);
   const PlanePoint normal = to_tool(direction);
+  // The tool stands on the normal of the contour at the corner, so its place there tells the
+  // direction before the corner, whatever kind of move came before.
   const double turn = turn_between(from_tool(unit(between(from, current_))), direction, tool_.side);
   const Corner corner = kind_of(turn, behind_outer_arc());
   if (corner == Corner::concave) {
+    // Both offsets end where they cross, so the move before must still be here to be shortened.
     if (waiting_.empty() || stopped_) {
       return Fault::after_stop;
     }
@@ -120,6 +137,8 @@ CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes&
       return fault;
     }
   } else {
+    // Tangent or convex: the move before keeps its end. A convex corner gets an arc about the
+    // contour's point.
     const Fault fault = corner == Corner::convex ? meet_at(current_, inch) : Fault::none;
     if (fault != Fault::none) {
       return fault;
@@ -172,6 +191,8 @@ CutterCompensation::Fault CutterCompensation::line_corner(PlanePoint corner, Pla
     meet = found.value_or(PlanePoint{});
     return found ? Fault::none : Fault::does_not_fit;
   }
+  // Both offset lines pass the corner at the distance r. Their crossing lies r·tan(turn/2) before
+  // the end of the first.
   const PlanePoint before = from_tool(unit(between(corner, current_)));
   meet = along(current_, before, -tool_.radius_mm * std::tan(0.5 * turn));
   return Fault::none;
@@ -188,6 +209,7 @@ CutterCompensation::Fault CutterCompensation::arc_corner(const Move& move, Plane
                          .second = arc->centre_mm[axes_.second]};
     OffsetCircle before = offset_of(old, 0.0, arc->turns);
     before.radius = length(between(old, point(arc->end)));
+    // Circles about one centre coincide or never meet: there is no corner point.
     if (before.radius == 0.0 || length(between(old, centre)) == 0.0) {
       return Fault::same_centre;
     }
@@ -196,6 +218,8 @@ CutterCompensation::Fault CutterCompensation::arc_corner(const Move& move, Plane
     return found ? Fault::none : Fault::does_not_fit;
   }
   const PlanePoint normal = unit(between(corner, current_));
+  // Height of the arc's centre over the tangent line at the corner, for the crossing of a line and
+  // a circle.
   const double height = radius * dot(unit(between(corner, centre)), normal);
   const auto found = crossing(after, normal, from_tool(normal), height, tool_.radius_mm, false);
   meet = found.value_or(PlanePoint{});
@@ -210,6 +234,8 @@ CutterCompensation::Fault CutterCompensation::entry_arc(const Move& move, PlaneP
                        .second = move.centre_mm[axes_.second]};
   const PlanePoint inwards = unit(between(end, old));
   const PlanePoint chord = between(end, current_);
+  // The centre is as far from the tool's position as from the end: in this isosceles triangle the
+  // leg is half the chord over the cosine of the angle at the end.
   const double cosine = dot(unit(chord), inwards);
   if (std::abs(cosine) < 1e-6) {
     return Fault::entry_arc;
@@ -256,6 +282,7 @@ CutterCompensation::Fault CutterCompensation::turn_into_arc(const Move& move,
   const PlanePoint from = point(programmed);
   const PlanePoint centre{.first = move.centre_mm[axes_.first],
                           .second = move.centre_mm[axes_.second]};
+  // The tangent at the arc's start is perpendicular to the radius there.
   const PlanePoint across = unit(between(from, centre));
   PlanePoint direction = left_of(across);  // clockwise
   if (move.turns > 0) {
@@ -288,6 +315,7 @@ CutterCompensation::Fault CutterCompensation::arc(const Move& move, const Axes& 
   const PlanePoint outwards = unit(between(centre, to));
   const PlanePoint end =
       along(to, outwards, circle.tool_inside ? -tool_.radius_mm : tool_.radius_mm);
+  // Inside, the tool's centre runs on R − r: nothing is left of the arc.
   if (circle.tool_inside && circle.radius <= 0.0) {
     return Fault::arc_too_small;
   }
@@ -316,16 +344,22 @@ CutterCompensation::Fault CutterCompensation::meet_at(PlanePoint meet, bool inch
     if (move.kind == MoveKind::arc) {
       const PlanePoint centre{.first = move.centre_mm[axes_.first],
                               .second = move.centre_mm[axes_.second]};
+      // The crossing found must lie on the arc's own circle; otherwise the corner was worked out
+      // from another arc.
       const double miss =
           std::abs(length(between(centre, point(move.end))) - length(between(centre, meet)));
       if (miss > (inch ? 0.01 * kMmPerInch : 0.01)) {
         return Fault::arc_broken;
       }
+      // Shortened at a corner, the arc may sweep less than the contour, never more: more means that
+      // it would have to run backwards, all the way round. LinuxCNC applies its tolerance of
+      // lengths to this angle.
       const double angle = swept(start_, meet, centre, move.turns);
       if (waiting->angle != 0.0 &&
           std::abs(angle) > std::abs(waiting->angle) + (inch ? 0.001 : kMmPerMil)) {
         return Fault::runs_backwards;
       }
+      // The new end lies behind the beginning: the tool cannot get between the two corners.
     } else if (dot(waiting->direction, between(start_, meet)) < 0.0) {
       return Fault::runs_backwards;
     }

@@ -7,6 +7,7 @@
 
 namespace steadyrest::nc::interpret {
 
+// Counter-clockwise about +Z, as G10 L2 R and ROT Z turn; only X and Y change.
 Axes turned(const Axes& axes, double angle_deg) noexcept {
   if (angle_deg == 0.0) {
     return axes;
@@ -20,6 +21,7 @@ Axes turned(const Axes& axes, double angle_deg) noexcept {
   return out;
 }
 
+// machine = R·work + offset (move.hpp).
 Axes machine_of(const Move& move, const Axes& work) noexcept {
   Axes out = turned(work, move.rotation_deg);
   for (std::size_t i = 0; i < out.size(); ++i) {

@@ -19,6 +19,7 @@ double norm(const Move& move, std::size_t first) noexcept {
 }
 
 double arc_length(const Move& move) noexcept {
+  // Cyclic order keeps first, second, normal right-handed in all three planes.
   const std::size_t normal = move.normal[2] != 0.0 ? 2 : move.normal[1] != 0.0 ? 1 : 0;
   const std::size_t first = (normal + 1) % 3;
   const std::size_t second = (normal + 2) % 3;
@@ -29,10 +30,12 @@ double arc_length(const Move& move) noexcept {
   constexpr double kSame_rad = 1e-12;
   const double sign = move.turns < 0 ? -1.0 : 1.0;
   double sweep = std::fmod(sign * (angle(move.end) - angle(move.start)), kTurn);
+  // An end on the start, or a rounding before it, is a whole turn, as on the controls.
   if (sweep < kSame_rad) {
     sweep += kTurn;
   }
   sweep += (std::abs(move.turns) - 1) * kTurn;
+  // The start's radius serves for the whole arc: both ends agree within the arc tolerance.
   const double radius = std::hypot(move.start[first] - move.centre_mm[first],
                                    move.start[second] - move.centre_mm[second]);
   return std::hypot(radius * sweep, move.end[normal] - move.start[normal]);
@@ -59,6 +62,8 @@ double path_length(const Move& move) noexcept {
   if (move.kind == MoveKind::arc) {
     return arc_length(move);
   }
+  // What the feed refers to, as LinuxCNC counts it: X Y Z; without them U V W; without them A B C
+  // in degrees.
   for (const std::size_t first : {std::size_t{0}, std::size_t{6}, std::size_t{3}}) {
     if (const double length = norm(move, first); length > 0.0) {
       return length;
@@ -67,6 +72,7 @@ double path_length(const Move& move) noexcept {
   return 0.0;
 }
 
+// The column is mm/min whatever feed mode the program uses; G93 is 1/min times the length.
 double feed_mm_min(const Move& move) noexcept {
   switch (move.feed_mode) {
     case FeedMode::per_minute:
@@ -80,6 +86,7 @@ double feed_mm_min(const Move& move) noexcept {
 }
 
 MoveTable::MoveTable(kernel::file::OutputFile& out) : out_(out) {
+  // One more line fits beyond the threshold at which the buffer is written: no reallocation.
   buffer_.reserve(kBuffer + 4096);
   buffer_ = kHead;
 }
@@ -87,6 +94,7 @@ MoveTable::MoveTable(kernel::file::OutputFile& out) : out_(out) {
 void MoveTable::number(double value) {
   buffer_ += ',';
   std::array<char, 32> text{};
+  // value == 0.0 holds for −0 too, which would be printed with its sign.
   const auto [end, error] =
       std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value);
   buffer_.append(text.data(), static_cast<std::size_t>(end - text.data()));

@@ -24,6 +24,7 @@ double length(PlanePoint vector) noexcept {
   return std::hypot(vector.first, vector.second);
 }
 
+// A vector of no length has no direction; any unit vector serves, and nothing is divided by zero.
 PlanePoint unit(PlanePoint vector) noexcept {
   const double size = length(vector);
   return size == 0.0 ? PlanePoint{.first = 1.0, .second = 0.0}
@@ -43,6 +44,8 @@ double dot(PlanePoint a, PlanePoint b) noexcept {
   return a.first * b.first + a.second * b.second;
 }
 
+// Positive where the path turns to the tool's side: a concave corner, whichever side the tool is
+// on.
 double turn_between(PlanePoint before, PlanePoint after, int side) noexcept {
   const double to_left = std::atan2(dot(left_of(before), after), dot(before, after));
   return side < 0 ? to_left : -to_left;
@@ -52,6 +55,8 @@ Corner kind_of(double turn, bool about_arc) noexcept {
   if (std::abs(turn) <= kTangent_rad) {
     return Corner::tangent;
   }
+  // So close to a reversal the sign of the turn is rounding. LinuxCNC decides by what came before:
+  // lines go round the corner, an arc with the tool outside is cut short.
   const bool reverses = std::abs(turn) > kPi - kTangent_rad;
   return reverses     ? (about_arc ? Corner::concave : Corner::convex)
          : turn > 0.0 ? Corner::concave
@@ -81,9 +86,12 @@ std::optional<PlanePoint> crossing(const OffsetCircle& before, const OffsetCircl
   if (before.radius == 0.0 || distance == 0.0) {
     return std::nullopt;
   }
+  // Law of cosines in the triangle of the two centres and the crossing. The crossing lies to either
+  // side of the line between the centres; which side follows from the tool's.
   const double cosine =
       (before.radius * before.radius + distance * distance - after.radius * after.radius) /
       (2.0 * before.radius * distance);
+  // Also true of a quotient that is not a number: circles that do not meet.
   if (!(std::abs(cosine) <= 1.0)) {
     return std::nullopt;
   }
@@ -94,6 +102,7 @@ std::optional<PlanePoint> crossing(const OffsetCircle& before, const OffsetCircl
                     .second = before.centre.second + before.radius * std::sin(angle)};
 }
 
+// Signed sweep of an arc, counter-clockwise positive. Equal angles are a whole turn, hence ≤.
 double swept(PlanePoint start, PlanePoint end, PlanePoint centre, int turns) noexcept {
   double from = angle_of(between(centre, start));
   double to = angle_of(between(centre, end));

@@ -18,6 +18,8 @@ bool Refusals::word(std::uint32_t line, const Word& word, std::string_view reaso
 
 bool Refusals::letter(const Step& step, char letter, std::string_view reason,
                       std::string_view text) {
+  // A decoder may have put a word under another letter (CR= becomes R): then the block's last word
+  // is shown rather than none.
   for (const Word& one : step.block->words()) {
     if (one.letter == letter) {
       return word(step.line, one, reason, text);
@@ -29,6 +31,7 @@ bool Refusals::letter(const Step& step, char letter, std::string_view reason,
 bool Refusals::code(const Step& step, char letter, int number, std::string_view reason,
                     std::string_view text) {
   for (const Word& one : step.block->words()) {
+    // By the whole number: `number` is G code / 10, so G59 also finds G59.1.
     if (one.letter == letter && static_cast<int>(one.value) == number) {
       return word(step.line, one, reason, text);
     }

@@ -17,6 +17,9 @@ int spline_spans(std::span<const SplinePoint> points, int order) noexcept {
   return static_cast<int>(points.size()) - order + 1;
 }
 
+// De Boor's algorithm on the knots 0 … 0 1 2 … n … n, so the curve begins and ends on its first and
+// last control points. In homogeneous coordinates (x·w, y·w, w) a rational curve is an ordinary
+// one; the division comes at the end.
 SplinePoint spline_at(std::span<const SplinePoint> points, int order, double u) noexcept {
   const int spans = spline_spans(points, order);
   const auto knot = [&](int i) { return std::clamp(i - order + 1, 0, spans); };
@@ -31,6 +34,7 @@ SplinePoint spline_at(std::span<const SplinePoint> points, int order, double u) 
   }
   for (int level = 1; level < order; ++level) {
     for (int i = order - 1; i >= level; --i) {
+      // low ≤ span < span + 1 ≤ high: no division by zero.
       const double low = knot(span + i);
       const double high = knot(span + i + order - level);
       const double t = (u - low) / (high - low);
