@@ -74,6 +74,7 @@ class ProgramRun::Run {
 
  private:
   /// False when it is refused.
+  // More values than PROC takes show at the subprogram's first block behind PROC.
   bool line() {
     if (!flow_.count_line(report_.moves - std::exchange(moves_before_, report_.moves))) {
       return refuse(flow_.refused());
@@ -88,8 +89,6 @@ class ProgramRun::Run {
       return follow(flow_.pass_over(block_));
     }
     const LineSource& source = files_.now();
-    // Two runs over nearly equal texts, side by side: a line that the other has just split into
-    // words is not split again.
     if (!same_as_ahead(source) &&
         !reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
       return refuse(reader_.refused());
@@ -98,7 +97,6 @@ class ProgramRun::Run {
       return false;
     }
     const bool sinumerik = dialect_ == read::Dialect::sinumerik;
-    // More values than PROC takes show at the subprogram's first block behind PROC.
     if (sinumerik && flow_.in_call() && typed_.values_left() &&
         !(block_.words().empty() && block_.flow().kind == read::FlowKind::none)) {
       return refuse({.line = block_.line(),
@@ -131,7 +129,6 @@ class ProgramRun::Run {
         if (dialect_ == read::Dialect::fanuc) {
           return follow(flow_.call_numbered(block_.line(), call.number, call.repeats));
         }
-        // LinuxCNC takes L0 for no call at all.
         return call.repeats < 0.5 ||
                follow(flow_.call_program(block_.line(), std::to_string(call.number), call.repeats));
       case Interpreter::ProgramCall::Kind::end:
@@ -144,6 +141,8 @@ class ProgramRun::Run {
     return dialect_ == read::Dialect::fanuc ? macro_.asked() : interpreter_->parameters().asked();
   }
 
+  // Two runs over nearly equal texts, side by side: a line that the other has just split into
+  // words is not split again.
   bool same_as_ahead(const LineSource& source) noexcept {
     return ahead_ != nullptr && ahead_->executed_ && ahead_->files_.now().line() == source.line() &&
            ahead_->files_.now().ending_length() == source.ending_length() &&

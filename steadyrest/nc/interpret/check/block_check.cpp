@@ -18,6 +18,8 @@ constexpr bool is_arc(int code) noexcept {
 
 }  // namespace
 
+// Which word uses the axis words: a motion of this block, a non-modal word (G10 G28 G30 G52 G92),
+// G43.1, or else the modal motion. Two users are refused: either could be meant. As in RS274/NGC.
 bool BlockCheck::choose_motion(Step& step) const {
   const int motion = step.code(GGroup::motion);
   const int non_modal = step.code(GGroup::non_modal);
@@ -33,6 +35,7 @@ bool BlockCheck::choose_motion(Step& step) const {
     } else if (axes_taken) {
       return refusals_.code(step, 'G', motion / 10, "two_users_of_axis_words",
                             "two G words in one block that both use the axis words");
+      // Without an axis word these have nothing to do: more likely a word is missing.
     } else if (!axis_words && (is_cycle(motion) || motion == g::kThread || motion == g::kRigidTap ||
                                motion == g::kThreadCycle || motion == g::kCubicSpline ||
                                motion == g::kQuadraticSpline)) {
@@ -51,6 +54,7 @@ bool BlockCheck::choose_motion(Step& step) const {
   }
   const bool tool_length_takes = step.code(GGroup::tool_length) == g::kToolLengthByWords;
   if (axis_words && !tool_length_takes) {
+    // Words without a G word since the start or since G80 would be lost: LinuxCNC refuses them too.
     if (state_.motion == -1 || state_.motion == g::kCycleEnd) {
       for (const char letter : kAxisLetters) {
         if (step.has(letter)) {
@@ -61,6 +65,7 @@ bool BlockCheck::choose_motion(Step& step) const {
     }
     step.moves_by = state_.motion;
   }
+  // I and J alone under a modal G2 or G3: a full circle.
   if (!axis_words && (step.mask & kCentreMask) != 0 && is_arc(state_.motion) &&
       non_modal != g::kSetData) {
     step.moves_by = state_.motion;
@@ -72,6 +77,8 @@ bool BlockCheck::check(const Step& step) const {
   return check_values(step) && check_non_modal(step) && check_unused(step) && check_cutter(step);
 }
 
+// Every value is bounded, so no arithmetic behind this check overflows or meets infinity; the
+// negated comparison also catches what is not a number.
 bool BlockCheck::check_values(const Step& step) const {
   for (std::uint32_t left = step.mask; left != 0; left &= left - 1) {
     const auto letter = static_cast<char>('A' + std::countr_zero(left));
@@ -87,6 +94,7 @@ bool BlockCheck::check_values(const Step& step) const {
   if (step.has('S') && step['S'] < 0.0) {
     return refusals_.letter(step, 'S', "out_of_range", "a negative spindle speed");
   }
+  // These are numbers of tools, offsets and repeats; LinuxCNC does not round them either.
   constexpr std::uint32_t kWhole = Step::bit('T') | Step::bit('H') | Step::bit('L');
   for (const char letter : {'T', 'H', 'L'}) {
     if ((step.mask & kWhole) == 0) {
@@ -111,12 +119,14 @@ bool BlockCheck::check_non_modal(const Step& step) const {
   }
   if (step.machine_frame) {
     const bool straight = step.moves_by == g::kRapid || step.moves_by == g::kLinear;
+    // SINUMERIK's SUPA may stand alone in its block; it then does nothing.
     const bool lone = rules_.machine_frame_alone && (step.mask & kAxisMask) == 0 &&
                       step.code(GGroup::motion) == kNoCode;
     if (!straight && !lone) {
       return refusals_.code(step, 'G', 53, "g53_without_straight_motion",
                             "machine coordinates need G0 or G1 in force");
     }
+    // What machine coordinates mean as increments is not defined.
     const int distance = step.code(GGroup::distance);
     if (!lone &&
         (distance == g::kIncremental || (distance != g::kAbsolute && state_.incremental))) {
@@ -127,6 +137,8 @@ bool BlockCheck::check_non_modal(const Step& step) const {
   return true;
 }
 
+// A word that nothing in its block uses is a slip of the post processor: it is refused, as LinuxCNC
+// does, and not skipped. Each line below lists the users of one letter.
 bool BlockCheck::check_unused(const Step& step) const {
   constexpr std::uint32_t kNeedUse = Step::bit('D') | Step::bit('E') | Step::bit('H') |
                                      Step::bit('L') | Step::bit('P') | Step::bit('Q') |
@@ -190,6 +202,7 @@ bool BlockCheck::check_unused(const Step& step) const {
 }
 
 bool has_feed(const Step& step, const State& state, Refusals& refusals) {
+  // In G93 F belongs to its block and is not modal (RS274/NGC).
   if (state.feed_mode == FeedMode::inverse_time) {
     if (!step.has('F')) {
       return refusals.letter(step, 'G', "feed_missing",
@@ -201,6 +214,7 @@ bool has_feed(const Step& step, const State& state, Refusals& refusals) {
     return refusals.letter(step, step.has('F') ? 'F' : 'G', "feed_missing",
                            "a cutting move, but no feed (F) is in force");
   }
+  // With S0 a feed per revolution would stand still for ever.
   if (state.feed_mode == FeedMode::per_revolution && state.spindle_speed_rev_s == 0.0 &&
       state.surface_speed_mm_s == 0.0) {
     return refusals.letter(step, 'G', "spindle_speed_missing",

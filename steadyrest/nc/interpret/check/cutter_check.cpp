@@ -73,6 +73,8 @@ bool BlockCheck::cutter_permits_what_comes_behind(const Step& step) const {
   const int length = step.code(GGroup::tool_length);
   const int path = step.code(GGroup::path_mode);
   const int retract = step.code(GGroup::retract);
+  // LinuxCNC goes on with a contour that has jumped; so only a change that does something is
+  // refused.
   const bool clears =
       (non_modal == g::kForgetOrigin || non_modal == g::kOriginOff) && state_.g92 != Axes{};
   const bool shifts = clears || (non_modal == g::kOriginOn && state_.g92 != state_.g92_stored);

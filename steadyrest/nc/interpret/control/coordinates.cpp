@@ -9,6 +9,8 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
+// Machine and work coordinates; machine = R·work + offset, R the rotation in force about Z.
+
 // G53: the named axes go to machine coordinates, the machine's others stay. The tool's length stays
 // in force on SINUMERIK, on the others it is suppressed as well.
 Axes machine_end(const Step& step, const Control& control) {
@@ -22,6 +24,8 @@ Axes machine_end(const Step& step, const Control& control) {
                    (keeps_tool || tool_stays(control.rules, i) ? state.tool_offset[i] : 0.0);
     }
   }
+  // Where the coordinates are turned, moving one of the machine's X and Y changes both in work
+  // coordinates, even if the block names only one.
   const Axes work = to_work(state, machine);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     const bool turns = i < 2 && state.rotation_in_force_deg != 0.0;
@@ -36,6 +40,7 @@ Axes machine_end(const Step& step, const Control& control) {
 
 double component(const Step& step, std::size_t axis, const State& state) noexcept {
   const double value = step[kAxisLetters[axis]];
+  // In G7 an X word is a diameter.
   const double scale = axis == 0 && state.diameter ? 0.5 * state.unit_mm : state.unit_mm;
   return is_rotary(axis) ? value : value * scale;
 }
@@ -56,6 +61,9 @@ Axes to_work(const State& state, const Axes& machine) noexcept {
   return turned(out, -state.rotation_in_force_deg);
 }
 
+// A change of offsets does not move the machine: its work position changes instead. The order of
+// the parts, from the machine inwards: settable offset and external offset, fine offset, the
+// programmed frame turned by the settable rotation, G92 turned by both rotations, the tool.
 void update_offset(State& state) noexcept {
   const double settable_deg = state.work_offset_on ? state.rotation_deg[state.active_offset] : 0.0;
   const double rotation_deg = settable_deg + state.frame_rotation_deg;
@@ -66,7 +74,10 @@ void update_offset(State& state) noexcept {
   for (std::size_t i = 0; i < state.offset.size(); ++i) {
     const double work = state.work_offset_on ? state.work_in_force[i] : 0.0;
     const double offset =
+        // The tool's offset is not turned: tools are measured along the machine's axes.
         work + state.external[i] + state.frame_fine[i] + frame[i] + g92[i] + state.tool_offset[i];
+    // Without a rotation the difference is added rather than the position computed again: it costs
+    // no digit, however often offsets change.
     state.position[i] += state.offset[i] - offset;
     state.offset[i] = offset;
   }
@@ -82,6 +93,8 @@ bool tool_stays(const DialectRules& rules, std::size_t axis) noexcept {
 
 void polar_point(const Step& step, const State& state, Axes& point) noexcept {
   constexpr double kDegree = std::numbers::pi / 180.0;
+  // A polar word that is left out keeps its present value; in G91 the words add to the present
+  // ones. Zero is the angle of +X.
   double radius = std::hypot(point[0], point[1]);
   double angle = std::atan2(point[1], point[0]);
   if (!std::isnan(step.polar_radius)) {
@@ -100,9 +113,12 @@ Axes end_point(const Step& step, const Control& control) noexcept {
     return machine_end(step, control);
   }
   Axes end = state.position;
+  // One pass over the axis words that there are, not over all nine axes: nearly all blocks have one
+  // to three.
   for (std::uint32_t left = step.mask & kAxisMask; left != 0; left &= left - 1) {
     const std::uint32_t bit = left & (~left + 1);
     const std::size_t i = kAxisOfLetter[static_cast<std::size_t>(std::countr_zero(left))];
+    // AC( ) and IC( ) beat G90 and G91 for their own word.
     const bool incremental =
         (step.incremental & bit) != 0 || (state.incremental && (step.absolute & bit) == 0);
     const double value = component(step, i, state);

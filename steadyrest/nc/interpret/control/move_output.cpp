@@ -6,6 +6,7 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
+// The feed of rotary axes alone is in degrees a second; with any linear axis it is along X Y Z.
 bool only_rotary_moves(const Axes& from, const Axes& to) noexcept {
   bool rotary = false;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -27,6 +28,7 @@ Move& MoveOutput::fill(MoveKind kind, const Axes& end) noexcept {
   current_.end = end;
   current_.offset = state_.offset;
   current_.rotation_deg = state_.rotation_in_force_deg;
+  // A rapid has no feed of the program's.
   const bool cutting = kind != MoveKind::rapid;
   current_.feed_mode = state_.feed_mode;
   current_.feed_mm_s = !cutting                                  ? 0.0
@@ -34,6 +36,7 @@ Move& MoveOutput::fill(MoveKind kind, const Axes& end) noexcept {
                                                                  : state_.feed_mm_s;
   current_.path_mode = state_.path_mode;
   current_.path_tolerance_mm = state_.path_tolerance_mm;
+  // Under G96 the speed depends on X along the move: the planner works it out.
   current_.spindle_rev_s =
       state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
   current_.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
@@ -46,6 +49,8 @@ Move& MoveOutput::fill(MoveKind kind, const Axes& end) noexcept {
 
 void MoveOutput::move(MoveKind kind, const Axes& end) {
   fill(kind, end);
+  // Behind G40 the tool still stands beside the contour. The first move starts there and ends on
+  // the contour.
   if (beside_) {
     time_by_contour();
     current_.start = take_beside(current_.start);
@@ -55,6 +60,7 @@ void MoveOutput::move(MoveKind kind, const Axes& end) {
   current_.machine_axes = 0;
 }
 
+// A move of its own: the one in hand may be half made, with an arc's centre or machine axes set.
 void MoveOutput::dwell(double seconds) {
   Move out;
   out.kind = MoveKind::dwell;
@@ -94,6 +100,9 @@ void MoveOutput::event(EventKind kind, double value, std::string_view tool_name)
   sink_->on_event({.kind = kind, .line = current_.line, .value = value, .tool_name = tool_name});
 }
 
+// G93 gives the time of the block. Under compensation the contour's length counts, not that of the
+// tool's path, which differs at every corner; as a feed it keeps its meaning whatever path comes
+// out.
 void MoveOutput::time_by_contour() noexcept {
   if (current_.feed_mode == FeedMode::inverse_time && current_.kind != MoveKind::rapid) {
     current_.feed_mm_s *= path_length(current_);

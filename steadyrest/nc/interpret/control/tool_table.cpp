@@ -5,6 +5,8 @@
 
 namespace steadyrest::nc::interpret {
 
+// Without a tool table every tool exists and has length 0: programs can be timed without the shop's
+// data. Tool 0 is "none", unless the table describes it.
 const Tool* find_tool(const Config& config, std::int32_t number) noexcept {
   static constexpr Tool kNoTool{};
   if (number == 0 || !config.tools) {

@@ -66,6 +66,8 @@ bool CycleCalls::call(const Flow& call) {
   if (call.kind != read::FlowKind::modal_cycle) {
     return drill(call);
   }
+  // MCALL without a name ends the modal call; with one, the planes are checked at once, so a fault
+  // is named in its own line and not at the first hole.
   modal_.reset();
   Hole hole;
   if (call.label.view().empty()) {
@@ -90,6 +92,7 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
     return refuse(call, "cycle_not_interpreted",
                   "a cycle that is not interpreted; CYCLE81, 82, 84, 85 and 86 are");
   }
+  // Zero is what the control takes for a value left out.
   for (std::size_t i = known->values; i < call.count; ++i) {
     if (value(call, i) != 0.0) {
       return refuse(call, "cycle_value",
@@ -102,12 +105,15 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
                   "a cycle without its retraction plane, reference plane or depth");
   }
   const double unit = state_.unit_mm;
+  // DP is absolute; DPR is measured from the reference plane, its sign does not count. Both are
+  // allowed if they agree.
   const double reference = value(call, kRfp);
   const double relative = reference - std::abs(value(call, kDpr));
   const bool absolute = given(call, kDp) && value(call, kDpr) == 0.0;
   if (given(call, kDp) && !absolute && std::abs(relative - value(call, kDp)) > 1e-6) {
     return refuse(call, "cycle_depth", "a depth given twice, differently (DP and DPR)");
   }
+  // Planes are in the units in force at the call, moves always in mm.
   hole.normal = axes_of(state_.plane).normal;
   hole.start_mm = (reference + std::abs(value(call, kSdis))) * unit;
   hole.bottom_mm = (absolute ? value(call, kDp) : relative) * unit;
@@ -118,12 +124,14 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
       return refuse(call, "out_of_range", "a value beyond every machine");
     }
   }
+  // Bottom < reference plane plus clearance ≤ retraction plane: only drilling downwards is defined.
   return (hole.bottom_mm < hole.start_mm && hole.start_mm <= hole.retract_mm) ||
          refuse(call, "cycle_planes",
                 "the planes of a cycle are not in order: retraction plane, reference plane "
                 "and safety clearance, depth");
 }
 
+// CYCLE800() without values switches swivelling off, and none can be on.
 bool CycleCalls::drill(const Flow& call) {
   if (read::equal(call.label.view(), "CYCLE800")) {
     return call.count == 0 ||
@@ -138,6 +146,7 @@ bool CycleCalls::drill(const Flow& call) {
     return refuse(call, "out_of_range",
                   "a dwell in revolutions (negative) or of more than 1000000 s");
   }
+  // CYCLE81 … CYCLE86 differ in their last digit.
   const char number = call.label.view().back();
   if (number != '4' && number != '5' && !(state_.feed_mm_s > 0.0)) {
     return refuse(call, "feed_missing", "a drilling cycle, but no feed (F) is in force");
@@ -149,6 +158,7 @@ bool CycleCalls::drill(const Flow& call) {
   if (number == '5' && !(value(call, 6) > 0.0 && value(call, 7) > 0.0)) {
     return refuse(call, "feed_missing", "CYCLE85 without its feeds (FFR, RFF)");
   }
+  // Every cycle begins at the reference plane plus clearance, at rapid.
   out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
   switch (number) {
     case '4':
@@ -172,6 +182,7 @@ bool CycleCalls::drill(const Flow& call) {
 
 // (RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF): in and out with feeds of their own.
 void CycleCalls::ream(const Flow& call, const Hole& hole) {
+  // FFR and RFF are feeds in the program's unit, so they are converted like an F word.
   const double feed = state_.feed_mm_s;
   const double scale =
       state_.feed_unit_mm / (state_.feed_mode == FeedMode::per_minute ? 60.0 : 1.0);
@@ -191,6 +202,7 @@ void CycleCalls::bore(const Flow& call, const Hole& hole) {
   const PlaneAxes axes = axes_of(state_.plane);
   const Axes above = state_.position;
   const double unit = state_.unit_mm;
+  // SDIR is an M number: 4 is M4, everything else M3.
   state_.spindle_direction = value(call, 6) == 4.0 ? -1 : 1;
   out_.spindle();
   out_.along(MoveKind::linear, hole.normal, hole.bottom_mm);
@@ -200,12 +212,14 @@ void CycleCalls::bore(const Flow& call, const Hole& hole) {
   const int direction = state_.spindle_direction;
   state_.spindle_direction = 0;
   out_.spindle();
+  // RPA, RPO, RPAP lift the tool off the wall before it comes out; they are increments.
   Axes aside = state_.position;
   aside[axes.first] += value(call, 7) * unit;
   aside[axes.second] += value(call, 8) * unit;
   aside[axes.normal] += value(call, 9) * unit;
   out_.move(MoveKind::rapid, aside);
   out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
+  // Back over the hole's axis at the same time as up to the retraction plane.
   Axes out = above;
   out[axes.normal] = hole.retract_mm;
   out_.move(MoveKind::rapid, out);
@@ -215,6 +229,7 @@ void CycleCalls::bore(const Flow& call, const Hole& hole) {
 
 // (RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1): the feed follows the spindle.
 bool CycleCalls::tap(const Flow& call, const Hole& hole) {
+  // A negative size or pitch is a left-hand thread.
   const double size = value(call, 7);
   const double pitch =
       size != 0.0 ? coarse_pitch(std::abs(size)) : std::abs(value(call, 8)) * state_.unit_mm;
@@ -233,6 +248,7 @@ bool CycleCalls::tap(const Flow& call, const Hole& hole) {
     return refuse(call, "bad_value",
                   "CYCLE84 without what the spindle does after it (SDAC: 3, 4 or 5)");
   }
+  // The cycle's own feed mode, pitch and speed must not stay in force behind it.
   const State kept = state_;
   state_.surface_speed = false;
   state_.feed_mode = FeedMode::per_revolution;
@@ -244,6 +260,7 @@ bool CycleCalls::tap(const Flow& call, const Hole& hole) {
   if (value(call, kDtb) > 0.0) {
     out_.dwell(value(call, kDtb));
   }
+  // Out with the spindle reversed, at SST1 if that is given: the pitch keeps both in step.
   state_.spindle_direction = -state_.spindle_direction;
   state_.spindle_speed_rev_s = out / 60.0;
   out_.spindle();
@@ -252,6 +269,7 @@ bool CycleCalls::tap(const Flow& call, const Hole& hole) {
   state_.feed_mm_s = kept.feed_mm_s;
   state_.surface_speed = kept.surface_speed;
   state_.spindle_speed_rev_s = kept.spindle_speed_rev_s;
+  // SDAC says which way the spindle turns afterwards.
   state_.spindle_direction = after == 3.0 ? 1 : after == 4.0 ? -1 : 0;
   out_.spindle();
   out_.along(MoveKind::rapid, hole.normal, hole.retract_mm);

@@ -23,9 +23,12 @@ double repeats_of(const Step& step) noexcept {
 
 // Sticky words: they stay while the same cycle goes on from block to block.
 bool Drilling::remember(const Step& step) {
+  // Words are kept in the program's units. `fresh` is the first block of a cycle: LinuxCNC asks for
+  // the words again when another cycle begins, FANUC when a cycle follows something else.
   CycleMemory& memory = state_.cycle;
   const bool stay = control_.rules.cycle_words_stay;
   const bool fresh = stay ? !is_cycle(state_.motion) : state_.motion != step.moves_by;
+  // The initial level of G98 is where the first block of a row of holes began.
   if (!is_cycle(state_.motion) || memory.begins_anew) {
     memory.initial = state_.position[axes_of(state_.plane).normal] / state_.unit_mm;
     memory.begins_anew = false;
@@ -44,6 +47,8 @@ bool Drilling::remember(const Step& step) {
                       code == g::kBoreHandOut || code == g::kBoreDwell;
   const bool taps = code == g::kTapRight || code == g::kTapLeft;
   const bool back = code == g::kBackBore;
+  // LinuxCNC keeps P from cycle to cycle, but tapping begins without a dwell; FANUC begins every
+  // row of holes with none.
   if (fresh && (taps || stay)) {
     memory.dwell_s = 0.0;
   }
@@ -82,6 +87,7 @@ bool Drilling::check(const Step& step) {
                               "this axis cannot move in a canned cycle");
     }
   }
+  // In G93 each block has one time, but a cycle is many moves.
   if (state_.feed_mode == FeedMode::inverse_time) {
     return refusals_.code(step, 'G', step.moves_by / 10, "cycle_in_inverse_time",
                           "a canned cycle while inverse-time feed (G93) is in force");
@@ -98,6 +104,7 @@ bool Drilling::measure(const Step& step, Hole& hole) {
   const CycleMemory& memory = state_.cycle;
   const double unit = state_.unit_mm;
   hole.initial_mm = memory.initial * unit;
+  // In G91 R counts from the initial level and the bottom from the R plane.
   hole.retract_mm = memory.retract * unit + (state_.incremental ? hole.initial_mm : 0.0);
   hole.bottom_mm = memory.bottom * unit + (state_.incremental ? hole.retract_mm : 0.0);
   if (hole.retract_mm < hole.bottom_mm) {
@@ -105,10 +112,13 @@ bool Drilling::measure(const Step& step, Hole& hole) {
                             "retract_below_bottom",
                             "the retract plane (R) lies below the bottom of the hole");
   }
+  // G98 returns to the initial level, but never below R; G99 to R.
   const double high = std::max(hole.initial_mm, hole.retract_mm);
   hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
   const double depth = hole.retract_mm - hole.bottom_mm;
   const bool pecks = step.moves_by == g::kBreakChips || step.moves_by == g::kPeck;
+  // A peck is at most three moves. Without the bound a peck of a micrometre in a metre of depth
+  // would keep the program busy for hours.
   const double moves = repeats_of(step) * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
   if (!(moves <= kMostMoves)) {
     return refusals_.letter(step, step.has('L') ? 'L' : 'Q', "out_of_range",
@@ -152,9 +162,12 @@ bool Drilling::cycle(const Step& step) {
   }
   state_.motion = step.moves_by;
   const bool lifts = control_.rules.cycle_lifts_first;
+  // LinuxCNC goes up to R before it goes across; FANUC goes across first.
   if (lifts && hole.initial_mm < hole.retract_mm) {
     out_.along(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
   }
+  // Cycles run on the exact path whatever G64 says: a rounded corner at R would begin the hole
+  // beside it.
   const PathMode path_mode = state_.path_mode;
   state_.path_mode = PathMode::exact_path;
   // LinuxCNC lifts to the clearance first where the cycle goes on without its G word.
@@ -165,9 +178,11 @@ bool Drilling::cycle(const Step& step) {
   }
   const double repeats = repeats_of(step);
   bool accepted = true;
+  // The second and later holes of a block start from the clearance of the one before.
   for (double repeat = 0.0; repeat < repeats && accepted; repeat += 1.0) {
     go_to(step, hole, height);
     accepted = drill(step, hole);
+    // From here on the tool is at the clearance.
     height = hole.clear_mm;
   }
   state_.path_mode = path_mode;
@@ -213,6 +228,7 @@ bool Drilling::peck(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
   const double peck_mm = state_.cycle.peck * state_.unit_mm;
   const double furthest_mm = std::max(std::abs(hole.retract_mm), std::abs(hole.bottom_mm));
+  // When subtracting a peck changes nothing any more, the loop below would not end.
   if (furthest_mm - peck_mm == furthest_mm) {  // there would be no end
     return refusals_.code(step, 'G', step.moves_by / 10, "out_of_range",
                           "so far out a peck is lost in rounding");
@@ -244,6 +260,7 @@ bool Drilling::tap(const Step& step, const Hole& hole) {
         "LinuxCNC 2.9 moves other axes than those programmed when it taps outside "
         "of G17");
   }
+  // Feed and spindle must keep their ratio, so no override may act while the tap is in.
   const bool override_off = state_.override_off;
   state_.override_off = true;
   out_.along(MoveKind::linear, normal, hole.bottom_mm);
@@ -270,6 +287,7 @@ bool Drilling::bore(const Step& step, const Hole& hole) {
   out_.spindle();
   if (step.moves_by == g::kBoreHandOut) {
     out_.event(EventKind::stop, 0.0);
+    // The interpreter goes on from the clearance, where the operator is asked to bring it.
     state_.position[hole.axes.normal] = hole.clear_mm;  // by hand: no move of the program
   } else {
     out_.along(MoveKind::rapid, hole.axes.normal, hole.clear_mm);
@@ -290,6 +308,8 @@ bool Drilling::back_bore(const Step& step, const Hole& hole) {
   const double unit = state_.unit_mm;
   const PlaneAxes axes = hole.axes;
   const double upper = memory.ijk[axes.normal] * unit + (state_.incremental ? hole.bottom_mm : 0.0);
+  // Beside by I and J, down with the spindle standing so that the bar passes, back on the axis
+  // below, and only there does the spindle turn.
   const Axes above = state_.position;
   Axes beside = above;
   beside[axes.first] += memory.ijk[axes.first] * unit;
@@ -303,6 +323,7 @@ bool Drilling::back_bore(const Step& step, const Hole& hole) {
   out_.move(MoveKind::rapid, below);
   state_.spindle_direction = direction;
   out_.spindle();
+  // Up to cut, down again to let go of the shoulder; then aside and out the way it came.
   out_.along(MoveKind::linear, axes.normal, upper);
   out_.along(MoveKind::linear, axes.normal, hole.bottom_mm);
   state_.spindle_direction = 0;

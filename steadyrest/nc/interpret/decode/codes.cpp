@@ -7,6 +7,8 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
+// Codes are the word times ten: G54 is 540, G59.1 is 591. The modal groups are those of RS274/NGC
+// (NISTIR 6556) with LinuxCNC's additions: of each group a block takes one word.
 struct Range {
   int first;
   int last;
@@ -76,6 +78,8 @@ constexpr std::array kGroups = {
 constexpr std::size_t kCodes = 1000;
 constexpr std::uint8_t kUnknown = 0xff;
 
+// One entry for each code up to G99.9, filled in when the program is compiled: a G word costs one
+// look-up.
 constexpr auto kGroupOfG = [] {
   std::array<std::uint8_t, kCodes> table{};
   table.fill(kUnknown);
@@ -93,6 +97,8 @@ struct Note {
   std::string_view text;
 };
 
+// Words whose meaning is known but not interpreted get a text of their own: the user should not
+// look for a typing error.
 constexpr std::array kRefusedG = {
     Note{g::kCutterLeft, g::kCutterLeftBy,
          "cutter radius compensation (G41) is not interpreted; let the CAM system "
@@ -121,6 +127,8 @@ GroupOfG group_of_g(int code) noexcept {
   return {.known = group != kUnknown, .group = static_cast<GGroup>(group)};
 }
 
+// M words number few and lie close together: a switch. M98 and M99 form a group, as a block either
+// calls or returns.
 GroupOfM group_of_m(int code) noexcept {
   switch (code) {
     case m::kStop:

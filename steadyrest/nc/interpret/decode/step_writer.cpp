@@ -17,6 +17,7 @@ bool StepWriter::put_g(const Word& word, int code) {
     return note.empty() ? refuse(word, "unknown_g_code", "a G word that is not known")
                         : refuse(word, "g_code_not_interpreted", note);
   }
+  // Anything outside the motion group rules out the short way for plain lines (plain_block.cpp).
   step_.others = step_.others || found.group != GGroup::motion;
   std::int16_t& place = step_.g[static_cast<std::size_t>(found.group)];
   if (place != kNoCode && found.group == GGroup::motion &&
@@ -31,6 +32,7 @@ bool StepWriter::put_g(const Word& word, int code) {
   return true;
 }
 
+// The words of [chatter] in the machine file; 0 stands for none.
 bool StepWriter::is_modulation(const Word& word) const noexcept {
   const bool on = in_.config.modulation_on != 0 && word.value == in_.config.modulation_on;
   return on || (in_.config.modulation_off != 0 && word.value == in_.config.modulation_off);
@@ -57,6 +59,7 @@ bool StepWriter::take_m(const Word& word) {
 
 bool StepWriter::put_m(const Word& word, int code) {
   const GroupOfM found = group_of_m(code);
+  // Calls by number belong to linuxcnc and fanuc, outputs and kept modes to linuxcnc alone.
   const bool foreign =
       found.group == MGroup::program
           ? !vocabulary_.numbered_programs
@@ -81,6 +84,7 @@ bool StepWriter::put_letter(const Word& word, char letter, double value) {
   if ((step_.mask & bit) != 0) {
     return refuse(word, "word_twice", std::string{"a second "} + letter + " word in one block");
   }
+  // A word for an axis that the machine does not have would otherwise be lost silently.
   if ((bit & kAxisMask) != 0 && (bit & in_.axes) == 0) {
     return refuse(word, "no_such_axis",
                   std::string{"the machine has no axis "} + letter + "; it has " + in_.config.axes);

@@ -18,6 +18,7 @@ struct Note {
   std::string_view text;
 };
 
+// The texts name FANUC's function of a code where LinuxCNC's differs.
 constexpr std::array kNotes = {
     Note{g::kCubicSpline, "g_code_not_interpreted", "G5 (high-speed machining) is not interpreted"},
     Note{g::kQuadraticSpline, "g_code_not_interpreted",
@@ -98,6 +99,7 @@ bool FanucDecoder::block(const Block& block) {
 }
 
 bool FanucDecoder::g_word(const Word& word) {
+  // Tenths: G54.1 is 541. 54.1·10 is not exactly 541 in binary, hence the tolerance.
   const double tenfold = word.value * 10.0;
   const double rounded = std::round(tenfold);
   if (!(rounded >= 0.0 && rounded < 1e5) || std::abs(tenfold - rounded) > 1e-3) {
@@ -143,6 +145,7 @@ bool FanucDecoder::g_word(const Word& word) {
 }
 
 bool FanucDecoder::m_word(const Word& word) {
+  // First, since the words of [chatter] are often taken from the machine builder's numbers.
   if (is_modulation(word)) {
     return take_m(word);
   }
@@ -157,6 +160,8 @@ bool FanucDecoder::letter_word(const Word& word) {
   const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
   char letter = word.letter;
   double value = word.value;
+  // On a mill U V W are increments at a reference point only; on a lathe they would be increments
+  // everywhere, so elsewhere the program is one for a lathe.
   if (letter == 'U' || letter == 'V' || letter == 'W') {
     if (step_.code(GGroup::non_modal) != g::kHome &&
         step_.code(GGroup::non_modal) != g::kSecondHome) {
@@ -176,6 +181,7 @@ bool FanucDecoder::letter_word(const Word& word) {
         !word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment;
     return put_letter(word, 'P', increments ? value * 1e-3 : value);
   }
+  // P and L of M98 are counts, without a decimal point by nature.
   if (step_.code(MGroup::program) == m::kCall && (letter == 'P' || letter == 'L')) {
     return put_letter(word, letter, value);
   }
@@ -187,6 +193,7 @@ bool FanucDecoder::letter_word(const Word& word) {
     if (step_.code(GGroup::non_modal) == g::kSetData) {
       return put_letter(word, 'P', value);  // which work offset
     }
+    // P is a time only where a dwell or a cycle takes one.
     const bool with_time = dwell || is_cycle(step_.code(GGroup::motion)) ||
                            (step_.code(GGroup::motion) == kNoCode && is_cycle(in_.state.motion));
     if (!with_time) {
@@ -194,6 +201,7 @@ bool FanucDecoder::letter_word(const Word& word) {
     }
     return put_letter(word, 'P', value * 1e-3);  // milliseconds
   }
+  // IS-B: 0.001 mm, 0.0001 in, 0.001°. The units of this very block count, on FANUC they act first.
   if (!word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment) {
     const int units = step_.code(GGroup::units);
     const bool inch = units == kNoCode ? in_.state.unit_mm != 1.0 : units == g::kInch;
@@ -212,6 +220,7 @@ bool FanucDecoder::letter_word(const Word& word) {
   return put_letter(word, letter, value);
 }
 
+// M98 P51234 is five times O1234; with P1234 L5 it is the same.
 // M98 P…: eight digits are four of repeats and four of the program's number; or P and L.
 bool FanucDecoder::program_call() {
   constexpr double kNumbers = 10000.0;
@@ -234,6 +243,7 @@ bool FanucDecoder::program_call() {
 // Where these controls do otherwise than LinuxCNC.
 bool FanucDecoder::finish() {
   if (step_.code(GGroup::units) != kNoCode) {
+    // Calculated values were rounded to the unit before this block, while it was read.
     for (const Word& word : step_.block->words()) {
       if (word.calculated) {
         return refuse(word, "units_beside_variables",
@@ -267,6 +277,7 @@ bool FanucDecoder::finish() {
   if (step_.code(GGroup::tool_length) == g::kToolLength && !step_.has('H')) {
     return in_.refusals.code(step_, 'G', 43, "tool_missing", "G43 without its offset number (H)");
   }
+  // What one leaves of the other differs between controls, so a program may use either.
   if ((non_modal == g::kShift && in_.state.g92_used) ||
       (non_modal == g::kSetOrigin && in_.state.g52_used)) {
     return in_.refusals.code(step_, 'G', non_modal / 10, "ambiguous_code",
@@ -282,6 +293,8 @@ bool decode(const Decoding& in, const Block& block, Step& step) {
 }  // namespace
 
 const DialectRules& fanuc_rules() noexcept {
+  // Differences from LinuxCNC: G98 at the start, G10 adds in G91, cycle words stay until G80, P may
+  // be left out, no lift before going across.
   static constexpr DialectRules kRules{.decode = decode,
                                        .starts_with_g98 = true,
                                        .g10_adds = true,

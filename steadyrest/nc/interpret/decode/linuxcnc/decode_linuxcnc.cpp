@@ -43,6 +43,8 @@ class LinuxcncDecoder final : public StepWriter {
     if (in_.state.plane != Plane::xy) {
       return in_.refusals.block(step_, "polar_off_xy", "polar coordinates (@ ^) outside of G17");
     }
+    // Their values come from polar_point(); the checks only need to see that the axes are
+    // programmed.
     step_.set('X', 0.0);  // for the checks: both axes are programmed
     step_.set('Y', 0.0);
     return true;
@@ -50,6 +52,7 @@ class LinuxcncDecoder final : public StepWriter {
 
  private:
   bool take_polar(const Word& word) {
+    // @ is the radius, ^ the angle.
     double& place = word.letter == '@' ? step_.polar_radius : step_.polar_angle_deg;
     if (!std::isnan(place)) {
       return refuse(word, "word_twice", "a second polar word of its kind in one block");
@@ -61,6 +64,7 @@ class LinuxcncDecoder final : public StepWriter {
   }
 
   bool take_g(const Word& word) {
+    // Tenths, with a tolerance as 59.1·10 is not exactly 591 in binary; RS274/NGC allows 0.0001.
     const double tenfold = word.value * 10.0;
     const double code = std::round(tenfold);
     if (!(code >= 0.0 && code < 1000.0) || std::abs(tenfold - code) > 1e-3) {
@@ -95,6 +99,8 @@ bool decode(const Decoding& in, const Block& block, Step& step) {
 }  // namespace
 
 const DialectRules& linuxcnc_rules() noexcept {
+  // LinuxCNC switches units after F has been read, clears the feed at every G94 and G95, and taps
+  // only in G17 as its 2.9 swaps the axes elsewhere.
   static constexpr DialectRules kRules{.decode = decode,
                                        .units_first = false,
                                        .feed_mode_clears_feed = true,

@@ -67,6 +67,7 @@ constexpr std::array kNotes = {
     Note{971, "G971 is not interpreted"},
 };
 
+// The names of the control are the same in small letters.
 bool equal(std::string_view text, std::string_view upper_name) noexcept {
   return std::ranges::equal(text, upper_name, {}, [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -90,6 +91,7 @@ class SinumerikDecoder final : public StepWriter {
   bool finish();
 };
 
+// G words first: whether F and S are a dwell depends on G4, wherever it is in the block.
 bool SinumerikDecoder::block(const Block& block) {
   for (const Word& word : block.words()) {
     if (word.letter == 'G' && !g_word(word)) {
@@ -117,6 +119,7 @@ bool SinumerikDecoder::g_word(const Word& word) {
     step_.exact_stop = true;
     return true;
   }
+  // G500 switches the settable offset off: no offset of its own that could be looked up.
   if (value == 500.0) {
     if (step_.code(GGroup::work_offset) != kNoCode || step_.zero_offset) {
       return refuse(word, "same_modal_group",
@@ -147,9 +150,11 @@ bool SinumerikDecoder::m_word(const Word& word) {
   if (is_modulation(word)) {
     return take_m(word);
   }
+  // The M words that SINUMERIK defines; all others belong to the machine builder.
   constexpr std::array kKnown = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 30.0};
   if (word.value == 17.0) {
     step_.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
+    // M17 and RET both end a subprogram: one word from here on.
     return true;
   }
   if (std::ranges::find(kKnown, word.value) == kKnown.end()) {
@@ -180,6 +185,7 @@ bool SinumerikDecoder::letter_word(const Word& word) {
       return refuse(word, "spindle_speed_missing",
                     "a dwell in revolutions, but no spindle speed is in force");
     }
+    // S in a G4 block counts revolutions at the programmed speed.
     return put_letter(word, 'P', word.value / in_.state.spindle_speed_rev_s);
   }
   if (letter == 'D') {  // D0 takes the tool's length off, D1 puts it on
@@ -194,6 +200,7 @@ bool SinumerikDecoder::letter_word(const Word& word) {
     place = word.value == 0.0 ? g::kToolLengthOff : g::kToolLength;
     return true;
   }
+  // These letters are other functions in ISO dialects; sinumerik has names for them.
   if (std::string_view{"EHLOPQR"}.find(letter) != std::string_view::npos) {
     return refuse(word, "unknown_word",
                   letter == 'L' ? "a subprogram call (L)"
@@ -259,6 +266,7 @@ bool SinumerikDecoder::name_word(const Word& word) {
       return refuse(word, "arc_turns",
                     "the number of further turns is a whole number from 0 to 999");
     }
+    // TURN counts the further turns, P all of them.
     return put_letter(word, 'P', word.value + 1.0);
   }
   // ADIS, ADISPOS: how far before a corner the rounding may begin.
@@ -273,6 +281,7 @@ bool SinumerikDecoder::finish() {
   if (!std::isnan(step_.frame_angle_deg) && step_.frame != 'R' && step_.frame != 'r') {
     return in_.refusals.block(step_, "unused_word", "RPL without ROT or AROT");
   }
+  // G53 is non-modal and may share a block with G1, so it becomes a flag and leaves its group free.
   if (step_.code(GGroup::non_modal) == g::kMachineFrame) {
     step_.machine_frame = true;
     step_.g[static_cast<std::size_t>(GGroup::non_modal)] = kNoCode;
@@ -288,6 +297,7 @@ bool SinumerikDecoder::finish() {
       return in_.refusals.letter(step_, 'G', "same_modal_group",
                                  "G96 is itself a feed type in this dialect; no other beside it");
     }
+    // Already in G95: setting it again must not clear the feed.
     if (in_.state.feed_mode != FeedMode::per_revolution) {
       feed_mode = g::kPerRevolution;
     }
@@ -302,6 +312,8 @@ bool decode(const Decoding& in, const Block& block, Step& step) {
 }  // namespace
 
 const DialectRules& sinumerik_rules() noexcept {
+  // SUPA may be alone in a block and keeps the tool's length; the rounding distance (ADIS) stays in
+  // force from block to block.
   static constexpr DialectRules kRules{.decode = decode,
                                        .machine_frame_alone = true,
                                        .tool_in_machine_frame = true,
