@@ -8,10 +8,14 @@
 
 namespace steadyrest::nc::interpret {
 
+// TRANS and ROT replace the programmed frame, ATRANS and AROT add to it. Offset and rotation
+// change, the machine does not move.
 bool Frames::set(const Step& step) {
   const auto refuse_frame = [&](std::string_view reason, std::string_view text) {
     return refusals_.block(step, reason, text);
   };
+  // The order in which a frame and other words of its block would act is not certain, so it has a
+  // block to itself.
   const bool codes = std::ranges::any_of(step.g, [](int code) { return code != kNoCode; }) ||
                      std::ranges::any_of(step.m, [](int code) { return code != kNoCode; });
   if (codes || (step.mask & ~kAxisMask) != 0 || step.absolute != 0 || step.incremental != 0 ||
@@ -34,6 +38,7 @@ bool Frames::set(const Step& step) {
   Axes shift = adds ? old_shift : Axes{};
   double angle = adds ? old_angle : 0.0;
   if (turns && !empty) {
+    // RPL turns about the plane's normal, which is Z only in G17; ROT Z does so in any plane.
     const bool by_plane = !std::isnan(step.frame_angle_deg);
     if ((step.mask & ~Step::bit('Z')) != 0 || (by_plane && state_.plane != Plane::xy)) {
       return refuse_frame("frame_rotation", "a rotation about another axis than Z");
@@ -47,11 +52,14 @@ bool Frames::set(const Step& step) {
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
       added[i] = step.has(kAxisLetters[i]) ? component(step, i, state_) : 0.0;
     }
+    // ATRANS shifts along the axes as they are turned already.
     added = turned(added, angle);
     for (std::size_t i = 0; i < added.size(); ++i) {
       shift[i] += added[i];
     }
   }
+  // What the next increment of a shifted axis means is a setting of the control (42440): settle()
+  // asks for an absolute position first.
   state_.frame_shift = shift;
   state_.frame_rotation_deg = angle;
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
@@ -64,6 +72,8 @@ bool Frames::set(const Step& step) {
   return true;
 }
 
+// `$P_IFRAME[Z,FI]=…`: the fine offset of the settable frame in force. rewrite puts corrections
+// there.
 bool Frames::set_fine(const read::Word& word) {
   const std::size_t axis = kAxisLetters.find(word.letter);
   if ((control_.axes & Step::bit(word.letter)) == 0) {
@@ -91,6 +101,7 @@ bool Frames::settle(const Step& step) {
     return true;
   }
   const std::uint32_t plane = Step::bit('X') | Step::bit('Y');
+  // Both ways to an increment: G91, and IC( ) for one word, unless AC( ) takes it back.
   const std::uint32_t moved = step.mask & kAxisMask;
   const std::uint32_t incremental =
       moved & (step.incremental | (state_.incremental ? ~step.absolute : 0U));
@@ -103,6 +114,8 @@ bool Frames::settle(const Step& step) {
         "setting of the control; program the axis absolutely first");
   }
   const bool arc = step.moves_by == g::kArcClockwise || step.moves_by == g::kArcCounterClockwise;
+  // After a rotation an axis that is not named keeps its work coordinate, which is another place of
+  // the machine now: both must be named, so that nothing depends on where the tool stood.
   if (state_.frame_turned && ((moved & plane) != 0 || arc) && (moved & plane) != plane) {
     return refusals_.block(step, "frame_axis",
                            "the first move in X or Y behind a rotation names both");

@@ -19,6 +19,7 @@ kernel::outcome::Result<std::unique_ptr<Interpreter>> Interpreter::make(Config c
                                                     .what = std::move(what),
                                                     .to_do = std::move(to_do)});
   };
+  // All of the configuration is judged here, so that execution can rely on it.
   for (const char letter : config.axes) {
     if (kAxisLetters.find(letter) == std::string_view::npos) {
       return refuse("axis letters `" + config.axes + "`", "name axes out of XYZABCUVW");
@@ -28,6 +29,7 @@ kernel::outcome::Result<std::unique_ptr<Interpreter>> Interpreter::make(Config c
     return refuse("active work offset " + std::to_string(config.active_offset + 1),
                   "choose 1 (G54) to 9 (G59.3)");
   }
+  // A word that means something already would lose that meaning.
   for (const std::int32_t code : {config.modulation_on, config.modulation_off}) {
     if (code < 0 || (code != 0 && group_of_m(code).known)) {
       return refuse("M" + std::to_string(code) + " for the speed modulation",
@@ -52,10 +54,12 @@ Interpreter::Interpreter(Config config) : control_(std::move(config)) {
 
 bool Interpreter::execute(const Block& block, Sink& sink) {
   program_call_.kind = ProgramCall::Kind::none;
+  // `follows`: the block before was a plain one, so the move in hand holds all but end and feed.
   const bool follows = plain_.forget();
   if (block.deleted() && control_.config.block_delete) {
     return true;
   }
+  // Comments, labels and empty lines are no blocks.
   if (block.words().empty() && !block.end_mark()) {
     return true;
   }
@@ -77,10 +81,12 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   if (step_.frame != 0) {
     return frames_.set(step_);
   }
+  // All checks come before anything acts: a refused block changes nothing.
   if (!(check_.choose_motion(step_) && check_.check(step_) && frames_.settle(step_) &&
         act(step_))) {
     return false;
   }
+  // A modal cycle (MCALL) drills after each block that moves.
   return step_.moves_by < 0 || (step_.mask & kAxisMask) == 0 || cycle_calls_.after_move();
 }
 
@@ -101,6 +107,7 @@ bool Interpreter::survey(const Block& block) {
   return decode(block);
 }
 
+// M73 brings the caller's modes back at the end of its subprogram.
 void Interpreter::leave_call(Sink& sink) {
   cutter_.send_to(sink);
   if (modes_.leave_call()) {
@@ -111,12 +118,15 @@ void Interpreter::leave_call(Sink& sink) {
 bool Interpreter::decode(const Block& block) {
   step_.reset(block);
   const bool accepted = control_.rules.decode(decoding_, block, step_);
+  // fanuc: a G0 or G1 beside G28 sets the mode only; G28 has the axis words.
   if (step_.motion_mode != kNoCode) {
     control_.state.motion = step_.motion_mode;
   }
   return accepted;
 }
 
+// The order of execution within a block (README.md), that of RS274/NGC. It matters: a tool change
+// comes before the offset that belongs to the new tool, a dwell before the move, a stop after it.
 bool Interpreter::act(const Step& step) {
   out_.begin_block(step.line);
   if (step.modulation >= 0) {
@@ -136,6 +146,7 @@ bool Interpreter::act(const Step& step) {
   if (!machine_.outputs(step)) {
     return false;
   }
+  // The spindle is up to speed, the coolant flows: that is what a dwell waits for.
   if (step.code(GGroup::non_modal) == g::kDwell) {
     out_.dwell(step['P']);
   }
@@ -177,6 +188,7 @@ bool Interpreter::move(const Step& step) {
   const int motion = step.moves_by;
   if (motion == -1) {
     return true;
+    // No word of the block moves anything.
   }
   if (motion == g::kCycleEnd) {
     control_.state.motion = g::kCycleEnd;
@@ -185,6 +197,7 @@ bool Interpreter::move(const Step& step) {
   if (is_cycle(motion)) {
     return drilling_.cycle(step);
   }
+  // Control points are collected until G5.3; any other motion in between would be lost.
   if (splines_.open() && motion != g::kSplinePoint && motion != g::kSplineEnd) {
     return control_.refusals.code(
         step, 'G', motion / 10, "spline_words",
@@ -215,6 +228,7 @@ bool Interpreter::move(const Step& step) {
 }
 
 bool Interpreter::call_program(const Step& step) {
+  // The call itself is up to whoever knows the program's lines (program.cpp).
   const int code = step.code(MGroup::program);
   if (code == kNoCode) {
     return true;
@@ -235,6 +249,7 @@ bool Interpreter::call_program(const Step& step) {
 bool Interpreter::stop(const Step& step) {
   const int code = step.code(MGroup::stopping);
   if (code == m::kEnd || code == m::kEndAndRewind) {
+    // Moves that wait for cutter compensation must be out before the end and before a stop.
     if (!cutter_.end(step)) {
       return false;
     }

@@ -12,6 +12,8 @@ void MachineWords::feed(const Step& step) noexcept {
     const FeedMode wanted = mode == g::kInverseTime ? FeedMode::inverse_time
                             : mode == g::kPerMinute ? FeedMode::per_minute
                                                     : FeedMode::per_revolution;
+    // LinuxCNC clears F at every G94 and G95, the others only when the mode changes: a feed per
+    // minute would be nonsense per revolution.
     if (wanted != state_.feed_mode || control_.rules.feed_mode_clears_feed) {
       state_.feed_mode = wanted;
       state_.feed_mm_s = 0.0;
@@ -21,12 +23,15 @@ void MachineWords::feed(const Step& step) noexcept {
   if (!step.has('F')) {
     return;
   }
+  // F is in the unit in force for feeds, which G70 and G71 leave alone. Rotary axes take it in
+  // degrees, whatever the unit.
   const double unit = state_.feed_unit_mm;
   switch (state_.feed_mode) {
     case FeedMode::per_minute:
       state_.feed_mm_s = step['F'] * unit / 60.0;
       state_.feed_deg_s = step['F'] / 60.0;
       break;
+    // F is 1/min, so feed_mm_s holds moves per second; the length turns it into mm/s later.
     case FeedMode::inverse_time:
       state_.feed_mm_s = step['F'] / 60.0;
       state_.feed_deg_s = state_.feed_mm_s;
@@ -45,12 +50,14 @@ bool MachineWords::spindle_speed(const Step& step) {
       return refusals_.code(step, 'G', 96, "speed_missing", "G96 without its cutting speed (S)");
     }
     state_.surface_speed = true;
+    // D limits the speed as the tool comes near the centre; without it only the spindle does.
     state_.spindle_limit_rev_s = step.has('D') ? std::abs(step['D']) / 60.0 : 0.0;
   } else if (mode == g::kSpindleSpeed) {
     state_.surface_speed = false;
     state_.surface_speed_mm_s = 0.0;
     state_.spindle_limit_rev_s = 0.0;
   }
+  // G97 without S goes on at the last speed that S gave in rev/min.
   if (!step.has('S')) {
     return true;
   }
@@ -62,6 +69,7 @@ bool MachineWords::spindle_speed(const Step& step) {
   } else {
     state_.spindle_speed_rev_s = step['S'] / 60.0;
   }
+  // A new S for a spindle that turns takes effect at once.
   if (state_.spindle_direction != 0) {
     out_.spindle();
   }
@@ -86,6 +94,7 @@ bool MachineWords::change_tool(const Step& step) {
   if (code == kNoCode) {
     return true;
   }
+  // M61 says what is in the spindle; nothing moves.
   if (code == m::kToolInSpindle) {
     if (!step.has('Q') || step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0) {
       return refusals_.code(step, 'M', 61, "tool_missing",
@@ -98,6 +107,7 @@ bool MachineWords::change_tool(const Step& step) {
     load_tool(control_);
     return true;
   }
+  // M6 stops the spindle, as on LinuxCNC, and M3 must start it again.
   state_.spindle_direction = 0;
   out_.spindle();
   state_.tool_in_spindle = state_.selected_tool;
@@ -120,6 +130,7 @@ void MachineWords::coolant(const Step& step) {
   if (code == kNoCode) {
     return;
   }
+  // Bit 1 is mist, bit 2 flood: both may flow, and M9 ends both.
   const auto bits = static_cast<unsigned>(state_.coolant);
   const unsigned wanted = code == m::kCoolantOff ? 0U : code == m::kMist ? bits | 1U : bits | 2U;
   state_.coolant = static_cast<double>(wanted);
@@ -131,6 +142,7 @@ void MachineWords::overrides(const Step& step) noexcept {
   if (code == kNoCode) {
     return;
   }
+  // M50 P0 switches the feed override off; another P or none switches it on.
   const bool off = step.has('P') && step['P'] == 0.0;
   if (code == m::kOverridesOn || code == m::kOverridesOff) {
     state_.override_off = code == m::kOverridesOff;
@@ -140,6 +152,7 @@ void MachineWords::overrides(const Step& step) noexcept {
   // M51 rules the spindle override, M52 adaptive feed, M53 feed hold: no influence on the moves.
 }
 
+// Outputs and inputs move nothing, but a missing number would be an error on the control.
 bool MachineWords::outputs(const Step& step) {
   const int code = step.code(MGroup::io);
   if (code >= m::kOutputOnWithMove && code <= m::kOutputOff && !step.has('P')) {

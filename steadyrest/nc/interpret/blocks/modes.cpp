@@ -9,6 +9,7 @@ void Modes::units(const Step& step) noexcept {
   if (code == kNoCode) {
     return;
   }
+  // The feed's unit goes along except after G70 and G71, which are for lengths alone.
   state_.unit_mm = code == g::kInch ? kMmPerInch : 1.0;
   if (step.work_feed) {
     state_.feed_unit_mm = state_.unit_mm;
@@ -28,6 +29,7 @@ void Modes::plane_and_units(const Step& step) noexcept {
 }
 
 void Modes::path(const Step& step) noexcept {
+  // ADIS stays in force from block to block, and is ready when G641 comes later.
   if (step.rounding_mm >= 0.0) {
     rounding_mm_ = step.rounding_mm;
   }
@@ -49,6 +51,7 @@ void Modes::path(const Step& step) noexcept {
     default:
       break;
   }
+  // On SINUMERIK the distance comes from ADIS, not from a word of the G64 block.
   if (control_.rules.rounding_distance && state_.path_mode == PathMode::continuous) {
     state_.path_tolerance_mm = rounding_mm_;
   }
@@ -69,6 +72,8 @@ void Modes::distance_and_retract(const Step& step) noexcept {
   }
 }
 
+// M70 keeps the modes until M72, M73 keeps them until the subprogram ends; M71 forgets them. Each
+// call has its own.
 bool Modes::keep(const Step& step) {
   const int code = step.code(MGroup::modes);
   Kept& kept = kept_.back();
@@ -113,10 +118,13 @@ void Modes::restore(const State& kept) {
   state_.spindle_limit_rev_s = kept.spindle_limit_rev_s;
   state_.spindle_speed_rev_s = kept.spindle_speed_rev_s;
   state_.tool_offset = kept.tool_offset;
+  // Only a change loads the stored numbers of the offset: in the same system LinuxCNC goes on with
+  // those in force.
   if (state_.active_offset != kept.active_offset) {
     state_.active_offset = kept.active_offset;
     state_.work_in_force = state_.work_offset[kept.active_offset];
   }
+  // Spindle and coolant really change, so the machine must hear of it.
   if (state_.spindle_direction != kept.spindle_direction) {
     state_.spindle_direction = kept.spindle_direction;
     out_.spindle();

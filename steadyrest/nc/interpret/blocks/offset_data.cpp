@@ -9,6 +9,7 @@
 namespace steadyrest::nc::interpret {
 
 bool OffsetData::set(const Step& step) {
+  // L is the form; −1 is none of them.
   const double form = step.has('L') ? step['L'] : -1.0;
   if (control_.rules.g10_adds) {
     return added_work(step, form);
@@ -32,6 +33,8 @@ bool OffsetData::work(const Step& step, double form) {
                           "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
   }
   if (step.has('R') && form == 20.0) {
+    // L20 computes the offset for a given rotation; a new rotation in the same words would make two
+    // unknowns of one equation.
     return refusals_.letter(step, 'R', "g10_form", "a rotation (R) in G10 L20; G10 L2 takes one");
   }
   if (!state_.work_offset_on && number == 0.0) {
@@ -44,6 +47,7 @@ bool OffsetData::work(const Step& step, double form) {
     state_.rotation_deg[set] = step['R'];
   }
   if (form == 2.0) {
+    // Other systems than the active one change silently: they act when they are selected.
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
       if (step.has(kAxisLetters[i])) {
         offset[i] = component(step, i, state_);
@@ -55,6 +59,7 @@ bool OffsetData::work(const Step& step, double form) {
   if (set != state_.active_offset) {
     return true;
   }
+  // The position in the coordinates turned by the old angle, offsets as before.
   const Axes before = state_.work_in_force;
   state_.work_in_force = offset;
   const double before_deg = state_.rotation_in_force_deg;
@@ -91,6 +96,7 @@ bool OffsetData::added_work(const Step& step, double form) {
   if (step.has('R')) {
     return refusals_.letter(step, 'R', "unused_word", "an R word with G10 L2");
   }
+  // Added, not replaced, in G91: so corrections can be written without knowing the value.
   Axes& offset =
       number == 0.0 ? state_.external : state_.work_offset[static_cast<std::size_t>(number) - 1];
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
@@ -107,6 +113,7 @@ bool OffsetData::added_work(const Step& step, double form) {
 
 // L20: `offset` so that the machine stands where the words say, in the coordinates turned by it.
 void OffsetData::place_here(const Step& step, double rotation_deg, Axes& offset) const {
+  // machine = offset + R·(position + G92) + tool, solved for the offset.
   const Axes machine = to_machine(state_, state_.position);
   if (rotation_deg == 0.0) {
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
@@ -116,6 +123,8 @@ void OffsetData::place_here(const Step& step, double rotation_deg, Axes& offset)
     }
     return;
   }
+  // With a rotation the unknown offset is turned into the work's axes: there each named axis gives
+  // one equation, and what is not named stays.
   Axes from_origin{};
   for (std::size_t i = 0; i < from_origin.size(); ++i) {
     from_origin[i] = machine[i] - state_.tool_offset[i] - offset[i];
@@ -136,6 +145,8 @@ void OffsetData::place_tool(const Step& step, const Axes& machine, const Axes& f
                             double turn_deg, Tool& tool) const {
   Axes tip{};
   for (std::size_t i = 0; i < 2; ++i) {
+    // Where the tip is now, from the origin of the work offset, along the machine's axes; then
+    // turned into those of the work.
     tip[i] = machine[i] - frame[i] - tool.offset[i];
   }
   tip = turned(tip, -turn_deg);
@@ -162,9 +173,12 @@ bool OffsetData::tool(const Step& step, double form) {
                           "G10 names a tool (P) that is not in the tool table");
   }
   constexpr std::size_t kFixtures = 8;  // G59.3
+  // L11 measures against a fixture on the table, whose place G59.3 holds: independent of the part's
+  // offset.
   const Axes& frame = form == 11.0 ? state_.work_offset[kFixtures] : state_.work_in_force;
   const Axes machine = to_machine(state_, state_.position);
   const double turn_deg = form == 10.0 ? state_.rotation_in_force_deg : 0.0;
+  // X and Y together, since the rotation mixes them; the other axes one by one below.
   if (turn_deg != 0.0) {
     place_tool(step, machine, frame, turn_deg, *place);
   }
@@ -192,6 +206,7 @@ bool OffsetData::tool(const Step& step, double form) {
     }
     place->orientation = static_cast<std::int32_t>(step['Q']);
   }
+  // The tool in the spindle uses its new data from here on; its length acts at the next G43.
   if (place->number == state_.tool_in_spindle) {
     load_tool(control_);
   }

@@ -9,6 +9,7 @@ bool Offsets::tool_length(const Step& step) {
   switch (step.code(GGroup::tool_length)) {
     case g::kToolLength:
     case g::kAddToolLength: {
+      // Without H the tool in the spindle, as on LinuxCNC.
       std::int32_t number = state_.tool_in_spindle;
       if (step.code(GGroup::tool_length) == g::kAddToolLength && !step.has('H')) {
         return refusals_.code(step, 'G', 43, "tool_missing", "G43.2 without the tool's number (H)");
@@ -17,6 +18,7 @@ bool Offsets::tool_length(const Step& step) {
         return false;
       }
       const Tool* const tool = find_tool(control_.config, number);
+      // G43.2 adds a second offset (a wear or correction offset) to the one in force.
       for (std::size_t i = 0; tool != nullptr && i < tool->offset.size(); ++i) {
         const double base =
             step.code(GGroup::tool_length) == g::kAddToolLength ? state_.tool_offset[i] : 0.0;
@@ -42,6 +44,8 @@ bool Offsets::tool_length(const Step& step) {
 }
 
 bool Offsets::work_offset(const Step& step) {
+  // A programmed frame is turned by the settable one, so changing that under it would move the
+  // frame: refused.
   const int code = step.code(GGroup::work_offset);
   if ((step.zero_offset || code != kNoCode) &&
       (state_.frame_rotation_deg != 0.0 || state_.frame_shift != Axes{})) {
@@ -54,6 +58,7 @@ bool Offsets::work_offset(const Step& step) {
     state_.work_offset_on = false;
   } else if (code != kNoCode) {
     const auto active = static_cast<std::size_t>(
+        // G54 … G59 are 540, 550, … 590; G59.1 … G59.3 are 591, 592, 593.
         code <= g::kWorkOffset6 ? (code - g::kWorkOffset1) / 10 : 5 + (code - g::kWorkOffset6));
     // LinuxCNC goes on with what it has when the system is in force already, although a program may
     // have set its numbers (#5221 …) anew.
@@ -65,6 +70,8 @@ bool Offsets::work_offset(const Step& step) {
   } else {
     return true;
   }
+  // $P_IFRAME is that of the offset in force: selecting one loads its stored frame, without the
+  // fine part.
   state_.frame_fine = {};
   update_offset(state_);
   return true;
@@ -89,9 +96,12 @@ void Offsets::origin(const Step& step, int code) {
       for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
         if (step.has(kAxisLetters[i])) {
           const double value = component(step, i, state_);
+          // G52 sets the shift itself; G92 sets it so that the present position gets the given
+          // value. They share one store.
           state_.g92[i] = code == g::kShift ? value : state_.g92[i] + state_.position[i] - value;
         }
       }
+      // G92.3 brings this back after G92.2.
       state_.g92_stored = state_.g92;
       state_.g92_on = true;
       (code == g::kShift ? state_.g52_used : state_.g92_used) = true;
@@ -101,6 +111,7 @@ void Offsets::origin(const Step& step, int code) {
 }
 
 void Offsets::store_home(int code) noexcept {
+  // G28.1 stores the machine's position, so later offsets do not change where it is.
   state_.home[code == g::kStoreHome ? 0 : 1] = to_machine(state_, state_.position);
 }
 

@@ -22,9 +22,11 @@ bool CutterStage::set(const Step& step) {
   if (code == kNoCode) {
     return true;
   }
+  // G40 comes before the moves of its own block.
   if (code == g::kCutterOff) {
     return end(step);
   }
+  // LinuxCNC compensates in XY and ZX.
   if (state_.plane == Plane::yz) {
     return refusals_.code(step, 'G', code / 10, "cutter_comp_plane",
                           "cutter radius compensation outside of G17 and G18");
@@ -33,6 +35,7 @@ bool CutterStage::set(const Step& step) {
   if (!choose_tool(step, code, tool)) {
     return false;
   }
+  // From where the tool is: behind a G40 without a move it may still be beside the contour.
   compensation_.begin(state_.plane, tool, out_.take_beside(state_.position));
   out_.send_to(compensation_);
   state_.cutter_side = compensation_.side();
@@ -45,6 +48,8 @@ bool CutterStage::end(const Step& step) {
     if (fault != Fault::none) {
       return refuse(step, fault);
     }
+    // The tool stands beside the contour until the next move. What it is off by goes into that
+    // move's start.
     Axes beside = compensation_.machine();
     for (std::size_t i = 0; i < beside.size(); ++i) {
       beside[i] -= state_.position[i];
@@ -73,6 +78,7 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
       return refusals_.letter(step, 'L', "cutter_comp_plane",
                               "the edge's orientation of a lathe tool (L) outside of G18");
     }
+    // D is a diameter in the program's unit.
     tool.radius_mm = 0.5 * step['D'] * state_.unit_mm;
     tool.orientation = step.has('L') ? static_cast<int>(step['L']) : 0;
     return true;
@@ -83,6 +89,7 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
       return refusals_.letter(step, 'D', "not_an_integer",
                               "a tool's number (D) is a whole number from 0");
     }
+    // D0 is the tool in the spindle, as no D is.
     if (step['D'] != 0.0 && !tool_number(control_, step, 'D', number)) {
       return false;
     }
@@ -105,6 +112,7 @@ bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
                           "machine coordinates while cutter radius compensation is on");
   }
   const Axes start = state_.position;
+  // Filled, but not sent: the compensation keeps it until it knows the next move.
   const Move& move = out_.fill(kind, end);
   out_.time_by_contour();
   const bool inch = state_.unit_mm != 1.0;
@@ -113,6 +121,7 @@ bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
   if (fault != Fault::none) {
     return refuse(step, fault);
   }
+  // The program goes on from the contour; the shift says how far the tool is from it.
   state_.position = end;
   const Axes centre = compensation_.centre(end);
   for (std::size_t i = 0; i < end.size(); ++i) {

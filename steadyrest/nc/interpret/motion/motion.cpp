@@ -26,6 +26,7 @@ bool Motion::straight(const Step& step) {
   }
   const Axes end = end_point(step, control_);
   const PathMode mode = state_.path_mode;
+  // G9 is for this block alone.
   if (step.exact_stop) {
     state_.path_mode = PathMode::exact_stop;
   }
@@ -34,6 +35,8 @@ bool Motion::straight(const Step& step) {
   if (cutter_.active()) {
     return cutter_.compensate(step, kind, end);
   }
+  // Machine coordinates hold whatever the work offset: machine_check judges such a move without
+  // knowing one.
   if (step.machine_frame) {
     out_.current().machine_axes = named_axes(step);
   }
@@ -61,11 +64,13 @@ bool Motion::probe(const Step& step) {
                               "probing moves X, Y and Z alone");
     }
   }
+  // Behind G40 the probe starts beside the contour.
   Axes start = state_.position;
   for (std::size_t i = 0; out_.beside() && i < start.size(); ++i) {
     start[i] += (*out_.beside())[i];
   }
   const double distance = std::hypot(end[0] - start[0], end[1] - start[1], end[2] - start[2]);
+  // G38.3 and G38.5 may end without a touch; the others would fail.
   const bool may_fail = step.moves_by == g::kProbe || step.moves_by == g::kProbeAway;
   if (!(distance > 0.0) && !may_fail) {
     return refusals_.code(step, 'G', 38, "probe_too_short", "a probing move that goes nowhere");
@@ -79,6 +84,7 @@ bool Motion::probe(const Step& step) {
 }
 
 bool Motion::refuse_arc(const Step& step, ArcFault fault) {
+  // The word that the message shows: the one that gives the centre.
   const char letter = step.has('R') ? 'R' : step.has('I') ? 'I' : step.has('J') ? 'J' : 'K';
   switch (fault) {
     case ArcFault::radius_too_small:
@@ -104,6 +110,7 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
   const PlanePoint start{.first = state_.position[axes.first],
                          .second = state_.position[axes.second]};
   const PlanePoint stop{.first = end[axes.first], .second = end[axes.second]};
+  // In the units in force, since LinuxCNC's bounds differ between them.
   const ArcTolerance tolerance = arc_tolerance(state_.unit_mm != 1.0);
   if (step.has('R')) {
     const auto found = centre_from_radius(start, stop, step['R'] * state_.unit_mm,
@@ -114,6 +121,7 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
     centre = *found;
     return true;
   }
+  // I J K count from the start unless G90.1 or AC( ) says otherwise for this word.
   const auto coordinate = [&](std::size_t axis, double from) {
     const char letter = kCentreLetters[axis];
     if (!step.has(letter)) {
@@ -124,6 +132,7 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
         (step.absolute & bit) != 0 || (state_.centre_absolute && (step.incremental & bit) == 0);
     return (absolute ? 0.0 : from) + step[letter] * state_.unit_mm;
   };
+  // From the program's zero a centre word that is left out could mean 0 or the start.
   if (state_.centre_absolute &&
       !(step.has(kCentreLetters[axes.first]) && step.has(kCentreLetters[axes.second]))) {
     return refusals_.letter(step, 'G', "arc_centre_missing",
@@ -145,6 +154,7 @@ bool Motion::arc_words(const Step& step, const PlaneAxes& axes) {
     return refusals_.letter(step, 'R', "arc_centre_twice",
                             "an arc with both radius and centre words");
   }
+  // The third centre word would lift the centre out of the plane.
   const char foreign = "IJK"[axes.normal];
   if (step.has(foreign)) {
     return refusals_.letter(step, foreign, "arc_centre_off_plane",
@@ -162,6 +172,7 @@ bool Motion::arc(const Step& step) {
     return false;
   }
   if (!cutter_.arc_allowed()) {
+    // The tool stands beside the contour behind G40: an arc from there would have another radius.
     return refusals_.letter(step, 'G', "arc_after_cutter_comp",
                             "the move behind G40 must be a straight line, not an arc");
   }
@@ -172,6 +183,7 @@ bool Motion::arc(const Step& step) {
     return false;
   }
   Move& move = out_.current();
+  // Off the plane the centre is at the start's height.
   move.centre_mm = {state_.position[0], state_.position[1], state_.position[2]};
   move.centre_mm[axes.first] = centre.first;
   move.centre_mm[axes.second] = centre.second;
@@ -189,6 +201,7 @@ bool Motion::arc(const Step& step) {
     out_.move(MoveKind::arc, end);
   }
   state_.path_mode = mode;
+  // The move in hand serves the next block too, which may be no arc.
   move.centre_mm = {};
   move.normal = {};
   move.turns = 0;
@@ -200,6 +213,7 @@ void Motion::home(const Step& step, std::size_t which) {
   const bool some = (step.mask & kAxisMask) != 0;
   Axes end = end_point(step, control_);
   out_.move(MoveKind::rapid, end);
+  // The reference point is a machine position, so it is turned into the work coordinates in force.
   const Axes reference = to_work(state_, state_.home[which]);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (!some || step.has(kAxisLetters[i])) {

@@ -18,6 +18,7 @@ bool Splines::spline(const Step& step) {
   if (state_.plane != Plane::xy && (code == g::kCubicSpline || code == g::kQuadraticSpline)) {
     return refusals_.code(step, 'G', 5, "spline_off_xy", "a spline outside of the XY plane (G17)");
   }
+  // Control points are in XY; LinuxCNC's splines know no other plane.
   for (const char letter : std::string_view{"ZABCUVW"}) {
     if (step.has(letter)) {
       return refusals_.letter(step, letter, "axis_in_spline", "a spline moves X and Y alone");
@@ -26,6 +27,7 @@ bool Splines::spline(const Step& step) {
   if (code == g::kSplineEnd) {
     return end(step);
   }
+  // G93 would need the curve's length before the curve is known.
   if (state_.feed_mode == FeedMode::inverse_time) {
     return refusals_.code(step, 'G', 5, "spline_in_inverse_time",
                           "a spline while inverse-time feed (G93) is in force");
@@ -55,11 +57,14 @@ bool Splines::cubic(const Step& step) {
   }
   const Axes end = end_point(step, control_);
   const double unit = state_.unit_mm;
+  // G5 behind G5 without I and J: the mirror of the last P and Q, so the curves meet with one
+  // tangent.
   const std::array<double, 2> first =
       step.has('I') ? std::array{step['I'] * unit, step['J'] * unit}
                     : std::array{-cubic_tangent_mm_[0], -cubic_tangent_mm_[1]};
   cubic_tangent_mm_ = {step['P'] * unit, step['Q'] * unit};
   const Axes& start = state_.position;
+  // Cubic Bézier: start, start + (I, J), end + (P, Q), end.
   const std::array points = {
       SplinePoint{start[0], start[1], 1.0},
       SplinePoint{start[0] + first[0], start[1] + first[1], 1.0},
@@ -77,6 +82,7 @@ bool Splines::quadratic(const Step& step) {
   const Axes end = end_point(step, control_);
   const double unit = state_.unit_mm;
   const Axes& start = state_.position;
+  // Quadratic Bézier: start, start + (I, J), end.
   const std::array points = {
       SplinePoint{start[0], start[1], 1.0},
       SplinePoint{start[0] + step['I'] * unit, start[1] + step['J'] * unit, 1.0},
@@ -97,6 +103,8 @@ bool Splines::control_point(const Step& step) {
     return refusals_.letter(step, 'X', "spline_words",
                             "a spline of more than 10000 control points");
   }
+  // The first G5.2 also makes the present position a control point; its P is the weight of that one
+  // too.
   if (points_.empty()) {
     order_ = step.has('L') ? static_cast<int>(step['L']) : 3;
     if (order_ < 2 || order_ > 8) {
@@ -122,11 +130,13 @@ bool Splines::end(const Step& step) {
   if (points_.empty()) {
     return words(step, "G5.3 without G5.2 before it");
   }
+  // A curve of order k needs k points for one span.
   if (static_cast<int>(points_.size()) < order_) {
     return words(step, "a spline of fewer control points than its order");
   }
   emit(points_, order_, end_);
   points_.clear();
+  // LinuxCNC leaves no motion mode behind G5.3.
   state_.motion = -1;
   return true;
 }
@@ -136,6 +146,7 @@ void Splines::emit(std::span<const SplinePoint> points, int order, const Axes& e
   out_.current().spline_order = order;
   const PathMode mode = state_.path_mode;
   out_.move(MoveKind::spline, end);
+  // A drilling cycle behind it measures its initial level again.
   state_.cycle.begins_anew = true;
   state_.path_mode = mode;
   out_.current().spline = {};

@@ -17,6 +17,7 @@ double word_or(const Step& step, char letter, double otherwise) noexcept {
 }  // namespace
 
 bool Threading::spindle_turns(const Step& step) {
+  // The feed follows the spindle: standing, it would never arrive.
   return (state_.spindle_direction != 0 &&
           (state_.spindle_speed_rev_s != 0.0 || state_.surface_speed_mm_s != 0.0)) ||
          refusals_.code(step, 'G', step.moves_by / 10, "spindle_stands",
@@ -24,6 +25,7 @@ bool Threading::spindle_turns(const Step& step) {
 }
 
 void Threading::emit(const Axes& end, double pitch_mm) {
+  // The pitch is the feed per revolution of this move only.
   const FeedMode mode = state_.feed_mode;
   const double feed = state_.feed_mm_s;
   state_.feed_mode = FeedMode::per_revolution;
@@ -56,6 +58,7 @@ bool Threading::thread(const Step& step) {
   if (pitch_mm == 0.0) {
     return refusals_.letter(step, 'K', "out_of_range", "a pitch of zero");
   }
+  // G33.1 goes back to where it began, the spindle reversed, and leaves it turning as before.
   const Axes start = state_.position;
   const int direction = state_.spindle_direction;
   emit(end, pitch_mm);
@@ -97,6 +100,7 @@ bool Threading::read(const Step& step, Cycle& cycle) {
     }
   }
   const double unit = state_.unit_mm;
+  // In G7 depths are diameters like X.
   const double across = state_.diameter ? 0.5 * unit : unit;
   const double ends = word_or(step, 'L', 0.0);
   cycle = {.pitch_mm = step['P'] * unit,
@@ -115,6 +119,7 @@ bool Threading::read(const Step& step, Cycle& cycle) {
   return is_possible(step, cycle);
 }
 
+// Bounds that keep the loops below finite and the geometry real, each with the letter it is about.
 bool Threading::is_possible(const Step& step, const Cycle& cycle) {
   const double springs = cycle.springs;
   const auto wrong = [&](bool is, char letter, std::string_view text) {
@@ -133,6 +138,7 @@ bool Threading::is_possible(const Step& step, const Cycle& cycle) {
            wrong((cycle.entry || cycle.exit) && !(cycle.taper_mm > 0.0), 'L',
                  "tapered ends need the length of the taper (E above zero)") ||
            wrong(!(std::pow(cycle.full_mm / cycle.first_mm, cycle.degression) < kMostPasses), 'J',
+                 // Passes n until J·n^(1/R) reaches K: (K/J)^R.
                  "a thread of more than 100000 passes"));
 }
 
@@ -143,11 +149,14 @@ bool Threading::cycle(const Step& step) {
   }
   const Axes end = end_point(step, control_);
   cycle.end_mm = end[2];
+  // Depth of pass n is J·n^(1/R): R1 gives equal depths, R2 equal areas of chip, as the area of a V
+  // grows with the square of its depth (LinuxCNC manual, G76).
   double number = 1.0;
   for (double depth = cycle.first_mm; depth < cycle.full_mm;
        depth = cycle.first_mm * std::pow(++number, 1.0 / cycle.degression)) {
     pass(cycle, depth);
   }
+  // The first pass at full depth, then H spring passes.
   for (double spring = 0.0; spring <= cycle.springs; spring += 1.0) {
     pass(cycle, cycle.full_mm);
   }
@@ -158,10 +167,14 @@ bool Threading::cycle(const Step& step) {
   return true;
 }
 
+// X positions of one pass. The drive line is where X stands, the peak I away from it. The compound
+// slide feeds in at its angle: a shallow pass begins and ends earlier by depth·tan.
 void Threading::pass(const Cycle& cycle, double depth_mm) {
   const double side = cycle.peak_mm > 0.0 ? 1.0 : -1.0;  // inside: the tool goes outwards
   const double along = cycle.end_mm > cycle.start_mm ? 1.0 : -1.0;
   const double left_mm = cycle.full_mm - depth_mm;
+  // Along a taper the tool has a longer way for the same travel in Z: the pitch along the path
+  // grows by the same ratio.
   const double taper_pitch_mm =
       cycle.taper_mm > 0.0
           ? cycle.pitch_mm * std::hypot(cycle.taper_mm, cycle.full_mm) / cycle.taper_mm

@@ -181,7 +181,6 @@ bool FanucDecoder::letter_word(const Word& word) {
         !word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment;
     return put_letter(word, 'P', increments ? value * 1e-3 : value);
   }
-  // P and L of M98 are counts, without a decimal point by nature.
   if (step_.code(MGroup::program) == m::kCall && (letter == 'P' || letter == 'L')) {
     return put_letter(word, letter, value);
   }
