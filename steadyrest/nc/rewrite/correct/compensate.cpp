@@ -25,6 +25,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+// The text once (marks, uses of the same variable, place of the head), then survey, walk and clock,
+// then the choice of places, then writing beside the target, the proof, and only then the name.
 class Rewriter {
  public:
   Rewriter(const std::string& program, const Plan& plan, const interpret::Config& config,
@@ -76,6 +78,7 @@ class Rewriter {
   }
 
   Result<void> look_at_text() {
+    // Survey, walk, copy and proof each read the file from its beginning.
     std::error_code ignored;
     if (std::filesystem::exists(program_, ignored) &&
         !std::filesystem::is_regular_file(program_, ignored)) {
@@ -86,6 +89,7 @@ class Rewriter {
       return std::unexpected(lines.error());
     }
     while (lines->next()) {
+      // Plain words alone hold no mark and name no variable.
       const bool bare = plain_.look(lines->line());
       if (!bare && is_inserted(lines->line())) {
         return refuse(lines->number(), "already has corrections",
@@ -106,6 +110,7 @@ class Rewriter {
     }
     survey_ = std::move(*surveyed);
     auto walk = Walk::make(program_, config_, survey_, settings_);
+    // The clock answers in the order of the questions, so the first that waits is meant.
     auto clock = Clock::make(machine_, [this](std::uint64_t /*ticket*/, double time_s) {
       waiting_.front().second.time_s = time_s;
       schedules_[waiting_.front().first].offer(waiting_.front().second);
@@ -120,6 +125,7 @@ class Rewriter {
     if (const auto report = (*walk)->take(); !report.refused.empty()) {
       return std::unexpected(interpret::first_refusal(report, program_));
     }
+    // A plan without a step writes nothing, so nothing can be taken for it either.
     if (const auto& taken = (*walk)->taken(); taken && corrects(plan_)) {
       return refuse(taken->line, taken->what, taken->to_do);
     }
@@ -134,6 +140,7 @@ class Rewriter {
   }
 
   Result<void> spares_subprograms(const std::string& output) const {
+    // A subprogram's file is read while the output is written and afterwards.
     for (const Survey* one = &survey_; one != nullptr; one = one->other.get()) {
       for (const std::string& file : one->subprogram_files) {
         if (kernel::file::same_place(file, output)) {
@@ -154,6 +161,8 @@ class Rewriter {
     for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) {
       const auto& [letter, index, steps] = plan_.axes[axis];
       const Site site = walk.site(letter, index);
+      // Beside the program STOPRE would stop in the cut, so no feed moves. Otherwise a clearance
+      // restates the position, which must fit the program's digits.
       const bool writable =
           beside_program(settings_.method)
               ? site != Site::feed
@@ -162,6 +171,7 @@ class Rewriter {
                                   walk.before().unit_mm, "\n")
                          .empty();
       if (site != Site::none && writable) {
+        // The ticket is not needed: answers come in order.
         clock.ask(0);
         waiting_.emplace_back(axis, Place{.line = walk.line(),
                                           .site = site,
@@ -171,11 +181,13 @@ class Rewriter {
                                           .units_said = walk.units_said(),
                                           .active_offset = walk.before().active_offset});
       }
+      // The best explanation if no place is found: the first line that would have been one.
       if (const Walk::Unsaid* const unsaid = walk.unsaid(letter, index);
           unsaid != nullptr && unsaid_[axis].first == 0) {
         unsaid_[axis] = {walk.line(), *unsaid};
       }
       const Frame frame = walk.frame(letter);
+      // A note of the work offset must follow each change of it, even where the frame is kept.
       const bool noted = settings_.method == Method::linuxcnc && walk.sets_offset(letter);
       if (noted || walk.ends() || (frame != Frame::kept && in_work_offset(settings_.method))) {
         const auto& now = walk.run().state();
@@ -215,6 +227,8 @@ class Rewriter {
       }
       return std::unexpected(std::move(refusal));
     }
+    // Lines that change the frame and corrections in the order of the program; `stands_mm` is what
+    // is in force between them.
     std::size_t next = 0;
     double stands_mm = 0.0;
     for (const FrameLine& frame : frames_[axis]) {
@@ -235,6 +249,8 @@ class Rewriter {
   Result<void> write(const std::string& output) {
     const std::string head = whole_head(plan_, settings_);
     if (!head.empty()) {
+      // The head goes before anything else that is inserted at its line, which moves those lines
+      // down.
       std::string& first = texts_[head_.line()].before_line;
       first.insert(0, head);
       for (const std::size_t index : texts_[head_.line()].insertions) {
@@ -247,6 +263,7 @@ class Rewriter {
     if (!lines || !writer) {
       return std::unexpected(lines ? writer.error() : lines.error());
     }
+    // A device has no name under which it could be read again.
     if (writer->path().empty()) {
       return std::unexpected(
           Refusal{Kind::bad_input, output, 0,
@@ -261,6 +278,7 @@ class Rewriter {
       return flushed;
     }
     progress(0.5, "proving");
+    // The proof takes the times of the insertions from this walk; all else it finds for itself.
     KnownTimes known{.line_s = {}, .program_s = result_.program_s};
     for (const Insertion& one : result_.insertions) {
       known.line_s.emplace(one.original_line, one.time_s);
@@ -279,6 +297,8 @@ class Rewriter {
       return refusal;
     }
     refusal.file = program_;
+    // Lines inserted above the faulty one are taken off its number; within a group the line that
+    // follows is named.
     std::size_t inserted = 0;
     for (const auto& [line, text] : texts_) {
       if (refusal.line < line + inserted) {
@@ -296,6 +316,7 @@ class Rewriter {
   void copy(SourceLines& lines, OutputFile& writer) {
     std::string ending;
     auto text = texts_.begin();
+    // Inserted lines end as the lines around them do, so a file keeps one kind of ending.
     while (lines.next()) {
       if (ending.empty()) {
         ending = lines.ending();

@@ -17,6 +17,8 @@ Result<void> Placing::refuse(std::uint32_t line, std::string what, std::string t
       Refusal{Kind::bad_input, program_, line, std::move(what), std::move(to_do)});
 }
 
+// Steps that share a place become one change of the offset. Each is recorded all the same, so the
+// plan can be followed.
 Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Chosen>& chosen,
                                      std::size_t& next, double& stands_mm) {
   const std::size_t first = next;
@@ -29,6 +31,8 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
                   "a fine offset in an inch program: its unit depends on a setting of the control",
                   "write the program in mm, or choose another method for the corrections");
   }
+  // Where the text depends on the unit (G10 in the program's unit), a change of units between two
+  // corrections would leave a rounding behind.
   if (!unit_free(settings_.method) && place.unit_mm != chosen.front().place.unit_mm) {
     return refuse_units(place.line);
   }
@@ -38,6 +42,7 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
                       ? "write G71 (or G710) in its first block"
                       : "write G21, or G20 for inches, in its first block");
   }
+  // The sum is rounded, not the change (README): whole increments, without drift.
   const double before_mm = stands_mm;
   stands_mm = correction_mm(settings_, place.unit_mm, chosen[next - 1].step.displacement_um);
   if (stands_mm == before_mm) {
@@ -72,6 +77,7 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
                          .incremental = false};
   std::string& text = texts_[place.line].before_line;
   text += change_text(settings_, change, "\n");
+  // Between rapids the axis is not programmed: an added G0 makes the shift act.
   if (place.site == Site::clearance && !beside_program(settings_.method)) {
     text += restate_text(settings_.method, change, place.units_said, place.position_mm, "\n");
   }
@@ -86,6 +92,8 @@ Result<void> Placing::refuse_units(std::uint32_t line) const {
 Result<void> Placing::put_frame(const AxisPlan& plan, const FrameLine& frame, double unit_mm,
                                 double& stands_mm) {
   const bool end = frame.ends;
+  // On linuxcnc a line that sets the offset in force keeps the correction, but its note is checked
+  // before and written again behind.
   const bool renotes = !end && frame.frame == Frame::kept;
   if (stands_mm == 0.0) {
     return {};
@@ -109,6 +117,7 @@ Result<void> Placing::put_frame(const AxisPlan& plan, const FrameLine& frame, do
         "\n");
   };
   if (renotes) {
+    // `line + 1` is in front of the next line, that is, behind this one.
     texts_[frame.line].before_line += check_text(settings_, plan.letter, "\n");
     texts_[frame.line + 1].before_line += renote_text(settings_, plan.letter, "\n");
     return {};

@@ -8,6 +8,9 @@ namespace steadyrest::nc::rewrite {
 
 using kernel::outcome::Result;
 
+// A place asks for its time before its line's moves are handed over; the timer, which looks ahead,
+// answers later. Moves and events get running numbers for that, since a program's lines repeat in
+// loops.
 Result<std::unique_ptr<Clock>> Clock::make(const kernel::machine::Machine& machine, Told told) {
   auto timer = plan::SegmentTimer::make(machine);
   if (!timer) {
@@ -28,6 +31,7 @@ std::unique_ptr<Clock> Clock::of(const KnownTimes& known, Told told) {
 }
 
 void Clock::arrived(std::uint32_t sequence, double time_s) {
+  // What has no time of its own is reached with the move behind it.
   while (!asked_.empty() && asked_.front().sequence <= sequence) {
     told_(asked_.front().ticket, time_s);
     asked_.pop_front();
@@ -35,6 +39,7 @@ void Clock::arrived(std::uint32_t sequence, double time_s) {
 }
 
 void Clock::tell(const Walk& walk) {
+  // Known times come from a walk over the same file a moment before (README, "Limits").
   for (; !asked_.empty(); asked_.pop_front()) {
     const auto at = known_->line_s.find(walk.line());
     if (at != known_->line_s.end()) {
@@ -85,6 +90,7 @@ Result<double> Clock::finish() {
   if (!time) {
     return std::unexpected(time.error());
   }
+  // Lines behind the last move are reached at the program's end.
   arrived(std::numeric_limits<std::uint32_t>::max(), *time);
   return *time;
 }

@@ -7,17 +7,25 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
+// Most CAM programs have no subprograms, loops or `/` lines. What must be known of those shows in
+// the text: no line is repeated, and tool changes and G43 are words. One pass over the characters
+// then replaces a run of the interpreter. Anything else met (parameters, O-words, M98, `/`) ends
+// this, and survey() runs the program.
+
 /// From `blank` on there is nothing to be done.
 enum class Role : std::uint8_t { other, code, round, rest, blank, digit, point, sign, word };
 
 constexpr std::array<Role, 256> roles() {
   std::array<Role, 256> out{};
   out[' '] = out['\t'] = Role::blank;
+  // Words other than G and M say nothing about the survey, so letters, digits and signs need no
+  // look.
   for (unsigned c = '0'; c <= '9'; ++c) {
     out[c] = Role::digit;
   }
   out['.'] = Role::point;
   out['+'] = out['-'] = out['%'] = Role::sign;
+  // E and O are missing: O begins an O-word or a program number.
   for (const char c : std::string_view{"ABCDFHIJKLNPQRSTUVWXYZ"}) {
     out[static_cast<unsigned char>(c)] = Role::word;
     out[static_cast<unsigned char>(c - 'A' + 'a')] = Role::word;
@@ -35,6 +43,8 @@ Role role(char c) noexcept {
   return kRoles[static_cast<unsigned char>(c)];
 }
 
+// One G weighs 1, all else that matters 256, so the sum tells both apart: 1 is a single G and
+// nothing more. No line is long enough for 256 of them.
 /// What a line weighs: nothing where nothing is to be done, 1 for each G, more for all else.
 constexpr std::array<std::uint32_t, 256> weights() {
   std::array<std::uint32_t, 256> out{};
@@ -56,6 +66,7 @@ std::pair<int, int> digits(std::string_view line, std::size_t& at) noexcept {
     if (next != Role::digit && next != Role::blank) {
       break;
     }
+    // One digit more than allowed is counted, so that the count shows the excess.
     if (next == Role::digit && count <= kMostDigits) {
       value = 10 * value + (line[at] - '0');
       ++count;
@@ -76,6 +87,7 @@ bool is_simple(std::string_view line) noexcept {
   for (; i < line.size(); ++i) {
     weight += weight_of(line[i]);
   }
+  // No G at all, only axes and the like: no need to look closer.
   if (weight != 1U) {
     return weight == 0;
   }
@@ -85,6 +97,7 @@ bool is_simple(std::string_view line) noexcept {
   }
   const auto [number, count] = digits(line, ++at);
   return count > 0 && count <= kMostDigits && number != 43 &&
+         // A decimal point may make G43.1 of it: the slow way decides.
          (at == line.size() || role(line[at]) != Role::point);
 }
 
@@ -100,6 +113,7 @@ bool PlainSurvey::look(std::string_view line) {
     return true;
   }
   for (std::size_t at = 0;;) {
+    // Roles from `blank` on are what is_simple() skips as well.
     while (at < line.size() && role(line[at]) >= Role::blank) {
       ++at;
     }
@@ -107,9 +121,11 @@ bool PlainSurvey::look(std::string_view line) {
       return false;
     }
     const Role now = role(line[at]);
+    // A `;` comment goes to the end of the line.
     if (now == Role::rest) {
       return false;
     }
+    // An unclosed bracket is left to the reader, which refuses it.
     if (now == Role::round) {
       at = line.find(')', at);
     }
@@ -141,6 +157,7 @@ bool PlainSurvey::code(std::string_view line, std::size_t& at) {
     survey_.without_length.emplace_back(changed_at_, line_);
     changed_at_ = 0;
   }
+  // M98 and M99 call and return, M97 does on some controls: lines may be repeated.
   return !(m && number >= 97 && number <= 99);
 }
 

@@ -17,6 +17,7 @@ using interpret::ModeMask;
 
 namespace {
 
+// What a word settles: from then on the program, and not the control's past, has the mode.
 ModeMask of_g(double code, bool sinumerik) noexcept {
   if (sinumerik && (code == 70.0 || code == 71.0 || code == 700.0 || code == 710.0)) {
     return mode(GGroup::units);
@@ -24,6 +25,7 @@ ModeMask of_g(double code, bool sinumerik) noexcept {
   if (sinumerik && code >= 500.0 && code < 600.0) {
     return mode(GGroup::work_offset);
   }
+  // Codes in tenths, as the decoders have them; the sum of rounding is far below half a tenth.
   const auto found = interpret::group_of_g(static_cast<int>(std::lround(code * 10.0)));
   return found.known && found.group != GGroup::non_modal ? mode(found.group) : 0;
 }
@@ -55,6 +57,9 @@ void Said::look(const read::Word& word) {
       modes_ |= of_g(word.value, sinumerik_) & ~lost_;
       break;
     case 'M':
+      // M72, or the end of the subprogram after M73, brings back what was in force here. A mode
+      // that the program has not set by now may come back at any time, so setting it later does not
+      // settle it.
       if (word.value == 70.0 || word.value == 73.0) {
         lost_ |= ~modes_;
       }
@@ -79,12 +84,16 @@ void Said::take(Taken taken) {
 
 void Said::look(const interpret::Asked& asked, std::uint32_t known, std::uint32_t active,
                 std::uint32_t line) {
+  // Only the first finding is told.
   if (taken_ || !asked.any) {
     return;
   }
+  // As long as the program has not named its work offset, any of them may be the active one.
   if (!has(mode(GGroup::work_offset))) {
     active = ~interpret::Asked::kShift;
   }
+  // In the order of how much can be done about it: a value from the control's past, a position, a
+  // mode, dormant numbers (README, "Dormant numbers").
   if (!asked.value.empty()) {
     take({.line = line,
           .what = fmt::format("uses {}, whose initial value depends on the control", asked.value)});

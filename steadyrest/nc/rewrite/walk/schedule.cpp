@@ -16,14 +16,21 @@ using kernel::outcome::Result;
 Schedule::Schedule(AxisPlan plan, double window_s)
     : plan_(std::move(plan)), window_s_(window_s), near_(plan_.steps.size()) {}
 
+// Six places a step are enough: for each kind the nearest before the planned instant and the
+// nearest behind it. Whether one may be used depends on the step before, which is known only in the
+// end.
 void Schedule::offer(const Place& place) {
+  // Steps whose window is past take no more places, so the loop below stays short.
   while (first_ < near_.size() && plan_.steps[first_].time_s + window_s_ < place.time_s) {
     ++first_;
   }
+  // Site::none is 0 and is never offered.
   const auto site = static_cast<std::size_t>(place.site) - 1;
   for (std::size_t i = first_;
        i < near_.size() && plan_.steps[i].time_s - window_s_ <= place.time_s; ++i) {
     Nearest& nearest = near_[i][site];
+    // Places come in order of time: the last before the instant is the nearest, and behind it the
+    // first.
     if (place.time_s <= plan_.steps[i].time_s) {
       nearest.before = place;
     } else if (!nearest.behind) {
@@ -56,6 +63,8 @@ Result<std::vector<Chosen>> Schedule::choose() const {
     const PlannedStep& step = plan_.steps[i];
     // Never before the last one, since the plan's steps act in order; two may share a place.
     auto place = best(i, chosen.empty() ? 0 : chosen.back().place.line);
+    // The chosen place of the step before may lie behind all of this step's own: then both act
+    // there, if the window allows.
     if (!place && !chosen.empty() &&
         std::abs(chosen.back().place.time_s - step.time_s) <= window_s_) {
       place = chosen.back().place;

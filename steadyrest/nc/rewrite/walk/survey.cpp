@@ -9,6 +9,7 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
+// Of the moves and events only tool changes matter to the survey.
 class Changes final : public interpret::Sink {
  public:
   void on_move(const interpret::Move& /*move*/) override {}
@@ -18,6 +19,7 @@ class Changes final : public interpret::Sink {
   bool changed = false;
 };
 
+// From G43 (D1) on the length of the tool is in force.
 bool puts_length_on(const read::Block& block, read::Dialect dialect) {
   return std::ranges::any_of(block.words(), [dialect](const read::Word& word) {
     const bool g43 = word.letter == 'G' && word.value >= 43.0 && word.value < 44.0;
@@ -38,6 +40,8 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
   if (!run) {
     return std::unexpected(run.error());
   }
+  // A run of the whole program: what is repeated, and by which lines, depends on values in loops
+  // and calls.
   Survey found;
   std::vector<bool> seen;
   std::uint64_t steps = 0;
@@ -47,11 +51,15 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
     ++steps;
     deletable = deletable || run->block().deleted();
     if (run->in_main()) {
+      // A line outside of the top level (subprogram, loop, condition) counts as repeated even if it
+      // runs once: its times could change with a value.
       found.mark(run->line(), seen, !run->at_top());
     }
     if (!run->executed()) {
       continue;
     }
+    // LinuxCNC changes the tool before it takes the length, so G43 in the very block of M6 ends the
+    // interval at once.
     if (changes.changed) {
       changed_at = steps;
     }
@@ -72,6 +80,7 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
 
 }  // namespace
 
+// One bit a line: 10 million lines are 1.2 MB.
 void Survey::mark(std::uint32_t line, std::vector<bool>& seen, bool again) {
   if (line >= seen.size()) {
     seen.resize(line + 1U);
@@ -91,6 +100,7 @@ kernel::outcome::Result<Survey> survey(const std::string& path, const interpret:
   if (!found) {
     return std::unexpected(found.error());
   }
+  // `/` lines make two programs of it, which are judged apart.
   if (found->second) {
     auto other = survey_once(path, switched(config));
     if (!other) {

@@ -134,6 +134,7 @@ void Walk::remember() {
     arc |= move.kind == MoveKind::arc && state.motion <= 30 && !state.incremental ? named() : 0U;
   }
   before_.given = (before_.given & ~lost) | given();
+  // An arc's end is known, but only a straight move sends an axis to a place (given).
   before_.known |= before_.given | arc;
 }
 
@@ -192,6 +193,8 @@ bool Walk::step_alone() {
   ends_ = std::ranges::any_of(events(), [](const interpret::Event& event) {
     return event.kind == interpret::EventKind::end;
   });
+  // From a tool change to its G43 (D) no tool's length is in force that belongs to the tool: no
+  // line there is a place.
   while (interval_ < survey_.without_length.size() &&
          survey_.without_length[interval_].second < steps_) {
     ++interval_;
@@ -324,6 +327,8 @@ Site Walk::site(char letter, std::size_t index) const {
   if (own == Site::none || other_ == nullptr) {
     return own;
   }
+  // A place must be the same in both positions of block delete, or the correction would act
+  // differently with the switch.
   const bool same =
       together() && other_->missing(index) == nullptr &&
       other_->site_if_said(letter, index) == own &&
@@ -344,6 +349,7 @@ const Walk::Unsaid* Walk::missing(std::size_t index) const noexcept {
   static constexpr Unsaid kRotation{"whether a rotation is stored in the work offset",
                                     "give the control's variable file (--variables)"};
   static constexpr Unsaid kDiameter{"whether X is a radius (G8)", "write G8 before it"};
+  // The PLC or the temperature compensation moves the axis: no mode of the program bends that.
   if (beside_program(method_)) {
     return nullptr;
   }

@@ -8,6 +8,7 @@ namespace steadyrest::nc::rewrite {
 
 using interpret::Step;
 
+// The kinds ascend by what they demand, so the worse of both positions counts.
 Frame Walk::frame(char letter) const {
   const Frame own = frame_alone(letter);
   return other_ == nullptr || !together() ? own : std::max(own, other_->frame_alone(letter));
@@ -18,6 +19,7 @@ Frame Walk::frame_alone(char letter) const {
     return Frame::stored;
   }
   const interpret::State& now = run_->state();
+  // G54 in G54 changes nothing on LinuxCNC, but on SINUMERIK it loads the stored frame again.
   if (now.active_offset != before_.active_offset || now.work_offset_on != before_.work_offset_on ||
       facts_.settable) {
     return Frame::changed;
@@ -25,6 +27,8 @@ Frame Walk::frame_alone(char letter) const {
   if (!facts_.data || (facts_.axes & Step::bit(letter)) == 0) {
     return Frame::kept;
   }
+  // L20 sets the active offset from the position shown, which includes the correction: it stays in.
+  // Another offset would take it along for good.
   if (facts_.data_form == 20.0) {
     return of_active() ? Frame::kept : Frame::measured;
   }
@@ -33,12 +37,14 @@ Frame Walk::frame_alone(char letter) const {
 
 /// Of a G10: it is about the work offset in force.
 bool Walk::of_active() const noexcept {
+  // P0, and no P at all, mean the active offset.
   return facts_.data_set <= 0.0 ||
          facts_.data_set == static_cast<double>(run_->state().active_offset) + 1.0;
 }
 
 /// What the program may not do where the head sets the external offset to 0, in G90.
 void Walk::look_for_external() {
+  // The head's G90 stays in force, where the program may have relied on a G91 left in the control.
   if (facts_.axes != 0 && !said_.has(mode(interpret::GGroup::distance))) {
     said_.take({.line = line_or_call(),
                 .what = "programs an axis before G90 or G91: the head removes the external offset "
@@ -60,6 +66,7 @@ bool Walk::sets_offset(char letter) const noexcept {
 bool Walk::sets_offset_alone(char letter) const noexcept {
   const bool measures = facts_.data && facts_.data_form == 20.0 && of_active() &&
                         (facts_.axes & Step::bit(letter)) != 0;
+  // From here on the offset is not the one that LinuxCNC's note describes: it is noted again.
   return facts_.shifts || measures;
 }
 
