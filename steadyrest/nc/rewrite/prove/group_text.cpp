@@ -10,6 +10,8 @@ constexpr std::uint32_t bit(std::size_t axis) noexcept {
 
 }  // namespace
 
+// Puts together the lines that the plan wants before the line in hand, from the original alone. The
+// proof compares them with those that are there, character for character.
 Change GroupText::change(std::size_t axis, double from_mm, double to_mm) const {
   const Walk::Before& before = walk_->before();
   return {.letter = plan_.axes[axis].letter,
@@ -20,6 +22,8 @@ Change GroupText::change(std::size_t axis, double from_mm, double to_mm) const {
           .incremental = before.incremental};
 }
 
+// What the line before left open: the correction to put on again behind a change of the frame, a
+// note to write again behind a change of the offset.
 void GroupText::behind_the_line_before(std::size_t axis, double stands_mm) {
   if ((off_ & bit(axis)) != 0) {
     text_ += change_text(settings_, change(axis, 0.0, stands_mm), "\n");
@@ -44,6 +48,7 @@ void GroupText::stays(std::size_t axis, double stands_mm) {
 void GroupText::goes_off(std::size_t axis, double stands_mm) {
   behind_the_line_before(axis, stands_mm);
   text_ += change_text(settings_, change(axis, stands_mm, 0.0), "\n");
+  // At the program's end nothing follows that could put it on again.
   off_ |= walk_->ends() ? 0U : bit(axis);
 }
 
@@ -51,6 +56,7 @@ void GroupText::changes(std::size_t axis, double from_mm, double to_mm, Site sit
   behind_the_line_before(axis, from_mm);
   const Change change = this->change(axis, from_mm, to_mm);
   text_ += change_text(settings_, change, "\n");
+  // Without a word of the axis in the line the added G0 makes the shift act.
   if (site == Site::clearance) {
     text_ += restate_text(settings_.method, change, walk_->units_said(),
                           walk_->before().position[plan_.axes[axis].index], "\n");

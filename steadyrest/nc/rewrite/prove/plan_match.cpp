@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+// A change in the text may answer one step, or several that share a place; steps that cancel may be
+// answered by none. Which it was is not written anywhere, so every possibility is carried along:
+// `answered_` has each number of steps that may have been answered so far.
 /// How many of the steps may have been answered so far: ascending, never empty.
 using Answered = std::vector<std::size_t>;
 
@@ -24,6 +27,7 @@ class Match {
   void pass_over(double from_s, double to_s) {
     Answered reached;
     std::size_t next = 0;
+    // A number is reached if it was reached before, or from a lower one by steps that cancel.
     for (std::size_t step = answered_.front(); step <= axis_.steps.size(); ++step) {
       const bool before = next < answered_.size() && answered_[next] == step;
       next += before ? 1U : 0U;
@@ -40,6 +44,7 @@ class Match {
     Answered reached;
     std::size_t next = 0;
     for (std::size_t step = answered_.front(); step < axis_.steps.size(); ++step) {
+      // From the highest number not above this step: the shortest group.
       while (next + 1 < answered_.size() && answered_[next + 1] <= step) {
         ++next;
       }
@@ -69,6 +74,8 @@ class Match {
   }
   [[nodiscard]] bool silent(std::size_t first, std::size_t last, double from_s,
                             double to_s) const noexcept {
+    // One instant must lie in the windows of all steps of the group, and between the two changes;
+    // and the last step must leave what is in force already.
     const double earliest_s = axis_.steps[last].time_s - settings_.window_s;
     const double latest_s = axis_.steps[first].time_s + settings_.window_s;
     return earliest_s <= latest_s && earliest_s <= to_s && latest_s >= from_s &&
@@ -90,9 +97,12 @@ std::optional<Mismatch> mismatch(const AxisPlan& axis, const Settings& settings,
   double now_s = 0.0;
   double stands_mm = 0.0;
   for (const WrittenChange& change : changes) {
+    // Unit of this change: rounding depends on it.
     match.now(stands_mm, change.unit_mm);
     match.pass_over(now_s, change.time_s);
     if (!match.take(change)) {
+      // For the message: a later step with this sum is one at the wrong time, otherwise the plan
+      // has no such sum.
       std::size_t step = match.most_answered();
       while (step < axis.steps.size() && !match.stands(step, change.stands_mm)) {
         ++step;
@@ -111,6 +121,7 @@ std::optional<Mismatch> mismatch(const AxisPlan& axis, const Settings& settings,
     stands_mm = change.stands_mm;
     match.now(stands_mm, change.unit_mm);
   }
+  // Behind the last change only steps that cancel may be left.
   match.pass_over(now_s, kNever);
   if (match.most_answered() == axis.steps.size()) {
     return {};

@@ -19,6 +19,7 @@ std::uint32_t bit(std::size_t axis) noexcept {
   return std::uint32_t{1} << axis;
 }
 
+// The centre as a point of all axes, so that machine_of() can turn it.
 Axes centre_of(const Move& move) {
   Axes centre = move.start;
   std::ranges::copy(move.centre_mm, centre.begin());
@@ -45,10 +46,13 @@ std::string Shifts::add(const Move& move, double most_mm) {
   }
   for (std::size_t i = 0; i < shift_.size(); ++i) {
     const double distance_mm = move.end[i] - move.start[i];
+    // Twice the largest correction is the most that a change can move an axis: from one end to the
+    // other.
     if (distance_mm != 0.0 &&
         ((planned_ & bit(i)) == 0 || std::abs(distance_mm) > most_mm + kSame_mm)) {
       return "an inserted line moves more than a correction";
     }
+    // An added rapid moves the changed program's axis ahead of the original's.
     shift_[i] += distance_mm;
   }
   return {};
@@ -56,6 +60,7 @@ std::string Shifts::add(const Move& move, double most_mm) {
 
 /// Of straight moves that are not turned: begins where the move before ended and ends where it is
 /// wanted, on every axis. False, and nothing changed, where it needs an excuse.
+// Nearly all moves take this way: no turning, no arcs, no exceptions.
 bool Shifts::as_wanted(const Move& before, const Move& after) noexcept {
   Axes end{};
   double worst_mm = 0.0;
@@ -73,12 +78,17 @@ bool Shifts::as_wanted(const Move& before, const Move& after) noexcept {
   return true;
 }
 
+// `shift_` is how far the changed program's machine position is from the original's. Each move must
+// begin with it and end with what is wanted; then the plan has come about on the machine and not
+// merely in offsets.
 std::string Shifts::pair(const Move& before, const Move& after, const Frames& frames) {
   const bool turned = before.rotation_deg != 0.0 || after.rotation_deg != 0.0;
   const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
   if (straight && !turned && as_wanted(before, after)) {
     return {};
   }
+  // Work positions differ by definition (the offset is shifted); machine positions show what the
+  // tool does.
   const auto difference = [&](const Axes& old_work, const Axes& new_work) {
     if (!turned) {
       Axes out;
@@ -129,11 +139,13 @@ std::string Shifts::one_axis(std::size_t axis, const Move& before, const Differe
     return fmt::format("{} is off by {:.9f} mm after this line; the plan has {:.6f} mm",
                        kAxisLetters[axis], end_mm, wanted[axis]);
   }
+  // On an arc or spline a shift that grows along the way is another curve.
   const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
   if (!straight && !same(start_mm, end_mm)) {
     return fmt::format("a correction of {} begins in a curved move and would bend it",
                        kAxisLetters[axis]);
   }
+  // The axis along the normal has no centre that matters.
   if (before.kind == MoveKind::arc && axis < before.normal.size() && before.normal[axis] == 0.0) {
     const double centre_mm = difference.centre[axis];
     if (!same(centre_mm, start_mm)) {

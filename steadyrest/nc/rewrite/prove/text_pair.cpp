@@ -15,6 +15,8 @@ using kernel::outcome::Result;
 
 namespace {
 
+// Both files side by side, once: the original's lines must all be there, in order and byte for
+// byte. What else is there must carry a mark, and is kept by the line it comes before.
 class TextPair {
  public:
   TextPair(SourceLines before, SourceLines after, const std::string& original,
@@ -31,6 +33,7 @@ class TextPair {
       const bool bare = plain.look(before_.line());
       head_.look(before_.line(), before_.number());
       if (!bare && is_inserted(before_.line())) {
+        // A mark in the original would be taken out by strip, which would then not restore it.
         refuse(original_, before_.number(), "the original already has corrections");
       }
       if (std::string use = bare ? "" : own_use(way_, before_.line()); !use.empty()) {
@@ -85,6 +88,8 @@ class TextPair {
 
   void take() {
     inserted_.lines.push_back(after_.number());
+    // The line ends around the inserted line: the last one seen, or at the top of the file the
+    // next.
     const bool crlf = ended_ ? crlf_ : before_.ending().size() > 1;
     if (after_.ending().size() != (crlf ? 2 : 1)) {
       refuse(changed_, after_.number(),
@@ -96,6 +101,7 @@ class TextPair {
     }
     inserted_.head.append(after_.line()).append("\n");
     ++inserted_.head_lines;
+    // The head is right in one place only: after an abort it must run before anything moves.
     if (head_.line() != before_.number()) {
       refuse(changed_, after_.number(),
              "the head is not before the first block that does something", kAgainstOtherLines);

@@ -9,9 +9,12 @@ namespace steadyrest::nc::rewrite {
 
 using interpret::Move;
 
+// The original may exceed the travel by itself; that is the control's affair. Here only what the
+// correction adds is judged.
 std::string over_travel(const kernel::machine::Machine& machine, char letter, const Reach& original,
                         const Reach& corrected) {
   constexpr double kRounding_mm = 1e-9;
+  // Rotary axes take no corrections.
   const auto axis = std::ranges::find_if(machine.axes, [letter](const auto& one) {
     return one.name.size() == 1 && one.name[0] == letter && !one.rotary;
   });
@@ -25,6 +28,7 @@ std::string over_travel(const kernel::machine::Machine& machine, char letter, co
         letter, to_mm, end_mm, letter, own_mm);
   };
   if (corrected.high_mm > axis->max_mm + kRounding_mm &&
+      // Exactly at the limit is allowed, and positions are sums of rounded numbers.
       original.high_mm <= axis->max_mm + kRounding_mm) {
     return fault(corrected.high_mm, axis->max_mm, original.high_mm);
   }
@@ -39,6 +43,7 @@ std::string over_travel(const kernel::machine::Machine& machine, const Plan& pla
                         const Move& original, const Move& corrected) {
   std::string fault;
   for (std::size_t i = 0; fault.empty() && i < plan.axes.size(); ++i) {
+    // Reach counts the bulges of arcs, which leave the travel before the ends do.
     const AxisPlan& axis = plan.axes[i];
     fault = over_travel(machine, axis.letter, reach_of(original, axis.index),
                         reach_of(corrected, axis.index));

@@ -21,6 +21,9 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+// For corrections that bypass the program's coordinates (R-parameter, setting data): the original's
+// blocks and moves stay, so both programs need not be run side by side. Each group of lines must be
+// the text of a planned step at a safe place, and off at the end.
 class Prover {
  public:
   Prover(const std::string& original, const std::string& changed, const Plan& plan,
@@ -42,6 +45,7 @@ class Prover {
       return std::unexpected(text ? surveyed.error() : text.error());
     }
     text_ = std::move(*text);
+    // The changed variable could be read or written there, in a file that nobody looked into.
     if (!surveyed->subprogram_files.empty()) {
       return std::unexpected(subprogram_may_use_it());
     }
@@ -52,6 +56,7 @@ class Prover {
     }
     while (!refusal_ && (*walk)->step()) {
       line(**walk, **window);
+      // Only the position of the switch that was asked for has times.
       if (timed_) {
         (*window)->feed(**walk);
       }
@@ -71,6 +76,8 @@ class Prover {
     }
     proof_.inserted_lines = text_.lines.size();
     at_end();
+    // Correct lines may still be at places that the control does not read: the changed program must
+    // run to its end.
     if (!refusal_) {
       run_changed(config);
     }
@@ -99,6 +106,7 @@ class Prover {
                         against_own_use(settings_))};
   }
 
+  // The text from what is in force to `to_mm`: what the file must have, character for character.
   [[nodiscard]] std::string text_to(double to_mm) const {
     return change_text(settings_,
                        {.letter = axis_.letter,
@@ -111,6 +119,7 @@ class Prover {
   }
 
   void line(const Walk& walk, Window& window) {
+    // Erased when met, so what is left at the end was never executed.
     if (const auto group = text_.groups.find(walk.line()); group != text_.groups.end()) {
       change(walk, window, group->second);
       text_.groups.erase(group);
@@ -122,6 +131,7 @@ class Prover {
     }
   }
 
+  // The PLC moves the axis by the correction, so the whole reach shifts by it.
   void travel(const Walk& walk) {
     for (const interpret::Move& move : walk.moves()) {
       const Reach own = reach_of(move, axis_.index);
@@ -137,16 +147,20 @@ class Prover {
 
   void change(const Walk& walk, Window& window, const std::string& group) {
     ++proof_.changes;
+    // The last line: back to zero.
     if (walk.ends() && walk.may_write(axis_.index) && group == text_to(0.0)) {
       stands_mm_ = 0.0;
       return;
     }
+    // No note says which step is meant: the text tells. Whether the order is the plan's is judged
+    // at the end (plan_match).
     for (const PlannedStep& step : axis_.steps) {
       const double to_mm = correction_mm(settings_, 1.0, step.displacement_um);
       if (group != text_to(to_mm)) {
         continue;
       }
       const Site site = walk.site(axis_.letter, axis_.index);
+      // Not a feed move: STOPRE stops, which leaves a mark in the cut.
       if (site != Site::rapid && site != Site::clearance) {
         refuse(
             walk.line(),

@@ -15,6 +15,7 @@ Result<std::unique_ptr<Window>> Window::make(const KnownTimes* known,
                                              const std::string& changed) {
   std::unique_ptr<Window> made(new Window(plan, settings, changed));
   auto clock =
+      // The ticket has both numbers: change · axes + axis.
       Clock::make(known, machine, [&changes = made->changes_](std::uint64_t ticket, double time_s) {
         changes[ticket % changes.size()][ticket / changes.size()].time_s = time_s;
       });
@@ -35,6 +36,7 @@ Result<double> Window::finish() {
   if (!total) {
     return total;
   }
+  // Of a plan for another program the windows would only tell the symptom.
   if (auto fits = check_total(plan_, *total); !fits) {
     return std::unexpected(fits.error());
   }

@@ -11,6 +11,11 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
+// LinuxCNC's corrections work by G10 L20: the active work offset is set so that the present
+// position reads s more or less than it does. s, the correction in force, and v, the offset it
+// belongs to, are noted in the offset's own slots of axes that the machine does not have (README,
+// "After an abort"), so LinuxCNC saves them together with it.
+
 // Axes in the order they get notes; unused axes whose slots in the work offset hold them: s, v.
 constexpr std::string_view kServed = "ZYXWVU";
 constexpr std::string_view kNotes = "WVUCBA";
@@ -32,6 +37,7 @@ char lower(char letter) noexcept {
 }
 
 /// The parameter of the work offset in force.
+// #5220 is the number of the active system: one text serves in all of them.
 std::string in_force(int base) {
   return fmt::format("#[{}+20*#5220]", base);
 }
@@ -41,6 +47,7 @@ std::string when_crooked(char letter) {
   const std::string turned = fmt::format("ABS[{}]", in_force(kRotation));
   return letter == 'X' ? turned + "+#<_lathe_diameter_mode>" : letter == 'Y' ? turned : "";
 }
+// G92 counts as well, as it shifts the same axis; #5210 is 1 while it is in force.
 std::string offset_of(char letter) {
   return fmt::format("{}+#5210*#{}", in_force(kWorkOffset + axis_of(letter)),
                      kG92 + axis_of(letter));
@@ -48,6 +55,8 @@ std::string offset_of(char letter) {
 
 }  // namespace
 
+// Two slots an axis, in a fixed order of axes whatever the plan corrects: the head of any program
+// finds the notes that another program left.
 std::optional<OffsetNote> offset_note(const Way& way, char letter) {
   const auto has = [&](char axis) { return way.axes.find(axis) != std::string::npos; };
   std::size_t before = 0;
@@ -64,6 +73,7 @@ std::optional<OffsetNote> offset_note(const Way& way, char letter) {
       continue;
     }
     (slot % 2 == 0 ? note.sum : note.offset) = kWorkOffset + axis_of(free);
+    // The second slot of the pair: both are filled in.
     if (slot++ == 2 * before + 1) {
       return note;
     }
@@ -72,6 +82,8 @@ std::optional<OffsetNote> offset_note(const Way& way, char letter) {
 }
 
 bool names_note(const Way& way, std::string_view line) {
+  // `#` and its digits, however they are spaced. A number beyond all work offsets stops growing: it
+  // is no note, and must not overflow.
   for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
     int number = 0;
     for (const char c : line.substr(at + 1)) {
@@ -82,6 +94,7 @@ bool names_note(const Way& way, std::string_view line) {
       }
     }
     const auto is = [number](int first) {
+      // The same slot in any of the nine systems.
       const int behind = number - first;
       return behind > 0 && behind <= 20 * kWorkOffsets && behind % 20 == 0;
     };
@@ -99,6 +112,8 @@ bool names_note(const Way& way, std::string_view line) {
 
 // Who starts a program from a line may start it at any. So a line that builds on the one before
 // divides by 0 where that has not been executed just now.
+// A division by 0 stops LinuxCNC at this line. `holds` is 1 where nothing is noted or v still
+// describes the offset, otherwise 0.
 std::string linuxcnc_check(const Way& way, char letter, std::string_view ending) {
   const OffsetNote note = offset_note(way, letter).value_or(OffsetNote{});
   const std::string holds = fmt::format("[{} EQ 0] OR [ABS[{}-{}] LT {}]", in_force(note.sum),
@@ -114,6 +129,8 @@ std::string linuxcnc_check(const Way& way, char letter, std::string_view ending)
                      ending);
 }
 
+// v again, after the offset has changed; only directly behind a check, whose 1 it divides by and
+// then clears.
 std::string linuxcnc_renote(const Way& way, char letter, std::string_view ending) {
   const OffsetNote note = offset_note(way, letter).value_or(OffsetNote{});
   return fmt::format(
@@ -123,11 +140,14 @@ std::string linuxcnc_renote(const Way& way, char letter, std::string_view ending
 
 std::string linuxcnc_change(const Way& way, const Change& change, std::string_view ending) {
   const OffsetNote note = offset_note(way, change.letter).value_or(OffsetNote{});
+  // #<_z> is the position shown: + s takes the noted correction off, − the new one puts it on. Both
+  // are mm; kProgramUnits turns them into the unit in force.
   const std::string sum = in_force(note.sum);
   const std::string mark =
       fmt::format("(STEADYREST {}{} mm)", change.letter, correction_number(change.to_mm));
   const char axis = lower(change.letter);
   const std::string check = linuxcnc_check(way, change.letter, ending);
+  // Off: nothing remains noted, so the next head finds an offset as the operator left it.
   if (change.to_mm == 0.0) {
     return check + fmt::format(
                        "G10 L20 P0 {0}[#<_{1}>+{2}*{3}/#<_steadyrest_{1}>] {2}=0 {4}=0 "
@@ -163,6 +183,7 @@ std::string axis_head(const OffsetNote& note, char letter, std::string_view endi
   const std::string crooked = when_crooked(letter);
   std::string all;
   std::string listed;
+  // Written out for all nine systems; a sum of magnitudes is 0 only if each of them is.
   for (int n = 1; n <= kWorkOffsets; ++n) {
     all += fmt::format("{}ABS[#{}]", n == 1 ? "" : "+", note.sum + 20 * n);
     listed += fmt::format(" #{}", note.sum + 20 * n);
@@ -171,6 +192,8 @@ std::string axis_head(const OffsetNote& note, char letter, std::string_view endi
   return fmt::format("#<_steadyrest_{}>=[{}]{}", axis, all, mark) +
          fmt::format("o<steadyrest_{0}1> if [#<_steadyrest_{0}> NE 0]{1}", axis, mark) +
          fmt::format(
+             // Another system holds a note, or the offset was set since: by how much the axis is
+             // off is then up to the operator.
              "o<steadyrest_{0}2> if [[#<_steadyrest_{0}>-ABS[{1}] NE 0] OR [ABS[{2}-{3}] GE "
              "{4}]{5}]{6}",
              axis, sum, offset_of(letter), noted, kSame,

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::string_view kBegin = "STEADYREST head told ";
 constexpr std::string_view kSum = "sum";
+// A comment must not contain brackets, and a control may take small letters for capitals or drop
+// blanks: all else than these characters is written as =XX.
 constexpr std::string_view kPlain = "-_./+,:";
 
 bool is_plain(char c) noexcept {
@@ -28,6 +30,7 @@ std::string decoded(std::string_view text) {
     if (text[i] == '=' && i + 2 < text.size() &&
         std::from_chars(&text[i + 1], &text[i + 1] + 2, byte, 16).ptr == &text[i + 1] + 2) {
       out += static_cast<char>(byte);
+      // Two hexadecimal digits are a byte; anything else after = is left as it is.
       i += 2;
     } else {
       out += text[i];
@@ -37,6 +40,7 @@ std::string decoded(std::string_view text) {
 }
 
 /// FNV-1a over the words as they are written.
+// Not against forgery: it shows that somebody has edited the line or cut it.
 std::string sum_of(const std::vector<Told>& told) {
   constexpr std::uint32_t kBasis = 2166136261U;
   constexpr std::uint32_t kPrime = 16777619U;
@@ -50,6 +54,7 @@ std::string sum_of(const std::vector<Told>& told) {
 }
 
 void read_line(std::string_view text, std::vector<Told>& told) {
+  // Words as on a command line: --name value, or --name alone.
   while (!text.empty()) {
     const std::string_view word = text.substr(0, text.find(' '));
     text.remove_prefix(std::min(text.size(), word.size() + 1));
@@ -77,6 +82,7 @@ std::string mark_text(const Way& way, std::vector<Told> told, std::string_view e
   if (told.empty()) {
     return {};
   }
+  // Last, over all others: a mark that was cut short has no sum.
   told.push_back({.name = std::string{kSum}, .value = sum_of(told)});
   const bool sinumerik = of_sinumerik(way.method);
   std::string text;
@@ -90,6 +96,7 @@ std::string mark_text(const Way& way, std::vector<Told> told, std::string_view e
   };
   for (const Told& one : told) {
     const std::string word = told_as_text(one);
+    // Controls have longest lines, so the record may take several; a word is never split.
     if (line.size() + 1 + word.size() > kLongestTold) {
       put();
     }
@@ -114,6 +121,7 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
       line.remove_prefix(1 + kBegin.size());
       line.remove_suffix(round ? 1 : 0);
       read_line(line, told);
+      // A second mark further down would be another program's.
     } else if (!told.empty()) {
       break;  // it is in one piece
     }
@@ -124,6 +132,7 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
     sum = std::move(told.back());
     told.pop_back();
   }
+  // A program without inserted lines has no mark to miss.
   if (inserted && (sum.name != kSum || sum.value != sum_of(told))) {
     return std::unexpected(
         kernel::outcome::Refusal{kernel::outcome::Kind::bad_input, changed, 0,

@@ -21,6 +21,9 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+// Bounds of a plausible plan: a wrong unit (seconds for minutes, millimetres for micrometres) must
+// not pass.
+
 constexpr std::size_t kLargestFile = 1U << 24U;
 constexpr std::size_t kMostTransitions = 100'000;
 constexpr double kLongest_min = 30.0 * 24.0 * 60.0;
@@ -60,6 +63,8 @@ class PlanReader {
     if (text.size() > kLargestFile) {
       return refuse("more than 16 MiB; this is not a plan", "give the JSON file of a plan");
     }
+    // JSON allows a key twice, and most readers take the last without a word. Here the parser's
+    // events tell.
     std::vector<std::set<std::string>> keys;
     std::string twice;
     const auto watch = [&](int /*depth*/, Json::parse_event_t event, Json& parsed) {
@@ -73,8 +78,10 @@ class PlanReader {
       }
       return true;
     };
+    // The JSON library throws; no exception leaves this room.
     try {
       json_ = Json::parse(text, watch);
+      // byte is one past the last character read; the lines before it are counted.
     } catch (const Json::parse_error& error) {
       const auto seen = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
       const auto line = 1 + static_cast<std::size_t>(std::ranges::count(seen, '\n'));
@@ -101,6 +108,7 @@ class PlanReader {
             kernel::outcome::meant(key, kRootKeys, "remove it, or see nc/rewrite/README.md"));
       }
     }
+    // Two lists could contradict each other.
     if (one == several || (several && json_.contains("axis"))) {
       return refuse("needs either `transitions` (with `axis`) or `axes`", "write one of the two");
     }
@@ -139,6 +147,8 @@ class PlanReader {
       return refuse_key(list_key, "not a list of transitions (1 to 100000)",
                         R"(write [{"n": 1, "t_min": [60], "delta_um": [0]}])");
     }
+    // Sums run from transition to transition: the thermal displacement does not start again at a
+    // tool change.
     double now_s = 0.0;
     double sum_um = 0.0;
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -146,6 +156,7 @@ class PlanReader {
         return false;
       }
     }
+    // Corrections of all axes share the program's time.
     if (!plan_.axes.empty() && std::abs(now_s - plan_.total_s) > kSameTime_s) {
       return refuse_key(list_key, "lasts longer or shorter than the axis before it",
                         "give all axes the same total time");
@@ -191,11 +202,13 @@ class PlanReader {
         return refuse_key(key + ".t_min" + at, "not a duration",
                           "write minutes above 0, at most 43200");
       }
+      // At the START of the interval the displacement so far counts (Marusich's R = {n; t; δ}).
       sum_um += deltas[i];
       if (!(std::abs(deltas[i]) <= kLargest_um && std::abs(sum_um) <= kLargest_um)) {
         return refuse_key(key + ".delta_um" + at, "far beyond a thermal displacement",
                           "write micrometres, at most 10000 in total");
       }
+      // A zero step would only cost a safe place.
       if (deltas[i] != 0.0) {
         made.steps.push_back({now_s, sum_um});
       }
@@ -229,6 +242,7 @@ Result<Plan> read_plan(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string text;
   if (in) {
+    // One byte more than allowed shows a file that is too large without reading all of it.
     text.resize(kLargestFile + 1);
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(in.gcount()));

@@ -15,6 +15,7 @@ using kernel::outcome::Result;
 
 Result<void> check_plan(const Plan& plan, const Settings& settings,
                         const interpret::Config& config) {
+  // Each step holds six places in memory and costs inserted lines.
   constexpr std::size_t kMostSteps = 10'000;
   const auto refuse = [&](std::string what, std::string to_do) {
     return std::unexpected(
@@ -29,6 +30,7 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
       return refuse(fmt::format("{} is an increment in this dialect", axis.letter),
                     "plan for X, Y or Z");
     }
+    // There is one R-parameter, and verify_beside follows one axis.
     if (beside_program(settings.method) && plan.axes.size() > 1) {
       return refuse("corrections of several axes, but only one variable to write them to",
                     "plan for one axis");
@@ -45,6 +47,7 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
                     "plan with a larger share of the tolerance");
     }
     for (const PlannedStep& step : axis.steps) {
+      // Half a digit more: the limit itself, written in decimal, must pass.
       if (std::abs(step.displacement_um) * 1e-3 > settings.clamp_mm + kHalfDigit_mm) {
         return refuse(
             fmt::format(
@@ -58,6 +61,8 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
 }
 
 Result<void> check_total(const Plan& plan, double program_s) {
+  // Safe places are found by time, so a plan for another program would put its corrections
+  // anywhere.
   if (std::abs(plan.total_s - program_s) <= std::max(kFit_s, kFitShare * program_s)) {
     return {};
   }
@@ -68,6 +73,8 @@ Result<void> check_total(const Plan& plan, double program_s) {
                                  "make the plan from this program and this machine file"});
 }
 
+// Only axes that are corrected get a head, but on linuxcnc the head looks after every axis of the
+// machine.
 std::string whole_head(const Plan& plan, const Settings& settings) {
   std::string letters;
   for (const AxisPlan& axis : plan.axes) {
@@ -76,12 +83,18 @@ std::string whole_head(const Plan& plan, const Settings& settings) {
   return mark_text(settings, settings.told, "\n") + head_text(settings, letters, "\n");
 }
 
+// Without the control's data both programs run with offsets that no text contains. A correction
+// written as an absolute value, or one that misses the tool's length or G92, then shows in the
+// moves. 0.375 is exact in binary, so no rounding comes in; each system has another multiple, so
+// mixing them up shows as well.
 interpret::Config with_unknown_offsets(interpret::Config config, const Way& way) {
   constexpr double kOwn_mm = 0.375;
   const auto none = [](const interpret::Axes& axes) { return axes == interpret::Axes{}; };
   if (config.start_known) {
     return config;
   }
+  // The head may set the external offset to 0 where it is free: it must be unknown only where it is
+  // not.
   if (none(config.external) && config.dialect == read::Dialect::fanuc && config.external_offset &&
       !way.external_offset_free) {
     std::fill_n(config.external.begin(), 3, kOwn_mm);
@@ -95,6 +108,7 @@ interpret::Config with_unknown_offsets(interpret::Config config, const Way& way)
     std::ranges::for_each(config.work_offset, fill);
   }
   fill(config.tool_offset);
+  // SINUMERIK has no G92; its frames start empty.
   if (config.dialect != read::Dialect::sinumerik) {
     fill(config.g92);
     config.g92_on = true;

@@ -15,6 +15,7 @@ Result<SourceLines> SourceLines::open(const std::string& path) {
   return SourceLines(std::move(*source), path);
 }
 
+// A program must be seen to its end: half a file would be proved as if it were whole.
 Result<void> SourceLines::whole() const {
   if (status_ == read::LineSource::Status::end) {
     return {};

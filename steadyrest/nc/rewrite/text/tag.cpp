@@ -20,6 +20,7 @@ std::string_view code_of(std::string_view line) noexcept {
 
 }  // namespace
 
+// The mark must begin a comment: the word in the middle of a text is the user's own.
 bool is_inserted(std::string_view line) noexcept {
   for (std::size_t at = line.find(kTag); at != std::string_view::npos;
        at = line.find(kTag, at + 1)) {
@@ -33,12 +34,15 @@ bool is_inserted(std::string_view line) noexcept {
 }
 
 bool is_head(std::string_view inserted_line) noexcept {
+  // The four kinds of lines that the head consists of.
   return inserted_line.find("(STEADYREST head ") != std::string_view::npos ||
          inserted_line.find(";STEADYREST head ") != std::string_view::npos ||
          inserted_line.find("(ABORT,STEADYREST ") != std::string_view::npos ||
          inserted_line.find("(MSG,STEADYREST ") != std::string_view::npos;
 }
 
+// R50, r 50, R[50]; an expression in brackets could be any number, so it counts as this one. An R
+// within a name (CR=) is none.
 bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
   line = code_of(line);
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -60,6 +64,7 @@ bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
     std::uint64_t value = 0;
     const std::size_t first = next;
     for (; next < line.size() && is_digit(line[next]); ++next) {
+      // Bounded: a number of many digits must not wrap round to ours.
       value =
           std::min<std::uint64_t>(value * 10 + static_cast<unsigned>(line[next] - '0'), 1U << 20U);
     }
@@ -71,6 +76,7 @@ bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
 }
 
 bool uses_own_names(std::string_view line) noexcept {
+  // LinuxCNC ignores blanks and case within a name, so a plain search could be passed by.
   for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
     std::size_t next = at;
     const bool same = std::ranges::all_of(kOwnNames, [&](char wanted) {
@@ -104,6 +110,7 @@ kernel::outcome::Result<std::size_t> strip(const std::string& program, const std
     return std::unexpected(writer.error());
   }
   std::size_t removed = 0;
+  // Byte for byte: lines that stay are written with their own ends.
   while (lines->next()) {
     if (is_inserted(lines->line())) {
       ++removed;

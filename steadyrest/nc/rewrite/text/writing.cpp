@@ -11,6 +11,8 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
+// Digits behind the point: what each control takes, and enough for the smallest increment that a
+// machine file may give.
 constexpr int kLinuxcncPlaces = 6;
 constexpr int kMmPlaces = 4;
 constexpr int kInchPlaces = 5;
@@ -23,6 +25,8 @@ double rounded(double value, int places) noexcept {
 }
 
 /// At least four digits behind the point (five in inches), more where they say something.
+// Trailing zeros say nothing, but a control needs the point, and four digits read as micrometres at
+// a glance.
 std::string number(double value, int places, int least) {
   std::string text = fmt::format("{:.{}f}", value, places);
   while (places > least && text.back() == '0') {
@@ -48,6 +52,7 @@ std::string fanuc_change(Method method, const Change& change, std::string_view e
                   number((change.to_mm - change.from_mm) / change.unit_mm,
                          mm ? kMostMmPlaces : kMostInchPlaces, mm ? kMmPlaces : kInchPlaces),
                   mark, ending);
+  // Back to G90 only where the program is in it.
   if (!change.incremental) {
     fmt::format_to(std::back_inserter(text), "G90 {}{}", mark, ending);
   }
@@ -111,6 +116,8 @@ std::string change_text(const Way& way, const Change& change, std::string_view e
                      change.letter, number(change.to_mm, kMostMmPlaces, kMmPlaces), ending);
 }
 
+// G0 to where the axis is, in the coordinates that the correction has just shifted: so the shift
+// acts before the line.
 std::string restate_text(Method method, char letter, double position_mm, double unit_mm,
                          std::string_view ending) {
   constexpr double kExact = 1e-10;
@@ -131,6 +138,8 @@ std::string restate_text(Method method, const Change& change, bool units_said, d
   if (units_said) {
     return restate_text(method, change.letter, position_mm, change.unit_mm, ending);
   }
+  // The unit is not known here, so the position is not written: what the control shows is put back
+  // by what the change has just added to it.
   const double back_mm = change.to_mm - change.from_mm;
   const char axis = static_cast<char>(change.letter - 'A' + 'a');
   return fmt::format("G0 {}[#<_{}>{}{}*[#<_metric>+#<_imperial>/25.4]] (STEADYREST restated){}",
@@ -196,6 +205,7 @@ std::string head_text(const Way& way, std::string_view letters, std::string_view
         letters, ending);
   }
   std::string head;
+  // frame_fine takes the stored frame: nothing to ask.
   if (way.method != Method::frame_fine && !way.cleared_after_abort) {
     head = question(way, letters, ending);
   }
