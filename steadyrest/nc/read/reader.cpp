@@ -12,6 +12,7 @@
 namespace steadyrest::nc::read {
 namespace {
 
+// What differs between dialects before words are looked at.
 /// How the lines of a dialect are read.
 struct Rules {
   bool (*read)(Reading& reading, std::string_view line, std::uint32_t number, Block& block);
@@ -38,6 +39,7 @@ constexpr const Rules& rules_of(Dialect dialect) noexcept {
   return kRules[static_cast<std::size_t>(dialect)];
 }
 
+// Blanks and the CR of a line end that was not cut off.
 std::string_view trimmed(std::string_view text) noexcept {
   constexpr std::string_view kBlanks = " \t\r";
   const auto first = text.find_first_not_of(kBlanks);
@@ -52,6 +54,8 @@ std::string_view trimmed(std::string_view text) noexcept {
 bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) {
   const std::string_view text = trimmed(line);
   if (text.size() == 1) {
+    // The first line that is not empty decides: with % at the head the program is one that a %
+    // closes.
     if (!seen_line_) {
       percent_opened_ = true;
       return true;
@@ -69,9 +73,12 @@ bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) 
 
 bool Reader::read(std::string_view line, std::uint32_t number, std::size_t ending_length,
                   Block& block) {
+  // Values are numbers alone until a line shows otherwise: an unchanged line then need not be read
+  // again by a run beside this one.
   block.reset(number);
   reading_.numbers_alone = false;
   const Rules& rules = rules_of(reading_.dialect);
+  // A control refuses the line as a whole; reading part of it would be worse than none.
   if (line.size() + ending_length > rules.longest) {
     return reading_.refuse(number, line.substr(0, 16), "line_too_long",
                            "a line of " + std::to_string(line.size()) + " characters; " +
@@ -97,6 +104,8 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   reading_.numbers_alone = rules.values_are_numbers;
   const bool accepted = rules.read(reading_, line, number, block);
   reading_.numbers_alone = reading_.numbers_alone && accepted;
+  // Assignments act when the whole line has been accepted, and not at all in a line that block
+  // delete leaves out.
   if (reading_.values != nullptr && !reading_.numbers_alone) {
     accepted && !(block_delete_ && block.deleted()) ? reading_.values->commit()
                                                     : reading_.values->drop();
@@ -104,6 +113,7 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   return accepted;
 }
 
+// Only where a % closes the program: elsewhere it is a line among others.
 bool Reader::ends_program(std::string_view line) const noexcept {
   return percent_opened_ && !rules_of(reading_.dialect).percent_closes_unopened &&
          trimmed(line) == "%";
@@ -111,6 +121,7 @@ bool Reader::ends_program(std::string_view line) const noexcept {
 
 bool Reader::read_flow(std::string_view line, std::uint32_t number, Block& block) {
   block.reset(number);
+  // Lines that are passed over: the O-word alone, without values.
   const std::size_t at = o_word_at(line);
   if (at == 0 || reading_.values == nullptr) {
     return true;

@@ -18,6 +18,11 @@ constexpr char lower(char c) noexcept {
   return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
 }
 
+// Expressions of LinuxCNC 2.9: priorities, tolerances and odd cases found with rs274, and
+// documented in "Parameters" and "Expressions". Operands here, precedence climbing in climber.hpp,
+// functions in expression_functions.cpp. Nothing is allocated; brackets nest 64 deep at most, so
+// the recursion is bounded.
+
 constexpr int kWeakest = 1;  // AND OR XOR
 
 }  // namespace
@@ -59,6 +64,7 @@ constexpr std::array<Sign<Expression::Operator>, 15> Expression::kSigns = {{
     {"XOR", Operator::one, 1},
 }};
 
+// LinuxCNC drops blanks and case within names: #<A b> is #<ab>.
 const char* read_name(const char* at, const char* end, Name& name) noexcept {
   name.clear();
   for (++at; at != end && *at != '>'; ++at) {
@@ -75,6 +81,7 @@ bool Expression::read(double& out) {
 
 bool Expression::operand(double& out) {
   bool negative = false;
+  // Any number of signs: `1--1` is 2, as rs274 reads it.
   for (char c = peek(); c == '+' || c == '-'; c = peek()) {
     negative ^= c == '-';
     ++at_;
@@ -94,6 +101,8 @@ bool Expression::operand(double& out) {
   return read && finite(out);
 }
 
+// Blanks may lie between the digits of one number: LinuxCNC drops them before it reads the line. A
+// number that ends where its text ends, or before something else, needs no copy.
 bool Expression::spaced_number(double& out) {
   const Number number = read_number({at_, static_cast<std::size_t>(end_ - at_)});
   const char* const after = at_ + number.length;
@@ -101,11 +110,13 @@ bool Expression::spaced_number(double& out) {
   while (look != end_ && is_blank(*look)) {
     ++look;
   }
+  // Nothing follows that could belong to the number.
   if (number.length != 0 && (look == after || look == end_ || !(is_digit(*look) || *look == '.'))) {
     at_ = after;
     out = number.value;
     return true;
   }
+  // The number without its blanks; no line of this dialect is longer than 253 characters.
   std::array<char, 256> packed{};
   std::size_t length = 0;
   for (; at_ != end_ && length < packed.size(); ++at_) {
@@ -117,11 +128,13 @@ bool Expression::spaced_number(double& out) {
   }
   const Number whole = read_number({packed.data(), length});
   out = whole.value;
+  // Two points, or none of it a number.
   return (whole.length != 0 && whole.length == length) ||
          fail("bad_number", "not a number; write digits and one point");
 }
 
 bool Expression::bracket(double& out) {
+  // A bound on the recursion: a line of 250 brackets would otherwise be 250 calls deep.
   if (++depth_ > kDeepest) {
     return fail("expression_too_deep", "brackets nested more than 64 deep");
   }
@@ -143,6 +156,8 @@ bool Expression::bracket(double& out) {
 bool Expression::holds(Operator op, double a, double b) noexcept {
   const double apart = std::abs(a - b);  // NaN behind 4 MOD 0: neither EQ nor NE
   switch (op) {
+    // Numbers nearer than 0.0001 count as equal, which makes loops over decimal steps end where
+    // they look as if they did. The order comparisons have no such tolerance.
     case Operator::eq:
       return apart < kEqual;
     case Operator::ne:
@@ -168,6 +183,7 @@ bool Expression::apply(Operator op, double& left, double right) {
   switch (op) {
     case Operator::power:
       // std::pow would return NaN.
+      // Real powers of negative numbers exist for whole exponents alone.
       if (left < 0.0 && right != std::floor(right)) {
         return fail("not_finite", "a negative number to a power that is not whole");
       }
@@ -177,6 +193,7 @@ bool Expression::apply(Operator op, double& left, double right) {
       left *= right;
       break;
     case Operator::over:
+      // rs274 refuses it too; an infinity would go into a coordinate.
       if (right == 0.0) {
         return fail("division_by_zero", "a division by zero");
       }
@@ -200,6 +217,7 @@ bool Expression::apply(Operator op, double& left, double right) {
   return true;
 }
 
+// The number behind # may be an expression itself: ##3, #[1+2].
 bool Expression::parameter_number(int& index) {
   double number = 0.0;
   if (++depth_ > kDeepest) {
@@ -210,9 +228,11 @@ bool Expression::parameter_number(int& index) {
   }
   --depth_;
   const double whole = std::round(number);
+  // 1.00005 counts as 1: a calculated number is rarely whole to the last digit.
   if (!(std::abs(number - whole) <= kEqual)) {
     return fail("not_an_integer", "a parameter number that is not a whole number");
   }
+  // Before the cast, which is undefined beyond an int.
   if (!(std::abs(whole) < 1e9)) {
     return fail("no_such_parameter", "a parameter the control does not have");
   }
@@ -234,6 +254,7 @@ bool Expression::looked_up(Lookup lookup) {
     case Lookup::not_while_compensating:
       return fail("position_in_cutter_comp",
                   "the current position while cutter radius compensation is on");
+    // These two belong to other dialects.
     case Lookup::assigned_in_block:
     case Lookup::not_known_here:
       break;

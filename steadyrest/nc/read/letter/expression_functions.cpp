@@ -20,11 +20,13 @@ bool Expression::function(double& out) {
   std::array<char, 8> name{};
   std::size_t length = 0;
   const char* const first = at_;
+  // No function's name is longer: more letters are an unknown one.
   for (char c = peek(); is_letter(c) && length < name.size(); c = peek()) {
     name[length++] = c;
     ++at_;
   }
   const std::string_view text{name.data(), length};
+  // Letters without a bracket are no function, so the value is what is missing.
   if (peek() != '[') {
     at_ = first;
     return fail("missing_value", "a value is missing: a number, a parameter or [ ] belongs here");
@@ -39,6 +41,7 @@ bool Expression::named_function(std::string_view name, double& out) {
   if (!bracket(x)) {
     return false;
   }
+  // Outside of these domains C++ gives not a number; the refusal names the function instead.
   const auto domain = [&](bool inside, std::string_view text) {
     return inside || fail("out_of_domain", text);
   };
@@ -54,6 +57,8 @@ bool Expression::named_function(std::string_view name, double& out) {
   } else if (name == "EXP") {
     out = std::exp(x);
   } else if (name == "FIX") {
+    // LinuxCNC's FIX and FUP round down and up, also below zero; FANUC's go by magnitude
+    // (macro_expression.cpp).
     out = std::floor(x);
   } else if (name == "FUP") {
     out = std::ceil(x);
@@ -63,6 +68,7 @@ bool Expression::named_function(std::string_view name, double& out) {
     }
     out = std::log(x);
   } else if (name == "ROUND") {
+    // Halves away from zero, as in LinuxCNC.
     out = std::round(x);
   } else if (name == "SIN") {
     out = std::sin(x * kDegree);
@@ -87,6 +93,7 @@ bool Expression::arc_tangent(double& out) {
   if (!bracket(y)) {
     return false;
   }
+  // ATAN needs both, to tell the quadrants apart; there is no form with one value.
   if (peek() != '/') {
     return fail("bad_function", "ATAN takes two values: ATAN[y]/[x]");
   }
@@ -97,6 +104,7 @@ bool Expression::arc_tangent(double& out) {
   if (!bracket(x)) {
     return false;
   }
+  // −180° to 180°.
   out = std::atan2(y, x) / kDegree;
   return finite(out);
 }
@@ -104,6 +112,7 @@ bool Expression::arc_tangent(double& out) {
 bool Expression::exists(double& out) {
   constexpr std::string_view kText = "EXISTS takes a parameter: EXISTS[#<name>]";
   ++at_;
+  // EXISTS asks without using the value, so an unset parameter is no fault here.
   if (peek() != '#') {
     return fail("bad_function", kText);
   }
@@ -116,6 +125,7 @@ bool Expression::exists(double& out) {
       return fail("bad_parameter", "a parameter name that is empty, too long or not closed by >");
     }
     at_ = after;
+    // Asking is noted by values_ all the same: the answer depends on what the control holds.
     out = values_.name(name.view(), ignored) == Lookup::found ? 1.0 : 0.0;
   } else {
     int index = 0;

@@ -29,6 +29,9 @@ constexpr std::string_view kControlText = "a control character; the file is not 
 
 }  // namespace
 
+// Words one after another; assignments act when the whole line has been read. What nearly every
+// line consists of is read in plain_word.cpp; O-words, macros and expressions have files of their
+// own.
 bool LetterLine::read() {
   skip_blanks();
   if (at_ != end_ && *at_ == '/' && !delete_mark()) {

@@ -13,8 +13,10 @@ namespace steadyrest::nc::read {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+// FANUC stores decimal numbers; 1e-9 takes up what a double leaves of 0.1·10.
 constexpr double kWhole = 1e-9;  // how far a number may be from the whole one that is meant
 
+// Two letters are enough (manual, "Custom macro"): no two functions begin alike.
 constexpr std::array<std::string_view, 17> kFunctions = {
     "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "ABS", "ROUND",
     "FIX", "FUP", "LN",  "EXP",  "POW",  "BIN",  "BCD",  "ADP"};
@@ -33,6 +35,8 @@ std::string_view function_named(std::string_view name) noexcept {
 
 LookupText macro_lookup_text(Lookup lookup) noexcept {
   switch (lookup) {
+    // Vacant differs from 0: G0 X#1 with a vacant #1 does not move X at all. So a vacant variable
+    // is refused wherever it is read.
     case Lookup::no_such_name:
       return {.reason = "vacant_variable",
               .text =
@@ -66,6 +70,8 @@ enum class MacroExpression::Operator : unsigned char {
   one
 };
 
+// Two levels, from left to right: * / MOD AND before + - OR XOR (manual, "Arithmetic and logic
+// operation").
 constexpr std::array<Sign<MacroExpression::Operator>, 8> MacroExpression::kSigns = {{
     {"*", Operator::times, 2},
     {"/", Operator::over, 2},
@@ -83,6 +89,7 @@ bool MacroExpression::read_sum(double& out) {
 
 bool MacroExpression::operand(double& out) {
   bool negative = false;
+  // `X-#5`, `[-[2+3]]`: signs bind to their operand.
   for (char c = peek(); c == '+' || c == '-'; c = peek()) {
     negative ^= c == '-';
     ++at_;
@@ -111,6 +118,7 @@ bool MacroExpression::operand(double& out) {
 }
 
 bool MacroExpression::bracket(double& out) {
+  // FANUC allows five levels of brackets.
   if (++depth_ > kDeepest) {
     return fail("expression_too_deep", "brackets nested more than five deep");
   }
@@ -120,6 +128,7 @@ bool MacroExpression::bracket(double& out) {
   }
   const char c = peek();
   if (c != ']') {
+    // EQ, NE, GT, GE, LT and LE only occur in conditions.
     const bool compares = c == 'E' || c == 'N' || c == 'G' || c == 'L';
     return compares ? fail("flow_control", "a comparison; conditions are not interpreted here")
            : at_ == end_
@@ -139,6 +148,7 @@ bool MacroExpression::apply(Operator op, double& left, double right) {
       return bits(op, left, right);
     case Operator::over:
     case Operator::modulo:
+      // Controls stop with an alarm here.
       if (right == 0.0) {
         return fail("division_by_zero", "a division by zero");
       }
@@ -158,6 +168,7 @@ bool MacroExpression::apply(Operator op, double& left, double right) {
 }
 
 bool MacroExpression::bits(Operator op, double& left, double right) {
+  // Bits of 32-bit numbers: a fraction, a negative or a larger number has none.
   constexpr double kMost = 2147483647.0;
   const auto whole = [](double x) {
     return x >= 0.0 && x <= kMost && std::abs(x - std::round(x)) <= kWhole;
@@ -192,6 +203,7 @@ bool MacroExpression::function(double& out) {
   if (name == "BIN" || name == "BCD" || name == "ADP" || name == "POW") {
     return fail("function_not_interpreted", "BIN, BCD, ADP and POW are not interpreted");
   }
+  // ATAN alone may have one value or two, in two spellings, so its bracket is not closed here.
   double x = 0.0;
   if (name == "ATAN") {
     ++at_;
@@ -228,6 +240,7 @@ bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
   } else if (name == "ABS") {
     out = std::abs(x);
   } else if (name == "ROUND") {
+    // In F, S, P and the like the least increment depends on the control's setting.
     if (!(increment_ > 0.0)) {
       return fail("function_not_interpreted",
                   "ROUND in this word: its rounding increment is unknown");
@@ -235,6 +248,7 @@ bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
     // Inside a word ROUND rounds to the least increment of its address, not to a whole number.
     out = std::round(x / increment_) * increment_;
   } else if (name == "FIX") {
+    // By magnitude, unlike LinuxCNC's: FIX[-1.2] is −1, FUP[-1.2] is −2.
     out = std::trunc(x);
   } else if (name == "FUP") {
     out = x < 0.0 ? std::floor(x) : std::ceil(x);
@@ -264,6 +278,7 @@ bool MacroExpression::arc_tangent(double y, double& out) {
   }
   ++at_;
   --depth_;
+  // Behind the bracket a / may be a division: `ATAN[1]/5`. Only `/[` makes a pair.
   const char* const behind = at_;
   if (!pair && peek() == '/') {
     ++at_;
@@ -274,6 +289,7 @@ bool MacroExpression::arc_tangent(double y, double& out) {
       return false;
     }
   }
+  // Two zeros have no direction.
   if (pair && x == 0.0 && y == 0.0) {
     return fail("out_of_domain", "ATAN of two zeros");
   }
@@ -285,12 +301,14 @@ bool MacroExpression::arc_tangent(double y, double& out) {
 
 bool MacroExpression::variable_number(int& index) {
   double number = 0.0;
+  // `##5` is not FANUC's way; #[#5] is.
   const char c = peek();
   if (c == '[') {
     if (!bracket(number)) {
       return false;
     }
   } else if (is_digit(c)) {
+    // The bound keeps a row of digits from becoming an infinity.
     for (char digit = peek(); is_digit(digit) && number < 1e9; digit = peek()) {
       number = number * 10.0 + (digit - '0');
       ++at_;

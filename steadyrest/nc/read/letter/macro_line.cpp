@@ -13,6 +13,7 @@
 namespace steadyrest::nc::read {
 namespace {
 
+// The first six steer the flow, the others write to files and printers.
 constexpr std::array<std::string_view, 11> kKeywords = {
     "IF", "THEN", "GOTO", "WHILE", "DO", "END", "SETVN", "POPEN", "PCLOS", "DPRNT", "BPRNT"};
 
@@ -20,6 +21,7 @@ constexpr std::array<std::string_view, 11> kKeywords = {
 
 // False when a statement that begins with a word of several letters stands here.
 bool LetterLine::macro_keyword() {
+  // One letter is an address: `D1`, but `DO1` and `DPRNT[…]`.
   if (at_ + 1 == end_ || !is_letter(at_[1])) {
     return true;
   }
@@ -45,6 +47,8 @@ bool LetterLine::macro_keyword() {
 
 // A value that is no plain number: `X#5`, `X[…]`, `X-#5`. It is rounded to what the address takes.
 bool LetterLine::macro_value(const char* word_begin, Word& word) {
+  // 0 for addresses whose increment depends on the control's settings: these are taken as
+  // calculated.
   const double increment = reading_.values->increment(word.letter);
   MacroExpression expression(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values,
                              increment);
@@ -53,6 +57,7 @@ bool LetterLine::macro_value(const char* word_begin, Word& word) {
   if (!read) {
     return refuse(since(word_begin), expression.reason(), expression.text());
   }
+  // IS-B: the control works in increments, so X12.3456 moves to 12.346.
   if (increment > 0.0) {
     word.value = std::round(word.value / increment) * increment;
   }
@@ -64,12 +69,15 @@ bool LetterLine::macro_value(const char* word_begin, Word& word) {
 // `#5 = …`; `#5 = #0` makes #5 vacant.
 bool LetterLine::macro_statement() {
   const char* const from = at_++;
+  // On the control an assignment is a block of its own, executed as it is read, ahead of the
+  // motion.
   if (assigned_ || !block_.words().empty() || block_.flow().kind != FlowKind::none) {
     at_ = end_;
     return refuse(since(from), "macro_statement",
                   "in this dialect an assignment needs a separate block");
   }
   int index = 0;
+  // Within a variable's own number or value ROUND rounds to whole numbers.
   MacroExpression number(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values, 1.0);
   const bool numbered = number.variable_number(index);
   at_ += number.length();
@@ -83,6 +91,7 @@ bool LetterLine::macro_statement() {
   ++at_;
   skip_blanks();
   double value = 0.0;
+  // Only #0 itself, and nothing calculated with it, makes a variable vacant.
   const bool vacant = end_ - at_ >= 2 && at_[0] == '#' && at_[1] == '0' &&
                       (end_ - at_ == 2 || is_blank(at_[2]) || at_[2] == ';' || at_[2] == '(');
   if (vacant) {

@@ -15,6 +15,7 @@ constexpr char lower(char c) noexcept {
   return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
 }
 
+// `return` and `endsub` may give a value back; `sub` and `call` have up to 30.
 /// How many values follow a keyword.
 enum class Takes : unsigned char { nothing, one, perhaps_one, any };
 
@@ -52,6 +53,7 @@ constexpr Takes takes(FlowKind kind) noexcept {
 
 }  // namespace
 
+// Finds an O-word without reading the rest: lines that are passed over may hold anything.
 std::size_t o_word_at(std::string_view line) noexcept {
   std::size_t at = 0;
   const auto skip = [&](auto unwanted) {
@@ -59,6 +61,7 @@ std::size_t o_word_at(std::string_view line) noexcept {
       ++at;
     }
   };
+  // The block-delete mark and a line number may come first.
   skip([](char c) { return is_blank(c) || c == '/'; });
   if (at < line.size() && upper(line[at]) == 'N') {
     ++at;
@@ -80,6 +83,7 @@ char OWord::peek() noexcept {
   return at_ < line_.size() ? lower(line_[at_]) : '\0';
 }
 
+// The Expression works on the same line, from where this word is.
 bool OWord::value(double& out) {
   Expression expression(line_, at_, values_);
   const bool read = expression.read(out);
@@ -87,6 +91,8 @@ bool OWord::value(double& out) {
   return read || fail(expression.reason(), expression.text());
 }
 
+// Without `evaluate` only label and keyword are read, so a value that does not exist yet cannot
+// stop a line that is passed over.
 bool OWord::read(Flow& flow, bool evaluate) {
   flow.kind = FlowKind::none;
   flow.count = 0;
@@ -110,6 +116,7 @@ bool OWord::label(Flow& flow) {
     at_ = static_cast<std::size_t>(after - line_.data());
     return true;
   }
+  // A label may be calculated: O#1, O[100+#2]. Its digits are its name from then on.
   double number = 0.0;
   if (is_digit(first)) {
     for (char c = peek(); is_digit(c); c = peek()) {
@@ -122,6 +129,7 @@ bool OWord::label(Flow& flow) {
     return false;
   }
   const double whole = std::round(number);
+  // As for parameter numbers: within 0.0001 of a whole one.
   if (!(std::abs(number - whole) < 1e-4) || !(whole >= 0.0 && whole < 1e9)) {
     return fail("o_word", "an O-word whose label is not a whole number from 0");
   }
@@ -137,10 +145,12 @@ bool OWord::label(Flow& flow) {
 bool OWord::keyword(Flow& flow) {
   std::array<char, 12> name{};
   std::size_t length = 0;
+  // Twelve letters hold the longest keyword, endrepeat.
   for (char c = peek(); is_letter(c) && length < name.size(); c = peek()) {
     name[length++] = c;
     ++at_;
   }
+  // A number alone heads a program for M98, as on FANUC's controls.
   if (length == 0) {
     flow.kind = FlowKind::label;
     return true;
@@ -162,6 +172,7 @@ bool OWord::arguments(Flow& flow) {
     return true;
   }
   while (peek() == '[') {
+    // A condition takes one value; what follows it is left to the line, which refuses it.
     if (flow.count == (wanted == Takes::any ? Flow::kMostArguments : 1)) {
       return wanted == Takes::any ? fail("o_word", "more than 30 arguments") : true;
     }

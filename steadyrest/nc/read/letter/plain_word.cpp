@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kCharacters = 256;
 
+// N is the line number and O an O-word: both are more than a letter with a number.
 /// The upper case of the letters that begin a plain word: all but N and O. Else 0.
 constexpr std::array<char, kCharacters> plain_letters() {
   std::array<char, kCharacters> out{};
@@ -38,6 +39,7 @@ void LetterLine::plain_words() noexcept {
       break;
     }
     Number number;
+    // One digit and a blank, as in G0 and G1, by far the most common words.
     if (end_ - at > 3 && at[2] == ' ' && is_digit(at[1]) && is_letter(at[3])) {  // `G1 X…`
       number = {.value = static_cast<double>(at[1] - '0'), .length = 1, .decimal_point = false};
     } else if (!read_short_number(begin_, at + 1, end_, number)) {
@@ -51,10 +53,12 @@ void LetterLine::plain_words() noexcept {
     while (next != end_ && is_blank(*next)) {
       ++next;
     }
+    // `X1 2` is X12 in this dialect: the slow way joins it.
     if (next != end_ && (is_digit(*next) || *next == '.')) {  // a number goes on behind blanks
       break;
     }
     Word* const word = block_.add();
+    // More words than a block has room for: the slow way refuses with a text.
     if (word == nullptr) {
       break;
     }

@@ -19,6 +19,7 @@ constexpr std::string_view kOwnBlock = "a call or definition needs a separate bl
 
 }  // namespace
 
+// Beyond `;` only comment follows, so for statements the line ends there.
 char SinumerikLine::next() noexcept {
   skip_blanks();
   return at_ == end_ || *at_ == ';' ? '\0' : upper(*at_);
@@ -33,6 +34,7 @@ std::string_view SinumerikLine::letters() noexcept {
   return since(first);
 }
 
+// Values behind = may be any expression; plain numbers are read without one (assigned).
 bool SinumerikLine::calculated(const char* word_begin, double& out) {
   if (reading_.values == nullptr) {
     return refuse_value(word_begin);
@@ -47,6 +49,8 @@ bool SinumerikLine::calculated(const char* word_begin, double& out) {
   return read || refuse(since(word_begin), expression.reason(), expression.text());
 }
 
+// A name that is no word of the language is a definition, a variable or a call. Which one is
+// decided by what is defined so far, as on the control.
 /// What begins with this name, when it is a statement and no word; `done` then.
 bool SinumerikLine::statement(const char* word_begin, std::string_view name, bool& done) {
   if (reading_.typed_values == nullptr || known_name(name)) {
@@ -68,12 +72,14 @@ bool SinumerikLine::statement(const char* word_begin, std::string_view name, boo
   if (equal(name, "SETMS")) {
     return done = master_spindle(word_begin);
   }
+  // A variable hides a subprogram of its name.
   Name variable;
   double ignored = 0.0;
   if (lower_name(name, variable) &&
       reading_.values->name(variable.view(), ignored) != Lookup::no_such_name) {
     return done = variable_assignment(word_begin, variable.view());
   }
+  // With = or [ it would be a variable that does not exist; behind other words it would be a word.
   const char after = next();
   if (refused_name(name) != nullptr || after == '=' || after == '[' || !block_.words().empty()) {
     done = false;  // refused as a word
@@ -91,6 +97,8 @@ bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
                                 : ValueType::boolean;
     return true;
   }
+  // VAR parameters would write back into the caller; strings and frames have no number as their
+  // value.
   return refuse(since(word_begin), "definition",
                 "a variable or parameter of an unsupported type; REAL, INT and BOOL are supported "
                 "(not VAR, CHAR, STRING, AXIS, FRAME, SYN…)");
@@ -98,6 +106,8 @@ bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
 
 bool SinumerikLine::variable_name(const char* word_begin, Name& name) {
   const std::string_view written = letters();
+  // The manual's rule: two letters or underscores at the head keep variables apart from addresses
+  // such as X1.
   const bool starts = written.size() >= 2 && !is_digit(written[0]) && !is_digit(written[1]);
   if (!starts || written.size() > 31 || known_name(written) || refused_name(written) != nullptr ||
       !lower_name(written, name)) {
@@ -120,6 +130,7 @@ bool SinumerikLine::definition(const char* word_begin) {
   if (!value_type(word_begin, type)) {
     return false;
   }
+  // Definitions act at once, one after the other: `DEF REAL A=2, B=A*2` is allowed.
   do {
     at_ += next() == ',' ? 1 : 0;
     Name name;
@@ -163,12 +174,14 @@ bool SinumerikLine::parameter_of_subprogram(const char* word_begin, std::size_t 
 }
 
 // PROC NAME(REAL A, INT B=3)
+// What the caller left out has the default of PROC, or 0.
 bool SinumerikLine::head_of_subprogram(const char* word_begin) {
   if (letters().empty()) {
     return refuse(since(word_begin), "definition", "PROC without the subprogram's name");
   }
   if (next() == '(') {
     ++at_;
+    // Values are matched by place, not by name.
     for (std::size_t place = 0; next() != ')'; ++place) {
       if (place > 0) {
         if (next() != ',') {
@@ -184,6 +197,8 @@ bool SinumerikLine::head_of_subprogram(const char* word_begin) {
   }
   while (next() != '\0') {
     const std::string_view attribute = letters();
+    // Attributes change how the control shows or protects the subprogram; these two change nothing
+    // else.
     if (!equal(attribute, "DISPLOF") && !equal(attribute, "DISPLON")) {
       at_ += attribute.empty() ? 1 : 0;
       return refuse(since(word_begin), "definition",
@@ -200,6 +215,7 @@ bool SinumerikLine::declaration(const char* word_begin) {
 }
 
 bool SinumerikLine::assign(const char* word_begin, Lookup lookup) {
+  // Whether words act before or after an assignment beside them is not certain.
   if (!block_.words().empty()) {
     return refuse(since(word_begin), "assignment_and_words",
                   "a variable assignment next to other words; write two blocks");
@@ -212,6 +228,7 @@ bool SinumerikLine::assign(const char* word_begin, Lookup lookup) {
 // R1=…, R[…]=…; at_ stands behind the R.
 bool SinumerikLine::parameter_assignment(const char* word_begin) {
   double index = 0.0;
+  // R[R1+2]=…: the index may be calculated.
   if (next() == '[') {
     ++at_;
     if (!calculated(word_begin, index)) {
@@ -223,6 +240,7 @@ bool SinumerikLine::parameter_assignment(const char* word_begin) {
     ++at_;
   } else {
     const Number number = read_number(rest());
+    // A sign or a point is no part of a parameter's number.
     if (number.length == 0 || number.decimal_point || !is_digit(*at_)) {
       return refuse(since(word_begin), "missing_value", "an R-parameter without its number");
     }
@@ -238,6 +256,7 @@ bool SinumerikLine::parameter_assignment(const char* word_begin) {
   if (!calculated(word_begin, value)) {
     return false;
   }
+  // An index that is not whole is refused, not rounded.
   const bool whole =
       index >= 0.0 && index < 1e6 && index == static_cast<double>(static_cast<int>(index));
   return assign(word_begin, whole ? reading_.values->set_number(static_cast<int>(index), value)
@@ -260,6 +279,7 @@ bool SinumerikLine::call(const char* word_begin, std::string_view name, FlowKind
   if (!block_.words().empty() || assigned_) {
     return refuse(since(word_begin), "subprogram_call", kOwnBlock);
   }
+  // The label keeps the case, as file systems need it.
   flow.label.clear();
   for (const char c : name) {
     if (!flow.label.push(c)) {
@@ -281,6 +301,7 @@ bool SinumerikLine::call_values(const char* word_begin) {
     return true;
   }
   for (;;) {
+    // Flow has room for as many values as LinuxCNC's O-words.
     if (flow.count == Flow::kMostArguments) {
       return refuse(since(word_begin), "subprogram_call", "more than 30 values");
     }
@@ -289,6 +310,7 @@ bool SinumerikLine::call_values(const char* word_begin) {
       at_ = end_;
       return refuse(since(word_begin), "subprogram_call", "a string as a call argument");
     }
+    // Between two commas nothing is a value left out; `given` has a bit for each that is there.
     if (c != ',' && c != ')') {
       if (!calculated(word_begin, flow.values[flow.count])) {
         return false;
@@ -310,6 +332,7 @@ bool SinumerikLine::call_values(const char* word_begin) {
 // Behind a call: P3.
 bool SinumerikLine::repeats(const char* word_begin) {
   Flow& flow = block_.flow();
+  // P once, behind a call: everything else on the line would act in an uncertain order.
   const bool p = flow.kind == FlowKind::call && upper(*at_) == 'P' && flow.repeats == 1.0;
   ++at_;
   double value = 0.0;
@@ -323,6 +346,7 @@ bool SinumerikLine::repeats(const char* word_begin) {
     at_ = end_;
     return refuse(since(word_begin), "subprogram_call", kOwnBlock);
   }
+  // The control's own bounds.
   if (!(value >= 1.0 && value <= 9999.0) || value != static_cast<double>(static_cast<int>(value))) {
     return refuse(since(word_begin), "out_of_range",
                   "repeats (P) are a whole number from 1 to 9999");
@@ -337,6 +361,7 @@ bool SinumerikLine::modal_call(const char* word_begin) {
     return refuse(since(word_begin), "modal_call", kOwnBlock);
   }
   const std::string_view name = letters();
+  // A modal subprogram would run behind every move; only drilling cycles are interpreted so.
   if (!name.empty() && !(name.size() > 5 && equal(name.substr(0, 5), "CYCLE"))) {
     return refuse(since(word_begin), "modal_call",
                   "a modal call (MCALL) of a subprogram; only cycles are interpreted");

@@ -17,6 +17,7 @@ namespace steadyrest::nc::read {
 namespace {
 
 constexpr double kEqual = 1e-12;  // the manual: relative equality of the comparisons
+// Ranks as in kSigns: comparisons are the weakest, signs and NOT the strongest.
 constexpr int kComparison = 0;
 constexpr int kStrongest = 9;
 
@@ -51,6 +52,7 @@ enum class SinumerikExpression::Operator : unsigned char {
 };
 
 // Priorities of "Job Planning". Unlike in C, comparisons bind last, even after AND and OR.
+// Longer signs come before those that they begin with: <> and <= before <.
 constexpr std::array<Sign<SinumerikExpression::Operator>, 18> SinumerikExpression::kSigns = {{
     {"*", Operator::times, 8},
     {"/", Operator::over, 8},
@@ -72,6 +74,7 @@ constexpr std::array<Sign<SinumerikExpression::Operator>, 18> SinumerikExpressio
     {">", Operator::gt, 0},
 }};
 
+// The control does not tell case apart in names.
 bool lower_name(std::string_view written, Name& name) noexcept {
   name.clear();
   return std::ranges::all_of(written, [&](char c) {
@@ -86,6 +89,8 @@ SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept {
               .text =
                   "a parameter or variable that was never set in this program; the value left in "
                   "the control is unknown"};
+    // The order of assignments within a block is not certain: one that is set may not be read
+    // there.
     case Lookup::not_while_compensating:
     case Lookup::assigned_in_block:
       return {.reason = "order_of_assignments",
@@ -121,6 +126,7 @@ bool SinumerikExpression::read(double& out) {
 
 bool SinumerikExpression::apply(Operator op, double& left, double right) {
   const double a = left;
+  // Relative: 0.1 + 0.2 == 0.3 holds on the control.
   const bool equals =
       a == right || std::abs(a - right) <= kEqual * std::max(std::abs(a), std::abs(right));
   const auto truth = [&](bool yes) {
@@ -142,6 +148,8 @@ bool SinumerikExpression::apply(Operator op, double& left, double right) {
       return truth(equals);
     case Operator::ne:
       return truth(!equals);
+    // Equal within the tolerance counts as ≤ and ≥, and as neither < nor >; the manual's example of
+    // TRUNC depends on it.
     case Operator::le:
       return truth(equals || a < right);
     case Operator::ge:
@@ -160,6 +168,7 @@ bool SinumerikExpression::arithmetic(Operator op, double& left, double right) {
   if (divides && right == 0.0) {
     return fail("division_by_zero", "a division by zero");
   }
+  // What the control gives for negative numbers is not certain: refused.
   if ((op == Operator::div || op == Operator::mod) && (left < 0.0 || right < 0.0)) {
     return fail("out_of_domain", "DIV or MOD of a negative number");
   }
@@ -188,11 +197,13 @@ bool SinumerikExpression::bits(Operator op, double& left, double right) {
 
 bool SinumerikExpression::operand(double& out) {
   const char c = peek();
+  // A sign is an operand of its own level, so signs count for the depth as well.
   if (++depth_ > kDeepest) {
     return fail("expression_too_deep", "brackets or signs nested more than 64 deep");
   }
   if (c == '-' || c == '+') {
     ++at_;
+    // The sign binds tightest: -2+5 is 3.
     if (!climb(out, kStrongest)) {
       return false;
     }
@@ -204,6 +215,7 @@ bool SinumerikExpression::operand(double& out) {
     ++at_;
     return climb(out, kComparison) && closing(')');
   }
+  // Neither bracket nor sign: no depth used.
   --depth_;
   if (is_digit(c) || c == '.') {
     return number(out);
@@ -230,11 +242,13 @@ bool SinumerikExpression::number(double& out) {
   if (at_ != end_ && *at_ == '.') {
     return fail("bad_number", "not a number; write digits and one point");
   }
+  // Powers of ten are written EX on this control, since E could be an address.
   if (end_ - at_ >= 3 && upper(*at_) == 'E' && upper(at_[1]) == 'X') {
     const Number power = read_number({at_ + 2, static_cast<std::size_t>(end_ - at_ - 2)});
     if (power.length == 0 || power.decimal_point || std::abs(power.value) > 300.0) {
       return fail("bad_number", "not a number; EX takes a whole number from -300 to 300");
     }
+    // Mantissa times a power of ten would round twice.
     std::array<char, 80> written{};  // as C++ writes it: correctly rounded
     const std::size_t digits = mantissa.length;
     if (digits + power.length + 1 > written.size()) {
@@ -263,6 +277,7 @@ bool SinumerikExpression::word(double& out) {
     out = equal(name, "TRUE") ? 1.0 : 0.0;
     return true;
   }
+  // NOT of a number: true for 0 alone.
   if (equal(name, "NOT") || equal(name, "B_NOT")) {
     if (name.size() > 3) {
       return fail("function_not_interpreted", "B_NOT is not interpreted");
@@ -274,6 +289,7 @@ bool SinumerikExpression::word(double& out) {
     out = out == 0.0 ? 1.0 : 0.0;
     return true;
   }
+  // R1 and R[…] are parameters; a name that begins with R and goes on with letters is not.
   const bool digits = name.size() > 1 && std::ranges::all_of(name.substr(1), is_digit);
   if (upper(name.front()) == 'R' && (digits || (name.size() == 1 && peek() == '['))) {
     return parameter(out, name);
@@ -291,6 +307,7 @@ bool SinumerikExpression::word(double& out) {
 
 bool SinumerikExpression::parameter(double& out, std::string_view name) {
   double index = 0.0;
+  // Past the [ that peek() has found.
   if (name.size() == 1) {
     ++at_;
     ++depth_;

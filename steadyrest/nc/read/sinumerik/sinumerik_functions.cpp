@@ -16,6 +16,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 }  // namespace
 
+// Each function has a fixed number of values; a further one is no closing bracket.
 bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t wanted) {
   ++at_;
   if (++depth_ > kDeepest) {
@@ -36,6 +37,8 @@ bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t w
 bool SinumerikExpression::function(std::string_view name, double& out) {
   struct Known {
     std::string_view name;
+    // Degrees in and out, as everywhere in NC programs. POT is the square, TRUNC rounds towards
+    // zero; BOUND(low, high, x) clips x.
     std::size_t values;
     double (*law)(double, double, double);
     double lowest = -1e300;
@@ -69,6 +72,7 @@ bool SinumerikExpression::function(std::string_view name, double& out) {
   if (!arguments(values, found->values)) {
     return false;
   }
+  // The domain is that of the first value; ATAN2 and the others take anything.
   if (!(values[0] >= found->lowest && values[0] <= found->highest)) {
     return fail("out_of_domain", "a function of a number outside its domain");
   }

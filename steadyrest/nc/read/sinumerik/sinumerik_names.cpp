@@ -8,10 +8,13 @@
 namespace steadyrest::nc::read {
 namespace {
 
+// Words that the decoder knows; all other names are variables, calls or refused.
 constexpr std::array<std::string_view, 19> kKnownNames = {
     "CR",   "TURN", "SUPA",    "ADIS",  "ADISPOS", "FNORM", "CFC",  "CFTCP", "CFIN",  "FFWOF",
     "SOFT", "RET",  "TRAFOOF", "TRANS", "ATRANS",  "ROT",   "AROT", "RPL",   "STOPRE"};
 
+// Words of the language that are not interpreted are refused by what they are, not as unknown
+// names: the user should not look for a subprogram of that name.
 constexpr std::array kRefusedNames = {
     RefusedName{"IF", "flow_control", "a condition (IF)"},
     RefusedName{"ELSE", "flow_control", "a condition (ELSE)"},

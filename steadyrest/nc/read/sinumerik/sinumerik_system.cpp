@@ -10,6 +10,7 @@
 namespace steadyrest::nc::read {
 
 /// Takes `upper_text`, blanks before it allowed.
+// Blanks may be between any two parts of these names.
 bool SinumerikLine::take(std::string_view upper_text) {
   skip_blanks();
   if (!equal(rest().substr(0, upper_text.size()), upper_text)) {
@@ -30,6 +31,8 @@ bool SinumerikLine::axis_letter(char& letter) {
 }
 
 bool SinumerikLine::system_variable(const char* word_begin) {
+  // On the control such an assignment may share a block, but in what order the rest acts is not
+  // certain.
   if (!block_.words().empty() || assigned_ || block_.flow().kind != FlowKind::none) {
     return refuse_character();
   }
@@ -42,6 +45,7 @@ bool SinumerikLine::system_variable(const char* word_begin) {
       return refuse(since(word_begin), "parameter",
                     "write $SA_TEMP_COMP_ABS_VALUE[Z]=value, with the letter of an axis");
     }
+    // The value is read, and wrong ones are refused, but no position of the program changes.
     return calculated(word_begin, value) && assign(word_begin, Lookup::found);
   }
   return take("$P_IFRAME") ? fine_offset(word_begin) : refuse_character();
@@ -52,10 +56,12 @@ bool SinumerikLine::system_variable(const char* word_begin) {
 bool SinumerikLine::fine_offset(const char* word_begin) {
   Word word;
   char stored = 0;
+  // The whole form, part by part, as `rewrite` writes it.
   const bool read = take("[") && axis_letter(word.letter) && take(",") && take("FI") && take("]") &&
                     take("=") && take("$P_UIFR") && take("[") && take("$P_UIFRNUM") && take(",") &&
                     axis_letter(stored) && take(",") && take("FI") && take("]") &&
                     stored == word.letter;
+  // Without a sign the stored offset alone is taken: the correction is off.
   const char sign = read ? next() : '\0';
   if (!read || (sign != '\0' && sign != '+' && sign != '-')) {
     at_ = end_;
@@ -63,12 +69,14 @@ bool SinumerikLine::fine_offset(const char* word_begin) {
                   "write a frame only as $P_IFRAME[Z,FI]=$P_UIFR[$P_UIFRNUM,Z,FI]+value");
   }
   at_ += sign == '+' ? 1 : 0;
+  // `-` stays in front of the value, so that the expression has it as its sign.
   if (sign != '\0' && !calculated(word_begin, word.value)) {
     return false;
   }
   word.qualifier = Qualifier::fine;
   word.has_value = true;
   const bool pushed = push(word_begin, word);
+  // Nothing else may share the block: an assignment is what it counts as.
   assigned_ = true;
   return pushed;
 }

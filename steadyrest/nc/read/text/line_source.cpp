@@ -13,6 +13,8 @@
 namespace steadyrest::nc::read {
 namespace {
 
+// Room for the shortest and for the usual read. 256 KiB makes the cost of a system call vanish
+// among the lines it brings.
 constexpr std::size_t kLeast = std::size_t{1} << 12U;
 constexpr std::size_t kChunk = std::size_t{1} << 18U;
 
@@ -32,6 +34,7 @@ kernel::outcome::Result<LineSource> LineSource::open(const std::string& path) {
     return std::unexpected(cannot_open(path, std::strerror(errno)));
   }
   struct stat status{};
+  // open() takes a directory, but read() on it fails only later, with a less telling text.
   if (::fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode)) {
     ::close(descriptor);
     return std::unexpected(cannot_open(path, "it is a directory"));
@@ -40,6 +43,8 @@ kernel::outcome::Result<LineSource> LineSource::open(const std::string& path) {
   source.descriptor_ = descriptor;
   // A short program is read whole at once; nothing is gained by more room, nor by zeroing it.
   const bool known = S_ISREG(status.st_mode) && status.st_size >= 0;
+  // kLongestLine more than a chunk, so that a line begun in the old chunk can be kept in front of
+  // the new one.
   source.room_ =
       kLongestLine +
       std::clamp(known ? static_cast<std::size_t>(status.st_size) + 1 : kChunk, kLeast, kChunk);
@@ -48,6 +53,7 @@ kernel::outcome::Result<LineSource> LineSource::open(const std::string& path) {
   return source;
 }
 
+// A text is a file that has been read already: the same loop serves both.
 LineSource LineSource::from_text(std::string_view text) {
   LineSource source;
   source.begin_ = source.at_ = text.data();
@@ -87,11 +93,14 @@ LineSource::~LineSource() {
   }
 }
 
+// Moves the unfinished line to the front and fills the rest of the buffer. Views of earlier lines
+// end here.
 bool LineSource::refill() noexcept {
   if (exhausted_) {
     return false;
   }
   const auto rest = static_cast<std::size_t>(end_ - at_);
+  // No line end in so many bytes: not an NC program; take() says so.
   if (rest > kLongestLine) {
     return false;
   }
@@ -99,6 +108,7 @@ bool LineSource::refill() noexcept {
   base_ += static_cast<std::uint64_t>(at_ - begin_);
   at_ = buffer_.get();
   ssize_t got = 0;
+  // A signal that interrupts the read is not the end of the file.
   do {
     got = ::read(descriptor_, buffer_.get() + rest, room_ - rest);
   } while (got < 0 && errno == EINTR);
@@ -109,15 +119,18 @@ bool LineSource::refill() noexcept {
 }
 
 bool LineSource::seek(std::uint64_t offset, std::uint32_t number) noexcept {
+  // Loops mostly go back a few lines: within the buffer nothing is read again.
   number_ = number;
   if (offset >= base_ && offset <= base_ + static_cast<std::uint64_t>(end_ - begin_)) {
     at_ = begin_ + (offset - base_);
     return true;
   }
+  // A pipe has no way back; the caller refuses.
   if (descriptor_ < 0 || ::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0) {
     return false;
   }
   base_ = offset;
+  // Nothing is buffered from there: the next line fills it.
   at_ = end_ = begin_;
   exhausted_ = failed_ = false;
   return true;
@@ -129,6 +142,8 @@ LineSource::Status LineSource::take(const char* stop, std::size_t ending) noexce
     return Status::too_long;
   }
   const char* const begin = at_;
+  // The end is LF or CR LF, by line, as mixed files occur. It is not part of the view, but its
+  // length counts against the longest line.
   at_ = stop + ending;
   if (length > 0 && begin[length - 1] == '\r') {
     --length;
@@ -140,11 +155,13 @@ LineSource::Status LineSource::take(const char* stop, std::size_t ending) noexce
 }
 
 LineSource::Status LineSource::next() noexcept {
+  // Lines count from 1.
   ++number_;
   std::size_t searched = 0;
   for (;;) {
     const auto available = static_cast<std::size_t>(end_ - at_);
     if (available > searched) {
+      // What has been searched is not searched again after a refill: a long line costs one pass.
       const void* const found = std::memchr(at_ + searched, '\n', available - searched);
       if (found != nullptr) {
         return take(static_cast<const char*>(found), 1);
@@ -158,6 +175,7 @@ LineSource::Status LineSource::next() noexcept {
   if (failed_) {
     return Status::failed;
   }
+  // The last line may have no end.
   return at_ == end_ ? Status::end : take(end_, 0);
 }
 
