@@ -32,6 +32,7 @@ TEST(Fanuc, AddsTheExternalOffsetToEveryWorkOffset) {
       "G10 L2 P2 Z50.\nZ0\nM30\n",
       config);
   const auto machine = [&](std::size_t i) { return moves.at(i).end[2] + moves.at(i).offset[2]; };
+  // −0.01 is external and so adds to both systems; then it is taken off again; P2 sets G55 alone.
   EXPECT_DOUBLE_EQ(machine(0), 0.0);
   EXPECT_DOUBLE_EQ(machine(1), -0.01);
   EXPECT_DOUBLE_EQ(machine(2), 99.99);
@@ -47,6 +48,7 @@ TEST(Fanuc, TakesP0ForG52OnAHaasAndRefusesIt) {
 }
 
 TEST(Sinumerik, SaysTheSameAsLinuxcncInOtherWords) {
+  // The same lines in LinuxCNC's words, whose moves are compared with rs274 elsewhere.
   const auto theirs = moves_of(
       "N10 G17 G71 G90 G94 G0 X=10 Y20 Z5 ; start\nG1 Z-1 F200\nG2 X20 CR=5 F=300\n"
       "G3 I=AC(15) J0 X20 TURN=2 Z-3\nG4 F1.5\nG0 X=IC(5) Y=AC(0)\nG91 X1 Y=AC(7)\nM30\n",
@@ -58,6 +60,7 @@ TEST(Sinumerik, SaysTheSameAsLinuxcncInOtherWords) {
 }
 
 TEST(Sinumerik, KeepsTheFeedMetricInG70ButNotInG700) {
+  // 60 mm/min is 1 mm/s; 60 in/min is 25.4 mm/s.
   EXPECT_DOUBLE_EQ(moves_of("G70 G1 X1 F60\nM30\n", in(Dialect::sinumerik)).at(0).feed_mm_s, 1.0);
   EXPECT_DOUBLE_EQ(moves_of("G700 G1 X1 F60\nM30\n", in(Dialect::sinumerik)).at(0).feed_mm_s, 25.4);
 }
@@ -66,6 +69,7 @@ TEST(Sinumerik, SuppressesOffsetsForTheBlockOfSupaOnly) {
   Config config = in(Dialect::sinumerik);
   config.work_offset[0][0] = 100.0;
   const auto moves = moves_of("G54 G0 X0\nSUPA X5\nX1\nG500 X2\nM30\n", config);
+  // X5 of the machine is X−95 in G54.
   EXPECT_EQ(moves.at(1).end[0], -95.0);
   EXPECT_EQ(moves.at(2).end[0], 1.0);
   EXPECT_EQ(moves.at(3).end[0] + moves.at(3).offset[0], 2.0);
@@ -89,6 +93,7 @@ TEST(Fanuc, ReadsNumbersWithoutPointAsTheOptionSays) {
   EXPECT_EQ(moves_of("G0 X100\nM30\n", in(Dialect::fanuc)).at(0).end[0], 100.0);
   Config config = in(Dialect::fanuc);
   config.decimal_rule = DecimalRule::least_increment;
+  // IS-B: 100 increments are 0.1 mm, and 10000 of 0.0001 in one inch.
   EXPECT_EQ(moves_of("G0 X100 Y100.\nM30\n", config).at(0).end[0], 0.1);
   EXPECT_EQ(moves_of("G0 X100 Y100.\nM30\n", config).at(0).end[1], 100.0);
   EXPECT_DOUBLE_EQ(moves_of("G20\nG0 X10000\nM30\n", config).at(0).end[0], 25.4);
@@ -113,6 +118,7 @@ TEST(Fanuc, TakesAxisWordsForG28BesideG0) {
 TEST(Fanuc, KeepsCycleWordsFromCycleToCycleAndReturnsToTheInitialLevel) {
   const auto moves =
       moves_of("G0 Z10.\nG81 X1. Z-5. R2. F60.\nG82 X2. P100\nG80\nM30\n", in(Dialect::fanuc));
+  // The rapid, four moves of G81, five of G82 with its dwell.
   ASSERT_EQ(moves.size(), 10U);
   EXPECT_EQ(moves[4].end[2], 10.0);
   EXPECT_EQ(moves[7].end[2], -5.0);

@@ -93,6 +93,8 @@ TEST(Flow, WhatIsLookedForDoesNotStandBehindTheClosingPercent) {
 }
 
 TEST(Flow, ACallHasItsOwnThirtyParametersAndLocalNames) {
+  // In the call: #30 is cleared, #1 is 5. After it: #29 of the caller is as it was, #30 is 7 again;
+  // #31 is common to both; the name is the caller's.
   EXPECT_THAT(x_of("#30=7 #<a>=1\no1 sub\n#<a>=5\nG0 X#30\nX#1\n#29=1\no1 endsub\n#31=2\n"
                    "o1 call [5] [6]\nX#29\nX#30\nX#31\nX#<a>\nM2\n"),
               ElementsAre(0, 5, 0, 7, 2, 1));
@@ -144,6 +146,7 @@ TEST(Flow, ALoopGoesBackInAFileLongerThanItsBuffer) {
                     ("steadyrest-long-" + std::to_string(::getpid()) + ".ngc");
   {
     std::ofstream out(path);
+    // 2 MB, far more than the buffer: the loop must seek, and count lines on from there.
     out << "o1 repeat [3]\nG91 G0 X1\n";
     for (int i = 0; i < 60'000; ++i) {
       out << "(a comment that fills the buffer)\n";

@@ -68,6 +68,7 @@ TEST(Macro, HasItsOwnRangesOfArcFunctions) {
 
 // Haas mill operator's manual 96-8000, "ROUND": in an address it rounds to the address's precision.
 TEST(Macro, RoundsAddressesToTheirIncrementAsTheHaasManualPrints) {
+  // 1.00333 + 1.00333 = 2.00666 is rounded once; rounded singly it is 1.0033 + 1.0033.
   EXPECT_DOUBLE_EQ(x_of("G20\n#1=1.00333\nG0X[#1+#1]\nM30\n").at(0), 2.0067 * 25.4);
   EXPECT_DOUBLE_EQ(x_of("G20\n#1=1.00333\nG0X[ROUND[#1]+ROUND[#1]]\nM30\n").at(0), 2.0066 * 25.4);
   EXPECT_DOUBLE_EQ(moves_of("#1=1.00333\nG0A[#1+#1]\nM30\n", fanuc()).at(0).end[3], 2.007);
@@ -107,6 +108,7 @@ TEST(Macro, AnswersForPositionsAndModes) {
   const auto after = [&](const std::string& variable) {
     return x_of(head + "#1=" + variable + "\nX#1\nM30\n", config).at(1);
   };
+  // Work position; machine position with offset and tool; the nose, the tool's 7 mm above the tip.
   EXPECT_EQ(after("#5001"), 5.0);
   EXPECT_EQ(after("#5003"), 8.0);
   EXPECT_EQ(after("#5021"), 55.0);

@@ -59,6 +59,8 @@ Expected expected_of(const fs::path& file) {
 }
 
 TEST(RefusedPrograms, AreRefusedAtTheLineAndForTheFaultThatTheirFirstLineNames) {
+  // The files are the truth: each names its fault, its line and a piece of the text that must be
+  // said.
   const auto files = corpus();
   ASSERT_GE(files.size(), 100U);
   for (const fs::path& file : files) {
@@ -77,6 +79,8 @@ TEST(RefusedPrograms, AreRefusedAtTheLineAndForTheFaultThatTheirFirstLineNames) 
 }
 
 TEST(RefusedPrograms, AProgramCutOffAnywhereIsNeverAccepted) {
+  // None of these is a whole program, even where the last word is cut to another legal one (X10.5
+  // to X1).
   const std::string whole = "G21 G90\nF100 G1 X10.5\nG2 X20 I4.75\n";
   for (std::size_t length = 0; length <= whole.size(); ++length) {
     EXPECT_NE(reason_of(whole.substr(0, length)), "") << length;
@@ -84,6 +88,7 @@ TEST(RefusedPrograms, AProgramCutOffAnywhereIsNeverAccepted) {
 }
 
 TEST(RefusedPrograms, RandomBytesNeverHangCrashOrMoveFar) {
+  // No oracle but the bounds: it ends, it does not crash, it says something.
   std::mt19937 random(20240607);
   for (int i = 0; i < 500; ++i) {
     std::string text(static_cast<std::size_t>(random() % 2000), ' ');
@@ -105,6 +110,7 @@ TEST(RefusedPrograms, RandomBytesNeverHangCrashOrMoveFar) {
 TEST(RefusedPrograms, AFileWithoutLineEndsIsRefusedWithoutReadingItWhole) {
   const fs::path file = fs::temp_directory_path() / ("nc-sparse-" + std::to_string(::getpid()));
   std::ofstream(file).close();
+  // 200 MB of zero bytes, no line end: the refusal must come after 64 KiB.
   fs::resize_file(file, 200'000'000);
   Count sink;
   const auto report = run_file(file.string(), {}, sink);
@@ -126,6 +132,7 @@ long peak_kib() {
 }
 
 TEST(Program, OfTwoHundredMegabytesIsStreamedInBoundedMemory) {
+  // A pipe has no length and no way back, so nothing can be read twice or mapped.
   int ends[2] = {-1, -1};
   ASSERT_EQ(::pipe(ends), 0);
   constexpr std::uint64_t kLines = 8'000'000;  // 25 bytes each

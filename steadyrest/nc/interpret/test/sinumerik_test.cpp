@@ -106,6 +106,7 @@ TEST(SinumerikValues, StandInEveryAddress) {
       "G3 X=IC(-10) I=AC(WIDTH-5) J=0 TURN=COUNT\nM30\n",
       sinumerik());
   ASSERT_EQ(moves.size(), 4U);
+  // 20/2; INT rounds 2.6 to 3; BOOL 7 is 1; 20·10 mm/min; TURN=3 is four turns in all.
   EXPECT_EQ(moves[0].end[0], 10.0);
   EXPECT_EQ(moves[0].end[1], 3.0);
   EXPECT_EQ(moves[0].end[2], -1.0);
@@ -153,6 +154,7 @@ TEST(SinumerikCalls, RepeatASubprogramWithVariablesOfItsOwn) {
   const Folder folder;
   folder.write("L100.SPF", "DEF REAL STEP=2\nG91 G0 X=STEP\nSTEP=7\nM17\n");
   folder.write("L0100.SPF", "G91 G0 X100\nM17\n");
+  // Leading zeros of L count: L0100 is another program.
   folder.write("inner.spf", "%_N_INNER_SPF\nR1=R1+1\nL100\nG90 X=R1 M17\n");
   EXPECT_THAT(x_of("DEF REAL STEP=50\nL100 P3\nG90 X=STEP\nM30\n", folder.config()),
               ElementsAre(2, 4, 6, 50));
@@ -180,6 +182,7 @@ TEST(SinumerikCalls, AreRefusedWhereAControlWouldStop) {
 TEST(SinumerikCycles, DrillAsTheManualOrdersIt) {
   const std::string head = "G17 G90 G0 X40 Y120 Z150 F200 S300 M3\n";
   EXPECT_THAT(along(2, head + "CYCLE81(110,100,2,35)\nM30\n"), ElementsAre(150, 102, 35, 110));
+  // The depth by DPR: 102 − 65 = 37.
   EXPECT_THAT(along(2, head + "CYCLE81(110,102,,,65)\nM30\n"), ElementsAre(150, 102, 37, 110));
   const auto moves = moves_of(head + "CYCLE82(110,102,4,75,,2)\nX50\nM30\n", sinumerik());
   ASSERT_EQ(moves.size(), 6U);
@@ -190,6 +193,7 @@ TEST(SinumerikCycles, DrillAsTheManualOrdersIt) {
 TEST(SinumerikCycles, FollowEachMoveWhileMcallIsOn) {
   EXPECT_THAT(
       along(2, "G0 X0 Y0 Z50 F100\nMCALL CYCLE81(10,0,2,-5)\nX1\nF50\nY1\nMCALL\nX5\nM30\n"),
+      // MCALL drills after X1 and after Y1, but not after F50; X5 comes behind its end.
       ElementsAre(50, 50, 2, -5, 10, 10, 2, -5, 10, 10));
 }
 
@@ -198,6 +202,7 @@ TEST(SinumerikCycles, ReamAndBore) {
   const std::string head = "G18 G0 Z70 X50 Y105 F100\n";
   const auto ream = moves_of(head + "CYCLE85(105,102,2,,25,,300,450)\nM30\n", sinumerik());
   ASSERT_EQ(ream.size(), 5U);
+  // 102 − 25 = 77 and 102 + 2 = 104; 300 and 450 mm/min are 5 and 7.5 mm/s.
   EXPECT_EQ(ream[2].end[1], 77.0);
   EXPECT_DOUBLE_EQ(ream[2].feed_mm_s, 5.0);
   EXPECT_EQ(ream[3].end[1], 104.0);
@@ -221,6 +226,7 @@ TEST(SinumerikCycles, TapWithTheSpindlesPitch) {
       moves_of("G0 G90 X30 Y35 Z40\nCYCLE84(40,36,2,,30,,3,5,,90,200,500)\nM30\n", sinumerik());
   ASSERT_EQ(moves.size(), 5U);
   EXPECT_EQ(moves[2].kind, MoveKind::thread);
+  // 36 − 30 = 6 and 36 + 2 = 38; the sign of the speed turns on the way out.
   EXPECT_EQ(moves[2].end[2], 6.0);
   EXPECT_DOUBLE_EQ(moves[2].feed_mm_s, 0.8);
   EXPECT_DOUBLE_EQ(moves[2].spindle_rev_s, 200.0 / 60.0);
@@ -242,6 +248,7 @@ TEST(SinumerikCycles, AreRefusedByName) {
 
 TEST(SinumerikSpindle, OfNumberOneIsTheMaster) {
   const auto moves = moves_of("S1=600 M1=4\nG1 X1 F100\nM30\n", sinumerik());
+  // M1=4 turns the spindle backwards: 600 rev/min are −10 rev/s.
   EXPECT_DOUBLE_EQ(moves.at(0).spindle_rev_s, -10.0);
   EXPECT_EQ(reason_of_block("S2=600"), "extended_address");
   EXPECT_EQ(reason_of_block("M2=3"), "extended_address");
@@ -276,6 +283,7 @@ TEST(SinumerikFrames, ShiftAndTurnOnTopOfTheSettableOffset) {
 
 TEST(SinumerikFrames, LeaveTheMachineWhereItIs) {
   const auto moves = moves_of("G0 X10 Y5\nTRANS X3\nROT Z30\nG0 Z1\nSUPA X7\nM30\n", sinumerik());
+  // A frame changes where the axes are in work coordinates; in the machine's they must not move.
   EXPECT_NEAR(machine(moves.at(1)).first, 10.0, 1e-9);
   EXPECT_NEAR(machine(moves.at(1)).second, 5.0, 1e-9);
   EXPECT_NEAR(machine(moves.at(2)).first, 7.0, 1e-9);

@@ -41,6 +41,8 @@ class Haas : public Fanuc {
 };
 
 TEST_F(Fanuc, MovesTheExternalOffsetByIncrements) {
+  // The amount is incremental, so the sum over the program must be 0: −0.010 … and +0.015 at the
+  // end.
   const auto done = shop_.compensate(kFanuc, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
   const std::string text = read_file(shop_.changed());
@@ -53,6 +55,7 @@ TEST_F(Fanuc, MovesTheExternalOffsetByIncrements) {
 }
 
 TEST_F(Fanuc, NeedsNoCareWhenTheWorkOffsetChanges) {
+  // The external offset acts in every system: no lines beside G55.
   shop_.config.work_offset[1][2] = -3.0;
   const std::string program = replaced(kFanuc, "G0 X0 Y20\n", "G55 G0 X0 Y20 Z5\n");
   const auto done = shop_.compensate(program, kGrowth);
@@ -81,6 +84,7 @@ TEST_F(Fanuc, WritesInchesInWholeIncrements) {
       R"({"transitions": [{"n": 2, "t_min": [1, 1.05], "delta_um": [0, 10]}]})";
   const auto done = shop_.compensate(program, plan);
   ASSERT_TRUE(done) << done.error().what;
+  // 10 um are 0.000394 in; in whole 0.0001 in that is 0.0004 in, 10.16 um.
   EXPECT_THAT(read_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.00040 (STEADYREST Z-0.01016"));
   EXPECT_NEAR(done->insertions.at(0).total_um, -10.16, 1e-9);
   shop_.settings.increment_mm = 1e-5;
@@ -103,6 +107,7 @@ TEST_F(Fanuc, RefusesAProgramThatTakesTheCorrectionOffInOtherUnits) {
 
 // What the control adds up is what it takes: whole increments, in whatever order they are written.
 RC_GTEST_PROP(Increments, AddUpToNothingAndStayWithinHalfOfOneOfThePlan, ()) {
+  // The text is read back and counted in the control's own unit, as the control would.
   std::mt19937 random(*rc::gen::arbitrary<unsigned>());
   const auto below = [&random](unsigned n) { return static_cast<int>(random() % n); };
   Way way;
@@ -143,6 +148,7 @@ TEST_F(Fanuc, VerifyCatchesAMissingG90) {
 }
 
 TEST_F(Haas, MovesTheActiveWorkOffsetAndTurnsItOver) {
+  // G55 has another offset: off G54 before it, on G55 behind it.
   shop_.config.work_offset[1][2] = -3.0;
   const std::string program = replaced(kFanuc, "G0 X0 Y20\n", "G55\nG0 X0 Y20\n");
   const auto done = shop_.compensate(program, kGrowth);
@@ -172,6 +178,7 @@ TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffse
   const std::string text = read_file(shop_.changed());
   const std::string head = "G90 G10 L2 P0 Z0.0000 (STEADYREST head Z)\n";
   EXPECT_THAT(text, HasSubstr("%\r\nO1234 (PASSES)\n" + head + "G21 G90"));
+  // One line of head moves the first insertion down.
   EXPECT_EQ(done->insertions.at(0).line, 9U);
   ASSERT_TRUE(shop_.verify(kGrowth));
   EXPECT_THAT(shop_.fault(kGrowth, replaced(text, head, "")), HasSubstr("head"));
@@ -205,6 +212,7 @@ TEST_F(Fanuc, ItsHeadChangesNoModeThatTheProgramDoesNotSay) {
     EXPECT_EQ(refused.error().line, line) << program;
   };
   const auto after = [](const std::string& lines) {
+    // Before the program says G90 or G91 itself, the head's G90 would decide.
     return replaced(kFanuc, "G21 G90", lines + "G21 G90");
   };
   EXPECT_TRUE(shop_.compensate(after("G21 G54\nG0 X5\n"), kGrowth)) << "another head";
@@ -228,6 +236,7 @@ TEST_F(Fanuc, TheExternalOffsetIsNotFreeWhereTheProgramSetsIt) {
     EXPECT_EQ(done ? 0U : done.error().line, done ? 0U : 9U) << line;
     return done ? "" : done.error().what + ": " + done.error().to_do;
   };
+  // In every order and by expressions too: it is the effect that counts, not the spelling.
   for (const char* line : {"G10 L2 P0 Z0", "P0 L2 G10 Z0", "G91 G10 L2 P0 Z0.1", "G10 L2 P0 X0",
                            "N8 G10 P0 L2 Y1", "G10 L2 P[1-1] Z0", "/G10 L2 P0 Z0"}) {
     EXPECT_THAT(refusal(line), HasSubstr("external_offset_free")) << line;
@@ -321,6 +330,7 @@ TEST_F(Sinumerik, VerifyCatchesEachFault) {
 }
 
 TEST_F(Sinumerik, RefusesAProgramThatUsesTheParameterItself) {
+  // Spelled in ways that the control reads as R50, or that could be R50.
   for (const char* line : {"R50=1", "R050=1", "X=R50", "N10 G0 X=R1+R50", "r 50=2", "N10R50=1",
                            "R[R1]=3", "X=$R[1]", "Y=-R50*2", "MSG(\"a;b\") R50=2"}) {
     EXPECT_TRUE(uses_parameter(line, 50)) << line;

@@ -16,6 +16,7 @@ using test::Workshop;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+// DEF must stay in front of the head (alarm 14500).
 const std::string kProgram =
     replaced(replaced(kPasses, "%\nG21", "DEF REAL DEPTH=-1 ;mm\nG71"), "M30\n%\n", "M30\n");
 
@@ -58,6 +59,8 @@ TEST_F(SettingData, IsWrittenWithTheSignThatTheMachineHas) {
   EXPECT_THAT(text, HasSubstr("$SA_TEMP_COMP_ABS_VALUE[Z]=0.0000 ;STEADYREST Z0.0000 mm\nM30"));
   EXPECT_EQ(shop_.verify(kGrowth).value().changes, 4U);
   expect_stripped(kProgram);
+  // A machine on which a positive value moves the axis down: only the value's sign changes, not the
+  // comment.
   shop_.settings.sign = -1;
   text = write();
   EXPECT_THAT(text, HasSubstr("$SA_TEMP_COMP_ABS_VALUE[Z]=0.0100 ;STEADYREST Z-0.0100 mm\n"));
@@ -76,6 +79,7 @@ TEST_F(SettingData, AsksBeforeItIsTakenOffWhereSomebodyMayHaveTouchedOff) {
 TEST_F(SettingData, VerifyCatchesEachFault) {
   const std::string text = write();
   const std::string first = "$SA_TEMP_COMP_ABS_VALUE[Z]=-0.0100";
+  // Wrong sign, wrong axis, wrong variable, wrong kind.
   for (const char* wrong :
        {"$SA_TEMP_COMP_ABS_VALUE[Z]=0.0100", "$SA_TEMP_COMP_ABS_VALUE[Y]=-0.0100",
         "$SA_TEMP_COMP_SLOPE[Z]=-0.0100", "R0=-0.0100"}) {
@@ -95,6 +99,7 @@ TEST_F(SettingData, RefusesAProgramThatWritesItItself) {
   EXPECT_THAT(
       refusal(replaced(kProgram, "G0 X0 Y30\n", "$SA_TEMP_COMP_ABS_VALUE[X]=0\nG0 X0 Y30\n")),
       HasSubstr("uses the temperature compensation itself"));
+  // In small letters, another of its family, behind a `;` in quotes.
   for (const char* line : {"$sa_temp_comp_abs_value[Z]=0", "$MA_TEMP_COMP_TYPE[Z]=0",
                            "MSG(\"a;b\") $SA_TEMP_COMP_SLOPE[Z]=0"}) {
     EXPECT_NE(refusal(replaced(kProgram, "G0 X0 Y30\n", line + std::string{"\nG0 X0 Y30\n"})), "")
@@ -125,6 +130,7 @@ TEST_F(FrameFine, IsWrittenFromWhatIsStored) {
 
 TEST_F(FrameFine, IsWrittenAgainWhereAFrameIsTakenAnew) {
   shop_.config.work_offset[1][2] = -3.0;
+  // Each of these loads the stored frame, in which the correction is not.
   for (const std::string word : {"G54", "G55", "G500"}) {
     const std::string program = replaced(kProgram, "G0 X0 Y30\n", word + "\nG0 X0 Y30\n");
     EXPECT_THAT(write(program),
@@ -146,6 +152,8 @@ TEST_F(FrameFine, LeavesTheProgrammedFrame) {
 TEST_F(FrameFine, VerifyCatchesEachFault) {
   const std::string text = write();
   const std::string first = kStored + "-0.0100";
+  // Sign, amount, none, another variable, absolute, coarse, wrong axis, wrong source, stored frame,
+  // programmed frame.
   for (const std::string& wrong :
        {kStored + "+0.0100", kStored + "-0.0101", kStored + " ", std::string("R1=-0.0100"),
         std::string("$P_IFRAME[Z,FI]=-0.0100"), std::string("$P_IFRAME[Z,TR]=-0.0100"),

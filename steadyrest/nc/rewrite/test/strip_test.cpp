@@ -58,11 +58,13 @@ std::string random_program(std::mt19937& random) {
 RC_GTEST_PROP(Strip, RestoresEveryProgramByteForByte, ()) {
   std::mt19937 random(*rc::gen::arbitrary<unsigned>());
   Workshop shop;
+  // 50 ms periods make the timing fast; strip does not depend on it.
   shop.machine.control.interpolator_period_s = 0.05;
   const std::string program = random_program(random);
   const double first = 20.0 + static_cast<double>(random() % 100);
   const double delta = static_cast<double>(random() % 200) / 7.0 - 14.0;
   // The program's own time first: the plan must fit.
+  // 40000 minutes fit no program: the refusal tells the program's own time.
   const auto unknown =
       shop.compensate(program, R"({"transitions": [{"n": 1, "t_min": [40000], "delta_um": [0]}]})");
   RC_ASSERT(!unknown);
@@ -83,6 +85,8 @@ RC_GTEST_PROP(Strip, RestoresEveryProgramByteForByte, ()) {
 
 TEST(Strip, LeavesOtherCommentsAlone) {
   const Workshop shop;
+  // STEADYREST without the blank and words behind it, or not at the beginning of a comment: the
+  // user's own.
   const std::string program = "(STEADYREST)\n(made for STEADYREST 1)\n;a STEADYREST b\nM2";
   test::write_file(shop.original(), program);
   EXPECT_EQ(strip(shop.original(), shop.changed()).value(), 0U);

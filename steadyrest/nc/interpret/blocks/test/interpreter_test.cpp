@@ -54,6 +54,8 @@ TEST(Interpreter, TakesFBeforeTheUnitsOfItsBlock) {
 }
 
 TEST(Interpreter, RefusesSpiralsExactlyWhereRs274Does) {
+  // The bounds of README.md on both sides, to the last digit that rs274 takes: 0.02828 mm on a
+  // small radius, 0.1 % on a large one, R short by 0.00127 mm.
   EXPECT_EQ(reason_of("F10 G2 X10.02828 I5\nM2\n"), "");
   EXPECT_EQ(reason_of("F10 G2 X10.02829 I5\nM2\n"), "arc_does_not_close");
   EXPECT_EQ(reason_of("F10 G2 X100.05 I50\nM2\n"), "");
@@ -75,6 +77,7 @@ TEST(Interpreter, OrientsArcsOfAllPlanesRightHanded) {
 
 TEST(Interpreter, PutsTheCentreOfARadiusArcOnTheRightSide) {
   const auto moves = moves_of("F10 G2 X1 Y0 R0.6\nG0 X0\nG2 X1 R-0.6\nM2\n");
+  // The centre is √(R² − (c/2)²) off the chord, on either side by the sign of R.
   const double height = std::sqrt(0.6 * 0.6 - 0.25);
   EXPECT_NEAR(moves.at(0).centre_mm[1], -height, 1e-12);
   EXPECT_NEAR(moves.at(2).centre_mm[1], height, 1e-12);
@@ -83,6 +86,7 @@ TEST(Interpreter, PutsTheCentreOfARadiusArcOnTheRightSide) {
 TEST(Interpreter, CarriesTheWorkPositionThroughOffsetChanges) {
   const auto moves = moves_of(
       "G0 X5\nG92 X1\nG0 Y1\nG92.1\nG0 Z1\nG10 L2 P2 X1\nG55 G0 Y2\nG43.1 Z2\nG0 Y3\nM2\n");
+  // G92 X1 at X5 shifts by 4; G92.1 takes it off; G55 is at 1; a tool of 2 lowers Z by 2.
   EXPECT_EQ(moves.at(1).end[0], 1.0);
   EXPECT_EQ(moves.at(1).offset[0], 4.0);
   EXPECT_EQ(moves.at(2).end[0], 5.0);
@@ -92,6 +96,8 @@ TEST(Interpreter, CarriesTheWorkPositionThroughOffsetChanges) {
 
 TEST(Interpreter, RetractsToTheInitialLevelOrTheRPlane) {
   const auto low = moves_of("F100 G0 Z3\nG99 G81 X5 Z-1 R1\nX7\nM2\n");
+  // Over the hole, down to R, drill, out: the second hole comes in at R, so it needs no second
+  // rapid.
   ASSERT_EQ(low.size(), 8U);
   EXPECT_EQ(low[4].end[2], 1.0);
   EXPECT_EQ(low[5].end[2], 1.0);
@@ -104,6 +110,7 @@ TEST(Interpreter, RetractsToTheInitialLevelOrTheRPlane) {
 TEST(Interpreter, RepeatsIncrementalCyclesWithStickyWords) {
   const auto moves = moves_of("F100 G0 X1 Y2 Z3\nG91 G81 X5 Y6 Z-1 R-1 L3\nX7\nM2\n");
   ASSERT_EQ(moves.size(), 14U);
+  // Three holes of 5, 6 each from (1, 2): the last at (16, 20). X7 then drills once more.
   EXPECT_EQ(moves[8].end[0], 16.0);
   EXPECT_EQ(moves[8].end[1], 20.0);
   EXPECT_EQ(moves.back().end[0], 23.0);
@@ -122,6 +129,7 @@ TEST(Interpreter, LocksTheOverrideWhileTapping) {
 TEST(Interpreter, SaysInWhichFeedModeAFeedIsMeant) {
   const auto moves = moves_of("G93 G1 X1 F2\nG95 F.1 S600\nG1 X2\nG94 F60\nA5\nM2\n");
   EXPECT_EQ(moves.at(0).feed_mode, FeedMode::inverse_time);
+  // F2 is 2/min, F.1 is mm/rev; A alone at F60 is 1 °/s.
   EXPECT_DOUBLE_EQ(moves.at(0).feed_mm_s, 2.0 / 60.0);
   EXPECT_EQ(moves.at(1).feed_mode, FeedMode::per_revolution);
   EXPECT_DOUBLE_EQ(moves.at(1).feed_mm_s, 0.1);

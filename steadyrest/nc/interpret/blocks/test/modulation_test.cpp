@@ -25,6 +25,7 @@ TEST(SpeedModulation, TravelsWithTheMovesFromItsBlockOn) {
   for (const auto dialect : kDialects) {
     const auto moves = moves_of(kProgram, with_modulation(dialect));
     ASSERT_EQ(moves.size(), 4U);
+    // M words act before the move of their block, so M39 beside X3 switches X3 off already.
     EXPECT_FALSE(moves[0].speed_modulation);
     EXPECT_TRUE(moves[1].speed_modulation);
     EXPECT_FALSE(moves[2].speed_modulation);
@@ -34,6 +35,7 @@ TEST(SpeedModulation, TravelsWithTheMovesFromItsBlockOn) {
 
 TEST(SpeedModulation, TakesTheWordsThatTheMachineFileNames) {
   const auto config = with_modulation(read::Dialect::fanuc, 138, 139);
+  // Named words only: M38 means nothing here.
   EXPECT_TRUE(moves_of("G1 X1 F100 M138\nM30\n", config).at(0).speed_modulation);
   EXPECT_EQ(reason_of("G1 X1 F100 M38\nM30\n", config), "unknown_m_code");
 }

@@ -158,6 +158,8 @@ void expect_same(Report one, Report other) {
 }
 
 TEST(PlainBlock, MovesAsTheLongWayDoes) {
+  // The property: state, moves and events are equal bit for bit after every line, whichever way it
+  // took.
   EXPECT_TRUE(rc::check([] {
     Config config;
     config.axes = "XYZABCUVW";

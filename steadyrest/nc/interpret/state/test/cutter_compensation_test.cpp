@@ -20,6 +20,8 @@ void expect_end(const Move& move, MoveKind kind, double x, double y, double z = 
 TEST(CutterCompensation, MeetsAtConcaveCornersAndLeavesStraightBehindG40) {
   const auto moves = moves_of("F100\nG41.1 D4\nG1 X10\nX20 Y5\nX20 Y20\nX0\nG40\nG1 X0 Y0\nM2\n");
   ASSERT_EQ(moves.size(), 5U);
+  // 10 − 2·tan(φ/2) at a corner of φ = atan ½; at X18 the contour is at Y4, its offset 2/cos φ
+  // above.
   expect_end(moves[0], MoveKind::linear, 9.5279, 2.0);
   expect_end(moves[1], MoveKind::linear, 18.0, 6.2361);
   expect_end(moves[2], MoveKind::linear, 18.0, 18.0);
@@ -40,6 +42,7 @@ TEST(CutterCompensation, GoesAroundConvexCornersOnAnArcAndInRapidsOnAChord) {
   expect_end(cutting[2], MoveKind::linear, 10.0, -1.27, 5.0);
   const auto rapid = moves_of("G41.1 D4\nG0 X10\nX20 Y-5\nX20 Y-20\nM2\n");
   ASSERT_EQ(rapid.size(), 5U);
+  // The corner plus 2 mm along the normal of the next line, (5, 10)/√125.
   expect_end(rapid[1], MoveKind::rapid, 10.8944, 1.7889);
   expect_end(rapid[2], MoveKind::rapid, 20.8944, -3.2111);
 }
@@ -50,6 +53,8 @@ TEST(CutterCompensation, ChangesTheRadiusOfArcsAndCutsThemWhereTheyMeet) {
       "X50\nM2\n");
   ASSERT_EQ(moves.size(), 6U);
   expect_end(moves[1], MoveKind::arc, 18.0, 10.0);
+  // Circles of radius 7 about (25, 20) and (35, 20) meet at X30, 20 + √(49 − 25); the line Y22
+  // meets the second at 35 + √(49 − 4).
   expect_end(moves[3], MoveKind::arc, 30.0, 24.8990);
   EXPECT_EQ(moves[3].centre_mm[0], 25.0);
   expect_end(moves[4], MoveKind::arc, 41.7082, 22.0);
@@ -59,11 +64,13 @@ TEST(CutterCompensation, EntersOnAnArcOfANewCentre) {
   const auto moves = moves_of("F100\nG42.1 D4\nG3 X10 Y10 R10\nX0 Y20 R10\nM2\n");
   ASSERT_EQ(moves.size(), 2U);
   expect_end(moves[0], MoveKind::arc, 12.0, 10.0);
+  // The centre on Y10 that is as far from (0, 0) as from (12, 10): 100/24 less than 6.
   EXPECT_NEAR(moves[0].centre_mm[0], 1.8333, kHalfDigit);
   expect_end(moves[1], MoveKind::arc, 0.0, 22.0);
 }
 
 TEST(CutterCompensation, PassesChangesOfDirectionUpToATwentiethOfARadian) {
+  // 10·tan 0.05 = 0.5004: the bound lies between 0.5 and 0.501, on both sides.
   EXPECT_EQ(moves_of("F9 G41.1 D4\nG1 X10\nX20 Y-0.5\nM2\n").size(), 2U);
   EXPECT_EQ(moves_of("F9 G41.1 D4\nG1 X10\nX20 Y-0.501\nM2\n").size(), 3U);
   EXPECT_NEAR(moves_of("F9 G41.1 D4\nG1 X10\nX20 Y0.5\nM2\n").at(0).end[0], 10.0, 1e-12);
@@ -98,6 +105,8 @@ TEST(CutterCompensation, ANegativeDiameterChangesTheSide) {
 
 TEST(CutterCompensation, ShiftsALatheToolByItsEdge) {
   const auto moves = moves_of("F100\nG18 G41.1 D2 L1\nG1 X10 Z5\nX20\nM2\n");
+  // Concave corner at Z4 X10.2361 for the nose's centre; orientation 1 shifts it by −1 in X and +1
+  // in Z.
   EXPECT_NEAR(moves.at(0).end[0], 9.2361, kHalfDigit);
   EXPECT_NEAR(moves.at(0).end[2], 5.0, kHalfDigit);
   EXPECT_NEAR(moves.at(1).end[0], 19.0, kHalfDigit);

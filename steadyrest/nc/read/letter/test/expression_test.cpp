@@ -43,6 +43,8 @@ std::string reason_of(const std::string& text) {
 }
 
 TEST(Expression, OperatorsBindAsOnTheControl) {
+  // A sign binds to its operand, so -2**2 is 4; powers go from left to right, so 2**3**2 is 64;
+  // blanks vanish, so 1 2 is 12.
   const std::map<std::string, double> cases = {
       {"[1+2*3**2]", 19},    {"[2**3**2]", 64},      {"[-2**2]", 4},
       {"[7-2-1]", 4},        {"[10 MOD 3]", 1},      {"[-10 MOD 3]", 2},
@@ -73,6 +75,7 @@ TEST(Expression, ParametersAreLookedUpThroughEachOther) {
   EXPECT_EQ(value_of("#3"), 5.0);
   EXPECT_EQ(value_of("##3"), 0.5);
   EXPECT_EQ(value_of("#[1+2]"), 5.0);
+  // Within 0.0001 an index counts as whole: #1.00005 is #1.
   EXPECT_EQ(value_of("#1.00005"), 0.0);
   EXPECT_EQ(value_of("#<A b>"), 2.0);
   EXPECT_EQ(value_of("EXISTS[#<ab>]"), 1.0);
@@ -82,6 +85,7 @@ TEST(Expression, ParametersAreLookedUpThroughEachOther) {
 TEST(Expression, RefusesWhatHasNoValue) {
   const std::map<std::string, std::string> cases = {
       {"[1/0]", "division_by_zero"},
+      // An infinity or not a number must never become a coordinate.
       {"[5 MOD 0]", "not_finite"},
       {"[0**-1]", "not_finite"},
       {"[-8**[1/3]]", "not_finite"},

@@ -14,6 +14,7 @@
 namespace steadyrest::nc::read {
 namespace {
 
+// The C library's conversion is the oracle: correctly rounded for any number of digits.
 TEST(Number, IsTheDoubleThatTheCLibraryGives) {
   EXPECT_TRUE(rc::check([] {
     const auto digits = *rc::gen::inRange(1, 25);
@@ -29,6 +30,8 @@ TEST(Number, IsTheDoubleThatTheCLibraryGives) {
   }));
 }
 
+// Bit for bit, −0 included, against the long way. Text in front of the number and behind it shows a
+// read beyond either end.
 TEST(Number, IsTheSameTheShortWay) {
   EXPECT_TRUE(rc::check([] {
     const std::string signs = *rc::gen::element<std::string>("", "-", "+", "--", "X");
@@ -56,6 +59,7 @@ TEST(Number, IsTheSameTheShortWay) {
   }));
 }
 
+// Seven digits and a point are what eight bytes hold.
 TEST(Number, IsShortWithSevenDigitsOnEitherSideAtMost) {
   const auto is_short = [](std::string_view text) {
     Number number;
@@ -83,6 +87,7 @@ TEST(Number, IsNotFoundWithoutADigit) {
   }
 }
 
+// An infinity as a coordinate would be worse than a refusal.
 TEST(Number, IsNotFoundBeyondEveryDouble) {
   EXPECT_EQ(read_number(std::string(400, '9')).length, 0U);
 }

@@ -80,6 +80,7 @@ TEST(Compensate, MovesTheAxisAgainstTheDisplacement) {
 TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
   Workshop shop;
   shop.settings.window_s = 20.0;
+  // Here no line programs Z near 60 s: only the clearance between two rapids is left.
   const std::string program =
       "G21 G90 G94 G54\nG0 Z5\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nG0 Z20\nM2\n";
   const auto done = shop.compensate(program, one_step(1.0, 1.05, 10)).value();
@@ -113,6 +114,8 @@ TEST(Compensate, TurnsTheCorrectionOverWhenTheWorkOffsetChanges) {
   const std::string program = replaced(kPasses, "G0 X0 Y20\n", "G55\nG0 X0 Y20\n");
   const auto done = shop.compensate(program, kGrowth).value();
   const std::string text = read_file(shop.changed());
+  // Nine lines of head for each of three axes; three changes of three lines; at G55 two off and
+  // three on; two at the end.
   EXPECT_EQ(done.inserted_lines, 27U + 9U + 5U + 2U);
   EXPECT_THAT(text, HasSubstr("(STEADYREST Z0.0000 mm)\nG55\n" + test::change_to(-0.02)));
 }
@@ -147,6 +150,7 @@ TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
   for (const Case& one : kCases) {
     Workshop shop;
     shop.settings.window_s = 20.0;
+    // A window so narrow that only the line in question would be in it.
     shop.machine.control.tool_change_s = 0.5;
     const double minutes = std::string(one.unsafe) == "arcs" ? 0.52 : 1.0;
     const double total = std::string(one.unsafe) == "loop" ? 3.0 : minutes;
@@ -159,6 +163,7 @@ TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
 
 TEST(Compensate, RefusesAPlanForAnotherProgramWithBothFigures) {
   const Workshop shop;
+  // The plan is for 11 minutes, the program takes about four.
   const auto refused = shop.compensate(kPasses, one_step(1.0, 10.0, 10));
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().what, HasSubstr("660.0 s"));
@@ -187,6 +192,7 @@ TEST(Compensate, LeavesTheOldFileWhenItRefuses) {
   test::write_file(shop.changed(), "old");
   ASSERT_FALSE(shop.compensate(kPasses, one_step(1.0, 10.0, 10)));
   EXPECT_EQ(read_file(shop.changed()), "old");
+  // The folder holds the program and the old output, and no third file.
   const auto files = std::filesystem::directory_iterator(shop.folder());
   EXPECT_EQ(std::distance(begin(files), end(files)), 2) << "nothing half-written lies about";
 }
@@ -214,12 +220,14 @@ TEST(Compensate, WritesMillimetresIntoAProgramInInches) {
   const Workshop shop;
   const std::string program =
       "G20 G90 G94 G54\nG0 Z1\nG1 X4 F4\nG0 Z1\nG0 X0\nG0 Z.5\nG1 X4 F4\nG0 Z1\nM2\n";
+  // 0.01 mm whatever the unit: the text converts at run time.
   ASSERT_TRUE(shop.compensate(program, one_step(1.0, 1.05, 10)));
   EXPECT_THAT(read_file(shop.changed()), HasSubstr(test::change_to(-0.01)));
 }
 
 TEST(Compensate, StepsThatCancelAtOnePlaceLeaveNoText) {
   const Workshop shop;
+  // +10 and −10 um within 0.6 s fall on one place; only the 7 um that follow show.
   const auto done = shop.compensate(
       kPasses,
       R"({"transitions": [{"n": 4, "t_min": [1, 0.01, 1, 2.19], "delta_um": [0, 10, -10, 7]}]})");
@@ -238,6 +246,7 @@ TEST(Compensate, FollowsAnOffsetThatTheProgramSetsItself) {
     EXPECT_THAT(read_file(shop.changed()), HasSubstr(" (STEADYREST Z noted)\nG0 Z6")) << line;
   }
   const std::string in_loop = "o1 repeat [2]\nG92 Z4\no1 endrepeat\nG0 Z6\n";
+  // In a loop the line is executed twice, so nothing may be written around it.
   EXPECT_FALSE(shop.compensate(replaced(kPasses, "G0 X0 Y20\n", "G0 X0 Y20\n" + in_loop), kGrowth));
 }
 
@@ -295,6 +304,7 @@ TEST(Compensate, APlanWithoutCorrectionsLeavesItsMark) {
 
 TEST(Compensate, SparesTheSubprogramsThatItCalls) {
   Workshop shop;
+  // The output is a link to the called file: writing it would destroy what the program calls.
   shop.config.subprogram_folders = {shop.folder()};
   const std::string file = shop.folder() + "/coolant.ngc";
   const std::string text = "o<coolant> sub\nM8\no<coolant> endsub\nM2\n";

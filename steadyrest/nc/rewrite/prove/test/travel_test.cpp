@@ -33,6 +33,7 @@ Move arc(double end_x, double end_y, int turns) {
 
 // Circle of radius 10 about the origin, begun at 0°; offsets 100, 200, 300.
 TEST(Travel, CountsTheBulgeOfAnArcOnlyWhereItPasses) {
+  // The quarter passes no axis direction between its ends: its reach is theirs.
   const Move quarter = arc(0.0, 10.0, 1);
   EXPECT_NEAR(reach_of(quarter, 0).low_mm, 100.0, 1e-9);
   EXPECT_NEAR(reach_of(quarter, 0).high_mm, 110.0, 1e-9);
@@ -69,6 +70,8 @@ class TravelOfAProgram : public ::testing::Test {
 };
 
 TEST_F(TravelOfAProgram, IsKeptToTheMicrometre) {
+  // Z−1 in an offset of −50 with −0.020 of correction: −51.020 is just allowed, a tenth of a
+  // micrometre less is not.
   to(-51.020);
   EXPECT_TRUE(shop_.compensate(kPasses, kGrowth));
   to(-51.0199);
@@ -85,6 +88,7 @@ TEST_F(TravelOfAProgram, IsKeptToTheMicrometre) {
 
 TEST_F(TravelOfAProgram, IsTheProgramsOwnAffairWhereItIsOverWithoutACorrection) {
   to(-50.5);
+  // Half a millimetre too far without any correction: the control's affair.
   EXPECT_TRUE(shop_.compensate(kPasses, kGrowth));
 }
 
@@ -97,6 +101,7 @@ TEST_F(TravelOfAProgram, IsNotWatchedWhereTheOffsetsAreNotKnown) {
 TEST_F(TravelOfAProgram, IsKeptByCorrectionsBesideTheProgram) {
   shop_.config.dialect = read::Dialect::sinumerik;
   shop_.settings.method = Method::r_parameter;
+  // The PLC's shift is invisible in the program, but it takes the axis as far.
   const std::string program = replaced(replaced(kPasses, "%\nG21", "G71"), "M30\n%\n", "M30\n");
   to(-51.020);
   EXPECT_TRUE(shop_.compensate(program, kGrowth));

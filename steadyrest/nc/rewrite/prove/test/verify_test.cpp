@@ -54,6 +54,7 @@ TEST_F(Verify, CatchesAWrongAmount) {
 }
 
 TEST_F(Verify, CatchesAnAbsoluteValueInTheWorkOffset) {
+  // An absolute L2 agrees with the right value only while the work offset is 0.
   EXPECT_NE(fault(replaced(text_, kFirst, replaced(kFirst, "L20 P0", "L2 P0"))), "");
 }
 
@@ -76,6 +77,7 @@ TEST_F(Verify, CatchesAShiftThatNeverTakesEffect) {
 }
 
 TEST_F(Verify, CatchesAMissingReset) {
+  // The last change is the one that takes the correction off.
   const auto at = text_.rfind("G10 L20");
   const auto end = text_.find('\n', at) + 1;
   EXPECT_THAT(fault(text_.substr(0, at) + text_.substr(end)), HasSubstr("leaves a different"));
@@ -90,6 +92,7 @@ TEST_F(Verify, CatchesACorrectionBeyondTheWindow) {
 }
 
 TEST_F(Verify, CatchesOneDigitElsewhere) {
+  // Text outside the inserted lines: a digit, a line end, a line more, a byte less.
   EXPECT_THAT(fault(replaced(text_, "G0 X0 Y30", "G0 X0 Y31")),
               HasSubstr("outside the inserted lines"));
   EXPECT_THAT(fault(replaced(text_, "G1 X100 F100\n", "G1 X100 F100\r\n")),
@@ -99,6 +102,7 @@ TEST_F(Verify, CatchesOneDigitElsewhere) {
 }
 
 TEST_F(Verify, CatchesAnInsertedLineThatDoesMore) {
+  // Speed, position, feed, mode, and a cut instead of a rapid.
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "S99 M3 (STEADYREST Z)\n")), "");
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "G0 X1 (STEADYREST Z)\n")), "");
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "F1 (STEADYREST Z)\n")), "");
@@ -123,6 +127,7 @@ TEST_F(Verify, CatchesAHeadThatWouldUndoTheWrongWay) {
 
 // They do nothing in a run from the beginning to the end.
 TEST_F(Verify, CatchesAMissingCheckAndAMissingNote) {
+  // Their absence shows after an abort alone, so only comparing the text can find it.
   const auto check = kFirst.find('\n') + 1;
   const auto note = kFirst.find('\n', check) + 1;
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst.substr(check))), "");
@@ -148,6 +153,7 @@ TEST_F(Verify, CatchesLinesThatDoNotBelongHere) {
 
 TEST_F(Verify, CatchesAHeadElsewhereThanBeforeTheFirstBlock) {
   const auto first = text_.find("#<");
+  // Behind the first block, and before the %.
   const auto block = text_.find("G21 G90");
   const auto next = text_.find('\n', block) + 1;
   EXPECT_THAT(fault(text_.substr(0, first) + text_.substr(block, next - block) +
@@ -169,6 +175,7 @@ TEST_F(Verify, SaysWhatToDoWithAProgramOfAnEarlierVersion) {
 }
 
 TEST_F(Verify, CatchesAnotherPlan) {
+  // Another amount, another time, another axis.
   test::write_file(shop_.changed(), text_);
   EXPECT_FALSE(shop_.verify(replaced(kGrowth, "[0, 10]", "[0, 11]")));
   EXPECT_FALSE(shop_.verify(replaced(kGrowth, "[1, 1]", "[1, 9]")));
@@ -190,6 +197,7 @@ TEST(VerifyWithKnownTimes, TakesThemForTheLinesThatHaveOneAlone) {
     return proof ? "" : proof.error().what;
   };
   EXPECT_EQ(fault(known), "");
+  // The proof may not fill in for a time that it was not given.
   KnownTimes one_less = known;
   one_less.line_s.erase(one_less.line_s.begin());
   EXPECT_NE(fault(one_less).find("was not found before"), std::string::npos);

@@ -12,6 +12,8 @@ using ::testing::HasSubstr;
 
 TEST(Mark, IsReadAsItWasWrittenInEveryDialect) {
   const test::Workshop shop;
+  // Blanks, brackets, a semicolon, bytes beyond ASCII, an empty value and a long one: all that a
+  // comment may not hold must be encoded.
   const std::vector<Told> told = {{"window-s", "6"},
                                   {"variables", "a folder/with (brackets); and \xc3\xbc%.var"},
                                   {"block-delete", ""},
@@ -47,6 +49,7 @@ TEST(Mark, IsProvedWithTheHead) {
 
 TEST(Mark, IsRefusedWhereItWasChanged) {
   const test::Workshop shop;
+  // A digit, a word less, the sum's name, the mark's name, an empty mark.
   const std::string mark = mark_text(Way{}, {{"dialect", "fanuc"}, {"window-s", "60"}}, "\n");
   for (const std::string& text :
        {test::replaced(mark, "60", "61"), test::replaced(mark, " --window-s 60", ""),
@@ -61,6 +64,7 @@ TEST(Mark, IsRefusedWhereItWasChanged) {
 
 TEST(Mark, IsMissingInAProgramOfAnEarlierVersion) {
   const test::Workshop shop;
+  // From before the mark was introduced: it must not pass as a program without corrections.
   test::write_file(shop.changed(), "R50=0.0000 ;STEADYREST head Z\nG71\nM30\n");
   EXPECT_FALSE(read_mark(shop.changed()));
   test::write_file(shop.changed(), test::kPasses);

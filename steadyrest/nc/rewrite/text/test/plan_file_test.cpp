@@ -16,6 +16,7 @@ using ::testing::HasSubstr;
 // The example of the paper (Marusich 2012): R = {3;{18,27,15};{0,10,10}}, {3;{15,40,5};{0,10,10}},
 // three stages without corrections. The residual is carried over the border of the stages.
 TEST(PlanFile, ReadsThePapersExample) {
+  // Sums of the paper's table: 10, 20, 30, 40 um at 18, 18 + 27, 60 + 15 and 60 + 55 minutes.
   const auto plan = parse_plan(R"({"axis": "Z", "transitions": [
       {"n": 3, "t_min": [18, 27, 15], "delta_um": [0, 10, 10]},
       {"n": 3, "t_min": [15, 40, 5], "delta_um": [0, 10, 10]},
@@ -48,6 +49,7 @@ TEST(PlanFile, ReadsSeveralAxes) {
 
 // Each file names its fault on its first line, behind //.
 TEST(PlanFile, RefusesEveryFileOfTheCorpus) {
+  // The corpus is the truth; each file's first line is a piece of the refusal.
   std::size_t seen = 0;
   const auto folder = std::filesystem::path(STEADYREST_SOURCE_DIR) / "tests/refused/plan";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -30,6 +30,7 @@ bool is_plain(const std::string& line) {
 }
 
 TEST(PlainSurvey, WhatMayRepeatOrBranchIsNotPlain) {
+  // Near misses included: M97.9999 rounds to M98, G42.9999 to G43, Cyrillic О is no letter O.
   for (const char* line : {"O100 sub",   "o<cut> call", "N10 O1 repeat [3]",
                            "M98 P100",   "m 9 8 P100",  "M99",
                            "M97 P1",     "M098P1",      "/G0 X1",
@@ -46,6 +47,7 @@ TEST(PlainSurvey, WhatMayRepeatOrBranchIsNotPlain) {
 }
 
 TEST(PlainSurvey, WordsOfALetterAndANumberArePlain) {
+  // The same words in comments are only text.
   for (const char* line :
        {"", "%", "N10 G0 X-1.5 Y+2 Z.3", "g1x1y2 z 3 . 5f100", "M3 S1000 (O100 call) G54.1",
         "T1 M6 ; M98", "(o100 sub)", "G81 R1 Z-3 L4", "M30", "G43.1 Z1", "M61Q2", "G64 P0.01"}) {
@@ -62,6 +64,8 @@ TEST(PlainSurvey, OtherDialectsAreRun) {
 }
 
 /// The run sees no more than the text does.
+// The survey by text may find more intervals without a length than the run, never fewer: too many
+// cost places, too few cost parts.
 void expect_as_run(const std::string& path, const interpret::Config& config, int& compared) {
   const auto by_text = plain(path);
   const auto by_run = survey(path, config);
@@ -87,6 +91,7 @@ TEST(PlainSurvey, FindsTheToolChangesThatTheRunFinds) {
   const std::string path = shop.original();
   int compared = 0;
   for (const char* text :
+       // Tool words in comments, spaced, in small letters, with M61, and intervals that never end.
        {"T1 M6\nG0 Z5\nG43 H1\nG0 X1\nT2 M6\nG0 X2\nG49\nG0 X3\nG43H2\nM2\n",
         "G43 H1 T1 M6\nG0 X1\n\n(M6)\nM06\nT2\nG0X2\ng 4 3.1 Z1\nG0 X3\nM61 Q3\nG0 X1\nG43\nM2\n",
         "%\nT1M6\n%\nG43\n", "M6 T1\nM6 T2\nG43\nG43\nM2\nG0 X1\n"}) {
