@@ -30,6 +30,7 @@ kernel::outcome::Result<Report> run_text(std::string_view text, const Config& co
   return run_lines(source, config, sink);
 }
 
+// A verb has one refusal to show: the first, since those behind it may follow from it.
 kernel::outcome::Refusal first_refusal(const Report& report, const std::string& path) {
   if (report.refused.empty()) {
     return {};

@@ -85,6 +85,7 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
                                std::to_string(rules.longest) +
                                " are allowed in this dialect, line end included");
   }
+  // Blank lines need no dialect.
   std::size_t first = 0;
   while (first != line.size() && is_blank(line[first])) {
     ++first;

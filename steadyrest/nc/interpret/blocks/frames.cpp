@@ -95,6 +95,8 @@ bool Frames::set_fine(const read::Word& word) {
   return true;
 }
 
+// After a new frame the first word of each axis must be absolute, unless the block goes to machine
+// coordinates: until then frame_pending and frame_turned remember it.
 bool Frames::settle(const Step& step) {
   if ((state_.frame_pending == 0 && !state_.frame_turned) || step.moves_by < 0 ||
       step.machine_frame) {

@@ -76,6 +76,7 @@ bool MachineWords::spindle_speed(const Step& step) {
   return true;
 }
 
+// T prepares, M6 changes. On sinumerik a tool may have a name and no number.
 bool MachineWords::select_tool(const Step& step) {
   if (!step.tool_name.empty()) {
     selected_name_ = step.tool_name;

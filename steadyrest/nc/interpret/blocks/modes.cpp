@@ -4,6 +4,8 @@
 
 namespace steadyrest::nc::interpret {
 
+// Lengths and feeds are converted as they are read; what is stored is mm already and needs no
+// change.
 void Modes::units(const Step& step) noexcept {
   const int code = step.code(GGroup::units);
   if (code == kNoCode) {
@@ -140,6 +142,7 @@ void Modes::enter_call() {
   kept_.emplace_back();
 }
 
+// True when modes came back, so the move in hand must be filled in again.
 bool Modes::leave_call() {
   const Kept kept = kept_.back();
   kept_.pop_back();

@@ -5,6 +5,7 @@
 
 namespace steadyrest::nc::interpret {
 
+// G43 takes all of the tool's offsets, not Z alone: LinuxCNC has X and others for lathes.
 bool Offsets::tool_length(const Step& step) {
   switch (step.code(GGroup::tool_length)) {
     case g::kToolLength:

@@ -8,6 +8,7 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
+// Non-modal words that take the axis words for themselves, so that no motion may.
 constexpr bool uses_axes(int non_modal) noexcept {
   return non_modal == g::kSetData || non_modal == g::kHome || non_modal == g::kSecondHome ||
          non_modal == g::kShift || non_modal == g::kSetOrigin;
@@ -73,6 +74,7 @@ bool BlockCheck::choose_motion(Step& step) const {
   return true;
 }
 
+// Each is complete in itself; their order only decides which fault is named.
 bool BlockCheck::check(const Step& step) const {
   return check_values(step) && check_non_modal(step) && check_unused(step) && check_cutter(step);
 }

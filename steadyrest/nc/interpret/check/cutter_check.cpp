@@ -33,6 +33,8 @@ bool BlockCheck::check_cutter(const Step& step) const {
          (!behind || cutter_permits_what_comes_behind(step));
 }
 
+// These are executed before G40 to G42 in the same block, so they meet the compensation that is
+// still on.
 bool BlockCheck::cutter_permits_what_comes_before(const Step& step) const {
   const int code = step.code(GGroup::cutter);
   const auto forbid = [&](char letter, int word, std::string_view what) {
@@ -62,6 +64,8 @@ bool BlockCheck::cutter_permits_what_comes_before(const Step& step) const {
   return true;
 }
 
+// A canned cycle, a thread or a probe has no contour; an offset that changes would bend the one in
+// hand.
 bool BlockCheck::cutter_permits_what_comes_behind(const Step& step) const {
   struct Rule {
     bool broken;

@@ -85,12 +85,15 @@ void MoveOutput::dwell(double seconds) {
   sink_->on_move(out);
 }
 
+// Cycles are made of moves along one axis.
 void MoveOutput::along(MoveKind kind, std::size_t axis, double value) {
   Axes end = state_.position;
   end[axis] = value;
   move(kind, end);
 }
 
+// Rev/s with the sign of the direction. Under G96 the speed depends on X, so the event says 0 and
+// the moves carry the cutting speed.
 void MoveOutput::spindle() {
   const double speed = state_.surface_speed ? 0.0 : state_.spindle_speed_rev_s;
   event(EventKind::spindle, state_.spindle_direction * speed);
@@ -110,6 +113,7 @@ void MoveOutput::time_by_contour() noexcept {
   }
 }
 
+// Once only: from then on the tool is where the program says.
 Axes MoveOutput::take_beside(Axes point) noexcept {
   for (std::size_t i = 0; beside_ && i < point.size(); ++i) {
     point[i] += (*beside_)[i];

@@ -28,6 +28,7 @@ Tool* place_of_tool(Config& config, std::int32_t number) {
   return found == config.tools->end() ? nullptr : &*found;
 }
 
+// The callers have seen that the word is a whole number; here it must also be in the table.
 bool tool_number(Control& control, const Step& step, char letter, std::int32_t& number) {
   number = static_cast<std::int32_t>(step[letter]);
   return find_tool(control.config, number) != nullptr ||
@@ -35,6 +36,7 @@ bool tool_number(Control& control, const Step& step, char letter, std::int32_t& 
                                  "a tool that is not in the tool table");
 }
 
+// The data of the tool in the spindle, as #5401 … show them; the length acts only at G43.
 void load_tool(Control& control) {
   const Tool* const tool = place_of_tool(control.config, control.state.tool_in_spindle);
   if (tool != nullptr) {

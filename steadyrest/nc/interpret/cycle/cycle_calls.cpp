@@ -84,6 +84,7 @@ bool CycleCalls::after_move() {
   return !modal_ || drill(*modal_);
 }
 
+// The planes that all cycles share: retraction, reference and safety clearance, depth.
 bool CycleCalls::planes(const Flow& call, Hole& hole) {
   const std::string_view name = call.label.view();
   const auto* const known =

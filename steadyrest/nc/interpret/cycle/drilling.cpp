@@ -189,6 +189,8 @@ bool Drilling::cycle(const Step& step) {
   return accepted;
 }
 
+// From the R plane down and out to the clearance; the cycles differ in how they stop at the bottom
+// and come out.
 bool Drilling::drill(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
   switch (step.moves_by) {
@@ -245,6 +247,8 @@ bool Drilling::peck(const Step& step, const Hole& hole) {
   return true;
 }
 
+// In at feed, reverse, dwell, out at feed. The programmed F and S make the pitch: nothing here ties
+// them together, as with a floating holder.
 bool Drilling::tap(const Step& step, const Hole& hole) {
   const int into = step.moves_by == g::kTapRight ? 1 : -1;
   if (state_.spindle_direction != into) {

@@ -54,6 +54,7 @@ bool FlowControl::otherwise(const Block& block) {
   return true;
 }
 
+// An end must belong to the innermost open block of its label, and be of its kind.
 bool FlowControl::close(const Block& block, FlowKind head) {
   const Open* const found = find(block, false);
   if (found == nullptr || found->kind != head) {
@@ -129,6 +130,8 @@ bool FlowControl::end_of_repeat(const Block& block) {
   return go(block.line(), head);
 }
 
+// `break` passes over the rest of the loop; in a do loop that ends at its `while`. A repeat has
+// neither break nor continue in LinuxCNC 2.9.
 bool FlowControl::leave_loop(const Block& block) {
   const Open* const found = find(block, true);
   if (found == nullptr || found->kind == FlowKind::repeat) {

@@ -53,6 +53,7 @@ bool FlowControl::go(std::uint32_t line, const Place& place) {
          refuse(line, {}, "cannot_go_back", "a loop or call in a file that cannot be read twice");
 }
 
+// An O-word that is executed. What is passed over goes through pass_over() instead.
 bool FlowControl::act(const Block& block) {
   switch (block.flow().kind) {
     case FlowKind::label:
@@ -156,6 +157,7 @@ bool FlowControl::pass_over(Block& block) {
   }
 }
 
+// The label was found; whether this O-word ends the passing over depends on what was looked for.
 bool FlowControl::arrived(Block& block) {
   const FlowKind kind = block.flow().kind;
   const auto ends = [&](FlowKind closing) {
@@ -209,6 +211,8 @@ bool FlowControl::evaluate(Block& block) {
   return true;
 }
 
+// At the end of a file: what is still looked for is not there, and a subprogram must have come
+// back.
 bool FlowControl::refuse_end() {
   if (passing_over()) {
     return !refuse(
@@ -320,6 +324,7 @@ bool FlowControl::end_program(std::uint32_t line) {
   return leave(nullptr);
 }
 
+// Back to the line behind the call, with the caller's parameters.
 bool FlowControl::leave(const double* returned) {
   const Place back = frames_.back().back;
   frames_.pop_back();

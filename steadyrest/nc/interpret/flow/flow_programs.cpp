@@ -108,6 +108,7 @@ bool FlowControl::call_numbered(std::uint32_t line, std::int32_t number, double 
   return enter_numbered(line, label, found->second, repeats);
 }
 
+// Also sinumerik's calls by name: no O-words, a head and a number of repeats.
 bool FlowControl::enter_numbered(std::uint32_t line, std::string_view label, const Place& head,
                                  double repeats) {
   parameters_.enter_shared();

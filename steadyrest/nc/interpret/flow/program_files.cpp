@@ -23,6 +23,7 @@ LineSource::Status ProgramFiles::next() noexcept {
   return sources_[current_]->next();
 }
 
+// The file and the place in it; a pipe has no way back, so this may fail.
 bool ProgramFiles::go(const Place& place) noexcept {
   current_ = place.file;
   return sources_[current_]->seek(place.offset, place.line);

@@ -106,6 +106,7 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
                         "cutter radius compensation with a lathe tool outside of G18");
 }
 
+// The program's position goes on along the contour; what goes out is the compensation's affair.
 bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
   if (step.machine_frame) {
     return refusals_.code(step, 'G', 53, "cutter_comp_on",

@@ -144,6 +144,7 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
   return checked.has_value() || refuse_arc(step, checked.error());
 }
 
+// Exactly one way of giving the centre, in the plane in force.
 bool Motion::arc_words(const Step& step, const PlaneAxes& axes) {
   const bool by_centre = (step.mask & kCentreMask) != 0;
   if (!by_centre && !step.has('R')) {

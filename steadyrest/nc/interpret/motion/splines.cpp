@@ -141,6 +141,8 @@ bool Splines::end(const Step& step) {
   return true;
 }
 
+// The move only points at the control points: they must live until it has gone out, and are taken
+// back then.
 void Splines::emit(std::span<const SplinePoint> points, int order, const Axes& end) {
   out_.current().spline = points;
   out_.current().spline_order = order;

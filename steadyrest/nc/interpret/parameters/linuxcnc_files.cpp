@@ -87,6 +87,8 @@ Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_vi
 
 }  // namespace
 
+// `;` begins a comment; a tool without a number is refused, since which one it is matters to every
+// line.
 Result<std::vector<Tool>> read_tool_table(const std::string& path, double unit_mm) {
   auto source = LineSource::open(path);
   if (!source) {
@@ -152,6 +154,7 @@ bool put_variable(Config& config, int number, double value, double unit_mm) {
 
 }  // namespace
 
+// `number value` a line, as LinuxCNC writes it. With this file the control's start is known.
 Result<void> read_variables(const std::string& path, double unit_mm, Config& config) {
   auto source = LineSource::open(path);
   if (!source) {

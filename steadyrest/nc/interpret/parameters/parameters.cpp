@@ -192,6 +192,8 @@ bool Parameters::of_state(int index, double& value) const {
   }
 }
 
+// #<_x> and the like are work positions, #<_abs_x> those of the machine; both in the program's
+// unit.
 bool Parameters::of_state(std::string_view name, double& value) const {
   if (name.size() == 2 && name[0] == '_') {
     constexpr std::string_view kLetters = "xyzabcuvw";
@@ -293,6 +295,7 @@ Lookup Parameters::set_number(int index, double value) {
   return Lookup::found;
 }
 
+// Global names begin with _; those that show the state or the machine cannot be written.
 Lookup Parameters::set_name(std::string_view name, double value) {
   double ignored = 0.0;
   if (name.front() == '_' &&

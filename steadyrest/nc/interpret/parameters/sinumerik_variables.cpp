@@ -23,6 +23,7 @@ double converted(ValueType type, double value) noexcept {
 
 }  // namespace
 
+// Not a number stands for an R-parameter that this program has not set.
 SinumerikVariables::SinumerikVariables()
     : numbers_(kParameters, std::numeric_limits<double>::quiet_NaN()), frames_(1) {}
 
@@ -60,6 +61,7 @@ Lookup SinumerikVariables::name(std::string_view name, double& value) const {
   return Lookup::found;
 }
 
+// Assignments wait until the block is accepted: a refused or deleted block sets nothing.
 Lookup SinumerikVariables::set_number(int index, double value) {
   if (index < 0 || index >= kParameters) {
     return Lookup::no_such_number;

@@ -56,6 +56,7 @@ void CutterCompensation::put(Axes& axes, PlanePoint value) const noexcept {
   axes[axes_.second] = value.second;
 }
 
+// Where the tool's centre is for a point of the contour; before the entry they are the same.
 Axes CutterCompensation::centre(Axes point) const noexcept {
   if (active() && entered_) {
     put(point, current_);
@@ -91,6 +92,7 @@ const Move* CutterCompensation::waiting_arc() const noexcept {
   return first != nullptr && first->move.kind == MoveKind::arc ? &first->move : nullptr;
 }
 
+// Decides how a reversal counts (offset_corner.cpp).
 bool CutterCompensation::behind_outer_arc() const noexcept {
   const Move* const arc = waiting_arc();
   return arc != nullptr && left() != (arc->turns > 0);

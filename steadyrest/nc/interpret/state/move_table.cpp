@@ -91,6 +91,7 @@ MoveTable::MoveTable(kernel::file::OutputFile& out) : out_(out) {
   buffer_ = kHead;
 }
 
+// The shortest text that reads back as the same double: no digit invented, none lost.
 void MoveTable::number(double value) {
   buffer_ += ',';
   std::array<char, 32> text{};

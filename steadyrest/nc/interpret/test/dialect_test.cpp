@@ -84,6 +84,7 @@ TEST(Sinumerik, NamesTheToolInTheEvent) {
 TEST(Sinumerik, RoundsCornersWithinAdisOnlyInContinuousMode) {
   const auto moves =
       moves_of("G641 ADIS=0.5 G1 X1 F100\nG9 X2\nG60 X3\nM30\n", in(Dialect::sinumerik));
+  // ADIS belongs to G641; G9 and G60 stop.
   EXPECT_EQ(moves.at(0).path_tolerance_mm, 0.5);
   EXPECT_EQ(moves.at(1).path_mode, PathMode::exact_stop);
   EXPECT_EQ(moves.at(2).path_mode, PathMode::exact_stop);
@@ -111,6 +112,7 @@ TEST(Fanuc, TakesAxisWordsForG28BesideG0) {
   const auto moves = moves_of("G0 X1 Y2 Z3\nG0 G91 G28 Z0\nG90 X5\nM30\n", in(Dialect::fanuc));
   ASSERT_EQ(moves.size(), 4U);
   EXPECT_EQ(moves[2].end[2], 0.0);
+  // G28 Z0 in G91 goes by way of Z3 to the reference point in Z alone.
   EXPECT_EQ(moves[2].end[0], 1.0);
   EXPECT_EQ(moves[3].kind, MoveKind::rapid);
 }

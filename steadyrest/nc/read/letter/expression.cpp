@@ -133,6 +133,7 @@ bool Expression::spaced_number(double& out) {
          fail("bad_number", "not a number; write digits and one point");
 }
 
+// [ and whatever is inside, down to the weakest operator, up to its ].
 bool Expression::bracket(double& out) {
   // A bound on the recursion: a line of 250 brackets would otherwise be 250 calls deep.
   if (++depth_ > kDeepest) {
@@ -179,6 +180,8 @@ bool Expression::holds(Operator op, double a, double b) noexcept {
   }
 }
 
+// Whole values are checked for infinities in operand() and by the caller, so 4 MOD 0 may occur
+// inside of a comparison, as in rs274.
 bool Expression::apply(Operator op, double& left, double right) {
   switch (op) {
     case Operator::power:
@@ -262,6 +265,7 @@ bool Expression::looked_up(Lookup lookup) {
   return fail("parameter_of_the_machine", "a parameter whose value only the running control knows");
 }
 
+// #5, #[…], ##5 or #<name>; the value is looked up while the line is read, as on the control.
 bool Expression::parameter(double& out) {
   ++at_;
   if (peek() == '<') {

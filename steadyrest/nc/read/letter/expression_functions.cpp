@@ -36,6 +36,7 @@ bool Expression::function(double& out) {
                           : named_function(text, out);
 }
 
+// Functions of one value; angles in degrees, as everywhere in NC programs.
 bool Expression::named_function(std::string_view name, double& out) {
   double x = 0.0;
   if (!bracket(x)) {

@@ -87,6 +87,7 @@ bool MacroExpression::read_sum(double& out) {
   return climb(out, 1);
 }
 
+// Brackets, variables, numbers and functions; an operand may have signs of its own.
 bool MacroExpression::operand(double& out) {
   bool negative = false;
   // `X-#5`, `[-[2+3]]`: signs bind to their operand.
@@ -140,6 +141,7 @@ bool MacroExpression::bracket(double& out) {
   return true;
 }
 
+// Logical operators work on bits here, where LinuxCNC's work on truth values.
 bool MacroExpression::apply(Operator op, double& left, double right) {
   switch (op) {
     case Operator::both:
@@ -182,6 +184,7 @@ bool MacroExpression::bits(Operator op, double& left, double right) {
   return true;
 }
 
+// A name and its bracket. BIN, BCD, ADP and POW are known, and refused rather than guessed.
 bool MacroExpression::function(double& out) {
   std::array<char, 8> letters{};
   std::size_t length = 0;
@@ -327,6 +330,8 @@ bool MacroExpression::variable_number(int& index) {
   return true;
 }
 
+// The value is read as the block is read; vacant variables and those of the running control are
+// refused by name.
 bool MacroExpression::variable(double& out) {
   ++at_;
   int index = 0;

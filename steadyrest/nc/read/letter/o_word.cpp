@@ -42,6 +42,7 @@ constexpr std::array kKeywords = {
     Keyword{"continue", FlowKind::next_turn, Takes::nothing},
 };
 
+// By kind, since a label alone has no keyword that could be looked up.
 constexpr Takes takes(FlowKind kind) noexcept {
   for (const Keyword& keyword : kKeywords) {
     if (keyword.kind == kind) {
@@ -142,6 +143,7 @@ bool OWord::label(Flow& flow) {
   return true;
 }
 
+// In small letters: LinuxCNC does not tell case apart.
 bool OWord::keyword(Flow& flow) {
   std::array<char, 12> name{};
   std::size_t length = 0;
@@ -166,6 +168,7 @@ bool OWord::keyword(Flow& flow) {
               "elseif else endif while endwhile do repeat endrepeat break continue");
 }
 
+// Values in [ ], one behind another, as many as the keyword takes.
 bool OWord::arguments(Flow& flow) {
   const Takes wanted = takes(flow.kind);
   if (wanted == Takes::nothing) {

@@ -22,6 +22,7 @@ constexpr std::array<char, kCharacters> plain_letters() {
   return out;
 }
 
+// A table of 256 answers three questions at once: is it a letter, is it plain, what is its capital.
 constexpr std::array<char, kCharacters> kPlainLetter = plain_letters();
 
 }  // namespace

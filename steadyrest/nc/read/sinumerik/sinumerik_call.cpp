@@ -85,10 +85,12 @@ bool SinumerikLine::statement(const char* word_begin, std::string_view name, boo
     done = false;  // refused as a word
     return true;
   }
+  // Cycles are executed here; any other name must be a program in the folders.
   const bool cycle = name.size() > 5 && equal(name.substr(0, 5), "CYCLE");
   return done = call(word_begin, name, cycle ? FlowKind::cycle : FlowKind::call);
 }
 
+// The types that have a number as their value.
 bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
   const std::string_view name = letters();
   if (equal(name, "REAL") || equal(name, "INT") || equal(name, "BOOL")) {
@@ -293,6 +295,7 @@ bool SinumerikLine::call(const char* word_begin, std::string_view name, FlowKind
   return next() != '(' || call_values(word_begin);
 }
 
+// Values between commas, each an expression; strings go to cycles that are not interpreted.
 bool SinumerikLine::call_values(const char* word_begin) {
   Flow& flow = block_.flow();
   ++at_;

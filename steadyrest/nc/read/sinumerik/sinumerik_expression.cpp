@@ -109,6 +109,7 @@ bool SinumerikExpression::looked_up(Lookup lookup) {
   return lookup == Lookup::found || fail(why.reason, why.text);
 }
 
+// Every bracket that was opened is closed here, so the depth is counted down in one place.
 bool SinumerikExpression::closing(char bracket) {
   if (peek() != bracket) {
     return fail("unclosed_expression", at_ == end_
@@ -195,6 +196,7 @@ bool SinumerikExpression::bits(Operator op, double& left, double right) {
   return true;
 }
 
+// A signed operand, a bracket, a number, or a word: parameter, variable, function or constant.
 bool SinumerikExpression::operand(double& out) {
   const char c = peek();
   // A sign is an operand of its own level, so signs count for the depth as well.
@@ -267,6 +269,7 @@ bool SinumerikExpression::number(double& out) {
   return finite(out);
 }
 
+// Names mean, in this order: constants, NOT, R-parameters, variables, functions.
 bool SinumerikExpression::word(double& out) {
   const char* const first = at_;
   while (at_ != end_ && in_name(*at_)) {

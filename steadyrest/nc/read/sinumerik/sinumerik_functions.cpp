@@ -17,6 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 }  // namespace
 
 // Each function has a fixed number of values; a further one is no closing bracket.
+// From the ( to its ); the bracket counts as one level, like any other.
 bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t wanted) {
   ++at_;
   if (++depth_ > kDeepest) {

@@ -73,6 +73,7 @@ bool SinumerikLine::header() {
   return true;
 }
 
+// Block numbers move nothing; only jumps, which are refused, would need them.
 bool SinumerikLine::block_number() {
   if (at_ == end_ || (upper(*at_) != 'N' && *at_ != ':')) {
     return true;

@@ -51,6 +51,7 @@ constexpr std::array kRefusedNames = {
 
 }  // namespace
 
+// The control does not tell case apart; the tables are in capitals.
 bool equal(std::string_view text, std::string_view upper_name) noexcept {
   return std::ranges::equal(text, upper_name, {}, upper);
 }

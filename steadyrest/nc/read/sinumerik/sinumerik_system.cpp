@@ -20,6 +20,7 @@ bool SinumerikLine::take(std::string_view upper_text) {
   return true;
 }
 
+// Axes by their letter only: names such as Z1 and indices such as AX3 depend on the machine.
 bool SinumerikLine::axis_letter(char& letter) {
   constexpr std::string_view kAxes = "XYZABCUVW";
   skip_blanks();

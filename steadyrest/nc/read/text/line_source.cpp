@@ -118,6 +118,8 @@ bool LineSource::refill() noexcept {
   return got > 0;
 }
 
+// Goes back (or on) to a place that was noted: the head of a loop, a subprogram. `number` is the
+// line before it.
 bool LineSource::seek(std::uint64_t offset, std::uint32_t number) noexcept {
   // Loops mostly go back a few lines: within the buffer nothing is read again.
   number_ = number;
@@ -154,6 +156,7 @@ LineSource::Status LineSource::take(const char* stop, std::size_t ending) noexce
   return Status::line;
 }
 
+// One line as a view into the buffer: no copy, no allocation, however long the program is.
 LineSource::Status LineSource::next() noexcept {
   // Lines count from 1.
   ++number_;

@@ -7,6 +7,7 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+// The text as it is in the file, for copying and comparing: lines with their own ends, no words.
 Result<SourceLines> SourceLines::open(const std::string& path) {
   auto source = read::LineSource::open(path);
   if (!source) {

@@ -67,6 +67,7 @@ TEST(Interpreter, RefusesSpiralsExactlyWhereRs274Does) {
 TEST(Interpreter, OrientsArcsOfAllPlanesRightHanded) {
   const auto moves = moves_of("F10 G18 G2 X10 I5\nG19 G3 Y10 J5 X3\nG17 G3 I1 P3\nM2\n");
   ASSERT_EQ(moves.size(), 3U);
+  // G18's plane is Z X, so its normal is +Y and clockwise is seen against it.
   EXPECT_EQ(moves[0].normal[1], 1.0);
   EXPECT_EQ(moves[0].turns, -1);
   EXPECT_EQ(moves[0].centre_mm[0], 5.0);

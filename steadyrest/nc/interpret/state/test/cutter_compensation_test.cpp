@@ -5,6 +5,12 @@
 #include <steadyrest/nc/interpret/test/moves.hpp>
 
 // Expected values are those that LinuxCNC 2.9's rs274 prints for the same lines.
+// The closed forms behind some of them:
+// - arcs that meet: circles of radius 7 about (25, 20) and (35, 20) meet at X30, 20 + √(49 − 25);
+// the line Y22 meets the second at 35 + √(49 − 4).
+// - entry on an arc: the centre on Y10 that is as far from (0, 0) as from (12, 10): 100/24 less
+// than 6.
+// - tangent corners: 10·tan 0.05 = 0.5004: the bound lies between 0.5 and 0.501, on both sides.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -29,6 +35,7 @@ TEST(CutterCompensation, MeetsAtConcaveCornersAndLeavesStraightBehindG40) {
   expect_end(moves[4], MoveKind::linear, 0.0, 0.0);
 }
 
+// The corner plus 2 mm along the normal of the next line, (5, 10)/√125.
 TEST(CutterCompensation, GoesAroundConvexCornersOnAnArcAndInRapidsOnAChord) {
   const auto cutting = moves_of("F100\nG41 G1 X20 D1\nX10 Z5\nM2\n", [] {
     Config config;
@@ -42,7 +49,6 @@ TEST(CutterCompensation, GoesAroundConvexCornersOnAnArcAndInRapidsOnAChord) {
   expect_end(cutting[2], MoveKind::linear, 10.0, -1.27, 5.0);
   const auto rapid = moves_of("G41.1 D4\nG0 X10\nX20 Y-5\nX20 Y-20\nM2\n");
   ASSERT_EQ(rapid.size(), 5U);
-  // The corner plus 2 mm along the normal of the next line, (5, 10)/√125.
   expect_end(rapid[1], MoveKind::rapid, 10.8944, 1.7889);
   expect_end(rapid[2], MoveKind::rapid, 20.8944, -3.2111);
 }
@@ -53,8 +59,6 @@ TEST(CutterCompensation, ChangesTheRadiusOfArcsAndCutsThemWhereTheyMeet) {
       "X50\nM2\n");
   ASSERT_EQ(moves.size(), 6U);
   expect_end(moves[1], MoveKind::arc, 18.0, 10.0);
-  // Circles of radius 7 about (25, 20) and (35, 20) meet at X30, 20 + √(49 − 25); the line Y22
-  // meets the second at 35 + √(49 − 4).
   expect_end(moves[3], MoveKind::arc, 30.0, 24.8990);
   EXPECT_EQ(moves[3].centre_mm[0], 25.0);
   expect_end(moves[4], MoveKind::arc, 41.7082, 22.0);
@@ -64,13 +68,11 @@ TEST(CutterCompensation, EntersOnAnArcOfANewCentre) {
   const auto moves = moves_of("F100\nG42.1 D4\nG3 X10 Y10 R10\nX0 Y20 R10\nM2\n");
   ASSERT_EQ(moves.size(), 2U);
   expect_end(moves[0], MoveKind::arc, 12.0, 10.0);
-  // The centre on Y10 that is as far from (0, 0) as from (12, 10): 100/24 less than 6.
   EXPECT_NEAR(moves[0].centre_mm[0], 1.8333, kHalfDigit);
   expect_end(moves[1], MoveKind::arc, 0.0, 22.0);
 }
 
 TEST(CutterCompensation, PassesChangesOfDirectionUpToATwentiethOfARadian) {
-  // 10·tan 0.05 = 0.5004: the bound lies between 0.5 and 0.501, on both sides.
   EXPECT_EQ(moves_of("F9 G41.1 D4\nG1 X10\nX20 Y-0.5\nM2\n").size(), 2U);
   EXPECT_EQ(moves_of("F9 G41.1 D4\nG1 X10\nX20 Y-0.501\nM2\n").size(), 3U);
   EXPECT_NEAR(moves_of("F9 G41.1 D4\nG1 X10\nX20 Y0.5\nM2\n").at(0).end[0], 10.0, 1e-12);

@@ -176,6 +176,7 @@ TEST(MachineCheck, CountsWhatItDoesNotKeep) {
   const auto machine = mill();
   MachineCheck check(machine, kAll);
   run(text + "M2\n", check);
+  // What is shown is bounded, what is counted is not.
   EXPECT_EQ(check.warnings().size(), MachineCheck::kMost);
   EXPECT_EQ(check.count(), 1500U);
 }
@@ -207,6 +208,7 @@ TEST(IdleOverride, SaysWhenTheNextStepChangesNothing) {
   EXPECT_TRUE(idle(stairs + "M2\n"));
   EXPECT_FALSE(idle(kHead + "G1 X500 F3000\nX10\nM2\n"));
   EXPECT_FALSE(idle(kHead + "G1 X500 F12500\nX10\nM2\n")) << "at 90 % it acts";
+  // The feed override does not act on rapids.
   EXPECT_FALSE(idle(kHead + "G0 X500\nM2\n"));
 }
 

@@ -75,11 +75,13 @@ TEST(PathLimits, FacetsOfACurveKeepItsCentripetalLimit) {
 
 TEST(PathLimits, AReversalOnTheSpotNearlyStops) {
   const PathLimits limits(test::mill());
+  // A reversal changes the velocity by 2·v, so half of A·T is left: 1 mm/s.
   EXPECT_LE(limits.junction_mm_s({1, 0, 0}, {-1, 0, 0}, 100, 100), 1.0 + 1e-9);
 }
 
 TEST(PathLimits, NoTurnIsNoLimit) {
   const PathLimits limits(test::mill());
+  // Catches a division by a change of direction of zero.
   EXPECT_EQ(limits.junction_mm_s({1, 0, 0}, {1, 0, 0}, 1, 1), kernel::machine::kUnlimited);
 }
 

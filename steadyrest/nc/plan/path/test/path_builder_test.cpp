@@ -50,6 +50,7 @@ TEST(PathBuilder, ASpiralEndsAtItsOtherRadius) {
   p.arc(-5, 0, 0, 0, 2, 20);
   const auto s = plan_of(mill(), p).segments[0];
   EXPECT_NEAR(s.radius_end_mm, 5.0, 1e-12);
+  // From angle 0 to angle π, and one turn more.
   EXPECT_NEAR(s.sweep_rad, 3 * std::numbers::pi, 1e-12);
   EXPECT_LT(math::geometry::distance(math::geometry::point_at(s, 1.0), s.end_mm), 1e-9);
 }
@@ -78,6 +79,7 @@ TEST(PathBuilder, PathIsContiguousAndNeverFurtherFromTheCornersThanTheTolerance)
   for (int trial = 0; trial < 50; ++trial) {
     Program p;
     p.mode = interpret::PathMode::continuous;
+    // 1 µm to 10 mm, with legs of 0.03 mm to 30 mm: tolerance and room both bind.
     p.tolerance_mm = std::pow(10.0, 2.0 * unit(random) - 1.0);
     double scale = 1.0;
     for (int i = 0; i < 100; ++i) {
@@ -112,6 +114,7 @@ TEST(PathBuilder, ExactPathKeepsTheCornerAndExactStopStops) {
   p.line(50, 50, 100);
   auto path = plan_of(mill(), p);
   ASSERT_EQ(path.segments.size(), 2U);
+  // G61 keeps the corner on the path and may pass it slowly; only G61.1 stops there.
   EXPECT_GT(path.segments[0].exit_speed_limit_mm_s, 0.0);
   for (auto& move : p.moves) {
     move.path_mode = interpret::PathMode::exact_stop;
@@ -160,6 +163,7 @@ TEST(PathBuilder, RotaryAxesAloneMoveInDegreesPerSecond) {
   Program p;
   p.add(interpret::MoveKind::linear, {0, 0, 0, 90}, 30.0);
   auto path = plan_of(m, p);
+  // Degrees along the path, rad inside; π rad/s are 180°/s.
   EXPECT_NEAR(path.segments[0].length_mm, 90.0, 1e-9);
   EXPECT_NEAR(path.segments[0].other_end[0], std::numbers::pi / 2, 1e-12);
   EXPECT_NEAR(path.segments[0].speed_limit_mm_s, 180.0, 1e-9);
@@ -264,6 +268,7 @@ TEST(PathBuilder, RefusesWhatItCannotPlan) {
     builder.on_move(move);
     const auto path = builder.take();
     ASSERT_FALSE(path.has_value());
+    // A fault must name the line it is in, and what to do about it.
     EXPECT_EQ(path.error().line, 1U);
     EXPECT_FALSE(path.error().to_do.empty());
   }

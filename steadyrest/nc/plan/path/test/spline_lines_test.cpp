@@ -34,6 +34,7 @@ TEST(SplineCurve, ACubicIsBernsteinsPolynomial) {
   for (double u = 0.0; u <= 1.0; u += 0.1) {
     const double v = 1.0 - u;
     const SplinePoint p = interpret::spline_at(points, 4, u);
+    // Σ B_i(u)·P_i with the end points at 0 and 10.
     EXPECT_NEAR(p.x_mm, 3 * v * v * u * 2 + 3 * v * u * u * 8 + u * u * u * 10, 1e-12);
     EXPECT_NEAR(p.y_mm, 3 * v * v * u * 3 + 3 * v * u * u * 3, 1e-12);
   }
@@ -69,6 +70,7 @@ TEST(SplineLines, StayWithinTheToleranceAndMeet) {
     at = line.end;
     const double x = 0.5 * (line.start[0] + line.end[0]);
     const double y = 0.5 * (line.start[1] + line.end[1]);
+    // A chord is farthest from its arc in the middle.
     EXPECT_LE(10.0 - std::hypot(x, y), 1e-3 + 1e-12);
     length += std::hypot(line.end[0] - line.start[0], line.end[1] - line.start[1]);
   }

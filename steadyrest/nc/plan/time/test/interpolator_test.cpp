@@ -188,6 +188,7 @@ TEST(Interpolator, JunctionLimitsHoldWhateverTheOverrideDoes) {
         return Overrides{ratio, 1.0, 0.0};
       });
       ASSERT_EQ(s.back().position[0], x);
+      // With a jerk limit the average passes a joint a little off the lead's speed.
       EXPECT_LT(junction_excess(path, s), jerk > 1e9 ? 1e-6 : 0.5) << "trial " << trial;
       double worst_a = 0.0;
       for (std::size_t i = 1; i < s.size(); ++i) {
@@ -249,6 +250,7 @@ TEST(Interpolator, HigherOverrideIsNeverSlower) {
     for (double ratio = 0.1; ratio < 1.6; ratio += 0.1) {
       const double t =
           seconds(run(m, path, [ratio](std::size_t) { return Overrides{ratio, 1, 0}; }));
+      // Catches an exit speed planned for another override.
       EXPECT_LE(t, before + 80 * kPeriod_s) << ratio;  // each stop rounds up to a period
       before = t;
     }

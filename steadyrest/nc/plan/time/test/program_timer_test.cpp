@@ -93,9 +93,11 @@ TEST(ProgramTimer, TheCyclogramHasATransitionForEachSpeedAndTool) {
   EXPECT_EQ(t.cyclogram[0].load(), Load::cutting);
   EXPECT_NEAR(t.cyclogram[0].seconds, 4.0, 0.1);
   EXPECT_NEAR(t.cyclogram[0].feed_mm_s(), 25.0, 0.2);
+  // The tool change with the spindle stopped is a transition of its own.
   EXPECT_EQ(t.cyclogram[1].load(), Load::standing);
   EXPECT_NEAR(t.cyclogram[1].seconds, 2.0, 0.02);
   EXPECT_EQ(t.cyclogram[2].load(), Load::running);
+  // Running without cutting: the dwell at −20 rev/s.
   EXPECT_EQ(t.cyclogram[2].speed_rev_s, -20.0);
   EXPECT_EQ(t.cyclogram[2].tool, 7);
   EXPECT_NEAR(t.cyclogram[2].seconds, 3.0, 0.02);
@@ -135,6 +137,8 @@ TEST(ProgramTimer, EventsWithoutMovesPass) {
   timer.on_event({EventKind::tool_change, 1001, 1.0});
   timer.on_event({EventKind::tool_change, 1002, 2.0});
   const auto t = timer.take().value();
+  // 1000 coolant events cost no time and must pass the ring of 256; the two changes take 0.5 s
+  // each.
   EXPECT_NEAR(t.total_s, 1.0, 0.003);
   EXPECT_EQ(t.tools.size(), 2U);
 }

@@ -159,6 +159,7 @@ double closed_s(const Machine& m, const Program& p) {
 
 TEST(SegmentTimer, ALineTakesItsLengthOverTheSpeedAndTheSpeedOverTheAcceleration) {
   const auto m = mill();  // 200 mm/s, 2000 mm/s²
+  // From a feed whose ramps vanish to one where they take a tenth of the time.
   for (const double feed : {0.5, 10.0, 50.0, 150.0}) {
     // L/V + V/A, from stop to stop; the end may wait for its period.
     Program p;
@@ -169,6 +170,7 @@ TEST(SegmentTimer, ALineTakesItsLengthOverTheSpeedAndTheSpeedOverTheAcceleration
   }
   Program triangle;
   triangle.line(2, 0, 150.0);
+  // 2 mm are too short for 150 mm/s: up and down in 2·√(L/A).
   EXPECT_NEAR(closed_s(m, triangle), 2.0 * std::sqrt(2.0 / 2000.0), 0.001);
 }
 
@@ -186,6 +188,7 @@ constexpr double kPerMove = 0.65 * 0.001;
 TEST(SegmentTimer, SlowsDownBeforeWhatTheLookAheadShows) {
   auto m = mill();
   m.axes[0].max_acceleration_mm_s2 = 100.0;
+  // 0.05 mm segments: with one block of look-ahead every one must end as if it were the last.
   for (const std::uint32_t blocks : {1U, 2U, 5U, 50U, 500U}) {
     m.control.look_ahead_blocks = blocks;
     Both both(m);
@@ -210,6 +213,7 @@ TEST(SegmentTimer, AgreesOnRandomPathsWithDwellsToolsAndSpindle) {
     Both both(m);
     Program p;
     p.mode = round % 3 == 0 ? interpret::PathMode::exact_path : interpret::PathMode::continuous;
+    // 0.03 mm to 30 mm, so that limits of all kinds bind.
     const double step = std::pow(10.0, 1.5 * unit(random));
     for (int i = 0; i < 400; ++i) {
       if (i % 50 == 7) {
@@ -263,6 +267,7 @@ TEST(SegmentTimer, RefusesWhatThePlannerRefusesAndWhatNeverEnds) {
   auto endless = SegmentTimer::make(m).value();
   Program slow;
   slow.line(1000, 0, 1e-4);
+  // 1000 mm at 1e-4 mm/s are 116 days.
   endless.on_move(slow.moves[0]);
   const auto refused = endless.take();
   ASSERT_FALSE(refused.has_value());

@@ -74,6 +74,7 @@ TEST(Number, IsShortWithSevenDigitsOnEitherSideAtMost) {
 }
 
 TEST(Number, StopsWhereTheNumberStops) {
+  // Words may follow without a blank.
   EXPECT_EQ(read_number("12.5Y3").length, 4U);
   EXPECT_EQ(read_number("1.2.3").length, 3U);
   EXPECT_EQ(read_number("5E3").length, 1U);  // E is a word of its own
@@ -82,6 +83,7 @@ TEST(Number, StopsWhereTheNumberStops) {
 }
 
 TEST(Number, IsNotFoundWithoutADigit) {
+  // "nan" and "inf" are numbers to the C library, but not to a control.
   for (const char* text : {"", "-", "+", ".", "-.", "X", "nan", "inf", "--1", " 1"}) {
     EXPECT_EQ(read_number(text).length, 0U) << text;
   }

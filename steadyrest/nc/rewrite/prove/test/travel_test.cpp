@@ -41,6 +41,7 @@ TEST(Travel, CountsTheBulgeOfAnArcOnlyWhereItPasses) {
   EXPECT_NEAR(reach_of(other_way, 0).low_mm, 90.0, 1e-9);
   EXPECT_NEAR(reach_of(other_way, 1).low_mm, 190.0, 1e-9);
   EXPECT_NEAR(reach_of(other_way, 1).high_mm, 210.0, 1e-9);
+  // Ends short of 90°: no bulge in Y; with one turn more it passes all directions.
   const Move to_45 = arc(std::sqrt(50.0), std::sqrt(50.0), 1);
   EXPECT_NEAR(reach_of(to_45, 1).high_mm, 200.0 + std::sqrt(50.0), 1e-9);
   EXPECT_NEAR(reach_of(arc(std::sqrt(50.0), std::sqrt(50.0), 2), 1).high_mm, 210.0, 1e-9);

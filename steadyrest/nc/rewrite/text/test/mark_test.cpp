@@ -28,6 +28,7 @@ TEST(Mark, IsReadAsItWasWrittenInEveryDialect) {
     for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
       const std::string line = text.substr(at, text.find('\r', at) - at);
       EXPECT_TRUE(is_inserted(line) && is_head(line)) << line;
+      // LinuxCNC's longest line.
       EXPECT_LT(line.size(), 255U);
     }
   }

@@ -73,6 +73,7 @@ void expect_as_run(const std::string& path, const interpret::Config& config, int
     return;
   }
   ++compared;
+  // Plain by its text, so the run must find nothing repeated or called.
   EXPECT_TRUE(by_run->repeated.empty()) << path;
   EXPECT_TRUE(by_run->subprogram_files.empty()) << path;
   EXPECT_GE(by_text->end_line, by_run->end_line) << path;
