@@ -189,7 +189,7 @@ class ProgramRun::Run {
     return refuse({.line = block_.line(),
                    .word = label ? "O" : "%",
                    .reason = "no_program_end",
-                   .text = "the program or subprogram before is not ended; write M30 or M99"});
+                   .text = "the program or subprogram above has no end; write M30 or M99"});
   }
 
   /// Tells the interpreter of calls that began or ended.

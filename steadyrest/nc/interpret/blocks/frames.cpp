@@ -20,7 +20,8 @@ bool Frames::set(const Step& step) {
                      std::ranges::any_of(step.m, [](int code) { return code != kNoCode; });
   if (codes || (step.mask & ~kAxisMask) != 0 || step.absolute != 0 || step.incremental != 0 ||
       step.zero_offset || step.machine_frame || !step.tool_name.empty()) {
-    return refuse_frame("frame", "a frame with its axis words stands in a block of its own");
+    return refuse_frame(
+        "frame", "a frame together with words other than its axes; write it in a separate block");
   }
   const bool turns = step.frame == 'R' || step.frame == 'r';
   const bool adds = step.frame == 't' || step.frame == 'r';
@@ -30,7 +31,9 @@ bool Frames::set(const Step& step) {
   }
   for (const char letter : kAxisLetters) {
     if (step.has(letter) && !(std::abs(step[letter]) <= 1e7)) {
-      return refuse_frame("out_of_range", "a value beyond every machine");
+      return refuse_frame(
+          "out_of_range",
+          "a value too large for any machine; allowed: up to 10000000 in magnitude");
     }
   }
   const Axes old_shift = state_.frame_shift;
@@ -41,7 +44,7 @@ bool Frames::set(const Step& step) {
     // RPL turns about the plane's normal, which is Z only in G17; ROT Z does so in any plane.
     const bool by_plane = !std::isnan(step.frame_angle_deg);
     if ((step.mask & ~Step::bit('Z')) != 0 || (by_plane && state_.plane != Plane::xy)) {
-      return refuse_frame("frame_rotation", "a rotation about another axis than Z");
+      return refuse_frame("frame_rotation", "a rotation about an axis other than Z");
     }
     if (by_plane == step.has('Z')) {
       return refuse_frame("frame_rotation", "a rotation by RPL and by Z in one block");
@@ -77,15 +80,16 @@ bool Frames::set(const Step& step) {
 bool Frames::set_fine(const read::Word& word) {
   const std::size_t axis = kAxisLetters.find(word.letter);
   if ((control_.axes & Step::bit(word.letter)) == 0) {
-    return refusals_.word(state_.line, word, "no_such_axis",
-                          "an axis that the machine does not have");
+    return refusals_.word(state_.line, word, "no_such_axis", "the machine does not have this axis");
   }
   if (state_.unit_mm != 1.0) {
     return refusals_.word(state_.line, word, "frame",
                           "a fine offset in an inch program: its unit is a setting of the control");
   }
   if (!(std::abs(word.value) <= 1e7)) {
-    return refusals_.word(state_.line, word, "out_of_range", "a value beyond every machine");
+    return refusals_.word(
+        state_.line, word, "out_of_range",
+        "a value too large for any machine; allowed: up to 10000000 in magnitude");
   }
   if (state_.frame_fine[axis] != word.value) {
     state_.frame_pending |= Step::bit(word.letter);
@@ -112,15 +116,16 @@ bool Frames::settle(const Step& step) {
   if (pending || (step.code(GGroup::distance) == g::kIncremental && moved != 0)) {
     return refusals_.block(
         step, "frame_incremental",
-        "an increment behind a new frame: whether it contains the frame's shift is a "
+        "an incremental move right after a new frame: whether it includes the frame's shift is a "
         "setting of the control; program the axis absolutely first");
   }
   const bool arc = step.moves_by == g::kArcClockwise || step.moves_by == g::kArcCounterClockwise;
   // After a rotation an axis that is not named keeps its work coordinate, which is another place of
   // the machine now: both must be named, so that nothing depends on where the tool stood.
   if (state_.frame_turned && ((moved & plane) != 0 || arc) && (moved & plane) != plane) {
-    return refusals_.block(step, "frame_axis",
-                           "the first move in X or Y behind a rotation names both");
+    return refusals_.block(
+        step, "frame_axis",
+        "the first move after a rotation names only one of X and Y; program both");
   }
   state_.frame_pending &= ~moved;
   state_.frame_turned = state_.frame_turned && (moved & plane) != plane;

@@ -201,7 +201,7 @@ bool Interpreter::move(const Step& step) {
   if (splines_.open() && motion != g::kSplinePoint && motion != g::kSplineEnd) {
     return control_.refusals.code(
         step, 'G', motion / 10, "spline_words",
-        "another motion among the control points of G5.2; G5.3 ends them");
+        "another motion between the control points of G5.2; end them with G5.3 first");
   }
   if (motion >= g::kCubicSpline && motion <= g::kSplineEnd) {
     return splines_.spline(step);

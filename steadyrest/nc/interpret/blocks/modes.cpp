@@ -89,9 +89,9 @@ bool Modes::keep(const Step& step) {
       return true;
     case m::kRestoreModes:
       if (!kept.state) {
-        return refusals_.code(step, 'M', 72, "modes_not_kept",
-                              "M72 where no modes are kept; M70 or M73 comes before, in the same "
-                              "subprogram");
+        return refusals_.code(
+            step, 'M', 72, "modes_not_kept",
+            "M72 without saved modes; save them first with M70 or M73 in the same subprogram");
       }
       restore(*kept.state);
       return true;

@@ -202,7 +202,7 @@ bool OffsetData::tool(const Step& step, double form) {
   if (step.has('Q')) {
     if (step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0 || step['Q'] > 9.0) {
       return refusals_.letter(step, 'Q', "out_of_range",
-                              "a lathe tool's orientation (Q) is 0 to 9");
+                              "a lathe tool's orientation (Q) is out of range; allowed: 0 to 9");
     }
     place->orientation = static_cast<std::int32_t>(step['Q']);
   }

@@ -31,7 +31,7 @@ bool BlockCheck::choose_motion(Step& step) const {
     if (motion == g::kCycleEnd) {
       if (axis_words && !axes_taken) {
         return refusals_.code(step, 'G', 80, "axis_words_with_g80",
-                              "axis words in a block whose G80 ends motion");
+                              "axis words in a block with G80, which ends motion");
       }
     } else if (axes_taken) {
       return refusals_.code(step, 'G', motion / 10, "two_users_of_axis_words",
@@ -60,7 +60,7 @@ bool BlockCheck::choose_motion(Step& step) const {
       for (const char letter : kAxisLetters) {
         if (step.has(letter)) {
           return refusals_.letter(step, letter, "no_motion_mode",
-                                  "an axis word, but no G word is in force that uses it");
+                                  "an axis word with no motion in force; write G0 or G1 first");
         }
       }
     }
@@ -87,7 +87,7 @@ bool BlockCheck::check_values(const Step& step) const {
     if (!(std::abs(step[letter]) <= kLargestValue)) {
       return refusals_.letter(
           step, letter, "out_of_range",
-          "a value beyond every machine; at most 10000000 in magnitude is allowed");
+          "a value too large for any machine; allowed: up to 10000000 in magnitude");
     }
   }
   if (step.has('F') && step['F'] < 0.0) {
@@ -208,7 +208,7 @@ bool has_feed(const Step& step, const State& state, Refusals& refusals) {
   if (state.feed_mode == FeedMode::inverse_time) {
     if (!step.has('F')) {
       return refusals.letter(step, 'G', "feed_missing",
-                             "an F word is needed in every cutting block of G93");
+                             "no F word; under G93 every cutting block needs one");
     }
     return step['F'] > 0.0 || refusals.letter(step, 'F', "feed_missing", "a feed of zero");
   }

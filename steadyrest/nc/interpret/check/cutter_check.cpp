@@ -41,7 +41,7 @@ bool BlockCheck::cutter_permits_what_comes_before(const Step& step) const {
     return refusals_.code(step, letter, word, kForbidden, what);
   };
   if (code > g::kCutterOff) {
-    return forbid('G', code / 10, "cutter radius compensation while it is on already");
+    return forbid('G', code / 10, "cutter radius compensation while it is already on");
   }
   const int io = step.code(MGroup::io);
   const int override_switch = step.code(MGroup::override_switch);
@@ -83,9 +83,8 @@ bool BlockCheck::cutter_permits_what_comes_behind(const Step& step) const {
       (non_modal == g::kForgetOrigin || non_modal == g::kOriginOff) && state_.g92 != Axes{};
   const bool shifts = clears || (non_modal == g::kOriginOn && state_.g92 != state_.g92_stored);
   if (shifts) {  // the control takes it and goes on from another place
-    return refusals_.code(
-        step, 'G', 92, "cutter_comp_shift",
-        "an axis offset that goes or comes while cutter radius compensation is on");
+    return refusals_.code(step, 'G', 92, "cutter_comp_shift",
+                          "an axis offset that changes while cutter radius compensation is on");
   }
   const std::array rules = {
       Rule{length != kNoCode, length, "another tool length while cutter radius compensation is on"},

@@ -33,7 +33,7 @@ bool tool_number(Control& control, const Step& step, char letter, std::int32_t& 
   number = static_cast<std::int32_t>(step[letter]);
   return find_tool(control.config, number) != nullptr ||
          control.refusals.letter(step, letter, "no_such_tool",
-                                 "a tool that is not in the tool table");
+                                 "this tool is not in the tool table");
 }
 
 // The data of the tool in the spindle, as #5401 … show them; the length acts only at G43.

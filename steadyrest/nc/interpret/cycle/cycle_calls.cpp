@@ -97,8 +97,7 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
   for (std::size_t i = known->values; i < call.count; ++i) {
     if (value(call, i) != 0.0) {
       return refuse(call, "cycle_value",
-                    "a value of newer versions of the cycle, which is not interpreted; leave "
-                    "it out");
+                    "a value that only newer versions of the cycle have; leave it out");
     }
   }
   if (!given(call, kRtp) || !given(call, kRfp) || (!given(call, kDp) && !given(call, kDpr))) {
@@ -122,7 +121,8 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
   constexpr double kLargest = 1e7;
   for (const double height : {hole.start_mm, hole.bottom_mm, hole.retract_mm}) {
     if (!(std::abs(height) <= kLargest)) {
-      return refuse(call, "out_of_range", "a value beyond every machine");
+      return refuse(call, "out_of_range",
+                    "a value too large for any machine; allowed: up to 10000000 in magnitude");
     }
   }
   // Bottom < reference plane plus clearance ≤ retraction plane: only drilling downwards is defined.

@@ -93,7 +93,7 @@ bool Drilling::check(const Step& step) {
                           "a canned cycle while inverse-time feed (G93) is in force");
   }
   if (repeats_of(step) < 1.0) {
-    return refusals_.letter(step, 'L', "out_of_range", "the number of repeats (L) is at least 1");
+    return refusals_.letter(step, 'L', "out_of_range", "too few repeats (L); allowed: 1 or more");
   }
   return has_feed(step, state_, refusals_);
 }
@@ -233,7 +233,7 @@ bool Drilling::peck(const Step& step, const Hole& hole) {
   // When subtracting a peck changes nothing any more, the loop below would not end.
   if (furthest_mm - peck_mm == furthest_mm) {  // there would be no end
     return refusals_.code(step, 'G', step.moves_by / 10, "out_of_range",
-                          "so far out a peck is lost in rounding");
+                          "a peck this small is lost in rounding at this distance from zero");
   }
   for (double depth = hole.retract_mm - peck_mm; depth > hole.bottom_mm; depth -= peck_mm) {
     out_.along(MoveKind::linear, normal, depth);
@@ -259,10 +259,8 @@ bool Drilling::tap(const Step& step, const Hole& hole) {
   }
   const std::size_t normal = hole.axes.normal;
   if (control_.rules.taps_in_xy_alone && state_.plane != Plane::xy) {
-    return refusals_.code(
-        step, 'G', step.moves_by / 10, "tapping_off_xy",
-        "LinuxCNC 2.9 moves other axes than those programmed when it taps outside "
-        "of G17");
+    return refusals_.code(step, 'G', step.moves_by / 10, "tapping_off_xy",
+                          "tapping outside G17: LinuxCNC 2.9 moves the wrong axes");
   }
   // Feed and spindle must keep their ratio, so no override may act while the tap is in.
   const bool override_off = state_.override_off;
@@ -283,7 +281,7 @@ bool Drilling::bore(const Step& step, const Hole& hole) {
   const int direction = state_.spindle_direction;
   if (direction == 0) {
     return refusals_.code(step, 'G', step.moves_by / 10, "spindle_stands",
-                          "a boring cycle while the spindle stands");
+                          "a boring cycle with the spindle stopped");
   }
   out_.along(MoveKind::linear, hole.axes.normal, hole.bottom_mm);
   out_.dwell(state_.cycle.dwell_s);
@@ -306,7 +304,7 @@ bool Drilling::back_bore(const Step& step, const Hole& hole) {
   const int direction = state_.spindle_direction;
   if (direction == 0) {
     return refusals_.code(step, 'G', 87, "spindle_stands",
-                          "a boring cycle while the spindle stands");
+                          "a boring cycle with the spindle stopped");
   }
   const CycleMemory& memory = state_.cycle;
   const double unit = state_.unit_mm;

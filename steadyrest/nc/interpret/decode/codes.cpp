@@ -114,7 +114,7 @@ constexpr std::array kRefusedM = {
     Note{m::kOutputOnWithMove, m::kKeepModesForCall, "M62-M73 are not interpreted in this dialect"},
     Note{m::kCall, m::kReturn,
          "a subprogram call or return (M98, M99) is not interpreted in this dialect"},
-    Note{100, 199, "a user-defined M word (M100-M199) does what only its machine knows"},
+    Note{100, 199, "user-defined M words (M100-M199) depend on the machine"},
 };
 
 }  // namespace

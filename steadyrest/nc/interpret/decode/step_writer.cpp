@@ -14,7 +14,7 @@ bool StepWriter::put_g(const Word& word, int code) {
   const bool compensates = found.group == GGroup::cutter && code != g::kCutterOff;
   if (!found.known || (compensates && !vocabulary_.cutter_compensation)) {
     const std::string_view note = known_but_refused_g(code);
-    return note.empty() ? refuse(word, "unknown_g_code", "a G word that is not known")
+    return note.empty() ? refuse(word, "unknown_g_code", "an unknown G word")
                         : refuse(word, "g_code_not_interpreted", note);
   }
   // Anything outside the motion group rules out the short way for plain lines (plain_block.cpp).
@@ -52,7 +52,7 @@ bool StepWriter::take_m(const Word& word) {
     return put_modulation(word);
   }
   if (word.value != std::floor(word.value) || word.value < 0.0 || word.value > 1e6) {
-    return refuse(word, "unknown_m_code", "an M word that is not known");
+    return refuse(word, "unknown_m_code", "an unknown M word");
   }
   return put_m(word, static_cast<int>(word.value));
 }
@@ -67,7 +67,7 @@ bool StepWriter::put_m(const Word& word, int code) {
                 (found.group == MGroup::io || found.group == MGroup::modes || code == m::kOrient);
   if (!found.known || foreign) {
     const std::string_view note = known_but_refused_m(code);
-    return note.empty() ? refuse(word, "unknown_m_code", "an M word that is not known")
+    return note.empty() ? refuse(word, "unknown_m_code", "an unknown M word")
                         : refuse(word, "m_code_not_interpreted", note);
   }
   step_.others = true;

@@ -19,7 +19,7 @@ bool FlowControl::define(const Block& block) {
   const auto [known, fresh] = heads_.try_emplace(key, files_.line_begin());
   return fresh || known->second.line == files_.line_begin().line ||
          refuse(block.line(), block.flow().label.view(), "o_word_twice",
-                "a label that heads another block already, in line " +
+                "this label already heads another block, in line " +
                     std::to_string(known->second.line + 1));
 }
 
@@ -59,7 +59,7 @@ bool FlowControl::close(const Block& block, FlowKind head) {
   const Open* const found = find(block, false);
   if (found == nullptr || found->kind != head) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
-                  "the end of a block that was not begun");
+                  "an end without its beginning");
   }
   drop_to(*found);
   return true;
@@ -136,7 +136,7 @@ bool FlowControl::leave_loop(const Block& block) {
   const Open* const found = find(block, true);
   if (found == nullptr || found->kind == FlowKind::repeat) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
-                  "break outside of its while or do loop (a repeat has none)");
+                  "break outside its while or do loop (a repeat has none)");
   }
   pass(found->kind == FlowKind::loop_do ? Passing::to_while : Passing::to_endwhile,
        block.flow().label.view());
@@ -148,7 +148,7 @@ bool FlowControl::next_turn(const Block& block) {
   const Open* const found = find(block, true);
   if (found == nullptr || found->kind == FlowKind::repeat) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
-                  "continue outside of its while or do loop (a repeat has none)");
+                  "continue outside its while or do loop (a repeat has none)");
   }
   // `continue` of a do loop goes forward to its `while`, where the condition is; that of a while
   // loop goes back to the head.

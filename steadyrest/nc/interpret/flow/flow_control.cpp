@@ -50,7 +50,8 @@ void FlowControl::pass(Passing how, std::string_view label) {
 
 bool FlowControl::go(std::uint32_t line, const Place& place) {
   return files_.go(place) ||
-         refuse(line, {}, "cannot_go_back", "a loop or call in a file that cannot be read twice");
+         refuse(line, {}, "cannot_go_back",
+                "a loop or call in a file that can only be read once; give a file, not a pipe");
 }
 
 // An O-word that is executed. What is passed over goes through pass_over() instead.
@@ -59,7 +60,7 @@ bool FlowControl::act(const Block& block) {
     case FlowKind::label:
       return !in_call() || frames_.back().by_number ||
              refuse(block.line(), block.flow().label.view(), "o_word_misplaced",
-                    "a subprogram for M98 that begins inside of one for call");
+                    "a subprogram for M98 begins inside a subprogram for call");
     case FlowKind::none:
     case FlowKind::cycle:
     case FlowKind::modal_cycle:
@@ -110,14 +111,14 @@ bool FlowControl::pass_over(Block& block) {
   const FlowKind kind = block.flow().kind;
   if (passing_ == Passing::to_endsub && (kind == FlowKind::sub || kind == FlowKind::label)) {
     return refuse(block.line(), block.flow().label.view(), "o_word_misplaced",
-                  "a subprogram that begins inside of another");
+                  "a subprogram begins inside another one");
   }
   // LinuxCNC looks at these whether they are executed or not.
   if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
     const Open* const loop = find(block, true);
     if (loop != nullptr && loop->kind == FlowKind::repeat) {
       return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
-                    "break or continue of a repeat, which has none");
+                    "break or continue in a repeat; only while and do loops have them");
     }
   }
   if (kind == FlowKind::none || block.flow().label.view() != passing_label_) {
@@ -188,7 +189,7 @@ bool FlowControl::arrived(Block& block) {
       // LinuxCNC sees them here too: the label is that of the repeat.
       if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
         return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
-                      "break or continue of a repeat, which has none");
+                      "break or continue in a repeat; only while and do loops have them");
       }
       return ends(FlowKind::endrepeat);
     case Passing::to_while:
@@ -215,10 +216,9 @@ bool FlowControl::evaluate(Block& block) {
 // back.
 bool FlowControl::refuse_end() {
   if (passing_over()) {
-    return !refuse(
-        passing_from_, passing_label_, "o_word_without_end",
-        "the file ends before what belongs to this O-word (its sub, endsub, else, endif, "
-        "endwhile, endrepeat or while)");
+    return !refuse(passing_from_, passing_label_, "o_word_without_end",
+                   "the file ends before the O-word that matches this one (sub, endsub, else, "
+                   "endif, endwhile, endrepeat or while)");
   }
   if (in_call()) {
     return !refuse(files_.now().number() - 1, frames_.back().sub, "o_word_without_end",
@@ -246,8 +246,8 @@ bool FlowControl::sub(const Block& block) {
   const auto known = subs_.find(label);
   if (in_call() || known != subs_.end()) {
     return refuse(block.line(), label, "o_word_misplaced",
-                  in_call() ? "a subprogram that begins inside of another"
-                            : "a subprogram that is known already");
+                  in_call() ? "a subprogram begins inside another one"
+                            : "this subprogram is already defined");
   }
   // A definition is not executed where it occurs: its place is noted, its lines are passed over.
   subs_[label] = files_.line_end();
@@ -259,7 +259,7 @@ bool FlowControl::call(const Block& block) {
   const read::Flow& flow = block.flow();
   if (frames_.size() > kDeepestCall) {
     return refuse(block.line(), flow.label.view(), "calls_too_deep",
-                  "subprograms that call each other more than ten deep");
+                  "subprogram calls nested more than ten deep");
   }
   // #1 to #30 of the caller are put aside before the subprogram can change them.
   parameters_.enter({flow.values.data(), flow.count});
@@ -270,8 +270,7 @@ bool FlowControl::call(const Block& block) {
 
 bool FlowControl::call_program(std::uint32_t line, std::string_view label, double repeats) {
   if (frames_.size() > kDeepestCall) {
-    return refuse(line, label, "calls_too_deep",
-                  "subprograms that call each other more than ten deep");
+    return refuse(line, label, "calls_too_deep", "subprogram calls nested more than ten deep");
   }
   parameters_.enter_shared();
   return enter(line, label, Passing::to_program,
@@ -312,7 +311,7 @@ bool FlowControl::end_of_sub(const Block& block) {
 bool FlowControl::end_program(std::uint32_t line) {
   if (!in_call()) {
     return refuse(line, {}, "endless_program",
-                  "M99 in the main program: it would begin again for ever");
+                  "M99 in the main program would restart it forever; end it with M30");
   }
   // M98 L5 executes the same frame five times: M99 goes back to the head until none is left.
   Frame& frame = frames_.back();

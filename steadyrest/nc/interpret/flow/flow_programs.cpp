@@ -83,8 +83,7 @@ bool FlowControl::note_programs(std::uint32_t line, std::uint32_t file) {
 bool FlowControl::call_numbered(std::uint32_t line, std::int32_t number, double repeats) {
   const std::string label = std::to_string(number);
   if (frames_.size() > kDeepestCall) {
-    return refuse(line, label, "calls_too_deep",
-                  "subprograms that call each other more than ten deep");
+    return refuse(line, label, "calls_too_deep", "subprogram calls nested more than ten deep");
   }
   if (!programs_noted_ && !note_programs(line, 0)) {
     return false;
@@ -94,10 +93,10 @@ bool FlowControl::call_numbered(std::uint32_t line, std::int32_t number, double 
   if (found == programs_.end()) {
     const auto file = files_.find(file_names(number));
     if (!file) {
-      return refuse(line, label, "no_such_program",
-                    "a subprogram that stands neither in this file nor in the folders of "
-                    "subprograms, as O" +
-                        label + " or O" + label + ".nc");
+      return refuse(
+          line, label, "no_such_program",
+          "no such subprogram in this file or in the subprogram folders; it is looked for as O" +
+              label + " or O" + label + ".nc");
     }
     if (!note_programs(line, file->file)) {
       return false;
@@ -125,7 +124,7 @@ bool FlowControl::call_named(const read::Block& block) {
   const std::string name{block.flow().label.view()};
   if (frames_.size() > kDeepestCall) {
     return refuse(block.line(), name, "calls_too_deep",
-                  "subprograms that call each other more than ten deep");
+                  "subprogram calls nested more than ten deep");
   }
   // The control does not tell small letters from capitals, but many file systems do.
   std::string big = name;
@@ -143,8 +142,7 @@ bool FlowControl::call_named(const read::Block& block) {
   const auto file = files_.find(names);
   if (!file) {
     refuse(block.line(), name, "no_such_program",
-           "neither a word that is known nor a subprogram (NAME.SPF or NAME.MPF) in the folders of "
-           "subprograms");
+           "an unknown word, and the subprogram folders have no NAME.SPF or NAME.MPF");
     refused_.word = name;
     return false;
   }

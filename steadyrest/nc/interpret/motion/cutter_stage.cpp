@@ -29,7 +29,7 @@ bool CutterStage::set(const Step& step) {
   // LinuxCNC compensates in XY and ZX.
   if (state_.plane == Plane::yz) {
     return refusals_.code(step, 'G', code / 10, "cutter_comp_plane",
-                          "cutter radius compensation outside of G17 and G18");
+                          "cutter radius compensation outside G17 and G18");
   }
   CutterCompensation::Tool tool;
   if (!choose_tool(step, code, tool)) {
@@ -76,7 +76,7 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
     }
     if (step.has('L') && !turned) {
       return refusals_.letter(step, 'L', "cutter_comp_plane",
-                              "the edge's orientation of a lathe tool (L) outside of G18");
+                              "a lathe tool's orientation (L) outside G18");
     }
     // D is a diameter in the program's unit.
     tool.radius_mm = 0.5 * step['D'] * state_.unit_mm;
@@ -87,7 +87,7 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
   if (step.has('D')) {
     if (step['D'] != std::floor(step['D']) || step['D'] < 0.0) {
       return refusals_.letter(step, 'D', "not_an_integer",
-                              "a tool's number (D) is a whole number from 0");
+                              "the tool's number (D) is not valid; allowed: whole numbers from 0");
     }
     // D0 is the tool in the spindle, as no D is.
     if (step['D'] != 0.0 && !tool_number(control_, step, 'D', number)) {
@@ -95,15 +95,16 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
     }
   }
   if (!control_.config.tools) {
-    return refusals_.code(step, 'G', code / 10, "tool_radius_unknown",
-                          "cutter radius compensation, but no tool table says the tool's diameter");
+    return refusals_.code(
+        step, 'G', code / 10, "tool_radius_unknown",
+        "cutter radius compensation, but the tool's diameter is unknown; give a tool table");
   }
   const interpret::Tool* const found = find_tool(control_.config, number);
   tool.radius_mm = found == nullptr ? 0.0 : 0.5 * found->diameter_mm;
   tool.orientation = found == nullptr ? 0 : found->orientation;
   return turned || tool.orientation == 0 || tool.orientation == 9 ||
          refusals_.code(step, 'G', code / 10, "cutter_comp_plane",
-                        "cutter radius compensation with a lathe tool outside of G18");
+                        "cutter radius compensation with a lathe tool outside G18");
 }
 
 // The program's position goes on along the contour; what goes out is the compensation's affair.
@@ -142,9 +143,9 @@ bool CutterStage::refuse(const Step& step, Fault fault) {
                      "radius");
     case Fault::entry_arc:
       return because("cutter_comp_entry",
-                     "no arc leads from here to the offset of the entry arc's end");
+                     "no arc leads from here to the offset end of the entry arc");
     case Fault::arc_too_small:
-      return because("cutter_comp_arc", "the tool's radius is not less than that of the arc");
+      return because("cutter_comp_arc", "the tool's radius is not smaller than the arc's");
     case Fault::same_centre:
       return because("cutter_comp_arc", "a corner between two arcs about the same centre");
     case Fault::does_not_fit:
@@ -152,8 +153,7 @@ bool CutterStage::refuse(const Step& step, Fault fault) {
                      "the tool does not fit into the corner before this move without gouging");
     case Fault::runs_backwards:
     case Fault::arc_broken:
-      return because("cutter_comp_gouge",
-                     "the move before this one cannot be reached by the tool without gouging");
+      return because("cutter_comp_gouge", "the tool would gouge in the move before this one");
     case Fault::after_stop:
       return because("cutter_comp_stop",
                      "a program stop before a concave corner under cutter radius compensation; "

@@ -60,8 +60,7 @@ bool Motion::probe(const Step& step) {
   const Axes end = end_point(step, control_);
   for (std::size_t i = 3; i < end.size(); ++i) {
     if (end[i] != state_.position[i]) {
-      return refusals_.letter(step, kAxisLetters[i], "probe_axis",
-                              "probing moves X, Y and Z alone");
+      return refusals_.letter(step, kAxisLetters[i], "probe_axis", "probing moves only X, Y and Z");
     }
   }
   // Behind G40 the probe starts beside the contour.
@@ -101,7 +100,7 @@ bool Motion::refuse_arc(const Step& step, ArcFault fault) {
       break;
   }
   return refusals_.letter(step, letter, "arc_does_not_close",
-                          "the arc's end lies on another radius than its start");
+                          "the arc's start and end are at different radii from its centre");
 }
 
 bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end,
@@ -163,7 +162,8 @@ bool Motion::arc_words(const Step& step, const PlaneAxes& axes) {
   }
   const double turns = step.has('P') ? step['P'] : 1.0;
   if (turns != std::floor(turns) || turns < 1.0 || turns > 1e6) {
-    return refusals_.letter(step, 'P', "arc_turns", "the number of turns is a whole number from 1");
+    return refusals_.letter(step, 'P', "arc_turns",
+                            "the number of turns is not valid; allowed: whole numbers from 1");
   }
   return true;
 }
@@ -175,7 +175,7 @@ bool Motion::arc(const Step& step) {
   if (!cutter_.arc_allowed()) {
     // The tool stands beside the contour behind G40: an arc from there would have another radius.
     return refusals_.letter(step, 'G', "arc_after_cutter_comp",
-                            "the move behind G40 must be a straight line, not an arc");
+                            "the move after G40 is an arc; it must be a straight line");
   }
   const PlaneAxes axes = axes_of(state_.plane);
   const Axes end = end_point(step, control_);

@@ -16,12 +16,12 @@ constexpr std::size_t kMostPoints = 10'000;
 bool Splines::spline(const Step& step) {
   const int code = step.moves_by;
   if (state_.plane != Plane::xy && (code == g::kCubicSpline || code == g::kQuadraticSpline)) {
-    return refusals_.code(step, 'G', 5, "spline_off_xy", "a spline outside of the XY plane (G17)");
+    return refusals_.code(step, 'G', 5, "spline_off_xy", "a spline outside the XY plane (G17)");
   }
   // Control points are in XY; LinuxCNC's splines know no other plane.
   for (const char letter : std::string_view{"ZABCUVW"}) {
     if (step.has(letter)) {
-      return refusals_.letter(step, letter, "axis_in_spline", "a spline moves X and Y alone");
+      return refusals_.letter(step, letter, "axis_in_spline", "a spline moves only X and Y");
     }
   }
   if (code == g::kSplineEnd) {
@@ -47,13 +47,15 @@ bool Splines::words(const Step& step, std::string_view text) {
 bool Splines::cubic(const Step& step) {
   if (step.has('I') != step.has('J')) {
     return refusals_.letter(step, step.has('I') ? 'I' : 'J', "spline_words",
-                            "G5 takes both I and J, or neither behind another G5");
+                            "G5 with only one of I and J; give both, or neither after another G5");
   }
   if (!step.has('P') || !step.has('Q')) {
     return words(step, "G5 without its second control point (P and Q, from the end)");
   }
   if (!step.has('I') && !cubic_goes_on_) {
-    return words(step, "G5 without its first control point (I and J), not behind another G5");
+    return words(
+        step,
+        "G5 without its first control point (I and J); only after another G5 may it be left out");
   }
   const Axes end = end_point(step, control_);
   const double unit = state_.unit_mm;
@@ -108,15 +110,17 @@ bool Splines::control_point(const Step& step) {
   if (points_.empty()) {
     order_ = step.has('L') ? static_cast<int>(step['L']) : 3;
     if (order_ < 2 || order_ > 8) {
-      return refusals_.letter(step, 'L', "spline_words", "the order of a spline (L) is 2 to 8");
+      return refusals_.letter(step, 'L', "spline_words",
+                              "the order of the spline (L) is out of range; allowed: 2 to 8");
     }
     points_.push_back({state_.position[0], state_.position[1], step['P']});
     end_ = state_.position;
     state_.motion = g::kSplinePoint;
     cubic_goes_on_ = false;
   } else if (step.has('L')) {
-    return refusals_.letter(step, 'L', "spline_words",
-                            "the order (L) stands in the first block of a spline");
+    return refusals_.letter(
+        step, 'L', "spline_words",
+        "an order (L) after the first block of the spline; give it in the first block");
   }
   if (state_.incremental) {
     return refusals_.letter(step, 'X', "spline_words", "control points in G91 are not interpreted");
@@ -132,7 +136,7 @@ bool Splines::end(const Step& step) {
   }
   // A curve of order k needs k points for one span.
   if (static_cast<int>(points_.size()) < order_) {
-    return words(step, "a spline of fewer control points than its order");
+    return words(step, "a spline with fewer control points than its order");
   }
   emit(points_, order_, end_);
   points_.clear();

@@ -21,7 +21,7 @@ bool Threading::spindle_turns(const Step& step) {
   return (state_.spindle_direction != 0 &&
           (state_.spindle_speed_rev_s != 0.0 || state_.surface_speed_mm_s != 0.0)) ||
          refusals_.code(step, 'G', step.moves_by / 10, "spindle_stands",
-                        "threading while the spindle stands");
+                        "threading with the spindle stopped");
 }
 
 void Threading::emit(const Axes& end, double pitch_mm) {
@@ -51,8 +51,7 @@ bool Threading::thread(const Step& step) {
   }
   for (const char letter : std::string_view{"ABCUVW"}) {
     if (step.has(letter)) {
-      return refusals_.letter(step, letter, "axis_in_cycle",
-                              "rigid tapping moves X, Y and Z alone");
+      return refusals_.letter(step, letter, "axis_in_cycle", "rigid tapping moves only X, Y and Z");
     }
   }
   if (pitch_mm == 0.0) {
@@ -126,15 +125,18 @@ bool Threading::is_possible(const Step& step, const Cycle& cycle) {
     return is && !refusals_.letter(step, letter, "out_of_range", text);
   };
   return !(wrong(!(cycle.pitch_mm > 0.0), 'P', "a pitch (P) that is not above zero") ||
-           wrong(cycle.peak_mm == 0.0, 'I', "G76 with I zero: it tells inside from outside") ||
+           wrong(cycle.peak_mm == 0.0, 'I',
+                 "G76 with I zero; its sign tells an inside thread from an outside one") ||
            wrong(!(cycle.first_mm > 0.0), 'J', "the first depth (J) must be above zero") ||
            wrong(!(cycle.full_mm > cycle.first_mm), 'K', "the full depth (K) must be above J") ||
-           wrong(!(cycle.degression >= 1.0), 'R', "the degression of depth (R) is at least 1") ||
+           wrong(!(cycle.degression >= 1.0), 'R',
+                 "the degression of depth (R) is too small; allowed: 1 or more") ||
            wrong(springs < 0.0 || springs > 1000.0 || springs != std::floor(springs), 'H',
-                 "the number of spring passes (H) is a whole number from 0") ||
-           wrong(word_or(step, 'L', 0.0) > 3.0, 'L', "the tapered ends (L) are 0 to 3") ||
+                 "the number of spring passes (H) is not valid; allowed: whole numbers from 0") ||
+           wrong(word_or(step, 'L', 0.0) > 3.0, 'L',
+                 "the tapered ends (L) are out of range; allowed: 0 to 3") ||
            wrong(!(std::abs(word_or(step, 'Q', 0.0)) < 80.0), 'Q',
-                 "the angle of the compound slide (Q) is below 80") ||
+                 "the angle of the compound slide (Q) is too large; allowed: below 80") ||
            wrong((cycle.entry || cycle.exit) && !(cycle.taper_mm > 0.0), 'L',
                  "tapered ends need the length of the taper (E above zero)") ||
            wrong(!(std::pow(cycle.full_mm / cycle.first_mm, cycle.degression) < kMostPasses), 'J',

@@ -63,7 +63,7 @@ Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_vi
     double value = 0.0;
     const std::string_view before = text;
     if (!take_word(text, letter, value)) {
-      return refuse(path, line, "`" + read::printable(before) + "` is no word of a tool table",
+      return refuse(path, line, "`" + read::printable(before) + "` is not a word of a tool table",
                     "write letters with numbers, like T1 P1 Z12.5 D6");
     }
     const auto axis = kAxisLetters.find(letter);
@@ -75,7 +75,7 @@ Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_vi
     } else if (axis != std::string_view::npos) {
       tool.offset[axis] = is_rotary(axis) ? value : value * unit_mm;
     } else if (std::string_view{"PIJQ"}.find(letter) == std::string_view::npos) {
-      return refuse(path, line, "`" + read::printable(before) + "` is no word of a tool table",
+      return refuse(path, line, "`" + read::printable(before) + "` is not a word of a tool table",
                     "T (a whole number), P, X Y Z A B C U V W, D, I, J and Q are allowed");
     }
   }

@@ -27,14 +27,15 @@ constexpr std::array kNotes = {
     Note{g::kSplineEnd, "g_code_not_interpreted", "G5.3 is not interpreted"},
     Note{g::kRigidTap, "ambiguous_code", "G33.1 is no code of this dialect"},
     Note{g::kProbeOrFail, "g_code_not_interpreted",
-         "a probing move is a macro of its control (G31) here"},
+         "in this dialect probing is a macro of the control (G31)"},
     Note{g::kProbe, "g_code_not_interpreted",
-         "a probing move is a macro of its control (G31) here"},
+         "in this dialect probing is a macro of the control (G31)"},
     Note{g::kProbeAwayOrFail, "g_code_not_interpreted",
-         "a probing move is a macro of its control (G31) here"},
+         "in this dialect probing is a macro of the control (G31)"},
     Note{g::kProbeAway, "g_code_not_interpreted",
-         "a probing move is a macro of its control (G31) here"},
-    Note{g::kDiameter, "g_code_not_interpreted", "G7/G07 is another function on every control"},
+         "in this dialect probing is a macro of the control (G31)"},
+    Note{g::kDiameter, "g_code_not_interpreted",
+         "G7/G07 means something different on every control"},
     Note{g::kRadius, "g_code_not_interpreted", "G8/G08 (look-ahead control) is not interpreted"},
     Note{150, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
     Note{160, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
@@ -103,7 +104,7 @@ bool FanucDecoder::g_word(const Word& word) {
   const double tenfold = word.value * 10.0;
   const double rounded = std::round(tenfold);
   if (!(rounded >= 0.0 && rounded < 1e5) || std::abs(tenfold - rounded) > 1e-3) {
-    return refuse(word, "unknown_g_code", "a G word that is not known");
+    return refuse(word, "unknown_g_code", "an unknown G word");
   }
   const int code = static_cast<int>(rounded);
   for (const Note& note : kNotes) {
@@ -138,7 +139,7 @@ bool FanucDecoder::g_word(const Word& word) {
     case g::kOriginOff:
     case g::kOriginOn:
       return refuse(word, "ambiguous_code",
-                    "this decimal G word means something else, or nothing, on each control");
+                    "this decimal G word means something different, or nothing, on each control");
     default:
       return put_g(word, code);
   }
@@ -151,7 +152,7 @@ bool FanucDecoder::m_word(const Word& word) {
   }
   if (word.value == 60.0 || word.value == 61.0 || (word.value >= 50.0 && word.value <= 53.0)) {
     return refuse(word, "machine_builders_code",
-                  "an M word that every machine builder gives his own meaning");
+                  "an M word whose meaning depends on the machine builder");
   }
   return take_m(word);
 }
@@ -230,7 +231,7 @@ bool FanucDecoder::program_call() {
   if (step_.has('L') && (!(step_['L'] >= 1.0) || p >= kNumbers)) {
     return in_.refusals.letter(step_, 'L', "bad_value",
                                p >= kNumbers ? "repeats both in L and in the digits of P"
-                                             : "the number of repeats (L) is at least 1");
+                                             : "too few repeats (L); allowed: 1 or more");
   }
   if (p >= kNumbers) {
     step_.set('L', std::floor(p / kNumbers));
@@ -246,8 +247,8 @@ bool FanucDecoder::finish() {
     for (const Word& word : step_.block->words()) {
       if (word.calculated) {
         return refuse(word, "units_beside_variables",
-                      "a calculated value beside G20 or G21: which unit it is rounded in is "
-                      "not known; write the units in a block before");
+                      "a calculated value in a block with G20 or G21: its rounding unit is not "
+                      "certain; write G20 or G21 in an earlier block");
       }
     }
   }
@@ -279,8 +280,9 @@ bool FanucDecoder::finish() {
   // What one leaves of the other differs between controls, so a program may use either.
   if ((non_modal == g::kShift && in_.state.g92_used) ||
       (non_modal == g::kSetOrigin && in_.state.g52_used)) {
-    return in_.refusals.code(step_, 'G', non_modal / 10, "ambiguous_code",
-                             "G52 and G92 in one program: which of them goes first differs");
+    return in_.refusals.code(
+        step_, 'G', non_modal / 10, "ambiguous_code",
+        "G52 and G92 in one program: controls differ in which acts first; use only one");
   }
   return true;
 }

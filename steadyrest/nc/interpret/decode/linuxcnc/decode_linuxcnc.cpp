@@ -38,10 +38,10 @@ class LinuxcncDecoder final : public StepWriter {
     }
     if ((step_.mask & (Step::bit('X') | Step::bit('Y'))) != 0) {
       return in_.refusals.letter(step_, step_.has('X') ? 'X' : 'Y', "polar_and_axis_words",
-                                 "polar coordinates (@ ^) beside an X or Y word");
+                                 "polar coordinates (@ ^) together with an X or Y word");
     }
     if (in_.state.plane != Plane::xy) {
-      return in_.refusals.block(step_, "polar_off_xy", "polar coordinates (@ ^) outside of G17");
+      return in_.refusals.block(step_, "polar_off_xy", "polar coordinates (@ ^) outside G17");
     }
     // Their values come from polar_point(); the checks only need to see that the axes are
     // programmed.
@@ -68,7 +68,7 @@ class LinuxcncDecoder final : public StepWriter {
     const double tenfold = word.value * 10.0;
     const double code = std::round(tenfold);
     if (!(code >= 0.0 && code < 1000.0) || std::abs(tenfold - code) > 1e-3) {
-      return refuse(word, "unknown_g_code", "a G word that is not known");
+      return refuse(word, "unknown_g_code", "an unknown G word");
     }
     return put_g(word, static_cast<int>(code));
   }

@@ -112,7 +112,7 @@ bool SinumerikDecoder::block(const Block& block) {
 
 bool SinumerikDecoder::g_word(const Word& word) {
   if (word.qualifier != Qualifier::none || word.value != std::floor(word.value)) {
-    return refuse(word, "unknown_g_code", "a G word that is not known");
+    return refuse(word, "unknown_g_code", "an unknown G word");
   }
   const double value = word.value;
   if (value == 9.0) {
@@ -143,7 +143,7 @@ bool SinumerikDecoder::g_word(const Word& word) {
       return put_g(word, translation.ours);
     }
   }
-  return refuse(word, "unknown_g_code", "a G word that is not known");
+  return refuse(word, "unknown_g_code", "an unknown G word");
 }
 
 bool SinumerikDecoder::m_word(const Word& word) {
@@ -158,8 +158,7 @@ bool SinumerikDecoder::m_word(const Word& word) {
     return true;
   }
   if (std::ranges::find(kKnown, word.value) == kKnown.end()) {
-    return refuse(word, "unknown_m_code",
-                  "an M word that every machine builder gives his own meaning");
+    return refuse(word, "unknown_m_code", "an M word whose meaning depends on the machine builder");
   }
   return take_m(word);
 }
@@ -213,7 +212,8 @@ bool SinumerikDecoder::letter_word(const Word& word) {
   }
   const bool takes_qualifier = ((kAxisMask | kCentreMask) & Step::bit(letter)) != 0;
   if (word.qualifier != Qualifier::none && !takes_qualifier) {
-    return refuse(word, "bad_value", "AC( ) and IC( ) belong to axis and centre words");
+    return refuse(word, "bad_value",
+                  "AC( ) or IC( ) in another word; allowed: axis and centre words");
   }
   return put_letter(word, letter, word.value);
 }
@@ -222,7 +222,8 @@ bool SinumerikDecoder::name_word(const Word& word) {
   const auto without_effect = [&](std::string_view known) { return equal(word.name, known); };
   if (equal(word.name, "RET")) {
     if (step_.block->words().size() > 1 || word.has_value) {
-      return refuse(word, "subprogram_end", "RET stands in a block of its own");
+      return refuse(word, "subprogram_end",
+                    "RET together with other words; write it in a separate block");
     }
     step_.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
     return true;
@@ -232,7 +233,8 @@ bool SinumerikDecoder::name_word(const Word& word) {
   for (const auto& [name, frame] : kFrames) {
     if (equal(word.name, name)) {
       if (step_.frame != 0 || word.has_value) {
-        return refuse(word, "frame", "a frame stands in a block of its own");
+        return refuse(word, "frame",
+                      "a frame together with other words; write it in a separate block");
       }
       step_.frame = frame;
       return true;
@@ -252,7 +254,7 @@ bool SinumerikDecoder::name_word(const Word& word) {
     return refuse(word, "missing_value", "a word without its value");
   }
   if (word.qualifier != Qualifier::none) {
-    return refuse(word, "bad_value", "a plain number belongs here");
+    return refuse(word, "bad_value", "not a plain number; write one here");
   }
   if (equal(word.name, "RPL")) {
     step_.frame_angle_deg = word.value;
@@ -264,7 +266,7 @@ bool SinumerikDecoder::name_word(const Word& word) {
   if (equal(word.name, "TURN")) {
     if (word.value != std::floor(word.value) || word.value < 0.0 || word.value > 999.0) {
       return refuse(word, "arc_turns",
-                    "the number of further turns is a whole number from 0 to 999");
+                    "the further turns are out of range; allowed: whole numbers from 0 to 999");
     }
     // TURN counts the further turns, P all of them.
     return put_letter(word, 'P', word.value + 1.0);
@@ -287,15 +289,17 @@ bool SinumerikDecoder::finish() {
     step_.g[static_cast<std::size_t>(GGroup::non_modal)] = kNoCode;
   }
   if (step_.code(GGroup::non_modal) == g::kDwell && (step_.mask & kAxisMask) != 0) {
-    return in_.refusals.letter(step_, 'G', "g4_with_motion",
-                               "a dwell (G4) stands in a block of its own");
+    return in_.refusals.letter(
+        step_, 'G', "g4_with_motion",
+        "a dwell (G4) together with axis words; write it in a separate block");
   }
   // Constant cutting speed brings feed per revolution with it.
   std::int16_t& feed_mode = step_.g[static_cast<std::size_t>(GGroup::feed_mode)];
   if (step_.code(GGroup::spindle_mode) == g::kCuttingSpeed) {
     if (feed_mode != kNoCode) {
-      return in_.refusals.letter(step_, 'G', "same_modal_group",
-                                 "G96 is itself a feed type in this dialect; no other beside it");
+      return in_.refusals.letter(
+          step_, 'G', "same_modal_group",
+          "G96 together with another feed type; in this dialect G96 is one itself");
     }
     // Already in G95: setting it again must not clear the feed.
     if (in_.state.feed_mode != FeedMode::per_revolution) {
