@@ -10,6 +10,8 @@ namespace steadyrest::nc::interpret {
 
 // TRANS and ROT replace the programmed frame, ATRANS and AROT add to it. Offset and rotation
 // change, the machine does not move.
+// RPL turns about the plane's normal, which is Z only in G17; ROT Z does so in any plane.
+// ATRANS shifts along the axes as they are turned already.
 bool Frames::set(const Step& step) {
   const auto refuse_frame = [&](std::string_view reason, std::string_view text) {
     return refusals_.block(step, reason, text);
@@ -41,7 +43,6 @@ bool Frames::set(const Step& step) {
   Axes shift = adds ? old_shift : Axes{};
   double angle = adds ? old_angle : 0.0;
   if (turns && !empty) {
-    // RPL turns about the plane's normal, which is Z only in G17; ROT Z does so in any plane.
     const bool by_plane = !std::isnan(step.frame_angle_deg);
     if ((step.mask & ~Step::bit('Z')) != 0 || (by_plane && state_.plane != Plane::xy)) {
       return refuse_frame("frame_rotation", "a rotation about an axis other than Z");
@@ -55,7 +56,6 @@ bool Frames::set(const Step& step) {
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
       added[i] = step.has(kAxisLetters[i]) ? component(step, i, state_) : 0.0;
     }
-    // ATRANS shifts along the axes as they are turned already.
     added = turned(added, angle);
     for (std::size_t i = 0; i < added.size(); ++i) {
       shift[i] += added[i];
