@@ -256,8 +256,8 @@ class ProgramRun::Run {
     report_.refused.back().line = static_cast<std::uint32_t>(report_.lines);
   }
 
-  // What else stands in the program that is not accepted: text and vocabulary only, since the state
-  // behind a refused block is not known.
+  // What else in the program is not accepted: text and vocabulary only, since the state after a
+  // refused block is not known.
   void survey() {
     while (report_.refused.size() < Report::kMostRefused &&
            files_.next() == LineSource::Status::line) {

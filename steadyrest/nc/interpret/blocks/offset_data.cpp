@@ -111,7 +111,8 @@ bool OffsetData::added_work(const Step& step, double form) {
   return true;
 }
 
-// L20: `offset` so that the machine stands where the words say, in the coordinates turned by it.
+// L20: sets `offset` so that the present position reads as the words say, in the coordinates that
+// it turns.
 void OffsetData::place_here(const Step& step, double rotation_deg, Axes& offset) const {
   // machine = offset + R·(position + G92) + tool, solved for the offset.
   const Axes machine = to_machine(state_, state_.position);
@@ -161,8 +162,8 @@ void OffsetData::place_tool(const Step& step, const Axes& machine, const Axes& f
   }
 }
 
-// L1 sets a tool's data; L10 and L11 so that the tip would stand at the given place of the present
-// work offset or of G59.3. What is in force changes with the next G43.
+// L1 sets a tool's data; L10 and L11 set them so that the tip would be at the given place of the
+// present work offset or of G59.3. What is in force changes with the next G43.
 bool OffsetData::tool(const Step& step, double form) {
   const double number = step.has('P') ? step['P'] : -1.0;
   Tool* const place = number == std::floor(number) && number > 0.0 && number < 1e6

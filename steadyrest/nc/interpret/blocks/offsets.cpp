@@ -60,8 +60,8 @@ bool Offsets::work_offset(const Step& step) {
     const auto active = static_cast<std::size_t>(
         // G54 … G59 are 540, 550, … 590; G59.1 … G59.3 are 591, 592, 593.
         code <= g::kWorkOffset6 ? (code - g::kWorkOffset1) / 10 : 5 + (code - g::kWorkOffset6));
-    // LinuxCNC goes on with what it has when the system is in force already, although a program may
-    // have set its numbers (#5221 …) anew.
+    // LinuxCNC keeps what it has when the system is in force already, even if the program has set
+    // its numbers (#5221 …) since.
     if (active != state_.active_offset || !state_.work_offset_on) {
       state_.work_in_force = state_.work_offset[active];
     }

@@ -216,7 +216,7 @@ bool has_feed(const Step& step, const State& state, Refusals& refusals) {
     return refusals.letter(step, step.has('F') ? 'F' : 'G', "feed_missing",
                            "a cutting move, but no feed (F) is in force");
   }
-  // With S0 a feed per revolution would stand still for ever.
+  // With S0 a feed per revolution would never move.
   if (state.feed_mode == FeedMode::per_revolution && state.spindle_speed_rev_s == 0.0 &&
       state.surface_speed_mm_s == 0.0) {
     return refusals.letter(step, 'G', "spindle_speed_missing",

@@ -49,8 +49,8 @@ Move& MoveOutput::fill(MoveKind kind, const Axes& end) noexcept {
 
 void MoveOutput::move(MoveKind kind, const Axes& end) {
   fill(kind, end);
-  // Behind G40 the tool still stands beside the contour. The first move starts there and ends on
-  // the contour.
+  // After G40 the tool is still beside the contour. The first move starts there and ends on the
+  // contour.
   if (beside_) {
     time_by_contour();
     current_.start = take_beside(current_.start);

@@ -198,7 +198,7 @@ void CycleCalls::ream(const Flow& call, const Hole& hole) {
   out_.along(MoveKind::rapid, hole.normal, hole.retract_mm);
 }
 
-// (RTP, RFP, SDIS, DP, DPR, DTB, SDIR, RPA, RPO, RPAP, POSS): the spindle stands while it goes out.
+// (RTP, RFP, SDIS, DP, DPR, DTB, SDIR, RPA, RPO, RPAP, POSS): out with the spindle stopped.
 void CycleCalls::bore(const Flow& call, const Hole& hole) {
   const PlaneAxes axes = axes_of(state_.plane);
   const Axes above = state_.position;

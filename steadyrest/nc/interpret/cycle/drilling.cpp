@@ -276,7 +276,7 @@ bool Drilling::tap(const Step& step, const Hole& hole) {
   return true;
 }
 
-// G86: out with the spindle standing. G88: the operator brings the tool out by hand.
+// G86: out with the spindle stopped. G88: the operator brings the tool out by hand.
 bool Drilling::bore(const Step& step, const Hole& hole) {
   const int direction = state_.spindle_direction;
   if (direction == 0) {
@@ -299,7 +299,7 @@ bool Drilling::bore(const Step& step, const Hole& hole) {
   return true;
 }
 
-// G87: in beside the axis with the spindle standing, then boring upwards from below.
+// G87: in beside the axis with the spindle stopped, then boring upwards from below.
 bool Drilling::back_bore(const Step& step, const Hole& hole) {
   const int direction = state_.spindle_direction;
   if (direction == 0) {
@@ -310,8 +310,8 @@ bool Drilling::back_bore(const Step& step, const Hole& hole) {
   const double unit = state_.unit_mm;
   const PlaneAxes axes = hole.axes;
   const double upper = memory.ijk[axes.normal] * unit + (state_.incremental ? hole.bottom_mm : 0.0);
-  // Beside by I and J, down with the spindle standing so that the bar passes, back on the axis
-  // below, and only there does the spindle turn.
+  // Aside by I and J, down with the spindle stopped so that the bar passes, back onto the axis
+  // below; only there does the spindle start.
   const Axes above = state_.position;
   Axes beside = above;
   beside[axes.first] += memory.ijk[axes.first] * unit;

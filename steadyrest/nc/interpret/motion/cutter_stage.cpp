@@ -48,8 +48,7 @@ bool CutterStage::end(const Step& step) {
     if (fault != Fault::none) {
       return refuse(step, fault);
     }
-    // The tool stands beside the contour until the next move. What it is off by goes into that
-    // move's start.
+    // The tool stays beside the contour until the next move, whose start includes the difference.
     Axes beside = compensation_.machine();
     for (std::size_t i = 0; i < beside.size(); ++i) {
       beside[i] -= state_.position[i];

@@ -173,7 +173,7 @@ bool Motion::arc(const Step& step) {
     return false;
   }
   if (!cutter_.arc_allowed()) {
-    // The tool stands beside the contour behind G40: an arc from there would have another radius.
+    // After G40 the tool is beside the contour: an arc from there would have another radius.
     return refusals_.letter(step, 'G', "arc_after_cutter_comp",
                             "the move after G40 is an arc; it must be a straight line");
   }

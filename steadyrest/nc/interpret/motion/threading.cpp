@@ -17,7 +17,7 @@ double word_or(const Step& step, char letter, double otherwise) noexcept {
 }  // namespace
 
 bool Threading::spindle_turns(const Step& step) {
-  // The feed follows the spindle: standing, it would never arrive.
+  // The feed follows the spindle; with the spindle stopped it would never arrive.
   return (state_.spindle_direction != 0 &&
           (state_.spindle_speed_rev_s != 0.0 || state_.surface_speed_mm_s != 0.0)) ||
          refusals_.code(step, 'G', step.moves_by / 10, "spindle_stands",

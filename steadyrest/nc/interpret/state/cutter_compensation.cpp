@@ -104,7 +104,7 @@ CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes&
   const PlanePoint from = point(programmed);
   const PlanePoint to = point(move.end);
   Move offset = move;
-  // The entry: straight from where the tool stands to the offset of the programmed end.
+  // The entry: straight from the tool's position to the offset of the programmed end.
   if (!entered_) {
     current_ = from;
     if (length(between(from, to)) <= radius) {
@@ -123,8 +123,8 @@ CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes&
   }
   const PlanePoint direction = unit(way);
   const PlanePoint normal = to_tool(direction);
-  // The tool stands on the normal of the contour at the corner, so its place there tells the
-  // direction before the corner, whatever kind of move came before.
+  // The tool is on the contour's normal at the corner, so its position tells the direction before
+  // the corner, whatever kind of move came before.
   const double turn = turn_between(from_tool(unit(between(from, current_))), direction, tool_.side);
   const Corner corner = kind_of(turn, behind_outer_arc());
   if (corner == Corner::concave) {
@@ -246,7 +246,7 @@ CutterCompensation::Fault CutterCompensation::entry_arc(const Move& move, PlaneP
   return Fault::none;
 }
 
-// The first compensated move, an arc: from where the tool stands to the offset of the arc's end.
+// The first compensated move, an arc: from the tool's position to the offset of the arc's end.
 CutterCompensation::Fault CutterCompensation::enter_on_arc(const Move& move, const Axes& programmed,
                                                            PlanePoint end) {
   const PlanePoint from = point(programmed);

@@ -172,7 +172,7 @@ TEST(Flow, ModesThatM73KeptComeBackAtTheEndOfTheCall) {
 TEST(Flow, PositionsOffsetsAndToolsAreReadAsParameters) {
   EXPECT_THAT(x_of("G0 X7\n#1=#5420\nX1\nX#1\nX[#<_x>+1]\nM2\n"), ElementsAre(7, 1, 7, 8));
   EXPECT_THAT(x_of("G10 L2 P2 X3\nG0 X#5241\nG55 X#5220\nX#5220\nM2\n"), ElementsAre(3, 1, 2));
-  // A number that a program sets acts when its system is chosen anew, or set by G10.
+  // A number that a program sets acts when its system is selected again, or when G10 sets it.
   EXPECT_THAT(x_of("#5221=3\nG92 Y1\nG0 Z1\nG10 L2 P1 Y1\nG0 Z2\nM2\n"), ElementsAre(0, -3));
 }
 

@@ -197,7 +197,7 @@ TEST(SinumerikCycles, FollowEachMoveWhileMcallIsOn) {
       ElementsAre(50, 50, 2, -5, 10, 10, 2, -5, 10, 10));
 }
 
-// CYCLE85: out with its own feed to the safety clearance; CYCLE86: aside with the spindle standing.
+// CYCLE85: out at its own feed to the safety clearance; CYCLE86: aside with the spindle stopped.
 TEST(SinumerikCycles, ReamAndBore) {
   const std::string head = "G18 G0 Z70 X50 Y105 F100\n";
   const auto ream = moves_of(head + "CYCLE85(105,102,2,,25,,300,450)\nM30\n", sinumerik());
@@ -254,7 +254,7 @@ TEST(SinumerikSpindle, OfNumberOneIsTheMaster) {
   EXPECT_EQ(reason_of_block("M2=3"), "extended_address");
 }
 
-/// Where the machine stands at the end of a move.
+/// Machine position at the end of a move.
 std::pair<double, double> machine(const Move& move) {
   const Axes at = machine_of(move, move.end);
   return {at[0], at[1]};

@@ -96,7 +96,7 @@ void set_arc(PathSegment& s, const Move& move) {
     s.centre_mm[i] = centre[i];
     s.axis[i] = sign * normal[i];
   }
-  // The interpreter's centre may stand anywhere along the normal; bring it to the start's height.
+  // The interpreter's centre may lie anywhere along the normal; bring it to the start's height.
   const double lift = dot(subtract(s.start_mm, s.centre_mm), s.axis);
   s.centre_mm = add_scaled(s.centre_mm, s.axis, lift);
   const Point from = subtract(s.start_mm, s.centre_mm);

@@ -189,8 +189,8 @@ void Interpolator::run() noexcept {
   }
 }
 
-/// The moving average; the sums are made anew once in each turn of the ring, so that rounding
-/// cannot grow.
+/// The moving average. The sums are computed afresh once a turn of the ring, so that rounding does
+/// not build up.
 void Interpolator::average() noexcept {
   const double s = window_.segment(lead_.segment).position_mm + lead_.distance_mm;
   if (taps_ == 1) {

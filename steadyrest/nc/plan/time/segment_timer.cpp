@@ -23,7 +23,7 @@ using kernel::signal::PathSegment;
 
 namespace {
 
-/// S is counted anew before rounding could reach the square of a slow junction's speed.
+/// S is rebased before rounding could reach the square of a slow junction's speed.
 constexpr double kMostSum = 1e9;
 constexpr double kWholePeriod = 1e-6;
 
@@ -256,7 +256,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     spindle_.advance(seconds);
   }
 
-  /// The path stands: the period in hand is used up.
+  /// The path has stopped: the rest of this period is lost.
   void stand() noexcept {
     speed_mm_s_ = 0.0;
     const double periods = (time_s_ - stood_s_) / period_s_;

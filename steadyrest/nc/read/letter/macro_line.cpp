@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 11> kKeywords = {
 
 }  // namespace
 
-// False when a statement that begins with a word of several letters stands here.
+// False when this begins a statement whose word has several letters.
 bool LetterLine::macro_keyword() {
   // One letter is an address: `D1`, but `DO1` and `DPRNT[…]`.
   if (at_ + 1 == end_ || !is_letter(at_[1])) {

@@ -227,7 +227,7 @@ bool SinumerikLine::assign(const char* word_begin, Lookup lookup) {
   return lookup == Lookup::found || refuse(since(word_begin), why.reason, why.text);
 }
 
-// R1=…, R[…]=…; at_ stands behind the R.
+// R1=…, R[…]=…; at_ is just behind the R.
 bool SinumerikLine::parameter_assignment(const char* word_begin) {
   double index = 0.0;
   // R[R1+2]=…: the index may be calculated.

@@ -8,7 +8,7 @@
 #include <steadyrest/nc/read/sinumerik/sinumerik_expression.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
 
-// The functions that stand in expressions of the dialect `sinumerik`.
+// The functions in expressions of the dialect `sinumerik`.
 namespace steadyrest::nc::read {
 namespace {
 

@@ -333,7 +333,7 @@ class Rewriter {
         }
         ++text;
       }
-      // The end stands behind the line: one piece.
+      // Line and line end are adjacent in the buffer: one write.
       writer.write({lines.line().data(), lines.line().size() + lines.ending().size()});
       if (!lines.ending().empty()) {
         ending = lines.ending();

@@ -26,8 +26,8 @@ Axes centre_of(const Move& move) {
   return centre;
 }
 
-// A spline keeps what stands from its start to its end, so its points are those of the original in
-// work coordinates.
+// A spline keeps its correction from start to end, so its points are those of the original in work
+// coordinates.
 bool same_points(const interpret::SplinePoint& a, const interpret::SplinePoint& b) {
   return same(a.x_mm, b.x_mm) && same(a.y_mm, b.y_mm) && a.weight == b.weight;
 }

@@ -167,8 +167,8 @@ class Prover {
     }
   }
 
-  /// Moves of an inserted line: a rapid of planned axes alone, to where they stand in the original
-  /// and what is to stand.
+  /// Moves of an inserted line: a rapid of planned axes alone, to their position in the original
+  /// plus the correction.
   bool added_moves() {
     const bool head = inserted_.before() < head_lines_;
     if (std::ranges::any_of(changed_moves_.events, [head](const interpret::Event& event) {
@@ -186,7 +186,7 @@ class Prover {
     return true;
   }
 
-  /// The same line in both: what stands, and every move.
+  /// The same line in both programs: the correction in force, and every move.
   bool pair() {
     if (changed_run_->executed() != walk_->run().executed()) {
       return refuse("executes another line than the original");
@@ -238,7 +238,7 @@ class Prover {
                      "do this before the first correction, or leave the axis out of the plan");
   }
 
-  /// Before the paired line: the correction that stands is the last one, or changes here.
+  /// Before the paired line: the correction is the last one, or changes here.
   bool what_stands(std::size_t index, double stands_mm) {
     const AxisPlan& axis = plan_.axes[index];
     double& wanted_mm = shifts_.wanted[axis.index];

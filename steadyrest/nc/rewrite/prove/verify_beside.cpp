@@ -187,8 +187,8 @@ class Prover {
     }
   }
 
-  /// Lines that are right in themselves may stand where the control does not read them: before the
-  /// name of the program, behind its end.
+  /// Correct lines may still be where the control does not read them: before the name of the
+  /// program, or after its end.
   void run_changed(const interpret::Config& config) {
     class Nothing final : public interpret::Sink {
       void on_move(const interpret::Move& /*move*/) override {}

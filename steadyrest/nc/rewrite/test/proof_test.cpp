@@ -28,7 +28,7 @@ const std::string kOneStep =
 const std::string kThreeSteps =
     R"({"transitions": [{"n": 3, "t_min": [0.71, 0.71, 0.95], "delta_um": [0, 100, -150]}]})";
 
-/// Three pockets; `between` stands behind the second. 2.4 min.
+/// Three pockets; `between` follows the second. 2.4 min.
 std::string pockets(const std::string& between, const std::string& head = kHead) {
   return head +
          "N50 G0 X0 Y0 Z10\nN60 G1 Z-1 F200\nN70 G1 X50\nN80 G0 Z20\nN90 G0 X0 Y10\n"
@@ -168,7 +168,7 @@ TEST_F(Start, AStoredRotationIsKnownForWhatIsTurnedByIt) {
   EXPECT_EQ(fault(shop_, pockets(""), kThreeSteps), "") << "Z does not turn";
 }
 
-// Beside the file: whoever has turned the offset since, or stands in G7, is stopped.
+// The text checks it too: whoever has turned the offset since, or is in G7, is stopped.
 TEST_F(Start, XAndYAreCorrectedAlongTheMachinesAxesAlone) {
   shop_.config.start_known = true;
   const std::string in_x = replaced(kThreeSteps, R"({"tr)", R"({"axis": "X", "tr)");
@@ -193,7 +193,7 @@ TEST_F(Start, ALatheSaysWhetherXIsARadius) {
   EXPECT_EQ(fault(shop_, "G8 " + turning, in_x), "");
 }
 
-// Where the axis stands is not what the program has given any more.
+// The axis is no longer where the program has sent it.
 TEST_F(Start, RestatesNothingBehindATool) {
   shop_.settings.window_s = 6.0;
   const std::string plan =
@@ -335,7 +335,7 @@ TEST_F(Kept, OffsetsInForceThatAreSetByTheirNumbersAreRefusedByTheLine) {
   expect_refused(pockets("#5213=1\n"), 13U);
 }
 
-// G55 does nothing in a control that stands in it already.
+// G55 does nothing in a control that is in G55 already.
 TEST_F(Start, AnyWorkOffsetMayBeInForceUntilTheProgramSaysWhich) {
   EXPECT_THAT(fault_of("#5250=30\nG55\n" + pockets("")), HasSubstr("by its numbers"));
   EXPECT_EQ(fault_of("G54\n#5250=30\nG55\n" + pockets("")), "");

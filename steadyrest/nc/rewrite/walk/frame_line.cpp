@@ -8,7 +8,7 @@
 namespace steadyrest::nc::rewrite {
 
 // A line that changes the frame while a correction is in force: the correction comes off before it
-// and goes on again behind it. What stands against that, in the order in which it can be mended.
+// and goes on again behind it. The obstacles, in the order in which they are named.
 std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char letter,
                                                  const std::string& program) {
   const auto refuse = [&](std::string what, std::string to_do) {

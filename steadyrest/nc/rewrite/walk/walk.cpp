@@ -88,7 +88,7 @@ Result<std::unique_ptr<Walk>> Walk::make(const std::string& path, const interpre
   return made;
 }
 
-// The state as it stands before the next line.
+// The state before the next line.
 void Walk::remember() {
   const interpret::State& state = run_->state();
   before_.position = state.position;
@@ -239,7 +239,7 @@ void Walk::look_at_g(const read::Word& word) {
 }
 
 void Walk::look(const read::Block& block) {
-  // What the control stood in for what is said now may have been something else.
+  // The control may have been in another mode until the program set this one.
   constexpr interpret::ModeMask kMeaning =
       mode(GGroup::units) | mode(GGroup::distance) | mode(GGroup::work_offset);
   const bool meaning = said_.has(kMeaning);
@@ -298,8 +298,7 @@ bool Walk::may_write(std::size_t index) const noexcept {
          (other_ == nullptr || (together() && other_->may_write_alone(index)));
 }
 
-// A rotation is about Z: what stands on another axis than X and Y knows nothing of it. A diameter
-// is X's.
+// A rotation is about Z and leaves every axis but X and Y alone. Only X has diameters.
 bool Walk::may_write_alone(std::size_t index) const noexcept {
   const interpret::State& now = run_->state();
   const bool turned = before_.rotation_deg != 0.0 || now.rotation_in_force_deg != 0.0;

@@ -62,7 +62,7 @@ std::string other() {
       "G98", "G99");
 }
 
-// A contour beside which the tool still stands when plain blocks come again.
+// A contour that leaves the tool beside it when the plain blocks resume.
 void compensated(Texts& texts) {
   texts.plain("G0 X0 Y0");
   texts.other(*rc::gen::element<std::string>("G93", "G94"));

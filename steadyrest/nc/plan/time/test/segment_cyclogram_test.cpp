@@ -76,8 +76,8 @@ struct Flow {
   std::vector<bool> coolant;  ///< of the transitions in which the spindle turns
 };
 
-// What the words do stands in the controls' manuals: M7 and M8 open, M9 closes; on LinuxCNC mist
-// and flood may flow at once, and M9 closes both; a kept mode (M70, M72) brings the coolant back.
+// From the controls' manuals: M7 and M8 open, M9 closes. On LinuxCNC mist and flood may flow
+// together, and M9 closes both; saved modes (M70, M72) bring the coolant back.
 TEST(Cyclogram, CoolantBeginsATransitionInEveryDialect) {
   using read::Dialect;
   const std::vector<Flow> flows = {

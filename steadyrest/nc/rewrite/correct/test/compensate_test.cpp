@@ -90,7 +90,7 @@ TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
   EXPECT_THAT(read_file(shop.changed()), HasSubstr("G0 Z5.0000 (STEADYREST restated)\nG0 X0"));
 }
 
-// Where the axis stands is not known then: a number in its place would move it by the work offset.
+// The axis' position is not known there: a number in its place would move it by the work offset.
 TEST(Compensate, RestatesNoAxisThatTheProgramHasNotSentToItsPlace) {
   const Case cases[] = {
       {"never moved", "G21 G90 G94 G54\nG0 X0\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
@@ -279,7 +279,7 @@ TEST(Compensate, RefusesAnAxisOfWhichTheMachineHasNoRoomForANote) {
   EXPECT_THAT(refused.error().what, HasSubstr("XYZAC"));
 }
 
-// Offsets of the control leave a rounding in what is found to stand.
+// The control's offsets leave a rounding in the correction that is found.
 TEST(Compensate, ProvesCorrectionsThatCancelWhateverTheOffsetsAre) {
   Workshop shop;
   shop.settings.window_s = 30.0;
