@@ -18,6 +18,8 @@ using read::LineSource;
 using read::Reader;
 using read::Refused;
 
+// Between interpreter and caller: the report counts moves, and the bound on repeated lines needs
+// that count too.
 class Counter final : public Sink {
  public:
   Counter(Sink& sink, Report& report) : sink_(sink), report_(report) {}
@@ -63,8 +65,11 @@ class ProgramRun::Run {
   Run& operator=(const Run&) = delete;
   ~Run() = default;
 
+  // False at the end of the program, at the first refusal and where the source ends.
   bool step() { return !interpreter_->finished() && next_line() && line(); }
 
+  // A refused program is searched for further unknown words, except where lines are missing or a
+  // subprogram's file is in hand: the rest would not be the user's program.
   Report take() {
     if (!report_.refused.empty() && !source_failed_ && files_.in_main()) {
       survey();
@@ -96,6 +101,7 @@ class ProgramRun::Run {
     if (dialect_ != read::Dialect::linuxcnc && !ends_in_order()) {
       return false;
     }
+    // sinumerik: calls and definitions are flow of their own, so they go another way.
     const bool sinumerik = dialect_ == read::Dialect::sinumerik;
     if (sinumerik && flow_.in_call() && typed_.values_left() &&
         !(block_.words().empty() && block_.flow().kind == read::FlowKind::none)) {
@@ -161,6 +167,7 @@ class ProgramRun::Run {
     return interpreter_->execute_cycle(block_, counter_) || refuse(interpreter_->refused());
   }
 
+  // M99, M17 or RET: back to the caller, or to the head where the call repeats.
   bool end_of_subprogram() {
     if (dialect_ == read::Dialect::sinumerik && !flow_.in_call()) {
       return refuse({.line = block_.line(),
@@ -216,6 +223,8 @@ class ProgramRun::Run {
     return false;
   }
 
+  // The end of the file is a refusal unless the program has ended itself: half a program must not
+  // pass as a whole one.
   bool next_line() {
     switch (files_.next()) {
       case LineSource::Status::line:
@@ -341,6 +350,8 @@ std::uint32_t ProgramRun::line() const noexcept {
 bool ProgramRun::executed() const noexcept {
   return run_->executed_;
 }
+// The line was plain and its values were numbers: nothing but position, motion and feed can have
+// changed.
 bool ProgramRun::moved_alone() const noexcept {
   return run_->executed_ && run_->interpreter_->moved_alone() && run_->reader_.numbers_alone();
 }
@@ -360,6 +371,7 @@ std::vector<std::string> ProgramRun::subprogram_files() const {
   return run_->files_.subprograms();
 }
 
+// What the control would keep when the program is over; rewrite compares it.
 ProgramRun::Kept ProgramRun::kept() const {
   Kept kept{.tools = run_->interpreter_->tools().value_or(std::vector<Tool>{}), .variables = {}};
   if (run_->dialect_ == read::Dialect::linuxcnc) {

@@ -71,6 +71,8 @@ bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) 
                          "% must be alone on its line, as the first and last line of the program");
 }
 
+// Length, blank lines and % are the same in all dialects up to the rules above; the rest is the
+// dialect's.
 bool Reader::read(std::string_view line, std::uint32_t number, std::size_t ending_length,
                   Block& block) {
   // Values are numbers alone until a line shows otherwise: an unchanged line then need not be read

@@ -52,6 +52,8 @@ Interpreter::Interpreter(Config config) : control_(std::move(config)) {
   parameters_.keep(control_.config.numbers);
 }
 
+// One block: decode, choose its motion, check, act. False when it is refused; the state is then of
+// no further use.
 bool Interpreter::execute(const Block& block, Sink& sink) {
   program_call_.kind = ProgramCall::Kind::none;
   // `follows`: the block before was a plain one, so the move in hand holds all but end and feed.
@@ -90,6 +92,7 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   return step_.moves_by < 0 || (step_.mask & kAxisMask) == 0 || cycle_calls_.after_move();
 }
 
+// sinumerik: CYCLE81(…) and MCALL have no words, so they pass neither decoder nor checks.
 bool Interpreter::execute_cycle(const Block& block, Sink& sink) {
   if (block.deleted() && control_.config.block_delete) {
     return true;
@@ -246,6 +249,8 @@ bool Interpreter::call_program(const Step& step) {
   return true;
 }
 
+// M2 and M30 end the program, M0, M1 and M60 stop it; the value tells M1, which the operator may
+// switch off.
 bool Interpreter::stop(const Step& step) {
   const int code = step.code(MGroup::stopping);
   if (code == m::kEnd || code == m::kEndAndRewind) {

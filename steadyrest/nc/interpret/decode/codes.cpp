@@ -119,6 +119,7 @@ constexpr std::array kRefusedM = {
 
 }  // namespace
 
+// One look-up; anything outside of the table is unknown.
 GroupOfG group_of_g(int code) noexcept {
   if (code < 0 || code >= static_cast<int>(kCodes)) {
     return {};
@@ -177,6 +178,7 @@ GroupOfM group_of_m(int code) noexcept {
   }
 }
 
+// Empty for a code that is not known at all. Only refusals come here, so a search will do.
 std::string_view known_but_refused_g(int code) noexcept {
   for (const Note& note : kRefusedG) {
     if (code >= note.first && code <= note.last) {

@@ -9,6 +9,8 @@ namespace steadyrest::nc::interpret {
 
 using read::Word;
 
+// One word of each modal group: a second one is refused, as on LinuxCNC. Which of two would
+// count differs between the other controls.
 bool StepWriter::put_g(const Word& word, int code) {
   const GroupOfG found = group_of_g(code);
   const bool compensates = found.group == GGroup::cutter && code != g::kCutterOff;

@@ -131,6 +131,8 @@ bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
   return true;
 }
 
+// The fault is found at the next corner, so the line that is named is the one after the move in
+// question.
 bool CutterStage::refuse(const Step& step, Fault fault) {
   const auto because = [&](std::string_view reason, std::string_view text) {
     return refusals_.block(step, reason, text);

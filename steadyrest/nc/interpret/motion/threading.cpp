@@ -85,6 +85,7 @@ struct Threading::Cycle {
   double drive_mm;  ///< where X stands
 };
 
+// G76 in LinuxCNC's form: one block with all words; depths are measured from the drive line.
 bool Threading::read(const Step& step, Cycle& cycle) {
   for (const char letter : std::string_view{"PIJK"}) {
     if (!step.has(letter)) {

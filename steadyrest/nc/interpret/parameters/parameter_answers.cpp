@@ -8,6 +8,7 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
+// LinuxCNC's truth values are 1 and 0.
 constexpr double truth(bool yes) noexcept {
   return yes ? 1.0 : 0.0;
 }
@@ -123,6 +124,7 @@ constexpr auto kAnswers = std::to_array<std::pair<std::string_view, Answer>>({
 
 }  // namespace
 
+// A linear search: such names are rare in programs.
 const Answer* answer_of(std::string_view name) {
   const auto* const found =
       std::ranges::find(kAnswers, name, [](const auto& one) { return one.first; });

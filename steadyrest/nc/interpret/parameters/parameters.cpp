@@ -230,6 +230,8 @@ bool Parameters::of_state(std::string_view name, double& value) const {
   return true;
 }
 
+// Numbers that a program has not set read as 0 in LinuxCNC; they count as asked, since the control
+// may hold another value.
 Lookup Parameters::number(int index, double& value) const {
   if (index < 1 || index >= kNumbers) {
     return Lookup::no_such_number;
@@ -284,6 +286,7 @@ Lookup Parameters::name(std::string_view name, double& value) const {
   return of_machine(name) ? Lookup::not_known_here : Lookup::no_such_name;
 }
 
+// In force once the line has been read: `#1=2 G0 X#1` still uses the old #1.
 Lookup Parameters::set_number(int index, double value) {
   if (index < 1 || index >= kNumbers) {
     return Lookup::no_such_number;
@@ -380,6 +383,7 @@ void Parameters::leave(const double* returned) {
   record_value(returned);
 }
 
+// endsub and return without a value leave 0, and say so in #<_value_returned>.
 void Parameters::record_value(const double* returned) noexcept {
   value_ = returned != nullptr ? *returned : 0.0;
   value_returned_ = returned != nullptr ? 1.0 : 0.0;

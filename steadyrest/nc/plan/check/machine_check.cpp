@@ -72,6 +72,7 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
   }
 }
 
+// Whether the end of the move is known in machine coordinates, tool and offset included.
 bool MachineCheck::placed(const Move& move, std::size_t axis) const noexcept {
   // Tool lengths act in Z, on a lathe in X too.
   const bool by_tool = axis == 2 || (axis == 0 && lathe_);

@@ -79,6 +79,7 @@ bool Expression::read(double& out) {
   return operand(out);
 }
 
+// A signed value: bracket, parameter, number or function.
 bool Expression::operand(double& out) {
   bool negative = false;
   // Any number of signs: `1--1` is 2, as rs274 reads it.
@@ -243,6 +244,7 @@ bool Expression::parameter_number(int& index) {
   return true;
 }
 
+// Why a parameter has no value, in LinuxCNC's terms.
 bool Expression::looked_up(Lookup lookup) {
   switch (lookup) {
     case Lookup::found:

@@ -16,6 +16,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 }  // namespace
 
+// The name up to its bracket. EXISTS and ATAN have forms of their own; all others take one value.
 bool Expression::function(double& out) {
   std::array<char, 8> name{};
   std::size_t length = 0;

@@ -33,6 +33,7 @@ std::string_view function_named(std::string_view name) noexcept {
 
 }  // namespace
 
+// Why a variable has no value, or takes none, in FANUC's terms.
 LookupText macro_lookup_text(Lookup lookup) noexcept {
   switch (lookup) {
     // Vacant differs from 0: G0 X#1 with a vacant #1 does not move X at all. So a vacant variable
@@ -218,6 +219,7 @@ bool MacroExpression::function(double& out) {
   return bracket(x) && evaluate(name, x, out);
 }
 
+// Angles in degrees. Ranges of the arc functions are those of FANUC, not of C++.
 bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
   const auto domain = [&](bool inside, std::string_view text) {
     return inside || fail("out_of_domain", text);
@@ -302,6 +304,7 @@ bool MacroExpression::arc_tangent(double y, double& out) {
   return true;
 }
 
+// A plain number, or any expression in brackets.
 bool MacroExpression::variable_number(int& index) {
   double number = 0.0;
   // `##5` is not FANUC's way; #[#5] is.

@@ -14,6 +14,7 @@ namespace steadyrest::nc::read {
 namespace {
 
 // The first six steer the flow, the others write to files and printers.
+// Statements of custom macros that begin with a word instead of an address.
 constexpr std::array<std::string_view, 11> kKeywords = {
     "IF", "THEN", "GOTO", "WHILE", "DO", "END", "SETVN", "POPEN", "PCLOS", "DPRNT", "BPRNT"};
 
@@ -107,6 +108,7 @@ bool LetterLine::macro_statement() {
   }
   assigned_ = true;
   const Lookup lookup = reading_.values->set_number(index, value);
+  // The same texts as for reading a variable.
   const LookupText why = macro_lookup_text(lookup);
   return lookup == Lookup::found || refuse(since(from), why.reason, why.text);
 }

@@ -24,6 +24,7 @@ struct Keyword {
   FlowKind kind;
   Takes takes;
 };
+// LinuxCNC 2.9's O-words and how many values each takes.
 constexpr std::array kKeywords = {
     Keyword{"sub", FlowKind::sub, Takes::any},
     Keyword{"endsub", FlowKind::endsub, Takes::perhaps_one},
@@ -77,6 +78,7 @@ bool OWord::fail(std::string_view reason, std::string_view text) noexcept {
   return false;
 }
 
+// In small letters, past blanks; NUL at the end of the line.
 char OWord::peek() noexcept {
   while (at_ < line_.size() && is_blank(line_[at_])) {
     ++at_;
@@ -103,6 +105,7 @@ bool OWord::read(Flow& flow, bool evaluate) {
   return !evaluate || arguments(flow);
 }
 
+// O100, O<name>, O#1 or O[…]. Numbers and names share one space: a label is text from here on.
 bool OWord::label(Flow& flow) {
   constexpr std::string_view kText =
       "an O-word without its label; write O and a whole number, or O<name>";

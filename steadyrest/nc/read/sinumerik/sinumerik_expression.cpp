@@ -82,6 +82,7 @@ bool lower_name(std::string_view written, Name& name) noexcept {
   });
 }
 
+// Why a parameter or variable has no value, or takes none, in SINUMERIK's terms.
 SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept {
   switch (lookup) {
     case Lookup::no_such_name:
@@ -121,10 +122,12 @@ bool SinumerikExpression::closing(char bracket) {
   return true;
 }
 
+// A whole expression: from the weakest operator down.
 bool SinumerikExpression::read(double& out) {
   return climb(out, kComparison);
 }
 
+// Truth values are 1 and 0, and everything but 0 is true.
 bool SinumerikExpression::apply(Operator op, double& left, double right) {
   const double a = left;
   // Relative: 0.1 + 0.2 == 0.3 holds on the control.
@@ -185,6 +188,7 @@ bool SinumerikExpression::arithmetic(Operator op, double& left, double right) {
   return finite(left);
 }
 
+// Bits of 32-bit whole numbers; others have none.
 bool SinumerikExpression::bits(Operator op, double& left, double right) {
   constexpr double kMost = 2147483647.0;
   if (!whole(left) || !whole(right) || left < 0.0 || right < 0.0 || left > kMost || right > kMost) {
@@ -308,6 +312,7 @@ bool SinumerikExpression::word(double& out) {
                        : fail("variable", "an array, or a word with no known value");
 }
 
+// R5 or R[…], whose index is an expression.
 bool SinumerikExpression::parameter(double& out, std::string_view name) {
   double index = 0.0;
   // Past the [ that peek() has found.

@@ -35,6 +35,7 @@ bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t w
   return closing(')');
 }
 
+// Functions of "Job planning" by their name, number of values and domain.
 bool SinumerikExpression::function(std::string_view name, double& out) {
   struct Known {
     std::string_view name;

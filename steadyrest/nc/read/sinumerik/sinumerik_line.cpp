@@ -181,6 +181,7 @@ bool SinumerikLine::item() {
   return push(word_begin, word);
 }
 
+// X10 without = takes a plain number only; X1+2 is not allowed.
 bool SinumerikLine::plain_number(const char* word_begin, Word& word) {
   const Number number = read_number(rest());
   if (number.length == 0) {
@@ -273,6 +274,7 @@ bool SinumerikLine::assigned(const char* word_begin, Word& word) {
          push(word_begin, word);
 }
 
+// X=AC(…) or X=IC(…); any other two letters begin an expression.
 bool SinumerikLine::qualified(const char* word_begin, Word& word) {
   const std::string_view head{at_, 2};
   const bool absolute = equal(head, "AC");

@@ -56,6 +56,7 @@ bool equal(std::string_view text, std::string_view upper_name) noexcept {
   return std::ranges::equal(text, upper_name, {}, upper);
 }
 
+// A search through twenty names: such words are a small part of a program.
 bool known_name(std::string_view name) noexcept {
   return std::ranges::any_of(kKnownNames,
                              [&](std::string_view known) { return equal(name, known); });

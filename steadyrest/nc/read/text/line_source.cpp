@@ -28,6 +28,7 @@ kernel::outcome::Refusal cannot_open(const std::string& path, const std::string&
 
 }  // namespace
 
+// One buffer for the whole program; its size does not depend on the program's length.
 kernel::outcome::Result<LineSource> LineSource::open(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) {
@@ -66,6 +67,7 @@ LineSource::LineSource(LineSource&& other) noexcept {
   *this = std::move(other);
 }
 
+// The file descriptor has one owner; what this one had open is closed first.
 LineSource& LineSource::operator=(LineSource&& other) noexcept {
   if (this != &other) {
     if (descriptor_ >= 0) {
@@ -138,6 +140,7 @@ bool LineSource::seek(std::uint64_t offset, std::uint32_t number) noexcept {
   return true;
 }
 
+// The line up to `stop`; `ending` bytes behind it are its end.
 LineSource::Status LineSource::take(const char* stop, std::size_t ending) noexcept {
   auto length = static_cast<std::size_t>(stop - at_);
   if (length > kLongestLine) {

@@ -86,6 +86,7 @@ class TextPair {
     }
   }
 
+  // An inserted line: to the head or to the group of the original's line that follows it.
   void take() {
     inserted_.lines.push_back(after_.number());
     // The line ends around the inserted line: the last one seen, or at the top of the file the

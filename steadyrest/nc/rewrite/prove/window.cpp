@@ -26,6 +26,7 @@ Result<std::unique_ptr<Window>> Window::make(const KnownTimes* known,
   return made;
 }
 
+// The time comes later, when the clock has it: the ticket says whose it is.
 void Window::ask(std::size_t axis, const WrittenChange& change) {
   clock_->ask(changes_[axis].size() * changes_.size() + axis);
   changes_[axis].push_back(change);

@@ -90,6 +90,8 @@ class PlanReader {
     return twice.empty() || refuse_key(twice, "a key that appears twice", "keep one of them");
   }
 
+  // Either `transitions`, for one axis, or `axes`, for several; every other key must be one of
+  // those that makers of plans are known to write.
   bool root() {
     if (!json_.is_object()) {
       return refuse("not an object", "write {\"axis\": \"Z\", \"transitions\": […]}");

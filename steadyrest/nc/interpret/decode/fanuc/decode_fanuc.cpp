@@ -99,6 +99,8 @@ bool FanucDecoder::block(const Block& block) {
   return finish();
 }
 
+// FANUC's G61 is an exact stop and G64 cutting mode. Decimal codes of LinuxCNC are refused:
+// controls of this family disagree on them.
 bool FanucDecoder::g_word(const Word& word) {
   // Tenths: G54.1 is 541. 54.1·10 is not exactly 541 in binary, hence the tolerance.
   const double tenfold = word.value * 10.0;
@@ -145,6 +147,8 @@ bool FanucDecoder::g_word(const Word& word) {
   }
 }
 
+// M50 to M53, M60 and M61 are the machine builder's on these controls, though LinuxCNC defines
+// them.
 bool FanucDecoder::m_word(const Word& word) {
   // First, since the words of [chatter] are often taken from the machine builder's numbers.
   if (is_modulation(word)) {
@@ -157,6 +161,8 @@ bool FanucDecoder::m_word(const Word& word) {
   return take_m(word);
 }
 
+// Where a letter differs from LinuxCNC's: U V W, D, P as milliseconds, K as repeats, and numbers
+// without a decimal point.
 bool FanucDecoder::letter_word(const Word& word) {
   const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
   char letter = word.letter;

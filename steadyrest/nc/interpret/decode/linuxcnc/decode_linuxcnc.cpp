@@ -51,6 +51,7 @@ class LinuxcncDecoder final : public StepWriter {
   }
 
  private:
+  // @ is the radius, ^ the angle; not a number stands for a word that is left out.
   bool take_polar(const Word& word) {
     // @ is the radius, ^ the angle.
     double& place = word.letter == '@' ? step_.polar_radius : step_.polar_angle_deg;

@@ -21,6 +21,7 @@ struct Translation {
 };
 
 // Codes with the same meaning under the same or another number.
+// G505 to G509 are further settable offsets; here they are G58 and following of the common list.
 constexpr std::array kTranslations = {
     Translation{0, g::kRapid},         Translation{1, g::kLinear},
     Translation{2, g::kArcClockwise},  Translation{3, g::kArcCounterClockwise},
@@ -42,6 +43,7 @@ constexpr std::array kTranslations = {
     Translation{96, g::kCuttingSpeed}, Translation{97, g::kSpindleSpeed},
 };
 
+// Known codes that are not interpreted: named for what they do, as a user would look for them.
 struct Note {
   int code;
   std::string_view text;
@@ -163,9 +165,12 @@ bool SinumerikDecoder::m_word(const Word& word) {
   return take_m(word);
 }
 
+// Letters mean what they do in the other dialects, except in a G4 block, and except D and those
+// that the language does not have.
 bool SinumerikDecoder::letter_word(const Word& word) {
   const char letter = word.letter;
   const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
+  // T="DRILL 8.5": a tool by its name.
   if (word.qualifier == Qualifier::text) {
     if (letter != 'T') {
       return refuse(word, "bad_value", "a string where a number belongs");
@@ -218,6 +223,8 @@ bool SinumerikDecoder::letter_word(const Word& word) {
   return put_letter(word, letter, word.value);
 }
 
+// Words of two or more letters. Frames and SUPA change how the axis words of the block are meant;
+// the others stand for a letter of the common vocabulary or have no effect.
 bool SinumerikDecoder::name_word(const Word& word) {
   const auto without_effect = [&](std::string_view known) { return equal(word.name, known); };
   if (equal(word.name, "RET")) {
@@ -260,6 +267,7 @@ bool SinumerikDecoder::name_word(const Word& word) {
     step_.frame_angle_deg = word.value;
     return true;
   }
+  // CR= is R of the other dialects, which is a parameter here.
   if (equal(word.name, "CR")) {
     return put_letter(word, 'R', word.value);
   }
