@@ -79,7 +79,7 @@ class ProgramRun::Run {
 
  private:
   /// False when it is refused.
-  // More values than PROC takes show at the subprogram's first block behind PROC.
+  /// More values than PROC takes show at the subprogram's first block behind PROC.
   bool line() {
     if (!flow_.count_line(report_.moves - std::exchange(moves_before_, report_.moves))) {
       return refuse(flow_.refused());
@@ -200,7 +200,7 @@ class ProgramRun::Run {
   }
 
   /// Tells the interpreter of calls that began or ended.
-  // A call that ends and begins again in one step (M98 L, NAME P) leaves the depth as it was.
+  /// A call that ends and begins again in one step (M98 L, NAME P) leaves the depth as it was.
   bool follow(bool accepted) {
     const std::size_t calls = interpreter_->parameters().calls();
     again_ = calls_ == calls;

@@ -189,9 +189,9 @@ bool Interpreter::non_modal(const Step& step) {
 
 bool Interpreter::move(const Step& step) {
   const int motion = step.moves_by;
+  // No word of the block moves anything.
   if (motion == -1) {
     return true;
-    // No word of the block moves anything.
   }
   if (motion == g::kCycleEnd) {
     control_.state.motion = g::kCycleEnd;

@@ -36,10 +36,10 @@ bool BlockCheck::choose_motion(Step& step) const {
     } else if (axes_taken) {
       return refusals_.code(step, 'G', motion / 10, "two_users_of_axis_words",
                             "two G words in one block that both use the axis words");
-      // Without an axis word these have nothing to do: more likely a word is missing.
     } else if (!axis_words && (is_cycle(motion) || motion == g::kThread || motion == g::kRigidTap ||
                                motion == g::kThreadCycle || motion == g::kCubicSpline ||
                                motion == g::kQuadraticSpline)) {
+      // Without an axis word these have nothing to do: more likely a word is missing.
       return refusals_.code(step, 'G', motion / 10, "axis_words_missing",
                             "a motion without any axis word");
     }

@@ -73,8 +73,8 @@ void update_offset(State& state) noexcept {
   const Axes g92 = turned(state.g92, rotation_deg);
   for (std::size_t i = 0; i < state.offset.size(); ++i) {
     const double work = state.work_offset_on ? state.work_in_force[i] : 0.0;
+    // The tool's offset is not turned: tools are measured along the machine's axes.
     const double offset =
-        // The tool's offset is not turned: tools are measured along the machine's axes.
         work + state.external[i] + state.frame_fine[i] + frame[i] + g92[i] + state.tool_offset[i];
     // Without a rotation the difference is added rather than the position computed again: it costs
     // no digit, however often offsets change.

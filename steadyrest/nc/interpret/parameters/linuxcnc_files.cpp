@@ -132,8 +132,8 @@ bool put_variable(Config& config, int number, double value, double unit_mm) {
     config.home[1][slot(5181)] = scaled(slot(5181));
   } else if (in(5211)) {
     config.g92[slot(5211)] = scaled(slot(5211));
-    // The file counts the systems from 1 (G54).
   } else if (number == 5220) {
+    // The file counts the systems from 1 (G54).
     if (!(value >= 1.0 && value <= 9.0)) {
       return false;
     }

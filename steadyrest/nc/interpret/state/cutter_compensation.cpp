@@ -361,8 +361,8 @@ CutterCompensation::Fault CutterCompensation::meet_at(PlanePoint meet, bool inch
           std::abs(angle) > std::abs(waiting->angle) + (inch ? 0.001 : kMmPerMil)) {
         return Fault::runs_backwards;
       }
-      // The new end lies behind the beginning: the tool cannot get between the two corners.
     } else if (dot(waiting->direction, between(start_, meet)) < 0.0) {
+      // The new end lies behind the beginning: the tool cannot get between the two corners.
       return Fault::runs_backwards;
     }
     put(move.end, meet);

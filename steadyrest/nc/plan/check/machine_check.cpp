@@ -57,9 +57,9 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
     : machine_(machine),
       known_(known),
       pieces_(machine),
-      // What every linear axis and the control can do: at such a feed no direction overloads any of
-      // them, since |t_i| ≤ 1.
       always_mm_s_(machine.control.max_feed_mm_s) {
+  // always_mm_s_: what every linear axis and the control can do. At such a feed no direction
+  // overloads any of them, since |t_i| ≤ 1.
   for (const kernel::machine::Axis& axis : machine.axes) {
     const std::size_t at = axis.name.size() == 1 ? kLetters.find(axis.name[0]) : kLetters.size();
     if (at < axis_.size() && !axis.rotary && axis.present) {

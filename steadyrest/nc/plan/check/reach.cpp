@@ -16,9 +16,9 @@ constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 /// What is added to the ends of an arc: where it passes the axis' direction from its centre. The
 /// work coordinates may be turned out of the arc's plane.
-// With s1, s2 = what the machine's axis sees of the plane's two directions, a point at angle θ on
-// radius r is at centre + r·(s1·cos θ + s2·sin θ). The extremes are ±r·√(s1² + s2²), at θ =
-// atan2(s2, s1) and opposite. They count where the arc passes these angles.
+/// With s1, s2 = what the machine's axis sees of the plane's two directions, a point at angle θ on
+/// radius r is at centre + r·(s1·cos θ + s2·sin θ). The extremes are ±r·√(s1² + s2²), at θ =
+/// atan2(s2, s1) and opposite. They count where the arc passes these angles.
 void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
   if (axis >= move.normal.size()) {
     return;

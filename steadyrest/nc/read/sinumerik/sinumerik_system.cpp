@@ -10,7 +10,7 @@
 namespace steadyrest::nc::read {
 
 /// Takes `upper_text`, blanks before it allowed.
-// Blanks may be between any two parts of these names.
+/// Blanks may be between any two parts of these names.
 bool SinumerikLine::take(std::string_view upper_text) {
   skip_blanks();
   if (!equal(rest().substr(0, upper_text.size()), upper_text)) {

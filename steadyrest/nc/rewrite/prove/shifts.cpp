@@ -60,7 +60,7 @@ std::string Shifts::add(const Move& move, double most_mm) {
 
 /// Of straight moves that are not turned: begins where the move before ended and ends where it is
 /// wanted, on every axis. False, and nothing changed, where it needs an excuse.
-// Nearly all moves take this way: no turning, no arcs, no exceptions.
+/// Nearly all moves take this way: no turning, no arcs, no exceptions.
 bool Shifts::as_wanted(const Move& before, const Move& after) noexcept {
   Axes end{};
   double worst_mm = 0.0;

@@ -27,8 +27,8 @@ std::string over_travel(const kernel::machine::Machine& machine, char letter, co
         "{} goes to {:.4f} mm (machine coordinates)",
         letter, to_mm, end_mm, letter, own_mm);
   };
+  // Exactly at the limit is allowed, and positions are sums of rounded numbers.
   if (corrected.high_mm > axis->max_mm + kRounding_mm &&
-      // Exactly at the limit is allowed, and positions are sums of rounded numbers.
       original.high_mm <= axis->max_mm + kRounding_mm) {
     return fault(corrected.high_mm, axis->max_mm, original.high_mm);
   }

@@ -14,8 +14,8 @@ Result<std::unique_ptr<Window>> Window::make(const KnownTimes* known,
                                              const Plan& plan, const Settings& settings,
                                              const std::string& changed) {
   std::unique_ptr<Window> made(new Window(plan, settings, changed));
+  // The ticket has both numbers: change · axes + axis.
   auto clock =
-      // The ticket has both numbers: change · axes + axis.
       Clock::make(known, machine, [&changes = made->changes_](std::uint64_t ticket, double time_s) {
         changes[ticket % changes.size()][ticket / changes.size()].time_s = time_s;
       });

@@ -37,7 +37,7 @@ char lower(char letter) noexcept {
 }
 
 /// The parameter of the work offset in force.
-// #5220 is the number of the active system: one text serves in all of them.
+/// #5220 is the number of the active system: one text serves in all of them.
 std::string in_force(int base) {
   return fmt::format("#[{}+20*#5220]", base);
 }

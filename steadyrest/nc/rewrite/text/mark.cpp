@@ -40,7 +40,7 @@ std::string decoded(std::string_view text) {
 }
 
 /// FNV-1a over the words as they are written.
-// Not against forgery: it shows that somebody has edited the line or cut it.
+/// Not against forgery: it shows that somebody has edited the line or cut it.
 std::string sum_of(const std::vector<Told>& told) {
   constexpr std::uint32_t kBasis = 2166136261U;
   constexpr std::uint32_t kPrime = 16777619U;
@@ -121,8 +121,8 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
       line.remove_prefix(1 + kBegin.size());
       line.remove_suffix(round ? 1 : 0);
       read_line(line, told);
-      // A second mark further down would be another program's.
     } else if (!told.empty()) {
+      // A second mark further down would be another program's.
       break;  // it is in one piece
     }
     inserted = inserted || is_mark || is_inserted(lines->line());

@@ -81,8 +81,8 @@ class PlanReader {
     // The JSON library throws; no exception leaves this room.
     try {
       json_ = Json::parse(text, watch);
-      // byte is one past the last character read; the lines before it are counted.
     } catch (const Json::parse_error& error) {
+      // byte is one past the last character read; the lines before it are counted.
       const auto seen = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
       const auto line = 1 + static_cast<std::size_t>(std::ranges::count(seen, '\n'));
       return refuse("not JSON", "write the plan as JSON; see nc/rewrite/README.md", line);

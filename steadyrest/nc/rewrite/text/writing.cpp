@@ -25,8 +25,8 @@ double rounded(double value, int places) noexcept {
 }
 
 /// At least four digits behind the point (five in inches), more where they say something.
-// Trailing zeros say nothing, but a control needs the point, and four digits read as micrometres at
-// a glance.
+/// Trailing zeros say nothing, but a control needs the point, and four digits read as micrometres
+/// at a glance.
 std::string number(double value, int places, int least) {
   std::string text = fmt::format("{:.{}f}", value, places);
   while (places > least && text.back() == '0') {

@@ -96,8 +96,8 @@ bool is_simple(std::string_view line) noexcept {
     ++at;
   }
   const auto [number, count] = digits(line, ++at);
+  // A decimal point may make G43.1 of it: the slow way decides.
   return count > 0 && count <= kMostDigits && number != 43 &&
-         // A decimal point may make G43.1 of it: the slow way decides.
          (at == line.size() || role(line[at]) != Role::point);
 }
 

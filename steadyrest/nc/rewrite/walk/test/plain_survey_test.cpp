@@ -64,8 +64,8 @@ TEST(PlainSurvey, OtherDialectsAreRun) {
 }
 
 /// The run sees no more than the text does.
-// The survey by text may find more intervals without a length than the run, never fewer: too many
-// cost places, too few cost parts.
+/// The survey by text may find more intervals without a length than the run, never fewer: too many
+/// cost places, too few cost parts.
 void expect_as_run(const std::string& path, const interpret::Config& config, int& compared) {
   const auto by_text = plain(path);
   const auto by_run = survey(path, config);
