@@ -83,7 +83,8 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   if (step_.frame != 0) {
     return frames_.set(step_);
   }
-  // All checks come before anything acts: a refused block changes nothing.
+  // The checks come before anything acts. What can be judged only on the way is refused there;
+  // either way nothing runs after a refusal.
   if (!(check_.choose_motion(step_) && check_.check(step_) && frames_.settle(step_) &&
         act(step_))) {
     return false;

@@ -59,7 +59,7 @@ bool OffsetData::work(const Step& step, double form) {
   if (set != state_.active_offset) {
     return true;
   }
-  // The position in the coordinates turned by the old angle, offsets as before.
+  // For below: the offset as it was, and the position along the machine's axes.
   const Axes before = state_.work_in_force;
   state_.work_in_force = offset;
   const double before_deg = state_.rotation_in_force_deg;

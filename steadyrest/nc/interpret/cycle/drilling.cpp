@@ -117,8 +117,8 @@ bool Drilling::measure(const Step& step, Hole& hole) {
   hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
   const double depth = hole.retract_mm - hole.bottom_mm;
   const bool pecks = step.moves_by == g::kBreakChips || step.moves_by == g::kPeck;
-  // A peck is at most three moves. Without the bound a peck of a micrometre in a metre of depth
-  // would keep the program busy for hours.
+  // A peck is at most three moves. Without the bound a misplaced decimal point in Q would unfold
+  // into any number of them.
   const double moves = repeats_of(step) * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
   if (!(moves <= kMostMoves)) {
     return refusals_.letter(step, step.has('L') ? 'L' : 'Q', "out_of_range",
