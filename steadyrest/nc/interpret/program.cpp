@@ -98,6 +98,8 @@ class ProgramRun::Run {
         !reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
       return refuse(reader_.refused());
     }
+    // On fanuc and sinumerik the end of a program is a word; LinuxCNC's O-words are checked by the
+    // flow.
     if (dialect_ != read::Dialect::linuxcnc && !ends_in_order()) {
       return false;
     }

@@ -12,7 +12,6 @@
 namespace steadyrest::nc::read {
 namespace {
 
-// What differs between dialects before words are looked at.
 /// How the lines of a dialect are read.
 struct Rules {
   bool (*read)(Reading& reading, std::string_view line, std::uint32_t number, Block& block);

@@ -118,6 +118,7 @@ bool MachineWords::change_tool(const Step& step) {
   return true;
 }
 
+// An event for each word, even if nothing changes: M3 also starts the wait for the speed.
 void MachineWords::spindle(const Step& step) {
   const int code = step.code(MGroup::spindle);
   if (code != kNoCode) {

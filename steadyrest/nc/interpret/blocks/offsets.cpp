@@ -57,8 +57,8 @@ bool Offsets::work_offset(const Step& step) {
   if (step.zero_offset) {
     state_.work_offset_on = false;
   } else if (code != kNoCode) {
+    // G54 … G59 are 540, 550, … 590; G59.1 … G59.3 are 591, 592, 593.
     const auto active = static_cast<std::size_t>(
-        // G54 … G59 are 540, 550, … 590; G59.1 … G59.3 are 591, 592, 593.
         code <= g::kWorkOffset6 ? (code - g::kWorkOffset1) / 10 : 5 + (code - g::kWorkOffset6));
     // LinuxCNC keeps what it has when the system is in force already, even if the program has set
     // its numbers (#5221 …) since.

@@ -107,6 +107,7 @@ void polar_point(const Step& step, const State& state, Axes& point) noexcept {
   point[1] = radius * std::sin(angle);
 }
 
+// Where the block goes, in work coordinates; axes that it does not name stay.
 Axes end_point(const Step& step, const Control& control) noexcept {
   const State& state = control.state;
   if (step.machine_frame) {

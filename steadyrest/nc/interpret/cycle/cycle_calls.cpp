@@ -80,6 +80,7 @@ bool CycleCalls::call(const Flow& call) {
   return true;
 }
 
+// Called by the interpreter behind every block that moves an axis.
 bool CycleCalls::after_move() {
   return !modal_ || drill(*modal_);
 }

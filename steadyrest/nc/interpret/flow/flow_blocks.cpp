@@ -23,6 +23,7 @@ bool FlowControl::define(const Block& block) {
                     std::to_string(known->second.line + 1));
 }
 
+// Open blocks belong to the frame: a return leaves them all at once.
 bool FlowControl::open(const Block& block, const Place& head) {
   if (!define(block)) {
     return false;

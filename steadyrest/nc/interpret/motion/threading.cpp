@@ -120,6 +120,7 @@ bool Threading::read(const Step& step, Cycle& cycle) {
 }
 
 // Bounds that keep the loops below finite and the geometry real, each with the letter it is about.
+// Passes n until J·n^(1/R) reaches K: (K/J)^R.
 bool Threading::is_possible(const Step& step, const Cycle& cycle) {
   const double springs = cycle.springs;
   const auto wrong = [&](bool is, char letter, std::string_view text) {
@@ -141,7 +142,6 @@ bool Threading::is_possible(const Step& step, const Cycle& cycle) {
            wrong((cycle.entry || cycle.exit) && !(cycle.taper_mm > 0.0), 'L',
                  "tapered ends need the length of the taper (E above zero)") ||
            wrong(!(std::pow(cycle.full_mm / cycle.first_mm, cycle.degression) < kMostPasses), 'J',
-                 // Passes n until J·n^(1/R) reaches K: (K/J)^R.
                  "a thread of more than 100000 passes"));
 }
 

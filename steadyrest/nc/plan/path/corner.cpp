@@ -180,8 +180,8 @@ Half half_of(const Bend& bend) {
   return {bend.sine / wide, sine_squared / ((1.0 + cosine) * cosine)};
 }
 
-// tolerance = r·(1/cos(φ/2) − 1) and room = r·tan(φ/2), each solved for r.
 /// Two lines: in closed form.
+/// tolerance = r·(1/cos(φ/2) − 1) and room = r·tan(φ/2), each solved for r.
 double line_radius(const Half& half, const CornerRequest& request) {
   const double room = std::min(request.room_before_mm, request.room_after_mm);
   return std::min(

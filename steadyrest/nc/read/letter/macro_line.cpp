@@ -13,8 +13,8 @@
 namespace steadyrest::nc::read {
 namespace {
 
-// The first six steer the flow, the others write to files and printers.
 // Statements of custom macros that begin with a word instead of an address.
+// The first six steer the flow, the others write to files and printers.
 constexpr std::array<std::string_view, 11> kKeywords = {
     "IF", "THEN", "GOTO", "WHILE", "DO", "END", "SETVN", "POPEN", "PCLOS", "DPRNT", "BPRNT"};
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kCharacters = 256;
 
-// N is the line number and O an O-word: both are more than a letter with a number.
 /// The upper case of the letters that begin a plain word: all but N and O. Else 0.
+/// N is the line number and O an O-word: both are more than a letter with a number.
 constexpr std::array<char, kCharacters> plain_letters() {
   std::array<char, kCharacters> out{};
   for (char c = 'A'; c <= 'Z'; ++c) {

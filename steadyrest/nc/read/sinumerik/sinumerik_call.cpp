@@ -49,9 +49,9 @@ bool SinumerikLine::calculated(const char* word_begin, double& out) {
   return read || refuse(since(word_begin), expression.reason(), expression.text());
 }
 
-// A name that is no word of the language is a definition, a variable or a call. Which one is
-// decided by what is defined so far, as on the control.
 /// What begins with this name, when it is a statement and no word; `done` then.
+/// A name that is no word of the language is a definition, a variable or a call. Which one is
+/// decided by what is defined so far, as on the control.
 bool SinumerikLine::statement(const char* word_begin, std::string_view name, bool& done) {
   if (reading_.typed_values == nullptr || known_name(name)) {
     return true;

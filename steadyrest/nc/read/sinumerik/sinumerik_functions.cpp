@@ -16,8 +16,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 }  // namespace
 
-// Each function has a fixed number of values; a further one is no closing bracket.
 // From the ( to its ); the bracket counts as one level, like any other.
+// Each function has a fixed number of values; a further one is no closing bracket.
 bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t wanted) {
   ++at_;
   if (++depth_ > kDeepest) {
@@ -39,13 +39,13 @@ bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t w
 bool SinumerikExpression::function(std::string_view name, double& out) {
   struct Known {
     std::string_view name;
-    // Degrees in and out, as everywhere in NC programs. POT is the square, TRUNC rounds towards
-    // zero; BOUND(low, high, x) clips x.
     std::size_t values;
     double (*law)(double, double, double);
     double lowest = -1e300;
     double highest = 1e300;
   };
+  // Degrees in and out, as everywhere in NC programs. POT is the square, TRUNC rounds towards
+  // zero; BOUND(low, high, x) clips x.
   static constexpr std::array kKnown = {
       Known{"SIN", 1, [](double x, double, double) { return std::sin(x * kDegree); }},
       Known{"COS", 1, [](double x, double, double) { return std::cos(x * kDegree); }},

@@ -9,11 +9,11 @@ namespace steadyrest::nc::rewrite {
 
 using kernel::outcome::Result;
 
+// The operator's switch may be in either position when the changed program
+// runs, so it is proved in both. Times and windows are those of the position
+// asked for.
 Result<Proof> verify(const std::string& original, const std::string& changed, const Plan& plan,
                      const interpret::Config& config, const kernel::machine::Machine& machine,
-                     // The operator's switch may be in either position when the changed program
-                     // runs, so it is proved in both. Times and windows are those of the position
-                     // asked for.
                      const Settings& settings, const KnownTimes* known) {
   if (auto checked = check_plan(plan, settings, config); !checked) {
     return std::unexpected(checked.error());

@@ -30,9 +30,9 @@ bool same_tool(const interpret::Tool& a, const interpret::Tool& b) {
 
 using Variables = std::vector<std::pair<std::string, double>>;
 
-// Both lists are sorted (numbers, then names), so the first mismatch of a merge is the first
-// difference.
 /// The first variable that one has and the other has not, or with another value.
+/// Both lists are sorted (numbers, then names), so the first mismatch of a merge is the first
+/// difference.
 std::string variable_difference(Variables a, Variables b) {
   for (Variables* const one : {&a, &b}) {
     // The corrections' own parameters differ by nature, and no program may use them.

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// A change in the text may answer one step, or several that share a place; steps that cancel may be
-// answered by none. Which it was is not written anywhere, so every possibility is carried along:
-// `answered_` has each number of steps that may have been answered so far.
 /// How many of the steps may have been answered so far: ascending, never empty.
+/// A change in the text may answer one step, or several that share a place; steps that cancel may
+/// be answered by none. Which it was is not written anywhere, so every possibility is carried
+/// along: `answered_` has each number of steps that may have been answered so far.
 using Answered = std::vector<std::size_t>;
 
 class Match {

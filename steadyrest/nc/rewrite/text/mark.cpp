@@ -29,8 +29,8 @@ std::string decoded(std::string_view text) {
     unsigned byte = 0;
     if (text[i] == '=' && i + 2 < text.size() &&
         std::from_chars(&text[i + 1], &text[i + 1] + 2, byte, 16).ptr == &text[i + 1] + 2) {
-      out += static_cast<char>(byte);
       // Two hexadecimal digits are a byte; anything else after = is left as it is.
+      out += static_cast<char>(byte);
       i += 2;
     } else {
       out += text[i];

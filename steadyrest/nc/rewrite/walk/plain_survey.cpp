@@ -43,9 +43,9 @@ Role role(char c) noexcept {
   return kRoles[static_cast<unsigned char>(c)];
 }
 
-// One G weighs 1, all else that matters 256, so the sum tells both apart: 1 is a single G and
-// nothing more. No line is long enough for 256 of them.
 /// What a line weighs: nothing where nothing is to be done, 1 for each G, more for all else.
+/// One G weighs 1, all else that matters 256, so the sum tells both apart: 1 is a single G and
+/// nothing more. No line is long enough for 256 of them.
 constexpr std::array<std::uint32_t, 256> weights() {
   std::array<std::uint32_t, 256> out{};
   for (std::size_t c = 0; c < out.size(); ++c) {

@@ -226,8 +226,8 @@ bool FanucDecoder::letter_word(const Word& word) {
   return put_letter(word, letter, value);
 }
 
-// M98 P51234 is five times O1234; with P1234 L5 it is the same.
 // M98 P…: eight digits are four of repeats and four of the program's number; or P and L.
+// M98 P51234 is five times O1234; with P1234 L5 it is the same.
 bool FanucDecoder::program_call() {
   constexpr double kNumbers = 10000.0;
   if (step_.code(MGroup::program) != m::kCall || !step_.has('P')) {

@@ -43,8 +43,6 @@ class LinuxcncDecoder final : public StepWriter {
     if (in_.state.plane != Plane::xy) {
       return in_.refusals.block(step_, "polar_off_xy", "polar coordinates (@ ^) outside G17");
     }
-    // Their values come from polar_point(); the checks only need to see that the axes are
-    // programmed.
     step_.set('X', 0.0);  // for the checks: both axes are programmed
     step_.set('Y', 0.0);
     return true;
@@ -53,7 +51,6 @@ class LinuxcncDecoder final : public StepWriter {
  private:
   // @ is the radius, ^ the angle; not a number stands for a word that is left out.
   bool take_polar(const Word& word) {
-    // @ is the radius, ^ the angle.
     double& place = word.letter == '@' ? step_.polar_radius : step_.polar_angle_deg;
     if (!std::isnan(place)) {
       return refuse(word, "word_twice", "a second polar word of its kind in one block");

@@ -154,9 +154,9 @@ bool SinumerikDecoder::m_word(const Word& word) {
   }
   // The M words that SINUMERIK defines; all others belong to the machine builder.
   constexpr std::array kKnown = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 30.0};
+  // M17 and RET both end a subprogram: one word from here on.
   if (word.value == 17.0) {
     step_.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
-    // M17 and RET both end a subprogram: one word from here on.
     return true;
   }
   if (std::ranges::find(kKnown, word.value) == kKnown.end()) {
