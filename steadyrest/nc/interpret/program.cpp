@@ -98,8 +98,6 @@ class ProgramRun::Run {
         !reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
       return refuse(reader_.refused());
     }
-    // On fanuc and sinumerik the end of a program is a word; LinuxCNC's O-words are checked by the
-    // flow.
     if (dialect_ != read::Dialect::linuxcnc && !ends_in_order()) {
       return false;
     }
@@ -186,6 +184,8 @@ class ProgramRun::Run {
   }
 
   /// A subprogram ends with its word, a program before the next one begins.
+  /// On fanuc and sinumerik the end of a program is a word; LinuxCNC's O-words are checked by the
+  /// flow.
   bool ends_in_order() {
     const bool label = block_.flow().kind == read::FlowKind::label;
     if (block_.end_mark() && !files_.in_main() && block_.line() == 1) {

@@ -43,9 +43,9 @@ class Halving {
   [[nodiscard]] SplinePoint at(double u) const {
     return interpret::spline_at(move_.spline, move_.spline_order, u);
   }
-  // NOLINTNEXTLINE(misc-no-recursion): bounded by kMostHalvings
   // The test looks at the middle of the span alone. An inflexion there puts the middle on the chord
   // however far the curve swings on either side: hence the least number of halvings.
+  // NOLINTNEXTLINE(misc-no-recursion): bounded by kMostHalvings
   void halve(double u0, const SplinePoint& p0, double u1, const SplinePoint& p1, int depth) {
     const double middle = 0.5 * (u0 + u1);
     const SplinePoint p = at(middle);
