@@ -4,13 +4,20 @@
 
 #include <steadyrest/chatter/offline/cycle/columns.hpp>
 
+// Matrices of some tens of rows spend more time in a library's dispatch than in its arithmetic.
+// These loops keep the accumulators in registers and run along whole columns. Four lanes
+// everywhere, with or without AVX2, and no fused multiply-add: sums come out equal to the last bit
+// on every machine.
 namespace steadyrest::chatter::offline {
 namespace {
 
 constexpr std::size_t kLanes = kRowsAtOnce;
+// AVX2 has 16 registers: six for the column, six in flight, the rest for factors.
 constexpr std::size_t kMostWides = 6;  ///< rows over four that registers hold beside the rest
 using Wide = double __attribute__((vector_size(kLanes * sizeof(double))));
 
+// always_inline: the bodies must be compiled inside the function that has the AVX2 target; on their
+// own they would be built for the baseline.
 [[gnu::always_inline]] inline void load(const double* from, Wide& to) {
   std::memcpy(&to, from, sizeof to);
 }
@@ -66,6 +73,7 @@ template <std::size_t Count>
   for (; row + kMostWides * kLanes <= stride; row += kMostWides * kLanes) {
     subtract_rows<kMostWides>(matrix + row, stride, columns, what + row, factor);
   }
+  // What six do not divide: pairs, then at most one single.
   for (; row + 2 * kLanes <= stride; row += 2 * kLanes) {
     subtract_rows<2>(matrix + row, stride, columns, what + row, factor);
   }

@@ -9,6 +9,11 @@
 #include <steadyrest/chatter/offline/cycle/delay_cycle.hpp>
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
 
+// make() settles the length of the period, plan() in delay_cycle_plan.cpp makes the matrices, and
+// set_depth() the inverses. advance() then walks the pieces of one pass: right side from the modes'
+// state and the delayed displacements, one small solve, new displacements in place of the old ones.
+// retreat() is its transpose; growth_course needs single rows of the map, and with the transpose
+// the map itself is never formed.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -36,6 +41,9 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
   const auto whole = [&out](double angle_rad) {
     return std::max(1.0, std::round(angle_rad / out.pass_rad_)) * out.pass_rad_;
   };
+  // A course that the machine makes of a law has an arbitrary length. Stretching it to whole passes
+  // changes the speed's timing by half a pass at most; with a remainder
+  // there would be no principal period.
   const SpeedProfile speed =
       config.course.empty()
           ? SpeedProfile(config.speed_rev_s, config.modulation)
@@ -43,6 +51,8 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
   if (!speed.constant()) {
     // The principal period is the least common multiple of law and tooth pass: r law periods that
     // make a whole number of passes, to within rounding.
+    // q may be a fraction: RVF = 0.3 with two teeth gives q = 6⅔, and three law periods make 20
+    // passes.
     const double q = speed.period_rad() / out.pass_rad_;
     out.passes_ = 0;
     for (std::size_t r = 1; r <= kMostLawPeriods && out.passes_ == 0; ++r) {
@@ -88,6 +98,8 @@ void DelayCycle::delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& 
                          Eigen::Ref<Eigen::VectorXd> out) const {
   const Index n = piece.nodes;
   out.setZero();
+  // Pieces that do not cut have no slot: nobody reads them, and a read there has H = 0 or, with
+  // uneven pitch, meets a tooth that left a finished surface.
   for (const Delayed& term : piece.delayed) {
     for (Index i = 0; i < n; ++i) {
       const Read& read = term.read[static_cast<std::size_t>(i)];
@@ -113,6 +125,7 @@ void DelayCycle::delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& 
 }
 
 void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
+  // A piece with no tooth in the cut is a free vibration: x for the sample, then on by E.
   // A piece's values of this pass take the place of the last one's as soon as it is passed: no
   // delay is longer than a pass.
   modal_ = state.head(modal_size());
@@ -130,6 +143,9 @@ void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
                           {solved_.data(), static_cast<std::size_t>(size)});
     };
     right_.resize(size);
+    // Both ways solve the same equations; they differ in the unknown. With one delay the
+    // displacement itself is cheapest; with several delays or with velocity terms only the force is
+    // common to all.
     if (plain_) {
       // y = x − x_delayed satisfies (I + a·KH)·y = Φ·s − x_delayed.
       right_ = -before;
@@ -197,6 +213,8 @@ void DelayCycle::retreat(std::size_t pass, Eigen::Ref<Eigen::VectorXd> row) {
       piece.inverse.apply_transposed({right_.data(), static_cast<std::size_t>(size)},
                                      {solved_.data(), static_cast<std::size_t>(size)});
     };
+    // advance() has y = A⁻¹·(Φ·s − x₀), x₁ = x₀ + y, s₁ = E·s − a·RH·y. For weights (c, m) of (x₁,
+    // s₁) and t = A⁻ᵀ·(c − a·RHᵀ·m) those of (x₀, s) are c − t and Eᵀ·m + Φᵀ·t.
     if (plain_) {
       right_ = slot;
       right_.noalias() -= piece.rh.transpose() * (depth_mm_ * modal);
@@ -204,6 +222,7 @@ void DelayCycle::retreat(std::size_t pass, Eigen::Ref<Eigen::VectorXd> row) {
       modal = (piece.e.transpose() * modal + piece.phi.transpose() * solved_).eval();
       slot -= solved_;
     } else {
+      // f = a·A⁻¹·(ΣH·x_d − HΦ·s), x₁ = Φ·s + K·f, s₁ = E·s + R·f, transposed the same way.
       right_ = depth_mm_ * (piece.k.transpose() * slot + piece.r.transpose() * modal);
       solve();
       modal = (piece.e.transpose() * modal + piece.phi.transpose() * slot -
@@ -239,6 +258,7 @@ std::vector<DelayCycle::Sample> DelayCycle::last_pass(std::size_t pass) const {
     // Time since the piece's start: ∫dθ/Ω to each node.
     const Eigen::VectorXd since = gauss.integral * piece.sigma_s;
     for (Index i = 0; i < piece.nodes; ++i) {
+      // The first n numbers of a piece are along x; along y follows behind them.
       out.push_back({t + since[i], gauss.weight[i] * piece.sigma_s[i], piece.x[i]});
     }
     t += gauss.weight.dot(piece.sigma_s);

@@ -16,6 +16,9 @@ using Eigen::Index;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 /// Angle of the fastest oscillation in one piece, and nodes for it: 1e-9 in the multipliers.
 constexpr double kPiecePhase = 14.0;
+// A polynomial at Gauss nodes converges once it has more than π nodes for each wave (Gottlieb and
+// Orszag 1977). 0.75 per radian are 4.7 a wave; the constant buys the digits. Longer pieces would
+// need fewer nodes in all, but each inverse costs the cube of its nodes.
 constexpr double kNodesPerRadian = 0.75;
 constexpr double kNodesAtLeast = 11.0;
 
@@ -29,6 +32,8 @@ std::vector<DelayCycle::Piece> DelayCycle::pieces_of_pass(const SpeedProfile& sp
   // do everywhere.
   const double slowest_rev_s = speed.slowest_rad_s() / kTurn;
   const double fastest = fastest_rad_s(process_, depth_mm_, slowest_rev_s);
+  // The speed's kinks of every law period fold onto one pass: all passes share their borders, so
+  // that a displacement and its delayed twin sit at the same node.
   std::vector<double> of_speed;
   for (std::size_t r = 0; r < law_periods_; ++r) {
     for (const double c : speed.corners_rad()) {
@@ -160,6 +165,7 @@ DelayCycle::Read DelayCycle::read_at(double angle_rad) const {
   const bool before = angle_rad < 0.0;
   // No tooth's pitch exceeds a revolution, so one pass back is always enough.
   const double within = before ? angle_rad + pass_rad_ : angle_rad;
+  // Borders and nodes are the same in all passes, so the first one answers for each.
   const auto& pass = pieces_[0];
   std::size_t i = 0;
   while (i + 1 < pass.size() && pass[i].end_rad <= within) {
@@ -176,6 +182,8 @@ void DelayCycle::fill_cut(Piece& piece) const {
   const GaussNodes& gauss = GaussNodes::of(piece.nodes);
   const CuttingCoefficients coefficients(process_, depth_mm_);
   const Index n = piece.nodes;
+  // H multiplies from the left here, since the unknown is the force; in fill_plain() it is the
+  // displacement, and H multiplies from the right.
   const bool damped = process_.cut.process_damping_n_mm > 0.0;
   piece.answer.setZero(n * components_, n * components_);
   piece.hphi.setZero(n * components_, piece.phi.cols());

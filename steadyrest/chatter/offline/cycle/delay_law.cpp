@@ -8,6 +8,9 @@
 #include <steadyrest/chatter/offline/cycle/delay_law.hpp>
 #include <steadyrest/chatter/offline/cycle/gauss_nodes.hpp>
 
+// The method of steps: even pieces shorter than every delay, so that a piece's right side is known
+// before it is solved. All pieces then share one set of matrices; only the rows that interpolate
+// the delayed values differ. The history is a ring of the last pieces' node values.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -15,6 +18,7 @@ using Eigen::Index;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
+// 24 nodes for 8 rad are 3 per radian, twice DelayCycle's 1.5: good to 1e-10.
 constexpr double kPiecePhase = 8.0;  ///< of the oscillation in one piece, rad
 constexpr double kNodes = 24.0;
 constexpr int kSamples = 2000;        ///< of a delay over T, for its extremes
@@ -81,10 +85,12 @@ void DelayLaw::fill_piece(const Config& config, double length_s) {
   const GaussNodes& gauss = GaussNodes::of(nodes_);
   const double wn = config.natural_rad_s;
   const double d = 2.0 * config.damping_ratio * wn;
+  // −κ·x(t) on the right side is stiffness; only κ·x(t − τ) stays a force.
   double w2 = wn * wn;
   for (const Term& term : config.terms) {
     w2 += term.stiffness_1_s2;
   }
+  // As modal_answers() does for one mode, at an even pace in time.
   const Eigen::MatrixXd s = length_s * gauss.integral;
   const Eigen::RowVectorXd end = length_s * gauss.weight.transpose();
   Eigen::MatrixXd a = d * s + w2 * length_s * length_s * gauss.integral2;

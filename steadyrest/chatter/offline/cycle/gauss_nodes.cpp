@@ -59,6 +59,8 @@ GaussNodes make(Index n) {
   out.integral.resize(n, n);
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
+      // k = 0: ∫₋₁ˣ P_0 = 1 + x. The interpolant has degree n − 1, so the series ends there; ¼ is
+      // the ½ of the series times the ½ of the shorter interval.
       double sum = 1.0 + x[i];
       for (Index k = 1; k < n; ++k) {
         sum += p(k, j) * (p(k + 1, i) - p(k - 1, i));
@@ -95,6 +97,7 @@ Eigen::RowVectorXd GaussNodes::interpolation(double x) const {
 }
 
 const GaussNodes& GaussNodes::of(Index n) {
+  // Asked for from all threads of a lobe map; each size is made once and then only read.
   static std::array<GaussNodes, static_cast<std::size_t>(kMost) + 1> made;
   static std::array<std::once_flag, static_cast<std::size_t>(kMost) + 1> once;
   const auto slot = static_cast<std::size_t>(n);

@@ -8,11 +8,17 @@
 
 #include <steadyrest/chatter/offline/cycle/growth_course.hpp>
 
+// ‖Φ‖_∞ is the largest row sum of moduli: the growth of the one vibration, bounded by 1 everywhere
+// at the start, that drives this row hardest. Constant speed needs the rows of powers of one map
+// and takes them from the adjoint; a modulated period needs a product of different maps and carries
+// all columns.
 namespace steadyrest::chatter::offline {
 namespace {
 
 using Eigen::Index;
 
+// From which pass the growth is worst is not known beforehand. With hundreds of passes in a period
+// neighbouring starts differ by one pass in hundreds.
 constexpr std::size_t kMostStarts = 16;
 constexpr std::size_t kLeastWindow = 20;  ///< passes
 constexpr Index kMostRows = 200;          ///< that are followed one by one
@@ -116,6 +122,7 @@ GrowthCourse course_from(DelayCycle& cycle, std::size_t begin, std::size_t windo
     for (Index i = 0; i < map.cols(); ++i) {
       cycle.advance((begin + k) % cycle.passes(), map.col(i));
     }
+    // Scaled after each pass, so that a growth of 1e300 does not end the course.
     const double norm = map.cwiseAbs().rowwise().sum().maxCoeff();
     if (!(norm > 0.0) || !std::isfinite(norm)) {
       break;
@@ -138,6 +145,7 @@ double GrowthCourse::log_peak() const noexcept {
 }
 
 double GrowthCourse::peak() const noexcept {
+  // e^710 overflows.
   return std::exp(std::min(700.0, log_peak()));
 }
 

@@ -6,6 +6,9 @@
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/small_inverse.hpp>
 
+// One piece at a time: mode by mode the equation of motion is turned into an integral
+// equation and solved at the Gauss nodes for unit start values and unit forces. The columns of the
+// solution are the matrices Φ, K, E and R that every solver of this folder builds on.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -28,7 +31,7 @@ Index directions(const Process& process) noexcept {
 }
 
 double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s) noexcept {
-  // An upper bound: the whole cutting stiffness on each mode, in its own direction.
+  // The whole cutting stiffness of one tooth on each mode, in the mode's own direction.
   const double stiffness =
       depth_mm * std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2);
   const double damping = depth_mm * process.cut.process_damping_n_mm /
@@ -37,6 +40,8 @@ double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s
   for (const Mode& mode : process.modes) {
     const double w = kTurn * mode.frequency_hz;
     const double per_mass = 1000.0 / mode.mass_kg;
+    // √(ω² + a·|K|/m) is the oscillation, a·C/(v·m) the decay by process damping; their sum
+    // is on the safe side for the choice of nodes.
     fastest = std::max(fastest, std::sqrt(w * w + per_mass * stiffness) + per_mass * damping);
   }
   return fastest;
@@ -87,6 +92,7 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
   const Index n = sigma_s.size();
   const Index size = n * directions;
   const auto modes = static_cast<Index>(process.modes.size());
+  // S·diag(σ) integrates over time from the piece's start to each node, `end` to the piece's end.
   const Eigen::MatrixXd s = gauss.integral * sigma_s.asDiagonal();
   const Eigen::MatrixXd s2 = s * s;
   const Eigen::RowVectorXd end = gauss.weight.cwiseProduct(sigma_s).transpose();
@@ -101,6 +107,7 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
     const Mode& mode = process.modes[static_cast<std::size_t>(m)];
     const double w = kTurn * mode.frequency_hz;
     const double d = 2.0 * mode.damping_ratio * w;
+    // v = v₀ − 2ζω·∫v − ω²·∫q + (1000/m)·∫f with q = q₀ + ∫v; 1000: N/kg to mm/s².
     // Collocated for the velocity, not the displacement: integrating twice is well conditioned,
     // differentiating is not.
     inverse.make(d * s + w * w * s2, 1.0);
@@ -114,6 +121,7 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
       inverse.apply({right.col(col).data(), static_cast<std::size_t>(n)},
                     {v.col(col).data(), static_cast<std::size_t>(n)});
     }
+    // From v everything else follows by one more integration, without another solve.
     Eigen::MatrixXd q = s * v;
     q.col(0).array() += 1.0;
     const Eigen::RowVectorXd q_end = end * v;
@@ -124,6 +132,8 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
     out.e(2 * m, 2 * m) += 1.0;
     out.e(2 * m + 1, 2 * m + 1) += 1.0;
     for (Index c = 0; c < directions; ++c) {
+      // A force along b excites the mode by shape_b, and the mode moves the tool along c by
+      // shape_c.
       const double shape = mode.shape[static_cast<std::size_t>(c)];
       out.phi.block(c * n, 2 * m, n, 2) = shape * q.leftCols(2);
       out.r.block(2 * m, c * n, 1, n) = shape * q_end.tail(n);
@@ -146,6 +156,7 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
 std::vector<std::complex<double>> free_multipliers(const Process& process, double length_s) {
   std::vector<std::complex<double>> out;
   out.reserve(process.modes.size());
+  // μ = e^{(−ζ + i√(1−ζ²))·ωt}.
   for (const Mode& mode : process.modes) {
     const double turn = kTurn * mode.frequency_hz * length_s;
     const double z = mode.damping_ratio;
@@ -157,6 +168,8 @@ std::vector<std::complex<double>> free_multipliers(const Process& process, doubl
 Eigen::MatrixXd free_answer(const Process& process, double length_s) {
   const auto modes = static_cast<Index>(process.modes.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(2 * modes, 2 * modes);
+  // q = e^{−ζωt}·[(cos ω_d t + ζω/ω_d·sin ω_d t)·q₀ + ω/ω_d·sin ω_d t·(v₀/ω)], v/ω likewise. With
+  // v/ω in place of v both rows have the unit of a length, and the norms of the growth make sense.
   for (Index m = 0; m < modes; ++m) {
     const Mode& mode = process.modes[static_cast<std::size_t>(m)];
     const double z = mode.damping_ratio;

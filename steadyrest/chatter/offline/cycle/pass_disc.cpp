@@ -6,6 +6,10 @@
 
 #include <steadyrest/chatter/offline/cycle/pass_disc.hpp>
 
+// Taylor coefficients by Cauchy's integral: on the rim u = e^{iφ}, f_k is the mean of f·e^{−ikφ},
+// and the trapezium rule on a circle converges exponentially. g is then one short polynomial
+// instead of a product of matrices. A disc that does not pay is not made; the caller falls back on
+// PassMatrix.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -82,6 +86,8 @@ bool PassDisc::holds(double depth_mm, double reach_mm) const noexcept {
 std::optional<PassDisc> PassDisc::make(const PassMatrix& pass, double center_mm, double radius_mm,
                                        std::size_t terms) {
   PassDisc out(pass, center_mm, radius_mm);
+  // Half as many terms more each time: a guess that is short costs little, and growing faster would
+  // overshoot where the last few would have done.
   for (std::size_t n = (terms / kStep + 1) * kStep; n <= kMostTerms;
        n += std::max(n / 2, kStep) / kStep * kStep) {
     if (out.sample(n)) {
@@ -105,6 +111,8 @@ PassDisc::Rim PassDisc::rim(std::size_t terms) const {
   for (std::size_t j = 0; j < points; j += kLanes) {
     Lanes z;
     for (std::size_t i = 0; i < kLanes; ++i) {
+      // Angles at half steps come in conjugate pairs, and none lies on the real axis: f(z̄) = f̄(z)
+      // gives the lower half for nothing.
       const double angle =
           2.0 * std::numbers::pi * (static_cast<double>(j + i) + 0.5) / static_cast<double>(terms);
       out.back[j + i] = std::polar(1.0, -angle);
@@ -131,6 +139,8 @@ void PassDisc::transform(Rim& rim, std::size_t terms) {
   const Complex* const back = rim.back.data();
   for (std::size_t f = 0; f < functions; ++f) {
     Complex* const v = &rim.value[f * points];
+    // The real part counts for both points of a pair. Each pass over the rim turns the values on by
+    // e^{−iφ}, so no sine is computed here.
     for (std::size_t k = 0; k < terms; ++k) {
       double sum = 0.0;
       for (std::size_t j = 0; j < points; ++j) {
@@ -158,6 +168,8 @@ bool PassDisc::cut_tail(double least) {
   while (needed > 1 && size(needed - 1) < least) {
     --needed;
   }
+  // Aliasing folds the coefficients beyond `terms` back onto the first ones. Several small ones in
+  // a row show that there is nothing left to fold.
   if (needed + kTail > terms) {
     return false;
   }
@@ -169,6 +181,8 @@ bool PassDisc::cut_tail(double least) {
   return true;
 }
 
+/// Coefficients carry the rim's rounding, 3e-16 of its largest value, wherever in the disc they are
+/// used; beyond kMostOnRim that is more than 1e-11, and g is wanted near its zeros.
 /// False: more terms are needed; then `terms_` is 0 where no number of them will do.
 bool PassDisc::sample(std::size_t terms) {
   Rim on_rim = rim(terms);

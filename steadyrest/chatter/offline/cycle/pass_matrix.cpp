@@ -10,6 +10,10 @@
 #include <steadyrest/chatter/offline/cycle/pass_matrix.hpp>
 #include <steadyrest/chatter/offline/cycle/piece_terms.hpp>
 
+// The constructor cuts the pass into pieces and stores each as a power series in z; values() sums
+// the series and multiplies the pieces at four z at a time; g_of() makes det(I − ξ·M) of the
+// product. One speed costs thousands of g, so the lanes and the number of terms decide how long a
+// lobe map takes.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -118,6 +122,7 @@ Matrices<N> product(const AllSeries& all, const std::vector<double>& number,
       m.re[(N + 1) * row][i] = 1.0;
     }
   }
+  // The lane with the largest |z| needs the most terms; the others ride along.
   const double size = largest(z);
   for (const auto& series : all) {
     step<N>(&number[series.begin], terms_for(series.reach_mm, size), m);
@@ -150,6 +155,8 @@ PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z
   const CuttingCoefficients coefficients(process, depth_mm);
   const double pass_rad = kTurn / static_cast<double>(process.tool.teeth);
   const double pass_s = pass_rad / (kTurn * speed_rev_s);
+  // z| is to the cutting stiffness what a depth is, so the greatest |z| sets the fastest
+  // oscillation.
   const double fastest = fastest_rad_s(process, most_z_mm, speed_rev_s);
   const std::vector<double> corner = corners_of_pass(process, coefficients, pass_rad);
   for (std::size_t i = 0; i + 1 < corner.size(); ++i) {
@@ -214,6 +221,7 @@ void PassMatrix::values(const Lanes& z, Lanes* out) const {
       }
       return;
     }
+    // Two and three modes are unrolled too; four and more are rare and go through Eigen.
     case 4:
       entries(product<4>(series_, number_, z), out);
       return;

@@ -7,6 +7,9 @@
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/piece_terms.hpp>
 
+// All pieces of a stretch have the same length and speed, so Φ, K, E and R are the same; only H
+// differs. Their columns lie side by side in one wide matrix, and each step of the recursion
+// F_{k+1} = −H·x_k, x_k = K·F_k is one product for all of them.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -14,6 +17,7 @@ using Eigen::Index;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+// A piece turns by at most 5 rad (kPiecePhase in pass_matrix.cpp), which 14 nodes carry to 1e-12.
 constexpr Index kNodes = 14;
 constexpr std::size_t kMostTerms = 32;
 constexpr double kLeastTerm = 1e-14;
@@ -132,6 +136,7 @@ PieceTerms::PieceTerms(const Stretch& stretch, std::size_t order, double most_z_
     : order_(order), stride_(filled_up(order * stretch.pieces)) {
   Pieces pieces(stretch, order, stride_);
   term_.push_back(pieces.first());
+  // The first term is E, the free vibration; each further one is R·F_k.
   double power = 1.0;
   while (term_.size() < kMostTerms) {
     term_.push_back(pieces.next());

@@ -9,6 +9,9 @@
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
 
+// The work grows with the waves in the period: nodes go with waves, matrices with their square.
+// Each bound below turns a cost or a loss of digits into a limit that a machinist can check, and
+// the refusal says which speed and depth would be accepted.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -34,6 +37,7 @@ double passes_per_rev(const Process& process) noexcept {
   return process.even_pitch() ? static_cast<double>(process.tool.teeth) : 1.0;
 }
 
+// Turns of the edge's helix over the depth of cut.
 double winding(const Process& process, double depth_mm) noexcept {
   return process.cut.operation == Operation::turning
              ? 0.0
@@ -45,6 +49,7 @@ double winding(const Process& process, double depth_mm) noexcept {
 template <class Fits>
 double last_fit(double fits_at, double fails_at, const Fits& fits) {
   for (int i = 0; i < kHalvings; ++i) {
+    // The range spans up to 24 decades, so it is halved in its logarithm.
     // Two roots, not the root of the product, which may overflow.
     const double middle = std::sqrt(fits_at) * std::sqrt(fails_at);
     (fits(middle) ? fits_at : fails_at) = middle;
@@ -57,6 +62,8 @@ template <class Fits>
 std::string allowed(double speed_rev_s, double depth_mm, const Fits& fits) {
   constexpr double kFar = 1e12;
   std::string out;
+  // A faster spindle and a smaller depth both mean fewer waves. Either is named alone if it
+  // suffices.
   if (fits(speed_rev_s * kFar, depth_mm)) {
     const double least = last_fit(speed_rev_s * kFar, speed_rev_s,
                                   [&](double speed) { return fits(speed, depth_mm); });
@@ -127,6 +134,7 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
                     allowed(slowest_rev_s, most_depth_mm, fits)),
         kCheck);
   }
+  // A faster spindle only brings the multipliers together at 1, where ln ρ loses its digits.
   double lowest_hz = process.modes.empty() ? 0.0 : process.modes[0].frequency_hz;
   for (const Mode& mode : process.modes) {
     lowest_hz = std::min(lowest_hz, mode.frequency_hz);

@@ -22,6 +22,8 @@ void SmallInverse::make(const Eigen::MatrixXd& m, double a) {
     }
     to[j] += 1.0;
   }
+  // Gauss–Jordan, step k: the row is divided by its pivot and taken out of all other rows. Column k
+  // is then a unit vector and need not be stored; column k of the inverse grows in its place.
   for (std::size_t k = 0; k < size_; ++k) {
     double* const own = &number_[k * stride_];
     std::size_t p = k;
@@ -58,6 +60,7 @@ void SmallInverse::make(const Eigen::MatrixXd& m, double a) {
 }
 
 void SmallInverse::apply(std::span<const double> in, std::span<double> out) const {
+  // Once per piece and pass: the heap would cost more than the sum.
   constexpr std::size_t kMost = 128;
   std::array<double, kMost> sum;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
   if (stride_ > kMost) {

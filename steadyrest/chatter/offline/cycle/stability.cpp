@@ -15,6 +15,7 @@ constexpr double kReal = 1e-6;  ///< |Im μ| of a real multiplier, relative
 constexpr std::size_t kMostLinePasses = 400;
 constexpr double kMostLogModulus = 300.0;
 constexpr double kMostLines = 4000.0;
+// A line needs four nodes to a wave at least to be told from its alias.
 constexpr double kLinesPerSample = 0.25;
 
 /// Displacements through one principal period.
@@ -31,6 +32,8 @@ std::vector<DelayCycle::Sample> samples_of(DelayCycle& cycle, Eigen::VectorXd& s
 /// μ = e^{λT}: the vibration is e^{λt} times something periodic; of its lines (arg μ + 2πk)/T the
 /// strongest.
 std::optional<double> strongest_line_hz(DelayCycle& cycle, const Multipliers& found) {
+  // Long periods have thousands of lines of nearly equal strength: "the strongest" says nothing
+  // there.
   if (cycle.passes() > kMostLinePasses || std::abs(found.log_modulus[0]) > kMostLogModulus) {
     return std::nullopt;
   }
@@ -76,6 +79,7 @@ std::optional<double> strongest_line_hz(DelayCycle& cycle, const Multipliers& fo
       line = turn + base * k;
     }
   }
+  // A line at −f is the same tone as one at f.
   return std::abs(line) / (2.0 * std::numbers::pi);
 }
 

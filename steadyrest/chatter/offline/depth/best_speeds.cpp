@@ -8,11 +8,15 @@
 #include <steadyrest/chatter/offline/depth/border_line.hpp>
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 
+// border_line() gives the border as a curve; what a speed is worth is the curve's minimum within
+// the tolerance about it; take_peak() then takes maxima off that second curve, the highest first,
+// each with its slopes, so that the next one comes from another lobe.
 namespace steadyrest::chatter::offline {
 namespace {
 
 using kernel::outcome::Result;
 
+// At 25 waves a lobe is 4 % of the speed wide; with frequencies known to 1 % nobody can aim at it.
 constexpr double kMostWaves = 25.0;
 constexpr double kLeastRange = 0.8;  ///< of the greatest speed, where all lobes are narrow
 constexpr double kNextSpeed = 1.2;
@@ -110,6 +114,7 @@ Result<std::vector<BestSpeed>> best_speeds(const Process& process, const BestSpe
   }
   const double low = 1.0 - config.tolerance_ratio;
   const double high = 1.0 + config.tolerance_ratio;
+  // Beyond both ends by the tolerance, since the minimum about the last speed reaches there.
   const auto line = border_line(process, {.speed_rev_s = {*from * low, config.max_rev_s * high},
                                           .most_depth_mm = config.most_depth_mm,
                                           .modulation = {}});
@@ -128,6 +133,7 @@ Result<std::vector<BestSpeed>> best_speeds(const Process& process, const BestSpe
     // A change of all natural frequencies by a factor is a change of the speed by it.
     worth.push_back(curve.lowest(n * low, n * high));
   }
+  // The curve shows "no border" as the greatest depth; a caller must not take that for a border.
   const auto below_most = [&](double depth_mm) {
     return depth_mm < config.most_depth_mm * (1.0 - kSame) ? std::optional(depth_mm) : std::nullopt;
   };

@@ -14,6 +14,9 @@
 #include <steadyrest/chatter/offline/depth/depth_line.hpp>
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 
+// Adaptive bisection in rounds: first_spans() puts six points on each lobe, each round evaluates
+// the middles of all open spans in parallel, and halved() keeps those whose middle was off the
+// line. spend() bounds the work where a point is dear.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -99,6 +102,8 @@ class Line {
   }
 
   [[nodiscard]] double depth(const Point& point) const {
+    // Stable throughout counts as the greatest depth, so that the edge of an open window is refined
+    // too.
     return point.depth_mm.value_or(config_.most_depth_mm);
   }
 
@@ -172,6 +177,7 @@ class Line {
       const double off = std::abs(there - 0.5 * (depth(span.from) + depth(span.to)));
       const bool calm = off <= kMiddle * (kOfDepth * there + kOfMost * config_.most_depth_mm);
       const double width = span.to.speed_rev_s - span.from.speed_rev_s;
+      // One wave between two teeth spans n/k of the speed at k waves.
       const double lobe =
           span.to.speed_rev_s / std::max(1.0, free_waves(process_, span.to.speed_rev_s));
       // One calm middle may be chance, where the line happens to cross the border; two in a row are

@@ -27,6 +27,7 @@ std::unexpected<Refusal> refusal(std::string what, std::string to_do) {
 }
 
 /// The free vibration that dies most slowly.
+/// At depth 0 only the modes' own damping counts: ln ρ = −ζω·T of the most persistent one.
 double least_decay_1_s(const Process& process) {
   double least = process.modes[0].damping_ratio * process.modes[0].frequency_hz;
   for (const Mode& mode : process.modes) {
@@ -64,6 +65,7 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
   const double decay = least_decay_1_s(process);
   const bool straight =
       process.tool.helix_rad == 0.0 || process.cut.operation == Operation::turning;
+  // DelayCycle refuses by itself; the tracker does not, so its reach is checked here.
   if (constant) {
     if (auto refused = beyond_reach(process, speed_rev_s, most_depth_mm)) {
       return std::unexpected(std::move(*refused));
@@ -80,6 +82,7 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
     return std::unexpected(cycle.error());
   }
   out.free_log_radius_ = -decay * cycle->period_s() / static_cast<double>(cycle->law_periods());
+  // A product with the map touches each number of the state once in each pass.
   out.work_ = static_cast<std::size_t>(cycle->state_size()) * cycle->passes();
   // Straight teeth: the depth only scales the forces, so one cycle serves all depths.
   if (straight) {

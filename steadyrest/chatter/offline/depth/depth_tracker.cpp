@@ -10,6 +10,10 @@
 #include <steadyrest/chatter/offline/depth/crossing.hpp>
 #include <steadyrest/chatter/offline/depth/depth_tracker.hpp>
 
+// dominant(): 1. follow() carries every known zero from the last depth to this one, 2. verified()
+// counts the zeros of g inside a circle about the dominant one, 3. if the count is off, search()
+// looks for the missing zero with the known ones divided out, 4. if that fails, Arnoldi's method
+// starts over. Steps 1 and 2 do for nearly every depth; the count tells when a zero is missing.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -126,6 +130,7 @@ std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm,
 bool DepthTracker::follow(Root& root, double from_mm, double to_mm) {
   double at = from_mm;
   double step = to_mm - from_mm;
+  // A step that is not trusted is halved, one that is lets the next be twice as long.
   for (int tries = 0; tries < 40; ++tries) {
     // First-order prediction along the depth, then correction: a pair of zeros that crosses others
     // keeps its identity.
@@ -158,6 +163,8 @@ bool DepthTracker::follow(Root& root, double from_mm, double to_mm) {
 
 /// Zeros of g with |ξ| < radius by the turns of its argument; empty: the circle passes too near to
 /// one. Conjugate symmetry: half of the circle is enough.
+/// The argument principle: g is entire, so its argument turns by 2π on the circle for each zero
+/// inside.
 std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
   static const std::array<Complex, kArc> kUnit = [] {
     std::array<Complex, kArc> out;
@@ -292,6 +299,7 @@ Complex DepthTracker::by_arnoldi(double depth_mm) {
   sort();
   depth_mm_ = depth_mm;
   const Complex mu = found.value[0];
+  // Every multiplier below 1/kMostXi: the cut is stable by far, and Arnoldi's value does.
   return roots_.empty() ? Complex(mu.real(), std::abs(mu.imag())) : std::conj(1.0 / roots_[0].xi);
 }
 
@@ -307,6 +315,7 @@ void DepthTracker::seed(double depth_mm) {
 }
 
 Complex DepthTracker::dominant(double depth_mm) {
+  // The disc must reach beyond the counting circle and the farthest zero that is followed.
   aim(kOutside * kFollowed * (roots_.empty() ? 1.0 : std::abs(roots_[0].xi)), depth_mm);
   if (depth_mm != depth_mm_) {
     // A root that is lost here is not lost for good: the count below misses it and search() looks
@@ -330,6 +339,7 @@ std::optional<double> DepthTracker::border_mm(std::size_t steps) {
   for (std::size_t k = 1; k <= steps; ++k) {
     const double high = most_depth_mm_ * static_cast<double>(k) / static_cast<double>(steps);
     const double log_high = log_radius(high);
+    // Bracketed by a stable and an unstable depth, the crossing itself is regula falsi.
     if (log_high >= 0.0) {
       return crossing(log_radius, {low, log_low}, {high, log_high});
     }

@@ -13,6 +13,8 @@ using Complex = std::complex<double>;
 constexpr double kSpan = 0.2;  ///< of the depth, for which one disc is to serve
 constexpr double kLeastSpan = 0.02;
 constexpr double kSpare = 1.05;  ///< of |z| over what is needed
+// Matrices for a third of |z| need fewer pieces and terms; a search from depth 0 spends most of its
+// time at small |z|.
 constexpr double kLevelRatio = 3.0;
 
 }  // namespace
@@ -20,6 +22,7 @@ constexpr double kLevelRatio = 3.0;
 const PassMatrix& DepthTracker::pass(double z_mm, double depth_mm) {
   if (each_depth_) {
     if (!pass_[0] || depth_mm != made_for_mm_ || pass_[0]->most_z_mm() < z_mm) {
+      // A disc belongs to the matrices that it was made from.
       disc_.reset();
       made_for_mm_ = depth_mm;
       pass_[0] = std::make_unique<PassMatrix>(process_, speed_rev_s_, kSpare * z_mm, depth_mm);
@@ -44,6 +47,8 @@ void DepthTracker::aim(double size, double depth_mm) {
   if (same && disc_ && disc_->holds(depth_mm, size * depth_mm)) {
     return;
   }
+  // A smaller disc has smaller values on its rim and needs fewer terms; none at all is no fault,
+  // since g() then takes the matrices.
   for (double span = each_depth_ ? kLeastSpan : kSpan; span >= kLeastSpan; span *= 0.25) {
     // Ahead of the present depth: depths are asked for in rising order. z = a·(1 − ξ) for all a of
     // the span and |ξ| ≤ size lies within this disc.

@@ -5,11 +5,15 @@
 
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 
+// Marching from below, not bisection over the whole range: a cut may be stable again
+// above an unstable island, and the lowest crossing is the one that a tool meets on its way in.
 namespace steadyrest::chatter::offline {
 
 namespace {
 constexpr double kFirst = 1.0 / 256.0;  ///< of the greatest depth
 constexpr double kLeastFirst = 1e-7;
+// ln ρ changes on the scale of the depth itself, so a step in proportion resolves it alike
+// everywhere.
 constexpr double kGrowth = 0.06;  ///< step over depth
 constexpr double kGolden = 0.3819660112501051;
 constexpr double kNarrowest = 1e-4;  ///< of the depth: islands thinner than this are left
@@ -17,6 +21,7 @@ constexpr double kPeak = 3.0;        ///< of the fall to the sides, by which a m
 constexpr int kMostSections = 40;
 
 /// No speed is unstable below: a·Σ|H|·max|G|·2 < 1 (small gain), |G| ≤ Σ 1/(2ζk).
+/// 1 − e^{−iωT}| ≤ 2 is the factor 2; all teeth are taken to cut at once.
 double safe_depth_mm(const Process& process) {
   double most_mm_n = 0.0;
   for (const Mode& mode : process.modes) {
@@ -84,6 +89,7 @@ std::optional<double> limit_depth_mm(DepthLine& line, double most_depth_mm, doub
     depth[seen] = high;
     log_radius[seen] = log_high;
     ++seen;
+    // Three depths in a row with the middle one highest: an island may hide between them.
     const bool peak = seen == 3 && log_radius[1] >= log_radius[0] && log_radius[1] > log_high;
     if (peak && log_high < 0.0) {
       if (const auto island = island_mm(line, depth, log_radius)) {

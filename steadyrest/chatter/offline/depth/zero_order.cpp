@@ -5,6 +5,9 @@
 
 #include <steadyrest/chatter/offline/depth/zero_order.hpp>
 
+// Two uses of one eigenvalue: zero_order_lobes() goes along the chatter frequency and gives depth
+// and speeds of every lobe in closed form; zero_order_limit_mm() is asked for one speed, where the
+// closed form does not apply, and looks for the frequencies at which the depth comes out real.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -91,6 +94,8 @@ std::vector<ZeroOrderPoint> zero_order_lobes(const Process& process, double from
         continue;
       }
       ZeroOrderPoint point{hz, depth, {}};
+      // ε = π − 2·atan κ is the phase between inner and outer wave; k whole waves more give the
+      // next lobe.
       const double phase = std::numbers::pi - 2.0 * std::atan(lambda.imag() / lambda.real());
       for (std::size_t k = 0; k < lobes; ++k) {
         point.speed_rev_s.push_back(kTurn * hz /
@@ -125,6 +130,7 @@ std::optional<double> zero_order_limit_mm(const Process& process, double speed_r
     const double high = kTurn * step_hz * (static_cast<double>(i) + 0.5);
     const Pair at_high = continued(at_low, eigenvalues(process, alpha, high));
     for (std::size_t branch = 0; branch < 2; ++branch) {
+      // 1/Λ = 0: one direction alone vibrates, and the second eigenvalue is at infinity.
       if (std::abs(at_low[branch]) == 0.0 || std::abs(at_high[branch]) == 0.0) {
         continue;
       }
@@ -136,6 +142,7 @@ std::optional<double> zero_order_limit_mm(const Process& process, double speed_r
       }
       Pair pair = at_low;
       Complex found;
+      // Bisection, not Newton: `continued` must compare neighbours to stay on its branch.
       for (int k = 0; k < 50; ++k) {
         const double middle = 0.5 * (a + b);
         const Pair next = continued(pair, eigenvalues(process, alpha, middle));
