@@ -5,6 +5,10 @@
 
 #include <steadyrest/chatter/online/detector.hpp>
 
+// A sample passes the order filter, the once-a-revolution witness and the energies; what the filter
+// leaves goes to the spectrum, which speaks every eighth of a window. Each spectrum starts a
+// question to FreeShare, and its answer, some samples later, starts judge(). Both work in small
+// portions, so that no sample costs more than its share of the cycle.
 namespace steadyrest::chatter::online {
 
 using kernel::outcome::Reason;
@@ -118,6 +122,7 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   // At constant speed whatever is left of the tooth orders is not looked at. Where they lie closer
   // than a line is wide nothing would remain, and while the speed moves they sweep.
   const double guard_hz = gaps && steady ? kGuardBins * spectrum_.resolution_hz() : 0.0;
+  // A spectrum that finds FreeShare still at work is dropped: the next comes 13 ms later.
   if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz);
       lines.fresh && !share_.busy()) {
     lines_ = lines;
@@ -170,6 +175,8 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
                                 std::max(state_.slow_energy, config_.least_energy) ||
       state_.energy > (state_.opened ? kAllJump : first_jump) * before;
   const double pause_rev = state_.opened ? kSlowRev : config_.settle_rev;
+  // Growing chatter raises the energy as an entry does. While anything is suspect, a jump opens no
+  // cut.
   const bool calm = !out_.chatter && !state_.hold && state_.suspects == 0;
   if (entered && calm && state_.settled_rev > pause_rev) {
     state_.opened = true;
@@ -208,6 +215,8 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   const bool steady = state_.speed_spread < kSteady;
   out_.fresh = true;
   out_.energy_ratio = all > 0.0 ? lines.line_energy / all : 0.0;
+  // Two fits, by tooth orders and by all spindle orders; the smaller rest counts. Noise is left
+  // over by any fit, so twice its expected share is taken off first.
   const double off_orders = std::min(share.off_teeth, kOffSpindle * share.off_spindle) -
                             kFreeNoise * share.noise_share * lines.noise_energy;
   out_.free_ratio = share.known && share.energy > 0.0
@@ -221,6 +230,8 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   state_.judged_s += settled ? hop_s : 0.0;
   const bool strong = cuts && settled && lines.peak_ratio > config_.line_ratio;
   const bool line = strong && (!steady || lasts(lines) || state_.evidence > 0.0);
+  // A cumulative sum with a floor at 0 (Page 1954): many weak signs in a row decide as a few strong
+  // ones do, and a single spectrum, which gives 0.2 at most, never does.
   const double over =
       strong ? std::clamp(out_.free_ratio - free_bound(), -kEvidenceFall, kEvidenceStep)
              : -kEvidenceFall;
@@ -237,6 +248,7 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   if (settled && !out_.chatter) {
     learn(lines.line_energy, suspect);
   }
+  // Hysteresis, and a whole window of quiet: one spectrum between two bursts does not end chatter.
   const bool below = steady ? out_.energy_ratio < config_.off_ratio
                             : out_.free_ratio < kFreeOff * config_.free_ratio;
   state_.quiet = below || !line ? state_.quiet + 1 : 0;

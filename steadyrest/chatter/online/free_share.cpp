@@ -6,6 +6,10 @@
 
 #include <steadyrest/chatter/online/free_share.hpp>
 
+// shift() moves the line to 0 Hz and thins signal and orders to 625 rows a second; rate() projects
+// the tooth orders out and finds the mode's pole from what is left; mode() fits ring-down, orders
+// and the mode's response to them by least squares, for each of three poles. What no pole explains
+// is free. The work goes in portions, one column or a few samples for each call.
 namespace steadyrest::chatter::online {
 namespace {
 
@@ -159,6 +163,8 @@ void FreeShare::shift() noexcept {
 
 /// Takes the basis' share off a column.
 void FreeShare::off(Column& column, Span span) const noexcept {
+  // One after the other (modified Gram–Schmidt): the classical form loses orthogonality on columns
+  // as nearly alike as neighbouring orders.
   for (std::size_t c = 0; c < columns_; ++c) {
     const Column& b = basis_[c];
     Complex share = 0.0;
@@ -259,6 +265,7 @@ void FreeShare::start_mode() noexcept {
   columns_ = 0;
   at_ = 0;
   step_ = Step::mode;
+  // A mode that was struck at the start rings down as powers of its pole.
   Column ring{};
   Complex power = 1.0;
   for (std::size_t i = first_row_; i < kRows; ++i) {
@@ -308,6 +315,8 @@ void FreeShare::mode() noexcept {
   const Column& u = u_[at_ % orders_];
   Column answer{};
   for (std::size_t i = span.first + 1; i < span.last; ++i) {
+    // The mode's response to an order that drives it: x[n] = a·x[n−1] + (u[n−1] + u[n])/2, a
+    // trapezium.
     answer[i] = times(poles_[pole_], answer[i - 1]) + 0.5 * (u[i - 1] + u[i]);
   }
   add(answer, span);

@@ -7,6 +7,8 @@
 
 #include <steadyrest/chatter/online/line_spectrum.hpp>
 
+// Copy, butterflies, power, noise floor and sum of the lines are steps of a state machine: each
+// call does a portion, so that a transform of a thousand points never falls into one cycle.
 namespace steadyrest::chatter::online {
 namespace {
 
@@ -179,6 +181,8 @@ void LineSpectrum::noise() noexcept {
   const std::size_t end = std::min(n_ / 2, at_ + kCopy);
   for (; at_ < end; ++at_) {
     const double p = power_[at_];
+    // Noise power is exponential over the bins. Clipped at three times the level, its mean of 1
+    // becomes 0.84, 0.78, 0.75 and after the fourth pass 0.735 = 1/kClipBias.
     if (p >= 0.0 && p <= kClip * level_) {
       sum_ += p;
       ++count_;
@@ -211,6 +215,8 @@ void LineSpectrum::lines() noexcept {
 
 void LineSpectrum::finish() noexcept {
   step_ = Step::idle;
+  // Under a Hann window a line at δ bins beside a bin has amplitudes in the ratio r = (1 + δ)/(2 −
+  // δ); solved, δ = (2r − 1)/(r + 1) (Grandke 1983).
   const double here = std::sqrt(std::abs(power_[peak_]));
   const double left = std::sqrt(std::abs(power_[std::max(peak_, first_bin_ + 1) - 1]));
   const double right = std::sqrt(std::abs(power_[std::min(peak_ + 1, n_ / 2 - 1)]));

@@ -6,6 +6,10 @@
 #include <steadyrest/chatter/online/modulator.hpp>
 #include <steadyrest/chatter/online/modulator_range.hpp>
 
+// In each cycle: the limits of this moment, the swing that fits between them, the law's goal, what
+// the drive can reach of it, then the two words. The feed word comes first, because the feed per
+// tooth must stay in its band whichever of the two acts later: words take a scan and a dead time to
+// act, and `coming_feed` and `coming_spindle` remember those under way.
 namespace steadyrest::chatter::online {
 namespace {
 
@@ -33,6 +37,8 @@ struct Extent {
 };
 
 Extent extent_of(Law law) noexcept {
+  // A pulse of share s is +1 for s and −s/(1 − s) for the rest, mean 0: s = ¼ gives −⅓. A stop is
+  // the pulse of share 0.1 upside down.
   switch (law) {
     case Law::constant:
       return {.high = 0.0, .low = 0.0};
@@ -82,6 +88,8 @@ void Modulator::reset() noexcept {
 }
 
 void Modulator::restore(const State& state) noexcept {
+  // A restored state comes from a file: anything out of range would move the spindle on the first
+  // cycle.
   const bool is_fit = fit(state.modulation) && std::isfinite(state.time_s) && state.phase >= 0.0 &&
                       state.phase < 1.0 && state.fade >= 0.0 && state.fade <= 1.0 &&
                       std::isfinite(state.ratio) && state.coming_feed.fit() &&
@@ -139,6 +147,7 @@ Modulator::Swing Modulator::swing(const Limits& limits, double speed_rev_s) cons
   const Modulation& m = state_.modulation;
   const Extent extent = extent_of(m.law);
   const double span = extent.high - extent.low;
+  // The mean speed carries the amplitude along, as RVA is a ratio of the mean.
   const double asked =
       m.amplitude_rev_s > 0.0 ? m.amplitude_rev_s / speed_rev_s : m.amplitude_ratio * m.mean_ratio;
   const double amplitude = span > 0.0 ? std::min(asked, (limits.high - limits.low) / span) : 0.0;
@@ -223,6 +232,7 @@ void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swin
   choose_step(state_.ratio, limits, floor);
   const double chosen = spindle_.ratio(state_.step);
   const double nearest = spindle_.ratio(spindle_.nearest_step(state_.ratio).value_or(0));
+  // The reason names what binds first; the page shows one.
   output.spindle.ratio = chosen;
   if (state_.fade < 1.0) {
     output.spindle.reason = Reason::chatter_fading;
@@ -250,9 +260,13 @@ void Modulator::ask_feed(const Frame& frame, double ahead, Output& output) noexc
       std::min({actual, state_.coming_spindle.least(),
                 state_.stepped ? spindle_.ratio(state_.step) : spindle_.max_ratio()});
   const double slowest = std::max(std::min(ahead, coming), spindle_.ratio(lowest_));
+  // Feed over speed is chip thickness over the programmed one: the feed may be at most the band's
+  // upper end times the slowest speed that could act together with it.
   double cap = std::min(config_.max_feed_per_tooth_ratio * slowest, config_.max_feed_ratio);
   const double panel = frame.feed.panel_ratio;
   const double least = config_.min_feed_per_tooth_ratio * actual;
+  // A fast spindle thins the chip until the edge rubs; where the machine file allows it, the feed
+  // rises.
   if (feed_->layer_may_exceed_panel() && panel >= 1.0 - kRatioTolerance && panel < least) {
     const auto up = feed_->ceil_step(least - kRatioTolerance);
     if (up && feed_->ratio(*up) <= std::min(cap, feed_top_ratio_) + kRatioTolerance) {
@@ -320,6 +334,7 @@ Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force)
   }
   const double speed_rev_s = std::abs(frame.spindle_programmed_rev_s);
   const bool active = wanted(frame) && speed_rev_s > 0.0;
+  // A late frame must not make the law jump.
   const double dt_s = std::min(passed_s, config_.max_step_s);
   const double turn = dt_s / config_.fade_s;
   if (!active && (speed_rev_s == 0.0 || state_.fade <= turn)) {

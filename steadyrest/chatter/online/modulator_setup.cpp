@@ -17,6 +17,7 @@ namespace machine = kernel::machine;
 using kernel::outcome::Result;
 using kernel::override::kRatioTolerance;
 
+// The machine file has its own list of laws; make() casts from one to the other.
 static_assert(static_cast<int>(machine::SpeedLaw::constant) == static_cast<int>(Law::constant));
 static_assert(static_cast<int>(machine::SpeedLaw::square) == static_cast<int>(Law::square));
 static_assert(static_cast<int>(machine::SpeedLaw::pulse) == static_cast<int>(Law::pulse));
@@ -79,6 +80,7 @@ Result<Modulator> Modulator::make(const Config& config) {
   if (!spindle) {
     return std::unexpected(spindle.error());
   }
+  // Two steps at least, or every law is a constant.
   const auto lowest = spindle->ceil_step(config.min_ratio);
   const auto highest = spindle->floor_step(config.max_ratio);
   if (!lowest || !highest ||

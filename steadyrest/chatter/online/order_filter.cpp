@@ -6,6 +6,10 @@
 
 #include <steadyrest/chatter/online/order_filter.hpp>
 
+// A Kalman filter whose states are cosine and sine of each order. Between samples they turn with
+// the spindle, so a modulated speed needs no resampling. Each order keeps one scalar variance
+// instead of a matrix: orders are nearly orthogonal over a revolution, and the cost stays linear in
+// their number.
 namespace steadyrest::chatter::online {
 namespace {
 
@@ -47,6 +51,8 @@ kernel::outcome::Result<OrderFilter> OrderFilter::make(const Config& config) {
     if (tooth ? k > last_tooth : k > config.spindle_harmonics) {
       continue;
     }
+    // p settles where p²/2 = q·share², share the part of a turn in one sample; with q = 2/memory²
+    // that is p = 2·share/memory. An amplitude follows at p/2 per sample: `memory` revolutions.
     const double memory = tooth  ? config.tooth_memory_rev
                           : half ? config.half_memory_rev
                                  : config.runout_memory_rev;
@@ -116,6 +122,8 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
 
 void OrderFilter::open(bool moving) noexcept {
   for (Order& o : orders_) {
+    // Runout is learnt over revolutions: quick learning would take chatter beside a spindle order
+    // for it.
     o.p = o.tooth || moving ? kUnknown : kSlowStart;
   }
 }

@@ -4,6 +4,9 @@
 
 #include <steadyrest/chatter/online/revolution_spread.hpp>
 
+// What repeats with the spindle has the same value at the same angle one turn later. Values are
+// taken at fixed angles, interpolated between samples, so that a modulated speed compares like with
+// like.
 namespace steadyrest::chatter::online {
 
 const RevolutionSpread::Output& RevolutionSpread::update(double value, double angle_rev) noexcept {
@@ -20,6 +23,7 @@ const RevolutionSpread::Output& RevolutionSpread::update(double value, double an
       const double turns = std::floor(point / static_cast<double>(kPoints));
       const auto i = std::min(
           static_cast<std::size_t>(point - turns * static_cast<double>(kPoints)), kPoints - 1);
+      // Half: two independent values of energy E differ by 2E.
       sum_change_ += 0.5 * (x - last_[i]) * (x - last_[i]);
       sum_ += x * x;
       last_[i] = x;

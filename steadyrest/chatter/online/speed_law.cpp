@@ -5,6 +5,9 @@
 
 #include <steadyrest/chatter/online/speed_law.hpp>
 
+// Shapes S(u) over one period with mean 0, so that a law keeps the mean speed and the cut its time.
+// integral() is exact: the solver inverts angle = ∫speed, and a numerical sum would blunt the
+// corners.
 namespace steadyrest::chatter::online {
 namespace {
 

@@ -6,6 +6,9 @@
 
 #include <steadyrest/chatter/online/speed_table.hpp>
 
+// A table from the planner answers by depth; without one the rule of thumb does: n = 60·f/(N·k)
+// puts a whole number k of waves between two teeth, where inner and outer wave are in phase and the
+// chip keeps its thickness. The rule knows neither depth nor border, hence its narrow reach.
 namespace steadyrest::chatter::online {
 
 using kernel::outcome::Reason;
@@ -68,6 +71,7 @@ kernel::outcome::Result<SpeedTable> SpeedTable::make(Config config) {
 }
 
 double SpeedTable::limit_depth_mm(double speed_rev_s) const noexcept {
+  // Beyond the table nothing is known: depth 0, so that no step there is ever advised.
   const auto& speed = config_.speed_rev_s;
   if (speed.empty() || !(speed_rev_s >= speed.front() && speed_rev_s <= speed.back())) {
     return 0.0;

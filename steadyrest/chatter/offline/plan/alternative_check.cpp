@@ -13,6 +13,9 @@
 #include <steadyrest/chatter/offline/plan/alternative_check.hpp>
 #include <steadyrest/chatter/offline/plan/override_course.hpp>
 
+// The cheapest question comes first: drive and override, then stability of the given cut, growth of
+// one vibration, the share of possible cuts, growth of the worst vibration, and last the law as the
+// override writes it. An alternative that fails keeps its reason for the report.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -77,6 +80,7 @@ AlternativeCheck::AlternativeCheck(const Process& process, const kernel::machine
 double AlternativeCheck::probability(const Alternative& a, double depth_mm) const {
   std::atomic<std::size_t> stable{0};
   tbb::parallel_for(std::size_t{0}, possible_.size(), [&](std::size_t i) {
+    // A possible cut that the solver refuses counts as unstable.
     auto line = DepthLine::make(possible_[i], speed(a), a.modulation, depth_mm);
     if (line && line->log_radius(depth_mm) < 0.0) {
       ++stable;
@@ -133,6 +137,7 @@ void AlternativeCheck::step(Alternative& a) const {
   a.stable = *a.limit_depth_mm > depth_mm_ || line->log_radius(depth_mm_) < 0.0;
   reject_below_depth(a);
   reject_unlikely(a);
+  // Growth at a constant speed rejects nothing; the report shows it.
   if (a.stable) {
     if (auto cycle = cycle_at(*process_, speed(a), {}, depth_mm_)) {
       a.peak_growth = std::exp(std::min(700.0, log_peak_growth(*cycle)));

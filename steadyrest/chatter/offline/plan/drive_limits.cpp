@@ -7,6 +7,9 @@
 
 #include <steadyrest/chatter/offline/plan/drive_limits.hpp>
 
+// Each check adds its own violations and none stops at the first: the report shows everything that
+// a law asks too much of. most_rvf() then searches by bisection, since every demand grows with the
+// RVF.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -15,6 +18,7 @@ using online::SpeedLaw;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr std::size_t kPhases = 1024;  ///< a multiple of the random law's knots
+// Fewer than eight scans a period leave little of a sine or triangle but a square.
 constexpr double kLeastScans = 8.0;
 constexpr double kMostRampShare = 0.2;
 constexpr double kMostLevelError = 0.25;  ///< of the amplitude
@@ -224,6 +228,7 @@ double DriveLimits::step_ratio(const DriveDemand& demand) const noexcept {
 
 void DriveLimits::check_sweep(double speed, const Modulation& m, const Shape& s,
                               DriveDemand& out) const {
+  // N(t) = N₀·(1 + RVA·S(f·t)), so dN/dt = N₀·RVA·f·S′ with f = RVF·N₀.
   const double frequency = m.rvf * speed;
   // d(ratio)/dt in 1/s; times the speed it is rev/s².
   const double ratio_rate = m.rva * frequency * s.steepest;
@@ -261,6 +266,7 @@ void DriveLimits::check_jumps(double speed, const Modulation& m, const Shape& s,
   if (!table_.latched_word && out.written_ratio.size() > 1) {
     rate = std::min(rate, step_ratio(out) / table_.scan_period_s);
   }
+  // A ramp of a fifth leaves four fifths of the dwell, and with them the law's effect.
   const double ramp_s = jump / rate;
   const double part_s = s.shortest_part / (m.rvf * speed);
   out.acceleration_rev_s2 = rate * speed;
@@ -302,6 +308,8 @@ void DriveLimits::check_load(double speed, DriveDemand& out) const {
 
 void DriveLimits::check_monitor(double speed, const Modulation& m, const Shape& s,
                                 DriveDemand& out) const {
+  // SINUMERIK drops "spindle in set range" beyond MD35150 of the set-point (10 % by default) and
+  // may hold the path; a relative deviation is greatest at the lowest speed.
   const double lowest = 1.0 + m.rva * s.low;
   const double off =
       jumps(m.law)
@@ -329,6 +337,7 @@ std::optional<double> DriveLimits::most_rvf(double programmed_rev_s, Modulation 
   if (follows(high)) {
     return high;
   }
+  // Halved on the logarithmic scale, since RVF spans decades; 40 halvings leave some 1e-11.
   for (int i = 0; i < 40; ++i) {
     const double middle = std::sqrt(low * high);
     (follows(middle) ? low : high) = middle;

@@ -9,6 +9,8 @@
 #include <steadyrest/chatter/online/modulator.hpp>
 #include <steadyrest/kernel/override/channel.hpp>
 
+// A small machine of its own: modulator, hand-over, scan and dead time of both overrides, and a
+// drive with constant acceleration. Once it has settled, one period of its speed is the course.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -74,6 +76,7 @@ void add(std::vector<SpeedRamp>& course, const SpeedRamp& ramp) {
   course.push_back(ramp);
 }
 
+// The same channel as in the cycle, so that steps, walks and slew are those of the real machine.
 Result<Channel> spindle_channel(const Machine& machine) {
   return Channel::make({.table = machine.spindle_override,
                         .min_ratio = machine.envelope.min_spindle_ratio,

@@ -14,6 +14,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
 constexpr double kDepthsOver = 5.0;  ///< limit depths up to so many times the wanted one
+// Process damping grows as the waves on the flank get shorter, which means at low speed. Ten waves
+// between two teeth is a cautious threshold for the note.
 constexpr double kManyWaves = 10.0;
 
 Refusal bad(std::string what, std::string to_do) {
@@ -75,6 +77,7 @@ double softest_hz(const Process& process) {
   double most = 0.0;
   double out = 0.0;
   for (const Mode& mode : process.modes) {
+    // Compliance at resonance, 1/(2ζk), but for a factor common to all modes.
     const double k = mode.mass_kg * mode.frequency_hz * mode.frequency_hz;
     const double way = 1.0 / (k * std::max(mode.damping_ratio, 1e-6));
     if (way > most) {

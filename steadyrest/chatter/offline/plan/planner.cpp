@@ -11,6 +11,10 @@
 #include <steadyrest/chatter/offline/plan/plan_request.hpp>
 #include <steadyrest/chatter/offline/plan/planner.hpp>
 
+// Constant steps before laws: on the slot benchmark 110 % carries 2.77 mm where 100 % carries 0.41
+// mm, and the best laws of ±20 % about as much. A constant step also leaves the drive alone. Laws
+// follow by rising amplitude, and the first amplitude with an accepted law ends the search: a
+// larger one only loads the drive more.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -136,6 +140,7 @@ std::vector<double> Planner::amplitudes() const {
   if (out.empty()) {
     for (const double ratio : limits_.writable(speed_)) {
       const double rva = std::abs(ratio - 1.0);
+      // An amplitude between two steps cannot be written; a distance from 100 % can.
       if (rva > kSame && rva < 0.95) {
         out.push_back(rva);
       }

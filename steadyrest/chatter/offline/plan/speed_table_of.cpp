@@ -23,6 +23,8 @@ kernel::outcome::Result<void> add_depths(const Process& process,
                                          double most_depth_mm, online::SpeedTable::Config& config) {
   constexpr double kSame = 1e-9;
   std::vector<double> speeds;
+  // The border only at speeds that the override can make: the table on line picks steps, so depths
+  // between them would never be read.
   for (const double programmed : programmed_rev_s) {
     for (const double ratio : config.step_ratio) {
       const double speed = ratio * programmed;

@@ -8,6 +8,9 @@
 
 #include <steadyrest/chatter/offline/plan/uncertainty.hpp>
 
+// A Latin hypercube (McKay, Beckman and Conover 1979): each figure's distribution is cut into as
+// many equally likely parts as there are samples, and each part is drawn from once. The share of
+// stable cuts then scatters less than with independent draws.
 namespace steadyrest::chatter::offline {
 namespace {
 

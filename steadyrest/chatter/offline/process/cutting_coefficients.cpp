@@ -55,6 +55,7 @@ Eigen::Vector3d CuttingCoefficients::squares(std::size_t tooth, double angle_rad
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   // The edge covers [φ − lag, φ]; a long one may wind round the tool more than once.
   const double tip = within_turn(angle_rad - offset_rad_[tooth]);
+  // Mean over the edge's height of what each slice does at its own angle.
   for (double shift = 0.0; shift > -lag_rad_ - kTurn; shift -= kTurn) {
     const double high = std::min(tip, exit_rad_ + shift);
     const double low = std::max(tip - lag_rad_, entry_rad_ + shift);
@@ -75,7 +76,8 @@ Eigen::Matrix2d CuttingCoefficients::stiffness(std::size_t tooth, double angle_r
   const Eigen::Vector3d q = squares(tooth, angle_rad);
   const double kt = cut_.tangential_n_mm2;
   const double kr = cut_.radial_n_mm2;
-  // u·nᵀ with q = (sin², sin·cos, cos²).
+  // n = (sin φ, cos φ) is the direction of the chip, t = (cos φ, −sin φ) that of the cut; H = u·nᵀ
+  // with u = kt·t + kr·n, and q = (sin², sin·cos, cos²) carries the products over the edge.
   h << kt * q[1] + kr * q[0], kt * q[2] + kr * q[1], -kt * q[0] + kr * q[1], -kt * q[1] + kr * q[2];
   return h;
 }
@@ -90,6 +92,7 @@ Eigen::Matrix2d CuttingCoefficients::damping(std::size_t tooth, double angle_rad
     return p;
   }
   const Eigen::Vector3d q = squares(tooth, angle_rad);
+  // n·nᵀ: damping acts along the chip's thickness alone.
   p << q[0], q[1], q[1], q[2];
   return damping_n_s_ * p;
 }
@@ -99,6 +102,7 @@ std::vector<double> CuttingCoefficients::corners_rad(std::size_t tooth) const {
     return {};
   }
   std::vector<double> out;
+  // The tip and, a lag later, the top of the edge cross each border; H has a kink at all four.
   for (const double border : {entry_rad_, exit_rad_}) {
     out.push_back(within_turn(border + offset_rad_[tooth]));
     if (lag_rad_ >= 1e-9) {

@@ -13,6 +13,9 @@
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
+// The keys of each section are in process_keys.cpp with their ranges. What a table of keys cannot
+// say is checked here: which keys belong to milling or turning, which exclude one another, which
+// need a third. Faults are gathered, so that one run shows them all.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -200,6 +203,7 @@ class FileReader {
     FrfKeys keys;
     const std::size_t before = faults_.list.size();
     const Given given = SectionReader<FrfKeys>(faults_, frf_keys(), "[[frf]]").read(table, keys);
+    // A measured file is read only for a section without a fault: the fit takes seconds.
     if (faults_.list.size() != before) {
       return;
     }
@@ -208,6 +212,8 @@ class FileReader {
     const auto fit = responses ? fit_modes(*responses, {}) : std::unexpected(responses.error());
     if (!fit) {
       Refusal why = fit.error();
+      // The fault is reported at the process file's line; the response's own place goes into its
+      // words.
       why.file = path.string();
       const std::string to_do = std::exchange(why.to_do, "");
       std::string what = kernel::outcome::text(why);

@@ -5,6 +5,9 @@
 
 #include <steadyrest/chatter/offline/process/speed_profile.hpp>
 
+// The solver wants the speed over the angle, a law gives it over time. With u the phase of the law,
+// θ(u) = P·(u + RVA·∫S), P the angle of one period; phase() inverts it. A course of ramps needs no
+// inversion: on each ramp Ω² is linear in the angle.
 namespace steadyrest::chatter::offline {
 
 namespace {
@@ -34,6 +37,7 @@ SpeedProfile::SpeedProfile(double mean_rev_s, const Modulation& modulation)
 
 double SpeedProfile::angle_rad(const std::vector<SpeedRamp>& course) noexcept {
   double out = 0.0;
+  // Mean speed of the ramp times its duration: 2π·(n₀ + n₁)/2·t.
   for (const SpeedRamp& ramp : course) {
     out += std::numbers::pi * (ramp.from_rev_s + ramp.to_rev_s) * ramp.duration_s;
   }

@@ -13,6 +13,8 @@
 #include <steadyrest/chatter/offline/response/uff58.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
+// Names and units of a header are read apart, so that any order of differentiation and any length
+// unit comes down to displacement in mm/N here, once.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -120,6 +122,7 @@ class FrfSink final : public table::Sink {
                      "give the coherence as a ratio, or leave the column out"};
       }
     }
+    // At 0 Hz a mobility or an accelerance says nothing about displacement.
     if (!(value[0] > 0.0)) {
       return std::nullopt;
     }

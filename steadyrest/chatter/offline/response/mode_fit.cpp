@@ -11,6 +11,9 @@
 
 #include <steadyrest/chatter/offline/response/mode_fit.hpp>
 
+// Orders rise one by one: with_one_more() adds a mode where the residual stands out, refine() moves
+// all modes by Levenberg–Marquardt with the linear parameters solved inside, estimate_noise()
+// renews the weights, and the criterion decides whether the mode was worth its three parameters.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -177,6 +180,7 @@ double estimate_noise(Data& data, const Model& model) {
   double r2 = 0.0;
   double best = cost(s2, r2);
   // A grid over the share of s, each with the scale that is best for it, in closed form.
+  // From 1e-12 to 1e6 of the mean |H|² in steps of 0.15 decades.
   constexpr int kShares = 121;
   for (int i = 0; i < kShares; ++i) {
     const double ratio = std::pow(10.0, -12.0 + 0.15 * i) * size.mean();
@@ -216,6 +220,7 @@ Model with_one_more(const Data& data, const Model& model) {
   for (const Index i : peaks) {
     places.push_back(data.w[i]);
   }
+  // One half-width, ζ·ω, to either side.
   for (std::size_t k = 0; k < model.w.size(); ++k) {
     places.push_back(model.w[k] * (1.0 + model.damping[k]));
     places.push_back(model.w[k] * (1.0 - model.damping[k]));

@@ -11,6 +11,10 @@
 
 #include <steadyrest/chatter/offline/response/uff58.hpp>
 
+// Universal files are Fortran records of 80 columns: −1 opens and closes a dataset, five title
+// lines, record 6 tells the function, record 7 the form of the data, records 8 to 11 the axes.
+// Other datasets between the responses are passed over; a truncated one is refused, since a cut-off
+// response fits to modes that are not there.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -160,6 +164,7 @@ class UffReader {
     Axis response;
     Axis force;
     Axis z;
+    // Order of the records is fixed: abscissa, ordinate numerator, denominator, z axis.
     for (Axis* axis : {&abscissa, &response, &force, &z}) {
       if (auto fault = characteristics(*axis)) {
         return fault;

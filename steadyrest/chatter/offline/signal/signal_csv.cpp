@@ -84,6 +84,8 @@ class SignalSink final : public table::Sink {
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);
     const double median_s = *middle;
+    // A missing sample shifts the phase of every order behind it and looks like chatter; it is
+    // refused rather than filled. The median is the step that a few gaps do not move.
     for (std::size_t i = 0; i < steps.size(); ++i) {
       if (!(steps[i] > 0.0 && std::abs(steps[i] - median_s) <= kUneven * median_s)) {
         return std::unexpected(SignalFault{
