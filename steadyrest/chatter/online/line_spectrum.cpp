@@ -63,6 +63,7 @@ LineSpectrum::LineSpectrum(const Config& config, std::size_t n)
     }
     reversed_[i] = r;
   }
+  // Twiddles once, in full precision: a running product would lose digits over a thousand steps.
   for (std::size_t i = 0; i < n / 2; ++i) {
     twiddle_[i] = std::polar(1.0, -kTurn * static_cast<double>(i) / static_cast<double>(n));
   }

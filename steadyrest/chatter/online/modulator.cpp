@@ -225,6 +225,7 @@ void Modulator::choose_step(double ratio, const Limits& limits, double floor) no
 void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swing& swing, bool late,
                             Output& output) noexcept {
   const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
+  // The greatest feed that may act together with this speed: in force, asked for now, or under way.
   const bool fed = output.feed.reason != Reason::none;
   const double asked = fed ? output.feed.ratio : feed_ ? frame.feed.panel_ratio : 0.0;
   const double feed = std::max({feed_in_force(frame), asked, state_.coming_feed.most()});
@@ -340,6 +341,7 @@ Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force)
   if (!active && (speed_rev_s == 0.0 || state_.fade <= turn)) {
     return withdraw(frame.motion == Motion::feed ? Reason::none : Reason::not_cutting);
   }
+  // The phase runs on while the law fades out, or it would come back with a jump.
   state_.fade = std::clamp(state_.fade + (active ? turn : -turn), 0.0, 1.0);
   if (active) {
     state_.phase += dt_s / state_.modulation.period_s;

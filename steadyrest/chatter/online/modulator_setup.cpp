@@ -65,7 +65,8 @@ Result<void> check(const Modulator::Config& c) {
   return {};
 }
 
-/// From the scan of the feed's word to what the interpolator does, two of its periods besides.
+/// A word written just behind a scan waits a whole period for the next one, then acts its dead time
+/// later.
 double delay_s(const machine::OverrideTable& table) noexcept {
   return table.scan_period_s + table.dead_time_s;
 }

@@ -117,6 +117,7 @@ SpeedTable::Advice SpeedTable::from_table(const Question& question) const noexce
   for (const double ratio : config_.step_ratio) {
     const double speed = ratio * question.programmed_rev_s;
     const double way = std::abs(ratio - question.ratio);
+    // The present step is no advice: the cut chatters on it.
     if (!permitted(ratio, speed) || way < kSameRatio) {
       continue;
     }

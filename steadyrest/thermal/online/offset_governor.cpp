@@ -6,6 +6,9 @@
 
 #include <steadyrest/thermal/online/offset_governor.hpp>
 
+// A frame passes drive_on() (time, heat and sensors to the filters), probe() (a reading, once), and
+// ask() (the wish and its slope for each axis). Filters step once a second, not in every cycle: the
+// slowest thing that matters here is a time constant of minutes, and a cycle has better to do.
 namespace steadyrest::thermal::online {
 
 namespace machine = kernel::machine;
@@ -213,6 +216,7 @@ Reason OffsetGovernor::ask(const Axis& axis, const Frame& frame, bool tool_in_cu
   }
   const double whole = axis.reference_mm - axis.filter.displacement_mm();
   const double within = std::clamp(whole, -max_offset_mm_, max_offset_mm_);
+  // The wish jumps to 0 on a fault; the slope makes a fade of it.
   wish = faulty == Reason::none ? within : 0.0;
   const bool slowly = tool_in_cut || feeds(frame.motion) || faulty != Reason::none;
   slope_mm_s = slowly ? slope_mm_s_ : retract_slope_mm_s_;
@@ -274,6 +278,7 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
 void OffsetGovernor::zero_here() noexcept {
   step();
   for (Axis& axis : axes_) {
+    // r = δ + the offset on the machine, so that the wish r − δ is what is there and nothing moves.
     axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm;
   }
 }
@@ -290,6 +295,7 @@ StateFilter::Verdict OffsetGovernor::measure(std::size_t axis,
     return {};
   }
   step();
+  // The probe finds e = δ + offset − r, so the model's coordinate is δ = e + r − offset.
   return of->filter.measure(
       {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm,
        .sd_mm = reading.sd_mm});

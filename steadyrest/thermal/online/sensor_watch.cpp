@@ -6,6 +6,9 @@
 
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
+// Two questions for each reading: can a machine be that warm, coming from where it was (can_be),
+// and does a sensor that says the same for hours still live (live)? What is doubted becomes NaN, so
+// the model treats it like a sensor that is missing.
 namespace steadyrest::thermal::online {
 
 using kernel::outcome::Reason;
@@ -97,6 +100,7 @@ void SensorWatch::look(Sensor& sensor, double elapsed_s, double temperature_c) n
 
 /// A value that can be.
 void SensorWatch::live(Sensor& sensor, double elapsed_s, double temperature_c) noexcept {
+  // An excursion is a kelvin away from where the last one ended: noise never adds up to one.
   if (std::abs(temperature_c - sensor.anchor_c) >= kMoved_k) {
     sensor.anchor_c = temperature_c;
     ++sensor.excursions;
@@ -110,6 +114,7 @@ void SensorWatch::live(Sensor& sensor, double elapsed_s, double temperature_c) n
       sensor.longest_s = std::max(sensor.longest_s, sensor.same_s);
     }
     sensor.value_c = temperature_c;
+    // A single value between the steps proves a sensor fine for good.
     sensor.steps = static_cast<std::uint8_t>(sensor.steps & steps_of(temperature_c));
     sensor.moved = true;
     sensor.same_s = 0.0;

@@ -6,6 +6,10 @@
 
 #include <steadyrest/thermal/online/state_filter.hpp>
 
+// A Kalman filter over modes, bias and one scale of all levels. The modes themselves live in the
+// ThermalModel, which steps them exactly; the filter adds what the scale changes of that step and
+// carries the covariance along with the same step. Hᵀ = (1, …, 1, 1, 0): a reading sees modes and
+// bias, and the scale only through what it has done to the modes.
 namespace steadyrest::thermal::online {
 
 using kernel::outcome::Kind;
@@ -144,6 +148,7 @@ void StateFilter::spread(double elapsed_s, const std::array<double, kMaxThermalM
 
 double StateFilter::variance_mm2() const noexcept {
   double sum = 0.0;
+  // H·P·Hᵀ: the sum over modes and bias.
   for (std::size_t i = 0; i <= kBias; ++i) {
     for (std::size_t j = 0; j <= kBias; ++j) {
       sum += state_.covariance[i][j];
@@ -187,6 +192,7 @@ StateFilter::Verdict StateFilter::measure(const Reading& reading) noexcept {
   // Outliers count too, clipped: one says nothing, several in a row say that the model is wrong.
   state_.innovation[state_.readings % kWindow] = std::clamp(e, -config_.gate_sd, config_.gate_sd);
   ++state_.readings;
+  // Three standard deviations: of readings that fit, one in 370 is refused.
   if (std::abs(e) > config_.gate_sd) {
     verdict.reason = Reason::thermal_reading_outlier;
     return verdict;
@@ -234,6 +240,7 @@ void StateFilter::rezero(const Reading& reading) noexcept {
     variance += i < modes_ ? sum : 0.0;
   }
   p[kBias][kBias] = variance;
+  // The innovations so far were against a model that has just been set right.
   state_.readings = 0;
   state_.clamped = clamp();
 }
@@ -254,6 +261,8 @@ Reason StateFilter::fault() const noexcept {
   if (n < kLeast) {
     return Reason::none;
   }
+  // Two tests, as each sees what the other misses: χ² a spread that is too wide, the sum an error
+  // that stays on one side.
   double energy = 0.0;
   double sum = 0.0;
   for (std::size_t k = 0; k < n; ++k) {

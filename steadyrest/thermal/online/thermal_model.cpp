@@ -8,6 +8,9 @@
 
 #include <steadyrest/thermal/online/thermal_model.hpp>
 
+// The law of the README, one step at a time. Inputs are constant within a step, so each mode and
+// each lag moves by its exact exponential: a step of a millisecond and one of an hour are equally
+// right.
 namespace steadyrest::thermal::online {
 
 using kernel::machine::ThermalMode;
@@ -20,6 +23,7 @@ namespace {
 constexpr double kReference_rev_s = 1000.0 / 60.0;  ///< of a polynomial's n
 
 bool usable(const ThermalMode& mode) {
+  // Either a table or a polynomial, never both; a lag or rest τ of 0 means none.
   return mode.tau_s > 0.0 && mode.rest_tau_s >= 0.0 &&
          mode.speed_rev_s.size() == mode.level_mm.size() &&
          mode.level_mm.empty() != mode.polynomial_mm.empty() &&
@@ -104,6 +108,7 @@ double ThermalModel::level_mm(std::size_t mode, const Drive& drive) const noexce
   // Heat does not ask for the direction of rotation.
   const double n = std::abs(drive.speed_rev_s);
   double level = m.level_mm.empty() ? by_polynomial(m, n) : by_table(m, n);
+  // Only the share of the time in feed moves heats by cutting: ratio 1 + share·(c − 1).
   level *= drive.cutting ? 1.0 + drive.cutting_share * (m.cutting_ratio - 1.0) : 1.0;
   level *= drive.coolant ? m.coolant_ratio : 1.0;
   // The ratios are of the speed's part alone.
@@ -112,6 +117,7 @@ double ThermalModel::level_mm(std::size_t mode, const Drive& drive) const noexce
 
 double ThermalModel::tau_s(std::size_t mode, const Drive& drive) const noexcept {
   const ThermalMode& m = config_.mode[mode];
+  // A spindle that turns moves air and oil and cools faster; at rest the same body may take longer.
   return drive.speed_rev_s == 0.0 && m.rest_tau_s > 0.0 ? m.rest_tau_s : m.tau_s;
 }
 

@@ -8,6 +8,10 @@
 
 #include <steadyrest/thermal/offline/adapt/adapt.hpp>
 
+// Loop D of Marusich 2012. next_level() looks at the parts alone and moves the share k by a step;
+// predict() says what the plan believed at each part; learn_gains() asks which gains of the modes
+// would have explained the parts, by recursive least squares, outliers taken out one after the
+// other.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -99,6 +103,8 @@ class Pass {
     return h;
   }
 
+  // Order matters little for the result and much for the outliers: the first parts are judged by
+  // the prior. learn_gains() therefore judges all of them again at the end.
   void take(std::size_t k) {
     const Eigen::VectorXd h = row(observations_[k]);
     const Eigen::VectorXd ph = p_ * h;
@@ -156,6 +162,7 @@ LevelChoice next_level(std::span<const double> share, std::uint32_t level,
     out.largest_ratio = std::max(out.largest_ratio, error / own);
     all_inside = all_inside && error <= rule.well_inside * own;
   }
+  // A few parts may leave their share: at a 95 % band one in twenty does.
   const bool leave =
       static_cast<double>(out.outside) > rule.few * static_cast<double>(parts.size());
   if (leave && level + 1 < share.size()) {

@@ -10,6 +10,10 @@
 #include <steadyrest/thermal/offline/fit/band.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
+// What the model does not know is one first-order process with RMS d and time constant τ_d. d comes
+// from the free running errors, τ_d from those after a probe, which show how fast the unknown comes
+// back: variance d²·(1 − e^(−2t/τ_d)). Both are set so that the band holds what it promises on
+// hours that had no part in the fit.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -45,6 +49,7 @@ double covered(const std::vector<Sample>& samples, const std::function<bool(cons
 }
 
 /// The least x of [low, high] with `enough(x)`, which only grows true.
+/// Halved on the logarithmic scale; 40 halvings leave 1e-11.
 double least(double low, double high, const std::function<bool(double)>& enough) {
   for (int i = 0; i < 40; ++i) {
     const double middle = std::sqrt(low * high);
@@ -82,6 +87,7 @@ std::pair<double, double> made_from(const std::vector<Sample>& free,
 /// Each block seen by the band that the others make.
 class Others {
  public:
+  // A block that helped to set the band proves nothing about it.
   Others(const std::vector<Sample>& free, const std::vector<Sample>& probed,
          const std::vector<std::size_t>& blocks)
       : free_(free), probed_(probed), blocks_(blocks) {
@@ -126,6 +132,7 @@ double student(std::size_t blocks) {
 
 Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::MatrixXd& columns,
                const Eigen::MatrixXd& covariance) {
+  // Parameters move the forecast about the mean of the log: its constant is fitted.
   const Eigen::RowVectorXd middle = columns.colwise().mean();
   const double noise = data.noise_um * data.noise_um;
   std::vector<Sample> free;
@@ -147,6 +154,7 @@ Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::Matrix
       }
       const Eigen::RowVectorXd whole = columns.row(row) - middle;
       const Eigen::RowVectorXd since = columns.row(row) - zero;
+      // Two noises after a probe, its own and the reading's.
       free.push_back({b, 0.0, residual(k), noise + whole.dot(whole * covariance)});
       probe.push_back(
           {b, data.time_s[i] - zero_s, zeroed(k), 2.0 * noise + since.dot(since * covariance)});

@@ -10,6 +10,9 @@
 #include <steadyrest/thermal/offline/fit/column_grid.hpp>
 #include <steadyrest/thermal/offline/fit/dense_fit.hpp>
 
+// Evidence instead of choice: with gains N(0, s²) the readings are one normal vector, and its
+// density integrates out whatever the gains are. With many alike sensors that is a fairer judge
+// than the left-out hours, which a search among hundreds of pairs has already seen.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -64,6 +67,8 @@ class Evidence {
       const auto in = static_cast<std::size_t>(i);
       for (Eigen::Index j = 0; j <= i; ++j) {
         const auto jn = static_cast<std::size_t>(j);
+        // In units of the prior: S·XᵀX·S + 1 has no eigenvalue below 1, so Cholesky is safe with
+        // columns that are nearly parallel.
         normal(i, j) = sd[in] * sd[jn] * product_(column[in], column[jn]);
       }
       normal(i, i) += 1.0;
@@ -75,6 +80,7 @@ class Evidence {
     }
     const Eigen::VectorXd half = root.matrixL().solve(right);
     const double log_root = root.matrixLLT().diagonal().array().log().sum();
+    // ln p = ½·yᵀX S (1 + S XᵀX S)⁻¹ S Xᵀy − ½·ln det(1 + S XᵀX S), but for a constant of y.
     return 0.5 * half.squaredNorm() - log_root;
   }
 
@@ -128,6 +134,7 @@ std::optional<Dense> dense_fit(const FitData& data, const ErrorModel& guess,
                                const SearchLimits& limits, std::size_t least_modes) {
   const std::vector<std::size_t>& sensors = limits.sensor;
   const std::size_t most = kernel::machine::kMaxThermalAmbients / kLag.size();
+  // With as many sensors as a structure may take the search has tried them all.
   if (sensors.size() <= limits.most_ambients || sensors.size() > most) {
     return std::nullopt;
   }

@@ -8,6 +8,8 @@
 #include <steadyrest/thermal/offline/fit/error_model.hpp>
 #include <steadyrest/thermal/offline/fit/fit_data.hpp>
 
+// Readings are thinned, the inputs are not: a column walks every row of the log and is then taken
+// at the chosen rows. Thinning costs little, since successive readings carry the same drift.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -73,6 +75,7 @@ void cut_into_blocks(FitData& data) {
   if (!border_s.empty()) {
     border_s.erase(border_s.begin());  // what comes before the first start belongs to it
   }
+  // A spindle that starts once or twice gives no runs to leave out: pieces of equal time then.
   if (border_s.size() + 1 < kLeastBlocks) {
     border_s.clear();
     const double span_s = data.time_s.back() - data.time_s.front();
@@ -103,6 +106,7 @@ std::vector<std::size_t> FitData::within_reach() const {
     for (std::size_t o = 0; o < block.size(); ++o) {
       others = o == b ? others : std::max(others, fastest[o]);
     }
+    // Left out, the fastest block asks for an extrapolation that no user is given.
     if (fastest[b] <= kBeyondFitted * others) {
       out.push_back(b);
     }
@@ -162,6 +166,7 @@ FitData fit_data(const Log& log, std::size_t channel, double from_s, double to_s
     std::vector<double> all_um(count);
     std::ranges::transform(std::span(value).subspan(begin, count), all_um.begin(),
                            kernel::units::um_from_mm);
+    // A gauge rounds evenly to its last digit q: standard deviation q/√12.
     data.noise_um = std::max({noise_of(std::span(log.time_s).subspan(begin, count), all_um),
                               last_digit_um(all_um) / std::sqrt(12.0), kLeastNoise_um});
     cut_into_blocks(data);
@@ -176,6 +181,7 @@ double longest_run_s(const Log& log, double from_s, double to_s) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const bool inside = log.time_s[i - 1] >= from_s && log.time_s[i] <= to_s;
     const double before = log.speed_rev_s[i - 1];
+    // Within 1 % is one speed: actual speeds waver.
     const bool same =
         running && std::abs(before - log.speed_rev_s[i > 1 ? i - 2 : 0]) <= 0.01 * before;
     if (!inside || before == 0.0) {

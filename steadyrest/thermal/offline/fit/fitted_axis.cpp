@@ -9,6 +9,8 @@
 #include <steadyrest/thermal/offline/fit/fitted_axis.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
+// Between the fit's columns and the passport's fields there is bookkeeping in both directions:
+// fitted_axis() writes a passport, structure_of() and known_prior() read one back for another log.
 namespace steadyrest::thermal::offline {
 
 using kernel::machine::ThermalAmbient;
@@ -84,6 +86,8 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
     mode.rest_tau_s = structure.mode[m].rest_tau_s;
     mode.tau_sd_ratio = m < ln_tau_sd.size() ? ln_tau_sd[m] : 0.0;
     put_levels(structure, a.segment(i * terms, terms), mode);
+    // The state of a mode at the log's end: what the levels have built up, plus what is left of the
+    // states that each stretch began with.
     const auto from_levels = a.segment(i * terms, terms).dot(end.segment(i * terms, terms));
     const Eigen::Index state = first_state + i * starts;
     mode.state_mm =
@@ -99,6 +103,8 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
     ambient.gain_mm_k = mm_from_um(a(levels + j));
     ambient.reference_c = start(levels + j);
     ambient.state_c = end(levels + j);
+    // Gains count from the temperature at the first reading, so their share there moves into the
+    // zero.
     zero_um += a(levels + j) * start(levels + j);
     out.ambient.push_back(std::move(ambient));
   }
@@ -178,14 +184,18 @@ void known_prior(const ThermalAxis& axis, double unsure, const Structure& struct
       const Eigen::Index to = place[static_cast<std::size_t>(j)];
       spread(i, j) = to < 0 ? 0.0 : covariance(place[in], to);
     }
+    // Two sources of doubt: the test's own covariance, and a machine that has changed since by 15
+    // %.
     const double changed = std::max(unsure * std::abs(mean[in]), kLeast);
     spread(i, i) += changed * changed;
     prior.mean(i) = mean[in];
   }
   const Eigen::LLT<Eigen::MatrixXd> root(spread);
+  // Precision = L⁻ᵀ·L⁻¹, so L⁻¹ is its root.
   prior.root.topLeftCorner(n, n) = root.matrixL().solve(Eigen::MatrixXd::Identity(n, n)).eval();
 }
 
+// A cold start at the fastest speed: every parameter is stretched the farthest there.
 double horizon_sd_um(const ThermalAxis& axis, double horizon_s) {
   const auto model = online::ThermalModel::make(axis);
   if (!model) {

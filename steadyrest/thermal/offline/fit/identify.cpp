@@ -17,6 +17,10 @@
 #include <steadyrest/thermal/offline/log/level_table.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
+// Three ways to a structure: free_structure() searches and judges by left-out hours,
+// known_structure() takes time constants from a passport (--tau-from), held_structure() those that
+// axes share. finish() is common to all: linear fit, band from the left-out readings, passport. A
+// Structure holds what is not linear; whatever is linear is solved for each of them afresh.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -252,6 +256,8 @@ class Identification {
 
   [[nodiscard]] Judged judged(const Structure& structure) const {
     const LinearPrior known = prior(structure);
+    // Time constants first, by the whole log; then the blocks are left out with these held, which
+    // costs the same small bias for every structure.
     Refined refined = refine(structure, data_, error_, known);
     Judged out{std::move(refined.structure),
                std::move(refined.ln_tau_sd),
@@ -266,6 +272,8 @@ class Identification {
     return out;
   }
 
+  // One standard error (Breiman et al. 1984, §3.4.3): among structures that forecast equally well
+  // within the scatter of the blocks, the simplest generalises best.
   static Judged simplest(const std::vector<Judged>& all) {
     const auto best =
         std::ranges::min_element(all, {}, [](const Judged& j) { return j.left_out.mean_loss; });
@@ -296,6 +304,8 @@ class Identification {
       return few;
     }
     found->structure.table_rev_s = table_rev_s_;
+    // Each with the error model that was found for it, or the richer structure would be judged with
+    // the wider drift of the poorer.
     const double evidence_few = evidence(few.structure);
     const ErrorModel error_few = std::exchange(error_, found->error);
     Judged dense = judged(found->structure);
@@ -308,6 +318,7 @@ class Identification {
   }
   [[nodiscard]] double evidence(const Structure& s) const {
     const LinearPrior known = prior(s);
+    // Dense lags are fixed beforehand, not chosen, and cost nothing in the criterion.
     const auto lags = std::ranges::count_if(
         s.ambient, [&s](const Structure::Ambient& a) { return a.tau_s > 0.0 && !s.dense; });
     const auto chosen = static_cast<double>(s.mode.size()) + static_cast<double>(lags);

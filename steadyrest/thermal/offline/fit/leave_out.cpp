@@ -6,6 +6,8 @@
 #include <steadyrest/thermal/offline/fit/leave_out.hpp>
 #include <steadyrest/thermal/offline/log/lagged.hpp>
 
+// Successive rows are nearly copies of each other, so single rows left out would be forecast from
+// their neighbours. Whole runs are left out instead, each with its warming and cooling.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -36,6 +38,8 @@ Eigen::MatrixXd cold(Eigen::MatrixXd columns, const Structure& structure, const 
 
 }  // namespace
 
+// ln of the geometric mean of both RMS errors: a difference of 0.03 is 3 % of the error. Below
+// kGoodEnough_um a smaller error is worth nothing, and the logarithm must not run away.
 double block_loss(double free_ms_um2, double probed_ms_um2) {
   constexpr double kGood = kGoodEnough_um * kGoodEnough_um;
   return 0.25 * (std::log(free_ms_um2 + kGood) + std::log(probed_ms_um2 + kGood));
@@ -48,6 +52,8 @@ Eigen::VectorXd probed(const FitData& data, const FitData::Block& block,
   double next_s = -std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const double t = data.time_s[block.begin + static_cast<std::size_t>(i)];
+    // A probe resets the zero to what it reads; what it cannot see is how the error grows until the
+    // next.
     if (t >= next_s) {
       zero = residual_um(i);
       next_s = t + kProbeEvery_s;
@@ -96,6 +102,8 @@ LeftOut leave_out(const Structure& structure, const FitData& data, const ErrorMo
   return out;
 }
 
+// Paired by blocks: a hard block is hard for both, and its difference says who copes better. The
+// standard error of the mean difference is the yardstick.
 bool as_good(const LeftOut& a, const LeftOut& b) {
   const auto n = static_cast<double>(a.loss.size());
   double mean = 0.0;

@@ -6,6 +6,9 @@
 
 #include <steadyrest/thermal/offline/fit/shared_tau.hpp>
 
+// Two probes of one body should show one time constant. Axes are paired from the most alike on, as
+// in agglomerative clustering; each merger refits all members with the mean τ and stays only if the
+// evidence lost is less than what the saved parameters are worth.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -49,6 +52,7 @@ bool alike(const Structure& a, const Structure& b) {
 }
 
 double weight(const AxisFit& fit, std::size_t mode) {
+  // Inverse variance; the floor keeps one axis from dictating to all others.
   const double sd = std::max(fit.ln_tau_sd[mode], kLeastSd);
   return 1.0 / (sd * sd);
 }
@@ -92,6 +96,7 @@ class Sharing {
       AxisFit held = own_[i];
       set_ln_taus(held.structure, mean);
       for (std::size_t m = 0; m < modes; ++m) {
+        // The weighted mean has the standard deviation 1/√Σw, the own one times √(w/Σw).
         const double surer = std::sqrt(weight(own_[i], m) / sum[m]);
         held.ln_tau_sd[m] *= surer;
         held.axis.mode[m].tau_sd_ratio *= surer;
@@ -170,6 +175,7 @@ std::vector<Group> share_tau(const Log& log, const std::vector<std::size_t>& cha
     }
     const auto taus = static_cast<double>(ln_taus(own[pair.first].structure).size());
     const FitData data = fit_data(log, channel[pair.first], request.from_s, request.to_s);
+    // ½·ln(rows) for each parameter saved: Bayes' criterion, halved to the scale of a log evidence.
     const double saved = 0.5 * taus * std::log(static_cast<double>(data.rows()));
     if (shared + saved < evidence(fit, both)) {
       continue;

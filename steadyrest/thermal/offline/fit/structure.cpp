@@ -6,6 +6,7 @@
 
 namespace steadyrest::thermal::offline {
 
+// What the log chooses counts: linear parameters, and each time constant that is not fixed.
 std::size_t Structure::parameters() const noexcept {
   std::size_t count = linear() + mode.size();
   for (const Mode& m : mode) {
@@ -35,6 +36,8 @@ Eigen::MatrixXd columns_of(const Structure& structure, const Log& log,
   for (const Structure::Ambient& a : structure.ambient) {
     out.col(at++) = lagged_temperature(log, rows, log.temperature[a.sensor], a.tau_s);
   }
+  // The order of the columns is a contract: levels mode by mode, gains, the constant, then the
+  // states. fitted_axis.cpp and wide_prior() find their places by it.
   out.col(at++).setOnes();
   for (const Structure::Mode& m : structure.mode) {
     for (const std::size_t start : starts) {

@@ -8,6 +8,9 @@
 
 #include <steadyrest/thermal/offline/fit/structure_fit.hpp>
 
+// Variable projection (Golub and Pereyra 1973): for given time constants all else is linear and
+// solved by QR, so only ln τ is searched, by damped Gauss–Newton on the projected residuals. Two or
+// three unknowns are left of a dozen, and no start values are needed for levels or gains.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -32,6 +35,8 @@ Subset subset(const Eigen::MatrixXd& columns, const FitData& data,
   out.time_s.reserve(data.rows() - (hole.end - hole.begin));
   auto fresh = data.fresh.begin();
   bool begins = false;
+  // A hole in the rows counts as time passed, not as a gap: the drift on its far side still
+  // remembers. Only a recorded gap makes the next row fresh.
   for (std::size_t i = 0; i < data.rows(); ++i) {
     if (fresh != data.fresh.end() && *fresh == i) {
       begins = true;
@@ -152,6 +157,7 @@ LinearPrior wide_prior(const Structure& structure, const FitData& data) {
   const auto n = static_cast<Eigen::Index>(usual.size());
   LinearPrior out{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   for (Eigen::Index i = 0; i < n; ++i) {
+    // root is R of the precision RᵀR: standard deviations as reciprocals on its diagonal.
     out.root(i, i) = 1.0 / usual[static_cast<std::size_t>(i)];
   }
   const std::vector<double>& table = structure.table_rev_s;
@@ -189,6 +195,8 @@ LinearFit fit_linear(const Eigen::MatrixXd& columns, const FitData& data, const 
   // magnitude.
   const Eigen::VectorXd scale = a.colwise().norm();
   const Eigen::MatrixXd even = a * scale.cwiseInverse().asDiagonal();
+  // QR on the rows themselves: normal equations would square the condition, and modes a factor of
+  // two apart in τ are nearly parallel already.
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(even);
   const Eigen::MatrixXd r = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
   const Eigen::VectorXd rotated = qr.householderQ().transpose() * b;
@@ -276,6 +284,7 @@ ErrorModel likely_error(const Eigen::MatrixXd& columns, const FitData& data,
   ErrorModel best;
   double least = std::numeric_limits<double>::infinity();
   const auto n = static_cast<double>(data.rows());
+  // A coarse grid does: the likelihood is flat in both.
   for (const double tau_min : {30.0, 60.0, 120.0, 240.0, 480.0}) {
     for (const double ratio : {0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}) {
       ErrorModel error{ratio * data.noise_um, 60.0 * tau_min, data.noise_um};
@@ -294,6 +303,7 @@ ErrorModel likely_error(const Eigen::MatrixXd& columns, const FitData& data,
 
 double bayes_criterion(const LinearFit& fit, const Structure& structure, std::size_t rows) {
   const auto n = static_cast<double>(rows);
+  // −2·ln L + k·ln n (Schwarz 1978); the prior rows are part of the squares.
   return fit.white.squaredNorm() + fit.log_sum +
          static_cast<double>(structure.parameters()) * std::log(n);
 }

@@ -9,6 +9,9 @@
 #include <steadyrest/thermal/offline/fit/column_grid.hpp>
 #include <steadyrest/thermal/offline/fit/structure_search.hpp>
 
+// A forward search over the grid. The products of all columns are formed for each block once;
+// leaving a block out is then a subtraction of its normal matrix, and a candidate costs one small
+// factorisation for each block instead of a pass over the log.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -28,6 +31,8 @@ struct Candidate {
 /// Products of all columns, for each block: made white, as they are, and less the last probe's.
 class Products {
  public:
+  // Fitted white, judged as it is: the drift decides how much the rows weigh, while the error that
+  // a user meets is the plain difference, running free and after an hourly probe.
   Products(const FitData& data, const ErrorModel& error, const SearchLimits& limits)
       : grid_(data, limits.sensor), zero_(1.0 / (9.0 * data.noise_um * data.noise_um)) {
     const Eigen::MatrixXd& all = grid_.columns();
@@ -37,6 +42,7 @@ class Products {
       Eigen::MatrixXd part = all.middleRows(begin, rows);
       Eigen::MatrixXd zeroed(part.rows(), part.cols());
       for (Eigen::Index c = 0; c < part.cols(); ++c) {
+        // probed() is linear in the column, so it may be taken off each column beforehand.
         zeroed.col(c) = probed(data, block, part.col(c));
       }
       free_.emplace_back(part.transpose() * part / static_cast<double>(rows));
@@ -189,6 +195,8 @@ class Search {
     const auto taus = grid_modes(modes, modes);
     for (const auto& set : sets) {
       Candidate least;
+      // Of each set of inputs only the best time constants go on: the neighbours on the grid differ
+      // little.
       for (const auto& tau : taus) {
         Candidate c{tau, power, set, 0.0};
         c.loss = products_.loss(c);

@@ -6,6 +6,9 @@
 #include <steadyrest/thermal/offline/log/lagged.hpp>
 #include <steadyrest/thermal/offline/log/level_table.hpp>
 
+// The columns of the fit are the law's own answers: to a unit level of a power of the speed, to a
+// unit state, to a temperature. walk() goes over every row of the log, whichever rows are read, and
+// starts again after each gap.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -62,6 +65,7 @@ Eigen::VectorXd lagged_level(const Log& log, std::span<const std::size_t> rows, 
   return walk(
       log, rows, [&](std::size_t) { x = 0.0; },
       [&](std::size_t row) {
+        // A row's speed holds until the next row, as in the controller's frames.
         const double n = log.speed_rev_s[row - 1];
         if (n != speed) {
           speed = n;
@@ -106,6 +110,7 @@ Eigen::VectorXd lagged_temperature(const Log& log, std::span<const std::size_t> 
         lagged = input;
       },
       [&](std::size_t row) {
+        // The old reading acts up to this row; the new one from here on.
         lagged = input + (lagged - input) * decay(log.time_s[row] - log.time_s[row - 1], tau_s);
         take(row);
       },
@@ -114,6 +119,7 @@ Eigen::VectorXd lagged_temperature(const Log& log, std::span<const std::size_t> 
 
 Eigen::VectorXd fading(const Log& log, std::span<const std::size_t> rows, std::size_t start,
                        double tau_s, double rest_tau_s) {
+  // The free decay of a state of 1 at `start`, and nothing in other stretches.
   double x = 0.0;
   Decay turning;
   Decay standing;

@@ -13,6 +13,9 @@
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
+// From a table to a Log: the clock first, since all rows depend on it, then the speed, which must
+// be whole, then each channel with its wild, stuck and absent readings taken out. What is doubtful
+// but usable becomes a note; what would make a fit lie is refused with its line.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -148,6 +151,7 @@ class LogMaker {
     const std::string what =
         fmt::format("{} = {:.6g} is implausible; {:.6g} … {:.6g} is allowed", channel.name,
                     shown_as(channel.value[first]), shown_as(least), shown_as(most));
+    // A spike or two is a loose plug; one row in a hundred is a wrong unit.
     if (static_cast<double>(wild) > kWild_share * static_cast<double>(channel.value.size())) {
       return refuse(line_of_row(first), what,
                     "make the column's unit agree with its name: _um or _mm, _c, _k or _f");
@@ -190,6 +194,8 @@ class LogMaker {
       seen[0] = channel.value[k];
       const bool before = k < begin && std::isfinite(seen[0]);
       if (k >= begin) {
+        // The on-line rules, row by row: a passport fitted with readings that the machine will not
+        // believe would forecast from inputs that it never gets.
         watch.update(k == begin ? 0.0 : log_.time_s[k] - log_.time_s[k - 1], 1, seen);
       }
       if (!before && watch.fault(0) != kernel::outcome::Reason::thermal_sensor_wild) {
@@ -253,6 +259,8 @@ class LogMaker {
       if (std::isnan(channel.value[k])) {
         continue;
       }
+      // A straight line over minutes errs little; over hours it would invent a room. Longer holes
+      // hold the last value, as on line.
       const bool hole = known < k && known + 1 < k;
       if (hole && log_.time_s[k] - log_.time_s[known] <= kBridge_s) {
         for (std::size_t j = known + 1; j < k; ++j) {
@@ -296,6 +304,7 @@ class LogMaker {
     double least = std::numeric_limits<double>::infinity();
     double most = -least;
     for (const double v : channel.value) {
+      // Comparisons with NaN are false, so holes drop out.
       least = v < least ? v : least;
       most = v > most ? v : most;
     }

@@ -10,6 +10,9 @@
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/offline/log/log_clock.hpp>
 
+// Time must rise. A row twice is harmless and dropped; a time that runs back or leaps is refused,
+// for every exponential between two rows depends on it. A longer pause is a gap, and a gap needs
+// rows on either side that agree with each other.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -65,6 +68,8 @@ class ClockMaker {
                      "correct the row's time, or leave out the row"};
       }
       if (out_.row.empty()) {
+        // --from-min and --to-min count from here: stamps from the first row, a logger's clock from
+        // its own 0.
         out_.origin_s = table_.stamped ? t : 0.0;
       }
       if (out_.row.empty() || t > out_.time_s.back()) {
@@ -96,6 +101,7 @@ class ClockMaker {
     const std::size_t rows = out_.row.size();
     const double before = out_.time_s.back();
     const double ahead_s = rows < 2 ? 0.0 : t - out_.time_s[rows - 2];
+    // This row fits to the one before last, so the last one is the culprit.
     if (ahead_s > 0.0 && before - out_.time_s[rows - 2] > kLeap * ahead_s) {
       return {line_of(rows - 1), fmt::format("{} leaps ahead of its neighbours", shown(before)),
               "correct the row's time, or leave out the row"};
@@ -122,6 +128,7 @@ class ClockMaker {
               *middle / 60.0, column_.name, kMostStep_s / 60.0),
           "make the clock's unit agree with its name: time_s, time_ms, time_min, time_h"};
     }
+    // Ten steps, for logs of one row in some minutes, where a missed row is no gap.
     const double most = std::max(kGap_s, 10.0 * *middle);
     for (std::size_t i = 0; i < step.size(); ++i) {
       if (step[i] > most) {

@@ -12,6 +12,8 @@ using kernel::outcome::Refusal;
 
 kernel::outcome::Result<std::vector<const LogChannel*>> inputs_of(
     const kernel::machine::ThermalAxis& axis, const Log& log) {
+  // By name and in the passport's order; a passport forecasts nothing from a log that lacks one
+  // input.
   std::vector<const LogChannel*> out;
   out.reserve(axis.ambient.size());
   for (const auto& ambient : axis.ambient) {

@@ -14,6 +14,9 @@
 #include <steadyrest/table/clock.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 
+// Each column says what it is by its name: time and speed by whole names, lengths and temperatures
+// by their ending. A unit is never guessed from the numbers; what has no known ending is passed
+// over.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -112,6 +115,8 @@ class TableReader final : public table::Sink {
         continue;
       }
       double value = std::numeric_limits<double>::quiet_NaN();
+      // Absent is NaN from here on; whether a channel may have holes is decided later, by its
+      // quantity.
       if (!absent(row.field(i))) {
         const auto number = row.number(i);
         if (!number) {
@@ -209,6 +214,8 @@ Result<std::string> read_packed(const std::string& path) {
   std::string out;
   constexpr unsigned kBlock = 1U << 18U;
   int got = 1;
+  // gzread passes plain files through. The limit is on the unpacked size: a small file may unpack
+  // to terabytes.
   while (got > 0 && out.size() <= kMaxBytes) {
     const std::size_t before = out.size();
     out.resize(before + kBlock);

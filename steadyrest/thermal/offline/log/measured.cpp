@@ -10,6 +10,8 @@
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 #include <steadyrest/thermal/offline/log/measured.hpp>
 
+// Gauging reports come from people: columns in any order, units in the name, `;` or `,`. An unknown
+// column is refused, not skipped, since a misspelt tolerance_um would silently change the level.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -138,6 +140,7 @@ class Reader final : public table::Sink {
       case Field::time:
         return number(row, i, 0.0, 1e8, part.time_s);
       case Field::deviation:
+        // Bounds catch µm in a column of mm: a deviation of 4.2 mm is no thermal drift.
         return number(row, i, -kLargestDeviation_mm, kLargestDeviation_mm, part.deviation_mm);
       case Field::tolerance:
         return number(row, i, 1e-5, 100.0, part.tolerance_mm);
@@ -153,6 +156,7 @@ class Reader final : public table::Sink {
                                started_->zoned ? "with" : "without"),
                    "write each stamp like --started, 2026-11-22T23:47:06"};
     }
+    // Whole seconds and fractions apart: seconds since 1970 leave a double only some 1e-7 s.
     to_s = static_cast<double>(stamp->whole_s - started_->whole_s) + stamp->fraction_s -
            started_->fraction_s;
     if (!(to_s >= 0.0)) {

@@ -7,6 +7,8 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
+// Within a transition the inputs are constant: x = G + (x₀ − G)·e^(−t/τ), a constant and one term
+// for each mode. A lagged temperature gives one more, and one without a lag none.
 Exponentials terms_of(const online::ThermalModel& model, const online::Drive& drive) {
   const auto& config = model.config();
   const auto& state = model.state();
@@ -57,6 +59,7 @@ Curve::Extreme Curve::largest() const {
     }
   };
   for (const Piece& p : piece) {
+    // A sum of exponentials is greatest at an end or where it turns; nothing is sampled.
     look(p, 0.0);
     for (const double t : extremes_of(p.displacement_mm, p.seconds)) {
       look(p, t);

@@ -12,6 +12,8 @@
 #include <steadyrest/passport/text/text_file.hpp>
 #include <steadyrest/thermal/offline/plan/cyclogram.hpp>
 
+// Two sources of the same list of transitions: a file that a process engineer writes, or a
+// program's own timing (cyclogram_of). drive_of() turns a transition into the inputs of the law.
 namespace steadyrest::thermal::offline {
 
 using kernel::outcome::Result;
@@ -164,6 +166,8 @@ online::Drive drive_of(const Transition& transition) noexcept {
   drive.cutting = transition.load == Load::cutting;
   drive.cutting_share = transition.cutting_share;
   drive.coolant = transition.coolant;
+  // A cyclogram knows nothing of the room: the caller fills in temperatures, or they stay as they
+  // are.
   drive.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
   return drive;
 }

@@ -44,6 +44,9 @@ double value(const Exponentials& f, double time_s) noexcept {
   return sum;
 }
 
+// Rolle's theorem, recursively: divide f by its slowest term, differentiate, and one term is gone.
+// The zeros of what is left part the range into pieces with one sign change of f at most, each of
+// which a bracketing solver finds.
 std::vector<double> sign_changes(Exponentials f, double end_s) {
   merge(f);
   if (f.size() < 2) {
@@ -51,6 +54,8 @@ std::vector<double> sign_changes(Exponentials f, double end_s) {
   }
   Exponentials derivative;
   for (std::size_t k = 1; k < f.size(); ++k) {
+    // Of f·e^(λ₀t): its terms a_k·e^(−(λ_k − λ₀)·t) give (λ₀ − λ_k)·a_k. The common factor e^(λ₀t)
+    // changes no sign and is left out again.
     derivative.push_back({f[k].amplitude * (f[0].rate_1_s - f[k].rate_1_s), f[k].rate_1_s});
   }
   std::vector<double> borders = sign_changes(std::move(derivative), end_s);

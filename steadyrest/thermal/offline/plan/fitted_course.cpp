@@ -11,6 +11,9 @@
 #include <steadyrest/thermal/offline/plan/fitted_course.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
+// For the page of `thermal fit`: the model is run over the log once from cold, and beside it what
+// is left of a unit state of each mode. The states of each stretch are then linear unknowns, fitted
+// to the readings of the window.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -96,6 +99,7 @@ class Walk {
 Eigen::VectorXd states_mm(const Walk& walk, const std::vector<FittedPoint>& points,
                           double noise_mm) {
   const Eigen::Index n = walk.fading.cols();
+  // A ridge of (noise/30 µm)²: a mode that has died away before the window leaves no column to fit.
   Eigen::MatrixXd normal =
       Eigen::MatrixXd::Identity(n, n) * std::pow(noise_mm / kUsualState_mm, 2.0);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);

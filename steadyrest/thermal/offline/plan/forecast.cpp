@@ -6,6 +6,9 @@
 
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
+// Uncertainty by the first derivative: δ is linear in levels and gains, so φ = ∂δ/∂p is exact there
+// and obeys the modes' own equation with unit levels; time constants enter by ∂x/∂ln τ. The
+// variance is φᵀ·C·φ, plus each τ's own share.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -22,6 +25,7 @@ Eigen::MatrixXd covariance_um2(const ThermalAxis& axis) {
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   auto next = axis.covariance.begin();
   for (Eigen::Index row = 0; row < out.rows() && next != axis.covariance.end(); ++row) {
+    // The passport stores the lower triangle, row by row.
     for (Eigen::Index column = 0; column <= row; ++column, ++next) {
       out(row, column) = *next;
       out(column, row) = *next;
@@ -79,6 +83,7 @@ void Uncertainty::step(double elapsed_s, const online::Drive& drive,
     const double tau_s = model_.tau_s(i, drive);
     const double keep = std::exp(-elapsed_s / tau_s);
     const double away_mm = model_.level_mm(i, drive) - before.mode_mm[i];
+    // x⁺ = G + (x − G)·e^(−h/τ); ∂/∂ln τ gives e^(−h/τ)·(∂x/∂ln τ − (G − x)·h/τ).
     by_tau_mm_[i] = keep * (by_tau_mm_[i] - away_mm * elapsed_s / tau_s);
     for (std::size_t k = 0; k < linear(config.mode[i]); ++k, ++p) {
       const double level = unit_[static_cast<std::size_t>(p)].level_mm(0, drive);
@@ -97,6 +102,7 @@ void Uncertainty::step(double elapsed_s, const online::Drive& drive,
 }
 
 double Uncertainty::parameter_variance_mm2(const Answer& since) const {
+  // Since a reading only what has changed from then on is uncertain.
   const Eigen::VectorXd phi = phi_ - since.linear;
   double variance = phi.dot(covariance_um2_ * phi) / kUm2PerMm2;
   for (std::size_t i = 0; i < by_tau_mm_.size(); ++i) {
@@ -127,6 +133,7 @@ std::vector<ForecastPoint> forecast(online::ThermalModel model, const Cyclogram&
     online::Drive drive = drive_of(transition);
     std::copy_n(ambient_c.begin(), std::min(ambient_c.size(), drive.ambient_c.size()),
                 drive.ambient_c.begin());
+    // Steps are for the table of points alone; each is exact.
     const auto steps = std::max(1.0, std::ceil(transition.seconds / step_s - 1e-9));
     double at_s = 0.0;
     for (double k = 1.0; k <= steps && transition.seconds > 0.0; k += 1.0) {

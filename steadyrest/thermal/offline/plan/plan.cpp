@@ -7,6 +7,10 @@
 
 #include <steadyrest/thermal/offline/plan/plan.hpp>
 
+// The system R of Marusich 2012 for one axis: follow the residual δ − corrections through each
+// transition, correct where it reaches a border of its band, write down intervals and corrections.
+// Instants are roots, found by exponentials.cpp, so no time step decides what is seen.
+// band_is_held() then goes over the finished plan once more with its rounded instants.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -137,6 +141,7 @@ class Planner {
     if (beyond <= kReached_mm) {
       return 0.0;
     }
+    // Whole bands, as few as bring it inside: corrections stay multiples of Δ_k, as in the paper.
     return std::copysign(std::ceil((beyond - kReached_mm) / band) * band, residual);
   }
 
@@ -144,6 +149,8 @@ class Planner {
     if (!(request_.resolution_s > 0.0) || at_s < kInstant_s) {
       return at_s;
     }
+    // Rounded on the cyclogram's clock, not the transition's: errors must not add up from one to
+    // the next.
     const double whole = std::round((piece.start_s + at_s) / request_.resolution_s);
     return std::max(0.0, whole * request_.resolution_s - piece.start_s);
   }
@@ -162,10 +169,13 @@ class Planner {
       return {from_s, residual > 0.0 ? 1 : -1};
     }
     Event first;
+    // At the upper border the constant −corrected − band is added, and its roots are the crossings.
     for (const int sign : {1, -1}) {
       Exponentials beyond = piece.displacement_mm;
       beyond.push_back({-corrected_mm_ - sign * band, 0.0});
       for (const double t : sign_changes(std::move(beyond), piece.seconds)) {
+        // A root that the last correction was made at must not be found again, and a curve that
+        // touches the border and turns back leaves nothing to correct.
         const bool later = t > from_s + 1e-6;
         const bool leaves =
             sign * (value(piece.displacement_mm, std::min(t + 1e-3, piece.seconds)) -

@@ -12,6 +12,9 @@
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 #include <steadyrest/thermal/offline/plan/replay.hpp>
 
+// A passport driven by a log's recorded inputs. Up to `from_s` readings tell what the model does
+// not know; after it they are only compared, but for those of a probe. The unknown is one scalar
+// process beside the model, with the variance of parameters and of lost states added.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -38,6 +41,7 @@ class Replay {
 
   std::vector<ReplayPoint> run() {
     const double end_s = log_.time_s.back();
+    // The passport's states are of one instant; a log from another day cannot start with them.
     const bool known = request_.state_s >= log_.time_s.front() - kFarBefore_s &&
                        request_.state_s < end_s &&
                        request_.from_s.value_or(end_s) >= request_.state_s;
@@ -143,6 +147,7 @@ class Replay {
     }
     model_.update(elapsed_s, drive);
     const ThermalAxis& axis = model_.config();
+    // Exact step of d' = −d/τ_d + noise: variance → e^(−2h/τ)·P + (1 − e^(−2h/τ))·drift².
     const double keep = std::exp(-elapsed_s / axis.drift_tau_s);
     drift_mm_ *= keep;
     variance_mm2_ =
@@ -153,6 +158,7 @@ class Replay {
     const ThermalAxis& axis = model_.config();
     const double unknown = variance_mm2();
     const double noise = axis.noise_mm * axis.noise_mm;
+    // Scalar Kalman gain. A reading sees the sum, so whatever was off is booked on the drift.
     const double gain = unknown > 0.0 ? unknown / (unknown + noise) : 1.0;
     drift_mm_ += gain * (reading_mm - displacement());
     variance_mm2_ = (1.0 - gain) * unknown;
@@ -162,6 +168,7 @@ class Replay {
 
   [[nodiscard]] double variance_mm2() const {
     const double modes_mm = std::accumulate(unknown_mm_.begin(), unknown_mm_.end(), 0.0);
+    // Summed before squaring: after a gap the modes may be away together.
     return variance_mm2_ + modes_mm * modes_mm + uncertainty_.parameter_variance_mm2(since_);
   }
 
@@ -216,6 +223,7 @@ ReplayScore score(const std::vector<ReplayPoint>& points, double noise_mm) {
     const double error = p.measured_mm - p.displacement_mm;
     ++out.points;
     square += error * error;
+    // A reading adds its own noise to what the band is of.
     in += error * error <= kBand * kBand * (p.sd_mm * p.sd_mm + noise_mm * noise_mm) ? 1.0 : 0.0;
   }
   if (out.points > 0) {
