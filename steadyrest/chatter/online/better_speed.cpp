@@ -69,6 +69,7 @@ void BetterSpeed::ask(const Input& input) noexcept {
                                                 .depth_mm = input.depth_mm,
                                                 .frequency_hz = state_.out.frequency_hz});
   state_.answer = advice.reason;
+  // No better step: the last request stays. Dropping it would lead back to a speed that chattered.
   if (advice.speed_rev_s > 0.0) {
     state_.out.request = advice.request;
   }

@@ -125,6 +125,7 @@ Result<Modulator> Modulator::make(const machine::Machine& m) {
       .min_feed_ratio = m.envelope.min_feed_ratio,
       .max_feed_ratio = m.envelope.max_feed_ratio,
       .max_step_s = m.envelope.stale_after_s,
+      // Without an M code to switch it on the law runs in every cut.
       .always = c.m_code_on == 0,
   });
 }
@@ -140,6 +141,7 @@ Modulator::Modulator(const Config& config, Table spindle, std::optional<Table> f
   if (feed_) {
     feed_delay_s_ = delay_s(config.feed_table);
     if (feed_->layer_may_exceed_panel()) {
+      // Only a table that may exceed the panel lets the feed rise with the spindle.
       feed_top_ratio_ = std::clamp(std::min(feed_->max_ratio(), config.max_feed_ratio), 1.0, 10.0);
     }
   }

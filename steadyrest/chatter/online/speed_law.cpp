@@ -31,6 +31,7 @@ double pulse(double u, double share) noexcept {
   return u < share ? 1.0 : -share / (1.0 - share);
 }
 
+// u up to the share s, then s − (u − s)·s/(1 − s) = s·(1 − u)/(1 − s), back at 0 for u = 1.
 double pulse_integral(double u, double share) noexcept {
   return u < share ? u : share * (1.0 - u) / (1.0 - share);
 }
@@ -117,6 +118,7 @@ double SpeedLaw::at(double phase) const noexcept {
     case Law::triangle:
       return u < 0.25 ? 4.0 * u : (u < 0.75 ? 2.0 - 4.0 * u : 4.0 * u - 4.0);
     case Law::random: {
+      // Just below 1 the product may round up to the number of knots.
       const auto k = std::min(static_cast<std::size_t>(u * kKnots), kRandomKnots - 1);
       const double share = u * kKnots - static_cast<double>(k);
       return knot_[k] + share * (knot_[k + 1] - knot_[k]);

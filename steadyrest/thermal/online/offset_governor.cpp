@@ -42,6 +42,7 @@ OffsetGovernor::Running running_of(const Frame& frame) noexcept {
   return drive;
 }
 
+// A mean over both classes would be neither: levels switch with cutting, coolant and standstill.
 bool same_class(const OffsetGovernor::Running& a, const OffsetGovernor::Running& b) noexcept {
   return a.cutting == b.cutting && a.coolant == b.coolant &&
          (a.speed_rev_s == 0.0) == (b.speed_rev_s == 0.0);
@@ -52,6 +53,8 @@ bool must_hold(Motion motion) noexcept {
 }
 
 /// The worse a reason, the more it must be shown.
+/// One reason goes to the page for all axes. A model that no longer fits outranks a sensor, because
+/// the correction itself is in doubt.
 int weight(Reason reason) noexcept {
   switch (reason) {
     case Reason::thermal_model_unfit:
@@ -210,6 +213,8 @@ Reason OffsetGovernor::ask(const Axis& axis, const Frame& frame, bool tool_in_cu
   double& wish = state_.last.request.offset_mm[axis.index];
   double& slope_mm_s = state_.last.request.slope_mm_s[axis.index];
   const Reason faulty = fault(axis, frame);
+  // A thread is cut in several passes on one lead, and a probing move measures with the offset that
+  // it began with; a step in the cut marks the part. Slope 0 freezes all three.
   if (must_hold(frame.motion) || (faulty != Reason::none && tool_in_cut)) {
     slope_mm_s = 0.0;
     return faulty != Reason::none ? faulty : Reason::thermal_held;
@@ -277,6 +282,7 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
 
 void OffsetGovernor::zero_here() noexcept {
   step();
+  // What stands on the machine, not what was asked for: in observe and advise nothing does.
   for (Axis& axis : axes_) {
     // r = δ + the offset on the machine, so that the wish r − δ is what is there and nothing moves.
     axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm;

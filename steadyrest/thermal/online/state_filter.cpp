@@ -164,6 +164,8 @@ double StateFilter::reading_sd_mm(const Reading& reading) const noexcept {
   return config_.axis.noise_mm > 0.0 ? config_.axis.noise_mm : config_.reading_sd_mm;
 }
 
+// A bias or scale at its limit is no estimate any more; fault() says so until a reading brings it
+// back.
 bool StateFilter::clamp() noexcept {
   const double bias = std::clamp(state_.bias_mm, -config_.max_bias_mm, config_.max_bias_mm);
   const double gain = std::clamp(state_.gain, config_.min_gain, config_.max_gain);

@@ -37,6 +37,8 @@ class Evidence {
     Eigen::MatrixXd white = grid.columns();
     whiten(error, data.time_s, data.fresh, white);
     product_ = white.transpose() * white;
+    // Column 0 is the constant: with inputs the zero is free, since lags begin at unknown
+    // temperatures.
     inputs_.push_back(0);
     for (std::size_t s = 0; s < sensors; ++s) {
       for (const std::size_t l : kLag) {
@@ -140,6 +142,7 @@ std::optional<Dense> dense_fit(const FitData& data, const ErrorModel& guess,
   }
   const ColumnGrid grid(data, sensors);
   const auto modes = grid_modes(least_modes, limits.most_modes);
+  // Two rounds settle it: the choice hardly moves once the drift is about right.
   Dense out{{}, guess};
   for (int round = 0; round < kRounds; ++round) {
     const Evidence evidence(data, out.error, grid, sensors.size());

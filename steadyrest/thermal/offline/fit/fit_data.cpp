@@ -62,6 +62,9 @@ void cut(FitData& data, const std::vector<double>& border_s) {
   }
 }
 
+// A block begins where the spindle starts after a rest of kRest_s and lasts to the next such start,
+// so each holds one warming and the cooling behind it. Starts that would leave a stub of less than
+// half an hour before or after them are no border.
 void cut_into_blocks(FitData& data) {
   std::vector<double> border_s;
   for (const std::size_t row : starts(*data.log)) {
@@ -148,10 +151,13 @@ FitData fit_data(const Log& log, std::size_t channel, double from_s, double to_s
     last = i;
     if (t >= next_s) {
       take(i);
+      // On the grid of steps as long as rows keep up with it; after a hole the grid starts again at
+      // the row.
       next_s = std::max(next_s, t - step_s) + step_s;
       next_s = next_s <= t ? t + step_s : next_s;
     }
   }
+  // The last reading always counts: a forecast begins there.
   if (last < log.rows() && (data.row.empty() || data.row.back() != last)) {
     take(last);
   }

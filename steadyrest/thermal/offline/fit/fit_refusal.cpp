@@ -63,6 +63,8 @@ std::optional<Refusal> unfit(const FitData& data, const FitRequest& request,
     return refuse(log, "the spindle never runs",
                   "log a test with the spindle running: docs/thermal-test.md");
   }
+  // With time constants from a longer test the level is all that is asked of this log, and an hour
+  // tells it.
   if (request.known == nullptr && request.horizon_s > kHorizonPerRun * run_s) {
     return refuse(
         log,
@@ -88,10 +90,12 @@ std::optional<Refusal> too_uncertain(const AxisFit& fit, const FitData& data,
   // After 1.5·τ a mode has come to 78 % of its level and bends visibly; before, slope and level are
   // one.
   const double need_s = kRunPerTau * slowest_s;
+  // With three blocks the left-out hours themselves show a time constant that is wrong.
   const bool hidden = data.block.size() < kLeastBlocks && run_s < need_s;
   if (request.known != nullptr || (fit.horizon_sd_um <= kMostHorizonSd * range_um && !hidden)) {
     return std::nullopt;
   }
+  // Either reason alone refuses; both are told, since the same longer run cures both.
   std::string why;
   if (fit.horizon_sd_um > kMostHorizonSd * range_um) {
     why = fmt::format("a forecast over {:.0f} min would be uncertain by {:.1f} µm of {:.1f} µm",

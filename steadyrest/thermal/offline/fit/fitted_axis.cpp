@@ -21,6 +21,8 @@ using kernel::units::um_from_mm;
 
 namespace {
 
+// The passport's table begins at 0 rpm with level 0, where the law says that nothing is heated; a
+// polynomial has no constant term for the same reason. Powers that the fit did not use are 0.
 void put_levels(const Structure& structure, const Eigen::VectorXd& level_um, ThermalMode& mode) {
   if (!structure.table_rev_s.empty()) {
     mode.speed_rev_s = {0.0};
@@ -66,6 +68,8 @@ std::vector<Eigen::Index> places(const Structure& structure, const ThermalMode& 
 ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const LinearFit& fit,
                         const std::vector<double>& ln_tau_sd) {
   const Log& log = *data.log;
+  // Rows of the columns at the log's two ends: what each parameter contributes to state and zero
+  // there.
   const std::array last = {data.row.back()};
   const Eigen::VectorXd end = columns_of(structure, log, last).row(0);
   const std::array begin = {data.row.front()};
@@ -112,6 +116,7 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
   const std::vector<Eigen::Index> place = places(structure, out.mode.front());
   for (std::size_t r = 0; r < place.size(); ++r) {
     for (std::size_t c = 0; c <= r; ++c) {
+      // In µm² and by the lower triangle, in the passport's own order of parameters.
       out.covariance.push_back(place[r] < 0 || place[c] < 0 ? 0.0
                                                             : fit.covariance(place[r], place[c]));
     }
@@ -131,6 +136,7 @@ Structure structure_of(const ThermalAxis& axis, const Log& log) {
       }
     }
   }
+  // Modes may have tables of their own; the fit works with the union of their speeds.
   std::ranges::sort(out.table_rev_s);
   const auto twice = std::ranges::unique(out.table_rev_s);
   out.table_rev_s.erase(twice.begin(), twice.end());
@@ -157,6 +163,7 @@ void known_prior(const ThermalAxis& axis, double unsure, const Structure& struct
   const auto model = online::ThermalModel::make(axis);
   for (std::size_t m = 0; m < axis.mode.size(); ++m) {
     const ThermalMode& mode = axis.mode[m];
+    // By the model itself, so that a speed that this mode's table lacks lies on its straight lines.
     for (const double speed : structure.table_rev_s) {
       online::Drive drive;
       drive.speed_rev_s = speed;

@@ -103,6 +103,8 @@ class Sharing {
       }
       FitRequest request = request_;
       request.like = &held;
+      // The whole fit again with these time constants held: levels, error model's weights, band and
+      // evidence all change with them.
       auto fit = identify(log_, channel_[i], own_[i].axis.name, request);
       if (!fit) {
         return std::nullopt;
@@ -141,6 +143,7 @@ double evidence(const std::vector<AxisFit>& fit, const Group& group) {
 
 std::vector<Group> share_tau(const Log& log, const std::vector<std::size_t>& channel,
                              const FitRequest& request, std::vector<AxisFit>& fit) {
+  // Means are always of the axes' own results, not of what earlier mergers have made of them.
   const std::vector<AxisFit> own = fit;
   const Sharing sharing(log, channel, request, own);
   std::vector<Group> group;
@@ -155,6 +158,7 @@ std::vector<Group> share_tau(const Log& log, const std::vector<std::size_t>& cha
   }
   std::ranges::sort(pairs);
   for (const auto& [far, pair] : pairs) {
+    // The group that an axis is in by now.
     const auto with = [&group](std::size_t i) {
       return std::ranges::find_if(group, [i](const Group& g) { return std::ranges::count(g, i); });
     };

@@ -134,6 +134,8 @@ class Search {
          const std::function<void(double)>& progress)
       : products_(data, error, limits), limits_(limits), progress_(progress) {}
 
+  // Inputs on the outside, modes inside: a pair of sensors is worth a try with three modes only if
+  // it did well with one.
   std::vector<Structure> run() {
     std::vector<Structure> out;
     for (std::size_t inputs = 0; inputs <= limits_.most_ambients; ++inputs) {

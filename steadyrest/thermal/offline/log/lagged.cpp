@@ -96,6 +96,7 @@ Eigen::VectorXd lagged_share(const Log& log, std::span<const std::size_t> rows,
 
 Eigen::VectorXd lagged_temperature(const Log& log, std::span<const std::size_t> rows,
                                    const LogChannel& channel, double tau_s) {
+  // Before its first reading a sensor is taken to have shown that reading.
   const auto first = std::ranges::find_if(channel.value, [](double v) { return std::isfinite(v); });
   double input = first != channel.value.end() ? *first : 0.0;
   double lagged = input;

@@ -91,6 +91,7 @@ class LogMaker {
     return {};
   }
 
+  // The one column that may have no holes: heat not recorded cannot be made up for later.
   Done take_speed() {
     const LogColumn& speed = only(Quantity::speed);
     for (std::size_t k = 0; k < row_.size(); ++k) {
@@ -109,6 +110,7 @@ class LogMaker {
     return {};
   }
 
+  // Wild first: a wild run would look stuck, and a stuck one would hide from the step test.
   Done take_channels() {
     for (const LogColumn& column : table_.column) {
       if (column.quantity != Quantity::displacement && column.quantity != Quantity::temperature) {
@@ -147,6 +149,7 @@ class LogMaker {
     if (wild == 0) {
       return {};
     }
+    // Back to the log's own unit, so that the refusal names what is in the file.
     const auto shown_as = [&](double inner) { return (inner - column.offset) / column.factor; };
     const std::string what =
         fmt::format("{} = {:.6g} is implausible; {:.6g} … {:.6g} is allowed", channel.name,
@@ -217,6 +220,8 @@ class LogMaker {
     }
   }
 
+  // Stuck is a matter of the whole log here, unlike on line: what a sensor did afterwards is known.
+  // Runs of the same value are told apart into hours that are too long and the life between them.
   void drop_stuck(LogChannel& channel) {
     std::vector<std::pair<std::size_t, std::size_t>> stuck;
     std::size_t changes = 0;
@@ -277,6 +282,8 @@ class LogMaker {
   void keep(LogChannel channel, Quantity quantity) {
     const auto silent =
         std::ranges::count_if(channel.value, [](double v) { return std::isnan(v); });
+    // More than half missing: what is left would be bridged or held for longer than it was
+    // measured.
     const double share = static_cast<double>(silent) / static_cast<double>(channel.value.size());
     if (share > kAbsentShare) {
       note(table_.head_line,
@@ -300,6 +307,8 @@ class LogMaker {
         .push_back(std::move(channel));
   }
 
+  // Half a micrometre in all is less than any spindle moves: mm in a column named µm look like
+  // this.
   void check_range(const LogChannel& channel) {
     double least = std::numeric_limits<double>::infinity();
     double most = -least;

@@ -54,6 +54,8 @@ class ClockMaker {
                        table_.stamped ? " s after the first row" : "");
   }
 
+  // Rows are kept or refused one by one. Loggers that flush twice write the same row twice; a row
+  // with the same time and other values is two truths, and none may be chosen.
   MaybeFault take_rows() {
     std::size_t twice = 0;
     std::size_t first_twice = 0;

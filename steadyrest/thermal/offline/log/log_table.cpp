@@ -88,6 +88,7 @@ class TableReader final : public table::Sink {
  public:
   explicit TableReader(const table::Format& format) : format_(format) {}
 
+  // One time, one speed, one displacement at least; any number of temperatures.
   std::optional<Fault> head(const table::Head& head) override {
     out_.head_line = head.line;
     for (const std::string& name : head.name) {
@@ -124,6 +125,7 @@ class TableReader final : public table::Sink {
         }
         value = *number;
       }
+      // Converted here, once; NaN passes through.
       column.value.push_back(column.factor * value + column.offset);
     }
     const auto t_s = clock_->seconds(row);
@@ -176,6 +178,7 @@ class TableReader final : public table::Sink {
                           "name one column time_s (or t_s, time_min), or give stamps as "
                           "2026-11-22T23:47:06");
     }
+    // The time may come from elsewhere than one column; the log has one for it all the same.
     if (!clock_->column()) {  // the rows themselves
       all_.emplace_back();
       all_.back().name = "row";
@@ -223,6 +226,7 @@ Result<std::string> read_packed(const std::string& path) {
     out.resize(before + static_cast<std::size_t>(std::max(got, 0)));
   }
   int state = Z_OK;
+  // A truncated file reads without an error to its last whole block; only gzerror tells.
   gzerror(in.get(), &state);
   if (got < 0 || (state != Z_OK && state != Z_STREAM_END)) {
     return refuse(Kind::bad_input, "is compressed, and truncated or damaged",

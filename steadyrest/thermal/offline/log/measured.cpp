@@ -56,6 +56,8 @@ class Reader final : public table::Sink {
 
   std::optional<Fault> head(const table::Head& head) override {
     for (const std::string& name : head.name) {
+      // Stamps may have a column of any name; a column without a name is a separator at the end of
+      // the line.
       const bool stamp = head.stamped == column_.size();
       if (name.empty() || stamp) {
         column_.push_back({"time", stamp ? Field::stamp : Field::passed_over, 1.0});
@@ -81,6 +83,7 @@ class Reader final : public table::Sink {
         column.field = column.field == Field::stamp ? Field::passed_over : column.field;
       }
     }
+    // A part needs one instant in the plan: two ways to say it may disagree.
     if (static_cast<int>(has(Field::transition)) + static_cast<int>(has(Field::time)) +
             static_cast<int>(has(Field::stamp)) !=
         1) {
@@ -142,6 +145,7 @@ class Reader final : public table::Sink {
       case Field::deviation:
         // Bounds catch µm in a column of mm: a deviation of 4.2 mm is no thermal drift.
         return number(row, i, -kLargestDeviation_mm, kLargestDeviation_mm, part.deviation_mm);
+      // A tolerance below 10 nm is a slip of the unit.
       case Field::tolerance:
         return number(row, i, 1e-5, 100.0, part.tolerance_mm);
     }
@@ -150,6 +154,8 @@ class Reader final : public table::Sink {
 
   std::optional<Fault> since_start(const table::Row& row, std::size_t i, double& to_s) const {
     const auto stamp = table::stamp_of(row.field(i));
+    // A stamp with a zone and one without cannot be subtracted: the difference would be off by
+    // hours.
     if (!stamp || stamp->zoned != started_->zoned) {
       return Fault{row.line(),
                    fmt::format("\"{}\" is not a date and time {} a time zone", shown(row.field(i)),

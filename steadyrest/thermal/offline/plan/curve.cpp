@@ -78,6 +78,7 @@ Curve curve_of(online::ThermalModel model, const Cyclogram& cyclogram,
     online::Drive drive = drive_of(transition);
     std::copy_n(ambient_c.begin(), std::min(ambient_c.size(), drive.ambient_c.size()),
                 drive.ambient_c.begin());
+    // Each piece begins with the state that the pieces before have left, so the curve has no seams.
     curve.piece.push_back({start_s, transition.seconds, terms_of(model, drive)});
     model.update(transition.seconds, drive);
     start_s += transition.seconds;

@@ -51,6 +51,7 @@ std::span<const Key<Transition>> keys() noexcept {
   return kKeys;
 }
 
+// The top level has two keys; a misspelt one is named with the nearest that exists.
 void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
   for (const auto& [name, node] : root) {
     if (name.str() == "resolution_min") {
@@ -82,9 +83,11 @@ void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
     }
     Transition transition;
     SectionReader<Transition>(faults, keys(), "[[transition]]").read(*table, transition);
+    // Minutes at the border, seconds inside.
     transition.seconds = 60.0 * transition.minutes;
     out.transition.push_back(std::move(transition));
   }
+  // Single transitions of no length are allowed: a program may change its tool twice in a row.
   if (faults.list.empty() && !(out.total_s() > 0.0)) {
     faults.add(0, "the cyclogram has no duration", "give the transitions their minutes");
   }
@@ -148,6 +151,7 @@ Cyclogram cyclogram_of(std::span<const nc::plan::Transition> transitions, const 
     made.minutes = t.seconds / 60.0;
     made.seconds = t.seconds;
     made.speed_rev_s = t.speed_rev_s;
+    // The mean over the whole transition, rapids and standstill included: drives heat by all of it.
     made.feed_mm_s = t.path_speed_mm_s();
     made.load = static_cast<Load>(t.load());
     made.cutting_share = t.cut_share();

@@ -26,6 +26,7 @@ void merge(Exponentials& f) {
 }
 
 double root_between(const Exponentials& f, double low, double high, double at_low, double at_high) {
+  // Algorithm 748 (Alefeld, Potra and Shi 1995) keeps a bracket and converges superlinearly.
   std::uintmax_t most = 200;
   const auto ends = boost::math::tools::toms748_solve(
       [&](double t) { return value(f, t); }, low, high, at_low, at_high,

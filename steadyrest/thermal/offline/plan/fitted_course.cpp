@@ -32,6 +32,8 @@ class Walk {
       : model_(std::move(model)), log_(log), sensor_(std::move(sensor)), uncertainty_(model_) {}
 
   /// Rows from … on; the columns of `fading` are the modes of the first stretch, then of the next.
+  /// One walk fills three things for each row: the model from cold, the variance by its parameters,
+  /// and how much is left of a state of 1 that each mode had at the beginning of the row's stretch.
   void run(std::size_t from) {
     const std::size_t modes = model_.config().mode.size();
     const auto gap_at = [&](std::size_t row) { return std::ranges::binary_search(log_.gap, row); };
@@ -138,6 +140,7 @@ Result<std::vector<FittedPoint>> fitted_course(const ThermalAxis& axis, const Lo
   walk.run(from);
   std::vector<FittedPoint> out;
   out.reserve(log.rows() - from);
+  // Drift at its full spread: beside a log no reading narrows it.
   const double unknown_mm2 = axis.drift_mm * axis.drift_mm + axis.noise_mm * axis.noise_mm;
   for (std::size_t row = from; row < log.rows(); ++row) {
     const auto i = static_cast<Eigen::Index>(row - from);

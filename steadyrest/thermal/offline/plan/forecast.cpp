@@ -41,6 +41,8 @@ std::size_t linear(const ThermalMode& mode) {
 }
 
 /// For each linear parameter a mode in which it alone is 1: what a unit of it settles at.
+/// By the law's own code with a 1 in one place: table or polynomial, ratios included, it is never
+/// differentiated by hand.
 std::vector<online::ThermalModel> unit_models(const ThermalAxis& axis) {
   std::vector<online::ThermalModel> out;
   for (const ThermalMode& mode : axis.mode) {
@@ -93,6 +95,8 @@ void Uncertainty::step(double elapsed_s, const online::Drive& drive,
   model_.update(elapsed_s, drive);
   for (std::size_t j = 0; j < config.ambient.size(); ++j, ++p) {
     const double lagged = model_.state().ambient_c[j];
+    // A sensor that is seen late counts from its first temperature: its share before is in the
+    // zero.
     if (!std::isfinite(ambient_start_c_[j])) {
       ambient_start_c_[j] = lagged;
     }
@@ -117,6 +121,7 @@ double Uncertainty::sd_mm() const {
   const ThermalAxis& config = model_.config();
   const Answer none{Eigen::VectorXd::Zero(phi_.size()),
                     std::vector<double>(by_tau_mm_.size(), 0.0)};
+  // The unknown starts at 0 and grows to its own spread: d²·(1 − e^(−2t/τ_d)).
   const double drift =
       config.drift_mm * config.drift_mm * (1.0 - std::exp(-2.0 * elapsed_s_ / config.drift_tau_s));
   return std::sqrt(parameter_variance_mm2(none) + drift);

@@ -162,6 +162,7 @@ class Replay {
     const double gain = unknown > 0.0 ? unknown / (unknown + noise) : 1.0;
     drift_mm_ += gain * (reading_mm - displacement());
     variance_mm2_ = (1.0 - gain) * unknown;
+    // A reading leaves nothing of what a gap had made unknown, and parameters count from here on.
     unknown_mm_.fill(0.0);
     since_ = uncertainty_.answer();
   }
