@@ -260,6 +260,7 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
                                                      const InForce& in_force) noexcept {
   state_.last.request.tool_in_cut = tool_in_cut;
   for (Axis& axis : axes_) {
+    // On the machine, not asked for: in observe and advise no offset is there.
     axis.standing_mm = in_force.written ? in_force.offset_mm[axis.index] : 0.0;
   }
   if (unfit != Reason::none || !std::isfinite(frame.time_s)) {
@@ -282,7 +283,6 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
 
 void OffsetGovernor::zero_here() noexcept {
   step();
-  // What stands on the machine, not what was asked for: in observe and advise nothing does.
   for (Axis& axis : axes_) {
     // r = δ + the offset on the machine, so that the wish r − δ is what is there and nothing moves.
     axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm;

@@ -27,6 +27,8 @@ CutSignal slot(double depth_mm) {
 
 BetterSpeed::Config config(double max_ratio) {
   return {.detector = {},
+          // Limit depths of the slot at 90, 100, 110 and 120 % of 5000 rpm, from the reference's
+          // table.
           .table = {.speed_rev_s = {75.0, kProgrammed, 1.1 * kProgrammed, 100.0},
                     .limit_depth_mm = {1.2254, 0.4086, 2.7653, 0.3532},
                     .step_ratio = {0.9, 0.95, 1.0, 1.05, 1.1, 1.15},
@@ -40,6 +42,8 @@ BetterSpeed::Output listen(BetterSpeed& better, const CutSignal& signal, double 
     out = better.update({.value = signal.value[i],
                          .speed_rev_s = signal.speed_rev_s[i],
                          .programmed_rev_s = programmed,
+                         // Above the border at 5000 rpm, well below that at 5500: one step to the
+                         // side is the right answer.
                          .depth_mm = 0.6});
     if (!out.chatter && out.reason != Reason::chatter_better_speed) {
       EXPECT_EQ(out.request.reason, Reason::none);
@@ -69,6 +73,7 @@ TEST(BetterSpeed, IsNeutralInAStableCut) {
   EXPECT_EQ(out.request.reason, Reason::none);
 }
 
+// 98 to 100 % leaves the step it is on: the cut chatters, and no request may pretend otherwise.
 TEST(BetterSpeed, SaysWhenNoStepIsBetter) {
   BetterSpeed::Config none = config(1.0);
   none.table.min_ratio = 0.98;
@@ -80,6 +85,7 @@ TEST(BetterSpeed, SaysWhenNoStepIsBetter) {
   EXPECT_EQ(out.request.ratio, 1.0);
 }
 
+// 110 % of another speed would be a speed that nobody has asked about.
 TEST(BetterSpeed, DropsTheAnswerWithTheNextProgrammedSpeed) {
   auto better = BetterSpeed::make(config(1.2));
   ASSERT_TRUE(better);

@@ -62,6 +62,8 @@ Heard listen(const CutSignal& signal, std::size_t teeth, double noise, bool angl
   return heard;
 }
 
+// The truth comes from the simulation in cut_signal.hpp, which shares no code with the detector:
+// when regeneration's part reaches a tenth of its final size. 0.15 s is the room's promise.
 TEST(Detector, HearsTheSlotChatterInTimeAtFiveNoiseLevels) {
   const CutModel model = slot(0.6);
   const CutSignal signal = simulate(model, 2.0);
@@ -72,11 +74,13 @@ TEST(Detector, HearsTheSlotChatterInTimeAtFiveNoiseLevels) {
     EXPECT_GT(heard.first_s, 0.2) << noise;
     EXPECT_LT(heard.first_s, truth.onset_s + 0.15) << noise;
     EXPECT_EQ(heard.kind, Detector::Kind::hopf) << noise;
+    // Chatter of a Hopf lobe is a little above the natural 922 Hz.
     EXPECT_NEAR(heard.frequency_hz, 950.0, 50.0) << noise;
     EXPECT_EQ(heard.last.reason, Reason::chatter_detected);
   }
 }
 
+// 0.25 mm against a border of 0.4086: a false alarm here would slow down good cuts.
 TEST(Detector, IsSilentInTheStableSlot) {
   const CutModel model = slot(0.25);
   const CutSignal signal = simulate(model, 3.0);
@@ -91,6 +95,7 @@ TEST(Detector, IsSilentInTheStableSlot) {
   }
 }
 
+// 0.3 mm is stable at constant speed, too; only the moving orders could be mistaken for lines.
 TEST(Detector, IsSilentUnderModulation) {
   for (const Law law : {Law::sine, Law::triangle}) {
     CutModel model = slot(0.3);
@@ -105,6 +110,7 @@ TEST(Detector, IsSilentUnderModulation) {
   }
 }
 
+// Above the limit of both laws (1.45 and 1.00 mm at RVA 0.1, RVF 0.1, from the reference's table).
 TEST(Detector, HearsChatterUnderModulationInTime) {
   for (const Law law : {Law::sine, Law::triangle}) {
     CutModel model = slot(1.8);
@@ -226,6 +232,7 @@ TEST(Detector, HearsModulatedCutsDrawnByChanceInTime) {
   EXPECT_GE(in_time, 28);  // 95 % of 30 is 28.5
 }
 
+// The calm cut's entry is cut off, so that its quiet, not its entry, ends the alarm.
 TEST(Detector, FallsSilentOnceTheChatterIsOver) {
   CutSignal signal = simulate(slot(0.6), 1.0);
   const CutSignal calm = simulate(slot(0.25), 2.0);
@@ -245,6 +252,7 @@ TEST(Detector, UnfitInputIsSkippedWithItsReason) {
             Reason::input_not_finite);
   EXPECT_EQ(detector->update({.value = 1.0, .speed_rev_s = 0.0}).reason,
             Reason::input_out_of_range);
+  // Fewer than four samples in a turn.
   EXPECT_EQ(detector->update({.value = 1.0, .speed_rev_s = 1e9}).reason,
             Reason::input_out_of_range);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -24,6 +24,8 @@ Minute minute_of(const Modulation& modulation) {
   c.spindle_table = kernel::override::test::spindle_840d();
   c.spindle_table.layer_may_exceed_panel = true;
   c.spindle_table.scan_period_s = 0.012;
+  // The worst case for the coupling: a feed that rises at once meets a speed that is still on its
+  // way.
   c.spindle_table.dead_time_s = 0.060;
   c.feed_table = kernel::override::test::feed_840d();
   c.feed_table.scan_period_s = 0.012;
@@ -54,6 +56,8 @@ Minute minute_of(const Modulation& modulation) {
   return out;
 }
 
+// Random laws, as they turn where no schedule foresees it; a slow one must still move, or the bound
+// would hold for a spindle at rest.
 TEST(ModulatorSafety, TheFeedDoesNotRiseWhileALowerSpeedIsStillOnItsWay) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     for (const double period_s : {0.4, 1.0, 3.0}) {

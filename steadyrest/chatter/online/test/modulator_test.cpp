@@ -84,6 +84,8 @@ std::size_t changes(const std::vector<double>& values) {
   return count;
 }
 
+// Five steps of 5 % from 0.90 to 1.10: up and down make eight changes in a period. The word is off
+// by half a step plus what the hysteresis holds back.
 TEST(Modulator, ASineGoesThroughTheStepsOfTheTableAndBack) {
   Bench bench;
   bench.run(1.0);
@@ -138,6 +140,8 @@ TEST(Modulator, AnAmplitudeInRevolutionsIsThatOfTheSpeed) {
   EXPECT_DOUBLE_EQ(bench.cycle().amplitude_ratio, 0.05);
 }
 
+// 102.5 % is the middle between two steps: without hysteresis the word would flutter in every
+// cycle.
 TEST(Modulator, NoiseAtTheBorderOfTwoStepsDoesNotMoveIt) {
   auto c = config();
   c.modulation.law = Law::constant;
@@ -173,6 +177,7 @@ TEST(Modulator, AChangeWhileItRunsMakesNeitherPhaseNorSpeedJump) {
       double turned = out.phase - phase;
       turned -= std::floor(turned);
       ASSERT_NEAR(turned, kCycle_s / m.period_s, 1e-9);
+      // Acceleration over speed is 2/s, so a cycle may change the ratio by 2·kCycle_s.
       ASSERT_LE(std::abs(out.ratio - ratio), 2.0 * kCycle_s + 1e-12);
       phase = out.phase;
       ratio = out.ratio;
@@ -191,6 +196,7 @@ TEST(Modulator, AChangeThatIsNotFitIsNotTaken) {
   EXPECT_EQ(bench.modulator.state().modulation.law, Law::sine);
 }
 
+// Cut off at 100 % the sine would dwell there for half its period, and chatter grows in a dwell.
 TEST(Modulator, BelowTheOperatorsSwitchTheWholeSwingMovesDown) {
   auto c = config();
   c.spindle_table.layer_may_exceed_panel = false;
@@ -247,6 +253,7 @@ TEST(Modulator, WithdrawsWhereNothingIsCutAndWhereTheOverrideMustNotMove) {
   expect(rapid.run(0.3).back(), Reason::not_cutting);
 }
 
+// At 90 % speed a feed of 95 % would be 1.056 of the programmed chip, so the feed goes to 90 %.
 TEST(Modulator, TheFeedFollowsTheSpindleDown) {
   auto c = config();
   c.max_feed_per_tooth_ratio = 1.05;
@@ -330,6 +337,7 @@ TEST(Modulator, FeedPerRevolutionIsLeftAlone) {
   EXPECT_DOUBLE_EQ(lowest, 0.90);
 }
 
+// The feed cannot exceed 100 %, so 1/0.95 = 1.053 is the fastest spindle with enough chip.
 TEST(Modulator, TheBandsLowerEndBoundsTheSwingUpwards) {
   auto c = config();
   c.modulation.amplitude_ratio = 0.2;

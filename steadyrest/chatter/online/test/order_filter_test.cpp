@@ -32,6 +32,7 @@ double residual_of(OrderFilter& filter, bool modulated, double order, double hz)
   return std::sqrt(squares / 10000.0);
 }
 
+// Two teeth: orders 2, 6 and 20 are the first, third and tenth of the teeth.
 TEST(OrderFilter, TakesOutWhatRepeatsWithTheTeethAtAnySpeedLaw) {
   for (const double order : {2.0, 6.0, 20.0}) {
     for (const bool modulated : {false, true}) {
@@ -45,6 +46,7 @@ TEST(OrderFilter, TakesOutWhatRepeatsWithTheTeethAtAnySpeedLaw) {
 TEST(OrderFilter, LeavesALineBetweenTheOrders) {
   auto filter = OrderFilter::make({});
   ASSERT_TRUE(filter);
+  // 922 Hz at 80 rev/s is order 11.5, between all orders; a unit cosine has the RMS 1/√2.
   EXPECT_NEAR(residual_of(*filter, false, 0.0, 922.0), std::numbers::sqrt2 / 2.0, 0.05);
 }
 
@@ -55,6 +57,7 @@ TEST(OrderFilter, RefusesWhatIsOutOfRange) {
   EXPECT_FALSE(OrderFilter::make({.tooth_memory_rev = std::nan("")}));
 }
 
+// Amplitude 2: energy 2²/2 = 2.
 TEST(LineSpectrum, NamesALineWithinAFiftiethOfABin) {
   for (const double hz : {313.0, 922.2, 1777.7, 4100.4}) {
     auto spectrum = LineSpectrum::make({});
@@ -68,6 +71,8 @@ TEST(LineSpectrum, NamesALineWithinAFiftiethOfABin) {
   }
 }
 
+// The highest of 500 exponential bins in 780 spectra is about ln 390 000 ≈ 13 times the mean; 25 is
+// the threshold of the detector for a line.
 TEST(LineSpectrum, NoiseHasNoLineAndKeepsItsEnergy) {
   auto spectrum = LineSpectrum::make({});
   ASSERT_TRUE(spectrum);
@@ -89,6 +94,7 @@ TEST(LineSpectrum, NoiseHasNoLineAndKeepsItsEnergy) {
   EXPECT_LT(highest, 25.0);
 }
 
+// 500 Hz is twice the spacing and a hundred times as strong; only the guard hides it.
 TEST(LineSpectrum, DoesNotLookWhereItIsTold) {
   auto spectrum = LineSpectrum::make({});
   ASSERT_TRUE(spectrum);
@@ -101,6 +107,7 @@ TEST(LineSpectrum, DoesNotLookWhereItIsTold) {
   EXPECT_NEAR(last.frequency_hz, 777.0, 1.0);
 }
 
+// ½·E(x(θ) − x(θ − 1))² of cos 2πkθ is E·(1 − cos 2πk): 0, 1 and 2 for orders 3, 3¼ and 3½.
 TEST(RevolutionSpread, IsZeroForARepeatingCutAndOneLessCosineForALine) {
   for (const double order : {3.0, 3.25, 3.5}) {
     RevolutionSpread spread;
