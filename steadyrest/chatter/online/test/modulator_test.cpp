@@ -177,7 +177,6 @@ TEST(Modulator, AChangeWhileItRunsMakesNeitherPhaseNorSpeedJump) {
       double turned = out.phase - phase;
       turned -= std::floor(turned);
       ASSERT_NEAR(turned, kCycle_s / m.period_s, 1e-9);
-      // Acceleration over speed is 2/s, so a cycle may change the ratio by 2·kCycle_s.
       ASSERT_LE(std::abs(out.ratio - ratio), 2.0 * kCycle_s + 1e-12);
       phase = out.phase;
       ratio = out.ratio;

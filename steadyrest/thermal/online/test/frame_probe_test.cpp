@@ -26,6 +26,8 @@ std::size_t taken(const Governed& on) {
   return on.governor.state().axis[kZ].filter.readings;
 }
 
+// A port shows its last reading in every frame: taken each time, one reading would weigh like
+// hundreds.
 TEST(FrameProbe, IsTakenOnceHoweverLongItStands) {
   Governed on;
   on.seconds(1200.0);
@@ -40,6 +42,7 @@ TEST(FrameProbe, IsTakenOnceHoweverLongItStands) {
   EXPECT_EQ(taken(on), 1U);
   EXPECT_EQ(on.governor.output().probed.verdict.reason, Reason::thermal_reading_taken)
       << "what became of it stands until the next";
+  // 40 µm is far beyond three standard deviations of a model that has just been set right.
   on.frame.probe = reading(2, 0.040);
   EXPECT_EQ(on.cycle().probed.verdict.reason, Reason::thermal_reading_outlier);
   EXPECT_EQ(taken(on), 2U);
@@ -62,6 +65,7 @@ TEST(FrameProbe, IsNotTakenWhereItStoodBeforeTheFirstFrame) {
   EXPECT_EQ(taken(on), 2U) << "a port that began to count anew";
 }
 
+// Neither lost nor taken with an offset that nobody knows.
 TEST(FrameProbe, WaitsForAFrameThatIsFit) {
   Governed on;
   on.seconds(10.0);
@@ -102,6 +106,7 @@ TEST(FrameProbe, IsOfTheOffsetThatStandsOnTheMachine) {
   on.frame.probe = reading(1, grown);
   const auto& out = on.look();
   EXPECT_EQ(out.probed.verdict.reason, Reason::thermal_reading_taken);
+  // Nothing is written, so the probe finds the whole growth: the model is right, the innovation 0.
   EXPECT_NEAR(out.probed.verdict.innovation_mm, 0.0, 1e-5);
   on.governor.zero_here();
   EXPECT_NEAR(on.seconds(300.0).offset_mm[kZ], 0.0, 0.2 * grown)

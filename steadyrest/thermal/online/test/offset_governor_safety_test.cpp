@@ -22,6 +22,8 @@ using test::mill;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+// Mostly plausible values, or the governor would do nothing but refuse; infinity and 1e300 now and
+// then.
 double any_double() {
   return *rc::gen::weightedOneOf<double>(
       {{6, rc::gen::map(rc::gen::inRange(-2000, 2000), [](int n) { return n / 10.0; })},
@@ -77,6 +79,8 @@ void stand_elsewhere(kernel::override::OffsetEnvelope& envelope) {
   envelope.restore(state);
 }
 
+// Three sentences of the room's README as bounds: no wish beyond the clamp, no step beyond the
+// slope of the moment, and nothing moves in a thread, a tap or a probing move.
 RC_GTEST_PROP(OffsetGovernorSafety, NoInputLeavesTheClampOrTheSlope, ()) {
   auto machine = mill();
   machine.thermal.retract_slope_mm_s = *rc::gen::elementOf(std::vector<double>{0.0, 0.002, 1.0});
@@ -100,6 +104,7 @@ RC_GTEST_PROP(OffsetGovernorSafety, NoInputLeavesTheClampOrTheSlope, ()) {
     const auto out = on.cycle(gap_s);
     const bool unfit = on.unfit != Reason::none;
     const bool feeds = on.frame.motion == Motion::feed;
+    // What fades for unfit input goes by the envelope's slew, all else by the room's slope.
     const double slope = unfit                     ? slew
                          : on.tool_in_cut || feeds ? machine.thermal.slope_mm_s
                                                    : retract;

@@ -24,6 +24,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 TEST(OffsetGovernor, StandsAgainstWhatTheSpindleHasDone) {
   Governed on;
   const auto out = on.seconds(1200.0);
+  // Half the speed of the table is half the level: G·(1 − e^(−t/τ)).
   const double grown = 0.5 * kLevel_mm * (1.0 - std::exp(-1200.0 / kTau_s));
   EXPECT_NEAR(out.displacement_mm[kZ], grown, 1e-5 * kLevel_mm + kLevel_mm / kTau_s);
   EXPECT_NEAR(out.offset_mm[kZ], -grown, 1e-4);
@@ -31,6 +32,7 @@ TEST(OffsetGovernor, StandsAgainstWhatTheSpindleHasDone) {
   EXPECT_EQ(out.request.room, kernel::signal::Room::thermal);
 }
 
+// 0.004 rev/s is the noise of a standing encoder and must not keep the spindle "turning".
 TEST(OffsetGovernor, APauseOfTheJobIsAPauseOfItsHeat) {
   Governed on;
   on.seconds(900.0);
@@ -42,6 +44,7 @@ TEST(OffsetGovernor, APauseOfTheJobIsAPauseOfItsHeat) {
   EXPECT_NEAR(out.offset_mm[kZ], -out.displacement_mm[kZ], 1e-4);
 }
 
+// Levels are linear in this passport, so 40 and 60 rev/s in turn heat like 50.
 TEST(OffsetGovernor, ASpeedThatSwingsCountsWithItsMean) {
   Governed swings;
   Governed constant;
@@ -58,6 +61,7 @@ TEST(OffsetGovernor, FollowsTheRoomByItsSensor) {
   Governed on;
   on.frame.temperature_c[0] = 23.0;
   const auto out = on.seconds(60.0);
+  // 3 K over the reference at 2 µm/K.
   EXPECT_NEAR(out.displacement_mm[kX], 0.006, 1e-12);
   EXPECT_NEAR(out.offset_mm[kX], -0.006, 1e-12);
   EXPECT_EQ(out.displacement_mm[1], 0.0) << "Y has no passport";
@@ -73,6 +77,7 @@ TEST(OffsetGovernor, ALostSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
   EXPECT_LT(on.offset_mm()[kZ], -0.006) << "the other axis goes on";
   on.tool_in_cut = false;
   on.frame.motion = Motion::rapid;
+  // 18 s at 10 µm/min are 3 of the 6 µm.
   on.seconds(18.0);
   EXPECT_NEAR(on.offset_mm()[kX], -0.003, 1e-4) << "10 µm/min";
   on.seconds(60.0);
@@ -104,6 +109,7 @@ TEST(OffsetGovernor, GoesNoFurtherThanTheClampAndSaysSo) {
 TEST(OffsetGovernor, HoldsAboveTheSpeedsThatWereFitted) {
   Governed on;
   const double before = on.seconds(100.0).offset_mm[kZ];
+  // The passport was fitted up to 100 rev/s; a fifth more is allowed.
   on.frame.spindle_actual_rev_s = 121.0;
   EXPECT_EQ(on.seconds(20.0).request.reason, Reason::thermal_beyond_speed);
   EXPECT_EQ(on.offset_mm()[kZ], before);
@@ -135,6 +141,8 @@ TEST(OffsetGovernor, AReadingIsOfWhatIsLeftAndCorrectsTheModel) {
 TEST(OffsetGovernor, HoldsWhenTheReadingsNoLongerFit) {
   Governed on;
   on.seconds(1200.0);
+  // Four innovations are the least that may condemn a model, and these are clipped at 3 each: 36 >
+  // χ².
   for (int i = 0; i < 4; ++i) {
     on.seconds(60.0);
     on.governor.measure(kZ, {.displacement_mm = 0.040});
@@ -207,12 +215,14 @@ TEST(OffsetGovernor, AfterTheZeroWasSetOnlyWhatChangesIsCorrected) {
   on.governor.zero_here();
   EXPECT_NEAR(on.seconds(1.0).offset_mm[kZ], offset, 1e-4);
   const auto out = on.seconds(1800.0);
+  // δ has moved by δ − δ₀ since, and only that is taken off.
   EXPECT_NEAR(out.offset_mm[kZ] - offset, -(out.displacement_mm[kZ] - grown), 1e-4);
 }
 
 TEST(OffsetGovernor, AfterAGapTheMachineHasStood) {
   Governed on;
   const double warm = on.seconds(1200.0).displacement_mm[kZ];
+  // Longer than a minute: the machine counts as stopped, and the mode decays by e^(−t/τ).
   on.frame.time_s += 900.0;
   EXPECT_NEAR(on.cycle().displacement_mm[kZ], warm * std::exp(-900.0 / kTau_s), 1e-5);
 }

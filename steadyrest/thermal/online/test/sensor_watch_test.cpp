@@ -62,6 +62,7 @@ double in_steps(double value, double step) {
   return step * std::round(value / step);
 }
 
+// A day's swing and a little of a few minutes, with no two values alike: what a fine sensor shows.
 double fine(double hours) {
   return 20.0 + 1.5 * std::sin(hours * 0.26) + 0.013 * std::sin(hours * 977.0);
 }
@@ -69,6 +70,7 @@ double fine(double hours) {
 TEST(SensorWatch, AFineSensorThatStopsToMoveIsStuckAfterTwoHours) {
   Watched watched([](double hours) { return fine(std::min(hours, 5.0)); });
   const double at_h = watched.doubted_at_h(12.0, Reason::thermal_sensor_stuck);
+  // It stops at 5 h and must be silent for 2 h.
   EXPECT_GT(at_h, 6.99);
   EXPECT_LT(at_h, 10.0) << "two hours, and until the other has moved";
 }
@@ -78,6 +80,8 @@ TEST(SensorWatch, AFineSensorThatNeverMovesIsStuckToo) {
   EXPECT_LT(watched.doubted_at_h(8.0, Reason::thermal_sensor_stuck), 4.0);
 }
 
+// The false alarm that matters: in a temperature-controlled room a sensor of 0.1 K repeats itself
+// for days, and calling it stuck would switch the correction off where it works best.
 TEST(SensorWatch, ARoomThatIsHeldIsNotCalledStuckByACoarseSensor) {
   for (const double step : {0.05, 0.0625, 0.1, 0.25, 0.5, 1.0}) {
     Watched never([&](double) { return in_steps(20.2, step); });
@@ -97,6 +101,7 @@ TEST(SensorWatch, ARoomThatIsHeldIsNotCalledStuckByACoarseSensor) {
 TEST(SensorWatch, ACoarseSensorThatMovedAndStopsIsStuckAfterEightHours) {
   Watched watched([](double hours) { return in_steps(fine(std::min(hours, 10.0)), 0.1); });
   const double at_h = watched.doubted_at_h(30.0, Reason::thermal_sensor_stuck);
+  // 10 h and 8 h later, less the time that its last step had lasted.
   EXPECT_GT(at_h, 17.0);
   EXPECT_LT(at_h, 21.0);
 }
@@ -135,11 +140,13 @@ TEST(SensorWatch, WhatNoMachineShowsIsWild) {
 TEST(SensorWatch, AStepIsWildUntilAMachineCouldHaveComeThatFar) {
   Watched watched([](double hours) { return fine(hours) + (hours < 1.0 ? 0.0 : 8.0); });
   EXPECT_NEAR(watched.doubted_at_h(1.4, Reason::thermal_sensor_wild), 1.0, 0.01);
+  // The follower takes 1 K of the 8; the 4 K beyond 3 K take 0.4 h at 10 K/h.
   EXPECT_FALSE(watched.believed()) << "3 K and 10 K in an hour";
   watched.doubted_at_h(1.7, Reason::thermal_sensor_wild);
   EXPECT_TRUE(watched.believed());
 }
 
+// A follower that ran after the spike would doubt the good readings behind it.
 TEST(SensorWatch, ASpikeIsLeftOutAndLeavesNothingBehind) {
   Watched watched(
       [](double hours) { return fine(hours) + (hours > 1.0 && hours < 1.02 ? 30.0 : 0.0); });
