@@ -40,6 +40,7 @@ TEST(DelayLaw, ConstantDelaySolvesTheCharacteristicEquation) {
   // The logarithm is known up to whole turns: one of them must fit.
   double least = 1.0;
   for (int k = -6; k <= 6; ++k) {
+    // x = e^{λt} in ẍ + z·ẋ + (1 + kw)·x = kw·x(t − τ); μ belongs to T = τ.
     const std::complex<double> lambda =
         (std::log(found.value[0]) + std::complex<double>(0.0, kTurn * k)) / tau;
     least = std::min(
@@ -68,6 +69,7 @@ TEST(DelayLaw, TwoCuttersConverge) {
 }
 
 TEST(DelayLaw, RefusesADelayThatReachesZero) {
+  // A = 1 brings the delay to 0 once in each period.
   EXPECT_FALSE(DelayLaw::make(turning(0.2, 0.1, 0.3, 1.0, 10.0)).has_value());
   auto config = turning(0.2, 0.1, 0.3, 0.1, 10.0);
   config.natural_rad_s = 0.0;

@@ -40,6 +40,8 @@ TEST(Reach, RefusesWhatWouldTakeNoEndAndNamesWhatIsAllowed) {
   }
 }
 
+// The refusal's own figure is read back from its text: rounded the wrong way it would be refused
+// again.
 TEST(Reach, WhatItSaysIsAllowedIsAllowed) {
   const auto refused = beyond_reach(slot(), 1.0 / 60.0, 1.0);
   ASSERT_TRUE(refused);
@@ -60,6 +62,8 @@ TEST(Reach, AStiffnessFarOffIsRefusedBeforeAnyWork) {
       p, {.speed_rev_s = 1629.0 / 60.0, .modulation = {}, .course = {}, .most_depth_mm = 10.0}));
 }
 
+// All keys of a process file over their whole ranges. What is not refused must give a finite
+// answer.
 TEST(Reach, AnyProcessAtAnyPointIsRefusedOrAnswered) {
   std::mt19937_64 random(20261122);
   std::uniform_real_distribution<double> share;
@@ -105,6 +109,7 @@ TEST(Reach, AnyProcessAtAnyPointIsRefusedOrAnswered) {
     EXPECT_TRUE(std::isfinite(found.log_radius)) << i;
     EXPECT_TRUE(std::isfinite(found.peak_growth)) << i;
   }
+  // Enough inside the reach, or the bounds would be tested against nothing.
   EXPECT_GT(answered, 8U);
 }
 
@@ -121,6 +126,7 @@ TEST(Reach, AtLowSpeedTheBorderIsTheAbsoluteLimit) {
   const double k_n_mm = 226e3;
   mode.mass_kg = 1000.0 * k_n_mm / std::pow(2.0 * std::numbers::pi * 250.0, 2);
   p.modes = {mode};
+  // min Re G = −1/(4ζ(1 + ζ)·k), and b_lim = −1/(2·Kr·min Re G) (Tlusty).
   const double absolute = 2.0 * k_n_mm * 0.012 * 1.012 / 400.0;
   for (const double rpm : {60.0, 77.0, 100.0}) {
     const auto limit = limit_depth_mm(p, rpm / 60.0, {}, 2.0 * absolute).value();
@@ -156,6 +162,8 @@ TEST(Reach, GrowthByRowsIsThatOfTheWholeMap) {
   uneven.tool.pitch_rad = {3.0, 2.0 * std::numbers::pi - 3.0};
   uneven.modes.push_back(uneven.modes[0]);
   uneven.modes[1].shape = {0.6, 0.8};
+  // 700 rpm has hundreds of rows, of which only some are followed; 5000 rpm has few, all of them
+  // are.
   for (const Process& p : {slot(), damped, uneven}) {
     for (const double rpm : {700.0, 5000.0}) {
       auto cycle = cycle_at(p, rpm, 0.3);

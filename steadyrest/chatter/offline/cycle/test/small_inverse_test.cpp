@@ -21,6 +21,7 @@ TEST(SmallInverse, SolvesWhatEigenSolves) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   SmallInverse inverse;  // made anew for each size
+  // On both sides of every block of rows: 4, 8, 24 and the 128 that fit on the stack.
   for (const int size : {1, 2, 3, 4, 7, 8, 21, 24, 25, 31, 44, 64, 127, 130}) {
     const Eigen::MatrixXd m =
         Eigen::MatrixXd::NullaryExpr(size, size, [&] { return normal(random); });
@@ -37,6 +38,7 @@ TEST(SmallInverse, SolvesWhatEigenSolves) {
 /// I + M is a cyclic shift: each of its diagonal numbers is 0.
 TEST(SmallInverse, TakesRowsThatMustBeExchanged) {
   constexpr int kSize = 13;
+  // Without pivots the first step divides by 0.
   Eigen::MatrixXd m = -Eigen::MatrixXd::Identity(kSize, kSize);
   for (int i = 0; i < kSize; ++i) {
     m(i, (i + 5) % kSize) += 1.0;

@@ -49,6 +49,8 @@ TEST(Stability, MultipliersOfTheBenchmarkAt5000Rpm) {
   }
 }
 
+// The published 0.8192, 1.0726 and 1.4040 are a semi-discretization's and good to three digits;
+// these are the converged ones, at which collocations of 40 and 80 nodes agree.
 TEST(Stability, SlotMultipliersToEightDigits) {
   const Process slot = benchmark_cut(1.0, Direction::up);
   EXPECT_NEAR(std::exp(at(slot, 5000.0, 0.2).log_radius), 0.81974278, 1e-8);
@@ -127,6 +129,7 @@ TEST(Stability, SlowModulationLetsVibrationsGrowOnTheWay) {
     const Stability found =
         at(slot, 5000.0, 1.0, {Law::triangle, 0.2, rvf, 1}, {.peak_growth = true});
     EXPECT_TRUE(found.stable);
+    // The reference: ×16 at RVF 0.1, ×921 at 0.02.
     EXPECT_GT(found.peak_growth, 8.0 * last);
     last = found.peak_growth;
   }
@@ -134,6 +137,8 @@ TEST(Stability, SlowModulationLetsVibrationsGrowOnTheWay) {
   EXPECT_LT(last, 1500.0);
 }
 
+// Two ways through the solver: one tooth pass with one delay, and a revolution with two. A
+// revolution is two passes, hence twice the logarithm.
 TEST(Stability, UnevenPitchNearEvenIsEven) {
   Process cut = benchmark_cut(0.5, Direction::down);
   const double even = at(cut, 5000.0, 1.0).log_radius;
@@ -161,6 +166,7 @@ TEST(Stability, StaysConvergedUnderStrongProcessDamping) {
 TEST(Stability, RefusesAModulationWithoutPrincipalPeriod) {
   DelayCycle::Config config;
   config.speed_rev_s = 80.0;
+  // An irrational RVF never meets a tooth pass again.
   config.modulation = {Law::sine, 0.1, 0.1 * M_SQRT2, 1};
   EXPECT_FALSE(DelayCycle::make(benchmark_cut(1.0, Direction::up), config).has_value());
 }

@@ -42,11 +42,14 @@ TEST(BestSpeeds, AreTheDeepestOfTheSpindleAndRanked) {
       EXPECT_NEAR(one.limit_depth_mm.value_or(kMost_mm), border_mm(cut, one.speed_rev_s), 1e-6);
       const double sure = one.sure_depth_mm.value_or(kMost_mm);
       EXPECT_LE(sure, last * (1.0 + 1e-9));
+      // The border line is within 1 % of the depth and 0.05 % of the greatest; twice that for a
+      // minimum.
       EXPECT_NEAR(sure, sure_mm(cut, one.speed_rev_s, 0.01), 0.02 * sure + 0.01);
       last = sure;
     }
     // No other speed holds more.
     const double most = best->front().sure_depth_mm.value_or(kMost_mm);
+    // A step that shares no factor with the lobes, so that cusps are not all passed over.
     for (double rpm = 3100.0; rpm < 14900.0; rpm += 97.0) {
       EXPECT_LE(sure_mm(cut, rpm / 60.0, 0.01), 1.03 * most + 0.01) << rpm;
     }
@@ -67,6 +70,7 @@ TEST(BestSpeeds, OfASlowSpindleLieInItsUpperFifth) {
   ASSERT_TRUE(best.has_value());
   ASSERT_FALSE(best->empty());
   for (const BestSpeed& one : *best) {
+    // 80 % of 900 rpm: below, all lobes are too narrow to aim at.
     EXPECT_GE(one.speed_rev_s, 720.0 / 60.0);
     EXPECT_LE(one.speed_rev_s, 900.0 / 60.0);
     EXPECT_GT(one.limit_depth_mm.value(), 0.3);

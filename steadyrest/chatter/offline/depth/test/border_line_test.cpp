@@ -48,6 +48,8 @@ int off_by_more(const Process& process, const BorderLineConfig& config, const Bo
     const double speed = speeds(random);
     double low = most;
     double high = 0.0;
+    // At a cusp or a jump the line may be off in speed by 3e-4 of a lobe; anywhere between the
+    // depths there counts as right.
     for (const double near : {1.0 - 2e-4, 1.0 - 1e-4, 1.0, 1.0 + 1e-4, 1.0 + 2e-4}) {
       const double depth =
           limit_depth_mm(process, speed * near, config.modulation, most).value().value_or(most);
@@ -69,6 +71,7 @@ TEST(BorderLine, OfTwoSpeedsIsTheWholeBorder) {
     ASSERT_TRUE(line.has_value());
     EXPECT_TRUE(line->settled);
     EXPECT_LE(off_by_more(cut, config, *line, 300), 1) << immersion;
+    // Both sides: fewer points would miss lobes, more would mean that it never settles.
     EXPECT_LT(line->speed_rev_s.size(), 5000U);
     EXPECT_GT(line->speed_rev_s.size(), 100U);
   }
@@ -82,6 +85,7 @@ TEST(BorderLine, KeepsTheGivenSpeedsAndTheirBorders) {
     const auto found = std::ranges::find(line->speed_rev_s, rpm / 60.0);
     return line->depth_mm.at(static_cast<std::size_t>(found - line->speed_rev_s.begin()));
   };
+  // The reference's table, to half of its last digit.
   EXPECT_NEAR(border(5000.0).value(), 0.4086, 0.51e-4);
   EXPECT_NEAR(border(10000.0).value(), 0.3224, 0.51e-4);
   EXPECT_FALSE(border(25000.0).has_value());

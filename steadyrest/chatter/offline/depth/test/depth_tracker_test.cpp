@@ -42,6 +42,8 @@ TEST(DepthTracker, BordersOfTheBenchmark) {
   }
 }
 
+// Two ways to one number: zeros of a determinant here, eigenvalues of the period's map there. A
+// zero that the tracker lost between two depths would show as a jump.
 TEST(DepthTracker, AgreesWithArnoldiAtEveryDepth) {
   const Process slot = benchmark_cut(1.0, Direction::up);
   for (const double rpm : {5100.0, 9000.0, 13300.0, 19070.0, 24000.0}) {

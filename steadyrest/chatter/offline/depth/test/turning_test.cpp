@@ -32,6 +32,8 @@ TEST(Turning, BorderInClosedForm) {
   const Process p = turning();
   const Mode& mode = p.modes[0];
   const double wn = kTurn * mode.frequency_hz;
+  // Chatter of turning is above the natural frequency, where Re G < 0; at 1 + ζ it is the most
+  // negative.
   for (const double ratio : {1.005, 1.0120, 1.02, 1.04, 1.08}) {
     const double w = ratio * wn;
     const std::complex<double> g =

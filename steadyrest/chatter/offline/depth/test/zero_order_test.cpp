@@ -35,6 +35,7 @@ ZeroOrderPoint lowest(const Process& process) {
                           &ZeroOrderPoint::depth_mm);
 }
 
+// The commonly used set of Altintas and Budak; the figures come from an independent script.
 TEST(ZeroOrder, DirectionalFactorsOfHalfImmersion) {
   const auto alpha = zero_order_alpha(two_modes(4, 0.5, Direction::up));
   EXPECT_NEAR(alpha[0], -1.1100, 0.5e-4);
@@ -60,6 +61,8 @@ TEST(ZeroOrder, AbsoluteLimitsOfTheBenchmark) {
   }
 }
 
+// The same eigenvalue from two sides: closed form along the frequency, root search at a speed. A
+// lower lobe may lead at that speed, hence the inequality.
 TEST(ZeroOrder, LimitAtASpeedLiesOnTheLobes) {
   const Process p = two_modes(4, 0.5, Direction::up);
   for (const auto& point : zero_order_lobes(p, 612.0, 640.0, 8, 12)) {

@@ -50,6 +50,7 @@ void expect_only(const DriveDemand& demand, DriveLimit limit) {
 TEST(DriveLimits, TriangleNeedsRvaTimesRvfTimesSquareOverFifteen) {
   Machine m = strong_machine();
   const Modulation law{Law::triangle, 0.2, 0.1, 1};
+  // 4·RVA·f·N₀ with f = RVF·N₀/60 per second: RVA·RVF·N₀²/15.
   const double need_rpm_s = 0.2 * 0.1 * 5000.0 * 5000.0 / 15.0;
   EXPECT_NEAR(60.0 * limits_of(m).modulated(kSpeed, law).acceleration_rev_s2, need_rpm_s, 1e-6);
   m.spindle.acceleration_rev_s2 = 1.001 * need_rpm_s / 60.0;
@@ -72,6 +73,8 @@ TEST(DriveLimits, PowerTorqueAndHeatOfASine) {
   const double a = 0.1;
   const Modulation law{Law::sine, a, 0.1, 1};
   const DriveLimits drive = limits_of(m);
+  // ω = w·(1 + a·sin), so dω/dt = w·2π·f·a·cos with f = 0.1·kSpeed: `swing` is the greatest torque
+  // of it.
   const double w = 2.0 * std::numbers::pi * kSpeed;
   const double swing = m.spindle.inertia_kg_m2 * 2.0 * std::numbers::pi * a * 0.1 * kSpeed * w;
   const DriveDemand demand = drive.modulated(kSpeed, law);
@@ -94,12 +97,14 @@ TEST(DriveLimits, CuttingPowerIsTheVolumeTimesKt) {
   const Process slot = benchmark_cut(1.0, Direction::up);
   const double volume_mm3_s =
       slot.tool.diameter_mm * 1.0 * slot.cut.feed_per_tooth_mm * 2.0 * kSpeed;
+  // 600 N/mm² are 0.6 W for each mm³/s.
   EXPECT_NEAR(limits_of(strong_machine()).cutting_power_w(kSpeed), 0.6 * volume_mm3_s, 1e-9);
 }
 
 TEST(DriveLimits, JumpsMayRampForAFifthOfTheShortestPart) {
   Machine m = strong_machine();
   const double jump = 0.2 * kSpeed;  // ±10 %
+  // A square dwells for half a period on each side.
   const double part_s = 0.5 / (0.05 * kSpeed);
   const Modulation law{Law::square, 0.1, 0.05, 1};
   m.spindle.acceleration_rev_s2 = 1.001 * jump / (0.2 * part_s);
@@ -122,6 +127,7 @@ TEST(DriveLimits, OverrideMustWriteTheLaw) {
   m.envelope.max_spindle_ratio = 1.1;
   expect_only(limits_of(m).modulated(kSpeed, {Law::triangle, 0.2, 0.1, 1}), DriveLimit::levels);
   // So does the spindle.
+  // 105 % would be too fast: 100 % is left as the greatest.
   m.spindle.max_rev_s = 1.02 * kSpeed;
   EXPECT_DOUBLE_EQ(limits_of(m).writable(kSpeed).back(), 1.0);
 }
@@ -138,6 +144,7 @@ TEST(DriveLimits, AnEightfoldScanIsNeeded) {
 TEST(DriveLimits, EnvelopesSlewAndAWalkedWordCountLikeAnAcceleration) {
   Machine m = strong_machine();
   const Modulation law{Law::triangle, 0.2, 0.1, 1};
+  // d(ratio)/dt = RVA·f·max|S′| with max|S′| = 4.
   const double rate_1_s = 4.0 * 0.2 * 0.1 * kSpeed;
   m.envelope.spindle_slew_1_s = 0.99 * rate_1_s;
   expect_only(limits_of(m).modulated(kSpeed, law), DriveLimit::slew);

@@ -66,6 +66,7 @@ TEST(Planner, SlotAt5000RpmGoesTo110Percent) {
   EXPECT_NEAR(*p.chatter_frequency_hz, 960.0, 40.0);
 }
 
+// 5500 rpm carries 2.76 mm: any change would be for nothing.
 TEST(Planner, AStableCutIsLeftAlone) {
   const Plan p = plan_at(all_steps(), 5500.0, 1.0);
   EXPECT_EQ(p.decision, PlanDecision::keep);
@@ -121,6 +122,7 @@ TEST(Planner, AWeakDriveGetsASlowerLawOrNone) {
   options.least_rvf = 0.05;
   Machine m = without_110();
   const double strong = plan_at(m, 5000.0, 1.2, options).chosen.modulation.rvf;
+  // Just what RVA 0.2 at RVF 0.12 takes; below, what RVF 0.04 takes, slower than least_rvf.
   m.spindle.acceleration_rev_s2 = 0.2 * 0.12 * 5000.0 * 5000.0 / 15.0 / 60.0;
   const Plan slower = plan_at(m, 5000.0, 1.2, options);
   EXPECT_EQ(slower.decision, PlanDecision::law);
@@ -142,6 +144,7 @@ TEST(Planner, GrowthKeepsSlowLawsOut) {
   const Plan p = plan_at(all_steps(), 5000.0, 1.0, options);
   EXPECT_EQ(p.decision, PlanDecision::nothing);
   const Alternative& slow = p.alternatives.back();
+  // ρ of 2e-27 over the period, in the reference, and yet a growth of 1.3e5 on the way.
   EXPECT_TRUE(slow.stable);
   EXPECT_GT(*slow.peak_growth, 1e3);
   EXPECT_TRUE(slow.growth_is_lower_bound);
@@ -198,6 +201,7 @@ TEST(Planner, SaysWhenNothingHelpsAndWhatDepthWould) {
   }
 }
 
+// Threads share the possible cuts; their order must not show in the answer.
 TEST(Planner, TwiceTheSameGivesTheSame) {
   const Plan a = plan_at(all_steps(), 5000.0, 1.0);
   const Plan b = plan_at(all_steps(), 5000.0, 1.0);

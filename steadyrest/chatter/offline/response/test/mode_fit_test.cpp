@@ -34,6 +34,7 @@ Frf measured(const std::vector<FittedMode>& modes, double noise, Noise kind, uns
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(0.0, std::sqrt(0.5));
   for (Complex& h : out.compliance_mm_n) {
+    // An accelerometer's floor is even; gain errors of hammer and sensor go with the response.
     const double size = kind == Noise::even ? 0.1 * largest : std::abs(h);
     const double re = normal(generator);
     h += noise * size * Complex(re, normal(generator));
@@ -54,6 +55,7 @@ void expect_found(const std::vector<FittedMode>& modes, double noise, Noise kind
     EXPECT_NEAR(fit->modes[k].stiffness_n_mm * 1e3, fit->modes[k].mass_kg * w * w, 1e-3);
   }
   if (kind == Noise::proportional) {
+    // From both sides: less than half the noise left means that noise was fitted.
     EXPECT_GT(fit->residual, 0.5 * noise);
     EXPECT_LT(fit->residual, 1.5 * noise);
   }

@@ -45,6 +45,7 @@ TEST(NextLevel, SaysWhenThereIsNoStricterOne) {
 }
 
 TEST(NextLevel, DoesNotCountWhatMeasuringMayHaveAdded) {
+  // Twice the measuring error of 0.5 µm beside a share of 10 µm: the border is at 11 µm.
   EXPECT_EQ(next_level(kShares, 0, parts({10.9}), {}).level, 0U);
   EXPECT_EQ(next_level(kShares, 0, parts({11.1}), {}).level, 1U);
   std::vector<PartError> many(40, PartError{.deviation_mm = 0.006, .tolerance_mm = 0.010});
@@ -111,6 +112,8 @@ std::vector<Observation> measured(const std::vector<double>& gain, double bias_m
   return out;
 }
 
+// Recursive least squares ends where the normal equations with the prior's precision do; an update
+// in the wrong order, or with the wrong sign, does not.
 TEST(LearnGains, IsRidgeRegressionInOneGo) {
   const auto observations = measured({1.1, 0.95}, 0.001, 0.0005, 1);
   const GainRule rule{.gate_sd = 1e3};
@@ -146,6 +149,7 @@ TEST(LearnGains, FindsTheGainsOfAMachineThatIsTwentyPercentOff) {
 }
 
 TEST(LearnGains, LeavesOutliersAloneAlsoTheFirst) {
+  // The first part is judged by the wide prior alone; only the second look at the end finds it.
   for (const std::size_t at : {std::size_t{0}, std::size_t{17}}) {
     auto observations = measured({1.1, 1.1}, 0.0, 0.0005, 3);
     observations[at].deviation_mm += 0.004;
@@ -204,6 +208,7 @@ TEST(LearnGains, SeldomSaysSoOfAMachineThatFits) {
     const std::vector<double> gain = {1.0 + 0.15 * normal(random), 1.0 + 0.15 * normal(random)};
     wrong += learn_gains(measured(gain, 0.001, 0.0005, seed), {}).fits ? 0 : 1;
   }
+  // The tests are at 0.1 % each; 2 % of 300 leave room for chance.
   EXPECT_LE(wrong, 6);
 }
 

@@ -36,6 +36,7 @@ Log six_sensors() {
       sensor.value.push_back(20.0 + t);
       displacement += gain_mm_k * lagged;
       lagged = t + (lagged - t) * std::exp(-1.0 / 50.0);
+      // A random walk that is drawn back to 20 °C within hours, as a shop's air is.
       t += 0.05 * normal(random) - 0.002 * t;
     }
     log.temperature.push_back(std::move(sensor));
@@ -85,6 +86,7 @@ TEST(DenseFit, EvidenceIsTheDensityOfTheReadings) {
       << "the free constant costs the written-out matrix ten digits";
 }
 
+// Six equal causes: a choice of two must leave two thirds of them out, and its forecast shows it.
 TEST(DenseFit, ManyTemperaturesThatEachTellALittleAreAllTaken) {
   const Log log = six_sensors();
   FitRequest request;

@@ -36,6 +36,8 @@ double fastest_first(const kernel::machine::ThermalMode& mode) {
   return mode.tau_s;
 }
 
+// Bounds from both sides: the error within three stated deviations, and the deviation small enough
+// to be of use.
 TEST(Identify, FindsTwoModesWithinItsStatedDoubt) {
   AxisFit fit = fitted(log_of(table_machine(), kDays));
   ASSERT_EQ(fit.axis.mode.size(), 2U);
@@ -53,12 +55,14 @@ TEST(Identify, FindsTwoModesWithinItsStatedDoubt) {
   EXPECT_NEAR(1e3 * fit.axis.noise_mm, 0.5, 0.05);
 }
 
+// The usual fault of a fit without a penalty: a second mode that fits the noise.
 TEST(Identify, OneModeIsNotMadeTwo) {
   const AxisFit fit = fitted(log_of({{{60.0, 10.0}}}, kDays));
   ASSERT_EQ(fit.axis.mode.size(), 1U);
   EXPECT_NEAR(fit.axis.mode[0].tau_s / 60.0, 60.0, 3.0);
 }
 
+// t2 and t3 wander alike but move nothing.
 TEST(Identify, FindsTheTemperatureThatCountsAmongOthers) {
   KnownMachine machine{{{40.0, 8.0}}, 0.3, 4.0, 60.0, 7};
   const AxisFit fit = fitted(log_of(machine, kDays, 3));
@@ -88,9 +92,11 @@ TEST(Identify, TheStatesAtTheEndAreWhereTheMachineIs) {
   for (const auto& mode : fit.axis.mode) {
     um += 1e3 * mode.state_mm;
   }
+  // States and drift at the log's end are where every forecast starts.
   EXPECT_NEAR(um, 1e3 * log.displacement[0].value.back(), 1.5) << "three times the noise";
 }
 
+// From 30 min two free time constants forecast 240 min to ±61 µm (the reference's table).
 TEST(Identify, HalfAnHourCannotCarryTwoModes) {
   FitRequest request;
   request.modes = 2;
@@ -131,6 +137,7 @@ TEST(Identify, AnHourIsEnoughWithTimeConstantsOfALongerTest) {
     ahead.state_s = fit.end_s;
     const auto points = replay(fit.axis, log, ahead);
     ASSERT_TRUE(points.has_value());
+    // The closed form after 240 min at 3000 rpm: levels of 15 and 35 µm.
     const double truth_um = 15.0 * (1.0 - std::exp(-16.0)) + 35.0 * (1.0 - std::exp(-240.0 / 90.0));
     const double error_um = 1e3 * points->back().displacement_mm - truth_um;
     square += error_um * error_um / kRuns;
@@ -145,6 +152,7 @@ TEST(Identify, WhereTheGaugeHasItsZeroChangesNothing) {
     Log log = log_of(machine, kDays, gain_um_k > 0.0 ? 2 : 0);
     const AxisFit fit = fitted(log);
     for (double& reading : log.displacement[0].value) {
+      // A gauge set up 0.4 mm further away: nothing but zero_mm may notice.
       reading += 0.4;
     }
     const AxisFit moved = fitted(log);
@@ -165,6 +173,7 @@ TEST(Identify, WhereTheGaugeHasItsZeroChangesNothing) {
   }
 }
 
+// A leak from the hours kept back would make every figure on this log's forecasts worthless.
 TEST(Identify, HoursBeyondTheWindowSayNothing) {
   const KnownMachine machine{{{40.0, 8.0}}, 0.3, 4.0, 60.0, 7};
   auto days = kDays;
@@ -182,6 +191,7 @@ TEST(Identify, HoursBeyondTheWindowSayNothing) {
 TEST(Identify, AGaugeIsNoSurerThanItsLastDigit) {
   Log log = log_of({{{40.0, 8.0}}, 0.1}, kDays);
   for (double& reading : log.displacement[0].value) {
+    // A gauge that shows 2 µm: rounding has the standard deviation 2/√12 µm.
     reading = 2e-3 * std::round(reading / 2e-3);
   }
   EXPECT_GE(1e3 * fitted(log).axis.noise_mm, 2.0 / std::sqrt(12.0) - 1e-6);

@@ -46,6 +46,8 @@ double measure_um(const AxisFit& fit) {
   return std::sqrt(fit.left_out_um * fit.left_out_probed_um);
 }
 
+// More sensors on offer must not make the forecast much worse, as they do when the choice fits
+// noise.
 TEST(SensorChoice, IsAsGoodAsTheBestOfTheSensorsAlone) {
   for (const unsigned seed : {1U, 2U}) {
     for (const std::size_t runs : {4U, 5U}) {
@@ -62,6 +64,7 @@ TEST(SensorChoice, IsAsGoodAsTheBestOfTheSensorsAlone) {
   }
 }
 
+// Over three machines, as one alone may be lucky; 0.9, since a few runs bound a band only so well.
 TEST(SensorChoice, TheBandHoldsOnHoursKeptBack) {
   for (const std::size_t runs : {4U, 6U}) {
     double free = 0.0;

@@ -35,6 +35,7 @@ TEST(SharedTau, DisplacementsOfOneBodyShareAndOthersDoNot) {
   for (std::size_t c = 0; c < 3; ++c) {
     fit.push_back(identify(log, c, log.displacement[c].name, {}).value());
   }
+  // X and Z have 50 min in truth, Y 90; Z moves half as much as X and so knows its own less well.
   const std::vector<AxisFit> own = fit;
   const auto groups = share_tau(log, {0, 1, 2}, {}, fit);
   EXPECT_THAT(groups, ElementsAre(ElementsAre(0U, 2U)));

@@ -78,6 +78,7 @@ TEST(LevelTable, SharesAreStraightAndSumToOneFromTheSlowestSpeedOn) {
                        table_share(table, 2, speed)};
   };
   EXPECT_EQ(shares(0.0), (std::vector{0.0, 0.0, 0.0}));
+  // A quarter of the way from rest to the slowest speed of the table.
   EXPECT_EQ(shares(5.0), (std::vector{0.25, 0.0, 0.0}));
   EXPECT_EQ(shares(20.0), (std::vector{1.0, 0.0, 0.0}));
   EXPECT_EQ(shares(25.0), (std::vector{0.75, 0.25, 0.0}));
@@ -89,6 +90,7 @@ TEST(LevelTable, TakesTheSpeedsThatAreHeld) {
   const Log log = log_of({}, {{60, 0}, {10, 1000}, {60, 3000}, {5, 1500}, {15, 1020}, {30, 2000}});
   const auto speeds = held_speeds_rev_s(log, -1e300, 1e300);
   ASSERT_EQ(speeds.size(), 3U) << "1500 rpm for five minutes tell nothing";
+  // (10·1000 + 15·1020)/25.
   EXPECT_NEAR(60.0 * speeds[0], 1012.0, 0.5) << "one speed, by time";
   EXPECT_NEAR(60.0 * speeds[1], 2000.0, 1e-6);
   EXPECT_NEAR(60.0 * speeds[2], 3000.0, 1e-6);
@@ -126,6 +128,7 @@ TEST(LevelTable, IsStraightFromNoughtAtRestAndHoldsItsLastLevel) {
               0.5 * (level_um(fit.axis, 2000.0) + level_um(fit.axis, 2600.0)), 1e-9);
   EXPECT_EQ(level_um(fit.axis, 4700.0), level_um(fit.axis, 4000.0));
   // The covariance: none of the level at rest, some of the others.
+  // The lower triangle of five levels, the first of them the 0 at rest.
   ASSERT_EQ(fit.axis.covariance.size(), 15U);
   EXPECT_EQ(fit.axis.covariance[0], 0.0);
   EXPECT_GT(fit.axis.covariance[2], 0.0);
@@ -163,6 +166,7 @@ TEST(LevelTable, OfALongerTestIsRenewedByAnHour) {
   const auto fit = identify(morning, 0, "Z", request);
   ASSERT_TRUE(fit) << fit.error().what;
   EXPECT_EQ(fit->axis.mode.front().speed_rev_s, longer.axis.mode.front().speed_rev_s);
+  // An hour at one speed renews that speed's level; the prior ties the others to the longer test.
   EXPECT_NEAR(level_um(fit->axis, 3000.0), 1.1 * humped_um(3000.0), 1.0);
   EXPECT_NEAR(level_um(fit->axis, 4000.0), humped_um(4000.0), 0.5) << "not run today";
 }

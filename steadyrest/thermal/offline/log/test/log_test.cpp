@@ -104,6 +104,7 @@ TEST(ThermalLog, AnAbsentSensorIsLeftOutAndSaidSo) {
 TEST(ThermalLog, ShortHolesOfATemperatureAreBridged) {
   const Log log = parsed(log_text([](int i, Row& row) { row.t = i > 20 && i < 28 ? "" : row.t; }));
   ASSERT_EQ(log.temperature.size(), 1U);
+  // Rows 21 to 27 are missing: eight minutes, on the straight line between their neighbours.
   EXPECT_NEAR(log.temperature[0].value[25], 20.25, 1e-9);
   EXPECT_THAT(log.notes, IsEmpty());
 }
@@ -119,12 +120,14 @@ TEST(ThermalLog, AStuckProbeCountsForNothingWhileItIsStuck) {
   ASSERT_EQ(log.displacement.size(), 1U);
   EXPECT_FALSE(std::isnan(log.displacement[0].value[260]));
   EXPECT_TRUE(std::isnan(log.displacement[0].value[300]));
+  // Row 261 is line 263: one for the header, and lines count from 1.
   EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:263: z_um is stuck")));
   const Log rest = parsed(log_text([](int i, Row& row) { row.z = i > 290 ? "9.0000" : row.z; }));
   EXPECT_FALSE(std::isnan(rest.displacement[0].value[350])) << "under two hours may be rest";
   EXPECT_THAT(rest.notes, IsEmpty());
 }
 
+// 0.1 K of a room that drifts by 0.06 K an hour: hours of the same value, and all of them true.
 TEST(ThermalLog, ACoarseSensorIsNotStuck) {
   const Log log =
       parsed(log_text([](int i, Row& row) { row.t = fmt::format("{:.1f}", 20.0 + 0.001 * i); }));
@@ -143,6 +146,7 @@ TEST(ThermalLog, ThreeRowsBehindAGapVouchForTheirTimes) {
     return parse_log(
         log_text([rows](int i, Row& row) { row.time_s += i < kRows - rows ? 0.0 : 3e5; }), "d.csv");
   };
+  // Two rows may share one slip of the pen; three that agree on a new time are a restart.
   ASSERT_TRUE(behind(3).has_value());
   ASSERT_FALSE(behind(2).has_value());
   EXPECT_EQ(behind(2).error().line, 400U);
@@ -186,6 +190,7 @@ TEST(ThermalLog, ReadingsThatNoMachineCanHaveAreLeftOutAndCounted) {
       ElementsAre(HasSubstr("day.csv:102: t1_c is implausible in 30 rows, starting here (95 °C)"),
                   HasSubstr("t1_c has gaps longer than 10 min")));
   const Log now_and_then = parsed(log_text([](int i, Row& row) {
+    // 85 °C is what a sensor of the DS18B20 kind shows after a reset.
     if (i % 40 == 7) {
       row.t = "85";
     }

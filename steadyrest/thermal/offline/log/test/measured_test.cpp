@@ -58,6 +58,7 @@ TEST(Measured, StampsCountFromTheStart) {
   const std::string text = "part;gauged;deviation_um\n1;2026-11-22T23:50:30+01:00;4,5\n";
   const auto rows = parse_measured(text, "parts.csv", format);
   ASSERT_TRUE(rows) << kernel::outcome::text(rows.error());
+  // 23:40 to 23:50:30.
   EXPECT_DOUBLE_EQ((*rows)[0].time_s, 630.0);
   EXPECT_DOUBLE_EQ((*rows)[0].deviation_mm, 0.0045);
   EXPECT_NE(fault(text).find("parts.csv:2: the parts have time stamps"), std::string::npos);

@@ -74,6 +74,7 @@ TEST(SensorWatch, FindsEachSensorOfTheRecordedMachineThatStopsInTheMiddle) {
           }
         });
     EXPECT_GE(at_s, SensorWatch::kStuck_s) << log.temperature[stopped].name;
+    // Two hours are the rule's least; the rest is for the other sensors to move twice.
     EXPECT_LE(at_s, 1.1 * SensorWatch::kStuck_s) << log.temperature[stopped].name;
   }
 }

@@ -37,6 +37,7 @@ TEST(Curve, IsWhatTheModelDoesStepByStep) {
   for (const Transition& t : cyclogram->transition) {
     online::Drive drive = drive_of(t);
     drive.ambient_c[0] = 26.0;
+    // The closed form against the model's own steps: both are exact, so they agree to rounding.
     for (double end = time_s + t.seconds; time_s < end - 0.5; time_s += 10.0) {
       ASSERT_NEAR(curve.at(time_s), model->displacement_mm(), 1e-14) << time_s;
       model->update(10.0, drive);
@@ -44,6 +45,7 @@ TEST(Curve, IsWhatTheModelDoesStepByStep) {
   }
   EXPECT_NEAR(curve.at(5400.0), model->displacement_mm(), 1e-14);
   const auto most = curve.largest();
+  // The largest is found from turning points; a scan must find nothing larger.
   for (double t = 0.0; t <= 5400.0; t += 1.0) {
     ASSERT_LE(std::abs(curve.at(t)), std::abs(most.displacement_mm) + 1e-15);
   }

@@ -26,12 +26,14 @@ TEST(Exponentials, TwoCrossingsOfATurningCurveAreBothFound) {
   EXPECT_NEAR(at[1], std::log(4.0) / rate, 1e-9);
   const auto turn = extremes_of(f, 1e4);
   ASSERT_EQ(turn.size(), 1U);
+  // 2s = ¾.
   EXPECT_NEAR(turn[0], -std::log(0.375) / rate, 1e-9);
 }
 
 TEST(Exponentials, EqualRatesAreOneTerm) {
   const auto at = sign_changes({{20.0, 0.0}, {-10.0, 1e-3}, {-20.0, 1e-3}}, 1e5);
   ASSERT_EQ(at.size(), 1U);
+  // 20 − 30·e^(−t/1000).
   EXPECT_NEAR(at[0], 1e3 * std::log(1.5), 1e-9);
 }
 

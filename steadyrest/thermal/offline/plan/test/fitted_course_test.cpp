@@ -65,12 +65,15 @@ double largest_um(const std::vector<FittedPoint>& points) {
   return most;
 }
 
+// Without noise the only unknown is the state at the start: two modes from hundreds of rows.
 TEST(FittedCourse, OfTheTruePassportIsTheLogThoughItBeganHot) {
   const Log log = without_the_first(log_of(kMachine, kDay), 100);
   EXPECT_GT(log.displacement[0].value.front(), 0.015);
   EXPECT_LT(largest_um(course(its_passport(), log)), 0.01);
 }
 
+// What the slow mode gained in the gap dies away with its own 120 min; only a new state explains
+// it.
 TEST(FittedCourse, BeginsAnewAfterAGap) {
   Log log = log_of(kMachine, kDay);
   for (std::size_t row = 200; row < log.rows(); ++row) {
@@ -82,6 +85,7 @@ TEST(FittedCourse, BeginsAnewAfterAGap) {
   EXPECT_LT(largest_um(course(its_passport(), log)), 0.01);
 }
 
+// A millimetre on each later reading: the smallest leak would show in the course.
 TEST(FittedCourse, UsesNoReadingBeyondTheWindow) {
   Log log = log_of(kMachine, kDay);
   const auto as_it_was = course(its_passport(), log, 3600.0, 6.0 * 3600.0);

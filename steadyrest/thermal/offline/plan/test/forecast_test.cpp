@@ -102,6 +102,7 @@ TEST(Forecast, UncertaintyIsTheSpreadOfMachinesDrawnFromTheCovariance) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double mean = sum[i] / kMachines;
     const double sd = std::sqrt(squares[i] / kMachines - mean * mean);
+    // A spread of 4000 draws is known to 1.1 %; the rest is for the second order in τ.
     EXPECT_NEAR(points[i].sd_mm, sd, 0.05 * sd) << points[i].time_s;
   }
 }
@@ -111,6 +112,7 @@ TEST(Forecast, DriftGrowsToItsOwnSpread) {
   axis.drift_mm = 0.002;
   axis.drift_tau_s = 1800.0;
   const auto points = forecast(made(axis), cyclogram(), 60.0, {20.0});
+  // After 1800 s, one time constant.
   EXPECT_NEAR(points[30].sd_mm, 0.002 * std::sqrt(1.0 - std::exp(-2.0)), 1e-9);
   EXPECT_NEAR(points.back().sd_mm, 0.002, 1e-6);
 }

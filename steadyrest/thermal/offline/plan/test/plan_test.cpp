@@ -93,6 +93,7 @@ TEST(Plan, TheWholeBandNeedsHalfAsManyPlaces) {
   PlanRequest request;
   request.tolerance_mm = 0.004;
   const auto single = planned(paper(), cyclogram, request);
+  // From border to border: 4 µm first, then 8 at a time.
   request.whole_band = true;
   const auto twice = planned(paper(), cyclogram, request);
   EXPECT_EQ(single.corrections, 12U) << "floor(49.07 / 4)";
@@ -141,6 +142,7 @@ TEST(Plan, HoldsTheBandForRandomMachinesAndCyclograms) {
     const Curve curve = curve_of(*model, cyclogram);
     PlanRequest request;
     request.max_offset_mm = 1.0;
+    // No refusal may hide a plan that does not hold.
     request.min_interval_s = 0.0;
     request.whole_band = run % 2 == 1;
     const auto plan = plan_corrections("X", curve, cyclogram, request);
@@ -261,6 +263,7 @@ TEST(Plan, BeyondTheMachinesClampIsRefused) {
   EXPECT_NE(text.find("40.0 µm, more than the 35.0 µm"), std::string::npos) << text;
 }
 
+// 1 nm of tolerance asks for 49 000 corrections, and 0 for no end of them.
 TEST(Plan, CorrectionsWithoutEndAreRefused) {
   PlanRequest request;
   request.tolerance_mm = 1e-6;
