@@ -255,6 +255,8 @@ void OffsetGovernor::probe(const Frame& frame) noexcept {
               {.displacement_mm = frame.probe.displacement_mm, .sd_mm = frame.probe.sd_mm});
 }
 
+// Unfit frames leave wish and slope as they were; the envelope knows the reason and takes it from
+// there.
 const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason unfit,
                                                      bool tool_in_cut,
                                                      const InForce& in_force) noexcept {

@@ -157,6 +157,7 @@ double StateFilter::variance_mm2() const noexcept {
   return std::max(sum, 0.0);
 }
 
+// A reading's own figure first, then the passport's noise, then the setting.
 double StateFilter::reading_sd_mm(const Reading& reading) const noexcept {
   if (reading.sd_mm > 0.0) {
     return reading.sd_mm;

@@ -64,6 +64,7 @@ TEST(BetterSpeed, AsksForTheTablesStepOnceTheCutChatters) {
   EXPECT_NE(out.request.ratio, 1.0);
 }
 
+// 0.25 mm, six tenths of the border.
 TEST(BetterSpeed, IsNeutralInAStableCut) {
   auto better = BetterSpeed::make(config(1.2));
   ASSERT_TRUE(better);

@@ -215,6 +215,7 @@ TEST(Detector, HearsModulatedCutsDrawnByChanceInTime) {
   std::mt19937_64 rng(3);
   int chattering = 0;
   int in_time = 0;
+  // Cuts that do not chatter, or too late for the record, are drawn again.
   while (chattering < 15) {
     CutModel model = random_cut(rng, true);
     model.air_s = 0.2;

@@ -64,6 +64,7 @@ FreeShare::Output ask(const Vibration& vibration, std::size_t teeth, double hz) 
   return out;
 }
 
+// The false alarm of modulated cuts: all of this line is the mode's answer to an order.
 TEST(FreeShare, IsNextToNothingWhereAnOrderSweepsOverADampedMode) {
   const auto out = ask(sweep(0.0, 0.0, 0.0), 2, kModeHz);
   ASSERT_TRUE(out.known);
@@ -72,6 +73,7 @@ TEST(FreeShare, IsNextToNothingWhereAnOrderSweepsOverADampedMode) {
   EXPECT_GE(out.off_teeth, 0.0);
 }
 
+// A decay within a quarter is plenty: the fit tries the pole and its neighbours.
 TEST(FreeShare, NamesTheModesDecay) {
   const auto out = ask(sweep(0.0, 0.0, 1e-3), 2, kModeHz);
   EXPECT_NEAR(out.growth_1_s, -kDecay, 0.25 * kDecay);

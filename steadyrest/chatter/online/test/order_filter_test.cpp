@@ -43,6 +43,7 @@ TEST(OrderFilter, TakesOutWhatRepeatsWithTheTeethAtAnySpeedLaw) {
   }
 }
 
+// A filter that also took out chatter would leave nothing to detect.
 TEST(OrderFilter, LeavesALineBetweenTheOrders) {
   auto filter = OrderFilter::make({});
   ASSERT_TRUE(filter);

@@ -49,6 +49,7 @@ TEST(SpeedLaw, PhasesAreThoseOfTheLiterature) {
   EXPECT_DOUBLE_EQ(SpeedLaw(Law::sine).at(-0.75), 1.0);
 }
 
+// A plan's stability holds for the very law that it was worked out for.
 TEST(SpeedLaw, RandomIsTheSameForTheSameSeedAlone) {
   EXPECT_EQ(SpeedLaw(Law::random, 5).at(0.3), SpeedLaw(Law::random, 5).at(0.3));
   EXPECT_NE(SpeedLaw(Law::random, 5).at(0.3), SpeedLaw(Law::random, 6).at(0.3));

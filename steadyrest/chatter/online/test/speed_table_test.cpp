@@ -48,6 +48,7 @@ TEST(SpeedTable, TakesTheNearestStepThatCarriesTheDepth) {
   EXPECT_GE(advice.limit_depth_mm, 1.1 * 0.6);
 }
 
+// All speeds carry 1 mm; none carries 2, so a change would be for nothing.
 TEST(SpeedTable, IsNeutralWhereNothingIsBetter) {
   SpeedTable::Config config = slot();
   config.min_ratio = 0.8;
@@ -88,6 +89,7 @@ TEST(SpeedTable, TheRuleDoesNotLeaveASpeedThatFitsItBetter) {
 
 TEST(SpeedTable, KeepsTheLimitsForAnyQuestion) {
   SpeedTable::Config config = slot();
+  // The spindle's limits, narrower than the table and the panel.
   config.min_rev_s = 70.0;
   config.max_rev_s = 95.0;
   for (const bool with_table : {true, false}) {

@@ -176,6 +176,7 @@ LevelChoice next_level(std::span<const double> share, std::uint32_t level,
   return out;
 }
 
+// The parts may come in any order; sorted by time, the model runs through the cyclogram once.
 std::vector<Prediction> predict(const online::ThermalModel& model, const Cyclogram& cyclogram,
                                 const std::vector<double>& ambient_c,
                                 std::span<const double> time_s) {

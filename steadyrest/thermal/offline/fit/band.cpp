@@ -130,6 +130,8 @@ double student(std::size_t blocks) {
   return t / kBand;
 }
 
+// Each reading of a left-out block becomes a sample twice: running free, and since the last hourly
+// probe. What parameters and noise explain is known; the drift has to cover the rest.
 Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::MatrixXd& columns,
                const Eigen::MatrixXd& covariance) {
   // Parameters move the forecast about the mean of the log: its constant is fitted.

@@ -92,6 +92,7 @@ class Evidence {
   std::vector<Eigen::Index> inputs_;
 };
 
+// All combinations of modes, levels and gains: each costs one Cholesky factorisation.
 Choice best(const Evidence& evidence, const std::vector<std::vector<std::size_t>>& modes,
             std::size_t rows) {
   Choice out;

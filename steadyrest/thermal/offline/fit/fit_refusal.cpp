@@ -78,6 +78,7 @@ std::optional<Refusal> unfit(const FitData& data, const FitRequest& request,
   return request.table && request.known == nullptr ? unfit_speeds(log, table_rev_s) : std::nullopt;
 }
 
+// Judged after the fit: whether a log was long enough shows in the covariance of what it gave.
 std::optional<Refusal> too_uncertain(const AxisFit& fit, const FitData& data,
                                      const FitRequest& request) {
   const Log& log = *data.log;

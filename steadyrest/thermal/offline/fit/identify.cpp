@@ -87,6 +87,8 @@ class Identification {
     return with_rest(dense_or(std::move(likely), limits, guess));
   }
 
+  // Nothing is searched: structure and error model are the axis's own, the time constants the
+  // group's.
   Judged held_structure() {
     const AxisFit& like = *request_.like;
     error_ = like.error;
@@ -100,6 +102,8 @@ class Identification {
     return out;
   }
 
+  // A passport's time constants are taken as they are; levels and gains get it as a prior
+  // (known_prior).
   Judged known_structure() {
     const ThermalAxis& known = *request_.known;
     if (known.drift_mm > 0.0) {

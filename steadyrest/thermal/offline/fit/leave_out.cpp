@@ -91,6 +91,8 @@ LeftOut leave_out(const Structure& structure, const FitData& data, const ErrorMo
     out.probed_um.push_back(std::sqrt(probed_ms));
     out.loss.push_back(block_loss(free_ms, probed_ms));
     out.mean_loss += out.loss.back() / static_cast<double>(data.block.size());
+    // The RMS that is told to the user leaves out speeds that no forecast is made for; the loss,
+    // which only compares structures, takes all blocks.
     if (std::ranges::binary_search(reach, b)) {
       free_sum += free_ms * static_cast<double>(count);
       probed_sum += probed_ms * static_cast<double>(count);

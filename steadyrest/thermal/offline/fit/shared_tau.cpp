@@ -131,6 +131,7 @@ class Sharing {
   const std::vector<AxisFit>& own_;
 };
 
+// Axes are taken as independent: evidences of a group add up.
 double evidence(const std::vector<AxisFit>& fit, const Group& group) {
   double sum = 0.0;
   for (const std::size_t i : group) {

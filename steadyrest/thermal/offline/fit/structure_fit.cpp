@@ -279,6 +279,7 @@ Refined refine(Structure structure, const FitData& data, const ErrorModel& error
   return out;
 }
 
+// Drift over noise and drift time by maximum likelihood; their common scale follows in closed form.
 ErrorModel likely_error(const Eigen::MatrixXd& columns, const FitData& data,
                         const LinearPrior& prior) {
   ErrorModel best;

@@ -167,6 +167,7 @@ class LogMaker {
   }
 
   /// The first reading that the next one bears out; what comes before it nothing vouches for.
+  /// Without this a wrong first reading would make the watch doubt all that follow.
   [[nodiscard]] std::size_t first_believed(const LogChannel& channel) const {
     using online::SensorWatch;
     std::size_t k = 0;

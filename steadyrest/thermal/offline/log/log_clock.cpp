@@ -119,6 +119,7 @@ class ClockMaker {
     for (std::size_t i = 1; i < out_.time_s.size(); ++i) {
       step.push_back(out_.time_s[i] - out_.time_s[i - 1]);
     }
+    // The median: gaps and doubled rows do not move it.
     std::vector<double> sorted = step;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);

@@ -79,6 +79,7 @@ LogColumn column_named(std::string_view name) {
 }
 
 /// An absent value, as loggers write it.
+/// Whatever else is not a number is a fault of the row, not a missing reading.
 bool absent(std::string_view field) {
   const std::string low = table::lower(field);
   return low.empty() || low == "nan" || low == "-" || low == "null" || low == "na" || low == "n/a";
@@ -202,6 +203,7 @@ struct CloseGzip {
 
 }  // namespace
 
+// Whole into memory: a week at a row each second is less than a hundred megabytes.
 Result<std::string> read_packed(const std::string& path) {
   const auto refuse = [&](Kind kind, std::string what, std::string to_do) {
     return std::unexpected(Refusal{kind, path, 0, std::move(what), std::move(to_do)});

@@ -99,6 +99,8 @@ class Reader final : public table::Sink {
     return std::nullopt;
   }
 
+  // A bound on the rows keeps a log that was given by mistake from being read as a hundred thousand
+  // parts.
   std::optional<Fault> row(const table::Row& row) override {
     if (out_.size() >= kMostMeasured) {
       return Fault{row.line(), fmt::format("more than {} rows", kMostMeasured),
@@ -128,6 +130,7 @@ class Reader final : public table::Sink {
       case Field::part:
         part.part = shown(field);
         return std::nullopt;
+      // Empty where the plan has one axis; the caller checks the name against the plan.
       case Field::axis:
         part.axis = std::string(field);
         return std::nullopt;

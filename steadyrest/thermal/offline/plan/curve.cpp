@@ -37,6 +37,7 @@ Exponentials terms_of(const online::ThermalModel& model, const online::Drive& dr
 
 }  // namespace
 
+// On a border the later piece answers; both give the same there.
 double Curve::at(double time_s) const noexcept {
   if (piece.empty()) {
     return 0.0;

@@ -67,6 +67,8 @@ void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
   }
   const toml::node* node = root.get("transition");
   const toml::array* list = node != nullptr ? node->as_array() : nullptr;
+  // A program of many short tool changes has hundreds; a file with more than the bound is no
+  // cyclogram.
   if (list == nullptr || list->size() > kMostTransitions) {
     faults.add(node != nullptr ? line_of(node->source()) : 0,
                list == nullptr ? std::string{"there is no [[transition]]"}

@@ -127,6 +127,8 @@ double Uncertainty::sd_mm() const {
   return std::sqrt(parameter_variance_mm2(none) + drift);
 }
 
+// Points are for a table and a drawing; the largest displacement comes from the curve in closed
+// form.
 std::vector<ForecastPoint> forecast(online::ThermalModel model, const Cyclogram& cyclogram,
                                     double step_s, const std::vector<double>& ambient_c) {
   std::vector<ForecastPoint> points;

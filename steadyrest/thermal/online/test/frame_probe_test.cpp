@@ -78,6 +78,7 @@ TEST(FrameProbe, WaitsForAFrameThatIsFit) {
   EXPECT_EQ(taken(on), 1U);
 }
 
+// Each fault of a port, one at a time; none may move the estimate.
 TEST(FrameProbe, SaysWhyItWasNotTaken) {
   Governed on;
   on.seconds(10.0);

@@ -136,6 +136,7 @@ TEST(OffsetGovernorSafety, ARestoredWishBeyondTheClampIsCutToIt) {
   EXPECT_EQ(governor.output().request.offset_mm[kX], 0.0);
 }
 
+// Bit for bit: any state that State forgets shows up here.
 TEST(OffsetGovernorSafety, WhatGoesOnAfterARestartIsWhatWouldHaveGoneOn) {
   test::Governed on;
   on.seconds(777.7);

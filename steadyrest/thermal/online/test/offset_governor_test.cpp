@@ -86,6 +86,7 @@ TEST(OffsetGovernor, ALostSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
   EXPECT_NEAR(on.seconds(60.0).offset_mm[kX], -0.006, 1e-12);
 }
 
+// A thread is recut on the same lead, and a probe measures with the offset that it began with.
 TEST(OffsetGovernor, HoldsStillInThreadsTapsAndProbing) {
   for (const Motion motion : {Motion::thread, Motion::tap, Motion::probe}) {
     Governed on;
@@ -193,6 +194,8 @@ TEST(OffsetGovernor, OutOfTheCutItMovesByTheRetractSlopeWhereThereIsOne) {
   EXPECT_NEAR(walks_s(60'000.0, 0.001, false, Motion::rapid), 4.0, 0.3) << "the envelope's slew";
 }
 
+// At the retract slope a second of NaN would take off the whole offset, and the next cut would miss
+// it.
 TEST(OffsetGovernor, ASensorThatFailsForASecondOutOfTheCutDoesNotTakeTheOffsetAway) {
   auto machine = mill();
   machine.thermal.retract_slope_mm_s = 0.010;

@@ -106,6 +106,7 @@ TEST(SensorWatch, ACoarseSensorThatMovedAndStopsIsStuckAfterEightHours) {
   EXPECT_LT(at_h, 21.0);
 }
 
+// A closed shop over a weekend: silence is a fault only while others speak.
 TEST(SensorWatch, NobodyIsStuckInAMachineThatIsAllStill) {
   SensorWatch watch;
   for (int i = 0; i < 72 * 360; ++i) {
@@ -170,6 +171,7 @@ TEST(SensorWatch, WhatMachinesDoIsBelieved) {
 
 TEST(SensorWatch, ItsStateGoesOnAfterARestart) {
   SensorWatch first;
+  // One runs on, the other is saved and restored now and then; both must come to the same verdict.
   SensorWatch second;
   for (int i = 0; i < 5 * 360; ++i) {
     for (SensorWatch* const watch : {&first, &second}) {

@@ -136,6 +136,7 @@ TEST(StateFilter, IsTheTextbooksFilterOnTheContinuousSystem) {
   expect_textbook(0.0, 2);
 }
 
+// The scale begins at 1, so nothing is added to the model's own step.
 TEST(StateFilter, WithoutReadingsIsTheModel) {
   StateFilter filter = made({.axis = two_modes()});
   auto model = ThermalModel::make(two_modes());
@@ -287,6 +288,7 @@ TEST(StateFilter, ASmallErrorThatStaysIsToldFromNoise) {
   EXPECT_GE(readings, 4);
 }
 
+// A bias of 10 µm at most against a reading of 500: clamped, and said so.
 TEST(StateFilter, HoldsBiasAndScaleWithinTheirLimits) {
   StateFilter filter =
       made({.axis = two_modes(), .start_sd_mm = 1.0, .gain_sd_ratio = 0.0, .max_bias_mm = 0.01});

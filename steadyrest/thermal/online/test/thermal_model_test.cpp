@@ -58,6 +58,7 @@ TEST(ThermalModel, DoesNotDependOnTheSizeOfItsSteps) {
   EXPECT_NEAR(last, once, 1e-14);
 }
 
+// After one rest time constant 1/e is left.
 TEST(ThermalModel, HasItsOwnTimeConstantAtRest) {
   ThermalAxis axis = paper();
   axis.mode[0].rest_tau_s = 100.0;

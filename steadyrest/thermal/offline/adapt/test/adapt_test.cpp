@@ -33,6 +33,7 @@ TEST(NextLevel, IsTheStricterOneWhereThePartsLeaveTheirShare) {
 
 TEST(NextLevel, GoesBackOneWhereAllAreWellInsideAndEnoughWereMeasured) {
   EXPECT_EQ(next_level(kShares, 2, parts({2.4, -1.0, 0.5, 2.0, 1.0}), {}).level, 1U);
+  // Half of the share of 5 µm is 2.5.
   EXPECT_EQ(next_level(kShares, 2, parts({2.6, -1.0, 0.5, 2.0, 1.0}), {}).level, 2U);
   EXPECT_EQ(next_level(kShares, 2, parts({1.0, 1.0, 1.0, 1.0}), {}).level, 2U) << "four are few";
   EXPECT_EQ(next_level(kShares, 0, parts({0.0, 0.0, 0.0, 0.0, 0.0}), {}).level, 0U);
@@ -173,6 +174,7 @@ TEST(LearnGains, OneOutlierOfThreeIsEnoughForNoFit) {
   EXPECT_EQ(gains.outlier.size(), 1U);
 }
 
+// With one outlier a round the rounds would grow with the parts, and the time with their square.
 TEST(LearnGains, OfTwentyThousandPartsTheOutliersAreNamed) {
   const auto thirty = measured({1.1, 1.1}, 0.0, 0.0005, 7);
   std::vector<Observation> observations;
@@ -186,6 +188,7 @@ TEST(LearnGains, OfTwentyThousandPartsTheOutliersAreNamed) {
   EXPECT_FALSE(gains.fits);
 }
 
+// +8 and −8 µm in turn: no gain has that sign pattern, and clipping alone would hide it.
 TEST(LearnGains, SaysWhenNoGainExplainsTheParts) {
   auto observations = measured({1.0, 1.0}, 0.0, 0.0005, 4);
   for (std::size_t k = 0; k < observations.size(); ++k) {

@@ -74,6 +74,7 @@ TEST(DenseFit, EvidenceIsTheDensityOfTheReadings) {
     for (Eigen::Index j = 0; j < n; ++j) {
       const double apart_s = std::abs(data.time_s[static_cast<std::size_t>(i)] -
                                       data.time_s[static_cast<std::size_t>(j)]);
+      // Covariance of a first-order drift: d²·e^(−|t|/τ).
       covariance(i, j) += error.drift_um * error.drift_um * std::exp(-apart_s / error.tau_s);
     }
     covariance(i, i) += error.noise_um * error.noise_um;
@@ -139,6 +140,7 @@ TEST(DenseFit, RecordedHoursThatChoseNothingAreForecast) {
       ASSERT_TRUE(renewed.has_value());
       ReplayRequest on;
       on.channel = target.channel;
+      // The hour's own passport forecasts the other three of the run.
       on.state_s = renewed->end_s;
       const auto points = replay(renewed->axis, *log, on);
       ASSERT_TRUE(points.has_value());

@@ -72,6 +72,7 @@ TEST(Identify, FindsTheTemperatureThatCountsAmongOthers) {
   EXPECT_NEAR(fit.axis.ambient[0].tau_s / 60.0, 60.0, 15.0);
 }
 
+// The room moves this machine and no sensor shows it: the drift has to be found wide enough.
 TEST(Identify, TheBandHoldsNineReadingsInTenOrMoreThatItHasNotSeen) {
   KnownMachine machine = table_machine();
   machine.gain_um_k = 3.0;  // of a temperature that is not logged
@@ -121,6 +122,8 @@ TEST(Identify, ASpindleThatStandsIsNoTest) {
 }
 
 /// The reference's table: with known time constants 60 min forecast 240 min to 0.4 µm (sd).
+/// Ten draws of the noise, as one may be lucky; 1 µm against the table's 0.4, since the time
+/// constants are fitted ones.
 TEST(Identify, AnHourIsEnoughWithTimeConstantsOfALongerTest) {
   const AxisFit known = fitted(log_of(table_machine(), kDays));
   FitRequest request;

@@ -28,6 +28,7 @@ Log three_axes() {
   return log;
 }
 
+// Both mistakes are possible: sharing what is alike by chance, and not sharing what is one body.
 TEST(SharedTau, DisplacementsOfOneBodyShareAndOthersDoNot) {
   const Log log = three_axes();
   std::vector<AxisFit> fit;

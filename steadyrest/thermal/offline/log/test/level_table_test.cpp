@@ -97,6 +97,8 @@ TEST(LevelTable, TakesTheSpeedsThatAreHeld) {
   EXPECT_EQ(held_speeds_rev_s(log, 70.0 * 60.0, 130.0 * 60.0).size(), 1U);
 }
 
+// On the fitted day and on another one: a table that only remembered its own day would fail the
+// second.
 TEST(LevelTable, FitsToTheNoiseWhatAPolynomialDoesNot) {
   const Log log = log_of(humped_machine(), kTest);
   const AxisFit table = fitted(log, true);

@@ -67,6 +67,7 @@ TEST(ThermalLog, IsReadInInnerUnits) {
   EXPECT_THAT(log.notes, IsEmpty());
 }
 
+// The same day in minutes, millimetres and degrees Fahrenheit.
 TEST(ThermalLog, UnitsAreConvertedByName) {
   const auto other = [](int i, Row& row) {
     row.time_s = i;
@@ -161,6 +162,7 @@ TEST(ThermalLog, MinutesCountFromTheFirstStamp) {
   EXPECT_EQ(parsed(text).origin_s, 34.0 * 3600.0);
 }
 
+// A logger that flushes twice.
 TEST(ThermalLog, RowsThatStandTwiceAreTakenOnce) {
   std::string text = log_text();
   const std::size_t at = text.find("\n600,") + 1;
@@ -221,6 +223,7 @@ TEST(ThermalLog, AWrongFirstReadingDoesNotSpeakForTheOthers) {
                                      HasSubstr("has gaps")));
 }
 
+// Milliseconds in a column of seconds: a test of 400 min would last nine months.
 TEST(ThermalLog, RowsThatAreHoursApartAreAWrongUnit) {
   const auto spread = [](double factor) {
     return parse_log(log_text([factor](int, Row& row) { row.time_s *= factor; }), "day.csv");

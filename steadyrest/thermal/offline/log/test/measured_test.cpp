@@ -80,6 +80,7 @@ TEST(Measured, StampsBesideATransitionOnlySayWhenItWasGauged) {
   EXPECT_EQ((*rows)[0].transition, "2");
 }
 
+// 4.2 mm off is no thermal drift: these are µm in a column of mm.
 TEST(Measured, RefusesAUnitThatMustBeWrong) {
   EXPECT_NE(fault("time_min,deviation_mm\n1,4.2\n").find("check the unit"), std::string::npos);
   EXPECT_NE(fault("time_min,deviation_um,tolerance_mm\n1,4.2,0\n").find("check the unit"),

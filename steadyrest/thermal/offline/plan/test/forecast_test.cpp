@@ -63,6 +63,7 @@ TEST(Forecast, UncertaintyIsTheSpreadOfMachinesDrawnFromTheCovariance) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j <= i; ++j) {
+      // A Cholesky root with correlations, so that a covariance taken as diagonal would show.
       root(i, j) = (i == j ? 0.8 : 0.2 * normal(random)) * (i == 5 ? 0.1 : 1.0);
     }
   }

@@ -73,6 +73,7 @@ TEST(Replay, GoesOnFromThePassportsStates) {
   request.state_s = 0.0;
   const auto whole = replayed(axis, log, request);
   // Cut in the middle: the states there are those of the closed form after 120 min at 3000 rpm.
+  // G·(1 − e^(−t/τ)) with G = 3 · 4 and 3 · 9 µm.
   axis.mode[0].state_mm = 12e-3 * (1.0 - std::exp(-120.0 / 20.0));
   axis.mode[1].state_mm = 27e-3 * (1.0 - std::exp(-120.0 / 120.0));
   axis.drift_state_mm = 5e-3;
@@ -114,6 +115,7 @@ TEST(Replay, AProbeEveryHourSetsAWrongModelRight) {
   EXPECT_LT(probed.points, free.points) << "a reading that was used counts for nothing";
 }
 
+// d²·(1 − e^(−2t/τ_d)) since the last reading, here with a drift time of one hour.
 TEST(Replay, TheBandGrowsFromReadingToReading) {
   const Log log = log_of(machine_without_noise(), kShift, 1);
   ThermalAxis axis = its_passport();
