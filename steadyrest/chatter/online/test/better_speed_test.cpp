@@ -97,6 +97,7 @@ TEST(BetterSpeed, DropsTheAnswerWithTheNextProgrammedSpeed) {
   EXPECT_EQ(out.request.reason, Reason::none);
 }
 
+// Its own setting, the detector's and the table's: each must come through make().
 TEST(BetterSpeed, RefusesWhatIsOutOfRange) {
   BetterSpeed::Config bad = config(1.2);
   bad.again_s = 0.0;

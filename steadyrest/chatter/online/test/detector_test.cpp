@@ -25,6 +25,7 @@ CutModel slot(double depth_mm) {
   return m;
 }
 
+// When chatter was first reported and when the last report ended, with what was said at the first.
 struct Heard {
   double first_s = -1.0;
   double end_s = -1.0;  ///< chatter was no longer told
@@ -127,6 +128,7 @@ TEST(Detector, HearsChatterUnderModulationInTime) {
   }
 }
 
+// A depth of 0.05 mm cannot chatter; the accelerometer makes the resonance as loud as it gets.
 TEST(Detector, IsSilentWhereAToothOrderSweepsOverAResonance) {
   CutModel model = slot(0.05);
   model.accelerometer = true;

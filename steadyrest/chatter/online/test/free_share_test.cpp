@@ -80,6 +80,8 @@ TEST(FreeShare, NamesTheModesDecay) {
 }
 
 TEST(FreeShare, IsTheLineThatNoOrderGives) {
+  // 30 Hz beside the mode, near enough to be taken for its ringing, and at rest while the orders
+  // sweep across it.
   const double own = 0.5;
   const auto out = ask(sweep(own, 0.0, 0.0), 2, 930.0);
   // A line of amplitude A has the energy A²/2; the fit may take some of it, hardly add to it.

@@ -12,6 +12,7 @@ namespace {
 constexpr std::array kLaws{Law::constant, Law::square, Law::pulse, Law::triangle,
                            Law::sine,     Law::random, Law::stop};
 
+// With a mean a law would change the average speed and the principal period with it.
 TEST(SpeedLaw, HasMeanZeroAndStaysWithinOne) {
   for (const Law law : kLaws) {
     const SpeedLaw s(law, 7);

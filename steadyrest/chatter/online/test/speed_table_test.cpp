@@ -29,6 +29,7 @@ SpeedTable::Config slot() {
   return config;
 }
 
+// 5500 rpm is the pocket of the slot, 110 %.
 TEST(SpeedTable, TakesTheDeepestStepWhenTheDepthIsNotKnown) {
   const auto table = SpeedTable::make(slot());
   ASSERT_TRUE(table);
@@ -125,6 +126,7 @@ TEST(SpeedTable, UnfitQuestionsAreNeutral) {
   EXPECT_EQ(table->ask({.programmed_rev_s = 80.0, .ratio = 0.0}).request.ratio, 1.0);
 }
 
+// A table comes from a file; a search in speeds that do not rise would find anything.
 TEST(SpeedTable, RefusesTablesThatAreNotInOrder) {
   SpeedTable::Config config = slot();
   config.limit_depth_mm.pop_back();

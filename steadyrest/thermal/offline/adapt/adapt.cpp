@@ -249,6 +249,8 @@ Gains learn_gains(std::span<const Observation> observations, const GainRule& rul
   }
 }
 
+// A mode's gain scales all that heats it, levels and feed alike; the surroundings have no part in
+// it.
 void apply_gains(kernel::machine::ThermalAxis& axis, std::span<const double> gain) {
   std::vector<double> of_parameter;
   for (std::size_t i = 0; i < axis.mode.size(); ++i) {

@@ -65,6 +65,7 @@ std::vector<Eigen::Index> places(const Structure& structure, const ThermalMode& 
 
 }  // namespace
 
+// Written as of the log's last row: states, lagged temperatures and drift begin a forecast there.
 ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const LinearFit& fit,
                         const std::vector<double>& ln_tau_sd) {
   const Log& log = *data.log;
@@ -124,6 +125,7 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
   return out;
 }
 
+// A passport with a table keeps it; powers count only where there is none.
 Structure structure_of(const ThermalAxis& axis, const Log& log) {
   Structure out;
   std::size_t powers = 1;

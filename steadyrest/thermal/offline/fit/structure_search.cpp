@@ -166,6 +166,7 @@ class Search {
   }
 
  private:
+  // None, one or two inputs; more than two would be fitted to the accidents of a few runs.
   [[nodiscard]] std::vector<std::vector<Lag>> sets_of(std::size_t inputs) const {
     std::vector<Lag> one;
     for (std::size_t s = 0; s < limits_.sensor.size(); ++s) {

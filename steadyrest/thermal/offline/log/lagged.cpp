@@ -67,6 +67,8 @@ Eigen::VectorXd lagged_level(const Log& log, std::span<const std::size_t> rows, 
       [&](std::size_t row) {
         // A row's speed holds until the next row, as in the controller's frames.
         const double n = log.speed_rev_s[row - 1];
+        // Speeds of a test are constant for hours, and a power or a table need not be worked out
+        // for each row.
         if (n != speed) {
           speed = n;
           level = level_of(n);

@@ -280,6 +280,8 @@ class LogMaker {
     }
   }
 
+  // A displacement with holes is simply not read there; a temperature is an input and must be known
+  // in every row.
   void keep(LogChannel channel, Quantity quantity) {
     const auto silent =
         std::ranges::count_if(channel.value, [](double v) { return std::isnan(v); });

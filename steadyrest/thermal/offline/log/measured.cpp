@@ -124,6 +124,7 @@ class Reader final : public table::Sink {
     return std::ranges::find(column_, field, &Known::field) != column_.end();
   }
 
+  // Each column knows its quantity and factor from the header; here a field only goes to its place.
   std::optional<Fault> put(Measured& part, const table::Row& row, std::size_t i) {
     const std::string_view field = row.field(i);
     switch (column_[i].field) {
@@ -205,6 +206,7 @@ Result<std::vector<Measured>> parse_measured(std::string_view text, const std::s
   table::RowReader rows(format.table, reader);
   auto fault = table::read_rows(text, rows);
   std::vector<Measured> out = reader.take();
+  // A header alone would change no level and no gain, and look like success.
   if (!fault && out.empty()) {
     fault = Fault{0, "has no measured part",
                   "give a CSV with columns part, transition or time_min, deviation_um"};

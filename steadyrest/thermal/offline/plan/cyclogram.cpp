@@ -27,6 +27,7 @@ using passport::SectionReader;
 namespace {
 
 constexpr std::array<std::string_view, 3> kLoads = {"standing", "running", "cutting"};
+// By index: the words and the enumerators of Load stand in the same order.
 constexpr Choice<Transition> kLoad = {
     kLoads, [](Transition& t, std::size_t i) { t.load = static_cast<Load>(i); },
     [](const Transition& t) { return static_cast<std::size_t>(t.load); }};
@@ -106,6 +107,7 @@ double Cyclogram::total_s() const noexcept {
 }
 
 Result<Cyclogram> parse_cyclogram(std::string_view text, const std::string& file) {
+  // The check of text is the machine file's; only its advice has to speak of cyclograms.
   if (auto refusal = passport::unfit_text(text)) {
     refusal->file = file;
     // What is said there of a machine file.

@@ -213,6 +213,7 @@ Result<std::vector<ReplayPoint>> replay(const ThermalAxis& axis, const Log& log,
   return Replay(std::move(*model), log, std::move(*sensor), request).run();
 }
 
+// Rows with a forecast and a reading count; a row whose reading was taken would flatter the score.
 ReplayScore score(const std::vector<ReplayPoint>& points, double noise_mm) {
   ReplayScore out;
   double square = 0.0;

@@ -49,6 +49,7 @@ Frame any_frame(double time_s) {
 void spoil(OffsetGovernor& governor) {
   const StateFilter::Reading reading{.displacement_mm = any_double() * 1e-3,
                                      .sd_mm = std::abs(any_double()) * 1e-4};
+  // Rare, so that long stretches of ordinary work lie between two shocks.
   switch (*rc::gen::inRange(0, 40)) {
     case 0:
       governor.measure(kZ, reading);

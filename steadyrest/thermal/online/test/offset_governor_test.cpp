@@ -57,6 +57,7 @@ TEST(OffsetGovernor, ASpeedThatSwingsCountsWithItsMean) {
               constant.governor.output().displacement_mm[kZ], 1e-4 * kLevel_mm);
 }
 
+// X has no mode, only the room: what it shows is the sensor's alone.
 TEST(OffsetGovernor, FollowsTheRoomByItsSensor) {
   Governed on;
   on.frame.temperature_c[0] = 23.0;
@@ -99,6 +100,7 @@ TEST(OffsetGovernor, HoldsStillInThreadsTapsAndProbing) {
   }
 }
 
+// At 100 rev/s the level is 40 µm against a clamp of 30.
 TEST(OffsetGovernor, GoesNoFurtherThanTheClampAndSaysSo) {
   Governed on;
   on.frame.spindle_actual_rev_s = 100.0;

@@ -153,6 +153,7 @@ TEST(ThermalModel, UnfitInputChangesNothing) {
   EXPECT_EQ(room.update(1000.0, drive), known) << "a lost sensor's last value is held";
 }
 
+// No time constant, a table whose columns differ in length, more modes than a model has room for.
 TEST(ThermalModel, RefusesAPassportThatCannotBeUsed) {
   ThermalAxis axis = paper();
   axis.mode[0].tau_s = 0.0;

@@ -31,6 +31,7 @@ TEST(NextLevel, IsTheStricterOneWhereThePartsLeaveTheirShare) {
   EXPECT_EQ(next_level(kShares, 0, parts({8.5, 2.0}), {}).level, 0U) << "there it is 10 µm";
 }
 
+// Slower than it goes forward: five good parts for one step back, one bad part for one ahead.
 TEST(NextLevel, GoesBackOneWhereAllAreWellInsideAndEnoughWereMeasured) {
   EXPECT_EQ(next_level(kShares, 2, parts({2.4, -1.0, 0.5, 2.0, 1.0}), {}).level, 1U);
   // Half of the share of 5 µm is 2.5.
@@ -215,6 +216,8 @@ TEST(LearnGains, SeldomSaysSoOfAMachineThatFits) {
   EXPECT_LE(wrong, 6);
 }
 
+// Parameters in the passport's order: two levels, two coefficients, one gain; fifteen entries
+// below.
 TEST(ApplyGains, ScalesLevelsAndTheirCovariance) {
   auto one = axis();
   one.mode[0].feed_s = 0.001;

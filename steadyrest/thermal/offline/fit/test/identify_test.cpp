@@ -107,6 +107,7 @@ TEST(Identify, HalfAnHourCannotCarryTwoModes) {
   EXPECT_THAT(fit.error().to_do, HasSubstr("run at one speed for 120 min at least"));
 }
 
+// 60 min of horizon pass the first check of a run of 30; what the fit then knows does not.
 TEST(Identify, AShortHorizonDoesNotTalkItsWayIn) {
   FitRequest request;
   request.horizon_s = 3600.0;

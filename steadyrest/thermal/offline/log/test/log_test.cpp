@@ -83,6 +83,7 @@ TEST(ThermalLog, UnitsAreConvertedByName) {
   }
 }
 
+// Packed here with zlib itself, so the reader is tested against the format and not against itself.
 TEST(ThermalLog, PackedIsThePlainOne) {
   const fs::path path = fs::temp_directory_path() / "steadyrest_thermal_log_test.csv.gz";
   const std::string text = log_text();
@@ -110,6 +111,7 @@ TEST(ThermalLog, ShortHolesOfATemperatureAreBridged) {
   EXPECT_THAT(log.notes, IsEmpty());
 }
 
+// An invented reading would count as a measured one; an invented temperature only feeds the model.
 TEST(ThermalLog, HolesOfADisplacementStayHoles) {
   const Log log = parsed(log_text([](int i, Row& row) { row.z = i == 30 ? "" : row.z; }));
   EXPECT_TRUE(std::isnan(log.displacement[0].value[30]));
@@ -214,6 +216,7 @@ TEST(ThermalLog, AStepThatNoMachineCanMakeIsLeftOut) {
   EXPECT_TRUE(dead.temperature.empty());
 }
 
+// 60 °C in the first row alone: the second row contradicts it, and all others bear out the second.
 TEST(ThermalLog, AWrongFirstReadingDoesNotSpeakForTheOthers) {
   const Log log = parsed(log_text([](int i, Row& row) { row.t = i == 0 ? "60" : row.t; }));
   ASSERT_EQ(log.temperature.size(), 1U);

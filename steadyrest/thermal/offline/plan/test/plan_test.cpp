@@ -255,6 +255,7 @@ TEST(Plan, WhatCancelsInTheRoundingIsNoCorrection) {
   EXPECT_EQ(plan.corrections, 0U);
 }
 
+// 49 µm of growth ask for four corrections of 10; the machine allows three and a half.
 TEST(Plan, BeyondTheMachinesClampIsRefused) {
   PlanRequest request;
   request.max_offset_mm = 0.035;
