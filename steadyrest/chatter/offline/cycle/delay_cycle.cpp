@@ -41,9 +41,8 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
   const auto whole = [&out](double angle_rad) {
     return std::max(1.0, std::round(angle_rad / out.pass_rad_)) * out.pass_rad_;
   };
-  // A course that the machine makes of a law has an arbitrary length. Stretching it to whole passes
-  // changes the speed's timing by half a pass at most; with a remainder
-  // there would be no principal period.
+  // The course that a machine makes of a law has any length. Stretching it to whole passes changes
+  // its timing by half a pass at most; with a remainder there would be no principal period.
   const SpeedProfile speed =
       config.course.empty()
           ? SpeedProfile(config.speed_rev_s, config.modulation)
@@ -98,8 +97,8 @@ void DelayCycle::delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& 
                          Eigen::Ref<Eigen::VectorXd> out) const {
   const Index n = piece.nodes;
   out.setZero();
-  // Pieces that do not cut have no slot: nobody reads them, and a read there has H = 0 or, with
-  // uneven pitch, meets a tooth that left a finished surface.
+  // Pieces that do not cut have no slot. A tooth that cuts reads where the tooth in front of it
+  // cut, so a read from such a piece has H = 0.
   for (const Delayed& term : piece.delayed) {
     for (Index i = 0; i < n; ++i) {
       const Read& read = term.read[static_cast<std::size_t>(i)];
@@ -125,7 +124,6 @@ void DelayCycle::delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& 
 }
 
 void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
-  // A piece with no tooth in the cut is a free vibration: x for the sample, then on by E.
   // A piece's values of this pass take the place of the last one's as soon as it is passed: no
   // delay is longer than a pass.
   modal_ = state.head(modal_size());

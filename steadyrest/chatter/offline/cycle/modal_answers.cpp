@@ -6,9 +6,9 @@
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/small_inverse.hpp>
 
-// One piece at a time: mode by mode the equation of motion is turned into an integral
-// equation and solved at the Gauss nodes for unit start values and unit forces. The columns of the
-// solution are the matrices Φ, K, E and R that every solver of this folder builds on.
+// One piece at a time: mode by mode the equation of motion is turned into an integral equation and
+// solved at the Gauss nodes for unit start values and unit forces. The columns of the solution are
+// the matrices Φ, K, E and R that every solver of this folder builds on.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -40,8 +40,8 @@ double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s
   for (const Mode& mode : process.modes) {
     const double w = kTurn * mode.frequency_hz;
     const double per_mass = 1000.0 / mode.mass_kg;
-    // √(ω² + a·|K|/m) is the oscillation, a·C/(v·m) the decay by process damping; their sum
-    // is on the safe side for the choice of nodes.
+    // √(ω² + a·|K|/m) is the oscillation, a·C/(v·m) the decay by process damping; their sum is on
+    // the safe side for the choice of nodes.
     fastest = std::max(fastest, std::sqrt(w * w + per_mass * stiffness) + per_mass * damping);
   }
   return fastest;

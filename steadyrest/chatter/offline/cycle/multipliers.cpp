@@ -27,8 +27,8 @@ constexpr double kAlike = 0.99;  ///< of the largest modulus: these have to sett
 constexpr Index kFirstKrylov = 6;
 constexpr Index kKrylovStep = 4;
 constexpr Index kBasis = 6;  ///< vectors of the QR method
-// Rounding of 2e-16, grown by e^14 ≈ 1.2e6, leaves 3e-10.
-/// ln of the growth within a period over |μ| up to which Arnoldi's values are right to 1e-9.
+/// ln of the growth within a period over |μ| up to which Arnoldi's values are right to 1e-9:
+/// rounding of 2e-16, grown by e^14 ≈ 1.2e6, leaves 3e-10.
 constexpr double kSafeLogGrowth = 14.0;
 constexpr int kMostPeriods = 16;
 /// ln|μ| that is told where a vibration grows beyond a double's range within the period.

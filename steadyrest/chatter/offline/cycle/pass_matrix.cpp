@@ -155,7 +155,7 @@ PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z
   const CuttingCoefficients coefficients(process, depth_mm);
   const double pass_rad = kTurn / static_cast<double>(process.tool.teeth);
   const double pass_s = pass_rad / (kTurn * speed_rev_s);
-  // z| is to the cutting stiffness what a depth is, so the greatest |z| sets the fastest
+  // |z| takes the depth's place in the cutting stiffness, so the greatest |z| sets the fastest
   // oscillation.
   const double fastest = fastest_rad_s(process, most_z_mm, speed_rev_s);
   const std::vector<double> corner = corners_of_pass(process, coefficients, pass_rad);

@@ -134,7 +134,8 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
                     allowed(slowest_rev_s, most_depth_mm, fits)),
         kCheck);
   }
-  // A faster spindle only brings the multipliers together at 1, where ln ρ loses its digits.
+  // An upper bound on the speed: beyond it the multipliers only come together at 1, where ln ρ
+  // loses its digits.
   double lowest_hz = process.modes.empty() ? 0.0 : process.modes[0].frequency_hz;
   for (const Mode& mode : process.modes) {
     lowest_hz = std::min(lowest_hz, mode.frequency_hz);

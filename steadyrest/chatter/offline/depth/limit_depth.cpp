@@ -5,8 +5,8 @@
 
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 
-// Marching from below, not bisection over the whole range: a cut may be stable again
-// above an unstable island, and the lowest crossing is the one that a tool meets on its way in.
+// Marching from below, not bisection over the whole range: a cut may be stable again above an
+// unstable island, and the lowest crossing is the one that a tool meets on its way in.
 namespace steadyrest::chatter::offline {
 
 namespace {

@@ -39,7 +39,7 @@ Eigen::MatrixXd columns_of(const Structure& structure, const Log& log,
   // The order of the columns is a contract: levels mode by mode, gains, the constant, then the
   // states. fitted_axis.cpp and wide_prior() find their places by it.
   out.col(at++).setOnes();
-  // One column for each mode and stretch: after a gap nobody knows where a mode stands.
+  // One column for each mode and stretch: after a gap nobody knows the state of a mode.
   for (const Structure::Mode& m : structure.mode) {
     for (const std::size_t start : starts) {
       out.col(at++) = fading(log, rows, start, m.tau_s, m.rest_tau_s);

@@ -27,7 +27,7 @@ using passport::SectionReader;
 namespace {
 
 constexpr std::array<std::string_view, 3> kLoads = {"standing", "running", "cutting"};
-// By index: the words and the enumerators of Load stand in the same order.
+// By index: the words are in the order of the enumerators of Load.
 constexpr Choice<Transition> kLoad = {
     kLoads, [](Transition& t, std::size_t i) { t.load = static_cast<Load>(i); },
     [](const Transition& t) { return static_cast<std::size_t>(t.load); }};

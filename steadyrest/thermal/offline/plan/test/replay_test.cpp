@@ -153,7 +153,7 @@ TEST(Replay, TheMachineStandsThroughAGapOfTheLog) {
   EXPECT_GT(points[119].displacement_mm, 20e-3);
   // Ten hours let e^-5 of 17 µm; and the lagged temperature is not known when the log goes on.
   EXPECT_NEAR(points[120].displacement_mm, log.displacement[0].value[120], 1e-3);
-  // The modes stood at 20 µm and more when the record broke off; as much may be wrong behind it.
+  // The modes had 20 µm and more when the record broke off; as much may be wrong behind it.
   EXPECT_GT(points[120].sd_mm, 20e-3) << "it may have done anything";
 }
 
