@@ -88,7 +88,7 @@ void Modulator::reset() noexcept {
 }
 
 void Modulator::restore(const State& state) noexcept {
-  // A restored state comes from a file: anything out of range would move the spindle on the first
+  // A restored state comes from outside: anything out of range would move the spindle on the first
   // cycle.
   const bool is_fit = fit(state.modulation) && std::isfinite(state.time_s) && state.phase >= 0.0 &&
                       state.phase < 1.0 && state.fade >= 0.0 && state.fade <= 1.0 &&
@@ -341,7 +341,7 @@ Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force)
   if (!active && (speed_rev_s == 0.0 || state_.fade <= turn)) {
     return withdraw(frame.motion == Motion::feed ? Reason::none : Reason::not_cutting);
   }
-  // The phase runs on while the law fades out, or it would come back with a jump.
+  // While the law fades out the phase holds, and the goal shrinks to 100 % from where it was.
   state_.fade = std::clamp(state_.fade + (active ? turn : -turn), 0.0, 1.0);
   if (active) {
     state_.phase += dt_s / state_.modulation.period_s;

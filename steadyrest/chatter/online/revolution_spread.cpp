@@ -23,7 +23,7 @@ const RevolutionSpread::Output& RevolutionSpread::update(double value, double an
       const double turns = std::floor(point / static_cast<double>(kPoints));
       const auto i = std::min(
           static_cast<std::size_t>(point - turns * static_cast<double>(kPoints)), kPoints - 1);
-      // Half: two independent values of energy E differ by 2E.
+      // Half: the difference of two independent values of energy E has the energy 2E.
       sum_change_ += 0.5 * (x - last_[i]) * (x - last_[i]);
       sum_ += x * x;
       last_[i] = x;

@@ -21,7 +21,7 @@ constexpr double kPeak = 3.0;        ///< of the fall to the sides, by which a m
 constexpr int kMostSections = 40;
 
 /// No speed is unstable below: a·Σ|H|·max|G|·2 < 1 (small gain), |G| ≤ Σ 1/(2ζk).
-/// 1 − e^{−iωT}| ≤ 2 is the factor 2; all teeth are taken to cut at once.
+/// |1 − e^{−iωT}| ≤ 2 is the factor 2; all teeth are taken to cut at once.
 double safe_depth_mm(const Process& process) {
   double most_mm_n = 0.0;
   for (const Mode& mode : process.modes) {

@@ -140,7 +140,7 @@ std::vector<double> Planner::amplitudes() const {
   if (out.empty()) {
     for (const double ratio : limits_.writable(speed_)) {
       const double rva = std::abs(ratio - 1.0);
-      // An amplitude between two steps cannot be written; a distance from 100 % can.
+      // The override writes distances of its steps from 100 %, no amplitude between them.
       if (rva > kSame && rva < 0.95) {
         out.push_back(rva);
       }

@@ -128,7 +128,7 @@ TEST(Detector, HearsChatterUnderModulationInTime) {
   }
 }
 
-// A depth of 0.05 mm cannot chatter; the accelerometer makes the resonance as loud as it gets.
+// 0.05 mm is far below any border; the accelerometer makes the resonance as loud as it gets.
 TEST(Detector, IsSilentWhereAToothOrderSweepsOverAResonance) {
   CutModel model = slot(0.05);
   model.accelerometer = true;

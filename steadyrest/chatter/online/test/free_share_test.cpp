@@ -73,7 +73,7 @@ TEST(FreeShare, IsNextToNothingWhereAnOrderSweepsOverADampedMode) {
   EXPECT_GE(out.off_teeth, 0.0);
 }
 
-// A decay within a quarter is plenty: the fit tries the pole and its neighbours.
+// A decay within a quarter is plenty: other poles are tried beside it.
 TEST(FreeShare, NamesTheModesDecay) {
   const auto out = ask(sweep(0.0, 0.0, 1e-3), 2, kModeHz);
   EXPECT_NEAR(out.growth_1_s, -kDecay, 0.25 * kDecay);

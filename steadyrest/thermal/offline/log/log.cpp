@@ -91,7 +91,7 @@ class LogMaker {
     return {};
   }
 
-  // The one column that may have no holes: heat not recorded cannot be made up for later.
+  // The one column that may have no holes: nothing makes up for heat that was not recorded.
   Done take_speed() {
     const LogColumn& speed = only(Quantity::speed);
     for (std::size_t k = 0; k < row_.size(); ++k) {

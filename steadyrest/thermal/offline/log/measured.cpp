@@ -99,8 +99,7 @@ class Reader final : public table::Sink {
     return std::nullopt;
   }
 
-  // A bound on the rows keeps a log that was given by mistake from being read as a hundred thousand
-  // parts.
+  // A bound on the rows keeps a log that was given by mistake from being read as parts.
   std::optional<Fault> row(const table::Row& row) override {
     if (out_.size() >= kMostMeasured) {
       return Fault{row.line(), fmt::format("more than {} rows", kMostMeasured),
@@ -158,8 +157,7 @@ class Reader final : public table::Sink {
 
   std::optional<Fault> since_start(const table::Row& row, std::size_t i, double& to_s) const {
     const auto stamp = table::stamp_of(row.field(i));
-    // A stamp with a zone and one without cannot be subtracted: the difference would be off by
-    // hours.
+    // With a zone on one side only, the difference of two stamps is off by hours.
     if (!stamp || stamp->zoned != started_->zoned) {
       return Fault{row.line(),
                    fmt::format("\"{}\" is not a date and time {} a time zone", shown(row.field(i)),

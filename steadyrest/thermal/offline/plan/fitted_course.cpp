@@ -73,7 +73,7 @@ class Walk {
   Eigen::MatrixXd fading;
 
  private:
-  // Parameters are uncertain only by what has happened since: the state itself is fitted anew.
+  // Parameters are uncertain only by what has happened since: the state itself is fitted again.
   void begin(std::size_t row) {
     model_.reset();
     model_.update(0.0, drive_of(row));  // the sensors' lagged temperatures begin with the first
