@@ -7,8 +7,8 @@
 #include <steadyrest/thermal/online/offset_governor.hpp>
 
 // A frame passes drive_on() (time, heat and sensors to the filters), probe() (a reading, once), and
-// ask() (the wish and its slope for each axis). Filters step once a second, not in every cycle: the
-// slowest thing that matters here is a time constant of minutes, and a cycle has better to do.
+// ask() (the wish and its slope for each axis). Filters step once a second, or when the kind of
+// work changes, not in every cycle: the fastest heat here has a time constant of minutes.
 namespace steadyrest::thermal::online {
 
 namespace machine = kernel::machine;

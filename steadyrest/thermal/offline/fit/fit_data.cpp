@@ -47,6 +47,7 @@ double last_digit_um(const std::vector<double>& reading_um) {
   return std::isfinite(least) ? least : 0.0;
 }
 
+// Borders are times, since readings are thinned and the row of a start may not be among them.
 void cut(FitData& data, const std::vector<double>& border_s) {
   std::size_t begin = 0;
   for (std::size_t b = 0; b <= border_s.size(); ++b) {

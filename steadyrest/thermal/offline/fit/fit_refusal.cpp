@@ -24,6 +24,7 @@ constexpr double kRunPerTau = 1.5;       ///< a run shows a time constant when i
 Refusal refuse(const Log& log, std::string what, std::string to_do) {
   return {Kind::bad_input, log.file, 0, std::move(what), std::move(to_do)};
 }
+// With fewer than three speeds a table is a straight line; a polynomial says as much with less.
 std::optional<Refusal> unfit_speeds(const Log& log, const std::vector<double>& table_rev_s) {
   const std::size_t speeds = table_rev_s.size();
   if (speeds >= kLeastSpeeds && speeds <= kMostSpeeds) {

@@ -115,6 +115,7 @@ class Sharing {
   }
 
  private:
+  // Time constants at rest follow behind those of all modes, in the same order (ln_taus).
   static std::size_t mode_of(const Structure& s, std::size_t k) {
     std::size_t at = s.mode.size();
     for (std::size_t m = 0; m < s.mode.size(); ++m) {
