@@ -5,6 +5,9 @@
 #include <steadyrest/supervisor/frame_check.hpp>
 
 namespace steadyrest::supervisor {
+// Fit or not, in the order of how bad it is: a frame that is not finite may not be compared with
+// anything, so that comes first; age comes last, since only a frame that makes sense can be merely
+// old.
 namespace {
 
 using kernel::outcome::Reason;
@@ -18,6 +21,9 @@ bool all_finite(std::initializer_list<double> values) noexcept {
 
 FrameCheck::FrameCheck(const kernel::machine::Machine& machine) noexcept
     : stale_after_s_(machine.envelope.stale_after_s) {
+  // A linear axis may show up to its own travel beyond its limits: machine files are often wrong
+  // by an offset, while garbage from a broken link is off by powers of ten. Rotary axes turn on
+  // and on.
   range_.fill({.min = -kernel::machine::kUnlimited, .max = kernel::machine::kUnlimited});
   for (std::size_t i = 0; i < std::min(machine.axes.size(), range_.size()); ++i) {
     const auto& axis = machine.axes[i];
@@ -30,6 +36,9 @@ FrameCheck::FrameCheck(const kernel::machine::Machine& machine) noexcept
 
 bool FrameCheck::finite(const Frame& frame) const noexcept {
   const auto sample_finite = [](const auto& axis) {
+    // Only what the rooms compute with. Panels are judged by their own channel, edges by the
+    // motion stage, probes and temperatures by the thermal room: a fault there costs that one
+    // input only.
     return all_finite({axis.command_mm, axis.actual_mm, axis.following_error_mm});
   };
   const auto axes = std::min<std::size_t>(frame.axis_count, frame.axis.size());
@@ -41,6 +50,7 @@ bool FrameCheck::finite(const Frame& frame) const noexcept {
 
 bool FrameCheck::in_range(const Frame& frame) const noexcept {
   if (frame.axis_count > frame.axis.size() || frame.programmed_feed_mm_s < 0.0 ||
+      // Slightly negative ages come from rounding; a frame from further ahead has a wrong clock.
       frame.age_s < -stale_after_s_) {
     return false;
   }

@@ -5,6 +5,10 @@
 
 #include <steadyrest/supervisor/frame_clock.hpp>
 
+// Good time: a stamp is believed when it lies no further ahead than the calls since the last good
+// one explain. Anything else is doubted, and it takes a second stamp that follows the first to
+// prove that the clock was set or has jumped. So one wrong stamp moves nothing, and credit
+// (step_s, what slews may use) never exceeds the time that has really passed.
 namespace steadyrest::supervisor {
 namespace {
 
@@ -31,6 +35,8 @@ kernel::outcome::Result<FrameClock> FrameClock::make(const Config& config) {
   return FrameClock(config);
 }
 
+// When time had begun before, shift carries it on: good time never runs backwards, whatever the
+// clock is set to.
 FrameClock::Tick FrameClock::begin(double stamp_s) noexcept {
   const double time_s = this->time_s();
   state_ = {.stamp_s = stamp_s,
@@ -40,6 +46,7 @@ FrameClock::Tick FrameClock::begin(double stamp_s) noexcept {
   return {.time_s = this->time_s(), .stamped_s = this->time_s(), .good = true, .set = true};
 }
 
+// Repeated stamps (step 0) say nothing of the usual step and do not enter its mean.
 FrameClock::Tick FrameClock::accept(double stamp_s, double step_s) noexcept {
   if (step_s > 0.0) {
     state_.usual_s += (step_s - state_.usual_s) / kMemorySteps;
@@ -51,10 +58,15 @@ FrameClock::Tick FrameClock::accept(double stamp_s, double step_s) noexcept {
   return {.time_s = time_s(), .stamped_s = time_s(), .step_s = step_s, .good = true};
 }
 
+// A stamp in doubt is kept as the candidate. Confirmed, a step forwards is a gap (time has passed,
+// but no credit for it: what happened in it was not seen), a step back is a clock that was set
+// (time goes on from where it was).
 FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
   const bool earlier = stamp_s < state_.stamp_s;
   if (state_.in_doubt && stamp_s > state_.candidate_s) {
     const double step_s = stamp_s - state_.candidate_s;
+    // As in update(): one step and the slack. Or sixteen rising stamps in a row, for a source that
+    // is slower than the machine file says; their mean is then its usual step.
     const bool follows = step_s <= (1.0 + kSlackSteps) * state_.usual_s;
     state_.run = step_s <= kLongestStepS ? state_.run + 1 : 0;
     state_.run_from_s = state_.run == 0 ? stamp_s : state_.run_from_s;
@@ -63,6 +75,7 @@ FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
       if (!follows) {
         state_.usual_s = (stamp_s - state_.run_from_s) / static_cast<double>(state_.run);
       }
+      // The step from candidate to stamp is good time; the way to the candidate is not.
       const double credit_s = follows ? std::min(step_s, state_.usual_s) : 0.0;
       if (earlier) {
         const double time_s = this->time_s() + credit_s;
@@ -74,11 +87,13 @@ FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
       return tick;
     }
   } else if (!state_.in_doubt || stamp_s < state_.candidate_s) {
+    // Below the candidate: the candidate was the wrong stamp, a run begins again here.
     state_.run = 0;
     state_.run_from_s = stamp_s;
   }
   state_.candidate_s = stamp_s;
   state_.in_doubt = true;
+  // Ahead, the frame may still be right (a gap); earlier, its age cannot be told and it is unfit.
   return {.time_s = time_s(),
           .stamped_s = stamp_s + state_.shift_s,
           .fault = earlier ? Reason::input_out_of_range : Reason::none};
@@ -95,6 +110,8 @@ FrameClock::Tick FrameClock::update(double stamp_s) noexcept {
   if (!state_.started) {
     return begin(stamp_s);
   }
+  // Calls that brought no good stamp explain as many steps: after three doubted frames a stamp
+  // four steps on is what is to be expected. The credit is one call's share of it.
   const double calls = static_cast<double>(state_.doubts) + 1.0;
   const double passed_s = stamp_s - state_.stamp_s;
   if (passed_s >= 0.0 && passed_s <= (calls + kSlackSteps) * state_.usual_s) {
@@ -105,6 +122,7 @@ FrameClock::Tick FrameClock::update(double stamp_s) noexcept {
   return doubt(stamp_s);
 }
 
+// A file's NaN here would doubt every stamp from now on.
 void FrameClock::restore(const State& state) noexcept {
   const bool fit = std::isfinite(state.stamp_s) && std::isfinite(state.shift_s) &&
                    std::isfinite(state.candidate_s) && std::isfinite(state.run_from_s) &&

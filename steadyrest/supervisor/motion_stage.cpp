@@ -6,6 +6,9 @@
 #include <steadyrest/motion/online/line/stored_lines.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
 
+// The kernel knows an axis as a sample with a count and one edge stamp; the motion room knows
+// edges and ticks. This stage translates one into the other, axis by axis, and decides when a
+// record has broken off.
 namespace steadyrest::supervisor {
 namespace {
 
@@ -25,6 +28,9 @@ constexpr double kSigmas = 4.0;  ///< as MotionEstimator takes of a σ that it l
 constexpr double kFits = 0.004;  ///< counts RMS that a learnt table is wrong by on ideal lines
 
 /// How far a line may stand off from where it is taken to be.
+/// With a table, what is left of the lines' errors; without one, the machine file's bound. A table
+/// that does not cover the whole travel leaves some lines at their raw error, and moved by the
+/// phases that the learnt lines have.
 double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) {
   if (!lines.in_use()) {
     return axis.encoder.line_error_mm;
@@ -48,10 +54,14 @@ double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) 
   for (const double error_mm : lines.phase_mm()) {
     phase_mm = std::max(phase_mm, std::abs(error_mm));
   }
+  // The table's own error adds to the spread of what it did not learn, independent of it.
   const double left_mm = kSigmas * std::hypot(sigma_mm, kFits * table.count_mm);
   return all_learnt ? left_mm : std::max(axis.encoder.line_error_mm + phase_mm, left_mm);
 }
 
+// An axis brakes harder than its drive pulls: friction helps. So |a| ≤ drive + Coulomb (or
+// breakaway) + viscous at full speed. No limit of jerk: friction that reverses is a step of
+// acceleration, and a bound on a broken limit would be a lie.
 MotionEstimator::Config config_of(const Machine& machine, const kernel::machine::Axis& axis,
                                   double error_mm) {
   const kernel::machine::Friction& friction = axis.friction;
@@ -64,13 +74,15 @@ MotionEstimator::Config config_of(const Machine& machine, const kernel::machine:
   return {.count_mm = axis.encoder.count_mm,
           .cycle_s = cycle_s,
           .clock_s = std::min(axis.encoder.clock_s, cycle_s),
+          // A line that may be off by more than a count could be its neighbour: no bound then.
           .line_error_mm = error_mm <= axis.encoder.count_mm ? error_mm : -1.0,
           .max_speed_mm_s = axis.max_speed_mm_s,
           .max_acceleration_mm_s2 = drive_mm_s2 + braking_mm_s2,
           .max_jerk_mm_s3 = motion::online::kNoBound};
 }
 
-/// The counter rounds: its line n lies half a count below the table's.
+// The counter rounds: it shows n from n − ½ to n + ½, so its line n lies half a count below the
+// table's.
 double line_mm(const LineTable& lines, std::int64_t line) noexcept {
   return lines.position_mm(line) - 0.5 * lines.config().count_mm;
 }
@@ -107,6 +119,7 @@ Result<MotionStage> MotionStage::make(const Config& config) {
   return stage;
 }
 
+// Copying the fresh estimator is bounded and takes no memory, which making one would.
 void MotionStage::restart(Axis& axis) const noexcept {
   if (axis.now.started) {
     axis.now.estimator = axis.fresh;
@@ -123,6 +136,7 @@ MotionStage::State MotionStage::state() const {
   return state;
 }
 
+// A state of another machine file has other axes: begin again rather than mix them.
 void MotionStage::restore(const State& state) noexcept {
   if (state.axis.size() != axes_.size()) {
     reset();
@@ -140,6 +154,7 @@ void MotionStage::reset() noexcept {
 }
 
 /// The record does not go on from where it was.
+/// Two counts of slack for the cell's borders; beyond twice the axis's speed the counter was set.
 bool MotionStage::broken(const Axis& axis, const AxisSample& sample, double time_s) const noexcept {
   const double passed_s = time_s - axis.now.time_s;
   const double steps = static_cast<double>(sample.count) - static_cast<double>(axis.now.count);
@@ -147,6 +162,9 @@ bool MotionStage::broken(const Axis& axis, const AxisSample& sample, double time
                               std::abs(steps) > 2.0 + axis.max_steps_s * passed_s);
 }
 
+// A latching counter shows the count now and the time of the last edge. Of several edges in one
+// cycle only the last is known; the others are reported as lost, and the cell at the tick still
+// bounds the position.
 void MotionStage::take_edge(Axis& axis, const AxisSample& sample, double time_s) const noexcept {
   const bool usable = axis.clock_s > 0.0 && std::isfinite(sample.edge_s) && sample.edge_s <= time_s;
   // A stamp that is cut off to the clock may lie just before the tick that it came after.
@@ -165,8 +183,10 @@ void MotionStage::take_edge(Axis& axis, const AxisSample& sample, double time_s)
     return;
   }
   const bool up = direction > 0;
+  // Up from n − 1 to n crosses line n; down from n + 1 to n crosses line n + 1.
   const std::int64_t line = up ? sample.count : sample.count + 1;
   const double others = std::abs(static_cast<double>(steps) - (up ? 1.0 : -1.0));
+  // Never before the last tick: the estimator would refuse an edge that lies in its past.
   axis.now.estimator.edge({.t_s = std::max(sample.edge_s, axis.now.time_s),
                            .position_mm = line_mm(axis.lines, line),
                            .line = line,
@@ -188,6 +208,7 @@ void MotionStage::look(Axis& axis, const AxisSample& sample, double time_s) cons
   axis.now.count = sample.count;
 }
 
+// First all axes to "not known": what a port may have put there is nobody's estimate.
 void MotionStage::update(kernel::signal::Frame& frame, bool fit) noexcept {
   for (AxisSample& sample : frame.axis) {
     sample.velocity_mm_s = 0.0;
@@ -200,6 +221,7 @@ void MotionStage::update(kernel::signal::Frame& frame, bool fit) noexcept {
     if (!fit || axis.index >= frame.axis_count || !std::isfinite(frame.time_s)) {
       continue;
     }
+    // From 10¹² counts on a double in mm cannot tell neighbours apart.
     if (!sample.encoder_shown || !(std::abs(static_cast<double>(sample.count)) < kFarthestCount)) {
       restart(axis);
       continue;
@@ -211,6 +233,7 @@ void MotionStage::update(kernel::signal::Frame& frame, bool fit) noexcept {
       look(axis, sample, frame.time_s);
     }
     const Estimate& estimate = axis.now.estimate;
+    // One NaN would stay in the filter's state for good.
     if (!std::isfinite(estimate.velocity_mm_s) || !std::isfinite(estimate.acceleration_mm_s2)) {
       restart(axis);
       continue;

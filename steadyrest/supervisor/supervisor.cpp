@@ -6,6 +6,10 @@
 #include <steadyrest/supervisor/settings.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
+// A cycle runs through update() in the order of README "The life of one Frame": time,
+// interruption, mode, check, estimate, arbitrate, clamp. Each step takes the result of the one
+// before as a value, so no step can act on a frame that an earlier one has found unfit. What is
+// kept over an interruption is in supervisor_state.cpp.
 namespace steadyrest::supervisor {
 namespace {
 
@@ -17,10 +21,12 @@ using kernel::override::Channel;
 using kernel::override::OffsetEnvelope;
 using machine::Mode;
 
+// Age of the frame before the first one was read: stale by any limit.
 constexpr double kNeverReadS = 1e9;
 /// Between two blocks a control may show idle for some cycles with the tool in the cut.
 constexpr double kIdleLeavesCutS = 1.0;
 
+// No table, no override: the machine file need not name what the control does not have.
 Result<std::optional<Channel>> channel(const Channel::Config& config) {
   if (config.table.ratio.empty()) {
     return std::nullopt;
@@ -44,6 +50,9 @@ Result<std::optional<Room>> room(bool on, const machine::Machine& machine) {
   return std::move(*made);
 }
 
+// Errs towards "in the cut": an offset that moves while the tool cuts leaves a step in the part,
+// one that stays too long costs nothing. A probe, a dwell or a spindle start may come at the
+// bottom of a hole.
 bool in_cut(signal::Motion motion, double idle_s, bool before) noexcept {
   switch (motion) {
     case signal::Motion::feed:
@@ -68,6 +77,8 @@ bool in_thread(signal::Motion motion) noexcept {
 }
 
 template <class Request>
+// Held in a thread: the wish becomes neutral and the envelope stands still, since a change of feed
+// or spindle between two passes would cut a second thread beside the first.
 kernel::override::RatioEnvelope::Input channel_input(double step_s, const Request& request,
                                                      Reason unfit, bool hold,
                                                      const signal::OverrideState& panel) noexcept {
@@ -79,12 +90,15 @@ kernel::override::RatioEnvelope::Input channel_input(double step_s, const Reques
           .hold = hold};
 }
 
+// A panel that reads NaN or below 0 is shown as 100 %; the fault itself is the channel's to
+// report.
 double shown(const signal::OverrideState& panel) noexcept {
   return kernel::override::fault_of(panel.panel_ratio) == Reason::none ? panel.panel_ratio : 1.0;
 }
 
 /// Of an override that the machine does not have.
 template <class Request>
+// A wish that nobody can carry out must not look like one that is in force.
 Reason without_channel(const Request& request, Reason unfit) noexcept {
   if (unfit != Reason::none) {
     return unfit;
@@ -95,6 +109,7 @@ Reason without_channel(const Request& request, Reason unfit) noexcept {
 
 /// The frame as the rooms see it: all its times in good time. A frame of before has them already.
 void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
+  // Edge stamps move with the frame's: their distance to the tick is what the estimators use.
   const double shift_s = read_now ? time_s - frame.time_s : 0.0;
   frame.time_s = time_s;
   for (auto& axis : frame.axis) {
@@ -116,6 +131,8 @@ signal::Command panel_command(const signal::Frame& frame) noexcept {
 
 }  // namespace
 
+// Channels before rooms: the contour room works through the feed override, the chatter room
+// through the spindle's, and a room without its channel is switched off rather than refused.
 Result<Supervisor> Supervisor::make(const machine::Machine& machine,
                                     const kernel::port::Capability& capability) {
   auto feed = channel(feed_config(machine, capability));
@@ -170,6 +187,7 @@ Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capa
   state_.mode_wanted = machine.mode;
 }
 
+// The mode in force stays act until nothing of the layer is left on the machine.
 bool Supervisor::leaving_act() const noexcept {
   return state_.mode_in_force == Mode::act && state_.mode_wanted != Mode::act;
 }
@@ -182,6 +200,8 @@ void Supervisor::settle_mode() noexcept {
   state_.mode_in_force = state_.mode_wanted;
 }
 
+// Tool and thread follow fit frames only: a stale frame that shows a rapid does not say that the
+// tool is out of the cut now.
 Reason Supervisor::inspect(const signal::Frame& frame, const FrameClock::Tick& tick) noexcept {
   const Reason fault = check_.fault(frame, tick.fault);
   if (fault == Reason::none) {
@@ -200,10 +220,13 @@ void Supervisor::hear(const signal::Frame& frame, bool fit) noexcept {
   estimates_.heard = listener_->update(frame, fit);
   const signal::SpindleRequest& request = estimates_.heard->request;
   const bool wish = kernel::override::is_wish(request.ratio, request.reason);
+  // Refused only if out of the modulator's range; then the mean it has stays.
   [[maybe_unused]] const bool taken = chatter_->change(
       {.law = chatter::online::Law::constant, .mean_ratio = wish ? request.ratio : 1.0});
 }
 
+// The motion room first: what it puts into the frame is what the other rooms see. All rooms get
+// the same value of what is in force, that of the cycle before.
 void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept {
   motion_.update(frame, fit);
   if (std::isfinite(frame.time_s)) {
@@ -224,6 +247,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   }
 }
 
+// Requests from outside and from the rooms have the same rank: the lowest feed wins whoever asks.
 Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Requests& requests,
                                             Reason unfit) noexcept {
   kernel::override::FeedArbiter feed;
@@ -248,9 +272,13 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
           .spindle = spindle.decision(),
           .offset = offset.decision(),
           .unfit = unfit == Reason::none && leaving_act() ? Reason::observe_only : unfit,
+          // The raw frame's motion as well: an unfit frame that shows a tap holds at once, while
+          // only a fit one ends the hold.
           .hold = state_.in_thread || in_thread(frame.motion)};
 }
 
+// The last step before the port. All three channels run in every cycle, also when one is unfit:
+// each slews back on its own.
 void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,
                        signal::Command& command) noexcept {
   handed_back_ = true;
@@ -281,11 +309,14 @@ void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decision
                                       .unfit = decisions.unfit,
                                       .tool_in_cut = state_.tool_in_cut});
   command.offset_mm = offset.offset_mm;
+  // The port takes no offsets, so their limit is 0; the reason says why nothing moves.
   const bool stuck = !offset_available_ && kernel::override::is_wish(decisions.offset.reason);
   command.offset_reason = stuck ? Reason::port_cannot_write : offset.reason;
   handed_back_ = handed_back_ && offset.at_zero;
 }
 
+// resume() and settle_mode() may put the words back to the panel, so the copy that a refused write
+// returns to (before_) is taken after them.
 signal::Command Supervisor::update(const signal::Frame& frame, const Requests& requests,
                                    bool read_now) noexcept {
   const double last_s = clock_.time_s();
@@ -295,6 +326,8 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   settle_mode();
   before_ = written();
   signal::Frame known = frame;
+  // Nothing was read: the last frame ages by good time, so that a link that is lost and a source
+  // that stands become stale by the same rule.
   if (!read_now) {
     known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;
   }
@@ -303,6 +336,8 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
     in_good_time(known, tick.time_s, read_now);
   }
   estimate(known, read_now && unfit == Reason::none, unfit);
+  // The panel and the motion come from the frame as it is, not from the aged copy: the operator's
+  // switch is believed even in an unfit frame.
   const Decisions decisions = arbitrate(frame, requests, unfit);
   signal::Command command = panel_command(frame);
   if (state_.mode_in_force != Mode::observe && !state_.interrupted) {
@@ -315,6 +350,8 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
     state_.delivered_s = tick.time_s;
     state_.delivered_stamped_s = tick.stamped_s;
   }
+  // In every cycle, fit or not: the watchdog on the machine's side watches the layer, not its
+  // input.
   command.heartbeat = ++state_.heartbeat;
   return command;
 }
@@ -325,6 +362,8 @@ signal::Command Supervisor::update_without_frame(double time_s) noexcept {
   return update(frame, {}, false);
 }
 
+// A frame that could not be read, or a command that was not taken, interrupts: what is on the
+// machine from here on is for the watchdog to say.
 Result<signal::Command> Supervisor::cycle(kernel::port::Port& port,
                                           const Requests& requests) noexcept {
   auto frame = port.read();

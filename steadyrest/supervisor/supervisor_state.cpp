@@ -10,6 +10,8 @@ namespace steadyrest::supervisor {
 using kernel::override::Channel;
 
 /// Nothing of the layer is on the machine, and what its words show is not known.
+/// The start of every life on the machine: mode act begins here, and so does the layer after a gap
+/// longer than the watchdog's. Words must settle again before a mask goes on.
 void Supervisor::begin_at_panel() noexcept {
   for (auto* channel : {&feed_, &spindle_}) {
     if (*channel) {
@@ -30,7 +32,12 @@ void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
   }
 }
 
+// An interruption ends with the first good stamp, since only good time says how long it lasted. Up
+// to the watchdog's time the machine still holds what was written, and the layer goes on where it
+// was; beyond it, or when the clock was set, it begins at the panel.
 void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
+  // A jump that was confirmed means that the last delivery's stamp was right, doubt or not: the
+  // gap counts from there, else a long cycle would pass for an interruption.
   if (tick.jumped) {  // a stamp that was in doubt was right
     state_.delivered_s = state_.delivered_stamped_s;
   }
@@ -60,6 +67,8 @@ Supervisor::Written Supervisor::written() const noexcept {
           .delivered_stamped_s = state_.delivered_stamped_s};
 }
 
+// Channels are not in here: taken back, they keep what the undelivered cycle saw of the panel (the
+// operator did turn it); restored, they do not.
 void Supervisor::put_back(const Written& written) noexcept {
   offset_.restore(written.offset);
   state_.delivered_s = written.delivered_s;
@@ -67,6 +76,8 @@ void Supervisor::put_back(const Written& written) noexcept {
   handed_back_ = false;
 }
 
+// The port refused the command, so the machine still has the one before. Interrupted, since the
+// watchdog now runs there.
 void Supervisor::not_delivered() noexcept {
   if (feed_) {
     feed_->take_back(before_.feed);
@@ -91,9 +102,13 @@ Supervisor::State Supervisor::state() const noexcept {
   return state;
 }
 
+// A restored process does not know how long it was away: it is interrupted until a good stamp says
+// so. The rooms' estimates rest on an unbroken record and begin again; heat in the machine
+// outlives the process, so the thermal room goes on.
 void Supervisor::restore(const State& state) noexcept {
   state_ = state;
   state_.interrupted = true;
+  // A state comes from a file: a NaN here would keep the tool in the cut for good.
   state_.idle_s = std::isfinite(state.idle_s) ? std::max(0.0, state.idle_s) : 0.0;
   clock_.restore(state.clock);
   if (feed_) {

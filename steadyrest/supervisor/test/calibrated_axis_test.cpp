@@ -77,6 +77,8 @@ class Axis {
     ++line_;
     const double x = kCount_mm * (static_cast<double>(line_) - 0.5) + error_mm(line_);
     for (int i = 0; i < 6; ++i) {
+      // Newton on x(t) = line; monotonic (v ≥ 7 mm/s), so six steps from the line before reach the
+      // last digit.
       t_s_ -= (position_mm(t_s_) - x) / velocity_mm_s(t_s_);
     }
     return {t_s_, line_};
@@ -93,6 +95,7 @@ double stamp(double t_s) {
 }
 
 /// What a calibration over this long has of the lines.
+/// 4 s at 20 mm/s are 20 revolutions.
 LineTable learnt(double duration_s) {
   auto table = LineTable::make({.count_mm = kCount_mm,
                                 .first_line = 0,
@@ -115,6 +118,7 @@ machine::Machine with_encoder() {
   axis.max_acceleration_mm_s2 = 160.0;
   axis.encoder.count_mm = kCount_mm;
   axis.encoder.clock_s = kClock_s;
+  // The true bound, from the same generator: what a maker's protocol would state.
   axis.encoder.line_error_mm = Axis().largest_error_mm();
   return machine;
 }
@@ -196,6 +200,8 @@ TEST(CalibratedAxis, IsSeenFiveTimesFinerThanWithoutItsCalibration) {
   EXPECT_EQ(after.outside, 0);
 }
 
+// A stored error of 0 means "not learnt". One such line of 4000 is enough: it may be off by the
+// raw error, and no bound may rest on a hope.
 TEST(CalibratedAxis, BoundsRestOnTheUncalibratedErrorWhereALineWasNotLearnt) {
   auto machine = calibrated();
   machine.axes[0].encoder.line_table_mm[5] = 0.0;
@@ -206,6 +212,8 @@ TEST(CalibratedAxis, BoundsRestOnTheUncalibratedErrorWhereALineWasNotLearnt) {
   EXPECT_EQ(seen.outside, 0);
 }
 
+// The table covers 0 … 4 mm. Travel 0.01 … 3.9 mm lies inside, 5 mm does not: the same axis at the
+// same place then has the wider bound, for lines that it may come to.
 TEST(CalibratedAxis, AScaleMustBeLearntOverItsWholeTravel) {
   auto machine = calibrated();
   auto& axis = machine.axes[0];

@@ -41,6 +41,8 @@ struct ChatterBench : Bench {
   }
 };
 
+// Closed form: at a speed ratio of 0.80 the feed per tooth is 1/0.80 = 1.25 times the programmed
+// one; the band allows 1.125, so the feed must fall to 0.80 · 1.125 = 0.90.
 TEST(ChatterRoom, BringsSpindleAndFeedOntoTheMachine) {
   ChatterBench bench;
   const auto command = bench.run(2000);
@@ -53,6 +55,7 @@ TEST(ChatterRoom, BringsSpindleAndFeedOntoTheMachine) {
   EXPECT_EQ(bench.supervisor.estimates().chatter->fade, 1.0);
 }
 
+// The contour's 50 % is below the chatter room's 90 % and wins; its 95 % is above and loses.
 TEST(ChatterRoom, OfTheRoomsFeedsTheLowestWins) {
   ChatterBench bench;
   bench.wish_feed(0.5);
@@ -74,6 +77,7 @@ TEST(ChatterRoom, ObserveAndAdviseWriteNothing) {
   }
 }
 
+// From the very first cycle, without the slew: a stop is no correction.
 TEST(ChatterRoom, ThePanelAtZeroStops) {
   ChatterBench bench;
   bench.run(1000);
@@ -83,6 +87,7 @@ TEST(ChatterRoom, ThePanelAtZeroStops) {
   EXPECT_EQ(bench.run(100).feed_ratio, 0.0);
 }
 
+// 2 s are more than 0.2 at any slew: both masks must be off, not merely neutral.
 TEST(ChatterRoom, StaleInputHandsBack) {
   ChatterBench bench;
   bench.run(2000);
@@ -93,6 +98,7 @@ TEST(ChatterRoom, StaleInputHandsBack) {
   EXPECT_EQ(command.spindle_reason, Reason::input_stale);
 }
 
+// Reason none, not port_cannot_write: the room is off, so nothing is wished.
 TEST(ChatterRoom, SwitchedOffOrWithoutASwitchItAsksForNothing) {
   auto off = modulated();
   off.chatter.enabled = false;
@@ -105,6 +111,8 @@ TEST(ChatterRoom, SwitchedOffOrWithoutASwitchItAsksForNothing) {
   EXPECT_EQ(without.run(500).spindle_reason, Reason::none);
 }
 
+// No step of the table lies within 0.98 … 1.02 of the speed but 100 % itself: nothing to modulate
+// with. Switched off, the same settings harm nobody.
 TEST(ChatterRoom, SettingsThatTheRoomRefusesAreTheSupervisorsRefusal) {
   auto m = modulated();
   m.envelope.min_spindle_ratio = 0.98;

@@ -39,6 +39,8 @@ TEST(FrameClock, WhereAllStampsAreGoodItIsTheStamp) {
   }
 }
 
+// 0.4 s is the last good stamp. Wrong ones lie behind, far behind, just too far ahead, out of a
+// double's resolution, and at no number; the cycle after must have credit for one step, not two.
 TEST(FrameClock, OneWrongStampGivesNoCreditAndMovesNothing) {
   for (const double wrong_s : {-1.0, -1e9, 0.3, 0.4 + 0.15, 5.0, 1e300, kNan, kInf, -kInf}) {
     FrameClock clock = running();
@@ -53,6 +55,7 @@ TEST(FrameClock, OneWrongStampGivesNoCreditAndMovesNothing) {
   }
 }
 
+// A frozen sender: a thousand calls of the same stamp are no time.
 TEST(FrameClock, TimeThatStandsGivesNoCredit) {
   FrameClock clock = running();
   for (int i = 0; i < 1000; ++i) {
@@ -83,6 +86,8 @@ TEST(FrameClock, AGapPassesButGivesNoCredit) {
   EXPECT_EQ(tick.time_s, 60.0 + kCycle_s);
 }
 
+// Cycle 4 ms, stamps 75 ms apart. Frame 0 begins, 1 … 17 are in doubt (sixteen steps in a row),
+// the steps of 18 … 99 count: 82.
 TEST(FrameClock, ASlowSourceCountsFromItsSeventeenthFrame) {
   FrameClock clock = fresh();
   double counted_s = 0.0;
@@ -92,6 +97,8 @@ TEST(FrameClock, ASlowSourceCountsFromItsSeventeenthFrame) {
   EXPECT_NEAR(counted_s, 0.075 * 82, 1e-9);
 }
 
+// Every tenth frame is lost: the call after it covers two steps but counts as one call, so it is
+// credited with 1.1 steps at most. 8 + 1.1 of 10 steps remain, 91 %; never more than have passed.
 TEST(FrameClock, LostFramesOfARegularSourceCostTheirTime) {
   FrameClock clock = fresh();
   double counted_s = 0.0;
@@ -104,6 +111,7 @@ TEST(FrameClock, LostFramesOfARegularSourceCostTheirTime) {
   EXPECT_LE(counted_s, 0.93 * 10'000 * kCycle_s);
 }
 
+// At 1e300 neighbouring doubles lie 1e284 s apart: no cycle could ever be told from it.
 TEST(FrameClock, AStampWithoutResolutionIsNoBeginning) {
   FrameClock clock = fresh();
   EXPECT_EQ(clock.update(1e300).fault, Reason::input_out_of_range);
@@ -141,6 +149,7 @@ TEST(FrameClock, AStateThatIsNotFiniteIsNotRestored) {
   EXPECT_TRUE(clock.update(7.0 + kCycle_s).good);
 }
 
+// The law that all slews rest on. Real time is known here, the clock sees stamps only.
 RC_GTEST_PROP(FrameClock, CreditNeverPassesTheRealTimeWhateverTheStamps, ()) {
   // The source is called every cycle; some stamps are wrong: anywhere, not finite, or repeated.
   FrameClock clock = running();

@@ -30,6 +30,8 @@ kernel::machine::Machine wired(Mode mode, bool may_exceed = false) {
   return machine;
 }
 
+// Twenty wrong stamps among good ones. By cycle k real time allows a rise of 2·T·k and an offset
+// of 0.05·T·k, whatever the stamps claim.
 TEST(Interruption, AWrongTimeStampGivesNoCreditToAnySlew) {
   for (const double wrong_s : {-1.0, -1e6, -0.05, 0.05, 0.15, 5.0, 1e9, kNan, kInf, -kInf}) {
     Bench bench;
@@ -52,6 +54,8 @@ TEST(Interruption, AWrongTimeStampGivesNoCreditToAnySlew) {
   }
 }
 
+// A word must be on the wires for one scan (20 ms) before a mask may point at it. Advice never
+// was.
 TEST(Interruption, WordsThatWereOnlyAdvisedHaveNotSettledInAct) {
   for (const bool may_exceed : {false, true}) {
     Bench bench(wired(Mode::advise, may_exceed));
@@ -71,6 +75,7 @@ TEST(Interruption, WordsThatWereOnlyAdvisedHaveNotSettledInAct) {
   }
 }
 
+// A stamp that is no time proves no scan.
 TEST(Interruption, AFrameWithoutTimeSettlesNoWord) {
   Bench bench(wired(Mode::act));
   bench.wish_feed(0.5);
@@ -86,6 +91,8 @@ TEST(Interruption, AFrameWithoutTimeSettlesNoWord) {
   }
 }
 
+// A control that boots starts its clock at 0; so may a simulator go back. Words that waited for an
+// absolute time would never settle again.
 TEST(Interruption, AClockThatBeginsAgainBlocksNoMask) {
   Bench bench(wired(Mode::act));
   bench.frame.time_s = 1000.0;
@@ -103,6 +110,8 @@ TEST(Interruption, AClockThatBeginsAgainBlocksNoMask) {
   EXPECT_EQ(bench.supervisor.mode_in_force(), Mode::observe);
 }
 
+// Away for longer than the watchdog (100 ms), or by a time that cannot be told: the first frame
+// gives no known gap and is not written, the second begins at the panel and at offset 0.
 TEST(Interruption, WhatTheWatchdogHasDroppedIsNotWrittenAfterARestore) {
   for (const double away_s : {60.0, 0.5, -100.0, -1e9}) {
     Bench first(wired(Mode::act));
@@ -126,6 +135,7 @@ TEST(Interruption, WhatTheWatchdogHasDroppedIsNotWrittenAfterARestore) {
   }
 }
 
+// A frame without time never says how long the process was away.
 TEST(Interruption, ARestoreWithoutTimeWritesNothing) {
   Bench first;
   first.wish_offset(0.02);
@@ -142,6 +152,8 @@ TEST(Interruption, ARestoreWithoutTimeWritesNothing) {
   }
 }
 
+// The spindle is let run at 10 1/s, so that the walk of the word lags behind the envelope: the tap
+// begins with a step under way, and the hold is of the word that is out.
 TEST(Interruption, AWordHoldsInTheMiddleOfItsWalkInATap) {
   auto machine = wired(Mode::act);
   machine.envelope.spindle_slew_1_s = 10.0;
@@ -158,6 +170,8 @@ TEST(Interruption, AWordHoldsInTheMiddleOfItsWalkInATap) {
   EXPECT_EQ(bench.cycles(500).spindle_ratio, 0.6);
 }
 
+// A thousand cycles are five times what a hand-over takes. Unfit input, other modes, other wishes,
+// no link: nothing but a fit frame that shows another motion ends the hold.
 TEST(Interruption, ATapHoldsWhateverTheInputDoesUntilAFitFrameShowsItsEnd) {
   using Spoil = void (*)(Bench&);
   const Spoil spoils[] = {
@@ -203,6 +217,8 @@ TEST(Interruption, AnUnfitFrameThatShowsATapHoldsToo) {
   EXPECT_EQ(bench.cycles(1000).feed_ratio, 1.0) << "handed back once nothing shows a tap";
 }
 
+// Idle for 1 s means that the tool is out; the fade begins then: 0.2 s after it, 0.01 mm of 0.02
+// are left.
 TEST(Interruption, AfterAnAbortTheOffsetFades) {
   Bench bench;
   bench.wish_offset(0.02);
@@ -215,6 +231,7 @@ TEST(Interruption, AfterAnAbortTheOffsetFades) {
   EXPECT_EQ(bench.supervisor.mode_in_force(), Mode::observe);
 }
 
+// Short idles between blocks and long dwells, ten times over, must not add up to a second.
 TEST(Interruption, ADwellOrAShortIdleInTheCutKeepsTheOffset) {
   Bench bench;
   bench.wish_offset(0.02);
@@ -255,6 +272,8 @@ class DeafPort final : public kernel::port::Port {
   std::vector<signal::Command> written;
 };
 
+// A walk goes step by step, each on the wires for one scan. Sixty deaf cycles cover three scans; a
+// supervisor that believed its own writes would come out three steps further down.
 TEST(Interruption, AWordThatThePortDidNotTakeWasNotWritten) {
   auto supervisor = Supervisor::make(wired(Mode::act), kAll);
   ASSERT_TRUE(supervisor);
@@ -277,6 +296,8 @@ TEST(Interruption, AWordThatThePortDidNotTakeWasNotWritten) {
   EXPECT_TRUE(port.written.back().feed_masks_panel);
 }
 
+// The write failed, the reading did not: the operator's 0 came in with the same frame. With the
+// panel's code unknown from then on, the last known value, 0, must hold.
 TEST(Interruption, ThePanelThatAnUndeliveredCycleSawIsKnown) {
   auto supervisor = Supervisor::make(mill(Mode::act), kAll);
   ASSERT_TRUE(supervisor);
@@ -299,6 +320,7 @@ TEST(Interruption, ThePanelThatAnUndeliveredCycleSawIsKnown) {
   EXPECT_FALSE(port.written.back().feed_masks_panel);
 }
 
+// The same after a restore: nothing may be written without time, but the panel's 0 is seen.
 TEST(Interruption, ThePanelIsSeenWhileTimeIsNotKnown) {
   Bench first;
   first.wish_feed(0.5);
@@ -317,6 +339,8 @@ TEST(Interruption, ThePanelIsSeenWhileTimeIsNotKnown) {
   EXPECT_FALSE(command.feed_masks_panel);
 }
 
+// The clock stood for 40 ms, twice the watchdog's time, while frames and writes went on. A
+// supervisor that measured the gap from the last good time would take its own word for dropped.
 TEST(Interruption, AfterAClockThatStoodNothingIsTakenForDropped) {
   auto machine = mill(Mode::act);
   machine.envelope.stale_after_s = 0.02;
@@ -338,6 +362,7 @@ TEST(Interruption, AfterAClockThatStoodNothingIsTakenForDropped) {
   EXPECT_EQ(command.feed_ratio, 0.5);
 }
 
+// 500 cycles without a read or a write are five times the watchdog's 100 ms.
 TEST(Interruption, AfterALostLinkLongerThanTheWatchdogItBeginsAtThePanel) {
   for (const bool blind : {false, true}) {
     auto supervisor = Supervisor::make(wired(Mode::act), kAll);

@@ -80,6 +80,7 @@ class Sine {
 struct Rms {
   double velocity_mm_s = 0.0;
   double acceleration_mm_s2 = 0.0;
+  // A bound that fails once is wrong, so it is counted from the first cycle on.
   int outside = 0;          ///< cycles in which a bound did not hold
   double bound_mm_s = 0.0;  ///< RMS where the axis moves by more than half of its speed
 };
@@ -128,12 +129,15 @@ TEST(MotionStage, SeesASineAHundredTimesFinerThanTheDifferenceOfItsCounts) {
   EXPECT_GT(rms.bound_mm_s, rms.velocity_mm_s);
 }
 
+// Twice the errors at most: at a turn the sign of the counts says nothing for a cycle.
 TEST(MotionStage, TakesTheDirectionFromTheCountsWhereTheControlDoesNotShowIt) {
   const Rms rms = run(mill(), [](signal::Frame& frame) { frame.axis[0].edge_direction = 0; });
   EXPECT_LT(rms.velocity_mm_s, 0.0086);
   EXPECT_LT(rms.acceleration_mm_s2, 14.0);
 }
 
+// Two ways to have no stamps: the machine file says that there is no clock, with the port showing
+// stamps all the same (they must not be used) or not.
 TEST(MotionStage, WithoutTimeStampsTheCountsAloneAreStillBetterThanTheirDifference) {
   auto machine = mill();
   machine.axes[0].encoder.clock_s = 0.0;
@@ -219,6 +223,8 @@ TEST(MotionStage, GivesNoneForAFrameThatIsUnfitAndGoesOnAfterIt) {
   }
 }
 
+// Counter set, time forwards, time back, counter not shown for one cycle. The bound must hold
+// throughout: only a restart can do that, since before and after do not fit one motion.
 TEST(MotionStage, StartsAnewWhereTheCounterWasSetOrTheRecordHasAHole) {
   const std::vector<Change> faults = {
       [](signal::Frame& frame) {
@@ -256,6 +262,8 @@ TEST(MotionStage, StartsAnewWhereTheCounterWasSetOrTheRecordHasAHole) {
   }
 }
 
+// The same count and stamp again are no news; taken as a measurement they would narrow the
+// estimate and shift it.
 TEST(MotionStage, ASampleThatIsShownTwiceIsNotTwiceTheEvidence) {
   auto stage = MotionStage::make(mill()).value();
   auto twice = MotionStage::make(mill()).value();
@@ -271,6 +279,8 @@ TEST(MotionStage, ASampleThatIsShownTwiceIsNotTwiceTheEvidence) {
   }
 }
 
+// Stamps at infinity, in the future and before all time, every 50th cycle: each is dropped, so
+// accuracy suffers for a cycle and the bound not at all.
 TEST(MotionStage, GarbageFromTheCounterGivesNeitherNanNorABoundThatLies) {
   const Rms rms = run(mill(), [](signal::Frame& frame) {
     auto& axis = frame.axis[0];
@@ -301,6 +311,7 @@ TEST(MotionStage, GarbageFromTheCounterGivesNeitherNanNorABoundThatLies) {
   }
 }
 
+// Two counts of line error: each line could be its neighbour, nothing is provable.
 TEST(MotionStage, LinesThatErrByMoreThanACountLeaveNoBound) {
   auto machine = mill();
   machine.axes[0].encoder.line_error_mm = 2.0 * kCount_mm;
@@ -325,6 +336,7 @@ TEST(MotionStage, ACycleAllocatesNothing) {
   }
 }
 
+// Half a cycle later without a frame: the old count must not pass for a new one.
 TEST(MotionStage, TheSupervisorHasTheEstimatesInTheFrameThatItDecidesBy) {
   auto supervisor = Supervisor::make(mill(), {}).value();
   Sine sine;

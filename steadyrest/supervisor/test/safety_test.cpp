@@ -23,6 +23,7 @@ using test::kInf;
 using test::kNan;
 using test::mill;
 
+// The default of the machine's values, not of a file: whoever forgets the mode must get observe.
 TEST(Safety, ObserveIsTheDefaultAndWritesNothing) {
   EXPECT_EQ(machine::Machine{}.mode, Mode::observe);
   auto supervisor = Supervisor::make(mill(machine::Machine{}.mode), kAll);
@@ -41,6 +42,8 @@ TEST(Safety, ObserveIsTheDefaultAndWritesNothing) {
   EXPECT_TRUE(port.written.empty());
 }
 
+// Two supervisors on the same frames: one advises, one acts, and every word must be the same in
+// every cycle. Advice that differs from what act would do is worthless.
 TEST(Safety, AdviseShowsWhatActWouldWriteAndWritesNothing) {
   Bench advise(Mode::advise);
   Bench act(Mode::act);
@@ -64,6 +67,8 @@ TEST(Safety, AdviseShowsWhatActWouldWriteAndWritesNothing) {
   EXPECT_EQ(act.cycle().offset_mm[2], 0.01);
 }
 
+// In advise the word had walked down to 20 %. On the way to act it must begin at the panel and
+// take its first step from there.
 TEST(Safety, AdviceThatNeverStoodOnTheMachineIsNotTakenOver) {
   Bench bench(Mode::advise);
   bench.wish_feed(0.2);
@@ -73,6 +78,8 @@ TEST(Safety, AdviceThatNeverStoodOnTheMachineIsNotTakenOver) {
   EXPECT_EQ(bench.cycle().feed_ratio, 0.95);
 }
 
+// Expected: 0.6 of ratio at 2 1/s is 0.3 s; the offset is frozen while the tool cuts (1 s) and
+// then takes 0.01 mm / 0.05 mm/s = 0.2 s; act ends after 1.2 s and not before.
 TEST(Safety, LeavingActHandsBackThroughTheSlewBeforeItStopsWriting) {
   for (const Mode to : {Mode::observe, Mode::advise}) {
     Bench bench;
@@ -116,6 +123,8 @@ TEST(Safety, TheLowestWishOfAllRoomsIsWritten) {
   EXPECT_EQ(command.feed_reason, Reason::contour_limit);
 }
 
+// One fault each, with the reason that must be given: what a broken link, a wrong configuration or
+// a stopped sender looks like.
 struct Spoil {
   const char* what;
   Reason reason;
@@ -145,6 +154,8 @@ const Spoil kSpoils[] = {
      [](signal::Frame& f) { f.feed.panel_code_known = false; }},
 };
 
+// No fault may jump: the first cycle still holds 0.4, the panel comes back at 2 1/s, and only then
+// does the mask go off.
 TEST(Safety, UnfitInputGivesTheNeutralRequestWithAReasonThroughTheSlew) {
   for (const auto& [what, reason, spoil] : kSpoils) {
     Bench bench;
@@ -162,6 +173,7 @@ TEST(Safety, UnfitInputGivesTheNeutralRequestWithAReasonThroughTheSlew) {
   }
 }
 
+// One stamp back is unfit. The second one that follows it shows that the clock was set.
 TEST(Safety, TimeThatRunsBackwardsOrIsNoTimeIsUnfit) {
   Bench bench;
   bench.wish_feed(0.4);
@@ -176,6 +188,7 @@ TEST(Safety, TimeThatRunsBackwardsOrIsNoTimeIsUnfit) {
   EXPECT_EQ(command.feed_ratio, 0.4);
 }
 
+// The channels are apart: a broken spindle switch is no reason to let go of the contour.
 TEST(Safety, ABadSpindlePanelDoesNotWithdrawTheFeed) {
   Bench bench;
   bench.wish_feed(0.4);
@@ -188,6 +201,8 @@ TEST(Safety, ABadSpindlePanelDoesNotWithdrawTheFeed) {
   EXPECT_EQ(command.spindle_reason, Reason::unknown_override_code);
 }
 
+// 100 ms without a frame are `stale_after`, then 0.3 s of slew; 700 ms are enough for both. Never
+// having read a frame is stale, too.
 TEST(Safety, LostFramesBecomeStaleAndHandBack) {
   Bench bench;
   bench.wish_feed(0.4);
@@ -210,6 +225,7 @@ TEST(Safety, LostFramesBecomeStaleAndHandBack) {
   EXPECT_EQ(never.supervisor.update_without_frame(0.0).feed_reason, Reason::input_stale);
 }
 
+// A feed or spindle that changes in mid-thread ruins it; panel 0 stops all the same.
 TEST(Safety, ThreadingAndTappingHoldTheOverridesButNotAgainstTheOperator) {
   for (const auto motion : {signal::Motion::thread, signal::Motion::tap}) {
     Bench bench;
@@ -233,6 +249,8 @@ TEST(Safety, ThreadingAndTappingHoldTheOverridesButNotAgainstTheOperator) {
   }
 }
 
+// Frozen by bad input, by a dwell, by a stale frame; out at 0.05 mm/s, so 5 µs in the 100 cycles
+// after the first good frame that shows a rapid.
 TEST(Safety, AnOffsetFreezesOnBadInputAndRampsOutWhenNoToolIsInTheCut) {
   Bench bench;
   bench.wish_offset(0.02);
@@ -259,6 +277,7 @@ TEST(Safety, OffsetsStayInsideTheirLimitAndOffTheRotaryAxes) {
   EXPECT_EQ(command.offset_reason, Reason::clamped);
 }
 
+// Faults pile up from case to case; the watchdog must not trip over any of them.
 TEST(Safety, TheHeartbeatBeatsOnceInEveryCycleWhateverComes) {
   for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
     Bench bench(mode);
@@ -271,6 +290,7 @@ TEST(Safety, TheHeartbeatBeatsOnceInEveryCycleWhateverComes) {
   }
 }
 
+// Infinite rates and limits are the ways in which a file could turn the envelope off.
 TEST(Safety, ClampAndSlewCannotBeSwitchedOffByTheMachineFile) {
   const auto refused = [](auto&& spoil) {
     auto machine = mill(Mode::act);
@@ -286,6 +306,8 @@ TEST(Safety, ClampAndSlewCannotBeSwitchedOffByTheMachineFile) {
   EXPECT_TRUE(refused([](auto& e) { e.stale_after_s = kInf; }));
 }
 
+// Read between two writes, a binary word can show any code in between: half of a change from 0111
+// to 1000 may read 1111. Gray codes or a latch, or no writing.
 TEST(Safety, ABinaryWordOnAPortThatDoesNotLatchIsRefused) {
   auto machine = mill(Mode::act);
   machine.feed_override = kernel::override::test::percent_word();
@@ -297,6 +319,8 @@ TEST(Safety, ABinaryWordOnAPortThatDoesNotLatchIsRefused) {
   EXPECT_TRUE(Supervisor::make(machine, kAll));
 }
 
+// Two laws over any history: nobody gets more than the panel, and nothing is written outside of
+// act.
 RC_GTEST_PROP(Safety, WhateverComesInForceStaysUnderThePanelAndOnlyActWrites, ()) {
   const Mode mode = *rc::gen::element(Mode::observe, Mode::advise, Mode::act);
   Bench bench(mode);

@@ -50,6 +50,8 @@ struct Warm : Bench {
   }
 };
 
+// 20 000 cycles of 1 ms are 20 s = 2τ; at 50 of 100 rev/s the level is half of 0.010 mm: 0.005·(1
+// − e⁻²) = 0.00432 mm, and the axis goes the other way.
 TEST(ThermalRoom, MovesTheAxisAgainstItsGrowth) {
   Warm bench;
   const auto command = bench.cycles(20'000);
@@ -71,6 +73,7 @@ TEST(ThermalRoom, IsOffUnlessTheMachineFileSaysSo) {
   EXPECT_EQ(bench.supervisor.thermal(), nullptr);
 }
 
+// After 5 s the axis has grown 0.005·(1 − e^−0.5) = 0.00197 mm.
 TEST(ThermalRoom, ObservingItForecastsAndWritesNothing) {
   Warm bench(Mode::observe);
   const auto command = bench.cycles(5000);
@@ -79,6 +82,8 @@ TEST(ThermalRoom, ObservingItForecastsAndWritesNothing) {
   EXPECT_GT(bench.supervisor.estimates().thermal->displacement_mm[kZ], 0.001);
 }
 
+// On the way to act the advised offset must not appear at once: it has never been on the machine,
+// so it goes there from 0, by no more than the slope in each cycle.
 TEST(ThermalRoom, WhatWasOnlyAdvisedIsNotTakenOverByAJump) {
   Warm bench(Mode::observe);
   bench.cycles(20'000);
@@ -92,6 +97,8 @@ TEST(ThermalRoom, WhatWasOnlyAdvisedIsNotTakenOverByAJump) {
   EXPECT_LT(before, -0.001);
 }
 
+// Stale in the air: out within 500 ms by the envelope's slew; back in the cut by the room's much
+// gentler slope.
 TEST(ThermalRoom, AfterStaleInputTheOffsetComesBackByTheSlope) {
   Warm bench;
   bench.cycles(20'000);
@@ -116,6 +123,7 @@ TEST(ThermalRoom, APortThatTakesNoOffsetsGetsNone) {
   EXPECT_EQ(command.offset_reason, Reason::port_cannot_write);
 }
 
+// Truth: the run without a restart. Lost heat would show as an offset that begins at 0.
 TEST(ThermalRoom, ItsHeatOutlivesARestart) {
   Warm bench;
   bench.cycles(20'000);
@@ -127,6 +135,7 @@ TEST(ThermalRoom, ItsHeatOutlivesARestart) {
   }
 }
 
+// Sensors fall out more often than frames: the thermal room withdraws alone.
 TEST(ThermalRoom, AnUnknownTemperatureDoesNotMakeTheFrameUnfit) {
   Warm bench;
   bench.frame.temperature_c = kernel::signal::unknown_temperatures();
@@ -154,6 +163,7 @@ TEST(ThermalRoom, AReadingOfThePortIsOfWhatStandsInEveryMode) {
   }
 }
 
+// A probe that reports NaN is turned down by the thermal room; the feed goes on.
 TEST(ThermalRoom, AReadingThatIsNoneDoesNotMakeTheFrameUnfit) {
   Warm bench;
   bench.cycles(10);

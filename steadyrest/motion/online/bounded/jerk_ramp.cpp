@@ -5,6 +5,11 @@
 #include <steadyrest/motion/online/bounded/jerk_ramp.hpp>
 
 namespace steadyrest::motion::online {
+// The life of a ramp: edge() judges what was foretold, decides whether this edge is a start, and
+// then either follows the start (begin, go_on) or looks for a stop (fit: guess, improve, weigh).
+// at() answers from whichever is believed, with its share.
+// A share is never a matter of one test: it is the likelihood against the best smooth alternative
+// times how often such predictions came true on this axis (Trust).
 namespace {
 
 constexpr double kOdds = 0.01;       ///< of a stop at any constant jerk, beforehand
@@ -123,6 +128,9 @@ void JerkRamp::begin(double t_s, double x, double at_rest) noexcept {
   }
 }
 
+// Lines after the first of a start. The second one gives t₀ (or confirms the t₀ that the stop
+// before left), each later one must come when the curve says; the first that does not ends the
+// start.
 void JerkRamp::go_on() noexcept {
   const Passage& now = back(0);
   const Passage& last = back(1);
@@ -152,6 +160,7 @@ void JerkRamp::go_on() noexcept {
   const double root = (4.0 * direction_ * (now.x - last.x) / (c_ * d) - d * d) / 12.0;
   // The positive root of that quadratic in θ.
   const double theta = root > 0.0 ? std::sqrt(root) - 0.5 * d : -1.0;
+  // Way from standstill to the line before, by the jerk that is assumed.
   const double way = c_ * theta * theta * theta;
   // Between standstill and the first line there is at most one count.
   if (theta < 0.0 || (count_ == 2 && way > 1.0 + kOff)) {
@@ -200,6 +209,10 @@ JerkRamp::Residual JerkRamp::residual(std::size_t age, const Curve& curve) const
 }
 
 /// One step of Gauss–Newton; the 3×3 system by elimination.
+/// Normal equations of the weighted residuals in x₀, t₀ and c. The signs: residual() gives −∂x/∂t₀
+/// and −∂x/∂c, so column 1 (x₀) meets columns 2 and 3 with a minus. A 3×3 system of well-scaled
+/// terms (times and places from the last passage) needs no pivoting; a singular one shows as a
+/// value that is not finite, and the fit is dropped.
 bool JerkRamp::improve(Curve& curve) const noexcept {
   double m11 = 0.0, m12 = 0.0, m13 = 0.0, m22 = 0.0, m23 = 0.0, m33 = 0.0;
   double g1 = 0.0, g2 = 0.0, g3 = 0.0;
@@ -239,6 +252,7 @@ void JerkRamp::fit() noexcept {
   if (count_ < kLeast || !guess(curve)) {
     return;
   }
+  // The last solution, moved to the new passage's origin, is nearer than the parabola's guess.
   if (was) {
     curve = {direction_ * (x0_ - now.x), t0_s_ - now.t_s, c_};
   }
@@ -248,10 +262,13 @@ void JerkRamp::fit() noexcept {
       return;
     }
   }
+  // The place of standstill must lie ahead, in time and in space, and the jerk within the limit.
   if (!(curve.c > 0.0) || !(curve.t0_s > 0.0) || curve.x0 < -kOff ||
       6.0 * curve.c > kBeyond * config_.jerk) {
     return;
   }
+  // The unknown jerk needs all six passages: three unknowns through four leave one residual to
+  // judge by.
   const bool same = std::abs(6.0 * curve.c - jerk_) < kSame * jerk_;
   if (!same && count_ < kPassages) {
     return;
@@ -273,6 +290,7 @@ void JerkRamp::fit() noexcept {
   const double evidence = 0.5 * ((n - 3.0) / n * std::log(ratio) - chi2);
   const double odds = stops_.share() * (same ? kOddsKnown : kOdds);
   share_ = evidence < -30.0 ? 0.0 : odds / (odds + std::exp(-evidence));
+  // Below 1 % it would not show in the estimate but would hold back a start.
   if (share_ < 0.01) {
     return;
   }

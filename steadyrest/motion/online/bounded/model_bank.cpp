@@ -21,6 +21,8 @@ struct Cut {
 
 /// The cell is narrow against s, `middle` and `width` in s: the density is as good as even within,
 /// where differences of tails cancel.
+/// ∫φ over a width w about m is φ(m)·w·(1 + (m² − 1)·w²/24) to third order. What is left inside is
+/// even, its variance w²/12 in units of s².
 Cut narrow_cut(double mean, double s, double middle, double width) noexcept {
   const double even = width * width / 12.0;
   const double most = 1.0 - even;
@@ -56,6 +58,10 @@ struct Cuts {
   Lanes lost{};  ///< share of the variance that is cut away
 };
 
+// Moments of a normal distribution cut to [α, β], Z its share inside: mean = (φ(α) − φ(β))/Z,
+// variance = 1 − lost, lost = mean² − (α·φ(α) − β·φ(β))/Z. The measurement (z, r) that would bring
+// a Kalman filter to the same moments has gain = lost: z = m + s·mean/lost, r = s²·(1 −
+// lost)/lost. So the cell enters by the ordinary update, and the UD form stays positive.
 Cuts cuts_at(const Borders& at, const Lanes& mean, const Lanes& variance) noexcept {
   constexpr double kFarthest = 30.0;  // beyond it density and tail are nothing
   Lanes share_a{};
@@ -80,6 +86,7 @@ Cuts cuts_at(const Borders& at, const Lanes& mean, const Lanes& variance) noexce
     const double shift = (density_a[j] - density_b[j]) * inverse;
     out.lost[j] =
         shift * shift - (at.alpha[j] * density_a[j] - at.beta[j] * density_b[j]) * inverse;
+    // Bounded at both ends: lost → 0 is no information, lost → 1 would be an exact measurement.
     const double gain = 1.0 / std::min(1.0 - 1e-6, std::max(out.lost[j], 1e-9));
     out.z[j] = mean[j] + at.deviation[j] * shift * gain;
     out.r[j] = variance[j] * std::max(1e-6, 1.0 - out.lost[j]) * gain;
@@ -89,6 +96,7 @@ Cuts cuts_at(const Borders& at, const Lanes& mean, const Lanes& variance) noexce
 
 }  // namespace
 
+// P₁₁ of U·D·Uᵀ.
 Lanes ModelBank::position_variance() const noexcept {
   Lanes out{};
   for (std::size_t j = 0; j < kModels; ++j) {
@@ -97,6 +105,10 @@ Lanes ModelBank::position_variance() const noexcept {
   return out;
 }
 
+// Thornton's time update, written out for three states. Φ·U·D·Uᵀ·Φᵀ + Q has six columns (three of
+// the state, three of the noise, itself factored as U·D·Uᵀ); Gram–Schmidt with weights D makes
+// three of them, from the last row up. Q's factors: d = S·{dt⁵/720, dt³/12, dt}, u₁₂ = u₂₃ = dt/2,
+// u₁₃ = dt²/6.
 void ModelBank::predict(double to_s, const Lanes& jerk_density, const Lanes& decay_1_s) noexcept {
   const Lanes density = jerk_density;  // copies cannot overlap with the bank
   const Lanes decay = decay_1_s;
@@ -136,6 +148,8 @@ void ModelBank::predict(double to_s, const Lanes& jerk_density, const Lanes& dec
     const double s1 = r1 - m12 * r2;
     const double s1q = r1q - m12 * r2q;
     d1[j] += q1 + s2 * s2 * d2[j] + s2q * s2q * q2 + s1 * s1 * d3[j] + s1q * s1q * q3;
+    // a decays by e^−δ·dt after the step. 1 + z + z²/2 for e^z: never negative, and no call of
+    // exp. P₃₃ shrinks by keep², P₁₃ and P₂₃ by keep, which in U is a factor 1/keep.
     const double z = decay[j] * dt;
     const double back = 1.0 + z * (1.0 + 0.5 * z);
     const double keep = 1.0 / back;
@@ -148,6 +162,9 @@ void ModelBank::predict(double to_s, const Lanes& jerk_density, const Lanes& dec
   }
 }
 
+// Bierman's update for the measurement h = (1, 0, 0): f = Uᵀh is the first row of U, v = D·f, and
+// the innovation's variance e grows term by term. All divisors are sums of positive numbers:
+// nothing can lose the sign of D.
 void ModelBank::update(const Lanes& z, const Lanes& r) noexcept {
   const Lanes seen = z;  // copies cannot overlap with the bank
   const Lanes noise = r;
@@ -180,6 +197,7 @@ void ModelBank::update(const Lanes& z, const Lanes& r) noexcept {
   }
 }
 
+// D alone: the correlations in U stay as they are.
 void ModelBank::inflate(const Lanes& factor) noexcept {
   const Lanes by = factor;  // a copy cannot overlap with the bank
   for (std::size_t j = 0; j < kModels; ++j) {
@@ -201,6 +219,8 @@ Moments ModelBank::moments(std::size_t j) const noexcept {
   return out;
 }
 
+// Back to factors from the last row up, each pivot floored: a mixture's covariance can come out
+// singular by rounding, and a zero pivot would never recover.
 void ModelBank::set(std::size_t j, const Moments& m) noexcept {
   const auto& p = m.covariance;
   x[j] = m.mean[0];
@@ -219,6 +239,8 @@ CellSight see_cell(const ModelBank& bank, double low, double high) noexcept {
   out.variance = bank.position_variance();
   const Borders at = borders_of(bank, out.variance, low, high);
   const Lanes& near = at.nearest;
+  // The common case when the axis moves: every model lies far inside its cell, and no tail is
+  // worked out.
   if (std::min(std::min(near[0], near[1]), std::min(near[2], near[3])) > kFarOff) {
     return out;
   }
@@ -232,6 +254,9 @@ CellSight see_cell(const ModelBank& bank, double low, double high) noexcept {
     } else if (width < kNarrow && std::abs(middle) < kFarOff) {
       c = narrow_cut(bank.x[j], at.deviation[j], middle, width);
     } else if (cuts.share[j] < kLeastShare) {
+      // The cell lies where this model has nothing. Its nearer border becomes the measurement,
+      // tight against both model and cell, so that the model comes back instead of dividing 0 by
+      // 0.
       const double cell = high - low;
       c = {kLeastShare, at.alpha[j] > 0.0 ? low : high,
            std::min(0.01 * out.variance[j], 0.01 * cell * cell)};

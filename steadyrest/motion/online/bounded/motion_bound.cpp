@@ -5,6 +5,10 @@
 
 #include <steadyrest/motion/online/bounded/motion_bound.hpp>
 
+// The order within a tick: what the last tick's intervals allow now (advance), then what this
+// tick's evidence proves alone (fresh_: triples, pairs, standstill), then their intersection.
+// Evidence and past are kept apart until the end, so that when they contradict each other the past
+// can be dropped and the evidence kept.
 namespace steadyrest::motion::online {
 namespace {
 
@@ -146,6 +150,7 @@ void MotionBound::edge(double t_s, double position_mm, double line_error_mm) noe
 }
 
 /// What the last tick's intervals allow now.
+/// Without a jerk limit half is infinite and the acceleration limit alone decides.
 void MotionBound::advance(double t_s) noexcept {
   const double d = t_s - t_s_;
   const double jerk = config_.max_jerk_mm_s3;
@@ -160,6 +165,10 @@ void MotionBound::advance(double t_s) noexcept {
   now_.acceleration = both({a.low - jerk * d, a.high + jerk * d}, {-a_max, a_max});
 }
 
+// Lagrange's parabola through the three nodes, differentiated at T: with hᵢ = T − tᵢ, cᵢ = 1/Π(hᵢ
+// − hⱼ) up to sign, ℓ̇ᵢ = cᵢ·(sum of the other two h), ℓ̈ᵢ = 2cᵢ, and for ω = Π(t − tᵢ): ω̇(T) =
+// h₁h₂ + h₁h₃ + h₂h₃, ω̈(T) = 2(h₁ + h₂ + h₃). The first node is the origin, so ℓ₁ enters the
+// errors alone.
 void MotionBound::triple(double t_s, const Node& first, const Node& second,
                          const Node& third) noexcept {
   const double h1 = t_s - first.t_s;
@@ -192,6 +201,8 @@ void MotionBound::triple(double t_s, const Node& first, const Node& second,
 }
 
 /// Triples with spans about the best one, side by side; the law is that of `triple`.
+/// All gathering first, arithmetic after: the second loop has no branch and no indirect load, so
+/// the compiler can run the four spans as one vector.
 void MotionBound::triples(double t_s, const Node& first, Hints& hints) noexcept {
   if (count_ < 2 || !std::isfinite(config_.max_jerk_mm_s3)) {
     return;
@@ -232,6 +243,7 @@ void MotionBound::triples(double t_s, const Node& first, Hints& hints) noexcept 
     const double d13 = h3[k] - h1;
     const double d23 = h3[k] - h2[k];
     const double inverse = 1.0 / (d12 * d13 * d23);
+    // Here c2 is the modulus; the sign is written out where the position enters.
     const double c1 = d23 * inverse;
     const double c2 = d13 * inverse;
     const double c3 = d12 * inverse;
@@ -342,6 +354,9 @@ MotionIntervals MotionBound::tick(double t_s, double low_mm, double high_mm) noe
   passed_ = false;
   cell_mm_ = cell.position_mm;
   fresh_ = {};
+  // Counts alone: the cells at the ticks are the nodes. With edges, a cell is worth a node only
+  // when the last edge lies well back; right after an edge it repeats what the edge has said, ten
+  // to a hundred times coarser.
   if (sampled_) {
     triples(t_s, cell, cell_hints_);
     keep(cell);

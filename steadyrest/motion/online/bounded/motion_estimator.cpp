@@ -5,6 +5,9 @@
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 namespace steadyrest::motion::online {
+// The frame of the estimator: checks, start and restart, what to do with an edge and with a tick,
+// and the clamp to what is proved. What an edge does to the hypotheses is in
+// motion_estimator_observe.cpp, what a tick does in motion_estimator_mix.cpp.
 namespace {
 
 // What follows was chosen once, on the scenes of bench/motion and the recorded logs together,
@@ -135,6 +138,7 @@ void MotionEstimator::edge(const Edge& edge) noexcept {
   }
   sampled_ = false;
   last_s_ = edge.t_s;
+  // The bound gets the edge before the filters group it: a proof uses every passage.
   bound_.edge(edge.t_s, edge.position_mm,
               config_.line_error_mm >= 0.0 ? config_.line_error_mm : 4.0 * line_sigma_mm());
   const double x = (edge.position_mm - origin_mm_) / config_.count_mm;
@@ -174,6 +178,9 @@ void MotionEstimator::sampled(const Tick& tick) noexcept {
   const double low = (tick.low_mm - origin_mm_) / config_.count_mm;
   const double high = (tick.high_mm - origin_mm_) / config_.count_mm;
   const double line = steps > 0 ? low : high;
+  // One step: the line was passed somewhere within the cycle, so its middle is the time and the
+  // clock period is the whole cycle. More steps: which line was passed when is lost, the axis is
+  // even within the cell now (variance 1/12).
   const bool single = steps == 1 || steps == -1;
   const double clock = clock_;
   const double variance = line_variance_;
@@ -203,6 +210,7 @@ Estimate MotionEstimator::tick(const Tick& tick) noexcept {
   if (group_.take(seen)) {
     observe(seen);
   }
+  // The group is emptied at each tick: the estimate given out has seen every edge before it.
   group_.end_of_cycle();
   if (sampled_) {
     sampled(tick);
@@ -213,6 +221,8 @@ Estimate MotionEstimator::tick(const Tick& tick) noexcept {
     smoother_.looked(
         {tick.t_s, bank_, weight_, weight_rest_, rest_.x, sure, tick.low_mm, tick.high_mm});
   }
+  // After the look: what is given out now is the estimate before the exchange, the exchange
+  // prepares the next cycle.
   mix();
   last_s_ = tick.t_s;
   last_count_ = tick.count;
@@ -227,6 +237,9 @@ Estimate MotionEstimator::late(double now_s, const MotionIntervals& now) noexcep
   MotionIntervals sure = then.sure;
   const double d = now_s - then.t_s;
   const double jerk = config_.max_jerk_mm_s3;
+  // Backwards from now, by the same law as MotionBound's advance: a(then) is within J·d of a(now),
+  // v(then) = v(now) − a·d ± J·d²/2. If rounding or a broken limit leaves nothing in common, the
+  // older proof alone holds.
   if (d > 0.0 && std::isfinite(jerk)) {
     sure.acceleration.low = std::max(sure.acceleration.low, now.acceleration.low - jerk * d);
     sure.acceleration.high = std::min(sure.acceleration.high, now.acceleration.high + jerk * d);
@@ -249,12 +262,14 @@ Estimate MotionEstimator::finish(const Tick& tick, double now_s, const Mixed& mi
   out.t_s = tick.t_s;
   out.position_mm = std::clamp(origin_mm_ + mixed.x * config_.count_mm, tick.low_mm, tick.high_mm);
   out.position_bound_mm = std::max(out.position_mm - tick.low_mm, tick.high_mm - out.position_mm);
+  // The ramp's share is a probability: the estimate is the mean over both hypotheses.
   const JerkRamp::Motion ramp = ramp_.at(now_s, tick.t_s);
   const double v = mixed.v + ramp.share * (ramp.v - mixed.v);
   const double a = mixed.a + ramp.share * (ramp.a - mixed.a);
   out.velocity_mm_s = std::clamp(v * config_.count_mm, sure.velocity.low, sure.velocity.high);
   out.acceleration_mm_s2 =
       std::clamp(a * config_.count_mm, sure.acceleration.low, sure.acceleration.high);
+  // Without either limit no motion is ruled out and there is nothing to state a bound from.
   if (std::isfinite(config_.max_jerk_mm_s3) || std::isfinite(config_.max_acceleration_mm_s2)) {
     out.velocity_bound_mm_s =
         std::max(sure.velocity.high - out.velocity_mm_s, out.velocity_mm_s - sure.velocity.low);

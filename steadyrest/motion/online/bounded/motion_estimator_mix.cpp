@@ -6,6 +6,8 @@
 
 /// What happens at a tick: the look at the cell, and the exchange between the hypotheses.
 namespace steadyrest::motion::online {
+// Model i differs from i ± 1 by a factor of some 20 … 4000 in density: a motion that changes its
+// nature mostly goes to the next one.
 namespace {
 
 /// Share of its hand-over that a model gives to another: halved with each model between.
@@ -40,6 +42,8 @@ MotionEstimator::Mixed MotionEstimator::look(const Tick& tick) noexcept {
   Lanes y{};
   if (cell.any) {
     for (std::size_t j = 0; j < kModels; ++j) {
+      // The same cell seen again may cost a model only what it lost on top of its lowest share
+      // since the last edge; otherwise each tick at standstill would count as new evidence.
       weight_[j] *= std::min(1.0, cell.share[j] / least_share_[j]);
       least_share_[j] = std::min(least_share_[j], cell.share[j]);
       y[j] = (cell.z[j] - bank_.x[j]) / (cell.variance[j] + cell.r[j]);
@@ -66,6 +70,8 @@ MotionEstimator::Mixed MotionEstimator::look(const Tick& tick) noexcept {
 }
 
 /// Model j becomes the mixture of all with the given parts, whose sum is 1.
+/// Moment matching of IMM (Blom and Bar-Shalom 1988): the mixture's mean, and its covariance from
+/// the parts' own plus the spread of their means. P is expanded from UD, mixed, and factored again.
 void MotionEstimator::take_over(std::size_t j, const Lanes& part, double part_rest) noexcept {
   const Lanes p = part;  // a copy cannot overlap with the bank
   Lanes x{};
@@ -111,6 +117,9 @@ MotionEstimator::Exchange MotionEstimator::exchange() const noexcept {
   out.hand_over = tuning_.switch_1_s * cycle;
   out.starts = tuning_.start_1_s * cycle;
   for (std::size_t i = 0; i < kModels; ++i) {
+    // A model stops where speed 0 is within its spread: rate × exp(−v²/2σ²). The exponent ends at
+    // 4, and beyond v² = 8σ² one per cent is left, so that no motion is wholly barred from
+    // stopping.
     const double variance = bank_.d2[i] + bank_.u23[i] * bank_.u23[i] * bank_.d3[i];
     const double v2 = 0.5 * bank_.v[i] * bank_.v[i];
     const double e = tuning_.stop_1_s * cycle * exp_of_minus(std::min(4.0, v2 / (variance + 1e-6)));
@@ -122,6 +131,8 @@ MotionEstimator::Exchange MotionEstimator::exchange() const noexcept {
 
 /// In a fast cycle one model in a tick takes over from the others what four ticks hand over: the
 /// cost of a tick stays even.
+/// The models are mixed in place, one after another. A later one sees the earlier ones already
+/// mixed; as a tick hands over less than a few per cent, that differs in the second order only.
 void MotionEstimator::hand_over(const Exchange& gives) noexcept {
   const bool fast = config_.cycle_s < kSlowCycle;
   const std::size_t models = fast ? 1 : kModels;
@@ -178,6 +189,8 @@ void MotionEstimator::mix() noexcept {
   for (std::size_t i = 0; i < kModels; ++i) {
     double from_others = 0.0;
     for (std::size_t k = 0; k < kModels; ++k) {
+      // The weights first, from the state before the exchange: hand_over and come_to_rest read
+      // them, too.
       from_others += kNear[k][i] * weight_[k];
     }
     next[i] = weight_rest_ * (gives.starts / kModels) + gives.hand_over * from_others +
