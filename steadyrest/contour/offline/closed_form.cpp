@@ -95,6 +95,8 @@ double crossing(const Servo& servo, double rest) {
 
 }  // namespace
 
+// A circle at constant speed is a sine in each axis, ω = v/R: the steady state follows from the
+// transfer function alone. Tracking error: |1 − G|·R.
 Result<CircleErrors> circle_errors(const Servo& servo, double radius_mm, double speed_mm_s) {
   if (auto refusal = unfit(servo, radius_mm)) {
     return std::unexpected(*refusal);
@@ -107,6 +109,8 @@ Result<CircleErrors> circle_errors(const Servo& servo, double radius_mm, double 
   return CircleErrors{radius_mm * share.contour, radius_mm * share.tracking};
 }
 
+// Where |G| first leaves 1 ± ε/R: two quadratics in ω², of which the smallest positive root is the
+// limit. With velocity lag |G| rises above 1 before it falls, so both sides count.
 Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double max_error_mm) {
   if (auto refusal = unfit(servo, radius_mm)) {
     return std::unexpected(*refusal);

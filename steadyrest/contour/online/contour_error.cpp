@@ -8,6 +8,9 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
+// One search serves both cases: pieces of the program's path, or pieces of the trail that the
+// commanded point has left. The window keeps it on the right turn (see the header); the search
+// itself is in window_search.hpp.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -86,7 +89,8 @@ class TrailPieces {
   const ContourError::State& state_;
 };
 
-/// Direction of travel where the foot stands: the mean of both sides when that is a joint.
+// Direction of travel at the foot: at a joint the mean of both sides, since on the outside of a
+// corner the foot lies on the corner itself and either leg alone would turn the sign.
 Point direction_at(PathView path, const Nearest& foot, const geometry::Station& here) noexcept {
   constexpr double kJoint = 1e-9;
   const PathSegment& segment = path[foot.index];
@@ -109,7 +113,8 @@ bool is_fit(const ContourError::Input& input) noexcept {
          (input.path.empty() || input.path_index < input.path.size());
 }
 
-/// The error at the foot, with its signs.
+// The error at the foot with its signs: against the centre of curvature on arcs, against the
+// plane's left on lines. The distance is that of the search; only the signs come from here.
 void measure(const Point& actual_mm, const Nearest& foot, const geometry::Station& here,
              const Point& plane_normal, ContourError::Output& output) noexcept {
   const Point offset = geometry::subtract(actual_mm, foot.point_mm);
@@ -136,14 +141,16 @@ kernel::outcome::Refusal refuse(const char* what, const char* to_do) {
 
 kernel::outcome::Result<ContourError> ContourError::make(const Config& config) {
   if (!(config.servo_gain_1_s >= 1.0 && config.servo_gain_1_s <= 1000.0)) {
-    return std::unexpected(refuse("servo gain is not within 1…1000 1/s", "correct the servo gain"));
+    return std::unexpected(refuse("the lowest servo gain is out of range; allowed: 1 … 1000 1/s",
+                                  "correct the axes' servo gain"));
   }
   if (!(config.reserve_mm > 0.0 && config.reserve_mm <= 10.0)) {
-    return std::unexpected(
-        refuse("window reserve is not within 0…10 mm", "correct the window reserve"));
+    return std::unexpected(refuse("the window's reserve is out of range; allowed: above 0 … 10 mm",
+                                  "correct the reserve"));
   }
   if (!(std::abs(geometry::norm(config.plane_normal) - 1.0) < 1e-6)) {
-    return std::unexpected(refuse("plane normal is not a unit vector", "give a unit vector"));
+    return std::unexpected(
+        refuse("the plane's normal has another length; allowed: 1", "give a unit vector"));
   }
   return ContourError(config);
 }
@@ -168,10 +175,13 @@ double ContourError::advance(const Input& input) noexcept {
   const bool has_path = !input.path.empty();
   const double elapsed_s =
       state_.started ? std::clamp(input.time_s - state_.time_s, 0.0, 1.0) : 0.0;
+  // With or without a path the lengths count from different zeros: what was known of the foot is
+  // void.
   if (!state_.started || has_path != state_.from_path) {
     state_.lag_mm = input.path_speed_mm_s / config_.servo_gain_1_s;
     state_.foot_position_mm = -1.0;
   }
+  // ℓ' = v − k·ℓ, exactly over the step for constant v.
   const double decay = std::exp(-config_.servo_gain_1_s * elapsed_s);
   state_.lag_mm = state_.lag_mm * decay +
                   std::abs(input.path_speed_mm_s) / config_.servo_gain_1_s * (1.0 - decay);
@@ -209,6 +219,7 @@ ContourError::Output ContourError::update(const Input& input) noexcept {
   Nearest foot;
   geometry::Station here;
   if (state_.from_path) {
+    // The last foot, or the command's own segment after a start.
     const std::size_t hint = in.knows_foot ? state_.foot_index : input.path_index;
     foot = nearest_in_window(PathPieces(input.path), input.actual_mm, in.low_mm, in.high_mm, hint,
                              in.guess_mm, kMaxFeet);

@@ -6,6 +6,10 @@
 #include <steadyrest/contour/online/feed_governor.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
+// The governor's cycle: what is in force and what the frame shows (is_fit, contour error, servo
+// model, what the model leaves unexplained), then the path ahead, then, once every decision
+// period, which step (feed_governor_decide.cpp). The estimates run in every mode and motion, so
+// that a decision never begins without them.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -74,6 +78,8 @@ void FeedGovernor::restore(const State& state) noexcept {
   history_at_ = state.history_at % kHistory;
 }
 
+// The exact steps of the model cost 64 Runge–Kutta steps for each axis, so they are renewed only
+// when the model has moved by 0.3 % or the cycle by 1 %.
 void FeedGovernor::refresh_model(double dt) noexcept {
   bool renew = cycle_s_ == 0.0 || std::abs(dt - cycle_s_) > 0.01 * cycle_s_;
   bool is_other = false;
@@ -98,6 +104,9 @@ void FeedGovernor::refresh_model(double dt) noexcept {
   }
 }
 
+// The model runs beside the axes on the same commands; e − modelled is what it does not explain
+// (friction, backlash, a wrong τ). Only the part across the path counts, and beyond what counting
+// gives by itself: q²/12 in each of the two directions across, q²/6.
 void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error,
                            double dt) noexcept {
   const bool is_regular = dt > 0.0 && std::abs(dt - cycle_s_) < 0.01 * cycle_s_;
@@ -145,6 +154,9 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
   state_.unexplained_mm2 += dt / kUnexplainedMemoryS * (excess - state_.unexplained_mm2);
 }
 
+// The margin covers the first 3σ of what is unexplained; only what goes beyond it is taken off.
+// Not more than 60 % of the limit: a reserve that eats all of it would always ask for the lowest
+// step.
 double FeedGovernor::limit_mm() const noexcept {
   const auto& contour = config_.machine.contour;
   const double beyond_margin =
@@ -154,6 +166,8 @@ double FeedGovernor::limit_mm() const noexcept {
          std::min(reserve_mm, kMostReserve * contour.limit_mm);
 }
 
+// The words as the control was told them, one each cycle: for dead time and scan they are still
+// under way.
 void FeedGovernor::remember(const kernel::signal::RatioInForce& in_force) noexcept {
   state_.in_force_ratio = in_force.ratio;
   history_[history_at_] = in_force.word_ratio;
@@ -168,6 +182,8 @@ void FeedGovernor::fill_pending(const Frame& frame) noexcept {
   std::size_t n = 0;
   for (; n < Forecast::kMaxSteps; ++n) {
     const double t = timing.step_s * static_cast<double>(n + 1);
+    // What acts at t was told between dead + scan − t and dead − t before now. The largest of
+    // those: for the contour the faster one is the worse.
     const double oldest = timing.dead_s + timing.scan_s - t;
     if (oldest <= 0.0) {
       break;
@@ -194,6 +210,8 @@ void FeedGovernor::extrapolate(const Frame& frame) noexcept {
   const double curvature = geometry::norm(bend.curvature_1_mm);
   const Point normal = geometry::unit(bend.curvature_1_mm);
   const double speed = std::max({frame.path_speed_mm_s, frame.programmed_feed_mm_s, 1.0});
+  // Behind the command far enough to hold the foot: the lag v/k, three times. Cells so short that
+  // the cubic term κ²h³/6 stays below 5·10⁻⁵ mm, and not more than about 400 of them.
   const double back = 3.0 * speed / softest_gain_1_s_ + 0.5;
   const double ahead = speed * reach_s_;
   const double fine = curvature > 1e-6 ? std::cbrt(3e-4 / (curvature * curvature)) : ahead;
@@ -249,6 +267,8 @@ bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {
     return false;
   }
   const Forecast::Timing& timing = forecast_.timing();
+  // Time within which a step told now can still fall: dead time, scan, two decisions and the whole
+  // slew.
   const double time = timing.dead_s + timing.scan_s + 2.0 * decision_s_ + 1.0 / timing.fall_1_s;
   const double a = ahead_.cell(state_.command_cell).acceleration_mm_s2;
   const double reach = (frame.path_speed_mm_s + 0.5 * std::min(a, 1e5) * time) * time;
@@ -268,6 +288,8 @@ Outset FeedGovernor::outset(const Frame& frame) const noexcept {
   Outset outset;
   outset.speed_mm_s = std::max(0.0, frame.path_speed_mm_s);
   outset.rapid_ratio = frame.rapid.effective_ratio;
+  // The operator's panel caps the forecast as it will cap the word, unless the machine file lets
+  // the layer exceed it.
   outset.panel_ratio = config_.machine.feed_override.layer_may_exceed_panel
                            ? std::numeric_limits<double>::infinity()
                            : frame.feed.panel_ratio;

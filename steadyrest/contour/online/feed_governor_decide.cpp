@@ -34,6 +34,9 @@ std::size_t count(const Forecast::Result& result, FeedGovernor::Output& output) 
 }  // namespace
 
 /// Where the turning of the path departs from its mean between foot and command.
+/// Even means: the path turns at a constant rate, as on an arc, a line or the CAM chords of either.
+/// Held for long, a rise must not break the limit on this stretch; beyond it the fall comes in
+/// time, which the admissibility itself ensures.
 double FeedGovernor::stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept {
   const auto turn_into = [&path](std::size_t i) {
     return geometry::distance(path.cell(i).tangent, path.cell(i + 1).tangent);
@@ -44,6 +47,8 @@ double FeedGovernor::stretch_end_mm(const LookAhead& path, const Outset& outset)
   }
   const double begin = path.cell(outset.foot_cell).position_mm;
   const Cell& here = path.cell(outset.command_cell);
+  // The foot lags behind the command, so the turning between the two is the curvature that the
+  // error now comes from.
   const double length = here.position_mm - begin;
   const double rate = length > 0.0 ? turned / length : geometry::norm(here.curvature_1_mm);
   const double end = outset.position_mm + config_.pause_s * std::max(here.feed_mm_s, 1.0);
@@ -77,6 +82,7 @@ struct FeedGovernor::Search {
 
   Forecast::Result forecast(const RatioPlan& tried, double most_mm,
                             const Forecast::Trace* trace) noexcept {
+    // Stopped at the first place above the limit: most candidates that fail do so at once.
     const Forecast::Result result =
         of.forecast_.run(path, outset, tried, most_mm, true, trace, nullptr);
     spent += count(result, output);
@@ -91,6 +97,7 @@ struct FeedGovernor::Search {
       return false;
     }
     const bool rises = of.candidate_[c] > in_force + kSameRatio;
+    // Along a trace the limit is broken anyway; a rise there needs no room to last.
     if (rises && trace == nullptr) {
       const bool pauses = of.state_.time_s - of.state_.fallen_s < of.config_.pause_s;
       const double room_mm = (pauses ? kRiseRoomInPause : kRiseRoom) * limit_mm;
@@ -108,6 +115,8 @@ struct FeedGovernor::Search {
   }
 
   /// Among the candidates up to `top`; false where none is admissible, not even the lowest.
+  /// From the highest down while the table is small; otherwise from the step in force, where the
+  /// answer nearly always lies.
   bool find(std::size_t top, const Forecast::Trace* trace) noexcept {
     const auto may_go_on = [&] { return spent < of.search_steps_; };
     const auto is_admissible = [&](std::size_t c) { return admissible(c, trace); };
@@ -124,6 +133,8 @@ struct FeedGovernor::Search {
   }
 
   /// Chooses the fall; the trace receives what it gives at each place, with a little room.
+  /// Recorded without a limit: with a little room on top, it is the limit of the second search, so
+  /// that a step that is as good as the fall at each place may be taken.
   void fall(Forecast::Trace& trace) noexcept {
     plan.target = of.candidate_.front();
     choice.candidate = 0;
@@ -147,6 +158,8 @@ struct FeedGovernor::Search {
   std::size_t spent = 0;  ///< forecast steps
 };
 
+// Bounded by search_steps_: once spent, the largest step known to be admissible stands, and the
+// next decision starts from it.
 FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std::size_t top,
                                                       Output& output) noexcept {
   Search search(*this, outset, output);
@@ -159,6 +172,9 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
 }
 
 /// Goes on with the objective's search as far as its share of the cycle goes.
+/// The objective compares steps that are held, not changes: start, target and floor are the same.
+/// Errors up to `target_mm` are equal for contour priority, so that it does not creep for a gain
+/// that no gauge would show.
 void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noexcept {
   const LookAhead& path = state_.last.path_known ? ahead_ : guess_;
   const auto& contour = config_.machine.contour;
@@ -205,6 +221,7 @@ std::size_t FeedGovernor::wanted_candidate(const Outset& outset, Output& output)
 }
 
 /// The highest candidate up to `wanted` that the override can rise to within one decision.
+/// A higher step could not come through before the next decision, and that one will know more.
 std::size_t FeedGovernor::reachable_candidate(std::size_t wanted) const noexcept {
   const double soon =
       state_.in_force_ratio + forecast_.timing().rise_1_s * decision_s_ + kSameRatio;
@@ -215,6 +232,7 @@ std::size_t FeedGovernor::reachable_candidate(std::size_t wanted) const noexcept
   return top;
 }
 
+// The strongest cause first: what the operator can do least about.
 Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
                             std::size_t wanted) const noexcept {
   if (choice.floor) {
@@ -237,6 +255,9 @@ Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
                                                     : Reason::contour_within_limit;
 }
 
+// A decision begins at what the envelope has let through, with what is still under way before it.
+// Without a path the circle that the command runs on stands in, and no rise is concluded from a
+// speed that the override does not govern.
 void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   if (!state_.last.path_known) {
     extrapolate(frame);
@@ -264,6 +285,8 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   output.predicted_at_mm = choice.forecast.at_mm;
   output.step = table_step_[choice.candidate];
   const double ratio = candidate_[choice.candidate];
+  // A fall is judged against what is in force and what was asked before: a wish that is still
+  // being slewed to is no fall.
   const double in_force = forecast_.floor_ratio(state_.in_force_ratio);
   const bool falls = ratio < std::min(in_force, before) - kSameRatio;
   if (falls) {

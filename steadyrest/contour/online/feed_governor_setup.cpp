@@ -21,6 +21,8 @@ kernel::outcome::Refusal refuse(std::string what, std::string to_do) {
 /// ones keep the share too. A fixed figure, so that the same input decides alike everywhere.
 constexpr double kForecastStepCostS = 100e-9;
 
+// The stiffest axis sets the forecast's step, the softest one how far back the foot lies and how
+// long a change takes to settle.
 double stiffest(const Machine& machine) noexcept {
   double k = 1.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
@@ -45,7 +47,8 @@ double longest_lag(const Machine& machine) noexcept {
   return lag;
 }
 
-/// Averaging time of the control's jerk limit; its mean delay is half of it.
+// Time over which the control's jerk limit averages the acceleration, A/J; its mean delay is half
+// of it.
 double jerk_time(const Machine& machine) noexcept {
   double time = 0.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
@@ -94,32 +97,46 @@ double unseen_by_encoders_mm(const Machine& machine) noexcept {
 kernel::outcome::Result<void> check(const FeedGovernor::Config& config) {
   const Machine& m = config.machine;
   if (m.axes.empty()) {
-    return std::unexpected(refuse("the machine has no axis", "describe its axes"));
+    return std::unexpected(
+        refuse("the machine has no axis; allowed: one or more", "add an [[axis]] for each axis"));
   }
   if (!(m.contour.limit_mm > 0.0)) {
-    return std::unexpected(refuse("contour limit is not above 0 mm", "give contour.limit"));
+    return std::unexpected(refuse(
+        "the contour limit is " + std::to_string(m.contour.limit_mm) + " mm; allowed: above 0",
+        "correct limit_um in [contour]"));
   }
   if (!(m.contour.margin >= 0.0 && m.contour.margin < 1.0)) {
-    return std::unexpected(refuse("contour margin is not within 0…1", "correct contour.margin"));
+    return std::unexpected(refuse(
+        "the contour margin is " + std::to_string(m.contour.margin) + "; allowed: 0 … below 1",
+        "correct margin_percent in [contour]"));
   }
   if (!(m.contour.min_ratio > 0.0 && m.contour.min_ratio <= m.contour.max_ratio)) {
-    return std::unexpected(refuse("contour.min_ratio is not above 0 and up to contour.max_ratio",
-                                  "correct the permitted ratios"));
+    return std::unexpected(
+        refuse("the feed ratios of [contour] are " + std::to_string(m.contour.min_ratio) + " … " +
+                   std::to_string(m.contour.max_ratio) + "; allowed: above 0, rising",
+               "correct min_percent and max_percent in [contour]"));
   }
   if (!(m.envelope.feed_fall_1_s > 0.0 && m.envelope.feed_rise_1_s > 0.0)) {
-    return std::unexpected(refuse("a slew limit is not above 0", "correct the envelope"));
+    return std::unexpected(refuse("the feed's slew limits are " +
+                                      std::to_string(m.envelope.feed_fall_1_s) + " 1/s down and " +
+                                      std::to_string(m.envelope.feed_rise_1_s) +
+                                      " 1/s up; allowed: above 0",
+                                  "correct the slew limits in [envelope]"));
   }
   if (!(config.work_share > 0.0 && config.work_share <= 1.0)) {
-    return std::unexpected(refuse("work_share is not above 0 and up to 1", "correct work_share"));
+    return std::unexpected(
+        refuse("work_share is " + std::to_string(config.work_share) + "; allowed: above 0 … 1",
+               "correct work_share"));
   }
   if (config.objective == nullptr) {
-    return std::unexpected(refuse("objective is missing", "give an objective"));
+    return std::unexpected(refuse("no objective is given", "give a function of a candidate"));
   }
   return {};
 }
 
 }  // namespace
 
+// Both terms run from 0 to 1 over what is permitted, so that the weights compare like with like.
 double combined_objective(const Candidate& c) noexcept {
   const double span = c.max_ratio - c.min_ratio;
   const double slowness = span > 0.0 ? (c.max_ratio - c.ratio) / span : 0.0;
@@ -150,7 +167,7 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
   if (governor.candidate_.empty()) {
     return std::unexpected(refuse(
         "no step of the override table lies between min_percent and max_percent of [contour]",
-        "widen that range"));
+        "widen that range until it holds a step"));
   }
   return governor;
 }
@@ -163,6 +180,8 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
       ahead_(config.machine),
       guess_(config.machine) {
   const Machine& m = config_.machine;
+  // The strictest of the three: [contour], the envelope and the table. Steps at 0 stop the machine
+  // and are no candidates.
   const double low = std::max(m.contour.min_ratio, m.envelope.min_feed_ratio);
   const double high =
       std::min({m.contour.max_ratio, m.envelope.max_feed_ratio, m.feed_override.max_ratio});
@@ -177,28 +196,38 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   }
   softest_gain_1_s_ = softest(m);
   unseen_mm_ = unseen_by_encoders_mm(m);
+  // Deciding more often than the control scans the word changes nothing.
   decision_s_ = config_.decision_s > 0.0 ? config_.decision_s
                                          : std::clamp(m.feed_override.scan_period_s, 0.004, 0.010);
   search_steps_ = static_cast<std::size_t>(
       std::max(1.0, config_.work_share * m.control.interpolator_period_s / kForecastStepCostS));
   Forecast::Timing timing;
+  // 0.12/k: eight steps to a time constant of the stiffest axis. The step itself is exact; it is
+  // the curvature between two instants that must stay small.
   timing.step_s = config_.forecast_step_s > 0.0 ? config_.forecast_step_s
                                                 : std::clamp(0.12 / stiffest(m), 5e-4, 4e-3);
+  // A word that is written now acts after the table's dead time, one cycle of the interpolator and
+  // half of the jerk filter.
   timing.dead_s =
       m.feed_override.dead_time_s + m.control.interpolator_period_s + 0.5 * jerk_time(m);
   timing.scan_s = m.feed_override.scan_period_s + m.control.interpolator_period_s;
   const double walk_1_s = walking_1_s(m.feed_override, candidate_);
   timing.fall_1_s = std::min(m.envelope.feed_fall_1_s, walk_1_s);
   timing.rise_1_s = std::min(m.envelope.feed_rise_1_s, walk_1_s);
+  // e⁻⁴ of a change is left after four time constants of the softest axis.
   timing.settle_s = 4.0 / softest(m) + 3.0 * longest_lag(m);
   forecast_.set_timing(timing);
   forecast_.set_table(table_ratio_);
+  // How far ahead a decision must see: until a fall that begins at the next decision has ended and
+  // settled.
   reach_s_ =
       timing.dead_s + timing.scan_s + decision_s_ + 0.1 + 1.0 / timing.fall_1_s + timing.settle_s;
   refresh_model(0.0);
   history_.fill(1.0);
 }
 
+// A search may overshoot its budget by one look, which is up to two forecasts; the fall and one
+// look along it are made in any case. The objective's search overshoots by one forecast.
 std::size_t FeedGovernor::most_forecast_steps() const noexcept {
   const bool by_objective =
       config_.machine.contour.strategy != kernel::machine::ContourStrategy::feed_priority;

@@ -5,6 +5,9 @@
 #include <steadyrest/contour/online/forecast.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
+// A forecast walks in steps of a few milliseconds. Each step: the ratio that acts then, the
+// control's speed under it, the three servos by their exact step, the foot on the path, the error
+// against the limit. Nothing is searched and nothing branches back, so its cost is its steps.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -26,6 +29,8 @@ struct Near {
   Point offset{};
 };
 
+// Distance from q to p(δ) = δ·t + ½δ²·κ⃗ is stationary where (q − p)·(t + δ·κ⃗) = 0, to first
+// order δ = q·t/(1 − q·κ⃗). Beyond the centre of curvature the divisor goes to 0; 0.2 bounds it.
 Near near_on_cell(const Cell& cell, const Point& query) noexcept {
   const Point from = geometry::subtract(query, cell.point_mm);
   // One Newton step on the parabola from the tangent's foot: exact to second order in the offset.
@@ -46,6 +51,7 @@ class FootTracker {
   FootTracker(const LookAhead& path, std::size_t cell) noexcept
       : path_(path), cell_(cell), scanned_(cell) {}
 
+  // Cells between foot and command are looked through once for corners: amortised, one a step.
   Near update(const Point& query, std::size_t command_cell) noexcept {
     Near here = advance(cell_, query, command_cell);
     if (beyond_ != kNone && beyond_ <= cell_) {
@@ -97,6 +103,8 @@ AxisStep AxisStep::of(const AxisModel& model, double h_s) noexcept {
   AxisStep step;
   const double k = model.gain_1_s;
   const double a = model.feed_forward;
+  // Without lag: ė = (1 − a)·ċ − k·e. φ₁ = ∫e^−k(h−t)dt, φ₂ the same with t/h; ċ's slope enters by
+  // t/h − ½.
   if (model.velocity_lag_s < kNoLag_s) {
     const double decay = std::exp(-k * h_s);
     const double phi1 = -std::expm1(-k * h_s) / k;
@@ -106,6 +114,9 @@ AxisStep AxisStep::of(const AxisModel& model, double h_s) noexcept {
     step.e_change = (1.0 - a) * (phi2 - 0.5 * phi1);
     return step;
   }
+  // With lag the roots may be real, double or complex. Unit responses by Runge–Kutta of fourth
+  // order serve all three alike; the step is linear, so four of them are the whole matrix. Not in
+  // the cycle but when the model changes.
   constexpr int kSub = 64;
   const double d = h_s / kSub;
   const double tau = model.velocity_lag_s;
@@ -163,6 +174,8 @@ double Forecast::floor_ratio(double ratio) const noexcept {
   return above == begin ? *begin : *(above - 1);
 }
 
+// A rise is taken to act as early as it can (after the dead time), a fall as late as it can (a
+// scan later): the worse of both for the contour.
 double Forecast::planned(const RatioPlan& plan, double t_s) const noexcept {
   const double since = t_s - timing_.dead_s;
   const double late = since - timing_.scan_s;
@@ -226,6 +239,7 @@ struct Forecast::Walk {
   /// The control's speed; false: nothing is known of what follows.
   bool advance(double ratio) noexcept {
     const double h = of.timing_.step_s;
+    // The feed override scales cutting moves; rapids have their own.
     const auto target_of = [&](const Cell& c) {
       const double share = c.cutting ? ratio : c.rapid ? outset.rapid_ratio : 1.0;
       return std::min(c.cap_mm_s, c.feed_mm_s * share);
@@ -235,6 +249,7 @@ struct Forecast::Walk {
     double v1 = v < goal ? std::min(goal, v + dv) : std::max(goal, v - dv);
     double s1 = s + 0.5 * (v + v1) * h;
     double left = cell->position_mm + cell->length_mm - s1;
+    // Several cells may lie in one step. The one that s₁ falls into decides.
     std::size_t next = at;
     while (left < 0.0 && next + 1 < path.end()) {
       ++next;
@@ -243,6 +258,8 @@ struct Forecast::Walk {
     }
     const Cell& ahead = path.cell(next);
     if (left < 0.0) {
+      // Beyond the known cells anything may follow: the forecast ends. At the path's end the axis
+      // stops.
       if (!path.complete()) {
         return false;
       }
@@ -252,10 +269,12 @@ struct Forecast::Walk {
     }
     if (next + 1 < path.end()) {
       const Cell& after = path.cell(next + 1);
+      // v² from which the next cell's limit can still be reached by braking along what is left.
       const double slower = target_of(after);
       const double square =
           std::min(after.square_mm2_s2, slower * slower) + 2.0 * ahead.acceleration_mm_s2 * left;
       if (v1 * v1 > square) {
+        // Rounding may ask for more than the brake has: two steps' worth is the most.
         v1 = std::max(std::sqrt(square), v - 2.0 * dv);
         s1 = s + 0.5 * (v + v1) * h;
       }
@@ -301,6 +320,7 @@ struct Forecast::Walk {
   bool judge(const Near& near, const Cell& under, double limit_mm, const Trace* trace) noexcept {
     if (near.squared > worst) {
       worst = near.squared;
+      // Positive towards the centre: the part comes out undersize.
       const double inward = geometry::dot(near.offset, under.curvature_1_mm);
       result.error_mm = std::copysign(std::sqrt(worst), inward);
       result.at_mm = s;
@@ -318,6 +338,7 @@ struct Forecast::Walk {
       return true;
     }
     if (result.kept) {
+      // By the foot: there the tool is.
       result.broken_mm = under.position_mm + near.delta;
     }
     result.kept = false;
@@ -356,6 +377,7 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
     const Near near = walk.foot.update(walk.follow(), walk.at);
     const Cell& under = path.cell(walk.foot.cell());
     walk.result.steps = n;
+    // In the air the error does not matter; within the dead time nothing can be done about it.
     if (!under.cutting || t <= timing_.dead_s) {
       continue;
     }

@@ -7,6 +7,9 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
+// Cells are made once, as the command moves on, and a bounded number in each cycle; a backward
+// pass over the speed limits runs with each new cell. Lines and arcs become parabolas, so that the
+// forecast needs one kind of piece.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -22,7 +25,8 @@ constexpr double kCornerCosine = 0.995;  // 0.1 rad
 constexpr double kChordTurn = 0.02;      // rad that a chord over short lines may turn
 constexpr double kChordMm = 0.1;
 
-/// h³/6·(κ² + |dκ/ds|) ≤ 2·10⁻⁵ mm.
+// What a cell's parabola leaves out is h³/6·|p‴|, and |p‴| ≤ κ² + |dκ/ds| on arcs and spirals:
+// h³/6·(κ² + |dκ/ds|) ≤ 2·10⁻⁵ mm.
 double arc_cell_mm(const PathSegment& segment, double curvature_1_mm) noexcept {
   const double wound = std::abs(1.0 / std::max(segment.radius_end_mm, 1e-3) -
                                 1.0 / std::max(segment.radius_mm, 1e-3)) /
@@ -33,6 +37,7 @@ double arc_cell_mm(const PathSegment& segment, double curvature_1_mm) noexcept {
 }
 
 /// Is the next cell's direction another than that which `before` ends with?
+/// Measured against the end of the cell before: its tangent has turned by κ⃗·length.
 bool breaks(const Cell& before, const Cell& next) noexcept {
   const Point out = geometry::add_scaled(before.tangent, before.curvature_1_mm, before.length_mm);
   return geometry::dot(out, next.tangent) <
@@ -78,6 +83,7 @@ LookAhead::State LookAhead::state() const {
   return state;
 }
 
+// A state whose cells do not match its indices is dropped; the next update makes all anew.
 void LookAhead::restore(const State& state) noexcept {
   reset();
   if (state.last - state.first != state.cell.size() || state.cell.size() > kCells) {
@@ -100,6 +106,7 @@ double LookAhead::known_to_mm() const noexcept {
   return made_to_mm_;
 }
 
+// The axis that reaches its limit first along this direction sets the path's.
 double LookAhead::line_acceleration(const Point& direction) const noexcept {
   double a = path_mm_s2_;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -111,6 +118,8 @@ double LookAhead::line_acceleration(const Point& direction) const noexcept {
   return std::min(a, 1e9);
 }
 
+// On an arc every direction of its plane comes up, so the largest share of each axis counts: √(1 −
+// n²), n the plane's normal.
 double LookAhead::arc_acceleration(const PathSegment& segment) const noexcept {
   double plane = path_mm_s2_;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -135,6 +144,9 @@ void LookAhead::describe(Cell& cell, const PathSegment& segment) const noexcept 
   cell.rapid = segment.motion == Motion::rapid;
 }
 
+// square_i = min(limit², square_{i+1} + 2·a·length), v² = v₀² + 2as read backwards. The pass ends
+// at the first cell that is not lowered, since those before it already agree: each cell is lowered
+// a few times at most.
 void LookAhead::append(Cell cell, double joint_limit_mm_s) noexcept {
   const double limit = std::min(cell.cap_mm_s, joint_limit_mm_s);
   cell.square_mm2_s2 = limit < 1e150 ? limit * limit : kInfinite;
@@ -175,6 +187,7 @@ void LookAhead::take_from_arc(const PathSegment& segment, Cell& cell) noexcept {
   const geometry::Station here =
       geometry::station_at(segment, geometry::parameter_at(segment, next_offset_mm_));
   const double wish = arc_cell_mm(segment, geometry::norm(here.curvature_1_mm));
+  // The last two cells share what is left, so that no sliver remains.
   cell.length_mm = left <= wish ? left : std::min(wish, 0.5 * left);
   cell.point_mm = here.point_mm;
   cell.tangent = here.tangent;
@@ -190,6 +203,9 @@ void LookAhead::take_from_arc(const PathSegment& segment, Cell& cell) noexcept {
 }
 
 /// A line, and the short ones behind it that one chord stands for.
+/// CAM paths have lines of some micrometres; one chord for each would fill the ring within a few
+/// millimetres. Joined only where motion and feed are the same and the direction is within 0.02
+/// rad; the strictest of the limits holds for all.
 void LookAhead::take_lines(PathView path, Cell& cell, int& segments) noexcept {
   const PathSegment& segment = path[next_segment_];
   cell.point_mm = segment.start_mm;
@@ -247,12 +263,14 @@ bool LookAhead::add_next(PathView path, int& segments) noexcept {
 
 void LookAhead::update(PathView path, std::size_t index, double from_mm, double command_mm,
                        double to_mm) noexcept {
+  // Another address is another path: cells cannot be compared with it.
   const bool is_known = path_data_ == path.data() && first_ != last_ &&
                         cell(first_).position_mm <= command_mm && made_to_mm_ >= command_mm;
   if (!is_known) {
     reset();
     path_data_ = path.data();
     next_segment_ = std::min(index, path.size() - 1);
+    // Back to where the foot may lie, as far as one cycle's work goes.
     while (next_segment_ > 0 && path[next_segment_].position_mm > from_mm &&
            index - next_segment_ < static_cast<std::size_t>(kSegmentsPerCycle)) {
       --next_segment_;
@@ -272,6 +290,7 @@ void LookAhead::update(PathView path, std::size_t index, double from_mm, double 
   }
 }
 
+// Command and foot move by a cell or two a cycle; from the hint that is a step or two.
 std::size_t LookAhead::find(double s_mm, std::size_t hint) const noexcept {
   std::size_t i = std::clamp(hint, first_, last_ - 1);
   while (i > first_ && cell(i).position_mm > s_mm) {

@@ -10,6 +10,7 @@ namespace steadyrest::contour::online {
 namespace geometry = math::geometry;
 using kernel::signal::Point;
 
+// Ed of the paper: √(ex² + ey² + ez²). It grows with the contour error but is not one.
 double nominal_error_mm(const kernel::signal::Frame& frame) noexcept {
   double squares = 0.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, frame.axis_count); ++i) {
@@ -18,6 +19,8 @@ double nominal_error_mm(const kernel::signal::Frame& frame) noexcept {
   return std::sqrt(squares);
 }
 
+// ε = R − √(R² − Ed²) for equal gains, without knowing them: command, actual point and centre form
+// a right triangle with Ed as one leg. Beyond R it has no meaning and is held at R.
 double arc_identity_mm(double nominal_error_mm, double radius_mm) noexcept {
   const double r = std::abs(radius_mm);
   const double e = std::min(std::abs(nominal_error_mm), r);
@@ -38,6 +41,9 @@ Point corrected_offset_mm(const Point& error_mm, const Point& tangent,
   return geometry::add_scaled(geometry::scale(normal, -1.0), curvature_1_mm, -0.5 * along * along);
 }
 
+// Three points a fixed length apart make a circle: the turn from the first chord to the second
+// over half of their length is κ⃗. Spaced by distance, not by time, so that slow motion does not
+// let rounding decide.
 CommandedCurve::Output CommandedCurve::update(const Point& command_mm) noexcept {
   Output output;
   if (!geometry::is_finite(command_mm)) {

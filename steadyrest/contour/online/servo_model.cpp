@@ -5,6 +5,11 @@
 
 #include <steadyrest/contour/online/servo_model.hpp>
 
+// Law: τ·ẍ + ẋ = k·e + a·ċ. Multiplied by φ(t) = 4t(T − t)/T², which vanishes at both ends of a
+// window, and integrated by parts, all derivatives move from the signals to φ: ∫φẋ = −∫φ′x, ∫φẍ =
+// ∫φ″x − [φ′x]. One window gives one row y = k·E + a·V, without any differentiated encoder
+// (modulating functions, Shinbrot 1957). The rows go into recursive least squares in information
+// form.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -35,25 +40,30 @@ bool is_finite(const Frame& frame, std::size_t axes) noexcept {
 
 kernel::outcome::Result<ServoModel> ServoModel::make(const Config& config) {
   if (config.axes < 1 || config.axes > kernel::signal::kMaxAxes) {
-    return std::unexpected(refuse("number of axes is not within 1…8"));
+    return std::unexpected(
+        refuse("the servo model has " + std::to_string(config.axes) + " axes; allowed: 1 … 8"));
   }
   for (std::size_t i = 0; i < config.axes; ++i) {
     const AxisModel& p = config.prior[i];
     if (!(p.gain_1_s >= 1.0 && p.gain_1_s <= 1000.0)) {
       return std::unexpected(
-          refuse("servo gain " + std::to_string(p.gain_1_s) + " is not within 1…1000 1/s"));
+          refuse("the servo gain is " + std::to_string(p.gain_1_s) + " 1/s; allowed: 1 … 1000"));
     }
     if (!(p.feed_forward >= 0.0 && p.feed_forward <= 1.0)) {
-      return std::unexpected(refuse("feed-forward is not within 0…1"));
+      return std::unexpected(
+          refuse("the feed-forward is " + std::to_string(p.feed_forward) + "; allowed: 0 … 1"));
     }
     if (!(p.velocity_lag_s >= 0.0 && p.velocity_lag_s <= 0.1)) {
-      return std::unexpected(refuse("velocity lag is not within 0…0.1 s"));
+      return std::unexpected(refuse("the velocity lag is " + std::to_string(p.velocity_lag_s) +
+                                    " s; allowed: 0 … 0.1"));
     }
   }
   if (!(config.window_s >= 0.01 && config.window_s <= 0.5 && config.memory_s > config.window_s &&
         config.prior_gain_ratio > 0.0 && config.prior_feed_forward > 0.0 &&
         config.row_noise_ratio > 0.0)) {
-    return std::unexpected(refuse("window, memory or spread of the servo model is not positive"));
+    return std::unexpected(
+        refuse("a time or spread of the servo model is out of range; allowed: window 0.01 … 0.5 s, "
+               "memory longer than the window, spreads above 0"));
   }
   return ServoModel(config);
 }
@@ -78,6 +88,7 @@ ServoModel::ServoModel(const Config& config) noexcept : config_(config) {
   }
 }
 
+// Positions count from the window's start: what is large cancels before it is summed.
 void ServoModel::open_window(const Frame& frame) noexcept {
   state_.elapsed_s = 0.0;
   state_.samples = 0;
@@ -97,6 +108,7 @@ bool ServoModel::update(const Frame& frame) noexcept {
     return false;
   }
   const double dt = frame.time_s - state_.time_s;
+  // A hole in the samples would enter the integrals as a straight line.
   const bool gap = state_.samples > 0 && dt > kMaxGapRatio * state_.first_dt_s;
   state_.time_s = frame.time_s;
   if (!state_.started || !(dt > 0.0) || gap) {
@@ -158,6 +170,8 @@ bool ServoModel::close_window() noexcept {
   return renewed;
 }
 
+// What teaches nothing: standstill, a reversal (friction, backlash), travel of a few counts, a
+// drive near its limit (the law is linear, a saturated drive is not).
 bool ServoModel::learn(std::size_t i) noexcept {
   AxisState& axis = state_.axis[i];
   const AxisModel& prior = config_.prior[i];
@@ -184,6 +198,8 @@ bool ServoModel::learn(std::size_t i) noexcept {
 
   const double y = speed_x + prior.velocity_lag_s * acceleration_x;
   const double residual = y - axis.model.gain_1_s * error - axis.model.feed_forward * speed_c;
+  // Huber's weight: a row that is off by more than twice what rows lately were off by counts by
+  // its size, not by its square.
   const double size = std::abs(residual) / std::max(std::abs(y), 1e-9);
   const double expected = std::max(axis.residual_ratio, config_.row_noise_ratio);
   const double huber = std::min(1.0, 2.0 * expected / std::max(size, 1e-12));
@@ -191,6 +207,8 @@ bool ServoModel::learn(std::size_t i) noexcept {
 
   const double sigma = config_.row_noise_ratio * std::abs(y) + 0.3 * count + 1e-9;
   const double weight = huber / (sigma * sigma);
+  // Forgets towards the prior: information that fades is replaced by the machine file's, so that a
+  // direction which the motion does not excite (at constant speed, k against a) does not drift.
   const double keep = std::exp(-window / config_.memory_s);
   const double p1 = 1.0 / (config_.prior_gain_ratio * prior.gain_1_s);
   const double p2 = 1.0 / config_.prior_feed_forward;
@@ -206,6 +224,9 @@ bool ServoModel::learn(std::size_t i) noexcept {
 }
 
 /// Minimum of the quadratic form within the bounds: free, else on the edge that it violates.
+/// The quadratic form is convex: where the free minimum lies outside of the box, the bounded one
+/// lies on an edge, and along an edge it is a division. One pass over both edges suffices here,
+/// since feed-forward is clamped again on the gain's edge.
 void ServoModel::solve(std::size_t i) noexcept {
   AxisState& axis = state_.axis[i];
   const double low = config_.prior[i].gain_1_s / kGainSpan;

@@ -67,6 +67,9 @@ class Runner {
 };
 
 /// The nearest point of all segments between the places that the lag permits.
+/// The oracle: no search order, no skipping, every segment in the window by the geometry's own foot
+/// point. It shares the window with the room, which the tests of spiral and slot check by
+/// themselves.
 double nearest_of_all(PathView path, const ContourError::Input& input, double gain_1_s) {
   const double e = geometry::distance(input.command_mm, input.actual_mm);
   const double end = input.path_position_mm + 0.25 * e + 0.25;
@@ -133,6 +136,8 @@ INSTANTIATE_TEST_SUITE_P(Gains, CirclesOfThePaper,
                                          CircleCase{50.0, 0.0877},
                                          CircleCase{5000.0 / 60.0, 0.0319}));
 
+// The truth is constructed: the actual point lies 0.1 rad behind the command and a known way
+// inside of the circle, so ε is that way to rounding, whatever servo would have brought it there.
 TEST(ContourError, IsExactOnACircleWhateverTheLag) {
   const double r = 10.0;
   const auto path = PathMaker({r, 0, 0}, 50.0).arc({0, 0, 0}, kTurn).path();
@@ -148,6 +153,7 @@ TEST(ContourError, IsExactOnACircleWhateverTheLag) {
   }
 }
 
+// Left of +X is +Y against a normal of +Z. A sign that followed the curvature here would be 0/0.
 TEST(ContourError, OnALineIsPositiveToTheLeft) {
   const auto path = PathMaker({0, 0, 0}, 50.0).line_to({100, 0, 0}).path();
   ContourError error = estimator();
@@ -157,6 +163,7 @@ TEST(ContourError, OnALineIsPositiveToTheLeft) {
               1e-12);
 }
 
+// 0.03 and 0.04 from the corner make 0.05: the distance to the corner, not to either leg's line.
 TEST(ContourError, OutsideOfACornerIsMeasuredToTheCorner) {
   const auto path = PathMaker({0, 0, 0}, 50.0).line_to({10, 0, 0}).line_to({10, 10, 0}).path();
   ContourError error = estimator();
@@ -186,6 +193,7 @@ TEST(ContourError, StaysOnItsOwnTurnOfANarrowSpiral) {
   }
 }
 
+// The walls are 0.05 mm apart: the other one is 0.01 mm away, the own one 0.04 mm.
 TEST(ContourError, DoesNotSeeTheOtherWallOfASlot) {
   const auto path = PathMaker({0, 0, 0}, 50.0)
                         .line_to({50, 0, 0})
@@ -199,6 +207,8 @@ TEST(ContourError, DoesNotSeeTheOtherWallOfASlot) {
   EXPECT_EQ(output.foot_index, 0u);
 }
 
+// Chords of 0.01 mm have a sag of h²/(8R) = 1.25·10⁻⁶ mm: the two errors may differ by that much. A
+// foot that hung at the corners of the chords would show as steps.
 TEST(ContourError, IsTheSameOnCamChordsAsOnTheArc) {
   const auto arc = PathMaker({10, 0, 0}, 60.0).arc({0, 0, 0}, kTurn).path();
   const auto chords = PathMaker({10, 0, 0}, 60.0).chords({0, 0, 0}, kTurn, 0.01).path();
@@ -249,6 +259,7 @@ RC_GTEST_PROP(ContourError, EqualsTheNearestPointThatTheLagPermits, ()) {
   }
 }
 
+// A path index beyond the path is a bug of the sender, not a reason to read beyond the array.
 TEST(ContourError, RefusesUnfitInputAndGoesOnAfterwards) {
   const auto path = PathMaker({0, 0, 0}, 50.0).line_to({100, 0, 0}).path();
   ContourError error = estimator();

@@ -53,6 +53,8 @@ std::size_t most_steps_of_a_decision(const Machine& machine, double seconds) {
   return most;
 }
 
+// The bound is what the cycle is planned with; the worst machines are those whose forecasts are
+// longest and whose tables are finest.
 RC_GTEST_PROP(FeedGovernorWork, IsBoundedOnAnyMachineByAnyStrategy, ()) {
   Machine machine =
       slow_to_foresee(*rc::gen::element(1.0, 2.0, 20.0), *rc::gen::element(0.01, 0.2, 2.0, 100.0));
@@ -66,6 +68,7 @@ RC_GTEST_PROP(FeedGovernorWork, IsBoundedOnAnyMachineByAnyStrategy, ()) {
   RC_ASSERT(most <= bound);
 }
 
+// 10 % of 1 ms at 100 ns each are 1000 steps; a forecast has 512 at most.
 TEST(FeedGovernorWork, OfAMillisecondCycleIsAThousandForecastStepsAndFiveForecasts) {
   Machine machine = test::mill(50.0);
   machine.control.interpolator_period_s = 0.001;
@@ -74,6 +77,8 @@ TEST(FeedGovernorWork, OfAMillisecondCycleIsAThousandForecastStepsAndFiveForecas
   EXPECT_EQ(FeedGovernor::make(machine).value().most_forecast_steps(), 2000U + 5U * 512U);
 }
 
+// With a tenth of the share the search must be left and taken up again, and must come to a step as
+// good as in one go.
 TEST(FeedGovernorWork, AnObjectiveThatDoesNotFitIntoOneDecisionIsFoundOverSeveral) {
   const auto path =
       PathMaker({10, 0, 0}, 4000.0 / 60.0).arc({0, 0, 0}, 8 * kTurn).limited(2000.0, 1.0);

@@ -15,6 +15,7 @@ namespace geometry = math::geometry;
 using kernel::signal::Point;
 
 /// Steady state of equal first-order servos on a circle about the origin, commanded at angle 0.
+/// The actual point lies at R/√(1 + q²), behind by the angle atan q.
 Point following_error(double r, double speed, double gain) {
   const double q = speed / (r * gain);
   const double inner = r / std::sqrt(1.0 + q * q);
@@ -45,6 +46,8 @@ RC_GTEST_PROP(NominalError, ArcIdentityIsExactForEqualGains, ()) {
             1e-11);
 }
 
+// The tangent through the command leaves the circle by e²/2R on the way back, as much as ε itself:
+// without the curvature the estimate is 2ε.
 TEST(NominalError, TangentialEstimateIsTwiceTooLargeOnAnArcAndItsCorrectionIsNot) {
   const Point e = following_error(10.0, 4000.0 / 60.0, 50.0);
   const Point tangent{0, 1, 0};
@@ -68,6 +71,7 @@ TEST(NominalError, BeyondTheRadiusTheIdentityIsHeldAtTheRadius) {
   EXPECT_DOUBLE_EQ(arc_identity_mm(1.0, 0.0), 0.0);
 }
 
+// Three points on a span of 1 mm: κ to 2 %, the tangent to second order in span/R.
 RC_GTEST_PROP(CommandedCurve, FindsTheCircleThatTheCommandRunsOn, ()) {
   const double r = *geometry::test::number(2.0, 200.0);
   const double step = *geometry::test::number(0.005, 0.4);

@@ -33,6 +33,7 @@ TEST(ObjectiveSearch, IsDoneUntilItBegins) {
   EXPECT_TRUE(ObjectiveSearch{}.done());
 }
 
+// A valley has one bottom; with 64 steps 14 looks must find it, wherever it lies.
 TEST(ObjectiveSearch, FindsTheBottomOfAValleyInFewLooks) {
   for (const std::size_t steps : {1U, 2U, 7U, 32U, 33U, 40U, 63U, 64U}) {
     for (std::size_t bottom = 0; bottom < steps; ++bottom) {
@@ -48,6 +49,7 @@ TEST(ObjectiveSearch, FindsTheBottomOfAValleyInFewLooks) {
   }
 }
 
+// Where the error does not tell steps apart the faster one wins: level objectives occur on lines.
 TEST(ObjectiveSearch, AmongEqualsTakesTheHighestStep) {
   EXPECT_EQ(search(std::vector<double>(23, 1.0)).best, 22U);
   EXPECT_EQ(search(std::vector<double>(64, 1.0)).best, 63U);

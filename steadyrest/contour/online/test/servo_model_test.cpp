@@ -73,6 +73,8 @@ void run(ServoModel& model, TrueAxis& axis, double seconds, double period,
   }
 }
 
+// Constant speed shows (1 − a)/k alone; with the prior's a = 0 that is k, so 1 % of 42 is due
+// after ten windows of 40 ms.
 TEST(ServoModel, AWrongPassportIsCorrectedWithinThreeTenthsOfASecond) {
   ServoModel model = model_with({50.0, 0.0, 0.0});
   TrueAxis axis({42.0, 0.0, 0.0}, 0.001);
@@ -96,6 +98,7 @@ RC_GTEST_PROP(ServoModel, FindsGainAndFeedForwardWhenTheMotionExcitesBoth, ()) {
   RC_ASSERT(std::abs(model.axis(0).feed_forward - truth.feed_forward) < 0.03);
 }
 
+// The split may be the prior's, the lag (1 − a)/k that the axis shows may not.
 RC_GTEST_PROP(ServoModel, TheLagIsRightEvenWhereGainAndFeedForwardCannotBeSeparated, ()) {
   const AxisModel truth{*number(25.0, 90.0), *number(0.0, 0.5),
                         *rc::gen::element(0.0, 0.002, 0.005)};
@@ -110,6 +113,8 @@ RC_GTEST_PROP(ServoModel, TheLagIsRightEvenWhereGainAndFeedForwardCannotBeSepara
   RC_ASSERT(std::abs(found / lag - 1.0) < 0.015);
 }
 
+// Fifteen thousand rows without news. Plain recursive least squares would lose all information
+// across them and then jump with the first noise (wind-up).
 TEST(ServoModel, TenMinutesOfConstantSpeedDoNotWindUp) {
   ServoModel model = model_with({50.0, 0.2, 0.0});
   TrueAxis axis({50.0, 0.2, 0.0}, 0.001);
@@ -120,6 +125,7 @@ TEST(ServoModel, TenMinutesOfConstantSpeedDoNotWindUp) {
   EXPECT_LT(model.state().axis[0].l22, 1e9);
 }
 
+// The true gain is 20: had one row been taken, the model would have moved.
 TEST(ServoModel, StandstillAndReversalTeachNothing) {
   ServoModel model = model_with({50.0, 0.0, 0.0});
   TrueAxis axis({20.0, 0.0, 0.0}, 0.001);
@@ -129,6 +135,7 @@ TEST(ServoModel, StandstillAndReversalTeachNothing) {
   EXPECT_EQ(model.axis(0).gain_1_s, 50.0);
 }
 
+// Positions of ± 800 mm at random, some NaN: the box holds whatever the rows say.
 TEST(ServoModel, NeverLeavesItsBoundsWhateverItIsFed) {
   ServoModel model = model_with({50.0, 0.0, 0.0});
   std::uint32_t noise = 1;
@@ -147,6 +154,7 @@ TEST(ServoModel, NeverLeavesItsBoundsWhateverItIsFed) {
   }
 }
 
+// 200 mm/s² asked of a drive that has 100: the axis law does not hold.
 TEST(ServoModel, ASaturatedDriveTeachesNothing) {
   ServoModel::Config config;
   config.axes = 1;

@@ -22,6 +22,8 @@ std::optional<std::size_t> exhaustive(const std::vector<bool>& good, std::size_t
   return std::nullopt;
 }
 
+// All tables whose good steps are the lowest ones, every start, every top: the two searches must
+// agree, at most 2·log₂ n + 2 looks each.
 TEST(StepSearch, WhereSlowerIsAdmissibleTooItIsTheExhaustiveChoiceInFewLooks) {
   for (const std::size_t steps : {1U, 2U, 23U, 33U, 64U}) {
     const double most = 2.0 * std::log2(static_cast<double>(steps)) + 2.0;
@@ -50,6 +52,7 @@ TEST(StepSearch, WhereNothingChangesTwoLooksAreEnough) {
   EXPECT_EQ(looks, 2);
 }
 
+// No order among the steps, and a stop at any moment: what is returned is admissible or nothing.
 RC_GTEST_PROP(StepSearch, WhatItFindsIsAdmissibleHoweverTheStepsLieAndWhenItMustStop, ()) {
   const auto good = *rc::gen::container<std::vector<bool>>(*rc::gen::inRange<std::size_t>(1, 65),
                                                            rc::gen::arbitrary<bool>());
