@@ -8,6 +8,8 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 
+// begin() and end() enclose the interpolator: overrides and spindle must be known before it
+// decides on a setpoint, heat, offsets and servos follow once it has.
 namespace steadyrest::sim {
 namespace {
 
@@ -144,6 +146,7 @@ MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, Sp
       periods_of_growth_(periods_of_growth(config.machine)),
       probe_noise_mm_(config.machine.simulation.probe_noise_mm),
       normal_(config.machine.simulation.seed) {
+  // A displacement whose axis the machine lacks (a tilt, say) is reckoned but moves nothing.
   for (const kernel::machine::ThermalAxis& displacement : config.machine.thermal.axis) {
     const auto found =
         std::ranges::find(config.machine.axes, displacement.name, &kernel::machine::Axis::name);
@@ -189,6 +192,7 @@ void MachineBody::watch(std::uint64_t heartbeat) noexcept {
 
 nc::plan::Overrides MachineBody::begin(const kernel::signal::Command& layer) noexcept {
   ++cycle_;
+  // n·T, not a sum: the frame's stamps then have no drift against the interpolator.
   time_s_ = static_cast<double>(cycle_) * period_s_;
   watch(layer.heartbeat);
   layer_offset_mm_ = layer.offset_mm;
@@ -210,6 +214,7 @@ nc::plan::Overrides MachineBody::begin(const kernel::signal::Command& layer) noe
                                                 .layer_masks = layer.spindle_masks_panel,
                                                 .heartbeat = layer.heartbeat});
   }
+  // While it taps the control ignores the spindle override.
   const bool tapping = setpoint_.motion == Motion::tap;
   spindle_now_ = spindle_.update({.command_rev_s = setpoint_.spindle_rev_s,
                                   .override_ratio = tapping ? 1.0 : spindle_state_.effective_ratio,
@@ -286,6 +291,8 @@ void MachineBody::read_sensors() noexcept {
   }
 }
 
+// A probing move ends where the motion or the segment changes; what it read goes with the axis
+// that it moved furthest.
 void MachineBody::probe(const nc::plan::Setpoint& setpoint) noexcept {
   const bool probed = setpoint_.motion == Motion::probe;
   const bool another =
@@ -327,6 +334,7 @@ void MachineBody::end(const nc::plan::Setpoint& setpoint) noexcept {
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     follow(i, setpoint, offset_mm[i]);
     const AxisServo::State& s = servos_[i].state();
+    // Heat and disturbance lie beyond the motors' encoders: only the truth has them.
     truth_.tool_mm[i] = s.table_mm + truth_.heat_mm[i];
     if (disturbed_[i]) {
       truth_.tool_mm[i] += noise_[i].update(normal_.next());

@@ -6,6 +6,9 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
+// The port of a machine that is not there. read() runs the machine on by one layer cycle and shows
+// the end of it, write() sets what holds in the next: so a command acts one cycle after the frame
+// that it was decided on, as on a real control.
 namespace steadyrest::sim {
 namespace {
 
@@ -43,6 +46,7 @@ Result<std::unique_ptr<SimulatedMachine>> SimulatedMachine::make(const Config& c
   if (!interpolator) {
     return std::unexpected(interpolator.error());
   }
+  // Without a cut there is no vibration, and the frame's stays empty.
   std::optional<CuttingVibration> cutting;
   if (config.cutting) {
     auto made = CuttingVibration::make(*config.cutting);
@@ -66,6 +70,8 @@ SimulatedMachine::SimulatedMachine(const Config& config, MachineBody body,
       body_(std::move(body)),
       interpolator_(std::move(interpolator)),
       cutting_(std::move(cutting)) {
+  // What the port can do follows from the machine file alone: a switch that is described can be
+  // written, an offset limit above 0 means that offsets are taken.
   capability_ = {.feed_override = body_.feed_input().has_value(),
                  .spindle_override = body_.spindle_input().has_value(),
                  .axis_offset = config.machine.envelope.max_offset_mm > 0.0,
@@ -77,7 +83,9 @@ kernel::port::Capability SimulatedMachine::capability() const noexcept {
   return capability_;
 }
 
-/// The cut of one period, at the mean of the spindle's speeds at both ends.
+// The cut of one period, at the mean of the spindle's speeds at both ends. A mill that plunges
+// cuts with its face, which the process does not describe: below 5 % of the speed in the XY plane
+// it counts as out of the cut.
 void SimulatedMachine::vibrate(const nc::plan::Setpoint& setpoint, double before_rev_s) noexcept {
   const double x = setpoint.velocity[0];
   const double y = setpoint.velocity[1];
@@ -98,6 +106,7 @@ Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
   if (cutting_) {
     cutting_->begin_cycle();
   }
+  // The interpolator needs the overrides of this period, the body the setpoint that it answers.
   for (std::uint32_t i = 0; i < periods_per_cycle_; ++i) {
     const double before_rev_s = body_.truth().spindle_rev_s;
     const nc::plan::Setpoint setpoint = interpolator_.update(body_.begin(command_));
@@ -116,6 +125,7 @@ Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
 }
 
 Result<void> SimulatedMachine::write(const kernel::signal::Command& command) noexcept {
+  // A supervisor that writes in another mode than act is a fault worth stopping for.
   if (!command.write) {
     return std::unexpected(Refusal{Kind::bad_input,
                                    {},

@@ -3,6 +3,8 @@
 
 #include <steadyrest/sim/axis/edge_search.hpp>
 
+// x(t) is the cubic through both ends' positions and velocities; a reversal divides it, so that
+// each part passes a border at most once. Then the instant by secants, kept inside of a bracket.
 namespace steadyrest::sim {
 namespace {
 
@@ -32,6 +34,8 @@ class Cubic {
     return chord_mm_ + (w - u) * (w * d0 - u * d1) - u * w * (d0 + d1);
   }
   /// Where the velocity changes its sign, when it has different ones at both ends.
+  /// Bisection: the slope is a parabola in w with different signs at the ends, so one root lies
+  /// between.
   [[nodiscard]] double turn() const noexcept {
     double low = 0.0;
     double high = 1.0;
@@ -77,6 +81,8 @@ double crossing(const Encoder& encoder, const Cubic& x, double late, double earl
 std::optional<Passage> between(const Encoder& encoder, const Cubic& x, double late, double early,
                                double duration_s, std::int64_t after) noexcept {
   const double moved_mm = x.at(late) - x.at(early);
+  // A part that moved by more than the encoder can hide has an edge in its own direction; a
+  // shorter one has it only if the count differs.
   bool up = moved_mm > 0.0;
   if (std::abs(moved_mm) <= encoder.surely_mm()) {
     const std::int64_t before = encoder.count(x.at(early));
@@ -99,6 +105,7 @@ std::optional<Passage> last_passage(const Encoder& encoder, const Stretch& stret
     return between(encoder, x, 0.0, 1.0, stretch.duration_s, count_at_end);
   }
   const double turn = x.turn();
+  // From the end backwards: the later part first, since its edge is the last.
   const auto after = between(encoder, x, 0.0, turn, stretch.duration_s, count_at_end);
   return after ? after : between(encoder, x, turn, 1.0, stretch.duration_s, count_at_end);
 }

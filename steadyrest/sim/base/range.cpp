@@ -11,6 +11,7 @@ kernel::outcome::Refusal refusal(std::string what) {
   return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), "correct the machine file"};
 }
 
+// Written as not (low ≤ value ≤ high): a NaN fails it.
 kernel::outcome::Result<void> in_range(std::string_view owner,
                                        std::initializer_list<Range> ranges) {
   for (const Range& r : ranges) {

@@ -7,6 +7,9 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/cut/cutting_edges.hpp>
 
+// All that depends on angle and geometry alone, as tables over one turn. Each tooth and each slice
+// of its helix is an edge with a shift in cells; edges whose shift differs by whole cells share a
+// table.
 namespace steadyrest::sim {
 namespace {
 
@@ -33,6 +36,8 @@ EdgeCell turning_cell(const Cutting& cut) {
           .wall = true};
 }
 
+// Angle from Y (the normal of the feed) towards X: normal (sin, cos) points outwards, tangent
+// (cos, −sin) along the cutting speed.
 EdgeCell milling_cell(const Cutting& cut, double angle, double step) {
   const double s = portable::sin_turn(angle / kTurn);
   const double c = portable::sin_turn(angle / kTurn + 0.25);
@@ -96,6 +101,7 @@ CuttingEdges CuttingEdges::make(const Cutting& cut, std::size_t least_steps) {
   out.steps = (least_steps + cut.teeth - 1) / cut.teeth * cut.teeth;
   out.step_rad = kTurn / static_cast<double>(out.steps);
   const double helix = cut.turning ? 0.0 : cut.helix_rad;
+  // The angle by which the helix lags over the depth: 2·b·tan β/D.
   const double lag = 2.0 * cut.depth_mm * std::tan(helix) / cut.diameter_mm;
   out.slices = std::clamp(static_cast<std::size_t>(std::ceil(lag / kSliceLag_rad)), std::size_t{1},
                           kMostSlices);
@@ -107,6 +113,8 @@ CuttingEdges CuttingEdges::make(const Cutting& cut, std::size_t least_steps) {
     for (std::size_t tooth = 0; tooth < cut.teeth; ++tooth) {
       offset += tooth == 0 ? 0.0 : pitch(cut, tooth);
       const double cells = offset / out.step_rad;
+      // Rounded up: the table's fraction then lies in [0, 1), and the cell read is never ahead of
+      // the edge.
       const double shift = std::ceil(cells - kSameCell);
       Edge edge;
       edge.shift = static_cast<std::size_t>(shift);
@@ -120,6 +128,7 @@ CuttingEdges CuttingEdges::make(const Cutting& cut, std::size_t least_steps) {
   }
   for (std::size_t e = 0; e < out.edges.size(); ++e) {
     const std::size_t tooth = e % cut.teeth;
+    // The tooth in front on the same slice left the surface that this one cuts.
     const std::size_t front = e - tooth + (tooth + cut.teeth - 1) % cut.teeth;
     Edge& edge = out.edges[e];
     edge.front_trace = out.edges[front].trace;

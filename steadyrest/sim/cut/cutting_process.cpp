@@ -6,6 +6,10 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/cut/cutting_process.hpp>
 
+// One step: free motion of the modes, the edges that are near the material, the force that agrees
+// with the displacement at the step's end (implicit, so the step is second order and stable for
+// stiff cuts), then the surface that the edges leave. Which edges cut depends on the displacement,
+// so force and contact are found together in a few rounds.
 namespace steadyrest::sim {
 namespace {
 
@@ -20,6 +24,8 @@ double dot(const std::array<double, 2>& a, const std::array<double, 2>& b) noexc
 }
 
 /// The fastest that anything oscillates at this depth.
+/// The cut acts as a spring between tool and part: it stiffens each mode by b·√(Kt² + Kr²), in the
+/// worst direction. 1000 turns N/kg into mm/s².
 double fastest_hz(const Cutting& cut) {
   const double stiffness = cut.depth_mm * std::hypot(cut.tangential_n_mm2, cut.radial_n_mm2);
   double square = 0.0;
@@ -31,6 +37,7 @@ double fastest_hz(const Cutting& cut) {
   return std::sqrt(square) / kTurn;
 }
 
+// Three demands, the strictest counts: steps to a vibration, to a tooth pass, to an arc of cut.
 double steps_for(const CuttingProcess::Config& config) {
   const Cutting& cut = config.cut;
   // Steps are even in angle: at the slowest speed one takes longest, and there they must be fine
@@ -73,6 +80,7 @@ CuttingProcess::CuttingProcess(const Config& config, CuttingEdges edges)
   std::ranges::transform(cut_.modes, shape_.begin(), &CuttingMode::shape);
 }
 
+// Modes are the machine's, the cut is the feed's: shapes are turned into the feed's frame.
 void CuttingProcess::turn_to(const std::array<double, 2>& direction) noexcept {
   if (direction == direction_) {
     return;
@@ -90,6 +98,7 @@ double CuttingProcess::angle_rad() const noexcept {
   return kTurn * static_cast<double>(turns_) + static_cast<double>(cell_) * edges_.step_rad;
 }
 
+// Made only when the speed changes; at constant speed the step is a handful of products.
 void CuttingProcess::set_period(double period_s) noexcept {
   if (period_s == period_s_) {
     return;
@@ -186,6 +195,7 @@ CuttingProcess::Motion CuttingProcess::free_motion() const noexcept {
   return out;
 }
 
+// The displacement at the step's end is free motion plus answer·force: linear in the force.
 CuttingProcess::Motion CuttingProcess::moved(const Motion& free,
                                              const std::array<double, 2>& force) const noexcept {
   Motion out = free;
@@ -196,7 +206,8 @@ CuttingProcess::Motion CuttingProcess::moved(const Motion& free,
   return out;
 }
 
-/// Which edges cut at this displacement; whether that is news.
+// Which edges cut at this displacement; true where that is news. With `keeps_contact` all of them
+// do: the linear process whose multipliers are published.
 bool CuttingProcess::touch(const std::array<double, 2>& x) noexcept {
   if (keeps_contact_) {
     return false;
@@ -274,6 +285,7 @@ void CuttingProcess::finish(const Motion& now, Output& out) noexcept {
   out.torque_n_m *= 0.5e-3 * cut_.diameter_mm;
 }
 
+// g₀ of the next step is this one's end: the force is continuous.
 void CuttingProcess::move_modes() noexcept {
   for (std::size_t m = 0; m < modes_.size(); ++m) {
     ModeState& state = modes_[m];
@@ -292,6 +304,7 @@ CuttingProcess::Output CuttingProcess::step(const Input& input) noexcept {
   const double speed = std::max(std::abs(input.speed_rev_s), 1e-6);
   turn_to(input.feed_direction);
   set_period(1.0 / (speed * static_cast<double>(edges_.steps)));
+  // Process damping: C/v per length of edge, v = π·D·n the cutting speed.
   damping_n_s_mm2_ = cut_.process_damping_n_mm / (std::numbers::pi * cut_.diameter_mm * speed);
   // Before the cell moves on: the surface must be there when the first tooth reads it.
   if (input.in_cut && !in_cut_) {
@@ -338,6 +351,7 @@ void CuttingProcess::disturb(double displacement_mm) noexcept {
   }
 }
 
+// For growth rates: the linear process is scaled back before it overflows.
 void CuttingProcess::scale(double factor) noexcept {
   for (ModeState& mode : modes_) {
     mode = {mode.q * factor, mode.v * factor, mode.g * factor};

@@ -6,12 +6,15 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/cut/cutting_vibration.hpp>
 
+// Bridges two clocks: the process steps evenly in angle, the machine's cycles and the sensor's
+// samples in time. What is due is carried over, so no time is lost or counted twice.
 namespace steadyrest::sim {
 namespace {
 
 constexpr double kLongestCycle_s = 1.0;
 
 /// Steps after which forced vibration repeats.
+/// Forced vibration repeats with each tooth where all teeth are alike, else with each turn.
 std::size_t repeat_of(const Cutting& cut, std::size_t steps) {
   const auto differ = [](const std::vector<double>& values) {
     return !values.empty() && std::ranges::minmax(values).min < std::ranges::minmax(values).max;
@@ -87,6 +90,8 @@ void CuttingVibration::take(const CuttingProcess::Output& now) noexcept {
   }
 }
 
+// The sensor sits on the machine: it hears X and Y together, whichever way the feed goes.
+// Velocity, as a geophone or an integrated accelerometer shows it.
 void CuttingVibration::sense(const CuttingProcess::Output& now,
                              const std::array<double, 2>& direction) noexcept {
   const auto& v = now.velocity_mm_s;
@@ -106,6 +111,8 @@ void CuttingVibration::sense(const CuttingProcess::Output& now,
 
 void CuttingVibration::advance(const Input& input) noexcept {
   const double turning_rev_s = std::abs(input.speed_rev_s);
+  // Below half of the slowest speed the process has too few steps for the modes: it rings down in
+  // the air at that speed instead, and the clock goes on.
   const bool in_cut =
       input.in_cut && turning_rev_s > 0.5 * slowest_rev_s_ && input.path_speed_mm_s > 0.0;
   const double speed = std::max(turning_rev_s, 0.5 * slowest_rev_s_);

@@ -7,6 +7,8 @@
 
 namespace steadyrest::sim {
 
+// q̈ + 2ζω·q̇ + ω²·q = g with g = F·φ/m straight within the step. Rows of the transition: free
+// motion, and the answer to g at the step's start and at its end.
 ModalStep modal_step(const CuttingMode& mode, double period_s) noexcept {
   const double w = 2.0 * std::numbers::pi * mode.frequency_hz;
   const double damping = mode.damping_ratio * w;

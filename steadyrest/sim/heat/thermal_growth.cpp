@@ -8,6 +8,9 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/heat/thermal_growth.hpp>
 
+// Each term of the passport is a body with one time constant; the true one differs from the
+// passport's by the errors of the simulation, counted through all terms in the order of the file.
+// Everything that needs exp is worked out in the constructor.
 namespace steadyrest::sim {
 namespace {
 
@@ -43,6 +46,7 @@ Result<void> check(const ThermalMode& m) {
                   {{"tau_s", m.tau_s, 1e-3, 1e9}, {"rest_tau_s", m.rest_tau_s, 0.0, 1e9}});
 }
 
+// An error of −1 or below would make a time constant zero or negative, so it ends at −0.99.
 Result<void> check(const ThermalGrowth::Config& config) {
   for (const ThermalAxis& axis : config.passport.axis) {
     for (const ThermalMode& mode : axis.mode) {
@@ -80,6 +84,7 @@ Result<void> check(const ThermalGrowth::Config& config) {
                                  {"probe_noise_mm", s.probe_noise_mm, 0.0, 10.0}});
 }
 
+// Time constant 0: no lag at all, the body follows at once.
 double decay(double period_s, double tau_s) noexcept {
   return tau_s > 0.0 ? portable::exp(-period_s / tau_s) : 0.0;
 }
@@ -143,6 +148,7 @@ ThermalGrowth::ThermalGrowth(const Config& config)
       body.mode.feed_s *= larger;
       body.turning_decay = decay(period_s_, mode.tau_s * longer);
       body.resting_decay =
+          // A spindle at rest may cool at another rate than one that turns.
           mode.rest_tau_s > 0.0 ? decay(period_s_, mode.rest_tau_s * longer) : body.turning_decay;
       axis.body.push_back(std::move(body));
     }
@@ -157,6 +163,7 @@ ThermalGrowth::ThermalGrowth(const Config& config)
     }
     axis.drift_decay = decay(period_s_, from.drift_tau_s);
     // So that the process keeps its RMS once it has settled.
+    // x ← d·x + f·n keeps the variance σ² where f² = σ²·(1 − d²).
     axis.drift_fresh_mm = config.drift_mm * std::sqrt(1.0 - axis.drift_decay * axis.drift_decay);
     axis_.push_back(std::move(axis));
   }
@@ -177,6 +184,7 @@ void ThermalGrowth::update(const Input& input) noexcept {
     axis.displacement_mm = 0.0;
     for (Body& body : axis.body) {
       const ThermalMode& m = body.mode;
+      // Shares of the period: cutting raises the level by its ratio for as long as it lasted.
       const double cut = 1.0 + input.cutting * (m.cutting_ratio - 1.0);
       const double settles = level_mm(m, speed) * cut * (input.coolant ? m.coolant_ratio : 1.0) +
                              m.feed_s * input.feed_mm_s;

@@ -3,6 +3,7 @@
 
 #include <steadyrest/sim/panel/operator_panel.hpp>
 
+// The operator from a script, so that a run with people in it can be repeated.
 namespace steadyrest::sim {
 
 OperatorPanel::OperatorPanel(const State& start, const std::vector<OperatorAction>& actions)

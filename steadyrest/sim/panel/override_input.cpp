@@ -6,6 +6,9 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/panel/override_input.hpp>
 
+// The override as a PLC has it: scanned at its own pace, the panel's and the layer's words read at
+// the scan, the decision in force one dead time later. Heartbeat and mask are judged here, on the
+// machine's side, so that a dead layer loses its mask whatever it wrote last.
 namespace steadyrest::sim {
 namespace {
 
@@ -26,6 +29,7 @@ kernel::outcome::Result<OverrideInput> OverrideInput::make(const Config& config)
       !ok) {
     return std::unexpected(ok.error());
   }
+  // Two more than can be under way at once: one just in, one just out.
   const double scan_s = std::max(config.period_s, table->scan_period_s());
   const double pending = std::ceil(table->dead_time_s() / scan_s) + 2.0;
   if (pending > kMaxPending) {
@@ -69,6 +73,8 @@ void OverrideInput::read_layer(const Input& input) noexcept {
   racing_ = race && !racing_;
 }
 
+// Order of precedence: the operator's 0, the layer's mask while it is alive and its word is known,
+// the panel.
 double OverrideInput::decide(const Input& input) noexcept {
   const bool alive = heartbeat_ != 0 && input.time_s - heartbeat_time_s_ <= watchdog_s_;
   const auto step = table_.step_of_code(seen_word_);
@@ -98,6 +104,7 @@ void OverrideInput::scan(const Input& input) noexcept {
     started_ = true;
     state_.effective_ratio = decided_;
   }
+  // A ring for the dead time: what is decided now acts later, in order.
   const std::size_t slot = (head_ + count_) % ring_.size();
   ring_[slot] = {.time_s = input.time_s + dead_s_, .ratio = decided_};
   count_ = std::min(count_ + 1, ring_.size());

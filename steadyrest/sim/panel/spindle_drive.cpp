@@ -6,6 +6,8 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/panel/spindle_drive.hpp>
 
+// Constant torque up to the base speed, constant power above it, solved in closed form piece by
+// piece: the result does not depend on the period.
 namespace steadyrest::sim {
 namespace {
 
@@ -41,6 +43,7 @@ struct Ramp {
     return to;
   }
 
+  // Braking is the run-up backwards: the drive has the same torque and power either way.
   [[nodiscard]] double fall(double from, double to, double& time_s) const noexcept {
     const double corner = std::max(to, base);
     if (from > corner) {
@@ -85,6 +88,8 @@ kernel::outcome::Result<SpindleDrive> SpindleDrive::make(const Config& config) {
   return SpindleDrive(config);
 }
 
+// M = J·2π·ṅ gives the ramp, P = M·2π·n the speed above which power is the limit: n_b =
+// P/(4π²·J·ṅ). From ½J(2πn)² follows d(n²)/dt = P/(2π²·J).
 SpindleDrive::SpindleDrive(const Config& config) noexcept
     : min_rev_s_(config.spindle.min_rev_s),
       max_rev_s_(config.spindle.max_rev_s),
@@ -109,6 +114,7 @@ SpindleDrive::Output SpindleDrive::update(const Input& input) noexcept {
   const Ramp ramp{.constant = ramp_rev_s2_, .base = base_rev_s_, .power = power_rev2_s3_};
   const double goal = target(input);
   double left_s = std::max(0.0, input.period_s);
+  // A reversal brakes to zero first and then runs up with what is left of the period.
   if (actual_rev_s_ * goal < 0.0) {  // through zero first
     actual_rev_s_ = std::copysign(ramp.fall(std::abs(actual_rev_s_), 0.0, left_s), actual_rev_s_);
   }

@@ -30,6 +30,7 @@ struct Circle {
   double tracking_max_mm = 0.0;
 };
 
+// Three turns to let the transient die out, the fourth is scored.
 Circle run_circle(const Axis& x_axis, const Axis& y_axis, double radius_mm, double feed_mm_min,
                   double period_s = 0.001) {
   AxisServo x = servo(x_axis, period_s);
@@ -63,6 +64,8 @@ struct CircleCase {
 
 class AxisServoCircle : public testing::TestWithParam<CircleCase> {};
 
+// Closed form: both errors of a first-order lag on a circle, q = v/(R·k). Smallest and largest
+// must agree with it, so an ellipse would fail, too.
 TEST_P(AxisServoCircle, KeepsTheClosedForm) {
   const CircleCase p = GetParam();
   const Axis axis = ideal_axis(p.gain_1_s);
@@ -86,6 +89,7 @@ INSTANTIATE_TEST_SUITE_P(RadiiGainsFeedsPeriods, AxisServoCircle,
                                          CircleCase{30.0, 2.0, 1500.0, 0.001},
                                          CircleCase{120.0, 40.0, 12000.0, 0.001}));
 
+// The published table of the 10 mm circle, four digits: an oracle that is not our formula.
 TEST(AxisServo, GivesTheReferenceFiguresOfTheTenMillimetreCircle) {
   const struct {
     double gain_1_s, error_mm, tracking_mm;
@@ -152,6 +156,7 @@ TEST(AxisServo, VelocityLagReducesTheErrorAndTurnsItsSign) {
   EXPECT_NEAR(oversize.error_min_mm, truth, 1e-5);
 }
 
+// Steady state of the axis law: e = (1 − a)·v/k, whatever τ is.
 TEST(AxisServo, LagsAStraightLineByVelocityOverGain) {
   for (const double feed_forward : {0.0, 0.5, 0.9}) {
     for (const double lag_s : {0.0, 0.004}) {
@@ -168,6 +173,7 @@ TEST(AxisServo, LagsAStraightLineByVelocityOverGain) {
   }
 }
 
+// The paper's formula (2) for a line: ε = v/2·sin 2θ·|1/kx − 1/ky|.
 TEST(AxisServo, MismatchOnAStraightLineGivesFormulaTwo) {
   const double angle = 0.6;
   const double speed_mm_s = 50.0;
@@ -184,6 +190,7 @@ TEST(AxisServo, MismatchOnAStraightLineGivesFormulaTwo) {
               speed_mm_s / 2.0 * std::sin(2.0 * angle) * std::abs(1.0 / 30.0 - 1.0 / 36.0), 1e-9);
 }
 
+// A limit that is never reached must change nothing but the discretisation.
 TEST(AxisServo, DriveStepsKeepTheLawWhereTheLimitDoesNotHold) {
   Axis axis = ideal_axis(50.0);
   for (const double lag_s : {0.0, 0.005}) {
@@ -197,6 +204,8 @@ TEST(AxisServo, DriveStepsKeepTheLawWhereTheLimitDoesNotHold) {
   }
 }
 
+// A step of 5 mm is more than the drive can do; its limit must hold in each period, and the motion
+// must be the integral of the velocity.
 TEST(AxisServo, NeverExceedsTheDriveLimit) {
   for (const double lag_s : {0.0, 0.003}) {
     Axis axis = ideal_axis(50.0);
@@ -220,6 +229,7 @@ TEST(AxisServo, NeverExceedsTheDriveLimit) {
   }
 }
 
+// At the limit v = a·t and x = a·t²/2 to rounding.
 TEST(AxisServo, SaturatedStartFollowsConstantAcceleration) {
   Axis axis = ideal_axis(50.0);
   axis.drive_acceleration_mm_s2 = 1000.0;
@@ -231,6 +241,7 @@ TEST(AxisServo, SaturatedStartFollowsConstantAcceleration) {
   EXPECT_NEAR(x.state().motor_mm, 0.5 * 1000.0 * 0.05 * 0.05, 1e-9);
 }
 
+// Any preference for one direction (a sign of zero, a rounding) breaks the mirror image.
 TEST(AxisServo, IsOddMirroredCommandGivesMirroredMotion) {
   EXPECT_TRUE(rc::check("x(−c) = −x(c), bit for bit", [] {
     Axis axis = rubbing_axis();
@@ -251,6 +262,7 @@ TEST(AxisServo, IsOddMirroredCommandGivesMirroredMotion) {
   }));
 }
 
+// One fault each; NaN must fail like any other value.
 TEST(AxisServo, RefusesAbsurdAxes) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::function<void(AxisServo::Config&)>> faults = {

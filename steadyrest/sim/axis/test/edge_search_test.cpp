@@ -28,6 +28,7 @@ std::optional<Passage> passage(const Encoder& encoder, const Stretch& stretch) {
   return last_passage(encoder, stretch, encoder.count(stretch.end_mm));
 }
 
+// At constant speed the last border before the end is a floor away.
 TEST(EdgeSearch, AtConstantSpeedTheLastLineIsWhereTheClosedFormHasIt) {
   const Encoder encoder = encoder_of(0.0);
   for (const double v : {3.7, -3.7, 123.4, -800.0}) {
@@ -74,6 +75,7 @@ TEST(EdgeSearch, SeesALineThatIsPassedThereAndBack) {
   EXPECT_FALSE(passage(encoder, {h, 0.0, 0.1, 0.0, -0.1})) << "turns below the line";
 }
 
+// Not even where the line error has a slope.
 TEST(EdgeSearch, StandstillHasNoEdge) {
   EXPECT_FALSE(passage(encoder_of(0.0001), {0.001, 0.0123, 0.0, 0.0123, 0.0}));
 }
@@ -111,6 +113,8 @@ void follow(const kernel::machine::Machine& machine, const Motion& motion, int c
   }
 }
 
+// Edges at constant speed are q/v apart; a stamp is cut off to the clock, so any two may differ by
+// one tick of 0.1 µs from that.
 TEST(Counter, AtConstantSpeedItsStampsAreEquidistantWithinTheClock) {
   const double v = 7.3;
   double first_s = -1.0;
@@ -137,6 +141,7 @@ TEST(Counter, AtConstantSpeedItsStampsAreEquidistantWithinTheClock) {
   EXPECT_GT(edges, 1000);
 }
 
+// The stamp put into the closed form of the motion must give the line's place.
 TEST(Counter, OnACircleEachStampIsWhenTheClosedFormPassesTheLine) {
   const double radius_mm = 10.0;
   const double rate_1_s = 4000.0 / 60.0 / radius_mm;

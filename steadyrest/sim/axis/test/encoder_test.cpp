@@ -48,6 +48,7 @@ TEST(Encoder, IdealEncoderReadsTheTruth) {
   EXPECT_EQ(encoder->read(1.23456789), 1.23456789);
 }
 
+// Slope of the reading: 1 + 2π·A/p·cos ≥ 0 while A < p/2π = 0.64 µm at a line of 4 µm.
 TEST(Encoder, ReadingNeverFallsWhilePositionRises) {
   EXPECT_TRUE(rc::check("monotone for a line error below 1/(2π) of the line", [] {
     const auto encoder = Encoder::make(scale(0.001, 0.0006));

@@ -11,6 +11,8 @@ namespace {
 
 using Law = kernel::machine::Friction;
 
+// Stribeck: F(v) = Fc + (Fs − Fc)·exp(−(v/vs)²), so at v = vs 1/e of the excess is left. A breakaway
+// below Coulomb friction counts as equal to it.
 TEST(Friction, CurveFallsFromBreakawayToCoulomb) {
   const Law law{.coulomb_mm_s2 = 200.0, .breakaway_mm_s2 = 500.0, .stribeck_mm_s = 2.0};
   EXPECT_DOUBLE_EQ(Friction(law, 1e-3).dry_mm_s2(0.0), 500.0);
@@ -20,6 +22,7 @@ TEST(Friction, CurveFallsFromBreakawayToCoulomb) {
   EXPECT_EQ(Friction(odd, 1e-3).dry_mm_s2(0.0), 200.0);
 }
 
+// Coulomb alone: t = v/a, x = v²/2a.
 TEST(Friction, CoastDownStopsInTheClosedFormTimeAndDistance) {
   const Law law{.coulomb_mm_s2 = 400.0, .breakaway_mm_s2 = 400.0};
   const double h = 1e-4;
@@ -44,6 +47,7 @@ TEST(Friction, SticksBelowBreakawayAndSlipsAbove) {
   EXPECT_LT(Friction(law, 1e-4).step(0.0, -501.0), 0.0);
 }
 
+// At large steps an explicit friction overshoots zero: it then turns the axis round or drives it.
 TEST(Friction, TakesEnergyAndNeverGivesIt) {
   EXPECT_TRUE(rc::check("work of friction is never positive", [] {
     const Law law{.coulomb_mm_s2 = *rc::gen::inRange(0, 2000) * 1.0,

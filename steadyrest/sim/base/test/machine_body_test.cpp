@@ -109,6 +109,8 @@ double radius(const MachineBody& body) {
   return std::hypot(body.truth().tool_mm[0], body.truth().tool_mm[1]);
 }
 
+// The circle's closed form knows no sampling. With too coarse a fine interpolation the error would
+// grow with the interpolator's period; all twelve must agree to 0.2 %.
 TEST(MachineBody, FineInterpolationKeepsTheClosedFormAtEveryPeriod) {
   for (const double interpolator_s : {0.001, 0.002, 0.004, 0.012}) {
     for (const int ratio : {1, 2, 4}) {
@@ -126,6 +128,7 @@ TEST(MachineBody, FineInterpolationKeepsTheClosedFormAtEveryPeriod) {
   }
 }
 
+// 30 % of F4000: q = 0.04, ε = 10·(1 − 1/√1.0016) = 0.0080 mm.
 TEST(MachineBody, TheLayersWordSlowsTheFeedAndTheErrorFollows) {
   MachineBody body = body_of(ideal_machine());
   body.reset({10.0, 0.0, 0.0});
@@ -139,6 +142,8 @@ TEST(MachineBody, TheLayersWordSlowsTheFeedAndTheErrorFollows) {
   EXPECT_NEAR(10.0 - radius(body), 0.0080, 0.0001);  // reference table, 30 %
 }
 
+// The heartbeat stops at 1 s. Afterwards the panel's 100 % comes back, by no more than one scan's
+// share of the rise (2 1/s · 10 ms = 0.02).
 TEST(MachineBody, DeadLayerLeavesNoCorrectionStanding) {
   MachineBody body = body_of(ideal_machine());
   body.reset({10.0, 0.0, 0.0});
@@ -161,6 +166,8 @@ TEST(MachineBody, DeadLayerLeavesNoCorrectionStanding) {
   EXPECT_LT(highest_rise, 0.021);
 }
 
+// Asked 0.5 mm, allowed 0.02 mm. A layer that dies in the cut must leave the offset where it is:
+// moving it would leave a step in the part.
 TEST(MachineBody, OffsetsSlewFreezeInTheCutAndRampOutElsewhere) {
   Machine machine = ideal_machine();
   machine.envelope.offset_slew_mm_s = 0.05;
@@ -192,6 +199,7 @@ TEST(MachineBody, OffsetsSlewFreezeInTheCutAndRampOutElsewhere) {
   EXPECT_LE(largest_step, 0.05 * 0.001 * (1.0 + 1e-9));
 }
 
+// The script is not in order of time on purpose. 0.5 ms of tolerance: cycles are 1 ms.
 TEST(MachineBody, OperatorActsAtTheScriptedTimes) {
   const std::vector<OperatorAction> script = {
       {.time_s = 0.6, .act = OperatorAct::feed_start},
@@ -219,6 +227,8 @@ TEST(MachineBody, OperatorActsAtTheScriptedTimes) {
   EXPECT_NEAR(body.frame().spindle_actual_rev_s, 40.0, 1e-9);
 }
 
+// The truth includes half of the backlash (3 µm), half a count, the line error and noise of 0.5 µm
+// RMS at six sigma; the frame must show none of it but whole counts.
 TEST(MachineBody, ControlSeesTheEncoderAndNotTheTruth) {
   MachineBody body = body_of(real_machine());
   body.reset({10.0, 0.0, 0.0});
@@ -237,6 +247,7 @@ TEST(MachineBody, ControlSeesTheEncoderAndNotTheTruth) {
   EXPECT_LT(largest, 0.003 + 0.0005 + 0.0003 + 6.0 * 0.0005);
 }
 
+// FNV-1a over the bits: one bit of difference anywhere changes it.
 std::uint64_t hash_of_run(const Machine& machine) {
   MachineBody body =
       body_of(machine, {{.time_s = 0.7, .act = OperatorAct::turn_feed, .code = code_of(60)}});
@@ -266,6 +277,8 @@ std::uint64_t hash_of_run(const Machine& machine) {
   return hash;
 }
 
+// The number was recorded once. Fused multiply-add, another exp or another order of summation
+// changes it: a run must not depend on the compiler.
 TEST(MachineBody, SameSeedSameBytesWithEveryCompiler) {
   Machine machine = real_machine();
   EXPECT_EQ(hash_of_run(machine), hash_of_run(machine));

@@ -9,6 +9,8 @@
 namespace steadyrest::sim {
 namespace {
 
+// Tolerances are five standard errors at n = 10⁶: 1/√n of the mean, √2/√n of the variance, √96/√n
+// of the fourth moment, √(p(1 − p)/n) of the share beyond 2σ, p = 0.0455.
 TEST(NormalNoise, HasTheMomentsAndTailsOfTheNormalLaw) {
   NormalNoise noise(7);
   const int n = 1000000;
@@ -42,6 +44,7 @@ TEST(NormalNoise, SameSeedSameNumbersOtherSeedOthers) {
   EXPECT_EQ(different, 1000);
 }
 
+// First-order process: after one correlation time (five steps of 1 ms) the correlation is 1/e.
 TEST(ColouredNoise, HasItsRmsAndCorrelationTime) {
   NormalNoise normal(3);
   ColouredNoise noise(0.002, 0.001, 0.005);

@@ -53,6 +53,8 @@ std::vector<CuttingProcess::Output> turns(CuttingProcess& process,
 }
 
 /// Mean growth of the vibration over a tooth pass, by the norm of one turn.
+/// The power method: the vibration is scaled back every eight turns, and the first half of the
+/// record, in which other modes still fade, does not count.
 double growth(CuttingProcess& process, double speed_rev_s, std::size_t teeth, int n) {
   const CuttingProcess::Input input{.speed_rev_s = speed_rev_s};
   process.step(input);
@@ -88,6 +90,7 @@ TEST(CuttingProcess, GrowsByTheBenchmarksMultipliers) {
   }
 }
 
+// Second order: half the step, a quarter of the error; 0.3 leaves room for the next order.
 TEST(CuttingProcess, IsOfSecondOrder) {
   const auto error = [](double steps) {
     CuttingProcess process = made({.cut = benchmark(1.0),
@@ -119,6 +122,8 @@ TEST(CuttingProcess, RigidToolHasTheForcesOfTheChip) {
   EXPECT_NEAR(torque, 2.0 / (2.0 * kPi) * 2.0 * 600.0 * 0.05 * 5e-3, 2e-3);
 }
 
+// Runout r and −r: chips of f − 2r and f + 2r in turn. From 2r > f on one tooth cuts nothing, the
+// other one 2f.
 TEST(CuttingProcess, RunoutOverTheFeedLeavesTheCutToOneTooth) {
   Cutting cut = rigid();
   const auto thickest = [&](double runout_mm) {
@@ -143,6 +148,7 @@ TEST(CuttingProcess, RunoutOverTheFeedLeavesTheCutToOneTooth) {
   EXPECT_NEAR(thickest(0.04)[1], 0.10, 1e-4);
 }
 
+// Statics: F = −b·(Kr·f + Kre), x = F/k, and the chip is the feed once it rests.
 TEST(CuttingProcess, StillTurningRestsWhereForceAndStiffnessMeet) {
   Cutting cut;
   cut.turning = true;
@@ -157,6 +163,7 @@ TEST(CuttingProcess, StillTurningRestsWhereForceAndStiffnessMeet) {
   EXPECT_NEAR(last.chip_mm, 0.1, 1e-9);
 }
 
+// Linear theory grows without end; a tool that leaves the cut settles into a limit cycle.
 TEST(CuttingProcess, ChatterStopsGrowingWhenTheToolLeavesTheCut) {
   CuttingProcess process = made({.cut = benchmark(2.0), .slowest_rev_s = 5000.0 / 60.0});
   const CuttingProcess::Input input{.speed_rev_s = 5000.0 / 60.0, .feed_per_tooth_mm = 0.05};
@@ -196,6 +203,7 @@ TEST(CuttingProcess, WhatWasMissedIsCutByALaterPass) {
   EXPECT_NEAR(chips, 20 * 0.05, 1e-3);  // nothing is lost and nothing cut twice
 }
 
+// The wall is what the tip leaves: the tool's deflection at that instant, one point a tooth.
 TEST(CuttingProcess, TheWallShowsTheToolsDeflection) {
   Cutting cut;
   cut.modes = {mode(2e4, 3000.0, 0.1, false)};
@@ -212,6 +220,7 @@ TEST(CuttingProcess, TheWallShowsTheToolsDeflection) {
   EXPECT_EQ(walls, 20);
 }
 
+// Lag of a helix and uneven pitch shift the chips along the turn, their sum stays: N·b·f in all.
 TEST(CuttingProcess, HelixAndUnevenPitchKeepTheMeanForce) {
   Cutting cut = rigid();
   const auto mean = [&] {

@@ -24,6 +24,7 @@ State advance(const ModalStep& step, const State& s, double g0, double g1) {
 const CuttingMode kMode{.frequency_hz = 922.0, .damping_ratio = 0.011, .mass_kg = 0.04};
 const double kRate = 2.0 * std::numbers::pi * 922.0;
 
+// Closed form of the free damped vibration; 4 ms are more than three vibrations in one step.
 TEST(ModalStep, RingsDownAsTheClosedFormSaysAtAnyStep) {
   const double root = std::sqrt(1.0 - 0.011 * 0.011);
   for (const double period_s : {1e-6, 2.7e-5, 4e-3}) {
@@ -47,6 +48,7 @@ TEST(ModalStep, RestsWhereAConstantForceHoldsIt) {
   EXPECT_NEAR(s.v, 0.0, 1e-9 * rest.q * kRate);
 }
 
+// The answer to a ramp is exact in one step: a thousand steps of the same ramp must agree.
 TEST(ModalStep, ARampInOneStepIsARampInAThousand) {
   const double period_s = 1e-3;
   const State once = advance(modal_step(kMode, period_s), {.q = 0.1, .v = 3.0}, 100.0, 900.0);

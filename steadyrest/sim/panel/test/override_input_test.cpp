@@ -63,6 +63,7 @@ class Bench {
   int tick_ = 0;
 };
 
+// A change just after a scan waits a whole scan (10 ms), then the dead time (25 ms).
 TEST(OverrideInput, ActsAfterTheScanAndTheDeadTime) {
   Bench bench(switch_table());
   bench.run(0.1);  // now at 0.100 s, just scanned
@@ -76,6 +77,7 @@ TEST(OverrideInput, ActsAfterTheScanAndTheDeadTime) {
   EXPECT_NEAR(acted_after_s, 0.010 + 0.025, 1e-9);
 }
 
+// min(layer, panel), the operator's rule.
 TEST(OverrideInput, LayerMasksButNeverExceedsThePanel) {
   Bench bench(switch_table());
   bench.layer(70);
@@ -86,6 +88,7 @@ TEST(OverrideInput, LayerMasksButNeverExceedsThePanel) {
   EXPECT_NEAR(bench.run(0.1).effective_ratio, 0.4, 1e-12);
 }
 
+// Above the panel, but never above its 0.
 TEST(OverrideInput, LayerExceedsThePanelOnlyWhereTheMachineFileSaysSo) {
   OverrideTable table = switch_table();
   table.layer_may_exceed_panel = true;
@@ -96,6 +99,7 @@ TEST(OverrideInput, LayerExceedsThePanelOnlyWhereTheMachineFileSaysSo) {
   EXPECT_EQ(bench.run(0.1).effective_ratio, 0.0);
 }
 
+// A word that decodes to nothing is no word: the mask drops.
 TEST(OverrideInput, UnknownLayerCodeKeepsThePanels) {
   Bench bench(switch_table());
   bench.layer(50);
@@ -104,6 +108,7 @@ TEST(OverrideInput, UnknownLayerCodeKeepsThePanels) {
   EXPECT_NEAR(bench.run(1.0).effective_ratio, 1.0, 1e-12);
 }
 
+// Between two detents a switch shows no code: the operator's last value stays.
 TEST(OverrideInput, UnknownPanelCodeKeepsTheLastKnown) {
   Bench bench(switch_table());
   bench.words().panel_code = code_of(60);
@@ -115,6 +120,7 @@ TEST(OverrideInput, UnknownPanelCodeKeepsTheLastKnown) {
   EXPECT_NEAR(state.panel_ratio, 0.6, 1e-12);
 }
 
+// Watchdog 0.1 s, then at most a scan and the dead time; the way up at 2 1/s in scans of 10 ms.
 TEST(OverrideInput, LostHeartbeatReturnsToThePanelWithoutAJump) {
   Bench bench(switch_table());
   bench.layer(30);
@@ -136,6 +142,7 @@ TEST(OverrideInput, LostHeartbeatReturnsToThePanelWithoutAJump) {
   EXPECT_LE(left_at_s, 0.1 + 0.010 + 0.025 + 0.001);
 }
 
+// Handing back is a ramp upwards; downwards the operator is followed at once.
 TEST(OverrideInput, HandingBackNeverHoldsAgainstTheOperator) {
   Bench bench(switch_table());
   bench.layer(30);
@@ -145,6 +152,8 @@ TEST(OverrideInput, HandingBackNeverHoldsAgainstTheOperator) {
   EXPECT_EQ(bench.run(0.05, false).effective_ratio, 0.0);
 }
 
+// Gray neighbours differ in one bit. A jump over several steps changes several bits, one scan sees
+// the first of them alone, and some of the words between decode outside of what was asked.
 TEST(OverrideInput, AWordThatIsNotLatchedShowsWhatLiesBetween) {
   OverrideTable table = switch_table();
   table.latched_word = false;
@@ -175,6 +184,8 @@ TEST(OverrideInput, AWordThatIsNotLatchedShowsWhatLiesBetween) {
   EXPECT_TRUE(outside);  // somewhere a jump decodes to what nobody asked for
 }
 
+// Any words, masks and heartbeats. For 36 ms (scan and dead time) the panel of before may still
+// act, then the new one must hold.
 TEST(OverrideInput, StaysWithinPanelAndTableWhateverTheWordsAre) {
   EXPECT_TRUE(rc::check("effective ≤ largest panel of the last scans; panel 0 stops", [] {
     Bench bench(switch_table());

@@ -29,6 +29,7 @@ double seconds_to_speed(SpindleDrive& spindle, double command_rev_s, double peri
   return std::numeric_limits<double>::infinity();
 }
 
+// From 80 through 0 to −40 rev/s are 120 rev/s.
 TEST(SpindleDrive, RampsWithItsAccelerationLimit) {
   SpindleDrive spindle = drive({.max_rev_s = 100.0,
                                 .acceleration_rev_s2 = 50.0,
@@ -59,6 +60,7 @@ TEST(SpindleDrive, TorqueThenPowerLimitTheRunUpAsTheClosedFormSays) {
   }
 }
 
+// Ten short periods and one long one must end alike, through zero as well.
 TEST(SpindleDrive, ResultDoesNotDependOnThePeriod) {
   const kernel::machine::Spindle s{.max_rev_s = 200.0, .rated_power_w = 2000.0};
   SpindleDrive fine = drive(s);
@@ -74,6 +76,8 @@ TEST(SpindleDrive, ResultDoesNotDependOnThePeriod) {
   }
 }
 
+// Programmed 90 at 120 % is above the largest speed, 1 below the smallest: both are clamped, 0 is
+// not.
 TEST(SpindleDrive, OverrideScalesAndLimitsHold) {
   SpindleDrive spindle = drive({.max_rev_s = 100.0, .min_rev_s = 2.0});
   EXPECT_EQ(spindle.update({.command_rev_s = 50.0, .override_ratio = 0.8}).target_rev_s, 40.0);
@@ -92,6 +96,7 @@ TEST(SpindleDrive, SaysWhenItIsAtSpeed) {
   EXPECT_TRUE(spindle.update({.command_rev_s = 10.0}).at_speed);
 }
 
+// Rate, torque 2πJ·ṅ and power 2π²J·Δ(n²)/h from the outside, in every millisecond.
 TEST(SpindleDrive, NeverPassesTorquePowerOrRamp) {
   EXPECT_TRUE(rc::check("limits hold for any command", [] {
     const kernel::machine::Spindle s{.max_rev_s = 150.0,
