@@ -16,6 +16,11 @@
 
 #include <steadyrest/kernel/file/output_file.hpp>
 
+// Order on disk: write beside the target, fsync the content, give it a name, rename, fsync the
+// folder. A crash before the rename leaves the old file, one after it the new; content before
+// name, or a power cut could leave a renamed file that is empty.
+// A program that declares its outputs gets them all or none: they wait settled in the ledger and
+// are renamed together at its end.
 namespace steadyrest::kernel::file {
 namespace {
 
@@ -35,6 +40,7 @@ struct Ledger {
   }
 };
 
+// A function's static: made at the first use, whatever the order of initialisation.
 Ledger& ledger() {
   static Ledger all;
   return all;
@@ -53,6 +59,7 @@ std::string name_beside(const Place& place) {
   return (place.path.parent_path() / name).string();
 }
 
+// The rename is in the folder, so the folder must reach the disk. Failure is no fault of the file.
 void sync_folder(const std::filesystem::path& folder) {
   if (const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
       descriptor >= 0) {
@@ -80,6 +87,7 @@ Result<OutputFile> OutputFile::open(const std::string& target) {
     }
     return made;
   }
+  // A pipe or a device: written in place, since it cannot be renamed.
   made.descriptor_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   if (made.descriptor_ < 0) {
     return std::unexpected(made.refusal(errno));
@@ -91,6 +99,7 @@ OutputFile OutputFile::standard_output() {
   OutputFile made;
   made.name_ = "stdout";
   made.place_.kind = Place::Kind::standard_output;
+  // What the program has printed must come before what is written past stdio.
   std::fflush(stdout);
   made.descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
   made.error_ = made.descriptor_ < 0 ? errno : 0;
@@ -128,6 +137,7 @@ Result<void> OutputFile::make_beside() {
   return {};
 }
 
+// By hand: the moved-from object must not close the descriptor.
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       held_(std::move(other.held_)),
@@ -153,6 +163,7 @@ void OutputFile::write(std::string_view bytes) noexcept {
   }
 }
 
+// The first error sticks and is told at the end: callers write in loops and cannot handle each.
 void OutputFile::put() noexcept {
   bytes_ += held_.size();
   lines_ += static_cast<std::uintmax_t>(std::ranges::count(held_, '\n'));
@@ -175,6 +186,7 @@ Result<void> OutputFile::flush() {
   return {};
 }
 
+// Everything that can fail for want of space fails here, before any name changes.
 Result<void> OutputFile::settle() {
   if (auto flushed = flush(); !flushed) {
     return flushed;
@@ -190,12 +202,14 @@ Result<void> OutputFile::take_name() {
     return {};
   }
   if (place_.kind == Place::Kind::file && beside_.path().empty()) {
+    // Only now does it get a name, and only for an instant; it is removed if the process ends.
     beside_ = Temporary(name_beside(place_), Temporary::Kind::file);
     const std::string unnamed = std::exchange(path_, beside_.path());
     if (::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
       error_ = errno;
     }
   }
+  // Some file systems (NFS) report a full disk no sooner than at close.
   if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) {
     error_ = errno;
   }
@@ -206,6 +220,9 @@ Result<void> OutputFile::rename() {
   if (place_.kind != Place::Kind::file) {
     return {};
   }
+  // An exchange keeps the old file under the temporary name, so that it can be taken back when
+  // another file's rename fails. Not every file system can do it; the plain rename is as atomic,
+  // but final.
   exchanged_ = place_.exists && ::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, place_.path.c_str(),
                                             RENAME_EXCHANGE) == 0;
   if (!exchanged_ && ::rename(path_.c_str(), place_.path.c_str()) != 0) {
@@ -226,6 +243,8 @@ void OutputFile::let_stay() {
   if (place_.kind != Place::Kind::file) {
     return;
   }
+  // Renamed, the temporary name is gone: nothing to remove. Exchanged, it holds the old content,
+  // which goes with the object.
   if (!exchanged_) {
     beside_.keep();
   }
@@ -257,6 +276,8 @@ Refusal OutputFile::refusal(int error) const {
               : "check the program that reads it, and the disk space"};
 }
 
+// Signals wait while names change: half of the outputs renamed is what must never be seen. First
+// all names, then all renames, so that what can fail comes early.
 Result<void> put_in_place(std::span<OutputFile> settled) {
   const SignalsHeldBack all_or_none;
   for (OutputFile& file : settled) {
@@ -294,6 +315,7 @@ Result<void> put_outputs_in_place() {
   return put_in_place(held);
 }
 
+// All settled before any is renamed.
 Result<void> write_files(std::span<const FileText> files) {
   std::vector<OutputFile> out;
   out.reserve(files.size());

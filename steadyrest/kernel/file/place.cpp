@@ -8,6 +8,7 @@
 
 #include <steadyrest/kernel/file/place.hpp>
 
+// Where a name leads to, and whether it can be written, before hours of work begin.
 namespace steadyrest::kernel::file {
 namespace {
 
@@ -25,6 +26,8 @@ std::unexpected<Refusal> refuse(const std::string& name, Kind kind, std::string 
 
 /// The file's own name in its own folder; what is wrong when the links go round or there is no such
 /// folder.
+/// By hand, link by link: canonical() refuses a target that does not exist yet, and the rename must
+/// hit the file, not the link.
 std::expected<fs::path, std::error_code> resolved(const fs::path& name) {
   std::error_code error;
   fs::path at = name;
@@ -90,11 +93,13 @@ Result<Place> place_of(const std::string& name) {
                   "create the folder first, or name another");
   }
   place.path = *file;
+  // root may write everything; a file that nobody may write is write-protected for root as well.
   const bool nobody = place.exists && (found.st_mode & 0222U) == 0;
   if (nobody || (place.exists && ::access(file->c_str(), W_OK) != 0)) {
     return refuse(name, Kind::unavailable, "is not writable: the file is write-protected",
                   "give it write permission, or name another file; the old content is untouched");
   }
+  // A file is replaced by a rename, which needs the folder's permission more than the file's.
   if (::access(file->parent_path().c_str(), W_OK | X_OK) != 0) {
     return refuse(name, Kind::unavailable,
                   "is not writable: its folder: " + std::generic_category().message(errno),
@@ -103,6 +108,8 @@ Result<Place> place_of(const std::string& name) {
   return place;
 }
 
+// Innermost missing folder first on the list, made from the outermost on; each is removed again by
+// its object if it stays empty.
 Result<MadeFolders> MadeFolders::make(const fs::path& folder) {
   const std::string name = folder.string();
   std::error_code error;
@@ -145,6 +152,8 @@ MadeFolders::~MadeFolders() {
   }
 }
 
+// Device and inode where both exist: hard links and mounts have many names. Otherwise the resolved
+// names.
 bool same_place(const std::string& one, const std::string& other) {
   struct ::stat a{};
   struct ::stat b{};

@@ -9,6 +9,8 @@
 
 #include <steadyrest/kernel/file/temporary.hpp>
 
+// Two ways to go: the object removes its file, and a signal handler removes all that are
+// registered. SIGKILL knows neither, which is why output_file prefers files without a name.
 namespace steadyrest::kernel::file {
 namespace {
 
@@ -43,6 +45,8 @@ std::atomic<int> held_back = 0;  ///< objects of SignalsHeldBack
 std::atomic<int> ending = 0;     ///< the signal that came
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
+// Only async-signal-safe calls: unlink, rmdir, signal, raise. It ends by the same signal, so that
+// the shell sees why.
 extern "C" void remove_and_end(int signal) {
   ending = signal;
   if (held_back > 0) {
@@ -94,6 +98,7 @@ void Temporary::remove() noexcept {
   keep();
 }
 
+// The slot first, then the path: the handler must not see a name that is no longer ours.
 void Temporary::keep() noexcept {
   if (slot_) {
     slots[*slot_].use = Use::free;
@@ -103,6 +108,7 @@ void Temporary::keep() noexcept {
 }
 
 void remove_temporaries_on_signals() {
+  // nohup and background jobs ignore some signals on purpose; those stay ignored.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
     struct sigaction before{};
     if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) {
@@ -115,6 +121,7 @@ void remove_temporaries_on_signals() {
       ::sigaction(signal, &now, nullptr);
     }
   }
+  // A closed pipe or a full quota is then an error of write(), with a refusal that names the file.
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
 }

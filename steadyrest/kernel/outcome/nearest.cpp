@@ -11,6 +11,8 @@ namespace {
 // Words of files and of the command line are short; longer ones are no misspelling of any key.
 constexpr std::size_t kLongestWord = 64;
 
+// Insertions, deletions, replacements and swapped neighbours, each one step: the errors of typing.
+// Three rows of the table are enough, since a swap looks two rows back.
 /// Optimal string alignment distance.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1);
@@ -41,6 +43,7 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
     return {};
   }
   std::string_view best;
+  // A third of the letters may be wrong, and one more: beyond that a suggestion would mislead.
   std::size_t best_distance = word.size() / 3 + 2;
   for (const std::string_view candidate : candidates) {
     const std::size_t d = distance(word, candidate);

@@ -4,6 +4,9 @@
 
 #include <steadyrest/kernel/outcome/reason.hpp>
 
+// The one table that code, logs, docs/reasons.md and the page take their words from. Numbers are
+// stable and in ranges by room (reason.hpp), rows rise by number; a test compares the table with
+// the enumerators and writes the page.
 namespace steadyrest::kernel::outcome {
 namespace {
 
@@ -91,6 +94,7 @@ constexpr std::array kEntries = {
           "The readings no longer fit the thermal model: fit it again."},
 };
 
+// Linear: fewer than a hundred rows, and sentences are read by people.
 const Entry* find(Reason reason) noexcept {
   const auto* entry = std::ranges::find(kEntries, reason, &Entry::reason);
   return entry == kEntries.end() ? nullptr : entry;
@@ -102,6 +106,7 @@ std::span<const ReasonEntry> reasons() noexcept {
   return kEntries;
 }
 
+// A number from a newer record may have no row here.
 std::string_view name(Reason reason) noexcept {
   const Entry* entry = find(reason);
   return entry == nullptr ? "unknown" : entry->name;

@@ -4,6 +4,9 @@
 
 #include <steadyrest/kernel/override/arbiter.hpp>
 
+// Feed: the lowest wish, since each room knows only its own limit and the lowest keeps them all.
+// Spindle: chatter's, else the least change. Offsets: the sum, since each corrects another error
+// of the same axis.
 namespace steadyrest::kernel::override {
 namespace {
 
@@ -20,6 +23,7 @@ Reason graver(Reason a, Reason b) noexcept {
 }
 
 template <class Request>
+// An unfit ratio becomes neutral before it is compared: NaN loses and wins no comparison.
 Request made_fit(Request request) noexcept {
   if (const Reason fault = fault_of(request.ratio); fault != Reason::none) {
     request.ratio = 1.0;
@@ -29,6 +33,7 @@ Request made_fit(Request request) noexcept {
 }
 
 template <class Request>
+// Only while nobody wishes: a wish always goes before a withdrawal.
 void withdraw(Request& decision, const Request& request) noexcept {
   const Reason reason = graver(decision.reason, request.reason);
   if (reason != decision.reason) {
@@ -90,6 +95,8 @@ void SpindleArbiter::add(std::span<const signal::SpindleRequest> requests) noexc
   }
 }
 
+// Of the slopes the slowest holds, axis by axis. One unfit summand makes the whole sum unknown:
+// half of a correction may be worse than none.
 void OffsetArbiter::add(const signal::OffsetRequest& request) noexcept {
   // Even from an unfit request: taking the tool as in the cut is the safe side.
   sum_.tool_in_cut = sum_.tool_in_cut || request.tool_in_cut;

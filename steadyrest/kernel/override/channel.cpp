@@ -6,6 +6,9 @@
 #include <steadyrest/kernel/override/arbiter.hpp>
 #include <steadyrest/kernel/override/channel.hpp>
 
+// Envelope and hand-over are two halves of one state: the envelope may be ahead of the word only
+// as far as the word can follow in one step, else its slew would go on while the word waits for a
+// scan.
 namespace steadyrest::kernel::override {
 namespace {
 
@@ -56,6 +59,7 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
     // The mask had to wait: the way from the panel begins when it is on, not before.
     envelope_.start_at_panel();
   }
+  // A port that cannot write is a reason of its own only while there is something to write.
   const bool stuck = !handover_.available() && !wanted.hand_back && is_wish(wanted.reason);
   return {.ratio = word.ratio,
           .code = word.code,
@@ -64,6 +68,7 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
           .reason = stuck ? outcome::Reason::port_cannot_write : wanted.reason};
 }
 
+// From the state, not from the last output: after a take-back or a restore it holds at once.
 signal::RatioInForce Channel::in_force() const noexcept {
   const RatioEnvelope::State& envelope = envelope_.state();
   const Handover::State handover = handover_.state();

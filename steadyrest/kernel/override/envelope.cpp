@@ -8,6 +8,8 @@
 #include <steadyrest/kernel/override/arbiter.hpp>
 #include <steadyrest/kernel/override/envelope.hpp>
 
+// Last step before any write. Everything here is clamped, slewed and bounded by the panel whatever
+// comes in; the reason that goes out names the one cause that the operator can act on.
 namespace steadyrest::kernel::override {
 namespace {
 
@@ -29,6 +31,7 @@ bool all_finite(const signal::AxisValues& values) noexcept {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
+// At most one step's fall or rise towards the target: the slew limit.
 double toward(double from, double target, double fall, double rise) noexcept {
   return std::clamp(target, from - fall, from + rise);
 }
@@ -41,6 +44,7 @@ double credit_s(double step_s, double max_step_s) noexcept {
 
 }  // namespace
 
+// An infinite rate or step would switch the slew off, so neither is allowed.
 outcome::Result<RatioEnvelope> RatioEnvelope::make(const Config& config) {
   if (!positive(config.max_ratio)) {
     return std::unexpected(refusal("max_ratio", config.max_ratio, "finite and > 0"));
@@ -60,6 +64,7 @@ outcome::Result<RatioEnvelope> RatioEnvelope::make(const Config& config) {
   return RatioEnvelope(config);
 }
 
+// An unknown or unfit panel keeps the value last known.
 Reason RatioEnvelope::see_panel(const signal::OverrideState& panel) noexcept {
   if (!panel.panel_code_known) {
     return Reason::unknown_override_code;
@@ -76,6 +81,9 @@ Reason RatioEnvelope::see_panel(const signal::OverrideState& panel) noexcept {
   return Reason::none;
 }
 
+// A wish is clamped first and bounded by the panel afterwards: the panel is the operator's and
+// knows no least ratio. Neutral means the panel itself, not 1.0. Held, the target is where the
+// ratio is.
 RatioEnvelope::Target RatioEnvelope::target(const Input& input, Reason unfit) const noexcept {
   const double panel = state_.panel_ratio;
   Target target{.ratio = panel, .unfit = unfit};
@@ -93,6 +101,7 @@ RatioEnvelope::Target RatioEnvelope::target(const Input& input, Reason unfit) co
   return target;
 }
 
+// Order: what is wrong with the input, what the operator does, what the layer does to itself.
 Reason RatioEnvelope::explain(const Target& target, Reason asked) const noexcept {
   const bool at_panel = state_.ratio == state_.panel_ratio;
   if (target.unfit != Reason::none) {
@@ -123,6 +132,9 @@ RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
   }
   const Target aim = target(input, unfit);
   const double panel = state_.panel_ratio;
+  // At the panel and without a wish the operator's switch acts at once, up or down; the slew is
+  // for the layer's own changes. Where the layer may exceed the panel its way begins at the panel,
+  // too.
   if (state_.at_panel && (aim.neutral || config_.may_exceed_panel)) {
     state_.ratio = panel;
   }
@@ -130,6 +142,7 @@ RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
     state_.ratio =
         toward(state_.ratio, aim.ratio, config_.fall_1_s * step_s, config_.rise_1_s * step_s);
   }
+  // Down to the panel without any slew: the operator never waits for the layer.
   if (panel == 0.0 || !config_.may_exceed_panel) {
     state_.ratio = std::min(state_.ratio, panel);
   }
@@ -145,6 +158,7 @@ RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
           .reason = explain(aim, input.reason)};
 }
 
+// An unfit state begins again at the panel.
 void RatioEnvelope::restore(const State& state) noexcept {
   const bool fit =
       fault_of(state.ratio) == Reason::none && fault_of(state.panel_ratio) == Reason::none;
@@ -166,11 +180,15 @@ outcome::Result<OffsetEnvelope> OffsetEnvelope::make(const Config& config) {
   return OffsetEnvelope(config);
 }
 
+// Each axis by the slower of the room's slope and the envelope's slew. Not reached counts as
+// slew-limited only where the envelope is what limits: a room that goes slowly by its own wish is
+// not held up.
 bool OffsetEnvelope::approach(const signal::AxisValues& target_mm,
                               const signal::AxisValues& slope_mm_s, double step_s) noexcept {
   bool reached = true;
   for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {
     const double limit_mm = config_.max_mm[axis];
+    // A slope that is NaN or negative moves nothing.
     const double asked = slope_mm_s[axis] >= 0.0 ? slope_mm_s[axis] : 0.0;
     const double step_mm = std::min(asked, config_.slew_mm_s) * step_s;
     double& offset_mm = state_.offset_mm[axis];
@@ -181,6 +199,7 @@ bool OffsetEnvelope::approach(const signal::AxisValues& target_mm,
   return reached;
 }
 
+// The limits may have been lowered since the state was written.
 void OffsetEnvelope::restore(const State& state) noexcept {
   state_ = all_finite(state.offset_mm) ? state : State{};
   for (std::size_t axis = 0; axis < state_.offset_mm.size(); ++axis) {
@@ -197,6 +216,9 @@ OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
   unfit = unfit == Reason::none && !finite ? Reason::input_not_finite : unfit;
 
   Output output;
+  // Without a wish the offset freezes while a tool may be in the cut, by the machine's or the
+  // room's word; moving it there would leave a step in the part. Afterwards it ramps out by the
+  // envelope's own slew.
   if (unfit == Reason::none && is_wish(request.reason)) {
     signal::AxisValues target_mm{};
     for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {

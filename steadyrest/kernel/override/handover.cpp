@@ -4,6 +4,9 @@
 #include <steadyrest/kernel/override/arbiter.hpp>
 #include <steadyrest/kernel/override/handover.hpp>
 
+// Taking over: the word first follows the panel, settles there, and only then the mask goes on, so
+// the control sees no change. Handing back is the same backwards: the word goes to the panel's
+// step, settles, the mask comes off.
 namespace steadyrest::kernel::override {
 
 outcome::Result<Handover> Handover::make(Table table, const Config& config) {
@@ -16,11 +19,14 @@ outcome::Result<Handover> Handover::make(Table table, const Config& config) {
   return Handover(std::move(table), *stepper, config);
 }
 
+// The operator's 0, or a panel below the word, takes the mask off at once, settled or not: on the
+// way down nothing can be misread that is faster than the panel.
 bool Handover::operator_releases(const RatioEnvelope::Output& wanted) const noexcept {
   const bool above_panel = word_ratio() > wanted.panel_ratio + kRatioTolerance;
   return wanted.panel_ratio == 0.0 || (above_panel && !table_.layer_may_exceed_panel());
 }
 
+// Where the panel lies between two steps the step below is as near as a word can come.
 bool Handover::may_release(const RatioEnvelope::Output& wanted) const noexcept {
   if (!wanted.hand_back || !stepper_.settled()) {
     return false;
@@ -47,6 +53,8 @@ void Handover::write_word(const RatioEnvelope::Output& wanted) noexcept {
   stepper_.update(table_.floor_step(wanted.ratio).value_or(0));
 }
 
+// One thing a cycle: drop the mask, move the word, or follow the panel. During a hold only the
+// operator changes anything.
 Handover::Output Handover::update(double step_s, const RatioEnvelope::Output& wanted,
                                   bool hold) noexcept {
   const bool is_first = !stepper_.state().written;
@@ -64,10 +72,12 @@ Handover::Output Handover::update(double step_s, const RatioEnvelope::Output& wa
           .code = table_.code(stepper_.state().step),
           .masks_panel = masked_,
           .settled = stepper_.settled(),
+          // How far the next step can take the word; the envelope waits within.
           .reach_low = step > 0 ? table_.ratio(step - 1) : 0.0,
           .reach_high = step + 1 < table_.steps() ? table_.ratio(step + 1) : kMaxRequestRatio};
 }
 
+// A mask without a written word would point at whatever is on the wires.
 void Handover::restore(const State& state) noexcept {
   stepper_.restore(state.word);
   masked_ = state.masked && state.word.written && config_.available;

@@ -11,6 +11,8 @@
 #include <steadyrest/kernel/override/gray.hpp>
 #include <steadyrest/kernel/override/table.hpp>
 
+// What each code means is machine data: on one 840D 11010 is 100 %, on a DMG panel it is 70 %. A
+// table is checked once, here; afterwards look-ups cannot fail but by an unknown code.
 namespace steadyrest::kernel::override {
 namespace {
 
@@ -24,6 +26,7 @@ outcome::Refusal refusal(std::string what, std::string to_do) {
           .to_do = std::move(to_do)};
 }
 
+// Rising order makes "the next step" the neighbour in ratio as well as in code.
 Check check_ratios(const std::vector<double>& ratio) {
   if (ratio.empty()) {
     return refusal("an override table has no steps", "list the ratio of each switch position");
@@ -43,6 +46,7 @@ Check check_ratios(const std::vector<double>& ratio) {
   return std::nullopt;
 }
 
+// A Gray table whose neighbours differ in two bits is a typing error, and a dangerous one.
 Check check_codes(const Table::Config& config) {
   const auto& code = config.code;
   if (code.size() != config.ratio.size()) {
@@ -81,6 +85,7 @@ Check check_scalars(const Table::Config& config) {
   return std::nullopt;
 }
 
+// SINUMERIK's switches: Gray code of the position, counted from 1 (0 is an open cable).
 std::vector<std::uint32_t> position_codes(std::size_t steps) {
   std::vector<std::uint32_t> code(steps);
   for (std::size_t i = 0; i < steps; ++i) {
@@ -110,6 +115,7 @@ outcome::Result<Table> Table::make(const Config& config) {
   for (std::size_t i = 0; i < filled.code.size(); ++i) {
     table.by_code_.push_back({.code = filled.code[i], .step = static_cast<std::uint32_t>(i)});
   }
+  // Sorted by code, so that a look-up in the cycle is a binary search without allocation.
   std::ranges::sort(table.by_code_, {}, &CodeEntry::code);
   const auto twin = std::ranges::adjacent_find(table.by_code_, {}, &CodeEntry::code);
   if (twin != table.by_code_.end()) {
@@ -145,6 +151,7 @@ std::optional<std::size_t> Table::step_of_code(std::uint32_t code) const noexcep
   return entry->step;
 }
 
+// The tolerance takes 0.7 computed as 1 − 0.3 for 0.7, not for the step below.
 std::optional<std::size_t> Table::floor_step(double ratio) const noexcept {
   if (std::isnan(ratio)) {
     return std::nullopt;
@@ -175,6 +182,7 @@ std::optional<std::size_t> Table::nearest_step(double ratio) const noexcept {
   if (!below || !above) {
     return below ? below : above;
   }
+  // A tie goes to the lower step: the safe side for a feed.
   return ratio - ratio_[*below] <= ratio_[*above] - ratio ? below : above;
 }
 

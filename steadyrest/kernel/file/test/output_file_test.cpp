@@ -63,6 +63,7 @@ int in_child(Work work) {
   return status;
 }
 
+// Flushed is not committed: the target must be the old file until the end.
 TEST_F(Output, ReplacesAtTheEndAndNotBefore) {
   const std::string file = old("out.csv");
   auto out = OutputFile::open(file);
@@ -79,6 +80,7 @@ TEST_F(Output, ReplacesAtTheEndAndNotBefore) {
   EXPECT_EQ(written_files().back().lines, 1U);
 }
 
+// A megabyte, so that the buffer has been written several times.
 TEST_F(Output, LeavesNothingWithoutCommit) {
   const std::string file = old("out.csv");
   {
@@ -90,6 +92,7 @@ TEST_F(Output, LeavesNothingWithoutCommit) {
   EXPECT_EQ(entries(), 1);
 }
 
+// Two links deep: a rename onto the link would replace the link.
 TEST_F(Output, KeepsRightsAndFollowsLinks) {
   const std::string file = old("machine.toml");
   ASSERT_EQ(chmod(file.c_str(), 0640), 0);
@@ -104,6 +107,7 @@ TEST_F(Output, KeepsRightsAndFollowsLinks) {
   EXPECT_EQ(now.st_mode & 07777U, 0640U);
 }
 
+// canonical() would refuse a link whose target does not exist.
 TEST_F(Output, FollowsALinkToAFileThatIsYetToCome) {
   fs::create_directory(at("deep"));
   fs::create_symlink("deep/out.csv", at("link"));
@@ -112,6 +116,7 @@ TEST_F(Output, FollowsALinkToAFileThatIsYetToCome) {
   EXPECT_EQ(text_of(at("deep/out.csv")), "new\n");
 }
 
+// The price of the rename, stated: other hard links stay with the old inode.
 TEST_F(Output, AnotherHardLinkKeepsTheOldContent) {
   const std::string file = old("out.csv");
   fs::create_hard_link(file, at("copy"));
@@ -120,6 +125,8 @@ TEST_F(Output, AnotherHardLinkKeepsTheOldContent) {
   EXPECT_EQ(text_of(at("copy")), "old\n");
 }
 
+// 255 bytes is what a folder entry can hold: the temporary name must not be longer than the
+// target's.
 TEST_F(Output, TakesTheLongestName) {
   const std::string file = at(std::string(255, 'n'));
   ASSERT_TRUE(write_file(file, "new\n").has_value());
@@ -135,6 +142,8 @@ TEST_F(Output, CanBeReadByAChildBeforeItHasAName) {
   EXPECT_EQ(text_of(at("copy")), "new\n");
 }
 
+// Declared outputs wait for the end; scratch files do not. In a child, since the ledger is the
+// process's.
 TEST_F(Output, OfAProgramTakesItsPlaceWithTheOthers) {
   const std::string first = old("a.csv");
   const auto ends_with = [&](bool placed) {
@@ -164,6 +173,8 @@ TEST_F(Output, OfAProgramTakesItsPlaceWithTheOthers) {
   EXPECT_EQ(entries(), 2);
 }
 
+// The third rename fails (a folder of that name turned up). The first must be the old file again,
+// the second gone.
 TEST_F(Output, IsTakenBackWhereAnotherCannotTakeItsPlace) {
   const std::string first = old("a.csv");
   std::vector<OutputFile> out;
@@ -181,6 +192,7 @@ TEST_F(Output, IsTakenBackWhereAnotherCannotTakeItsPlace) {
   EXPECT_EQ(entries(), 2);
 }
 
+// The signal comes before the write, the end after the rename.
 TEST_F(Output, SignalsWaitUntilAllHaveTheirPlaces) {
   const int status = in_child([&] {
     const SignalsHeldBack wait;
@@ -203,6 +215,7 @@ TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
   EXPECT_EQ(entries(), 1);
 }
 
+// RLIMIT_FSIZE stands in for a full disk: write() fails after 1000 bytes.
 TEST_F(Output, AFullDiskLeavesTheOldFile) {
   const std::string file = old("out.csv");
   const int status = in_child([&] {
@@ -220,6 +233,7 @@ TEST_F(Output, AFullDiskLeavesTheOldFile) {
   EXPECT_EQ(text_of(file), "old\n");
 }
 
+// Nested folders are removed from the inside out.
 TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
     const std::string file = old("out.csv");
@@ -240,6 +254,7 @@ TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
   }
 }
 
+// SIGKILL runs no handler: only a file without a name leaves nothing.
 TEST_F(Output, SigkillLeavesNothingWhereAFileMayHaveNoName) {
   const int probe = open(folder_.c_str(), O_TMPFILE | O_RDWR, 0600);
   if (probe < 0) {
@@ -258,6 +273,7 @@ TEST_F(Output, SigkillLeavesNothingWhereAFileMayHaveNoName) {
   EXPECT_EQ(entries(), 1);
 }
 
+// As nohup starts its children.
 TEST_F(Output, AnIgnoredSignalStaysIgnored) {
   const int status = in_child([] {
     signal(SIGHUP, SIG_IGN);
@@ -281,6 +297,7 @@ TEST_F(Output, AClosedPipeIsARefusal) {
   EXPECT_TRUE(fs::is_fifo(at("pipe")));
 }
 
+// Redirected by >>: a rename would replace the log that the shell writes to.
 TEST_F(Output, StdoutIsWrittenToEvenWhereItIsAFile) {
   const std::string file = old("log");
   const int status = in_child([&] {

@@ -34,6 +34,8 @@ class Places : public testing::Test {
   fs::path folder_;
 };
 
+// Symbolic, hard, with dots, through a linked folder: all the same file. An output that overwrote
+// its own input under another name is what this is for.
 TEST_F(Places, OneFileHasManyNames) {
   for (const char* name :
        {"log.csv", "soft", "hard", "./x/../log.csv", "here/log.csv", "here/here/hard"}) {
@@ -43,6 +45,7 @@ TEST_F(Places, OneFileHasManyNames) {
   EXPECT_FALSE(same_place(at("other.csv"), at("log.csv")));
 }
 
+// Without an inode only the resolved name can tell.
 TEST_F(Places, AFileThatIsNotThereYetHasManyNamesToo) {
   fs::create_symlink("new.csv", at("to-new"));
   for (const char* name : {"new.csv", "./x/../new.csv", "here/new.csv", "to-new"}) {
@@ -57,6 +60,7 @@ TEST_F(Places, ADeviceIsNobodysFile) {
   EXPECT_EQ(place_of("/dev/full")->kind, Place::Kind::stream);
 }
 
+// Removed if nothing was put in; names with dots make the same folder twice.
 TEST_F(Places, FoldersThatStayEmptyGoAgain) {
   for (const char* name : {"a/b/c", "a/./b/c/", "a/b/../c"}) {
     {
@@ -76,6 +80,7 @@ TEST_F(Places, FoldersThatStayEmptyGoAgain) {
   EXPECT_FALSE(MadeFolders::make("/dev/null/here").has_value());
 }
 
+// Each refusal names the path as given and says what to do.
 TEST_F(Places, RefusesWhatCannotBeWritten) {
   ASSERT_EQ(chmod(at("hard").c_str(), 0444), 0);
   fs::create_symlink("round", at("round"));

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kWords = {"coding", "percent", "codes"};
 
+// One swap, one missing, one wrong, one missing at the end.
 TEST(Nearest, FindsSwappedMissingAndWrongLetters) {
   EXPECT_EQ(nearest("codign", kWords), "coding");
   EXPECT_EQ(nearest("prcent", kWords), "percent");
@@ -18,6 +19,7 @@ TEST(Nearest, FindsSwappedMissingAndWrongLetters) {
   EXPECT_EQ(nearest("code", kWords), "codes");
 }
 
+// A long garbage word must cost neither time nor memory.
 TEST(Nearest, SuggestsNothingForAnotherWord) {
   EXPECT_EQ(nearest("colour_of_paint", kWords), "");
   EXPECT_EQ(nearest("", kWords), "");

@@ -23,6 +23,7 @@ std::string contents(const std::string& path) {
 }
 
 /// The enumerators as they stand in the header: name → number.
+/// Read from the header's text: the compiler offers no list of enumerators.
 std::map<std::string, int> enumerators() {
   const std::string header = contents("/steadyrest/kernel/outcome/reason.hpp");
   const auto begin = header.find("enum class Reason");
@@ -69,6 +70,7 @@ std::string document() {
   return text;
 }
 
+// Records of earlier versions carry the numbers: three of them are pinned here.
 TEST(Reason, NumbersAreStable) {
   EXPECT_EQ(static_cast<int>(Reason::none), 0);
   EXPECT_EQ(static_cast<int>(Reason::panel_zero), 100);
@@ -101,6 +103,7 @@ TEST(Reason, ANumberWithoutEntryIsUnknown) {
   EXPECT_EQ(sentence(static_cast<Reason>(9999)), "Unknown reason.");
 }
 
+// The page is generated; it must be what the table says now.
 TEST(Reason, TheDocumentIsWhatTheTableSays) {
   if (std::getenv("STEADYREST_REWRITE_DOCS") != nullptr) {
     std::ofstream(kRoot + "/docs/reasons.md") << document();

@@ -33,6 +33,7 @@ TEST(FeedArbiter, NoRequestIsNeutral) {
   EXPECT_EQ(decision.reason, Reason::none);
 }
 
+// Three wishes: who loses must leave no trace in room or reason.
 TEST(FeedArbiter, TheLowestWishWinsWithItsRoomAndReason) {
   const auto decision = feed_decision({{Room::motion, 0.9, Reason::contour_objective},
                                        {Room::contour, 0.4, Reason::contour_limit},
@@ -42,6 +43,8 @@ TEST(FeedArbiter, TheLowestWishWinsWithItsRoomAndReason) {
   EXPECT_EQ(decision.reason, Reason::contour_limit);
 }
 
+// A withdrawn room's 1.0 is not a limit: otherwise nobody could ask for 110 % while another room
+// is idle.
 TEST(FeedArbiter, AWithdrawnRoomDoesNotHoldTheOthersAtOne) {
   const auto decision = feed_decision(
       {{Room::thermal, 1.0, Reason::not_cutting}, {Room::contour, 1.1, Reason::contour_objective}});
@@ -49,11 +52,13 @@ TEST(FeedArbiter, AWithdrawnRoomDoesNotHoldTheOthersAtOne) {
   EXPECT_EQ(decision.reason, Reason::contour_objective);
 }
 
+// A wish with a wrong reason is still a wish for less feed: the safe reading.
 TEST(FeedArbiter, ARatioBelowOneCountsWhateverItsReasonSays) {
   EXPECT_EQ(feed_decision({{Room::contour, 0.3, Reason::none}}).ratio, 0.3);
   EXPECT_EQ(feed_decision({{Room::contour, 0.3, Reason::not_cutting}}).ratio, 0.3);
 }
 
+// 11 is beyond the largest request of 10: a ratio in percent, most likely.
 TEST(FeedArbiter, AnUnfitRatioIsNeutralAndSaysWhy) {
   for (const double ratio : {kNan, kInf, -kInf}) {
     const auto decision = feed_decision({{Room::contour, ratio, Reason::contour_limit}});
@@ -67,6 +72,7 @@ TEST(FeedArbiter, AnUnfitRatioIsNeutralAndSaysWhy) {
   }
 }
 
+// Not finite (a fault) before not cutting (a withdrawal) before none.
 TEST(FeedArbiter, TheGraverReasonOfTwoWithdrawalsIsShown) {
   EXPECT_EQ(feed_decision({{Room::motion, 1.0, Reason::not_cutting},
                            {Room::contour, kNan, Reason::contour_limit},
@@ -75,6 +81,7 @@ TEST(FeedArbiter, TheGraverReasonOfTwoWithdrawalsIsShown) {
             Reason::input_not_finite);
 }
 
+// Whatever else is wished, the lowest wish is what comes out.
 RC_GTEST_PROP(FeedArbiter, NoWishIsEverOverruledUpwards, (const std::vector<int>& percent)) {
   std::vector<FeedRequest> requests;
   double lowest = kInf;
@@ -87,6 +94,7 @@ RC_GTEST_PROP(FeedArbiter, NoWishIsEverOverruledUpwards, (const std::vector<int>
   RC_ASSERT(decision.ratio == (requests.empty() ? 1.0 : lowest));
 }
 
+// 1.1 is 0.1 off, 0.7 is 0.3 off: the lesser change, until chatter has a say.
 TEST(SpindleArbiter, ChatterWinsElseTheLeastChange) {
   SpindleArbiter others;
   others.add(SpindleRequest{Room::motion, 0.7, Reason::contour_limit});
@@ -123,6 +131,7 @@ TEST(OffsetArbiter, WishesAddAxisByAxis) {
   EXPECT_EQ(sum.reason, Reason::contour_limit);
 }
 
+// Per axis: 0.001 before 0.02 on X, 0 holds Z, nobody cares for Y.
 TEST(OffsetArbiter, OfTheSlopesThatAreAskedForTheSlowestHoldsOnEachAxis) {
   OffsetArbiter arbiter;
   auto slow = offset(0.01, 0.0, true, Reason::contour_limit);
@@ -149,6 +158,7 @@ TEST(OffsetArbiter, ASlopeThatIsNoneMakesTheSumUnknown) {
   }
 }
 
+// NaN, a withdrawn room and an overflow of finite numbers (1e308 twice).
 TEST(OffsetArbiter, OneUnfitSummandMakesTheSumUnknown) {
   OffsetArbiter arbiter;
   arbiter.add(offset(0.01, 0.0, true, Reason::contour_limit));

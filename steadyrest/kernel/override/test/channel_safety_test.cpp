@@ -26,6 +26,7 @@ struct Scene {
   std::vector<RatioEnvelope::Input> inputs;
 };
 
+// One wish in eight is no ratio at all.
 double random_wish() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -35,6 +36,8 @@ double random_wish() {
   return *rc::gen::inRange(0, 1500) / 1000.0;
 }
 
+// Published tables, coded in Gray, walked or latched; a binary percent word only latched, since
+// make() refuses it otherwise.
 Channel::Config random_config(bool may_exceed) {
   Channel::Config config;
   const bool binary = *rc::gen::inRange(0, 4) == 0;
@@ -50,6 +53,8 @@ Channel::Config random_config(bool may_exceed) {
   return config;
 }
 
+// A dozen spells of up to 120 cycles, each with a wish, faults, holds and panels that lie on and
+// between the table's steps; now and then a cycle whose time is wrong.
 Scene random_scene(bool may_exceed = false) {
   Scene scene{.config = random_config(may_exceed), .inputs = {}};
   const auto& ratio = scene.config.table.ratio;
@@ -94,6 +99,7 @@ struct Word {
 };
 
 /// Ratio in force for a word; nothing when the machine could not decode it.
+/// The machine's side, decoded independently of the channel.
 std::optional<double> in_force(const Table& table, const Word& word, double panel) {
   if (!word.masks) {
     return panel;
@@ -169,6 +175,7 @@ RC_GTEST_PROP(Safety, TheLayerNeverRaisesTheFeedByAJump, (bool may_exceed)) {
   });
 }
 
+// Latched, so that no walk delays the word: rounding down alone must keep it below the slew.
 RC_GTEST_PROP(Safety, QuantisedDownNeverAboveWhatTheSlewAllows, ()) {
   Scene scene = random_scene();
   scene.config.latched = true;
@@ -191,6 +198,8 @@ void settle(Scene& scene, RatioEnvelope::Input input) {
   }
 }
 
+// Long enough after the last change the wish must be in force within all limits: between the
+// lowest step that min_ratio allows and max_ratio, under the panel if it rules.
 RC_GTEST_PROP(Safety, WhateverIsWishedEndsInsideTheEnvelope, (bool may_exceed)) {
   Scene scene = random_scene(may_exceed);
   auto input = scene.inputs.back();
@@ -216,6 +225,8 @@ RC_GTEST_PROP(Safety, WhateverIsWishedEndsInsideTheEnvelope, (bool may_exceed)) 
   }
 }
 
+// All words that bits in any order can show, with the old and the new mask: part runs through the
+// subsets of the differing bits, (part − 1) & differing.
 RC_GTEST_PROP(Safety, NoIntermediateWordDecodesOutsideOfFromAndTo, (bool may_exceed)) {
   Scene scene = random_scene(may_exceed);
   play(scene, [&](auto& channel, auto& input, auto&, const Word& from, const Word& to,
@@ -240,6 +251,7 @@ RC_GTEST_PROP(Safety, NoIntermediateWordDecodesOutsideOfFromAndTo, (bool may_exc
   });
 }
 
+// An unknown panel code may mean a broken cable: no new mask on it, and the reason says so.
 RC_GTEST_PROP(Safety, AnUnknownPanelCodeIsNeverMaskedAnew, (bool may_exceed)) {
   play(random_scene(may_exceed),
        [](auto&, auto& input, auto& output, const Word& from, auto&, double, double, double) {
@@ -290,6 +302,7 @@ RC_GTEST_PROP(Safety, APortThatCannotWriteIsNeverAskedTo, ()) {
   });
 }
 
+// 34.9 % rounds down to 30 %, position 9 of the switch: Gray 01101.
 TEST(Channel, AskedForASteadyWishItStandsOnTheLargestStepBelow) {
   auto channel = Channel::make({.table = test::feed_840d()});
   ASSERT_TRUE(channel);
@@ -306,6 +319,7 @@ TEST(Channel, AskedForASteadyWishItStandsOnTheLargestStepBelow) {
   EXPECT_EQ(output.reason, Reason::contour_limit);
 }
 
+// The fault that the machine file exists for: 11010 is 100 % on the 840D panel, 70 % here.
 TEST(Channel, OnTheDmgTableTheWordForSeventyPercentIsTheOneThatElsewhereMeansHundred) {
   auto channel = Channel::make({.table = test::feed_dmg()});
   ASSERT_TRUE(channel);
@@ -353,6 +367,7 @@ TEST(Channel, RefusesATableThatTheEnvelopeExcludes) {
   EXPECT_EQ(channel.error().what, "the override table has no step within the envelope's 0 … 40 %");
 }
 
+// At 90 ms the walk is under way: step, scan and mask must come over.
 TEST(Channel, ARestoredStateGoesOnWhereItWas) {
   const Channel::Config config{.table = test::feed_840d(), .latched = false};
   auto first = Channel::make(config);

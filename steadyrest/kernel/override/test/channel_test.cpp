@@ -32,6 +32,8 @@ class Asked {
   RatioEnvelope::Input input;
 };
 
+// In each cycle of the fall: the word is the step below the ratio, and no cycle takes more than 10
+// 1/s · 1 ms.
 TEST(ChannelInForce, IsWhatWasLetThroughNotWhatWasAskedFor) {
   Asked asked;
   double before = 1.0;
@@ -57,6 +59,7 @@ TEST(ChannelInForce, IsThePanelsWhereTheOperatorTurnsDown) {
   EXPECT_EQ(asked.channel.in_force().word_ratio, 0.2);
 }
 
+// What take_back() must undo: the last cycle's fall, in ratio and in word.
 TEST(ChannelInForce, ACommandThatWasNotDeliveredIsNotInForce) {
   Asked asked;
   asked.cycles(20);

@@ -41,6 +41,8 @@ class RatioBench {
   RatioEnvelope envelope_;
 };
 
+// Without a wish the layer must not be felt: whatever the panel does is in force in the same
+// cycle, with no slew and no mask.
 TEST(RatioEnvelope, NeutralIsTransparentToTheOperator) {
   RatioBench bench;
   for (const double panel : {1.0, 0.3, 1.2, 0.0, 0.7}) {
@@ -51,6 +53,7 @@ TEST(RatioEnvelope, NeutralIsTransparentToTheOperator) {
   }
 }
 
+// Falling 10 1/s, rising 2 1/s: 1.0 − 40 ms · 10 = 0.6, and 0.2 + 100 ms · 2 = 0.4.
 TEST(RatioEnvelope, FallsAndRisesAtTheirOwnRates) {
   RatioBench bench;
   bench.cycle();
@@ -64,6 +67,7 @@ TEST(RatioEnvelope, FallsAndRisesAtTheirOwnRates) {
   EXPECT_EQ(bench.cycles(200).ratio, 0.8);
 }
 
+// The limits clamp the wish alone; the panel's 120 % stays the operator's.
 TEST(RatioEnvelope, ClampsTheWish) {
   RatioBench bench({.min_ratio = 0.3, .max_ratio = 1.1});
   bench.panel(1.2);
@@ -78,6 +82,7 @@ TEST(RatioEnvelope, ClampsTheWish) {
   EXPECT_EQ(output.reason, Reason::clamped);
 }
 
+// No slew downwards against the operator.
 TEST(RatioEnvelope, PanelBelowTheWishIsInForceAtOnce) {
   RatioBench bench;
   bench.cycle();
@@ -90,6 +95,7 @@ TEST(RatioEnvelope, PanelBelowTheWishIsInForceAtOnce) {
   EXPECT_EQ(output.reason, Reason::panel_lower);
 }
 
+// From 0.5 a rise of 2 1/s is 0.002 in a cycle of 1 ms.
 TEST(RatioEnvelope, UnderAWishEvenTheOperatorsRaiseGoesThroughTheSlew) {
   RatioBench bench;
   bench.panel(0.5);
@@ -101,6 +107,8 @@ TEST(RatioEnvelope, UnderAWishEvenTheOperatorsRaiseGoesThroughTheSlew) {
   EXPECT_EQ(bench.cycles(200).ratio, 0.8);
 }
 
+// From 0.4 back to the panel by the slew: 0.402 after one cycle, 1.0 after 0.3 s, then handed
+// back.
 TEST(RatioEnvelope, UnfitInputIsNeutralThroughTheSlewWithItsReason) {
   const auto spoilt = [](auto&& spoil, Reason reason) {
     RatioBench bench;
@@ -123,6 +131,7 @@ TEST(RatioEnvelope, UnfitInputIsNeutralThroughTheSlewWithItsReason) {
   spoilt([](auto& input) { input.panel.panel_ratio = -1.0; }, Reason::input_out_of_range);
 }
 
+// A step of NaN or infinity would otherwise be credit without end.
 TEST(RatioEnvelope, TimeThatIsNotFiniteMovesNothing) {
   RatioBench bench;
   bench.cycle();
@@ -138,6 +147,7 @@ TEST(RatioEnvelope, TimeThatIsNotFiniteMovesNothing) {
   EXPECT_EQ(bench.cycle().ratio, 0.4);
 }
 
+// The longest step that counts is 0.1 s: 0.2 + 0.1 · 2 = 0.4.
 TEST(RatioEnvelope, AGapInTheInputIsNoLicenceToJump) {
   RatioBench bench({.max_step_s = 0.1});
   bench.cycle();
@@ -150,6 +160,7 @@ TEST(RatioEnvelope, AGapInTheInputIsNoLicenceToJump) {
   EXPECT_NEAR(bench.cycle().ratio, 0.4, 1e-9) << "time that runs backwards gives none";
 }
 
+// Held against the wish and against unfit input, not against the operator.
 TEST(RatioEnvelope, HoldKeepsTheRatioButNotAgainstTheOperator) {
   RatioBench bench;
   bench.cycle();
@@ -169,6 +180,7 @@ TEST(RatioEnvelope, HoldKeepsTheRatioButNotAgainstTheOperator) {
   EXPECT_EQ(bench.cycle().ratio, 0.0);
 }
 
+// May exceed, but a neutral 1.0 is not a wish for 100 %, and 0 stays 0.
 TEST(RatioEnvelope, ExceedsThePanelOnlyWhenAllowedAndOnlyForAWish) {
   RatioBench bench({.may_exceed_panel = true});
   bench.panel(0.5);
@@ -184,6 +196,7 @@ TEST(RatioEnvelope, ExceedsThePanelOnlyWhenAllowedAndOnlyForAWish) {
   EXPECT_NEAR(bench.cycle().ratio, 0.002, 1e-9) << "and from there up by the slew";
 }
 
+// Each of these values would make a slew or a clamp infinite, or none.
 TEST(RatioEnvelope, RefusesAConfigThatWouldSwitchItOff) {
   EXPECT_FALSE(RatioEnvelope::make({.min_ratio = -0.1}));
   EXPECT_FALSE(RatioEnvelope::make({.min_ratio = kNan}));
@@ -199,6 +212,7 @@ TEST(RatioEnvelope, RefusesAConfigThatWouldSwitchItOff) {
   EXPECT_EQ(refused.error().what, "envelope: rise_1_s is -2; allowed: finite and > 0");
 }
 
+// State from a file: NaN must end at the panel, not in force.
 TEST(RatioEnvelope, AStateThatIsNotFiniteIsNotRestored) {
   RatioBench bench;
   bench.cycle();
@@ -232,6 +246,7 @@ class OffsetBench {
   OffsetEnvelope envelope_;
 };
 
+// 0.05 mm/s · 0.1 s = 0.005 mm on both axes, whatever they want; then the limit of 0.2 mm.
 TEST(OffsetEnvelope, SlewsAndClampsEachAxis) {
   OffsetBench bench;
   bench.input.request.offset_mm[0] = 0.01;
@@ -246,6 +261,8 @@ TEST(OffsetEnvelope, SlewsAndClampsEachAxis) {
   EXPECT_EQ(output.reason, Reason::clamped);
 }
 
+// X asks for 0.01 mm/s (slower than the slew of 0.05), Z for 1 mm/s (faster): 0.001 and 0.005 mm
+// after 0.1 s.
 TEST(OffsetEnvelope, KeepsTheSlowerOfItsSlewAndOfTheSlopeThatIsAskedFor) {
   OffsetBench bench;
   bench.input.request.offset_mm[0] = bench.input.request.offset_mm[2] = 0.1;
@@ -271,6 +288,7 @@ TEST(OffsetEnvelope, ASlopeThatIsNoneMovesNothing) {
   }
 }
 
+// The room that asked for slope 0 has withdrawn; its slope must not hold the offset for ever.
 TEST(OffsetEnvelope, RampsOutByItsOwnSlewWhateverSlopeWasAskedFor) {
   OffsetBench bench;
   bench.input.request.offset_mm[0] = 0.1;
@@ -287,6 +305,7 @@ TEST(OffsetEnvelope, AnAxisWithoutALimitTakesNoOffset) {
   EXPECT_EQ(bench.cycles(1000).offset_mm[1], 0.0);
 }
 
+// Two say whether the tool is in the cut, the room and the machine; both must say no.
 TEST(OffsetEnvelope, FreezesInTheCutThenRampsOut) {
   const auto spoilt = [](auto&& spoil, Reason reason) {
     OffsetBench bench;
@@ -311,6 +330,7 @@ TEST(OffsetEnvelope, FreezesInTheCutThenRampsOut) {
   spoilt([](auto& input) { input.request.reason = Reason::none; }, Reason::none);
 }
 
+// 5 mm were never allowed; the axis without a limit must come back to 0.
 TEST(OffsetEnvelope, ARestoredOffsetIsCutToTheLimitAndNoNumberIsNotTaken) {
   auto envelope = OffsetEnvelope::make(OffsetBench::config());
   ASSERT_TRUE(envelope);

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+// Oracle: Siemens' list of switch settings, not our formula.
 TEST(Gray, PublishedSwitchPositions) {
   // HT2 rotary switch, settings 0–3 and 14–18.
   const std::map<std::size_t, std::uint32_t> published = {
@@ -28,11 +29,13 @@ TEST(Gray, PublishedSwitchPositions) {
   }
 }
 
+// Gray's definition: one bit between neighbours, at any position of 32 bits.
 RC_GTEST_PROP(Gray, PositionIsTheInverseAndNeighboursDifferInOneBit, (std::uint32_t position)) {
   RC_ASSERT(gray_position(gray_code(position)) == position);
   RC_ASSERT(std::popcount(gray_code(position) ^ gray_code(position + 1)) == 1);
 }
 
+// The whole published switch, code by code: 23 settings in rising order.
 TEST(OverrideTable, FeedSwitchOf840dReadsAsPublished) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
@@ -65,6 +68,7 @@ TEST(OverrideTable, SpindleSwitchOf840dReadsAsPublished) {
   }
 }
 
+// Three readings of two panels: a code alone means nothing.
 TEST(OverrideTable, TheSameCodeMeansAnotherRatioOnAnotherMachine) {
   const auto panel = Table::make(test::feed_840d());
   const auto dmg = Table::make(test::feed_dmg());
@@ -76,6 +80,7 @@ TEST(OverrideTable, TheSameCodeMeansAnotherRatioOnAnotherMachine) {
   EXPECT_DOUBLE_EQ(dmg->ratio(dmg->step_of_code(0b10101).value()), 1.0);
 }
 
+// Codes that wires show by fault: none, all, one bit too many, a position that is not there.
 TEST(OverrideTable, UnknownCodeIsNeverGuessed) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
@@ -85,6 +90,7 @@ TEST(OverrideTable, UnknownCodeIsNeverGuessed) {
   EXPECT_FALSE(table->step_of_code(0xFFFFFFFF));
 }
 
+// 7·0.1 and 1 − 0.3 are not 0.7 in binary; both must find its step.
 TEST(OverrideTable, FloorNearestAndBounds) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
@@ -115,6 +121,8 @@ TEST(OverrideTable, SpindleFloorBelowTheLowestStepIsNothing) {
   EXPECT_EQ(table->ceil_step(0.49), 0U);
 }
 
+// Steps above the clip are all the same to the control; a search takes the lowest of them, while
+// every code still reads back as its own step.
 TEST(OverrideTable, ControlClipsAtItsMaximum) {
   auto config = test::feed_dmg();
   config.max_ratio = 1.2;
@@ -125,6 +133,7 @@ TEST(OverrideTable, ControlClipsAtItsMaximum) {
   EXPECT_EQ(table->step_of_code(sinumerik_code(30)), 30U);
 }
 
+// A word of percent: 100 is 01100100, 201 is beyond the table.
 TEST(OverrideTable, BinaryWordAsPercent) {
   const auto table = Table::make(test::percent_word());
   ASSERT_TRUE(table);
@@ -138,6 +147,7 @@ struct BadTable {
   machine::OverrideTable table;
 };
 
+// One fault each, named by the words that the refusal must hold.
 std::vector<BadTable> bad_tables() {
   using machine::Coding;
   std::vector<BadTable> bad;
@@ -181,6 +191,7 @@ TEST(OverrideTable, RefusesWhatIsNoTable) {
   }
 }
 
+// Any rising table, any wish: nothing not above the wish is larger than what was found.
 RC_GTEST_PROP(OverrideTable, FloorIsTheLargestStepNotAbove, ()) {
   auto percent = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 250)));
   std::ranges::sort(percent);

@@ -40,6 +40,7 @@ bool all_inside(const Table& table, std::size_t from, std::size_t to) {
 
 class Published : public ::testing::TestWithParam<machine::OverrideTable> {};
 
+// All pairs of four published tables against enumeration: the product's count must agree with it.
 TEST_P(Published, ChangeIsSafeExactlyWhenBruteForceSaysSo) {
   const auto table = Table::make(GetParam());
   ASSERT_TRUE(table);
@@ -64,6 +65,7 @@ TEST(Transition, ADistantGrayJumpMayStopTheFeed) {
   EXPECT_FALSE(change_is_safe(*table, 12, 14));
 }
 
+// 1 % → 2 % in binary is 01 → 10: two bits.
 TEST(Transition, BinaryWordIsRefusedUnlessLatched) {
   const auto table = Table::make(test::percent_word());
   ASSERT_TRUE(table);
@@ -88,6 +90,7 @@ TEST(Transition, RefusesAScanPeriodThatIsNone) {
       *table, {.latched = true, .scan_period_s = std::numeric_limits<double>::quiet_NaN()}));
 }
 
+// Scans of 10 ms; the first word, too, must have settled before the walk starts.
 TEST(Stepper, WalksOneNeighbourForEachScan) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
@@ -113,6 +116,7 @@ TEST(Stepper, ATargetBeyondTheTableIsItsLastStep) {
   EXPECT_EQ(stepper->update(1000), 22U);
 }
 
+// 9 ms and 1 ms of good time make one scan; NaN, infinity and time running back make none.
 TEST(Stepper, TimeThatIsNoneNeitherHurriesNorDelays) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
@@ -132,6 +136,8 @@ TEST(Stepper, TimeThatIsNoneNeitherHurriesNorDelays) {
   EXPECT_EQ(cycle(0.001), 2U) << "a whole scan of good time, neither sooner nor later";
 }
 
+// From any step to any other on any table: no mixture of bits may lie outside of the two ends, no
+// word is shorter than a scan, and the walk arrives.
 RC_GTEST_PROP(Stepper, NoIntermediateWordDecodesOutsideOfFromAndTo, ()) {
   const auto config = *rc::gen::element(test::feed_840d(), test::spindle_840d(), test::feed_dmg());
   const auto table = Table::make(config);

@@ -7,6 +7,8 @@
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 
 namespace steadyrest::kernel::rt::testing {
+// Counts calls, per thread, of the replaced global operators. What a library allocates by malloc
+// itself is not seen; the project's code in the cycle calls no such library.
 namespace {
 
 thread_local std::size_t allocation_count = 0;
@@ -17,6 +19,7 @@ void* allocate(std::size_t size) {
   return std::malloc(size == 0 ? 1 : size);
 }
 
+// aligned_alloc wants a size that is a multiple of the alignment.
 void* allocate_aligned(std::size_t size, std::align_val_t alignment) {
   ++allocation_count;
   const auto align = static_cast<std::size_t>(alignment);
@@ -34,6 +37,7 @@ void* or_throw(void* memory) {
 
 AllocationGuard::AllocationGuard() noexcept : at_start_(allocation_count) {}
 
+// In the destructor, so that no test can forget to ask.
 AllocationGuard::~AllocationGuard() {
   if (const std::size_t count = allocations(); count != 0) {
     ADD_FAILURE() << count << " allocations where none is allowed";
