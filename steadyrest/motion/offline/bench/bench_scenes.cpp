@@ -8,6 +8,8 @@
 #include <steadyrest/motion/offline/log/recorded_axis.hpp>
 #include <steadyrest/motion/offline/scene/line_calibration.hpp>
 
+// The scenes and their targets (RMS of velocity and acceleration at zero lag). Run-in is not
+// scored: the first edges only find the speed.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -25,6 +27,7 @@ double largest_error_mm(const Record& record) {
 }
 
 /// Adds a record; its limits are what is known of the axis.
+/// Several records of a scene share one setup; the worst line error of all counts.
 void add(BenchScene& scene, Record record, double run_in_s) {
   std::vector<std::uint8_t> scored;
   scored.reserve(record.ticks.size());
@@ -70,8 +73,8 @@ BenchScene ideal_sine() {
   return scene;
 }
 
-/// Half of the span of what the table still errs over the lines that were passed: a common shift of
-/// all lines moves neither velocity nor acceleration.
+// What the table still errs over the lines that were passed, against the true lines. It is the
+// bound that the estimator is told.
 double remaining_error_mm(const Record& record, const online::LineTable& table) {
   double low = online::kNoBound;
   double high = -online::kNoBound;
@@ -107,6 +110,8 @@ Profile shifted(Profile profile, double by_mm) {
   return profile;
 }
 
+// Where the axis starts within the count decides how late the first line tells of it; one start
+// alone would be luck, so starts are spread evenly over a count.
 BenchScene s_curves(int phases) {
   BenchScene scene;
   for (int i = 0; i < phases; ++i) {
@@ -155,6 +160,8 @@ Result<BenchScene> recorded(const std::filesystem::path& folder, const std::stri
   scene.limits_known = false;
   scene.ideal_edges = false;
   scene.records.push_back(std::move(axis.record));
+  // The truth of a recorded axis comes from the finer counts; where they are missing it is not
+  // scored.
   scene.scored.push_back(std::move(axis.scored));
   return scene;
 }
@@ -171,6 +178,8 @@ void add_recorded(const std::filesystem::path& folder, std::vector<SceneChoice>&
 
 BenchScene cruise(double speed_mm_s, const Recording& how, double max_jerk_mm_s3) {
   // Twenty counts at least, and no more edges than are needed.
+  // Five counts to find the speed, fifty to score: at 0.05 mm/s that is a second, at 500 mm/s 0.1
+  // s.
   const double run_in_s = std::max(0.05, 5.0 * how.count_mm / speed_mm_s);
   const double duration_s = run_in_s + std::clamp(50.0 * how.count_mm / speed_mm_s, 0.1, 1.0);
   Profile profile = constant_speed(speed_mm_s, duration_s);
@@ -196,7 +205,8 @@ std::vector<SceneChoice> bench_scenes(const SceneConfig& config) {
       {"dither", "dither", "standstill on a line, vibration of 0.4 µm at 30 Hz",
        [] { return simple(dither(0.0004, 30.0, 1.0), {}); }},
       {"reversal", "reversal", "back and forth at 5 mm/s", [] { return reversals(); }}};
-  // A whole number of counts in a tick would flatter the differences.
+  // Speeds are off round numbers: a whole number of counts in a tick would flatter the
+  // differences, whose error is then zero.
   for (const double v : {0.05, 0.5, 5.0, 50.0, 500.0}) {
     const double off = v < 1.0 ? v * 0.0764 : 0.382;
     out.push_back({fmt::format("constant-{:g}", v), "constant",

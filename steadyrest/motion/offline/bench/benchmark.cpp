@@ -15,6 +15,9 @@
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 namespace steadyrest::motion::offline {
+// A table of estimators against scenes. Every estimator gets the same records; ours runs twice,
+// with and without the axis's limits. Accuracy and cost are measured in separate runs: reading the
+// clock at each tick would disturb neither the estimate nor, if it is taken off, the cost.
 namespace {
 
 using kernel::outcome::Kind;
@@ -41,6 +44,7 @@ double ns_between(Clock::time_point from, Clock::time_point to) {
 }
 
 /// What reading the clock costs.
+/// Subtracted from what is measured: it is a tenth of the cost of an edge.
 double clock_ns() {
   std::vector<double> out;
   for (int i = 0; i < 101; ++i) {
@@ -56,6 +60,8 @@ struct Cost {
 };
 
 /// One run over the record, edges of a cycle and its tick timed apart.
+/// The sum of the results is used below, so that no compiler leaves the work out. Below 100
+/// readings there is no figure.
 Cost cost_of(online::Estimator& estimator, const Record& record, double reading_ns) {
   double edges_ns = 0.0;
   double ticks_ns = 0.0;
@@ -102,6 +108,7 @@ class SceneRun {
     BenchRow row = start(contender.name, contender.limits);
     Sums sums;
     for (std::size_t i = 0; i < scene_.records.size(); ++i) {
+      // A fresh one for each record: nothing learnt on one may help on the next.
       auto estimator = make_estimator(contender.name, setup);
       if (!estimator) {
         note(contender.name, estimator.error().what);
@@ -159,6 +166,7 @@ class SceneRun {
     return row;
   }
 
+  // The median of repetitions: on a shared computer the mean is the neighbours'.
   void measure_cost(const std::string& name, const EstimatorSetup& setup, BenchRow& row) const {
     const double reading_ns = clock_ns();
     std::vector<double> tick;
@@ -179,6 +187,7 @@ class SceneRun {
     row.velocity = sums.velocity.figures();
     row.acceleration = sums.acceleration.figures();
     const MotionError landau = landau_at_speed();
+    // The bound of physics knows limits and ideal lines; only then is the ratio one.
     const bool fair = row.limits && scene_.ideal_edges;
     const auto efficiency = [&](double least, const ErrorFigures& figures) {
       const bool bounded = std::isfinite(figures.bound_rms_at_speed);
@@ -190,6 +199,7 @@ class SceneRun {
   }
 
   /// RMS over the ticks at speed.
+  /// At low speed the bound goes to zero with v·clock, and the ratio would mean nothing.
   [[nodiscard]] MotionError landau_at_speed() const {
     MotionError sum2;
     double n = 0.0;
@@ -216,6 +226,8 @@ class SceneRun {
 };
 
 /// Gains and the targets that are multiples of other estimators' errors.
+/// On recorded logs nobody knows how good an estimate can be, so the targets are multiples of what
+/// the established methods reach.
 void compare(const BenchScene& scene, std::vector<BenchRow>& rows, std::size_t from) {
   const auto of = [&](std::string_view estimator) -> const BenchRow* {
     const auto found =
@@ -236,6 +248,8 @@ void compare(const BenchScene& scene, std::vector<BenchRow>& rows, std::size_t f
   }
 }
 
+// The worst-case differentiator is nothing without a limit of acceleration: where limits are known
+// it runs with them alone.
 std::vector<Contender> contenders_of(const BenchScene& scene,
                                      const std::vector<std::string>& names) {
   std::vector<Contender> out;

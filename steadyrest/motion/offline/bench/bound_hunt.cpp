@@ -11,6 +11,9 @@
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 namespace steadyrest::motion::offline {
+// Looks for a counterexample: random motions, encoders, clocks and losses, each within the limits
+// that the estimator is told, and one value outside of its bound is a bug. A seed reproduces what
+// was found.
 namespace {
 
 using online::MotionEstimator;
@@ -23,6 +26,8 @@ class Dice {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
   /// Even in the logarithm.
+  /// Counts, speeds and clocks differ by powers of ten; evenly chosen, the small ones would hardly
+  /// come up.
   double about(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
   bool chance(double share) { return between(0.0, 1.0) < share; }
 
@@ -96,6 +101,7 @@ Hunt hunt_bounds(std::uint64_t seed, std::uint64_t ticks) {
         tick.high_mm += line_error;
       }
     }
+    // Counts alone: the other branch of the bound.
     if (dice.chance(0.15)) {
       record = without_edges(record);
     }
@@ -117,6 +123,7 @@ Hunt hunt_bounds(std::uint64_t seed, std::uint64_t ticks) {
     const auto estimates = run(*estimator, record);
     for (const online::Estimate& e : estimates) {
       const MotionState truth = profile.at(e.t_s);
+      // Rounding of the comparison, not of the bound.
       const bool v = std::abs(truth.velocity_mm_s - e.velocity_mm_s) > e.velocity_bound_mm_s + 1e-9;
       const bool a = std::abs(truth.acceleration_mm_s2 - e.acceleration_mm_s2) >
                      e.acceleration_bound_mm_s2 + 1e-6;

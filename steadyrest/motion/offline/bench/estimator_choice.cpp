@@ -18,6 +18,7 @@
 #include <steadyrest/motion/online/estimator/worst_case_difference.hpp>
 
 namespace steadyrest::motion::offline {
+// Names, what each estimator needs, and how it is made: the one place to add one.
 namespace {
 
 using kernel::outcome::Kind;
@@ -90,6 +91,7 @@ std::optional<Refusal> refuse(std::string what, std::string to_do) {
 }
 
 /// A limit may be infinite (none is known), but not 0, negative or NaN.
+/// Positive includes infinity; the comparison itself fails for NaN.
 std::optional<Refusal> unfit_limit(std::string_view what, double value) {
   if (value > 0.0) {
     return std::nullopt;
@@ -107,6 +109,7 @@ std::optional<Refusal> unfit_amount(std::string_view what, double value) {
 }
 
 std::optional<Refusal> unfit(const EstimatorSetup& setup) {
+  // The first fault only: one thing to correct at a time.
   std::optional<Refusal> out;
   for (const auto& [what, value] :
        {std::pair{"largest speed in mm/s", setup.max_speed_mm_s},
@@ -146,6 +149,7 @@ EstimatorResult make_estimator(std::string_view name, const EstimatorSetup& setu
   if (auto refusal = unfit(setup)) {
     return std::unexpected(std::move(*refusal));
   }
+  // What cannot be used is refused rather than ignored: an option without effect misleads.
   if (setup.lag_s > 0.0 && !choice->takes_lag) {
     return std::unexpected(
         *refuse(fmt::format("the estimator {} takes no lag", name), "leave out the lag"));

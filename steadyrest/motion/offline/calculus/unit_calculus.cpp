@@ -8,6 +8,9 @@
 
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
+// Equations 1 … 8 of Kombarov et al. in both directions. Each is one division or product; what
+// needs care are the units (README "Units and encoders") and what must be refused: with wrong
+// units results are plausible numbers of the wrong size.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -58,6 +61,7 @@ constexpr std::string_view kTurn = "speed of rotation";
 
 }  // namespace
 
+// Eqs. 1 and 2: differences of the counts, whole numbers by nature.
 std::vector<std::int64_t> tick_velocities(std::span<const std::int64_t> counts) {
   std::vector<std::int64_t> out;
   for (std::size_t i = 1; i < counts.size(); ++i) {
@@ -70,6 +74,7 @@ std::vector<std::int64_t> tick_accelerations(std::span<const std::int64_t> count
   return tick_velocities(tick_velocities(counts));
 }
 
+// Eq. 3: V = F/(d·f_c).
 Number counts_per_tick(const Sampling& s, double speed_mm_s) {
   return apply({{kSpeed, speed_mm_s}, {kCount, s.count_mm}, {kCycle, s.cycle_hz}},
                "velocity in counts/tick", [&] { return speed_mm_s / (s.count_mm * s.cycle_hz); });
@@ -80,6 +85,7 @@ Number speed_mm_s(const Sampling& s, double counts_per_tick) {
                kSpeed, [&] { return counts_per_tick * s.count_mm * s.cycle_hz; });
 }
 
+// Eq. 4: a = n·g/(d·f_c²).
 Number counts_per_tick2(const Sampling& s, double acceleration_mm_s2) {
   return apply({{kAcceleration, acceleration_mm_s2}, {kCount, s.count_mm}, {kCycle, s.cycle_hz}},
                "acceleration in counts/tick²",
@@ -108,6 +114,7 @@ Number speed_gradations(const Sampling& s, double max_speed_mm_s) {
   return counts ? Number(std::floor(*counts * (1.0 + 1e-12))) : counts;
 }
 
+// The count at which the largest speed has as many gradations as the drive.
 Number required_resolution_mm(const Sampling& s, double max_speed_mm_s, double drive_gradations) {
   return apply({{kSpeed, max_speed_mm_s},
                 {"gradations of the drive", drive_gradations},
@@ -117,11 +124,13 @@ Number required_resolution_mm(const Sampling& s, double max_speed_mm_s, double d
                [&] { return max_speed_mm_s / (s.cycle_hz * drive_gradations); });
 }
 
+// Eq. 5: f = n·Z, signal periods, before ×4 decoding.
 Number signal_frequency_hz(double lines_per_rev, double speed_rev_s) {
   return apply({{kLines, lines_per_rev}, {kTurn, speed_rev_s}}, kFrequency,
                [&] { return lines_per_rev * speed_rev_s; });
 }
 
+// Eq. 6: Z = f·h/F, the finest encoder whose signal the electronics can follow at this feed.
 Number lines_for_feed(double max_frequency_hz, double lead_mm, double speed_mm_s) {
   return apply({{kFrequency, max_frequency_hz}, {kLead, lead_mm}, {kSpeed, speed_mm_s}}, kLines,
                [&] { return max_frequency_hz * lead_mm / speed_mm_s; });
@@ -132,6 +141,7 @@ Number feed_for_lines_mm_s(double max_frequency_hz, double lead_mm, double lines
                [&] { return max_frequency_hz * lead_mm / lines_per_rev; });
 }
 
+// Eq. 7: Z = f/n.
 Number lines_for_speed(double max_frequency_hz, double speed_rev_s) {
   return apply({{kFrequency, max_frequency_hz}, {kTurn, speed_rev_s}}, kLines,
                [&] { return max_frequency_hz / speed_rev_s; });
@@ -142,6 +152,7 @@ Number speed_for_lines_rev_s(double max_frequency_hz, double lines_per_rev) {
                [&] { return max_frequency_hz / lines_per_rev; });
 }
 
+// Eq. 8: d = h/(4Z), four counts to a line.
 Number count_of_lines_mm(double lead_mm, double lines_per_rev) {
   return apply({{kLead, lead_mm}, {kLines, lines_per_rev}}, kCount,
                [&] { return lead_mm / (kCountsPerLine * lines_per_rev); });

@@ -16,6 +16,9 @@
 
 namespace steadyrest::motion::offline {
 
+// How a log is read: `table` finds lines, columns and numbers; the parser here judges how rows
+// follow one another. What makes all rows doubtful refuses the file; what makes one row doubtful
+// ends it there, with the rows before it kept; what may be so is reported.
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using table::Fault;
@@ -29,6 +32,8 @@ constexpr std::int64_t kMaxCount = 1LL << 52;  // positions stay exact to a frac
 constexpr double kLeap = 10.0;  // a stamp that leaps so much farther is the wrong one
 constexpr std::string_view kRepair = "repair the row or cut the log before it";
 
+// Integers first: a count beyond 2⁵³ read as a double would lose digits without a word. Some
+// recorders write 10.000 or 1.1e+01; a fraction, though, means that the column is no count.
 std::expected<std::int64_t, Fault> count_of(const Row& row, std::size_t column) {
   const std::string_view field = row.field(column);
   std::int64_t value = 0;
@@ -72,6 +77,7 @@ class EdgeLogReader::Parser final : public table::Sink {
     }
     ended_ = ended;
     text_ = text;
+    // The last line may be cut off by the end of recording: that is no fault of the log.
     const auto fault = reader_.line(text);
     if (fault && !ended && reader_.has_head()) {
       cut_off();
@@ -177,6 +183,7 @@ class EdgeLogReader::Parser final : public table::Sink {
     }
   }
 
+  // Time first, since a step in the count can be judged only by a time that holds.
   std::optional<Fault> follow(const LogRow& next, const Row& row, std::size_t time_size) {
     if (!log_.rows.empty()) {
       const LogRow before = log_.rows.back();
@@ -202,6 +209,8 @@ class EdgeLogReader::Parser final : public table::Sink {
   }
 
   /// Time that goes back ends the log. Where the row before had leapt ahead, that one is wrong.
+  /// Where the row before had leapt ahead by more than ten steps, that one is wrong and this one
+  /// right.
   Fault back(const LogRow& before, const LogRow& next, std::size_t line) {
     const std::size_t rows = log_.rows.size();
     const double ahead_s = rows < 2 ? 0.0 : next.t_s - log_.rows[rows - 2].t_s;
@@ -226,6 +235,7 @@ class EdgeLogReader::Parser final : public table::Sink {
       return;
     }
     ++log_.jumps;
+    // Millions of jumps would otherwise be formatted only to be dropped.
     if (log_.findings.size() >= config_.max_findings) {  // there may be millions: no text
       ++log_.finding_count;
       return;
@@ -301,11 +311,14 @@ EdgeLogReader::EdgeLogReader(std::string file, const EdgeLogConfig& config)
     : parser_(std::make_unique<Parser>(std::move(file), config)) {}
 EdgeLogReader::~EdgeLogReader() = default;
 
+// Blocks end anywhere: what is left of a line waits for the next one. A line within one block is
+// read in place, without a copy.
 bool EdgeLogReader::take(std::string_view block) {
   while (!block.empty()) {
     const void* at = std::memchr(block.data(), '\n', block.size());
     if (at == nullptr) {
       rest_ += block;
+      // A file without line ends would otherwise be gathered in memory as a whole.
       if (rest_.size() > kLongestLine) {
         rest_.clear();
         parser_->endless();

@@ -9,6 +9,10 @@
 
 #include <steadyrest/motion/offline/log/log_kind.hpp>
 
+// A log given as the wrong kind makes estimates that look sensible and are wrong. Rows of cycles
+// are even in time and step by any count; rows of edges step by one count at any time. At constant
+// speed edges are even in time, too: what then tells them apart is that counts read at given times
+// are rounded, while at edges they are exact.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -39,6 +43,7 @@ Steps steps_of(const EdgeLog& log, double cycle_hz) {
   }
   std::vector<double> sorted = step;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  // The median: lost rows and standstills do not move it.
   std::ranges::nth_element(sorted, middle);
   Steps out;
   out.median_s = *middle;
@@ -86,6 +91,7 @@ bool counts_are_rounded(const EdgeLog& log, double median_s) {
 
 }  // namespace
 
+// Refused only where one kind is certain; a doubtful log is believed.
 std::optional<Refusal> other_kind(const EdgeLog& log, LogInput input, double cycle_hz) {
   if (log.rows.size() < kLeastRows) {
     return std::nullopt;

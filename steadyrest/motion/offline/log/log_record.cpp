@@ -6,6 +6,8 @@
 
 #include <steadyrest/motion/offline/log/log_record.hpp>
 
+// A log has rows; an estimator wants edges and ticks. From edges the ticks are made, from ticks
+// there are no edges: what the recorder did not see is not invented.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -50,6 +52,7 @@ online::Edge edge_to(const LogRow& row, std::int64_t from, double count_mm) {
           static_cast<std::uint8_t>(std::min<std::int64_t>(lost, 255))};
 }
 
+// The first row only says which cell the axis is in.
 void add_edges(const EdgeLog& log, double count_mm, Record& out) {
   out.edges.reserve(log.rows.size());
   std::int64_t cell = log.rows.front().count;
@@ -61,6 +64,7 @@ void add_edges(const EdgeLog& log, double count_mm, Record& out) {
   }
 }
 
+// One wrong stamp can stand for years of cycles; the refusal names the row with the longest step.
 std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& config, Record& out) {
   const double first = std::ceil(log.rows.front().t_s * config.cycle_hz - kTickTolerance);
   const double last = std::floor(log.rows.back().t_s * config.cycle_hz + kTickTolerance);
@@ -84,6 +88,7 @@ std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& con
     while (at + 1 < log.rows.size() && log.rows[at + 1].t_s <= t_s) {
       ++at;
     }
+    // The count at a tick is that of the last edge before it.
     out.ticks.push_back(tick_in(t_s, log.rows[at].count, config.count_mm));
   }
   return std::nullopt;

@@ -11,15 +11,20 @@
 #include <steadyrest/motion/offline/log/recorded_axis.hpp>
 
 namespace steadyrest::motion::offline {
+// A servo axis recorded with a very fine encoder, used twice: divided by 64 it is the coarse
+// encoder under test, whole it is the truth.
 namespace {
 
 namespace fs = std::filesystem;
 
+// Division rounded down for negative counts as well.
 std::int64_t coarse(std::int64_t fine, std::int64_t per_count) {
   return fine >= 0 ? fine / per_count : -((per_count - 1 - fine) / per_count);
 }
 
 /// Adds the edges between two rows.
+/// Between two rows the speed is taken as constant; a fine count is 1/64 of a coarse one, so the
+/// instant is good to a fraction of a fine count. Fine count n covers n − ½ … n + ½.
 void add_edges(const LogRow& from, const LogRow& to, const RecordedAxisConfig& config,
                std::vector<online::Edge>& out) {
   const std::int64_t first = coarse(from.count, config.fine_counts);
@@ -36,6 +41,8 @@ void add_edges(const LogRow& from, const LogRow& to, const RecordedAxisConfig& c
 }
 
 /// The cubic of least squares through the rows around row i; fewer at the ends of the log.
+/// Nine rows: long enough to average the fine count, short enough that a cubic follows the motion.
+/// Scaled to the span and solved by QR: powers of seconds would lose the digits.
 MotionState truth_at(const std::vector<LogRow>& rows, std::size_t i,
                      const RecordedAxisConfig& config) {
   const std::size_t begin = i - std::min(i, config.truth_samples);
@@ -57,6 +64,7 @@ MotionState truth_at(const std::vector<LogRow>& rows, std::size_t i,
 }
 
 /// Which truths can be trusted.
+/// Where counts are missing the fit jumps: |a| beyond what the axis can do, and its neighbourhood.
 std::vector<std::uint8_t> trusted(const Record& record, const RecordedAxisConfig& config) {
   const std::size_t n = record.ticks.size();
   std::vector<std::uint8_t> out(n, 1);
@@ -102,6 +110,7 @@ RecordedAxis recorded_axis(const EdgeLog& log, const RecordedAxisConfig& config)
       add_edges(log.rows[i - 1], row, config, record.edges);
     }
     if (i > 0 && row.t_s - log.rows[i - 1].t_s > config.max_gap_s) {
+      // Edges across a gap are dropped and reported as lost with the next one.
       record.edges.resize(before);
       lost = 1;
     } else if (record.edges.size() > before) {
@@ -126,6 +135,8 @@ EdgeLogResult read_recorded(const fs::path& folder, std::string_view name) {
   if (!fs::exists(packed) || fs::exists(plain)) {
     return read_edge_log(plain.string(), config);
   }
+  // Unpacked by the system's zcat: the logs are kept compressed, and one more library for a test
+  // would not pay.
   EdgeLogReader reader(packed.string(), config);
   const std::unique_ptr<std::FILE, ClosePipe> pipe(
       popen(("zcat -- " + quoted(packed.string())).c_str(), "r"));

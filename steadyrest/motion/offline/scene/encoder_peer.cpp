@@ -19,6 +19,8 @@
 #include <steadyrest/motion/offline/scene/encoder_peer.hpp>
 
 namespace steadyrest::motion::offline {
+// LinuxCNC's encoder component runs in a separate program, since the package is GPL and may be
+// missing; edges go over as CSV, estimates come back as CSV.
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,6 +47,7 @@ void write_edges(const Record& record, OutputFile& file) {
   for (const online::Edge& edge : record.edges) {
     fmt::format_to(at, "{},{}\n", edge.t_s, edge.direction > 0 ? edge.line : edge.line - 1);
   }
+  // The shortest text that reads back as the same double: nothing is lost on the way.
   fmt::format_to(at, "{},{}\n", record.ticks.back().t_s, record.ticks.back().count);
   file.write(out);
 }
@@ -106,6 +109,8 @@ Result<std::vector<online::Estimate>> run_encoder_peer(const fs::path& program,
   if (auto written = edges->flush(); !written) {
     return std::unexpected(std::move(written.error()));
   }
+  // The component stamps edges with its base thread's period; the record's clock is the fair
+  // equivalent.
   const auto base_ns = std::max(1LL, std::llround(record.how.clock_s * 1e9));
   const int code =
       run_program({program.string(), edges->path(), "--base-ns", std::to_string(base_ns),

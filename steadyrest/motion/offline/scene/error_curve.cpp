@@ -5,6 +5,8 @@
 
 #include <steadyrest/motion/offline/scene/error_curve.hpp>
 
+// The error against the truth of now and of up to 20 ms ago: an estimator that is late has its
+// least error at its lag, and the curve shows lag and noise apart.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -43,6 +45,7 @@ double ErrorCurve::truth(const MotionState& state) const {
 }
 
 /// The truth at t ≤ the time of the tick; NaN before the record.
+/// Linear between ticks: at 1 ms that is good to J·T²/8, far below any error scored.
 double ErrorCurve::truth_at(const Record& record, std::size_t tick, double t_s) const {
   if (t_s == record.ticks[tick].t_s) {
     return truth(record.truth[tick]);
@@ -66,6 +69,7 @@ void ErrorCurve::add_at_zero_lag(const online::Estimate& estimate, const MotionS
   max_ = std::max(max_, error);
   bounded_ += std::isfinite(v.bound) ? 1U : 0U;
   covered_ += error <= v.bound ? 1U : 0U;
+  // At standstill bounds are trivially tight and would flatter the ratio.
   if (std::abs(state.velocity_mm_s) > kAtSpeed_mm_s) {
     ++at_speed_;
     speed2_ += error * error;
@@ -98,6 +102,7 @@ ErrorFigures ErrorCurve::figures() const {
   }
   out.rms = out.rms_at_lag.front();
   out.max = count_.front() > 0 ? max_ : kNaN;
+  // The lag at which the estimate fits best: an estimator's own delay, found and not assumed.
   std::size_t best = 0;
   for (std::size_t i = 1; i < lags_s_.size(); ++i) {
     best = out.rms_at_lag[i] < out.rms_at_lag[best] ? i : best;

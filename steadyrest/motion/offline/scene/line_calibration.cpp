@@ -6,6 +6,8 @@
 
 #include <steadyrest/motion/offline/scene/line_calibration.hpp>
 
+// Several passes over one record: the table forgets, so each pass sharpens what the one before has
+// learnt.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -46,6 +48,7 @@ kernel::outcome::Result<LineTable> table_for(const Record& record,
 }
 
 /// RMS of what the lines are off from smooth motion.
+/// Before and after by the same measure, on the fits that the table would have learnt from.
 double residual_mm(const Record& record, const LineTable& table) {
   LineFit fit(table.config().max_span_s);
   const double worst = table.config().max_rms_counts * record.how.count_mm;
@@ -88,6 +91,7 @@ kernel::outcome::Result<LineCalibration> calibrate_lines(const Record& record,
     return std::unexpected(table.error());
   }
   const double before = residual_mm(record, *table);
+  // Passes are not joined: the record's end and its beginning are no neighbours.
   for (std::uint32_t pass = 0; pass < config.passes; ++pass) {
     bool first = true;  // nothing stands before it, whatever the pass before ended with
     for (const online::Edge& edge : record.edges) {
@@ -95,6 +99,7 @@ kernel::outcome::Result<LineCalibration> calibrate_lines(const Record& record,
       first = false;
     }
   }
+  // What all lines of a phase have in common belongs to the phase; see LineTable.
   table->settle();
   const double after = residual_mm(record, *table);
   const std::size_t learnt = lines_learnt(*table);

@@ -7,10 +7,14 @@
 
 #include <steadyrest/motion/offline/scene/scene.hpp>
 
+// Motions in closed form, and what an encoder and a clock make of them. The truth of each tick
+// comes from the formula itself; edges are found on it by bisection, so that no integration error
+// enters the comparison. Every random stream has its own seed: jitter does not change the lines.
 namespace steadyrest::motion::offline {
 namespace {
 
 /// Positions of the lines that a motion may touch, errors and all.
+/// Eight lines more at either end: a motion's rounding must not leave the table.
 class Lines {
  public:
   Lines(const Recording& how, double low_mm, double high_mm)
@@ -37,6 +41,7 @@ class Lines {
   }
   [[nodiscard]] std::int64_t first() const { return first_; }
   [[nodiscard]] const std::vector<double>& errors() const { return error_mm_; }
+  // The floor is right but for the lines' errors; a step or two puts it right.
   [[nodiscard]] std::int64_t cell_of(double position_mm) const {
     auto cell = static_cast<std::int64_t>(std::floor(position_mm / count_mm_));
     while (position_mm < at(cell)) {
@@ -55,6 +60,7 @@ class Lines {
 };
 
 /// The instant in [from, to] at which the position passes `level`; monotone in between.
+/// Bisection to 10⁻¹³ s: with slopes near zero at a turn no faster method is safe.
 double passage(const Profile& profile, double from, double to, double level) {
   const bool up = profile.at(to).position_mm > profile.at(from).position_mm;
   for (int i = 0; i < 60 && to - from > 1e-13; ++i) {
@@ -74,6 +80,8 @@ class EdgeMaker {
   }
 
   /// All passages in (from, to]; the step is short against the motion.
+  /// A turn is looked for first: monotone parts pass each line once, and a line passed there and
+  /// back within one step is not missed.
   void advance(double from, double to, std::vector<online::Edge>& out) {
     const double v0 = profile_.at(from).velocity_mm_s;
     const double v1 = profile_.at(to).velocity_mm_s;
@@ -110,6 +118,8 @@ class EdgeMaker {
       t = std::floor(t / how_.clock_s + 1e-6) * how_.clock_s;
     }
     if (how_.lost_share > 0.0 && share_(random_) < how_.lost_share) {
+      // The edge is lost, but not the count: the next edge tells how many are missing, as hardware
+      // that counts on does.
       lost_ = static_cast<std::uint8_t>(std::min(lost_ + 1, 255));
       return;
     }
@@ -144,6 +154,9 @@ Profile sine(double amplitude_mm, double frequency_hz, double duration_s) {
   return out;
 }
 
+// Constant jerk in each piece: position a cubic, evaluated from the knot at its start, so that
+// errors do not add up along the motion. Limits are sampled, 100 points a piece; the extremes of a
+// cubic's velocity lie at knots or where a = 0.
 Profile jerk_pieces(const std::string& name, const MotionState& start,
                     const std::vector<JerkPiece>& pieces) {
   struct Knot {
@@ -193,6 +206,8 @@ Profile jerk_pieces(const std::string& name, const MotionState& start,
   return out;
 }
 
+// Jerk up, hold at the limit of acceleration, jerk down. Without a hold the change is J·t² for two
+// ramps of t, so t = √(Δv/J).
 std::vector<JerkPiece> speed_change(double change_mm_s, double max_acceleration_mm_s2,
                                     double max_jerk_mm_s3) {
   const double change = std::abs(change_mm_s);
@@ -222,6 +237,8 @@ Profile s_curve() {
   return out;
 }
 
+// The paper's figure 2: a flywheel that friction brakes evenly. The jerk at the start of braking
+// is infinite; the limit states what an estimator may be told.
 Profile flywheel(double counts_per_tick, double counts_per_tick2) {
   const double v0 = counts_per_tick;        // 1 count/tick = 1 mm/s
   const double a = counts_per_tick2 * 1e3;  // 1 count/tick² = 1000 mm/s²
@@ -244,6 +261,7 @@ Profile constant_speed(double speed_mm_s, double duration_s) {
   return jerk_pieces("constant", {0.00021, speed_mm_s, 0.0}, {{duration_s, 0.0}});
 }
 
+// Shifted so that the motion goes back and forth over one line near its turning point.
 Profile dither(double amplitude_mm, double frequency_hz, double duration_s) {
   Profile out = sine(amplitude_mm, frequency_hz, duration_s);
   const auto inner = out.at;
@@ -260,6 +278,7 @@ Record record(const Profile& profile, const Recording& how) {
   double low = profile.at(0.0).position_mm;
   double high = low;
   const double step_s = std::min(1e-4, 0.1 / how.cycle_hz);
+  // The extremes are only needed to the width of a few lines.
   for (double t = 0.0; t <= profile.duration_s; t += step_s) {
     const double x = profile.at(t).position_mm;
     low = std::min(low, x);
@@ -282,6 +301,7 @@ Record record(const Profile& profile, const Recording& how) {
   for (std::size_t k = 0; k <= ticks; ++k) {
     const double nominal = static_cast<double>(k) / how.cycle_hz;
     const double jitter =
+        // Less than half a cycle, or ticks would change places.
         std::clamp(normal(random) * how.tick_jitter_s, -0.4 / how.cycle_hz, 0.4 / how.cycle_hz);
     const double look = std::clamp(nominal + jitter, 0.0, profile.duration_s);
     while (t < look) {

@@ -25,6 +25,8 @@ Score moving(const EventFit::Config& config, const Record& record, double min_sp
   return offline::score(offline::run(estimator, record), record, 0.0, 0.02, min_speed_mm_s);
 }
 
+// A polynomial of the fit's degree is met exactly; what is left is the 10⁻¹³ s of the edges. The
+// cubic through a parabola must not be, or the test would see nothing.
 TEST(EventFit, IsExactOnPolynomialsOfItsDegree) {
   const Record parabola = offline::record(ramp(2.0, 30.0, 0.5), exact_stamps());
   for (const std::size_t degree : {2U, 3U}) {
@@ -73,6 +75,7 @@ TEST(EventFit, HasNoBiasAtTheDelaysOfTheReference) {
   EXPECT_LT(worst_a, 0.03 * 4.0);
 }
 
+// Least squares of a parabola at its end point: variances 192·σ²/(N·W²) and 720·σ²/(N·W⁴).
 TEST(EventFit, LineErrorsActByTheClosedFormOfTheEndPoint) {
   // Edges at even spacing are samples: variance = σ²·Σ weights², which tends to 192·σ²/(N·W²).
   Recording how = exact_stamps();
@@ -87,6 +90,7 @@ TEST(EventFit, LineErrorsActByTheClosedFormOfTheEndPoint) {
   EXPECT_NEAR(s.acceleration_rms_mm_s2, closed_a, 0.12 * closed_a);
 }
 
+// The reference's own simulation, another program: the figures must agree to 10 %.
 TEST(EventFit, GivesTheTableOfTheReferenceWhereTheAxisMoves) {
   // Rows "event LSQ2 W=4 ms" and "W=8 ms", |v| > 1 mm/s, ±10 %.
   const EventFit::Config w4{.edges = 512, .window_s = 0.004};
@@ -127,6 +131,7 @@ TEST(EventFit, LineErrorsCostWhatTheTheorySaysOverTheSine) {
   }
 }
 
+// A stale fit extrapolates through every stop; the cell since the last edge ends that.
 TEST(EventFit, TheClipHoldsItThroughStartStopAndReversal) {
   // Without it the reference has 0.145 over the whole S-curve.
   const Score s = scored<EventFit>({.edges = 512, .window_s = 0.004}, s_curve_ideal());
@@ -134,6 +139,7 @@ TEST(EventFit, TheClipHoldsItThroughStartStopAndReversal) {
   EXPECT_LT(s.velocity_max_mm_s, 0.5);
 }
 
+// Every fourth edge is of the same phase, so its error is a constant and drops out.
 TEST(EventFit, SkippingToOnePhaseIsDeafToThePhaseError) {
   Recording how = exact_stamps();
   how.phase_error_counts = 0.05;
@@ -146,6 +152,7 @@ TEST(EventFit, SkippingToOnePhaseIsDeafToThePhaseError) {
   EXPECT_GT(without, 0.01);
 }
 
+// No edge since: |v| ≤ (cell + line error)/age, 0.00125 mm here, and 0 after the timeout.
 TEST(EventFit, FallsAsTheAgeOfTheLastEdgeAndRestsAfterTheTimeout) {
   EventFit estimator = EventFit::make({}).value();
   for (int k = 1; k <= 20; ++k) {

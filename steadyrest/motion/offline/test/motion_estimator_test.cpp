@@ -18,6 +18,7 @@ MotionEstimator made(const MotionEstimator::Config& config) {
   return MotionEstimator::make(config).value();
 }
 
+// Two seconds without an edge: standstill must win against the four moving models.
 TEST(MotionEstimator, StandsStillWhereNothingHappens) {
   MotionEstimator e = made({});
   Estimate last;
@@ -38,6 +39,7 @@ TEST(MotionEstimator, DitherOnALineStaysSmall) {
   EXPECT_LT(s.velocity_max_mm_s, 0.2);
 }
 
+// Edges have their own stamps: when somebody looks must not matter.
 TEST(MotionEstimator, DoesNotCareWhenTheCycleJitters) {
   Recording how;
   const Record steady = offline::record(sine(1.0, 2.0, 2.0), how);
@@ -51,6 +53,8 @@ TEST(MotionEstimator, DoesNotCareWhenTheCycleJitters) {
   EXPECT_LT(shaken.acceleration_rms_mm_s2, 1.2 * calm.acceleration_rms_mm_s2);
 }
 
+// 5 % lost at random, then half a second missing altogether; 30 ms after the hole it must be as
+// good as before.
 TEST(MotionEstimator, GoesOnAfterLostEdgesAndAGap) {
   Recording how;
   how.lost_share = 0.05;
@@ -73,6 +77,7 @@ TEST(MotionEstimator, GoesOnAfterLostEdgesAndAGap) {
   EXPECT_LT(score(run(f, holed), holed, 0.0, 1.23).velocity_rms_mm_s, 0.003);
 }
 
+// Inside everything is in counts: the same motion in counts of 64 µm must err 64 times as much.
 TEST(MotionEstimator, CountsOfAnyLengthAreAlike) {
   Recording how;
   how.count_mm = 0.064;
@@ -89,6 +94,7 @@ TEST(MotionEstimator, CountsOfAnyLengthAreAlike) {
   EXPECT_NEAR(of_big.acceleration_rms_mm_s2 / of_small.acceleration_rms_mm_s2, 64.0, 0.5);
 }
 
+// The bound from counts alone cannot be better than 0.25 mm/s; the estimate itself can.
 TEST(MotionEstimator, WorksFromSampledCountsAlone) {
   const Record record = without_edges(sine_ideal());
   MotionEstimator e = made({.max_acceleration_mm_s2 = 160.0, .max_jerk_mm_s3 = 2000.0});
@@ -100,6 +106,7 @@ TEST(MotionEstimator, WorksFromSampledCountsAlone) {
   EXPECT_EQ(s.acceleration_coverage, 1.0);
 }
 
+// Later estimates know more: each lag must pay.
 TEST(MotionEstimator, ALagBuysAccuracyAndSaysForWhichInstant) {
   double last_v = 1.0;
   for (const double lag_s : {0.0, 0.002, 0.008}) {
@@ -114,6 +121,7 @@ TEST(MotionEstimator, ALagBuysAccuracyAndSaysForWhichInstant) {
   }
 }
 
+// A twin that is spared the bad input must give the same numbers.
 TEST(MotionEstimator, UnfitInputIsCountedAndDoesNoHarm) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   MotionEstimator e = made({});

@@ -16,6 +16,7 @@ using online::MotionEstimator;
 
 constexpr double kFrom = 0.02;  ///< the first 20 ms find the speed
 
+// The limits are those of the profile: the tightest that are true.
 MotionEstimator::Config with_limits(const Record& record, double line_error_mm) {
   MotionEstimator::Config config;
   config.clock_s = record.how.clock_s;
@@ -32,6 +33,7 @@ Score scored(const MotionEstimator::Config& config, const Record& record,
   return score(run(e, record), record, 0.0, kFrom, min_speed_mm_s);
 }
 
+// The lower bounds lie below what was measured: an improvement beyond them must be noticed.
 TEST(MotionTargets, SineWithIdealEdges) {
   for (const bool limits : {false, true}) {
     const Score s =
@@ -55,6 +57,7 @@ TEST(MotionTargets, SineWithLineErrors) {
   }
 }
 
+// The paper's figure 2; stamps of 1 µs as its recorder has them.
 TEST(MotionTargets, FlywheelOfThePaper) {
   Recording how;
   how.clock_s = 1e-6;
@@ -148,6 +151,7 @@ TEST(MotionTargets, SCurveWithoutLimits) {
   EXPECT_LT(c.acceleration_rms, 5.0);
 }
 
+// A bound that is true but a hundred times the error would pass any test of coverage.
 TEST(MotionTargets, BoundsHoldAndAreAtMostFourTimesTheErrorAtSpeed) {
   const Score s = scored(with_limits(sine_ideal(), 0.0), sine_ideal());
   EXPECT_EQ(s.velocity_coverage, 1.0);

@@ -23,6 +23,8 @@ double sum_of_squares(const SavitzkyGolay::Weights& w) {
   return std::inner_product(w.begin(), w.end(), w.begin(), 0.0);
 }
 
+// Boost's Lanczos derivatives are the same filters: an implementation that is not ours, asked for
+// each weight by a unit impulse.
 TEST(SavitzkyGolay, HasTheVelocityWeightsOfBoost) {
   for (const std::size_t degree : {2U, 3U, 4U}) {
     for (const std::size_t n : {5U, 8U, 20U}) {
@@ -53,6 +55,8 @@ TEST(SavitzkyGolay, HasTheAccelerationWeightsOfBoostWhereBoostHasThem) {
   }
 }
 
+// Whole-count polynomials: no rounding. Counts begin at 10⁹, where a filter that does not subtract
+// the newest count loses its digits.
 TEST(SavitzkyGolay, IsExactOnPolynomialsOfItsDegree) {
   for (const std::size_t degree : {1U, 2U, 3U, 4U}) {
     SavitzkyGolay estimator = filter(16, degree);
@@ -92,6 +96,7 @@ TEST(SavitzkyGolay, NoiseTendsToTheClosedFormsOfTheEndPoint) {
   }
 }
 
+// With a dither the rounding errors of different samples are independent, so variances add up.
 TEST(SavitzkyGolay, RoundingActsAsWhiteNoiseOfTheTwelfthPart) {
   // A dither of one count before rounding makes the error white with q²/6 = rounding + dither.
   std::mt19937_64 random(7);

@@ -11,8 +11,8 @@ namespace {
 
 using Law = kernel::machine::Friction;
 
-// Stribeck: F(v) = Fc + (Fs − Fc)·exp(−(v/vs)²), so at v = vs 1/e of the excess is left. A breakaway
-// below Coulomb friction counts as equal to it.
+// Stribeck: F(v) = Fc + (Fs − Fc)·exp(−(v/vs)²), so at v = vs 1/e of the excess is left. A
+// breakaway below Coulomb friction counts as equal to it.
 TEST(Friction, CurveFallsFromBreakawayToCoulomb) {
   const Law law{.coulomb_mm_s2 = 200.0, .breakaway_mm_s2 = 500.0, .stribeck_mm_s = 2.0};
   EXPECT_DOUBLE_EQ(Friction(law, 1e-3).dry_mm_s2(0.0), 500.0);

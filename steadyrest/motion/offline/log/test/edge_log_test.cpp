@@ -25,6 +25,7 @@ EdgeLog parsed(const std::string& text, const EdgeLogConfig& config = {}) {
   return log ? *log : EdgeLog{};
 }
 
+// Binary fractions: 0.5 and 0.625 are exact in any correct reader.
 void expect_ten_and_eleven(const EdgeLog& log) {
   ASSERT_EQ(log.rows.size(), 2U);
   EXPECT_EQ(log.rows[0].t_s, 0.5);
@@ -34,6 +35,7 @@ void expect_ten_and_eleven(const EdgeLog& log) {
   EXPECT_FALSE(log.stopped);
 }
 
+// Each spelling that the README promises, one variation at a time, must give the same two rows.
 TEST(EdgeLog, ReadsEverySpellingThatItPromises) {
   for (const std::string text : {
            "t_s,count\n0.5,10\n0.625,11\n",
@@ -56,6 +58,7 @@ TEST(EdgeLog, ReadsEverySpellingThatItPromises) {
   }
 }
 
+// Every block size from one byte up: a line may be torn anywhere, between CR and LF as well.
 TEST(EdgeLog, ReadsTheSameHoweverItComesInBlocks) {
   const std::string text = "# log\r\nt_s,count\r\n0.5,10\r\n0.625,11\r\n";
   for (std::size_t size = 1; size <= text.size(); ++size) {
@@ -69,11 +72,13 @@ TEST(EdgeLog, ReadsTheSameHoweverItComesInBlocks) {
   }
 }
 
+// 5101 goes on from 5050; 510 is a number cut off in the middle.
 TEST(EdgeLog, KeepsALastRowWithoutLineEndThatGoesOnAsBefore) {
   EXPECT_EQ(parsed("t_s,count\n0,5000\n0.001,5050\n0.002,5101").rows.size(), 3U);
   EXPECT_EQ(parsed("t_s,count\n0,5000\n0.001,5050\n0.002,510").rows.size(), 2U);
 }
 
+// Two edges within a clock period are real; two ticks at one time are not.
 TEST(EdgeLog, LeavesRepeatedStampsOfTicksOut) {
   const std::string text = "t_s,count\n0,5\n0.001,6\n0.001,7\n0.002,8\n";
   EXPECT_EQ(parsed(text).rows.size(), 4U);  // two edges within one period of the clock
@@ -99,6 +104,7 @@ TEST(EdgeLog, ReportsWhatIsFasterThanTheAxis) {
   EXPECT_THAT(log.findings[0].what, HasSubstr("faster than the axis"));
 }
 
+// All are counted, twenty are told, and the fault that ends the log always comes along.
 TEST(EdgeLog, CountsAllFindingsButKeepsTheFirst) {
   std::string text = "t_s,count\n";
   for (int i = 0; i < 100; ++i) {
@@ -112,6 +118,7 @@ TEST(EdgeLog, CountsAllFindingsButKeepsTheFirst) {
   EXPECT_EQ(log.findings.back().line, 102U);
 }
 
+// A file without line ends must not be gathered in memory.
 TEST(EdgeLog, EndsAtALineThatNeverEnds) {
   const std::string endless(100000, '1');
   EXPECT_FALSE(parse_edge_log(endless, "log.csv"));
@@ -122,6 +129,7 @@ TEST(EdgeLog, EndsAtALineThatNeverEnds) {
   EXPECT_EQ(log.findings.back().line, 4U);
 }
 
+// The coarsest 1, 2 or 5·10ⁿ that fits all stamps, up to the digits that are written.
 TEST(EdgeLog, FindsThePeriodOfTheClock) {
   const auto clock = [](const std::string& rows) { return clock_of(parsed("t_s,count\n" + rows)); };
   EXPECT_DOUBLE_EQ(clock("0.000,1\n0.001,2\n0.012,3\n"), 1e-3);
@@ -135,6 +143,7 @@ TEST(EdgeLog, FindsThePeriodOfTheClock) {
   EXPECT_EQ(clock("1.0000000001,1\n1.000000002,2\n"), 0.0);
 }
 
+// At 80 000 s a double's digits end at 10⁻¹¹ s: the rounding must not pass for a finer clock.
 TEST(EdgeLog, FindsThePeriodOfTheClockLateInALongLog) {
   std::string text = "t_s,count\n";
   for (int i = 0; i < 1000; ++i) {
@@ -179,6 +188,7 @@ Promise promise_of(const fs::path& file) {
   return out;
 }
 
+// A corpus of files, each naming in its first line what must be said of it and where.
 TEST(RefusedLogs, AreJudgedAtTheLineAndForTheFaultThatTheirFirstLineNames) {
   std::vector<fs::path> files;
   for (const auto& entry :

@@ -46,7 +46,8 @@ EdgeLog ticks(const Motion& x, double jitter_s = 0.0, double from_s = 0.0) {
   return log_of(rows);
 }
 
-/// When the count changes within a cycle, by looking 2000 times; `all`, or only the last one.
+// When the count changes within a cycle, found by looking 2000 times; all edges, or only the last
+// one as a latch shows it.
 EdgeLog edges(const Motion& x, bool all, int lose_each = 0) {
   constexpr int kLooks = 2000;
   std::vector<LogRow> rows;
@@ -79,6 +80,8 @@ Motion sine(double counts, double hz) {
   return [=](double t_s) { return counts * std::sin(2.0 * std::numbers::pi * hz * t_s) + 0.3; };
 }
 
+// Steady speed is the hard case: rows are even in time either way. 300 counts/s give rows that
+// mostly repeat the count, 33.3e3 counts/s rows that step by 33 or 34.
 TEST(LogKind, ARowForEachCycleIsNoLogOfEdges) {
   for (const auto& [name, log] :
        {std::pair{"100 mm/s", ticks(steady(1e5))}, std::pair{"jitter", ticks(steady(1e5), 5e-6)},
@@ -95,6 +98,7 @@ TEST(LogKind, ARowForEachCycleIsNoLogOfEdges) {
   }
 }
 
+// Edges at exactly one a cycle look like ticks and must not be refused.
 TEST(LogKind, ARowForEachEdgeIsOne) {
   for (const auto& [name, log] : {std::pair{"even", edges(steady(5000.0), true)},
                                   std::pair{"slow", edges(steady(700.0), true)},
@@ -126,6 +130,7 @@ TEST(LogKind, AFewRowsDoNotTell) {
   EXPECT_FALSE(other_kind(log_of(rows), LogInput::edges, 1000.0));
 }
 
+// 77058.1 s at 1 kHz would be 77 million cycles from 350 rows.
 TEST(LogKind, OneWrongStampMakesNoEndlessRecord) {
   // In the middle: the row itself is wrong. At the end: the cycles are more than the rows warrant.
   std::string text = "t_s,count\n";

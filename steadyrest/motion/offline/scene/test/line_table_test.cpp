@@ -21,6 +21,7 @@ namespace {
 using online::LineTable;
 using online::MotionEstimator;
 
+// 5 % of a count in four phases and 2 % RMS at random; 8 s at 2 Hz pass each line 32 times.
 const Record& long_sine() {
   static const Record record = offline::record(sine(1.0, 2.0, 8.0), line_errors());
   return record;
@@ -71,6 +72,7 @@ Score scored(const Record& record, double max_jerk_mm_s3 = online::kNoBound) {
   return test::scored<MotionEstimator>({.max_jerk_mm_s3 = max_jerk_mm_s3}, record);
 }
 
+// 5 % phase and 2 % random are 0.04 counts RMS at the start; one pass leaves an eighth.
 TEST(LineTable, LearnsTheLinesOfASineInOnePass) {
   LineTable table = table_of(-10, 2100);
   EXPECT_GT(table_error(table, long_sine()), 0.03);
@@ -80,6 +82,7 @@ TEST(LineTable, LearnsTheLinesOfASineInOnePass) {
   EXPECT_LT(table_error(table, long_sine()), 0.0038);
 }
 
+// The fits err in the same way on each pass; a table that only adds up grows without end.
 TEST(LineTable, DoesNotDriftOverHundredsOfPasses) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine(), 30);
@@ -89,6 +92,8 @@ TEST(LineTable, DoesNotDriftOverHundredsOfPasses) {
   EXPECT_LT(table_error(table, long_sine()), 0.005);
 }
 
+// The ripple repeats with time, not with the revolution, so it must average out. Newton's steps
+// find when each true line is passed.
 TEST(LineTable, DoesNotDriftOnARotaryAxis) {
   // 1000 counts per revolution, 20 counts/ms with a ripple of ±1.5 %.
   std::vector<double> error(1000);
@@ -128,6 +133,7 @@ TEST(LineTable, DoesNotDriftOnARotaryAxis) {
   EXPECT_NEAR(table.position_mm(5) - 0.005, table.position_mm(-995) + 0.995, 1e-15);
 }
 
+// The truth is the mean of the lines that were drawn, so the random part's mean counts, too.
 TEST(LineTable, PhasesSumToZeroAndAreThoseOfTheEncoder) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine(), 8);
@@ -146,6 +152,7 @@ TEST(LineTable, PhasesSumToZeroAndAreThoseOfTheEncoder) {
   }
 }
 
+// What moves from the lines to the phases must leave each line where it was.
 TEST(LineTable, SettlingChangesNoLineThatWasLearntButByWhatAllHaveInCommon) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine(), 2);
@@ -157,6 +164,7 @@ TEST(LineTable, SettlingChangesNoLineThatWasLearntButByWhatAllHaveInCommon) {
   }
 }
 
+// A line that nobody passed is off by more than a learnt one, and says so in its σ.
 TEST(LineTable, LinesThatWereNeverPassedHaveThePhaseAlone) {
   LineTable table = table_of(-10, 4000);
   learn(table, long_sine(), 4);
@@ -175,6 +183,8 @@ TEST(LineTable, LinesThatWereNeverPassedHaveThePhaseAlone) {
   EXPECT_DOUBLE_EQ(restored.position_mm(1000), table.position_mm(1000));
 }
 
+// 0 in the file means "not learnt": a line that was learnt to be exact is stored as a
+// hundred-thousandth of a count.
 TEST(LineTable, ALineThatIsLearntToStandRightIsNotStoredAsUnknown) {
   LineTable table = table_of(0, 4);
   table.restore({}, std::vector<double>{2e-5, 1e-12, 0.0, -2e-5});
@@ -183,6 +193,8 @@ TEST(LineTable, ALineThatIsLearntToStandRightIsNotStoredAsUnknown) {
   EXPECT_EQ(encoder.line_table_mm, (std::vector<double>{2e-5, 1e-8, 0.0, -2e-5}));
 }
 
+// A hundred passes over ideal lines: what is learnt is the fits' own error and must not be
+// applied.
 TEST(LineTable, AnIdealScaleStaysAsItIs) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine_ideal(), 100);
@@ -210,6 +222,7 @@ TEST(LineTable, ASmoothErrorOfScaleIsNotInvented) {
   EXPECT_DOUBLE_EQ(table.position_mm(700), 0.7);
 }
 
+// A lost edge breaks the window; a table that fitted across it would learn a step.
 TEST(LineTable, LearnsThroughLostEdges) {
   Recording how = line_errors();
   how.lost_share = 0.01;
@@ -219,6 +232,7 @@ TEST(LineTable, LearnsThroughLostEdges) {
   EXPECT_LT(table_error(table, record), 0.007);
 }
 
+// The fit's RMS must stop it, not the test's patience.
 TEST(LineTable, RoughMotionTeachesNothing) {
   // Stamps with a noise of 2 counts of way: no fit is good enough.
   LineTable table = table_of(0, 1000);
@@ -251,6 +265,7 @@ TEST(LineTable, DoesNotAllocateWhileItLearns) {
   table.settle();
 }
 
+// 1002 is no multiple of four: the phases would not close around the revolution.
 TEST(LineTable, RefusesWhatCannotWork) {
   EXPECT_FALSE(LineTable::make({.count_mm = 0.0}).has_value());
   EXPECT_FALSE(LineTable::make({.lines = LineTable::kMaxLines + 1}).has_value());
@@ -261,6 +276,7 @@ TEST(LineTable, RefusesWhatCannotWork) {
   EXPECT_TRUE(LineTable::make({}).has_value());
 }
 
+// The target of the requirement: half of what the errors cost before, with and without limits.
 TEST(LineCalibration, BringsTheEstimatorBelowTheTarget) {
   const auto calibration = calibrate_lines(long_sine(), {});
   ASSERT_TRUE(calibration);
@@ -290,6 +306,7 @@ TEST(LineCalibration, HoldsForAMotionThatItDidNotSee) {
   EXPECT_LT(scored(calibrated).acceleration_rms_mm_s2, 0.6 * scored(other).acceleration_rms_mm_s2);
 }
 
+// To the last digit: a calibration without effect must not change the estimate.
 TEST(LineCalibration, WithIdealLinesTheEstimatorIsAsGoodAsBefore) {
   const auto calibration = calibrate_lines(long_sine_ideal(), {});
   ASSERT_TRUE(calibration);

@@ -13,6 +13,7 @@ namespace steadyrest::motion::online {
 namespace {
 
 /// An encoder input with a latch, and what truly happened: the brute-force reference.
+/// Keeps every edge, the decoder sees one read a cycle: whatever it says can be checked.
 class Input {
  public:
   Input(unsigned count_bits, unsigned clock_bits, std::int64_t cell, std::uint64_t now)
@@ -56,6 +57,7 @@ class Input {
 constexpr std::uint64_t kCycle = 2000;
 
 /// One cycle of a random walk: 0…4 edges at random instants.
+/// Cycles jitter by ± 2.5 %, edges keep apart.
 void random_cycle(Input& input, std::mt19937_64& random) {
   std::uint64_t left = kCycle + random() % 101 - 50;
   for (std::uint64_t n = random() % 5; n > 0; --n) {
@@ -67,6 +69,8 @@ void random_cycle(Input& input, std::mt19937_64& random) {
   input.wait(left);
 }
 
+// Counts and clocks of 16 to 64 bits, both about to wrap. `certain_from` of 1000 makes every sign
+// a guess where the hardware gives no direction, so the test asks for the mark there.
 RC_GTEST_PROP(LatchedDecoder, GivesTheLastEdgeOfEachCycleWhereverCountAndClockWrap,
               (bool tells_direction)) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
@@ -109,6 +113,8 @@ RC_GTEST_PROP(LatchedDecoder, GivesTheLastEdgeOfEachCycleWhereverCountAndClockWr
 }
 
 /// Reads x(t) = A·t²/2 turned about `phase`, in counts and cycles; counts wrong events.
+/// The parabola turns at `phase` of a cycle: the case in which the last edge may be against the
+/// sign of the change. Forty places within a count, both signs.
 int wrong_lines(double acceleration, double phase, std::uint64_t certain_from) {
   LatchedDecoder decoder({.clock_bits = 16, .cycle_ticks = 1000, .certain_from = certain_from});
   EdgeEvent event;
@@ -141,6 +147,8 @@ int wrong_lines(double acceleration, double phase, std::uint64_t certain_from) {
   return wrong;
 }
 
+// From both sides: just below |a| = 2n no certain line may be wrong, above it some must be, or the
+// limit would be put too low.
 TEST(LatchedDecoder, TheSignOfTheChangeIsCertainUpToTheAccelerationThatTheHeaderNames) {
   for (const std::uint64_t n : {1U, 2U, 4U}) {
     int below = 0;
@@ -155,6 +163,7 @@ TEST(LatchedDecoder, TheSignOfTheChangeIsCertainUpToTheAccelerationThatTheHeader
   }
 }
 
+// Up, then down and up again over line 8 within a cycle: the count is the same, the stamp is new.
 TEST(LatchedDecoder, DitherWithinACycleIsTheSameLineAgainAndSaysThatItIsAGuess) {
   Input input(16, 16, 7, 100);
   LatchedDecoder decoder(hostmot2_config(kCycle));
@@ -182,6 +191,7 @@ TEST(LatchedDecoder, DitherWithinACycleIsTheSameLineAgainAndSaysThatItIsAGuess) 
   EXPECT_FALSE(decoder.update(input.read(3, false), event));
 }
 
+// Dither at the counter's wrap, 65 535 to 0: a sign error would show as 65 536 counts.
 TEST(LatchedDecoder, AMillionCyclesOfDitherDoNotMoveTheCount) {
   Input input(16, 16, 65'535, 0);
   LatchedDecoder decoder(hostmot2_config(kCycle));
@@ -204,6 +214,8 @@ TEST(LatchedDecoder, AMillionCyclesOfDitherDoNotMoveTheCount) {
   EXPECT_EQ(decoder.state().gaps, 0U);
 }
 
+// After more than half of the clock's range the stamp's wraps cannot be told: no time then, rather
+// than a wrong one.
 RC_GTEST_PROP(LatchedDecoder, DroppedCyclesNeverGiveAFalseTime, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   Input input(16, 16, 0, random() % 65'536);
@@ -238,6 +250,7 @@ RC_GTEST_PROP(LatchedDecoder, DroppedCyclesNeverGiveAFalseTime, ()) {
   RC_ASSERT(start < 65'536U);
 }
 
+// 500 counts a cycle wrap 16 bits after 131 cycles; 65 are still safe for half of the range.
 TEST(LatchedDecoder, ACountThatMayHaveWrappedUnseenSaysSo) {
   LatchedDecoder decoder({.count_bits = 16, .clock_bits = 64, .counts_per_cycle = 500});
   EdgeEvent event;
@@ -249,6 +262,7 @@ TEST(LatchedDecoder, ACountThatMayHaveWrappedUnseenSaysSo) {
   EXPECT_EQ(event.uncertain, kCountUncertain);
 }
 
+// A stamp before the last read belongs to an edge that was there already: the registers disagree.
 TEST(LatchedDecoder, AStampOlderThanTheLastReadIsNoTime) {
   LatchedDecoder decoder(hostmot2_config(kCycle, 0));
   EdgeEvent event;
@@ -279,6 +293,8 @@ TEST(Hostmot2, AnEdgeBetweenTheTwoRegistersStillComesBeforeItsTick) {
 
 /// Capture ticks of 1.28 µs (100 MHz / 128), cycle 1 ms = 781.25 of them: the timer is full after
 /// 84 ms.
+/// At 200 the timer is full and stays so, at 350 it has run over; both times the next edge must
+/// have its true instant.
 TEST(Eqep, AFullOrOverrunTimerGivesNoEdgeAndTheNextOneItsRightTime) {
   LatchedDecoder decoder(eqep_config());
   EdgeEvent event;
@@ -314,6 +330,7 @@ TEST(Eqep, AFullOrOverrunTimerGivesNoEdgeAndTheNextOneItsRightTime) {
   EXPECT_EQ(decoder.count(), 7);
 }
 
+// COEF and CDEF as the manual has them: after a turn the sign of three counts is no direction.
 TEST(Eqep, TheFlagOfATurnMakesTheLineAGuessUnlessTheDirectionIsKnown) {
   for (const int direction : {0, -1}) {
     LatchedDecoder decoder(eqep_config());
@@ -331,6 +348,7 @@ TEST(Eqep, TheFlagOfATurnMakesTheLineAGuessUnlessTheDirectionIsKnown) {
   }
 }
 
+// Nanoseconds since the epoch need all 64 bits.
 TEST(LinuxCounter, EveryEventIsAnEdgeWithItsOwnStamp) {
   LatchedDecoder decoder(linux_counter_config(24));
   EdgeEvent event;
@@ -350,6 +368,7 @@ TEST(LinuxCounter, EveryEventIsAnEdgeWithItsOwnStamp) {
   EXPECT_EQ(event.uncertain, kTimeUnknown);
 }
 
+// Halfway into cell −1 is cell −1: an arithmetic shift, not a division.
 TEST(EtherCat, MicroIncrementsAreCutOffAndAMissingStampIsNotInvented) {
   LatchedDecoder decoder(ethercat_config(32, 8, 1'000'000));
   EdgeEvent event;

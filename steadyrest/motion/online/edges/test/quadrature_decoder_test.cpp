@@ -22,6 +22,7 @@ struct Sample {
 };
 
 /// Levels in a cell: 00, 10, 11, 01 for cells 0, 1, 2, 3 (mod 4).
+/// Gray code of two bits: one level changes from cell to cell.
 Sample in_cell(std::int64_t cell, std::uint64_t t) {
   const auto place = static_cast<unsigned>(cell) & 3U;
   return {place == 1U || place == 2U, place >= 2U, t};
@@ -45,6 +46,7 @@ struct Walk {
   std::int64_t cell = 0;
 };
 
+// Turns in 40 % of the steps: reversals on a line are the hard case.
 Walk walk(std::mt19937_64& random, int steps, int least_hold, std::uint64_t t, int dt) {
   Walk out;
   std::uniform_int_distribution<int> hold(least_hold, least_hold + 5);
@@ -99,6 +101,7 @@ TEST(QuadratureDecoder, TurningOnALineNamesThatLineTwice) {
   }
 }
 
+// The truth is the walk. Clocks wrap within it.
 RC_GTEST_PROP(QuadratureDecoder, EveryEdgeOfAWalkComesOutWhereverTheClockWraps, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
   const unsigned bits = *rc::gen::element(8U, 16U, 24U, 32U, 63U, 64U);
@@ -115,6 +118,7 @@ RC_GTEST_PROP(QuadratureDecoder, EveryEdgeOfAWalkComesOutWhereverTheClockWraps, 
   RC_ASSERT(decoder.count() == w.cell);
 }
 
+// Pulses shorter than the filter, away from edges, must leave the very same events.
 RC_GTEST_PROP(QuadratureDecoder, GlitchesShorterThanTheFilterChangeNothing, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   const auto hold = *rc::gen::inRange<std::uint16_t>(2, 9);
@@ -156,6 +160,9 @@ std::vector<bool> filtered(const std::vector<bool>& raw, std::size_t n) {
   return out;
 }
 
+// The oracle is the textbook's table of sixteen transitions on levels filtered by definition;
+// levels
+// here are arbitrary, illegal transitions included.
 RC_GTEST_PROP(QuadratureDecoder, AgreesWithTheTableOfSixteenOnAnyLevels, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   const auto hold = *rc::gen::inRange<std::uint16_t>(1, 5);
@@ -197,6 +204,7 @@ RC_GTEST_PROP(QuadratureDecoder, AgreesWithTheTableOfSixteenOnAnyLevels, ()) {
   RC_ASSERT(decoder.state().illegal == illegal);
 }
 
+// Two levels at once: the direction of the last edge is the best guess, and marked.
 TEST(QuadratureDecoder, AnIllegalTransitionGoesOnInTheLastDirection) {
   for (const int sign : {1, -1}) {
     QuadratureDecoder decoder;
@@ -214,6 +222,7 @@ TEST(QuadratureDecoder, AnIllegalTransitionGoesOnInTheLastDirection) {
   }
 }
 
+// Half a million edges over one line.
 TEST(QuadratureDecoder, AMillionSamplesOfDitherDoNotMoveTheCount) {
   QuadratureDecoder decoder({.clock_bits = 16});
   EdgeEvent event;
@@ -245,6 +254,7 @@ TEST(QuadratureDecoder, ReversedWiringCountsTheOtherWay) {
   EXPECT_EQ(decoder.count(), -2);
 }
 
+// Nine events into four places: five are pushed out, one of which had lost five itself.
 TEST(EdgeRing, WhenItOverflowsTheNextEventSaysHowManyAreMissing) {
   EdgeRing<4> ring;
   EdgeEvent event;
