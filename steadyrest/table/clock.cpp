@@ -4,6 +4,8 @@
 #include <steadyrest/table/clock.hpp>
 #include <steadyrest/table/stamp.hpp>
 
+// Where a row's time comes from: a column of seconds, of stamps, of sample numbers, or the number
+// of the row.
 namespace steadyrest::table {
 namespace {
 

@@ -8,6 +8,8 @@
 #include <steadyrest/table/head.hpp>
 
 namespace steadyrest::table {
+// Names of columns end in their unit, as everywhere in this project. Heads write units in
+// brackets, in a row below the names or in the name; all are brought to the same form.
 namespace {
 
 using namespace std::string_view_literals;
@@ -85,6 +87,7 @@ std::optional<Fault> Head::twice(std::string_view only) const {
   return std::nullopt;
 }
 
+// A word that is no unit is part of the name: `load (left)` stays as it is.
 std::string unit_of(std::string_view field) {
   field = unquoted(field);
   if (bracketed(field)) {
@@ -123,6 +126,7 @@ bool are_units(const std::vector<std::string_view>& fields) {
     if (!empty && unit_of(field).empty()) {
       return false;
     }
+    // A row of blanks and ones would be a row of numbers just as well.
     any = any || (!empty && unit_of(field) != "1");
   }
   return any;
@@ -138,6 +142,7 @@ std::optional<Fault> add_units(const std::vector<std::string_view>& fields, std:
     if (unit.empty() || unit == "1" || name.empty() || lower(name).ends_with("_" + unit)) {
       continue;
     }
+    // Two units for one column: nobody can say which is right.
     if (!own.empty()) {
       return Fault{line, fmt::format("the unit of {} is \"{}\"", shown(name), shown(fields[i])),
                    "make the unit in the name agree with the row of units"};

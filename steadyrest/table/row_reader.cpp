@@ -10,6 +10,10 @@
 #include <steadyrest/table/stamp.hpp>
 
 namespace steadyrest::table {
+// Logs come from many programs: separators, decimal marks, units and heads differ. The separator
+// is decided when the first row is there to compare with the head; decimal marks are proved or
+// refused at the end (number.hpp). Whatever is ambiguous is refused: a log that is read wrongly
+// does more harm than one that is not read.
 namespace {
 
 using namespace std::string_view_literals;
@@ -30,6 +34,7 @@ std::size_t size_of_field(std::string_view text, char separator) {
     for (std::size_t at = text.find('"', begin + 1); at != std::string_view::npos;
          at = text.find('"', at + 1)) {
       const std::size_t next = text.find_first_not_of(separator == '\t' ? " "sv : " \t"sv, at + 1);
+      // A tab is a separator there, so it must not be skipped as a blank.
       if (next == std::string_view::npos) {
         return text.size();
       }
@@ -51,6 +56,7 @@ std::string_view field_of(std::string_view text) {
 
 void split_by(std::string_view text, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
+  // Blanks separate only where the command line names the columns; any number of them is one.
   if (separator == ' ') {
     for (text = trimmed(text); !text.empty();) {
       const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
@@ -101,6 +107,7 @@ std::expected<double, Fault> Row::number(std::size_t column) const {
 RowReader::RowReader(Format format, Sink& sink)
     : format_(std::move(format)), sink_(sink), numbers_(format_.decimal) {}
 
+// A file that is no text says so by its first bytes.
 std::optional<Fault> RowReader::first_line(std::string_view& text) {
   if (auto fault = fault_of_kind(text)) {
     return fault;
@@ -126,6 +133,7 @@ std::optional<Fault> RowReader::line(std::string_view text) {
   if (content.empty() || content.front() == '#') {
     return std::nullopt;
   }
+  // LinuxCNC's halsampler writes it into the log.
   if (content == "overrun") {
     return overrun();
   }
@@ -136,6 +144,7 @@ std::optional<Fault> RowReader::line(std::string_view text) {
 }
 
 std::optional<Fault> RowReader::overrun() {
+  // Rows that count time lose their time there; with sample numbers only samples are missing.
   if (format_.rows_are_samples &&
       std::ranges::find(format_.columns, "sample"sv) == format_.columns.end()) {
     return Fault{line_, "the sampler overran: an unknown number of samples is missing here",
@@ -172,6 +181,7 @@ std::optional<Fault> RowReader::take_head(std::string_view text) {
 std::optional<Fault> RowReader::take_named(std::string_view text) {
   const std::size_t wanted = format_.columns.size();
   std::size_t best = 0;
+  // In the order of how rarely each occurs within a field.
   for (const char candidate : {'\t', ';', ',', ' '}) {
     split_by(text, candidate, fields_);
     const std::size_t found =
@@ -216,6 +226,7 @@ std::optional<Fault> RowReader::behind_head(std::string_view text) {
     units_may_follow_ = false;
     return add_units(fields_, line_, head_);
   }
+  // Some programs end each row with a separator.
   open_end_ = fields_.size() == head_.name.size() + 1 && fields_.back().empty();
   for (std::size_t i = 0; i < std::min(fields_.size(), head_.name.size()); ++i) {
     if (stamp_of(fields_[i])) {
@@ -234,6 +245,7 @@ std::optional<Fault> RowReader::behind_head(std::string_view text) {
 std::optional<Fault> RowReader::give_head() {
   std::optional<Fault> fault;
   if (head_.name.size() > kMostColumns) {
+    // A line of garbage can have a million commas.
     fault = Fault{0, fmt::format("{} columns; {} are allowed", head_.name.size(), kMostColumns),
                   "leave out the columns you do not need"};
   } else {
@@ -265,6 +277,7 @@ std::optional<Fault> RowReader::take_row(std::string_view text) {
   return sink_.row(Row(*this, line_, fields_));
 }
 
+// A head without a row is still a head: its faults are worth telling.
 std::optional<Fault> RowReader::finish() {
   if (have_names_ && !head_given_) {
     if (head_.name.empty()) {
@@ -282,6 +295,7 @@ std::optional<Fault> RowReader::finish() {
 }
 
 std::optional<Fault> read_rows(std::string_view text, RowReader& reader) {
+  // NUL bytes: UTF-16 without a mark, or no text at all.
   if (text.find('\0') != std::string_view::npos) {
     auto fault = fault_of_kind(text);
     return fault ? fault : Fault{0, "is not text in UTF-8", "save it as CSV in UTF-8 or ASCII"};

@@ -3,6 +3,8 @@
 
 #include <steadyrest/table/stamp.hpp>
 
+// ISO 8601, basic and extended, as recorders and spreadsheets write it. Taken apart by hand: the
+// library's parsers of this compiler allocate and know the locale.
 namespace steadyrest::table {
 namespace {
 
@@ -85,6 +87,7 @@ std::optional<Stamp> stamp_of(std::string_view field) noexcept {
   const int year = at.digits(4, 2199);
   const bool dashes = at.take('-');
   const int month = at.digits(2, 12);
+  // All separators or none: 2026-1122 is neither form.
   if (!at.ok() || dashes != at.take('-')) {
     return std::nullopt;
   }
@@ -111,6 +114,7 @@ std::optional<Stamp> stamp_of(std::string_view field) noexcept {
   const std::chrono::year_month_day date{std::chrono::year(year),
                                          std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
+  // Before 1970 there was no such log, and the count of seconds would be negative.
   if (!at.ok() || !at.done() || year < 1970 || !date.ok()) {
     return std::nullopt;
   }

@@ -9,6 +9,9 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
+// Lines and circles in closed form; helices and spirals by sampling at most π/6 apart and refining
+// each dip. Two turns at most are looked at: the caller knows about where the foot is, and a foot
+// beyond would be on another turn.
 namespace steadyrest::math::geometry {
 namespace {
 
@@ -53,6 +56,7 @@ Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low
                     double u_near) noexcept {
   const ArcFrame frame = arc_frame(segment);
   const Local q = local_of(segment, frame, query);
+  // The axis of the circle is as far from all its points; any of them will do there.
   const double rho = std::hypot(q.x, q.y);
   const double angle = std::atan2(q.y, q.x);
   // The turn whose point at this angle lies nearest to u_near, then moved into the permitted part.
@@ -71,6 +75,7 @@ Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low
     return {best / segment.sweep_rad, std::hypot(rho - segment.radius_mm, q.z),
             global_of(segment, frame, foot)};
   }
+  // No point at the query's angle within the permitted part: one of its ends is nearest.
   const auto at = [&](double u) {
     const double a = u * segment.sweep_rad;
     const Local p{segment.radius_mm * std::cos(a), segment.radius_mm * std::sin(a), 0.0};
@@ -122,6 +127,9 @@ class Curve {
   double growth_;
 };
 
+// Newton on the slope of the squared distance, kept inside of the bracket by bisection: where the
+// second derivative is not positive (beyond the centre of curvature) Newton would run to a
+// maximum.
 double refine(const Curve& curve, double low, double high, double start) noexcept {
   // A bracket that ends at the permitted part's end may have its minimum there.
   if (start <= low && curve.slope(low)[0] >= 0.0) {
@@ -155,6 +163,7 @@ Foot foot_on_helix(const PathSegment& segment, const Point& query, double u_low,
   const double high = std::min(u_high, near + reach);
   const int count =
       std::clamp(static_cast<int>(std::ceil((high - low) / max_step)) + 1, 3, kMaxSamples);
+  // At π/6 the squared distance has one dip at most between two samples.
   const double step = (high - low) / (count - 1);
 
   const ArcFrame frame = arc_frame(segment);

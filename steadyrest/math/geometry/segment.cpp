@@ -5,6 +5,9 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
+// An arc of any kind is r(u) = r₀ + u·ρ, angle u·ω, height u·z, u from 0 to 1: circle, helix,
+// spiral and both together. Length is proportional to u except on spirals, which have an integral
+// of their own.
 namespace steadyrest::math::geometry {
 namespace {
 
@@ -49,6 +52,7 @@ ArcFrame arc_frame(const PathSegment& segment) noexcept {
     const Point e1 = unit(out);
     return {e1, cross(segment.axis, e1)};
   }
+  // The world axis that is farther from the arc's axis: their cross product is well conditioned.
   const Point away = std::abs(segment.axis[0]) < 0.9 ? Point{1, 0, 0} : Point{0, 1, 0};
   const Point e1 = unit(add_scaled(away, segment.axis, -dot(away, segment.axis)));
   return {e1, cross(segment.axis, e1)};
@@ -81,6 +85,7 @@ Station station_at(const PathSegment& segment, double u) noexcept {
   Station station;
   station.point_mm =
       add_scaled(add_scaled(segment.centre_mm, outward, r), segment.axis, u * segment.rise_mm);
+  // p′ and p″ by u; κ⃗ is the part of p″ across the tangent over |p′|², whatever the parameter.
   const Point first = add(add_scaled(scale(outward, growth), forward, r * segment.sweep_rad),
                           scale(segment.axis, segment.rise_mm));
   const Point second = add_scaled(scale(forward, 2.0 * growth * segment.sweep_rad), outward,
@@ -124,6 +129,7 @@ double parameter_at(const PathSegment& segment, double distance_mm) noexcept {
   double u = share * (r0 + r1) / (r0 + std::sqrt(r0 * r0 + share * (r1 - r0) * (r0 + r1)));
   double low = 0.0;
   double high = 1.0;
+  // Newton on the length, with the speed as its derivative, inside of a bracket.
   for (int iteration = 0; iteration < 12; ++iteration) {
     const double excess = spiral_length(segment, u) - wanted;
     (excess > 0.0 ? high : low) = u;

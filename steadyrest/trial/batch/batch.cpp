@@ -11,6 +11,9 @@
 #include <steadyrest/trial/batch/text_shifts.hpp>
 
 namespace steadyrest::trial::batch {
+// A batch second by second: the true machine grows, the belief about it is carried along, and
+// three ways of cutting (uncorrected, corrected text, layer on line) are judged on the same
+// growth. Before each part the probe measures and a new text is written, as a shop would do it.
 namespace {
 
 using kernel::outcome::Kind;
@@ -40,6 +43,7 @@ class Sum {
 };
 
 /// Transitions one after the other, asked for with rising time.
+/// Never searched from the start: the batch asks in order of time.
 class Clockwork {
  public:
   explicit Clockwork(const std::vector<nc::plan::Transition>& cyclogram) : cyclogram_(cyclogram) {}
@@ -99,11 +103,13 @@ class Day {
     now.start_s = growth_.time_s();
     for (BelievedAxis& axis : axes_) {
       // The zero has just been set before the first.
+      // One reading for all: text and layer must learn from the same measurement.
       now.probe_mm.push_back(
           number_ == 1 ? 0.0 : growth_.read_probe_mm(growth_.displacement_mm(axis.index())));
       if (number_ > 1) {
         axis.measure(now.probe_mm.back());
         // The probe finds what the offset has left.
+        // The belief is about the growth, the probe finds growth and offset together.
         layer_.probe(axis.row(), now.probe_mm.back() + offset_mm(axis),
                      job_.machine.simulation.probe_noise_mm);
       }
@@ -133,6 +139,7 @@ class Day {
         plan.axes.push_back(*std::move(steps));
       }
     }
+    // Nothing leaves the band: the program stays as it is.
     if (plan.axes.empty()) {
       return ShiftedProgram{.shift = {}, .total_s = original_.total_s, .insertions = 0};
     }
@@ -146,9 +153,11 @@ class Day {
     const auto steps = static_cast<std::uint64_t>(std::ceil(out_.program_s / kStep_s));
     for (std::uint64_t i = 0; i < steps; ++i) {
       const double time_s = (static_cast<double>(i) + 1.0) * kStep_s;
+      // The middle of the second decides which transition it belongs to.
       const nc::plan::Transition* transition = clockwork.at(time_s - 0.5 * kStep_s);
       const bool cuts = transition != nullptr && transition->load() == nc::plan::Load::cutting;
       step(transition, cuts);
+      // A correction acts from the move that carries it.
       while (shift < text.shift.size() && text.shift[shift].time_s <= time_s) {
         ++shift;
       }
@@ -166,6 +175,7 @@ class Day {
     }
   }
 
+  // Spindle off: the machine cools. Part 0 in the trace marks the pause.
   void rest(double seconds) {
     const auto steps = static_cast<std::uint64_t>(std::round(seconds / kStep_s));
     const std::uint32_t part = std::exchange(number_, 0U);
@@ -182,6 +192,7 @@ class Day {
     const double feed_mm_s = transition != nullptr ? transition->path_speed_mm_s() : 0.0;
     const double share = cuts ? transition->cut_share() : 0.0;
     const bool coolant = transition != nullptr && transition->coolant;
+    // The reading before the step: what a control would have at that time.
     const double room_c = growth_.read_room_c();
     growth_.update(
         {.speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = share, .coolant = coolant});
@@ -206,6 +217,7 @@ class Day {
     return layer_.offset_mm(axis.row());
   }
 
+  // The length of the error vector; with the correction the remainder counts.
   std::array<double, kWays> errors(const nc::interpret::Axes& text_mm) const {
     std::array<double, kWays> squares{};
     for (const BelievedAxis& axis : axes_) {
@@ -251,6 +263,7 @@ class Day {
 
 Result<std::vector<BelievedAxis>> believed(const Job& job) {
   std::vector<BelievedAxis> out;
+  // Displacements that no axis can correct (a tilt) are left to the machine file.
   for (std::size_t i = 0; i < job.machine.thermal.axis.size(); ++i) {
     const std::string& name = job.machine.thermal.axis[i].name;
     const bool moved = std::ranges::any_of(
@@ -276,6 +289,7 @@ Result<std::vector<BelievedAxis>> believed(const Job& job) {
 }  // namespace
 
 double Batch::improvement(Way way) const noexcept {
+  // An error of nothing would make the improvement infinite.
   return error[0].largest_mm / std::max(error[static_cast<std::size_t>(way)].largest_mm, 1e-9);
 }
 

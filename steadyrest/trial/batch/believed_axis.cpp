@@ -8,6 +8,8 @@
 #include <steadyrest/thermal/offline/plan/plan.hpp>
 #include <steadyrest/trial/batch/believed_axis.hpp>
 
+// What a shop that plans in the text knows of an axis: the passport, the readings of the probe,
+// and the filter that puts the two together. Never the simulation's truth.
 namespace steadyrest::trial::batch {
 
 using kernel::outcome::Result;
@@ -42,6 +44,7 @@ BelievedAxis::BelievedAxis(const kernel::machine::Machine& machine, std::size_t 
           machine.axes.begin())),
       probe_sd_mm_(machine.simulation.probe_noise_mm),
       filter_(std::move(filter)) {
+  // The limits apart from the axes, which are of no use here.
   limits_.axis.clear();
 }
 
@@ -55,12 +58,15 @@ void BelievedAxis::update(double elapsed_s, thermal::online::Drive drive, double
 }
 
 void BelievedAxis::measure(double displacement_mm) noexcept {
+  // The probe counts from the part's zero, the model from cold.
   filter_.measure({.displacement_mm = displacement_mm + zero_mm_, .sd_mm = probe_sd_mm_});
 }
 
 Result<nc::rewrite::AxisPlan> BelievedAxis::plan(const thermal::offline::Cyclogram& cyclogram,
                                                  double tolerance_mm) const {
   // The levels as the readings have scaled them, and the bias as it stands.
+  // The plan looks ahead, so what the readings have taught must go into the model that is run
+  // ahead.
   kernel::machine::ThermalAxis scaled = passport_;
   for (kernel::machine::ThermalMode& mode : scaled.mode) {
     for (double& level : mode.level_mm) {
@@ -95,6 +101,7 @@ Result<nc::rewrite::AxisPlan> BelievedAxis::plan(const thermal::offline::Cyclogr
   for (const auto& row : planned->transition) {
     for (std::size_t j = 0; j < row.interval_s.size(); ++j) {
       if (row.delta_mm[j] != 0.0) {
+        // Steps are changes in the plan; the program gets the whole offset each time.
         sum_um += row.delta_mm[j] * 1e3;
         out.steps.push_back({.time_s = time_s, .displacement_um = sum_um});
       }

@@ -17,6 +17,9 @@
 #include <steadyrest/trial/batch/text_shifts.hpp>
 
 namespace steadyrest::trial::batch {
+// What corrections in the text do to each move: both programs are run through the interpreter and
+// compared move by move, in machine coordinates. So whatever method wrote the corrections
+// (offsets, transforms, changed words), what counts is where the axes go.
 namespace {
 
 using kernel::outcome::Kind;
@@ -39,6 +42,8 @@ std::vector<bool> inserted_lines(const std::string& program) {
 
 class Tracer final : public nc::interpret::Sink {
  public:
+  // The timer tells when each line begins; giving it a number for each move makes it tell of
+  // moves.
   Tracer(nc::plan::SegmentTimer timer, std::vector<bool> inserted)
       : timer_(std::move(timer)), inserted_(std::move(inserted)) {
     timer_.set_arrival([this](std::uint32_t sequence, double time_s) {
@@ -50,6 +55,7 @@ class Tracer final : public nc::interpret::Sink {
     nc::interpret::Move numbered = move;
     numbered.line = ++sequence_;  // stands in for the line, so that each move is told of
     timer_.on_move(numbered);
+    // Inserted blocks may contain moves of their own, which the original lacks.
     if (move.line < inserted_.size() && inserted_[move.line]) {
       return;
     }
@@ -93,12 +99,14 @@ bool same(const Axes& a, const Axes& b) noexcept {
   return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) < kSame_mm; });
 }
 
+// Only changes: most moves share their shift with the one before.
 void add(std::vector<Shift>& shifts, double time_s, const Axes& mm) {
   if (!same(shifts.empty() ? Axes{} : shifts.back().mm, mm)) {
     shifts.push_back({.time_s = time_s, .mm = mm});
   }
 }
 
+// The shift of a move holds at its end; it grew along the move.
 std::vector<Shift> of_moves(const Trace& original, const Trace& changed) {
   std::vector<Shift> out;
   for (std::size_t i = 0; i < original.end.size(); ++i) {
@@ -166,6 +174,8 @@ Result<ShiftedProgram> shifted_program(const std::string& program, const Trace& 
                                                changed->end.size(), original.end.size()),
                                    "please report this: it is a bug in Steadyrest"});
   }
+  // Corrections that the control applies beside the text (an offset table) do not show in the
+  // text's coordinates.
   return ShiftedProgram{.shift = nc::rewrite::beside_program(settings.method)
                                      ? of_insertions(*done, plan)
                                      : of_moves(original, *changed),

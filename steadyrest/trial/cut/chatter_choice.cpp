@@ -10,6 +10,8 @@
 #include <steadyrest/trial/cut/chatter_choice.hpp>
 
 namespace steadyrest::trial::cut {
+// The planner's answer for each spindle speed that the program cuts at, turned into what the layer
+// can do: a law, a constant ratio, or nothing.
 namespace {
 
 using chatter::offline::PlanDecision;
@@ -41,6 +43,8 @@ chatter::online::Modulation modulation_of(const chatter::offline::Plan& plan, do
   return {.law = Law::constant};
 }
 
+// The layer may not exceed the panel: for a faster spindle the operator must turn his switch up
+// first.
 double switch_of(const chatter::offline::Alternative& chosen,
                  const kernel::machine::Machine& machine) {
   if (machine.spindle_override.layer_may_exceed_panel) {
@@ -63,6 +67,8 @@ std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path) {
       }
     }
     const bool cuts = path.segments[i].motion == kernel::signal::Motion::feed;
+    // Under G96 (constant cutting speed) the speed changes along the segment: there is no one speed to
+    // plan for.
     const bool known = speed_rev_s > 0.0 && path.plans[i].spindle_rev_s == 0.0;
     if (cuts && known &&
         std::ranges::none_of(speeds, [&](double s) { return same(s, speed_rev_s); })) {
@@ -125,6 +131,7 @@ Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process&
   config.detector.least_energy = kSilence_mm_s * kSilence_mm_s;
   config.table = chatter::offline::steps_of(machine);
   config.table.teeth = process.tool.teeth;
+  // The listener has no operator to ask: steps above 100 % are out of reach.
   if (!machine.spindle_override.layer_may_exceed_panel) {
     config.table.max_ratio = std::min(config.table.max_ratio, 1.0);
   }
@@ -151,6 +158,7 @@ std::vector<sim::OperatorAction> operator_for(const std::vector<ChatterChoice>& 
   return {};
 }
 
+// The room on and idle from the start; the choices tell it what to do.
 kernel::machine::Machine with_modulator(kernel::machine::Machine machine) {
   machine.chatter.enabled = true;
   machine.chatter.m_code_on = machine.chatter.m_code_off = 0;

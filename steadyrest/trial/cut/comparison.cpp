@@ -6,6 +6,8 @@
 #include <steadyrest/trial/cut/comparison.hpp>
 #include <steadyrest/trial/cut/worst_lines.hpp>
 
+// From the two runs to what the report shows. Units for people (µm, mm/min, %) are made here, at
+// the border, and nowhere before.
 namespace steadyrest::trial::cut {
 namespace {
 
@@ -62,6 +64,7 @@ ReportData compare(const std::filesystem::path& program, const kernel::machine::
   data.limit_um = um_from_mm(machine.contour.limit_mm);
   const auto& table = machine.feed_override;
   for (std::size_t i = 0; i < table.ratio.size(); ++i) {
+    // A binary table may have no codes.
     data.override_table.push_back({i < table.code.size() ? table.code[i] : 0,
                                    kernel::units::percent_from_ratio(table.ratio[i])});
   }

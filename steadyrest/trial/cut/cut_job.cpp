@@ -12,6 +12,9 @@
 #include <steadyrest/trial/cut/motion_score.hpp>
 
 namespace steadyrest::trial::cut {
+// One cut of a program on the simulated machine, with or without the layer. The judge is apart
+// from both: it measures the true tool, which no control can see, against the program's path
+// without the layer's offsets.
 namespace {
 
 using contour::online::ContourError;
@@ -46,6 +49,7 @@ class TrueError {
 
   ContourError::Output update(const Frame& frame, const sim::Truth& truth) noexcept {
     ContourError::Input input = contour::online::contour_input(frame);
+    // The program's command: an axis offset is a correction, not an error of the path.
     input.command_mm = first_three(truth.program_mm);
     input.actual_mm = first_three(truth.tool_mm);
     return error_.update(input);
@@ -91,6 +95,7 @@ Sample sample_of(const Frame& frame, const sim::Truth& truth, const ContourError
 /// Ten simulated minutes without path, dwell or end: the part will never be finished.
 class Standstill {
  public:
+  // Neither place nor line changes: a 0 % override would otherwise simulate for ever.
   [[nodiscard]] bool too_long(const Frame& frame) {
     if (frame.path_position_mm != position_mm_ || frame.program_line != line_) {
       position_mm_ = frame.path_position_mm;
@@ -133,6 +138,8 @@ class Probed {
  public:
   explicit Probed(const kernel::machine::Machine& machine) : machine_(machine) {}
 
+  // The reading comes a cycle after the move that made it, so the line is that of the last probing
+  // move.
   void look(const Sample& sample, const supervisor::Supervisor& layer, Recorder& record) {
     const auto& thermal = layer.estimates().thermal;
     if (!thermal || thermal->probed.reading.number == number_) {
@@ -163,6 +170,7 @@ class Probed {
 
 Layer layer_of(const std::shared_ptr<supervisor::Supervisor>& layer, const Job& job) {
   return [layer, choices = job.choices, now = 0.0, begun = false](Frame& frame) mutable {
+    // The choice goes with the programmed speed: told once for each change.
     if (!choices.empty() && frame.spindle_programmed_rev_s != now) {
       now = frame.spindle_programmed_rev_s;
       const ChatterChoice* choice = choice_for(choices, now);
@@ -176,6 +184,7 @@ Layer layer_of(const std::shared_ptr<supervisor::Supervisor>& layer, const Job& 
     if (auto* const heat = layer->thermal(); heat != nullptr && !std::exchange(begun, true)) {
       heat->zero_here();  // the simulated machine begins where the part's zero was set
     }
+    // With the layer's estimates in it, so that their error can be scored.
     frame.axis = layer->frame().axis;
     return command;
   };
@@ -185,6 +194,7 @@ Result<std::unique_ptr<sim::SimulatedMachine>> machine_of(const Job& job) {
   return sim::SimulatedMachine::make(
       {.machine = job.machine,
        .path = job.path,
+       // The operator helps the layer alone: without it the switch stays where it is.
        .operator_actions = job.with_layer ? operator_for(job.choices, job.machine)
                                           : std::vector<sim::OperatorAction>{},
        .cutting = job.cutting});
@@ -214,12 +224,14 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
         }
       }
     }
+    // After the layer has seen the frame: its estimates are what is scored.
     if (motion != nullptr) {
       motion->add(*frame, machine.truth().motor_mm_s, machine.truth().motor_mm_s2);
     }
     if (vibration != nullptr && machine.cutting() != nullptr) {
       vibration->add(frame->time_s, frame->spindle_actual_rev_s, machine.cutting()->cycle());
     }
+    // The truth is that of the end of this cycle; the command acts in the next.
     on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()), reason));
     if (standstill.too_long(*frame)) {
       return std::unexpected(Refusal{Kind::bad_input, "", frame->program_line,

@@ -7,6 +7,8 @@
 #include <steadyrest/trial/cut/motion_score.hpp>
 
 namespace steadyrest::trial::cut {
+// How good the layer's estimates are on this cut, against the difference of the counts that a
+// control would otherwise have; the truth is the motor side, where the encoder sits.
 namespace {
 
 using kernel::outcome::Result;
@@ -50,6 +52,7 @@ void MotionScore::add(const kernel::signal::Frame& frame,
     const auto naive = axis.difference.tick(
         {.t_s = frame.time_s,
          .count = sample.count,
+         // The counter rounds: count n is n ± ½.
          .low_mm = (static_cast<double>(sample.count) - 0.5) * axis.count_mm,
          .high_mm = (static_cast<double>(sample.count) + 0.5) * axis.count_mm});
     const double v_error = std::abs(sample.velocity_mm_s - v);
@@ -59,6 +62,7 @@ void MotionScore::add(const kernel::signal::Frame& frame,
     axis.estimate_squares.acceleration += square(a_error);
     axis.difference_squares.velocity += square(naive.velocity_mm_s - v);
     axis.difference_squares.acceleration += square(naive.acceleration_mm_s2 - a);
+    // Coverage is judged where there is a bound; no bound is no failure.
     axis.bounded[0] += std::isfinite(sample.velocity_bound_mm_s);
     axis.bounded[1] += std::isfinite(sample.acceleration_bound_mm_s2);
     axis.kept[0] +=

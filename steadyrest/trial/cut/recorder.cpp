@@ -6,6 +6,8 @@
 
 #include <steadyrest/trial/cut/recorder.hpp>
 
+// Figures over all samples, and a trace of bounded size. The trace keeps the worst sample of each
+// group, so that thinning it never hides an error.
 namespace steadyrest::trial::cut {
 namespace {
 
@@ -29,6 +31,7 @@ void Recorder::add(const Sample& sample) {
   add_to_trace(sample);
 }
 
+// Time and override changes count in all motion, errors in cuts alone: a rapid leaves no surface.
 void Recorder::add_to_figures(const Sample& sample) {
   figures_.cycle_time_s = std::max(figures_.cycle_time_s, sample.time_s);
   if (last_ratio_ >= 0.0 && sample.feed_ratio != last_ratio_) {
@@ -73,6 +76,7 @@ void Recorder::add_to_trace(const Sample& sample) {
   in_group_ = (in_group_ + 1) % group_size_;
 }
 
+// However long the cut, the trace keeps its size: groups double.
 void Recorder::thin_trace() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < trace_.size(); i += 2) {

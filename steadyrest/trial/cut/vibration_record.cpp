@@ -31,6 +31,7 @@ void VibrationRecord::Stretch::add(const Stretch& next) {
   cycles += next.cycles;
 }
 
+// Neighbours merge pairwise: peaks as the larger, means by weight, so no peak is lost.
 void VibrationRecord::halve() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < course_.size(); i += 2) {
@@ -88,6 +89,7 @@ std::optional<VibrationFigures> VibrationRecord::figures() const {
   }
   double variance = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
+    // Variance as Σx² − x̄²·T: the mean is the static deflection, which is no vibration.
     const double mean = sum_.sum_mm_s[i] / seconds;
     variance += sum_.square_mm2_s[i] - mean * mean * seconds;
   }

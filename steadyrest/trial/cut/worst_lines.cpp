@@ -13,6 +13,8 @@
 #include <steadyrest/trial/cut/worst_lines.hpp>
 
 namespace steadyrest::trial::cut {
+// Which lines of the program err most, and at which feed each would keep the limit: the table that
+// tells a programmer where to change F.
 namespace {
 
 using kernel::machine::Axis;
@@ -45,6 +47,8 @@ void each_linear_axis(const Machine& machine, Visit visit) {
   }
 }
 
+// An arc longer than three time constants of the slowest axis: only then does the closed form
+// hold.
 bool steady(const LineError& worst, const Machine& machine) {
   double slowest_1_s = std::numeric_limits<double>::infinity();
   each_linear_axis(machine, [&slowest_1_s](const Axis& axis) {
@@ -81,6 +85,7 @@ std::map<std::uint32_t, Pair> by_line(const Recorder& without, const Recorder& w
 }
 
 /// With the layer; where it kept the limit a faster run without it that did as well says more.
+/// A line that was driven within the limit without the layer proves that feed.
 HeldFeed held_feed(const Pair& pair, const Machine& machine) {
   const LineError& judged = pair.with ? *pair.with : *pair.without;
   const HeldFeed held = held_feed(judged, machine);
@@ -125,6 +130,7 @@ void add_texts(const std::filesystem::path& program, std::vector<WorstLine>& lin
 }  // namespace
 
 HeldFeed held_feed(const LineError& worst, const Machine& machine) {
+  // Away from steady arcs ε grows with v² (leading term), so the feed scales with √(limit/ε).
   const double share = machine.contour.limit_mm / std::abs(worst.contour_error_mm);
   const HeldFeed recorded =
       share >= 1.0 ? HeldFeed{worst.path_speed_mm_s, HeldBy::driven}
@@ -148,6 +154,7 @@ std::vector<WorstLine> worst_lines(const std::filesystem::path& program, const M
   }
   std::map<std::uint32_t, bool> chosen;
   for (const auto run : {&Pair::without, &Pair::with}) {
+    // Stable, so that equal errors keep the program's order.
     std::ranges::stable_sort(order, std::greater{},
                              [&](std::uint32_t line) { return size_of(all.at(line).*run); });
     for (std::size_t i = 0; i < std::min(order.size(), kOfEachRun); ++i) {

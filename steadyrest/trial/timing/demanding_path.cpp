@@ -12,6 +12,9 @@
 #include <steadyrest/trial/timing/demanding_path.hpp>
 
 namespace steadyrest::trial::timing {
+// A path that is as hard for the layer as a real program can be: arcs of several radii at two
+// feeds, a zigzag of corners, a circle in CAM chords. It fills the look-ahead and makes every
+// decision a search; timing on straight lines would flatter.
 namespace {
 
 using kernel::machine::Machine;
@@ -33,6 +36,7 @@ struct Plane {
 
 std::optional<Plane> plane_of(const Machine& machine) {
   // G17, G18 (Z before X), G19.
+  // Right-handed planes, so that a counter-clockwise arc is one on each.
   constexpr std::array<Plane, 3> kPlanes{{{.axis = {0, 1}, .normal = 2},
                                           {.axis = {2, 0}, .normal = 1},
                                           {.axis = {1, 2}, .normal = 0}}};
@@ -56,6 +60,7 @@ class Pen {
     for (std::size_t i = 0; i < 2; ++i) {
       const auto& axis = machine.axes[plane.axis[i]];
       middle_mm_[i] = 0.5 * (axis.min_mm + axis.max_mm);
+      // Scaled down where the machine is small: radii and chords shrink with it.
       travel_mm = std::min(travel_mm, axis.max_mm - axis.min_mm);
       fastest_mm_s_ = std::min(fastest_mm_s_, axis.max_speed_mm_s);
     }
@@ -89,8 +94,10 @@ class Pen {
     ++move_.line;
     move_.start = move_.end;
     move_.end = place(u, v);
+    // No rounding of corners: they are meant to be seen.
     move_.path_mode = nc::interpret::PathMode::exact_path;
     if (kind != MoveKind::rapid) {
+      // The chord stands in for the arc's length: only a rough total is needed.
       const double du = move_.end[plane_.axis[0]] - move_.start[plane_.axis[0]];
       const double dv = move_.end[plane_.axis[1]] - move_.start[plane_.axis[1]];
       seconds_ += std::hypot(du, dv) / move_.feed_mm_s;
@@ -160,6 +167,7 @@ Result<std::shared_ptr<const nc::plan::PlannedPath>> demanding_path(const Machin
   }
   nc::plan::PathBuilder builder(machine);
   Pen pen(machine, *plane, builder);
+  // At a very small feed one drawing lasts hours.
   for (int i = 0; i < kMostDrawings && pen.seconds() < least_s; ++i) {
     draw(pen);
   }

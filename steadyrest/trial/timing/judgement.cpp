@@ -8,6 +8,7 @@
 #include <steadyrest/trial/timing/judgement.hpp>
 
 namespace steadyrest::trial::timing {
+// The timing, turned into a finding that says what to change.
 namespace {
 
 using kernel::machine::Machine;
@@ -36,6 +37,8 @@ std::string remedy(const LayerTiming& timing, const Machine& machine) {
 
 std::vector<Finding> judge(const LayerTiming& timing, const Machine& machine) {
   const double took_s = std::max(timing.work_s.p999, timing.decision_s.p999);
+  // By the 99.9 % quantile of the worse of both, cycle and decision: a decision comes seldom and
+  // would vanish in the mean.
   if (took_s <= kMostShare * timing.cycle_s) {
     return {};
   }

@@ -11,6 +11,9 @@
 #include <steadyrest/trial/timing/layer_timing.hpp>
 
 namespace steadyrest::trial::timing {
+// What a cycle of the layer takes on this computer. The run is deterministic, so cycle n does the
+// same work in each round: its least time over the rounds is its cost, the rest was the operating
+// system's.
 namespace {
 
 using kernel::machine::Machine;
@@ -45,6 +48,7 @@ Result<void> run_round(const Machine& machine, const Path& path, std::size_t mos
     if (!frame) {
       return std::unexpected(frame.error());
     }
+    // Reading and writing the port are the port's affair and not timed.
     const auto begin = Clock::now();
     const kernel::signal::Command command = layer->update(*frame);
     const double took_s = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -72,6 +76,7 @@ Result<LayerTiming> time_layer(const Machine& machine, const Effort& effort,
   LayerTiming timing;
   timing.cycle_s = machine.control.interpolator_period_s;
   timing.rounds = effort.rounds;
+  // Long enough that as many decisions as asked for can fall due.
   const double apart_s = std::max(timing.cycle_s, kDecision_s);
   const auto path = demanding_path(machine, static_cast<double>(effort.decisions) * apart_s);
   if (!path) {

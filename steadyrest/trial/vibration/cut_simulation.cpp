@@ -8,6 +8,8 @@
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
 namespace steadyrest::trial::vibration {
+// The process file's cut in time. Shares nothing with the chatter room's solver but the file, so
+// that the two can check each other.
 namespace {
 
 using chatter::offline::Direction;
@@ -29,6 +31,7 @@ double slowest_rev_s(const CutSettings& settings) {
 }
 
 /// Slope of the least-squares line through the values at 0, 1, 2 …
+/// With k from −(n − 1)/2 on: Σk² = n(n² − 1)/12.
 double slope(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
   double products = 0.0;
@@ -68,6 +71,8 @@ sim::Cutting cutting_of(const Process& process, double depth_mm) {
   return out;
 }
 
+// Growth is measured, not assumed: the logarithm of the size, averaged over whole periods of the
+// law, against the number of teeth; the slope of that line is the growth.
 kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
                                                      const CutSettings& settings,
                                                      std::size_t pitches) {
@@ -139,6 +144,7 @@ kernel::outcome::Result<void> simulate(const Process& process, const CutSettings
     return std::unexpected(cut.error());
   }
   const SpeedProfile speed(settings.speed_rev_s, settings.modulation);
+  // The speed of a step is that of its middle: second order.
   const double half_rad = 0.5 * kTurn / static_cast<double>(cut->steps());
   Moment now;
   while (now.t_s < seconds) {

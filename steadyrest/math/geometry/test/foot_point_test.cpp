@@ -37,6 +37,7 @@ double brute_distance(const PathSegment& segment, const Point& query, double low
   return std::min({at(0.5 * (a + b)), at(low), at(high)});
 }
 
+// The oracle knows distances alone, so a wrong derivative shows.
 RC_GTEST_PROP(FootPoint, OfLinesIsWithinANanometreOfDenseSampling, ()) {
   const PathSegment segment = test::line(*test::point(50.0), *test::point(50.0));
   const Point query = *test::point(80.0);
@@ -45,6 +46,7 @@ RC_GTEST_PROP(FootPoint, OfLinesIsWithinANanometreOfDenseSampling, ()) {
   RC_ASSERT(distance(foot.point_mm, point_at(segment, foot.u)) <= 1e-9);
 }
 
+// Queries up to 0.9 radii off: near the axis the foot jumps from one side to the other.
 RC_GTEST_PROP(FootPoint, OfArcsHelicesAndSpiralsMatchesDenseSamplingWithinTwoTurns, ()) {
   const PathSegment segment = *test::any_arc();
   const double reach = std::min(1.0, 6.2 / segment.sweep_rad);
@@ -59,6 +61,7 @@ RC_GTEST_PROP(FootPoint, OfArcsHelicesAndSpiralsMatchesDenseSamplingWithinTwoTur
   RC_ASSERT(distance(foot.point_mm, point_at(segment, foot.u)) <= 1e-9);
 }
 
+// Four turns lie on one another; only u_near can tell them apart.
 TEST(FootPoint, OnAMultiTurnCircleStaysOnTheTurnThatIsAsked) {
   const double turn = 2.0 * std::numbers::pi;
   const PathSegment circle = test::arc({}, {0, 0, 1}, 10.0, 10.0, 0.0, 4.0 * turn, 0.0);

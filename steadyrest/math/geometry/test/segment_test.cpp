@@ -15,6 +15,7 @@ namespace {
 
 using kernel::signal::PathSegment;
 
+// Unrolled, a helix is the hypotenuse of r·ω and its rise.
 TEST(Segment, LengthOfAHelixIsItsUnrolledHypotenuse) {
   const PathSegment helix = test::arc({}, {0, 0, 1}, 10.0, 10.0, 0.3, 3.0, 2.0);
   EXPECT_NEAR(arc_length_mm(helix), std::hypot(30.0, 2.0), 1e-12);
@@ -29,6 +30,7 @@ TEST(Segment, LengthOfAnArchimedeanSpiralIsTheTextbookIntegral) {
               b / 2.0 * (turn * std::sqrt(1.0 + turn * turn) + std::asinh(turn)), 1e-10);
 }
 
+// Chords know nothing of the integral; 20 000 of them are short of the arc by 10⁻⁸ or so.
 RC_GTEST_PROP(Segment, LengthIsTheSumOfManyChords, ()) {
   const PathSegment segment = *test::any_segment();
   const int count = 20000;
@@ -42,12 +44,14 @@ RC_GTEST_PROP(Segment, LengthIsTheSumOfManyChords, ()) {
   RC_ASSERT(std::abs(sum - arc_length_mm(segment)) <= 1e-6 * (1.0 + sum));
 }
 
+// Spirals too, where the inverse has no closed form.
 RC_GTEST_PROP(Segment, ParameterAndDistanceAreInverse, ()) {
   const PathSegment segment = *test::any_segment();
   const double u = *test::number(0.0, 1.0);
   RC_ASSERT(std::abs(parameter_at(segment, distance_at(segment, u)) - u) <= 1e-11);
 }
 
+// Central differences of the point along its length: error h²/6 of the third derivative.
 RC_GTEST_PROP(Segment, TangentAndCurvatureAreTheDifferencesOfThePoint, ()) {
   const PathSegment segment = *test::any_segment();
   const double s = *test::number(0.1, 0.9) * segment.length_mm;

@@ -76,6 +76,7 @@ TEST_P(BatchOfSeed, ErrorFallsFourTimesAndOnNoPartRisesWithAModelWrongByTwentyPe
 }
 INSTANTIATE_TEST_SUITE_P(Three, BatchOfSeed, ::testing::Values(1U, 2U, 3U));
 
+// A model that is right leaves the band of the text and, on line, one second of growth.
 TEST(Batch, ARightModelLeavesNoMoreThanItsBand) {
   Job job = example();
   set_errors(job, {0.0}, {0.0});

@@ -44,6 +44,7 @@ Figures cut_with_layer(const std::string& program, const Machine& machine,
   return run(job_of(program, machine, dialect)).value().figures();
 }
 
+// By samples, not by time: all cycles are alike.
 double share_over(const Figures& figures) {
   return static_cast<double>(figures.samples_over_limit) / static_cast<double>(figures.samples);
 }
@@ -83,14 +84,18 @@ void expect_settled_at_30_percent(const std::string& machine) {
   }
 }
 
+// On the ideal machine the layer knows all; any other step is a fault of the governor.
 TEST(LayerOnTheCircle, SettlesAtTheLargestStepThatTheClosedFormAllows) {
   expect_settled_at_30_percent("ideal-k50.toml");
 }
 
+// On the machine with friction and backlash its model is wrong in places; it must still hold the
+// limit on the same step.
 TEST(LayerOnTheCircle, SettlesThereOnTheMachineWithFrictionAndBacklashToo) {
   expect_settled_at_30_percent("vmc-840d.toml");
 }
 
+// The three strategies must be apart by more than noise, in error and in time.
 TEST(LayerOnTheCircle, ThreeStrategiesGiveThreeRows) {
   Machine machine = machine_of("vmc-840d.toml");
   machine.contour.strategy = ContourStrategy::contour_priority;
@@ -106,6 +111,7 @@ TEST(LayerOnTheCircle, ThreeStrategiesGiveThreeRows) {
   EXPECT_GT(combined.cycle_time_s, 1.2 * feed.cycle_time_s);
 }
 
+// Ribs, pockets and corners: the hard program. A thousandth is a few samples at the entries.
 TEST(LayerOnThePocket, KeepsTheLimitInAllButOneSampleInAThousand) {
   for (const double limit_mm : {0.010, 0.020}) {
     Machine machine = machine_of("vmc-840d.toml");
@@ -116,6 +122,7 @@ TEST(LayerOnThePocket, KeepsTheLimitInAllButOneSampleInAThousand) {
   }
 }
 
+// The slow servo's errors cannot all be had by the override; a fifth is what is left.
 TEST(LayerOnThePocket, TakesTheTimeOverTheLimitDownFivefoldOnASlowServoWithTwoHundredSteps) {
   const Machine machine = machine_of("linuxcnc-mill.toml");
   ASSERT_GT(machine.feed_override.ratio.size(), 64U);
@@ -127,6 +134,7 @@ TEST(LayerOnThePocket, TakesTheTimeOverTheLimitDownFivefoldOnASlowServoWithTwoHu
   EXPECT_LT(with.contour_error_max_mm, 0.1 * without.contour_error_max_mm);
 }
 
+// A walking word needs a scan for each step: the fall must begin that much earlier.
 TEST(LayerOnThePocket, FallsInTimeWhereTheWordWalksFromNeighbourToNeighbour) {
   const Machine machine = machine_of("mill-802d.toml");
   ASSERT_FALSE(machine.feed_override.latched_word);

@@ -26,6 +26,7 @@ using kernel::signal::Motion;
 constexpr double kSpeed_rev_s = 50.0;  // S3000
 constexpr double kSlot_mm = 200.0;
 
+// Drive of 50 rev/s² and a triangle of ± 5 rev/s in 2 s: its slope is 10 rev/s², well within.
 machine::Machine mill() {
   machine::Machine m;
   m.mode = machine::Mode::act;
@@ -124,6 +125,8 @@ Band speeds(const std::vector<Sample>& samples) {
   return band;
 }
 
+// ± 5 of 50 rev/s are 90 … 110 %. The word moves in steps of 5 %, the drive rounds them off by its
+// ramp.
 TEST(Modulation, TheSpindleFollowsTheTriangleWithinWhatItsDriveCan) {
   const auto samples = in_slot(run(mill(), slot()));
   ASSERT_GT(samples.size(), 5000U);
@@ -142,6 +145,8 @@ TEST(Modulation, TheSpindleFollowsTheTriangleWithinWhatItsDriveCan) {
   EXPECT_GT(worst, 0.02) << "the steps must show";
 }
 
+// At 90 % of the speed and full feed each tooth would take 1/0.9 = 111 %; the band allows 105 %,
+// so the feed must go down to 94.5 %.
 TEST(Modulation, TheFeedPerToothStaysInItsBand) {
   Band band;
   double lowest_feed = 1.0;
@@ -155,6 +160,7 @@ TEST(Modulation, TheFeedPerToothStaysInItsBand) {
   EXPECT_LT(lowest_feed, 0.96) << "without the feed 90 % speed would be 111 % per tooth";
 }
 
+// Modal like M3: from M38 to M39 and nowhere else.
 TEST(Modulation, WithoutItsMWordAndAfterM39TheSpindleStandsStill) {
   for (const auto& s : in_slot(run(mill(), slot("", "")))) {
     ASSERT_FALSE(s.command.spindle_masks_panel);
@@ -184,6 +190,7 @@ TEST(Modulation, OnlyTheCutIsModulated) {
   }
 }
 
+// The operator's 0 is for the feed; the spindle must not stop in the cut.
 TEST(Modulation, ThePanelAtZeroStopsTheFeedAndTheSpindleGoesOnWithinItsSwitch) {
   // Feed switch to 0 % at 6 s: code of the table's first step.
   const auto samples = run(
@@ -196,6 +203,7 @@ TEST(Modulation, ThePanelAtZeroStopsTheFeedAndTheSpindleGoesOnWithinItsSwitch) {
   }
 }
 
+// Without the right to exceed the panel the swing of ± 20 % of the table lies below the 80 %.
 TEST(Modulation, AnOperatorsLowerSwitchWins) {
   auto m = mill();
   m.spindle_override.layer_may_exceed_panel = false;
@@ -212,6 +220,7 @@ TEST(Modulation, AnOperatorsLowerSwitchWins) {
   EXPECT_NEAR(band.low, 0.60, 0.01) << "the whole swing moved down";
 }
 
+// To the bit: any change of speed in a thread is a spoiled thread.
 TEST(Modulation, TappingAndThreadingWithdrawIt) {
   auto m = mill();
   m.chatter.m_code_on = m.chatter.m_code_off = 0;
@@ -233,6 +242,7 @@ TEST(Modulation, TappingAndThreadingWithdrawIt) {
   EXPECT_GT(threading, 300U);
 }
 
+// In G95 the control itself keeps the feed per tooth; a second hand would correct twice.
 TEST(Modulation, FeedPerRevolutionFollowsTheSpindleByItself) {
   const auto samples =
       in_slot(run(mill(), "G21 G90 G95 S3000 M3\nG0 X0 Y0 Z0\nM38\nG1 X300 F0.333\nM2\n"));

@@ -160,8 +160,7 @@ std::vector<bool> filtered(const std::vector<bool>& raw, std::size_t n) {
   return out;
 }
 
-// The oracle is the textbook's table of sixteen transitions on levels filtered by definition;
-// levels
+// The oracle is the textbook's table of sixteen transitions, on levels filtered by definition. Levels
 // here are arbitrary, illegal transitions included.
 RC_GTEST_PROP(QuadratureDecoder, AgreesWithTheTableOfSixteenOnAnyLevels, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
