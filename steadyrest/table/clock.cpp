@@ -14,6 +14,8 @@ constexpr int kExact = 12;
 
 }  // namespace
 
+// The caller's own column first, then a column of stamps, then sample numbers, then the rows
+// themselves where the caller says that rows are samples.
 std::optional<Clock> Clock::of(const Head& head, const Format& format,
                                std::optional<std::size_t> own, double factor, Epoch epoch) {
   Clock out;
@@ -44,6 +46,7 @@ std::expected<double, Fault> Clock::seconds(const Row& row) {
     case Kind::sample:
       break;
   }
+  // Sample numbers without a rate are no time.
   if (factor_ == 0.0) {
     return std::unexpected(Fault{row.line(), "the sample rate is unknown",
                                  "give --sample-hz, the samples per second"});

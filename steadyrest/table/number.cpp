@@ -41,6 +41,7 @@ bool could_group(std::string_view field) noexcept {
 
 }  // namespace
 
+// from_chars knows no locale: a decimal comma in the user's settings changes nothing.
 std::optional<double> plain_number(std::string_view field) noexcept {
   field = without_plus(field);
   double value = 0.0;
@@ -71,6 +72,7 @@ int decimals_of(std::string_view field) noexcept {
   return std::max(out, 0);
 }
 
+// A point seen anywhere makes every comma a contradiction, before it or behind it.
 std::expected<double, Fault> NumberReader::read(std::string_view field, std::string_view name,
                                                 std::size_t line) {
   const auto value = plain_number(field);

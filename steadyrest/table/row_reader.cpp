@@ -21,6 +21,7 @@ using namespace std::string_view_literals;
 constexpr std::size_t kMostNotes = 20;
 constexpr std::size_t kMostColumns = 256;
 
+// Tabs are separators; everything else below 0x20 means that this is not text.
 bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20 && c != '\t') || byte == 0x7F;
@@ -48,6 +49,7 @@ std::size_t size_of_field(std::string_view text, char separator) {
                        : static_cast<std::size_t>(static_cast<const char*>(at) - text.data());
 }
 
+// Quotes are decoration here: what they hold is read like any other field.
 std::string_view field_of(std::string_view text) {
   text = trimmed(text);
   const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
@@ -75,6 +77,7 @@ void split_by(std::string_view text, char separator, std::vector<std::string_vie
   }
 }
 
+// A head has names, a row has at least one number or stamp.
 bool holds_value(std::string_view field) {
   return like_a_number(field) || stamp_of(field).has_value();
 }
@@ -119,6 +122,8 @@ std::optional<Fault> RowReader::first_line(std::string_view& text) {
   return std::nullopt;
 }
 
+// Line by line, so that logs of any length stream through. Comments and blank lines count for the
+// numbers in refusals and nothing else.
 std::optional<Fault> RowReader::line(std::string_view text) {
   ++line_;
   if (line_ == 1) {
@@ -262,6 +267,8 @@ void RowReader::split(std::string_view text) {
   split_by(text, separator_, fields_);
 }
 
+// Never fewer and never more fields than names: a decimal comma in a comma-separated file shows
+// here first.
 std::optional<Fault> RowReader::take_row(std::string_view text) {
   split(text);
   if (open_end_ && fields_.size() == head_.name.size() + 1 && fields_.back().empty()) {

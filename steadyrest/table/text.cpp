@@ -5,6 +5,7 @@
 
 namespace steadyrest::table {
 
+// A CR counts as a blank: logs with CR LF read the same.
 std::string_view trimmed(std::string_view text) noexcept {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && blank(text.front())) {
@@ -16,6 +17,7 @@ std::string_view trimmed(std::string_view text) noexcept {
   return text;
 }
 
+// ASCII alone, whatever the locale: units and keys are ASCII.
 std::string lower(std::string_view text) {
   std::string out(text);
   std::ranges::transform(out, out.begin(), [](char c) {
@@ -24,6 +26,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+// For refusals: garbage from a log must not move the terminal's cursor.
 std::string shown(std::string_view text) {
   constexpr std::size_t kMost = 40;
   std::string out(text.substr(0, kMost));

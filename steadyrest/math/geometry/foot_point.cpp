@@ -20,6 +20,7 @@ using kernel::signal::PathSegment;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kMaxSamples = 25;  // π/6 apart: two turns
+// Newton doubles its digits each step; bisection steps in between are few.
 constexpr int kMaxSteps = 12;
 
 Foot foot_on_line(const PathSegment& segment, const Point& query, double u_low,
@@ -41,6 +42,7 @@ struct Local {
   double z = 0.0;
 };
 
+// In the arc's frame the axis is z: distances along it separate from those in the plane.
 Local local_of(const PathSegment& segment, const ArcFrame& frame, const Point& query) noexcept {
   const Point from_centre = subtract(query, segment.centre_mm);
   return {dot(from_centre, frame.e1), dot(from_centre, frame.e2), dot(from_centre, segment.axis)};

@@ -14,6 +14,7 @@ namespace {
 using kernel::signal::Geometry;
 using kernel::signal::PathSegment;
 
+// Only there the speed along the parameter changes.
 bool is_spiral(const PathSegment& segment) noexcept {
   return segment.geometry == Geometry::arc && segment.radius_end_mm != segment.radius_mm;
 }

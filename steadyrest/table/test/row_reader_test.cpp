@@ -79,6 +79,8 @@ Said said_by(const std::string& text, const Format& format = {}) {
   return said;
 }
 
+// The same table as different programs write it: marks, quotes, byte order mark, blank lines, a
+// separator at the end. All must give the same four numbers.
 TEST(RowReader, ReadsWhatLoggersWrite) {
   for (const std::string text : {
            "a,b\n1.5,2\n-3,4e1\n",
@@ -100,12 +102,15 @@ TEST(RowReader, ReadsWhatLoggersWrite) {
   }
 }
 
+// The comma comes first in the head, but only the semicolon parts both lines into two.
 TEST(RowReader, TakesTheSeparatorThatPartsHeadAndFirstRowAlike) {
   const Said said = said_by("Temp, spindle;z\n1,5;2,25\n");
   EXPECT_THAT(said.names, ElementsAre("Temp, spindle", "z"));
   EXPECT_THAT(said.rows, ElementsAre(ElementsAre(1.5, 2.25)));
 }
 
+// Four ways to state a unit, and one row in which only some columns have one. A unit that
+// contradicts the name is refused: one of the two is wrong by a thousand.
 TEST(RowReader, PutsUnitsToTheNames) {
   for (const std::string text : {
            "t [s];z [µm];T1 (°C);spindle [1/min]\n0;1;20;0\n",
@@ -124,6 +129,7 @@ TEST(RowReader, PutsUnitsToTheNames) {
 }
 
 TEST(RowReader, DecidesTheDecimalMarkByTheWholeFile) {
+  // Read with the wrong mark every value is wrong by a factor of 1000 and looks sensible.
   // 1,234 is 1.234 where another number of the file proves it, before or behind.
   EXPECT_THAT(said_by("a;b\n1,234;0,5\n").rows, ElementsAre(ElementsAre(1.234, 0.5)));
   EXPECT_THAT(said_by("a;b\n1,234;1\n2,345;12,5\n").rows,
@@ -147,6 +153,8 @@ TEST(RowReader, DecidesTheDecimalMarkByTheWholeFile) {
   EXPECT_THAT(said_by("a;b\n1,234,567;2\n").fault, HasSubstr("2: a = \"1,234,567\" is not"));
 }
 
+// Commas for both: a row of 1,5,2 could be 1.5 and 2, or 1 and 5.2. The count of fields tells, and
+// the file is refused.
 TEST(RowReader, NeverTakesADecimalCommaForASeparator) {
   EXPECT_THAT(said_by("a,b\n1,5,2\n").fault, HasSubstr("2: the row has 3 fields, the header 2"));
   EXPECT_THAT(said_by("a,b\n1,5\n2,5,1\n").fault, HasSubstr("3: the row has 3 fields"));
@@ -154,6 +162,7 @@ TEST(RowReader, NeverTakesADecimalCommaForASeparator) {
   EXPECT_THAT(said_by("a,b\n1,5\n2,\n").fault, HasSubstr("3: b is empty"));
 }
 
+// Names from the command line: the separator is the one that gives as many fields.
 TEST(RowReader, ReadsAFileWithoutAHeadWhenItsColumnsAreNamed) {
   Format format;
   format.columns = {"t_s", "-", "count"};
@@ -174,6 +183,8 @@ TEST(RowReader, ReadsAFileWithoutAHeadWhenItsColumnsAreNamed) {
   EXPECT_THAT(bare.to_do, HasSubstr("--columns"));
 }
 
+// Sample 12 after 8 and an overrun: with numbers the time is still right, without them nobody
+// knows how many are missing.
 TEST(RowReader, ReadsWhatHalsamplerPrints) {
   Format format;
   format.columns = {"sample", "count", "-"};
@@ -195,6 +206,8 @@ TEST(RowReader, ReadsWhatHalsamplerPrints) {
               HasSubstr("2: the sampler overran"));
 }
 
+// Across midnight, and across a change of the stated zone within one hour: seconds count from the
+// first day's midnight in UTC.
 TEST(RowReader, ReadsStampsWithADate) {
   const Said said = said_by("Zeitstempel;z\n2026-11-22T23:59:59,5;1\n2026-11-23T00:00:00,25;2\n");
   EXPECT_EQ(said.fault, "");
@@ -209,6 +222,7 @@ TEST(RowReader, ReadsStampsWithADate) {
               HasSubstr("3: t_s = \"2026-11-22 10:00:00\" is not a finite number"));
 }
 
+// Programs write such values for a bad reading; none may become a number.
 TEST(RowReader, RefusesWhatIsNoText) {
   EXPECT_EQ(said_by("\x1f\x8b-").fault, "0: is gzip-compressed");
   EXPECT_EQ(said_by(std::string("a,b\n1,\0", 7)).fault, "0: is not text in UTF-8");

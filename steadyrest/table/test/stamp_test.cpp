@@ -9,6 +9,7 @@ namespace {
 // From `date -u -d … +%s`.
 constexpr std::int64_t kInstant_s = 1795391226;  // 2026-11-22T23:47:06Z
 
+// Basic and extended forms of ISO 8601, with T or a blank, with point or comma.
 TEST(Stamp, IsReadInEachSpelling) {
   for (const auto* text :
        {"2026-11-22T23:47:06", "2026-11-22 23:47:06", "2026-11-22T23:47:06Z",
@@ -24,6 +25,7 @@ TEST(Stamp, IsReadInEachSpelling) {
   EXPECT_EQ(stamp_of("2024-02-29T00:00:00Z")->whole_s, 1709164800);
 }
 
+// Seven decimals behind a point or a comma; that a zone was given is kept apart from the instant.
 TEST(Stamp, HasItsFractionAndItsZone) {
   const auto point = stamp_of("2026-11-22T23:47:06.1234567");
   const auto comma = stamp_of("2026-11-22T23:47:06,1234567+02:00");
@@ -35,6 +37,7 @@ TEST(Stamp, HasItsFractionAndItsZone) {
   EXPECT_TRUE(comma->zoned);
 }
 
+// Dates that do not exist, half a separator, anything behind: not a stamp.
 TEST(Stamp, IsNothingElse) {
   for (const auto* text :
        {"", "0.001", "08:00:00", "2026-11-22", "2026-02-29T00:00:00", "2026-13-01T00:00:00",

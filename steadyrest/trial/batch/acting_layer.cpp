@@ -56,6 +56,7 @@ ActingLayer::ActingLayer(const Machine& machine, supervisor::Supervisor layer)
   }
 }
 
+// The zero is set on the cold machine, as at the start of a shift.
 void ActingLayer::begin(double room_c) noexcept {
   show({.room_c = room_c}, false);
   layer_.thermal()->zero_here();

@@ -24,6 +24,7 @@ constexpr double kStep_s = 1.0;
 constexpr std::uint64_t kStepsOfPoint = 20;
 
 /// Largest and RMS of what is added.
+/// Largest and RMS over the cutting seconds only.
 class Sum {
  public:
   void add(double error_mm) noexcept {
@@ -299,6 +300,7 @@ std::size_t Batch::worse(Way way) const noexcept {
   }));
 }
 
+// The axes that can be corrected are the only ones judged.
 Result<Batch> run(const Job& job) {
   auto axes = believed(job);
   if (!axes) {

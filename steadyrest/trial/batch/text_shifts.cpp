@@ -31,6 +31,7 @@ using nc::interpret::Axes;
 constexpr double kSame_mm = 1e-7;
 
 /// inserted[line]: the layer has written it; index 0 unused.
+/// By the mark that the rewriter leaves on its lines.
 std::vector<bool> inserted_lines(const std::string& program) {
   std::vector<bool> inserted(1, false);
   std::ifstream in(program, std::ios::binary);
@@ -154,6 +155,8 @@ Result<Trace> trace(const std::string& program, const nc::interpret::Config& con
   return out;
 }
 
+// The corrected text goes through a file and the interpreter, as on a control: what is judged is
+// what would be cut.
 Result<ShiftedProgram> shifted_program(const std::string& program, const Trace& original,
                                        const nc::rewrite::Plan& plan,
                                        const nc::interpret::Config& config,

@@ -56,6 +56,7 @@ double switch_of(const chatter::offline::Alternative& chosen,
 
 }  // namespace
 
+// Speeds that nothing is cut at need no plan; events come before the segment that they act on.
 std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path) {
   std::vector<double> speeds;
   double speed_rev_s = 0.0;
@@ -67,8 +68,8 @@ std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path) {
       }
     }
     const bool cuts = path.segments[i].motion == kernel::signal::Motion::feed;
-    // Under G96 (constant cutting speed) the speed changes along the segment: there is no one speed to
-    // plan for.
+    // Under G96 (constant cutting speed) the speed changes along the segment: there is no one speed
+    // to plan for.
     const bool known = speed_rev_s > 0.0 && path.plans[i].spindle_rev_s == 0.0;
     if (cuts && known &&
         std::ranges::none_of(speeds, [&](double s) { return same(s, speed_rev_s); })) {
@@ -123,7 +124,9 @@ Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process&
                                                 const kernel::machine::Machine& machine,
                                                 const std::vector<double>& speeds_rev_s,
                                                 double depth_mm, double sensor_rate_hz) {
-  constexpr double kMostDepth = 5.0;     // of the wanted one: as deep as the planner looks
+  constexpr double kMostDepth = 5.0;  // of the wanted one: as deep as the planner looks
+  // The detector sees the listening tool only; thresholds are of its sensor, the vibration's
+  // velocity.
   constexpr double kSilence_mm_s = 0.1;  // a quieter tool is not in a cut
   chatter::online::BetterSpeed::Config config;
   config.detector.sample_rate_hz = sensor_rate_hz;
@@ -143,6 +146,8 @@ Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process&
   return supervisor::ListeningStage::make({.better = std::move(config), .depth_mm = depth_mm});
 }
 
+// One turn of the switch before the program begins, to the first step that reaches what any of the
+// cuts needs.
 std::vector<sim::OperatorAction> operator_for(const std::vector<ChatterChoice>& choices,
                                               const kernel::machine::Machine& machine) {
   double wanted = 1.0;

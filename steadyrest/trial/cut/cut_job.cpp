@@ -32,6 +32,8 @@ Point first_three(const kernel::signal::AxisValues& values) {
 }
 
 /// The measuring of the true tool, cycle by cycle.
+/// The product's own search for the foot, but fed with the truth: tool, heat and backlash, which no
+/// encoder shows.
 class TrueError {
  public:
   static Result<TrueError> make(const kernel::machine::Machine& machine) {
@@ -111,6 +113,7 @@ class Standstill {
   double since_s_ = 0.0;
 };
 
+// For the progress alone.
 double length_of(const nc::plan::PlannedPath& path) {
   return path.segments.empty() ? 0.0
                                : path.segments.back().position_mm + path.segments.back().length_mm;
@@ -168,6 +171,8 @@ class Probed {
   std::uint32_t line_ = 0;
 };
 
+// The layer as a function of the frame, so that cut() knows nothing of supervisors and tests can
+// put in their own.
 Layer layer_of(const std::shared_ptr<supervisor::Supervisor>& layer, const Job& job) {
   return [layer, choices = job.choices, now = 0.0, begun = false](Frame& frame) mutable {
     // The choice goes with the programmed speed: told once for each change.
@@ -247,6 +252,7 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
 
 }  // namespace
 
+// The supervisor outlives the cut: what it heard and probed is read after each sample.
 Result<Recorder> run(const Job& job) {
   auto machine = machine_of(job);
   if (!machine) {

@@ -14,6 +14,7 @@ namespace {
 using kernel::outcome::Result;
 using motion::online::BackwardDifference;
 
+// Nothing bounded: no coverage, rather than a perfect one.
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? std::numeric_limits<double>::quiet_NaN()
                     : static_cast<double>(part) / static_cast<double>(whole);
@@ -21,6 +22,7 @@ double share(std::size_t part, std::size_t whole) {
 
 }  // namespace
 
+// Axes without counts have nothing to estimate.
 Result<MotionScore> MotionScore::make(const kernel::machine::Machine& machine) {
   MotionScore score;
   for (std::size_t i = 0; i < std::min(machine.axes.size(), kernel::signal::kMaxAxes); ++i) {

@@ -15,6 +15,7 @@ using kernel::signal::Motion;
 
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 
+// By size: an error to the outside is as bad as one to the inside.
 bool worse(const Sample& a, const Sample& b) {
   return std::abs(a.contour_error_mm) > std::abs(b.contour_error_mm);
 }
@@ -34,6 +35,7 @@ void Recorder::add(const Sample& sample) {
 // Time and override changes count in all motion, errors in cuts alone: a rapid leaves no surface.
 void Recorder::add_to_figures(const Sample& sample) {
   figures_.cycle_time_s = std::max(figures_.cycle_time_s, sample.time_s);
+  // The first sample has no change behind it.
   if (last_ratio_ >= 0.0 && sample.feed_ratio != last_ratio_) {
     ++figures_.override_changes;
   }
@@ -87,6 +89,7 @@ void Recorder::thin_trace() {
   group_size_ *= 2;
 }
 
+// Times are counts of cycles, not sums of seconds: nothing to round.
 Figures Recorder::figures() const {
   Figures figures = figures_;
   const auto samples = static_cast<double>(figures.samples);

@@ -25,6 +25,7 @@ using kernel::units::um_from_mm;
 constexpr std::size_t kOfEachRun = 20;
 constexpr std::size_t kLongestText = 120;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+// e⁻³ = 5 % of the transient is left.
 constexpr double kRunIn = 3.0;  ///< time constants 1/k until the steady state
 
 /// Worst places of one line in both runs.
@@ -59,6 +60,7 @@ bool steady(const LineError& worst, const Machine& machine) {
 }
 
 /// By the axis that bears least; NaN where every speed keeps the limit.
+/// The axis that bears least sets the feed of the arc. A limit beyond the radius is no limit.
 double closed_form_mm_s(double radius_mm, const Machine& machine) {
   const double limit_mm = machine.contour.limit_mm;
   double least_mm_s = std::numeric_limits<double>::infinity();
@@ -73,6 +75,7 @@ double closed_form_mm_s(double radius_mm, const Machine& machine) {
   return std::isfinite(least_mm_s) ? least_mm_s : kNone;
 }
 
+// A very short line may have a sample in one run only.
 std::map<std::uint32_t, Pair> by_line(const Recorder& without, const Recorder& with) {
   std::map<std::uint32_t, Pair> out;
   for (const LineError& error : without.line_errors()) {
@@ -112,6 +115,7 @@ WorstLine row_of(std::uint32_t line, const Pair& pair, const Machine& machine) {
           .held_by = held.by};
 }
 
+// Read again rather than kept: programs have millions of lines, the table forty.
 void add_texts(const std::filesystem::path& program, std::vector<WorstLine>& lines) {
   std::ifstream file(program, std::ios::binary);
   std::string text;
@@ -144,6 +148,7 @@ HeldFeed held_feed(const LineError& worst, const Machine& machine) {
                                                                                       : closed;
 }
 
+// The twenty worst of each run: what the layer has cured is as telling as what it has not.
 std::vector<WorstLine> worst_lines(const std::filesystem::path& program, const Machine& machine,
                                    const Recorder& without, const Recorder& with) {
   const std::map<std::uint32_t, Pair> all = by_line(without, with);

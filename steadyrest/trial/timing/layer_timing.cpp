@@ -71,6 +71,7 @@ Result<void> run_round(const Machine& machine, const Path& path, std::size_t mos
 
 }  // namespace
 
+// Rounds repeat the same run; cycles line up by number.
 Result<LayerTiming> time_layer(const Machine& machine, const Effort& effort,
                                const std::function<void(double share)>& on_progress) {
   LayerTiming timing;

@@ -5,6 +5,7 @@
 
 #include <steadyrest/trial/timing/quantiles.hpp>
 
+// Sorted once; a quantile is a value that occurred, none is interpolated.
 namespace steadyrest::trial::timing {
 
 Quantiles quantiles(std::vector<double> values) {

@@ -24,6 +24,7 @@ constexpr double kLeastBlock = 8.0;   ///< pitches in one mean
 constexpr double kLeastBlocks = 8.0;  ///< half of them are measured
 constexpr double kMostSteps = 1e7;    ///< of all blocks, unless the least number needs more
 
+// The grid is made for the slowest speed that the law brings.
 double slowest_rev_s(const CutSettings& settings) {
   return settings.speed_rev_s * (settings.modulation.law == chatter::online::Law::constant
                                      ? 1.0
@@ -45,6 +46,7 @@ double slope(const std::vector<double>& values) {
 
 }  // namespace
 
+// The border between the room and the simulation: values are copied, no type is shared.
 sim::Cutting cutting_of(const Process& process, double depth_mm) {
   sim::Cutting out;
   for (const chatter::offline::Mode& mode : process.modes) {
@@ -94,6 +96,7 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
   // A block is one period of the law, or some turns.
   const double block_rad =
       speed.constant() ? kTurn * std::ceil(kLeastBlock / teeth) : speed.period_rad();
+  // Whole blocks, not fewer than eight: a slope through fewer points would be a guess.
   const double wanted_rad =
       std::min(static_cast<double>(pitches) * kTurn / teeth, kMostSteps * step_rad);
   const double blocks = std::max(kLeastBlocks, std::ceil(wanted_rad / block_rad));
@@ -134,6 +137,7 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
   return slope(log_size) / (block_rad / kTurn * teeth);
 }
 
+// The full process: the tool may leave the cut, runout and edge forces included.
 kernel::outcome::Result<void> simulate(const Process& process, const CutSettings& settings,
                                        double seconds,
                                        const std::function<void(const Moment&)>& sink) {

@@ -8,6 +8,8 @@
 
 #include <steadyrest/trial/vibration/vibration_summary.hpp>
 
+// The second half of a cut in time, taken apart: what repeats with the tooth or the turn is forced
+// vibration; in the rest the strongest line of the spectrum is the chatter.
 namespace steadyrest::trial::vibration {
 namespace {
 

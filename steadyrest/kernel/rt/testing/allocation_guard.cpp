@@ -11,6 +11,7 @@ namespace steadyrest::kernel::rt::testing {
 // itself is not seen; the project's code in the cycle calls no such library.
 namespace {
 
+// Per thread: a logger that allocates beside the cycle is no fault of the cycle.
 thread_local std::size_t allocation_count = 0;
 
 void* allocate(std::size_t size) {
@@ -48,6 +49,7 @@ std::size_t AllocationGuard::allocations() const noexcept {
   return allocation_count - at_start_;
 }
 
+// For a first call that is allowed to allocate.
 void AllocationGuard::forgive() noexcept {
   at_start_ = allocation_count;
 }

@@ -33,6 +33,7 @@ struct Contender {
   bool limits = false;
 };
 
+// Of an even number the upper one: times are not averaged.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -281,6 +282,7 @@ Result<std::vector<std::string>> chosen_estimators(const BenchConfig& config) {
   return config.estimators;
 }
 
+// By name or by family; a name that is not there is refused with all that are.
 Result<std::vector<SceneChoice>> chosen_scenes(const BenchConfig& config) {
   const std::vector<SceneChoice> all = bench_scenes({config.recorded_folder, config.phases});
   std::vector<std::string> names;

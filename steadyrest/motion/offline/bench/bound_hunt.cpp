@@ -35,6 +35,7 @@ class Dice {
   std::mt19937_64 random_;
 };
 
+// Real axes start and stop: the hardest motions for a bound are where the jerk changes sign.
 Profile stops_and_goes(Dice& dice) {
   const double acceleration = dice.about(20.0, 5000.0);
   const double jerk = dice.about(200.0, 100000.0);
@@ -86,6 +87,7 @@ double worst(const std::vector<double>& errors) {
 
 }  // namespace
 
+// Seeds go up one by one until enough ticks have been checked.
 Hunt hunt_bounds(std::uint64_t seed, std::uint64_t ticks) {
   Hunt out;
   for (; out.ticks < ticks; ++seed) {

@@ -6,12 +6,17 @@
 
 namespace steadyrest::motion::offline {
 
+// Landau's inequality on the half line (Matorin for the third derivative): a function known to ± ε
+// with |x‴| ≤ J has |ẋ| to (243/8)^⅓·ε^⅔·J^⅓ = 3.12·… and |ẍ| to 24^⅓·ε^⅓·J^⅔ = 2.88·…; no
+// estimator can guarantee less.
 MotionError landau_bound(double position_error_mm, double jerk_mm_s3) {
   const double e = std::cbrt(position_error_mm);
   const double j = std::cbrt(jerk_mm_s3);
   return {std::cbrt(243.0 / 8.0) * e * e * j, std::cbrt(24.0) * e * j * j};
 }
 
+// Edges a spacing apart say nothing of the motion between them: the floor of dense edges, or what
+// the jerk can do unseen within a spacing, whichever is larger.
 MotionError guaranteed_floor(const EdgeQuality& quality) {
   const double v = quality.speed_mm_s;
   const double spacing_s = quality.count_mm / v;
@@ -21,6 +26,9 @@ MotionError guaranteed_floor(const EdgeQuality& quality) {
           std::max(landau.acceleration_mm_s2, std::min(0.5 * j * spacing_s, 4.0 * v / spacing_s))};
 }
 
+// A parabola fitted over the window W: variance 192·s/W³ and 720·s/W⁵ (s the variance per edge
+// times the spacing), bias J·W²/10 and J·W/2. Setting the derivative of variance + bias² to zero
+// gives W⁷ = 14400·s/J² and 7200·s/J². Never less than two spacings.
 MotionError stochastic_optimum(const EdgeQuality& quality) {
   const double v = quality.speed_mm_s;
   const double j = quality.jerk_mm_s3;

@@ -7,6 +7,7 @@
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 #include <steadyrest/motion/offline/calculus/unit_curves.hpp>
 
+// The figures of the paper as curves, each point by the equation itself.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -38,6 +39,7 @@ Result<Curve> sampled(std::string name, double low, double high, std::size_t poi
   return curve;
 }
 
+// All or none: a figure with a curve missing misleads.
 Curves collect(std::initializer_list<Result<Curve>> parts) {
   std::vector<Curve> out;
   for (const Result<Curve>& part : parts) {

@@ -34,6 +34,7 @@ constexpr std::string_view kRepair = "repair the row or cut the log before it";
 
 // Integers first: a count beyond 2⁵³ read as a double would lose digits without a word. Some
 // recorders write 10.000 or 1.1e+01; a fraction, though, means that the column is no count.
+// Within ± 2⁵² positions in mm stay exact to a fraction of a count.
 std::expected<std::int64_t, Fault> count_of(const Row& row, std::size_t column) {
   const std::string_view field = row.field(column);
   std::int64_t value = 0;
@@ -92,6 +93,7 @@ class EdgeLogReader::Parser final : public table::Sink {
           "give a log with LF or CR LF line ends"});
   }
 
+  // The gravest first; findings come out in the order of lines, wherever they were found.
   EdgeLogResult finish() {
     if (!refused_ && !log_.stopped) {
       if (const auto fault = reader_.finish()) {
@@ -225,6 +227,8 @@ class EdgeLogReader::Parser final : public table::Sink {
             "correct the row's time, or cut the log before it"};
   }
 
+  // Reported, not refused: a jump may be true. Edges that are lost are told from an axis that was
+  // too fast.
   void check_step(const LogRow& before, const LogRow& next, std::size_t line) {
     const std::int64_t step = std::abs(next.count - before.count);
     const bool lost = config_.max_step > 0 && step > config_.max_step;

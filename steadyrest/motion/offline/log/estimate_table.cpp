@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kBuffer = 1U << 18;
 
+// The shortest text that reads back as the same double; `inf` where there is no bound.
 void put_number(std::string& out, double value) {
   std::array<char, 40> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -43,6 +44,7 @@ void put_time(std::string& out, double t_s) {
 
 }  // namespace
 
+// A quarter of a megabyte at a time: a log has millions of rows.
 EstimateTable::EstimateTable(kernel::file::OutputFile& out) : out_(out) {
   buffer_.reserve(kBuffer + 256);
   buffer_ =

@@ -96,6 +96,7 @@ std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& con
 
 }  // namespace
 
+// The kind of log is checked before anything is made of it.
 kernel::outcome::Result<Record> record_of(const EdgeLog& log, const LogRecordConfig& config) {
   if (auto refusal = unfit(config)) {
     return std::unexpected(std::move(*refusal));

@@ -95,6 +95,7 @@ struct ClosePipe {
 
 }  // namespace
 
+// Ticks and truth for every row, edges only where the count moved without a gap.
 RecordedAxis recorded_axis(const EdgeLog& log, const RecordedAxisConfig& config) {
   RecordedAxis out;
   Record& record = out.record;

@@ -139,6 +139,7 @@ class EdgeMaker {
 
 }  // namespace
 
+// Limits of a sine: A·ω, A·ω², A·ω³.
 Profile sine(double amplitude_mm, double frequency_hz, double duration_s) {
   const double w = 2.0 * std::numbers::pi * frequency_hz;
   Profile out;
@@ -220,6 +221,8 @@ std::vector<JerkPiece> speed_change(double change_mm_s, double max_acceleration_
   return {{ramp_s, jerk}, {hold_s, 0.0}, {ramp_s, -jerk}};
 }
 
+// Rest, 20 mm/s, stop, back at 2 mm/s, stop: fast and slow motion, starts, stops and a reversal in
+// one.
 Profile s_curve() {
   constexpr double kAcceleration = 200.0;
   constexpr double kJerk = 5000.0;

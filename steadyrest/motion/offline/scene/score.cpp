@@ -6,6 +6,7 @@
 
 namespace steadyrest::motion::offline {
 
+// As in the cycle: all edges up to the tick, then the tick.
 std::vector<online::Estimate> run(online::Estimator& estimator, const Record& record) {
   std::vector<online::Estimate> out;
   out.reserve(record.ticks.size());
@@ -19,11 +20,14 @@ std::vector<online::Estimate> run(online::Estimator& estimator, const Record& re
   return out;
 }
 
+// For what can be known from sampled counts alone.
 Record without_edges(Record record) {
   record.edges.clear();
   return record;
 }
 
+// RMS, worst error and coverage in one pass. Coverage counts all scored ticks: a bound that is
+// infinite covers, which is why the bounds' RMS is given with it.
 Score score(const std::vector<online::Estimate>& estimates, const Record& record, double lag_s,
             double from_s, double min_speed_mm_s) {
   Score out;
@@ -43,6 +47,7 @@ Score score(const std::vector<online::Estimate>& estimates, const Record& record
     if (when < from_s || at + 1 >= record.ticks.size()) {
       continue;
     }
+    // The truth between two ticks, linear: at 1 ms the error of that is J·T²/8.
     const double w =
         std::clamp((when - record.ticks[at].t_s) /
                        std::max(1e-12, record.ticks[at + 1].t_s - record.ticks[at].t_s),

@@ -16,6 +16,8 @@ double published_bound(double noise_mm, double limit, double cycle_s) {
   return 2.0 * std::sqrt(2.0 * noise_mm * limit) + 0.5 * limit * cycle_s;
 }
 
+// Published: 2√(2N̄L) + L·T/2 (Haimovich et al. 2021). Ours is the tighter 2N̄/W + L·W of its
+// longest window.
 TEST(WorstCaseDifference, ItsBoundHoldsOnEveryTickAndIsNeverAboveThePublishedOne) {
   for (const Record* record : {&sine_ideal(), &s_curve_ideal()}) {
     WorstCaseDifference::Config config;

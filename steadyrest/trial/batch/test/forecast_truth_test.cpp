@@ -68,6 +68,8 @@ std::string passes(const std::string& head, int count) {
   return text;
 }
 
+// The forecast knows the program's text, the machine runs it: with a right passport both must grow
+// alike.
 TEST(ForecastOfAProgram, IsWhatTheSimulatedMachineDoes) {
   const Machine machine = mill();
   const std::string start = "G21 G90 G61\nS4000 M3\n";

@@ -47,6 +47,7 @@ void expect_within_travel(const Machine& machine, const nc::plan::PlannedPath& p
   }
 }
 
+// From both sides: as fast as the machine lets it, and no faster.
 TEST(DemandingPath, OnEveryExampleMachineLastsAndStaysWithinItsTravelAndFeed) {
   for (const std::string name : {"ideal-k50.toml", "lathe-16k20f3.toml", "linuxcnc-mill.toml",
                                  "mill-802d.toml", "vmc-840d.toml"}) {
@@ -64,6 +65,7 @@ TEST(DemandingPath, OnEveryExampleMachineLastsAndStaysWithinItsTravelAndFeed) {
   }
 }
 
+// A lathe has no Y: the drawing goes into G18.
 TEST(DemandingPath, OfALatheLiesInThePlaneOfXAndZ) {
   const auto path = demanding_path(machine_of("lathe-16k20f3.toml"), 1.0).value();
   for (const PathSegment& segment : path->segments) {
@@ -71,6 +73,7 @@ TEST(DemandingPath, OfALatheLiesInThePlaneOfXAndZ) {
   }
 }
 
+// 4 mm of X for a drawing of 104 mm.
 TEST(DemandingPath, ShrinksToTheTravel) {
   Machine machine = machine_of("linuxcnc-mill.toml");
   machine.axes[0].min_mm = 100.0;

@@ -32,6 +32,7 @@ Machine falling(double fall_1_s) {
   return machine;
 }
 
+// Half of the cycle is left for the port and the operating system.
 TEST(Judgement, FindsNothingUpToHalfOfTheCycle) {
   EXPECT_TRUE(judge(timing_of(0.0), {}).empty());
   EXPECT_TRUE(judge(timing_of(0.0005), {}).empty());
@@ -60,10 +61,12 @@ TEST(Judgement, IsAnErrorBeyondTheCycle) {
             "takes 4.5 s), lengthen interpolator_period_ms or use a faster computer");
 }
 
+// 0.9 of ratio at 10 1/s is 0.09 s: shortening it would not help.
 TEST(Judgement, DoesNotBlameAQuickFall) {
   EXPECT_THAT(judge(timing_of(0.0015), falling(10.0))[0].to_do, Not(HasSubstr("feed_fall")));
 }
 
+// Without decisions the forecasts cannot be at fault.
 TEST(Judgement, OfALayerThatDecidesNothingIsByAllCycles) {
   LayerTiming timing = timing_of(0.0);
   timing.decisions = 0;

@@ -25,6 +25,7 @@ void expect_ordered(const Quantiles& of) {
   EXPECT_LE(of.p999, of.worst);
 }
 
+// Counts are exact; times only have to be positive and in order.
 TEST(LayerTiming, MeasuresAsManyDecisionsAsItIsTold) {
   std::vector<double> progress;
   const auto timing =

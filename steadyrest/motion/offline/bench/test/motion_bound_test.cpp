@@ -39,6 +39,8 @@ TEST(MotionBound, HoldsWhereEdgesAreLostWithoutAWord) {
 
 /// Dense passages with error ε and jerk limit J: what no estimator can beat is 3.12·ε^⅔·J^⅓
 /// and 2.88·ε^⅓·J^⅔.
+/// With the best span the triples give 3.30 and 3.00 where physics allows 3.12 and 2.88: 6 % and 4
+/// % above.
 TEST(MotionBound, IsWithinATenthOfLandauAndKolmogorovOnDenseEdges) {
   const double error = 1e-5;
   const double jerk = 5000.0;
@@ -63,6 +65,7 @@ TEST(MotionBound, IsWithinATenthOfLandauAndKolmogorovOnDenseEdges) {
   EXPECT_LT(a, 1.10 * landau_a);
 }
 
+// No edge, so the half cell is the error of each position.
 TEST(MotionBound, AtStandstillTheCellAloneGivesTheClosedForm) {
   MotionBound b = bound({.max_jerk_mm_s3 = 5000.0});
   MotionIntervals last;
@@ -96,6 +99,7 @@ TEST(MotionBound, WithoutAJerkLimitTheAccelerationLimitAloneBoundsTheSpeed) {
   }
 }
 
+// A limit that is too tight must show as a contradiction, not as a wrong bound that looks right.
 TEST(MotionBound, SaysWhenTheLimitsDoNotExplainTheRecord) {
   const Record record = offline::record(sine(1.0, 2.0, 1.0), {});  // jerk up to 1984 mm/s³
   MotionBound b = bound({.clock_s = 1e-7, .max_jerk_mm_s3 = 200.0});

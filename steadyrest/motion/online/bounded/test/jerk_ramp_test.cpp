@@ -56,6 +56,7 @@ TEST(JerkRamp, FourLinesDoWhereTheJerkIsKnown) {
   EXPECT_EQ(unknown.at(times.back(), times.back()).share, 0.0);
 }
 
+// A ramp seen where there is none would pull a good estimate to a stop that never comes.
 TEST(JerkRamp, OtherMotionsHaveNoShare) {
   const auto share = [](auto time_of_way_left) {
     JerkRamp ramp({.jerk = kJerk});
@@ -115,6 +116,7 @@ TEST(JerkRamp, AfterAStopTheStartIsExactAtItsFirstLine) {
   EXPECT_NEAR(ramp.at(t, t).v, -3.0 * kC * (t - 1.1) * (t - 1.1), 0.5);
 }
 
+// Trust is earned by how often a start came as foretold on this axis.
 TEST(JerkRamp, StartsThatDoNotUseTheLimitAreBelievedLess) {
   JerkRamp ramp({.jerk = kJerk});
   const double c = 0.2 * kC;

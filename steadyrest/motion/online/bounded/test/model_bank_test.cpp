@@ -53,6 +53,7 @@ TEST(ModelBank, PredictsAsTheClosedFormOfWhiteJerk) {
   EXPECT_NEAR(bank.v[3], -20.0 + 300.0 * d, 1e-12);
 }
 
+// The plain form P − K·H·P is the oracle: another algorithm for the same numbers.
 TEST(ModelBank, UpdatesAsThePlainKalmanFilter) {
   ModelBank bank = with(kSome);
   const double z = 2.0;
@@ -69,6 +70,7 @@ TEST(ModelBank, UpdatesAsThePlainKalmanFilter) {
   }
 }
 
+// Mixing expands and factors each model again and again: no drift may come of it.
 TEST(ModelBank, MomentsGoInAndOutUnchanged) {
   const ModelBank bank = with(kSome);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -76,6 +78,7 @@ TEST(ModelBank, MomentsGoInAndOutUnchanged) {
   }
 }
 
+// The plain form loses its positive definiteness here by rounding; the factored one may not.
 TEST(ModelBank, StaysPositiveThroughAMillionSharpMeasurements) {
   ModelBank bank = with(kSome);
   std::mt19937 random(1);

@@ -160,8 +160,8 @@ std::vector<bool> filtered(const std::vector<bool>& raw, std::size_t n) {
   return out;
 }
 
-// The oracle is the textbook's table of sixteen transitions, on levels filtered by definition. Levels
-// here are arbitrary, illegal transitions included.
+// The oracle is the textbook's table of sixteen transitions, on levels filtered by definition.
+// Levels here are arbitrary, illegal transitions included.
 RC_GTEST_PROP(QuadratureDecoder, AgreesWithTheTableOfSixteenOnAnyLevels, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   const auto hold = *rc::gen::inRange<std::uint16_t>(1, 5);
