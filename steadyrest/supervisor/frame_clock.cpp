@@ -93,7 +93,7 @@ FrameClock::Tick FrameClock::doubt(double stamp_s) noexcept {
   }
   state_.candidate_s = stamp_s;
   state_.in_doubt = true;
-  // Ahead, the frame may still be right (a gap); earlier, its age cannot be told and it is unfit.
+  // Ahead, the frame may still be right (a gap); earlier, its age is unknown and it is unfit.
   return {.time_s = time_s(),
           .stamped_s = stamp_s + state_.shift_s,
           .fault = earlier ? Reason::input_out_of_range : Reason::none};

@@ -77,8 +77,8 @@ bool in_thread(signal::Motion motion) noexcept {
 }
 
 template <class Request>
-// Held in a thread: the wish becomes neutral and the envelope stands still, since a change of feed
-// or spindle between two passes would cut a second thread beside the first.
+// Held in a thread: the wish becomes neutral and the envelope holds, since a change of feed or
+// spindle between two passes would cut a second thread beside the first.
 kernel::override::RatioEnvelope::Input channel_input(double step_s, const Request& request,
                                                      Reason unfit, bool hold,
                                                      const signal::OverrideState& panel) noexcept {
@@ -327,7 +327,7 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   before_ = written();
   signal::Frame known = frame;
   // Nothing was read: the last frame ages by good time, so that a link that is lost and a source
-  // that stands become stale by the same rule.
+  // that has stopped become stale by the same rule.
   if (!read_now) {
     known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;
   }

@@ -158,7 +158,7 @@ struct FeedGovernor::Search {
   std::size_t spent = 0;  ///< forecast steps
 };
 
-// Bounded by search_steps_: once spent, the largest step known to be admissible stands, and the
+// Bounded by search_steps_: once spent, the largest step known to be admissible is taken, and the
 // next decision starts from it.
 FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std::size_t top,
                                                       Output& output) noexcept {
@@ -256,8 +256,8 @@ Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
 }
 
 // A decision begins at what the envelope has let through, with what is still under way before it.
-// Without a path the circle that the command runs on stands in, and no rise is concluded from a
-// speed that the override does not govern.
+// Without a path the circle that the command runs on takes its place, and no rise is concluded from
+// a speed that the override does not govern.
 void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   if (!state_.last.path_known) {
     extrapolate(frame);

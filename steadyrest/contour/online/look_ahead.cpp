@@ -83,7 +83,7 @@ LookAhead::State LookAhead::state() const {
   return state;
 }
 
-// A state whose cells do not match its indices is dropped; the next update makes all anew.
+// A state whose cells do not match its indices is dropped; the next update makes the cells again.
 void LookAhead::restore(const State& state) noexcept {
   reset();
   if (state.last - state.first != state.cell.size() || state.cell.size() > kCells) {
@@ -263,7 +263,7 @@ bool LookAhead::add_next(PathView path, int& segments) noexcept {
 
 void LookAhead::update(PathView path, std::size_t index, double from_mm, double command_mm,
                        double to_mm) noexcept {
-  // Another address is another path: cells cannot be compared with it.
+  // Another address is another path: the cells in hand belong to the old one.
   const bool is_known = path_data_ == path.data() && first_ != last_ &&
                         cell(first_).position_mm <= command_mm && made_to_mm_ >= command_mm;
   if (!is_known) {

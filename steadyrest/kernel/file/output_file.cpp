@@ -87,7 +87,7 @@ Result<OutputFile> OutputFile::open(const std::string& target) {
     }
     return made;
   }
-  // A pipe or a device: written in place, since it cannot be renamed.
+  // A pipe or a device is written in place: a rename would replace it.
   made.descriptor_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   if (made.descriptor_ < 0) {
     return std::unexpected(made.refusal(errno));

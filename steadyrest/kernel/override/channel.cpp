@@ -59,7 +59,7 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
     // The mask had to wait: the way from the panel begins when it is on, not before.
     envelope_.start_at_panel();
   }
-  // A port that cannot write is a reason of its own only while there is something to write.
+  // A port that cannot write is the reason only while there is something to write.
   const bool stuck = !handover_.available() && !wanted.hand_back && is_wish(wanted.reason);
   return {.ratio = word.ratio,
           .code = word.code,

@@ -58,7 +58,7 @@ Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low
                     double u_near) noexcept {
   const ArcFrame frame = arc_frame(segment);
   const Local q = local_of(segment, frame, query);
-  // The axis of the circle is as far from all its points; any of them will do there.
+  // The axis of the circle is as far from all its points; there any of them is nearest.
   const double rho = std::hypot(q.x, q.y);
   const double angle = std::atan2(q.y, q.x);
   // The turn whose point at this angle lies nearest to u_near, then moved into the permitted part.

@@ -110,8 +110,8 @@ TEST(Interruption, AClockThatBeginsAgainBlocksNoMask) {
   EXPECT_EQ(bench.supervisor.mode_in_force(), Mode::observe);
 }
 
-// Away for longer than the watchdog (100 ms), or by a time that cannot be told: the first frame
-// gives no known gap and is not written, the second begins at the panel and at offset 0.
+// Away for longer than the watchdog (100 ms), or for an unknown time: the first frame gives no
+// known gap and is not written, the second begins at the panel and at offset 0.
 TEST(Interruption, WhatTheWatchdogHasDroppedIsNotWrittenAfterARestore) {
   for (const double away_s : {60.0, 0.5, -100.0, -1e9}) {
     Bench first(wired(Mode::act));

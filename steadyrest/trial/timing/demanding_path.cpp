@@ -97,7 +97,7 @@ class Pen {
     // No rounding of corners: they are meant to be seen.
     move_.path_mode = nc::interpret::PathMode::exact_path;
     if (kind != MoveKind::rapid) {
-      // The chord stands in for the arc's length: only a rough total is needed.
+      // The chord replaces the arc's length: only a rough total is needed.
       const double du = move_.end[plane_.axis[0]] - move_.start[plane_.axis[0]];
       const double dv = move_.end[plane_.axis[1]] - move_.start[plane_.axis[1]];
       seconds_ += std::hypot(du, dv) / move_.feed_mm_s;

@@ -215,7 +215,7 @@ TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
   EXPECT_EQ(entries(), 1);
 }
 
-// RLIMIT_FSIZE stands in for a full disk: write() fails after 1000 bytes.
+// RLIMIT_FSIZE acts as a full disk: write() fails after 1000 bytes.
 TEST_F(Output, AFullDiskLeavesTheOldFile) {
   const std::string file = old("out.csv");
   const int status = in_child([&] {

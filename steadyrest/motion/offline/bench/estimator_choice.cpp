@@ -149,7 +149,7 @@ EstimatorResult make_estimator(std::string_view name, const EstimatorSetup& setu
   if (auto refusal = unfit(setup)) {
     return std::unexpected(std::move(*refusal));
   }
-  // What cannot be used is refused rather than ignored: an option without effect misleads.
+  // An option without effect misleads, so it is refused rather than ignored.
   if (setup.lag_s > 0.0 && !choice->takes_lag) {
     return std::unexpected(
         *refuse(fmt::format("the estimator {} takes no lag", name), "leave out the lag"));

@@ -64,7 +64,7 @@ void add_edges(const EdgeLog& log, double count_mm, Record& out) {
   }
 }
 
-// One wrong stamp can stand for years of cycles; the refusal names the row with the longest step.
+// One wrong stamp can make years of cycles; the refusal names the row with the longest step.
 std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& config, Record& out) {
   const double first = std::ceil(log.rows.front().t_s * config.cycle_hz - kTickTolerance);
   const double last = std::floor(log.rows.back().t_s * config.cycle_hz + kTickTolerance);

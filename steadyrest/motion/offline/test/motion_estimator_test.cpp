@@ -94,7 +94,7 @@ TEST(MotionEstimator, CountsOfAnyLengthAreAlike) {
   EXPECT_NEAR(of_big.acceleration_rms_mm_s2 / of_small.acceleration_rms_mm_s2, 64.0, 0.5);
 }
 
-// The bound from counts alone cannot be better than 0.25 mm/s; the estimate itself can.
+// The bound from counts alone is 0.25 mm/s at best; the estimate itself can.
 TEST(MotionEstimator, WorksFromSampledCountsAlone) {
   const Record record = without_edges(sine_ideal());
   MotionEstimator e = made({.max_acceleration_mm_s2 = 160.0, .max_jerk_mm_s3 = 2000.0});

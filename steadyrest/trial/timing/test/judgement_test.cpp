@@ -66,7 +66,7 @@ TEST(Judgement, DoesNotBlameAQuickFall) {
   EXPECT_THAT(judge(timing_of(0.0015), falling(10.0))[0].to_do, Not(HasSubstr("feed_fall")));
 }
 
-// Without decisions the forecasts cannot be at fault.
+// Without decisions the forecasts are not at fault.
 TEST(Judgement, OfALayerThatDecidesNothingIsByAllCycles) {
   LayerTiming timing = timing_of(0.0);
   timing.decisions = 0;

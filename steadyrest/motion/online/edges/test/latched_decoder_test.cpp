@@ -214,8 +214,8 @@ TEST(LatchedDecoder, AMillionCyclesOfDitherDoNotMoveTheCount) {
   EXPECT_EQ(decoder.state().gaps, 0U);
 }
 
-// After more than half of the clock's range the stamp's wraps cannot be told: no time then, rather
-// than a wrong one.
+// After more than half of the clock's range nobody can tell how often the stamp wrapped: no time
+// then, rather than a wrong one.
 RC_GTEST_PROP(LatchedDecoder, DroppedCyclesNeverGiveAFalseTime, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   Input input(16, 16, 0, random() % 65'536);
