@@ -83,9 +83,9 @@ kernel::port::Capability SimulatedMachine::capability() const noexcept {
   return capability_;
 }
 
-// The cut of one period, at the mean of the spindle's speeds at both ends. A mill that plunges
-// cuts with its face, which the process does not describe: below 5 % of the speed in the XY plane
-// it counts as out of the cut.
+/// The cut of one period, at the mean of the spindle's speeds at both ends. A mill that plunges
+/// cuts with its face, which the process does not describe: below 5 % of the speed in the XY plane
+/// it counts as out of the cut.
 void SimulatedMachine::vibrate(const nc::plan::Setpoint& setpoint, double before_rev_s) noexcept {
   const double x = setpoint.velocity[0];
   const double y = setpoint.velocity[1];

@@ -49,8 +49,8 @@ bool FrameCheck::finite(const Frame& frame) const noexcept {
 }
 
 bool FrameCheck::in_range(const Frame& frame) const noexcept {
+  // Slightly negative ages come from rounding; a frame from further ahead has a wrong clock.
   if (frame.axis_count > frame.axis.size() || frame.programmed_feed_mm_s < 0.0 ||
-      // Slightly negative ages come from rounding; a frame from further ahead has a wrong clock.
       frame.age_s < -stale_after_s_) {
     return false;
   }

@@ -81,8 +81,8 @@ MotionEstimator::Config config_of(const Machine& machine, const kernel::machine:
           .max_jerk_mm_s3 = motion::online::kNoBound};
 }
 
-// The counter rounds: it shows n from n − ½ to n + ½, so its line n lies half a count below the
-// table's.
+/// The counter rounds: it shows n from n − ½ to n + ½, so its line n lies half a count below the
+/// table's.
 double line_mm(const LineTable& lines, std::int64_t line) noexcept {
   return lines.position_mm(line) - 0.5 * lines.config().count_mm;
 }

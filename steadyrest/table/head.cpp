@@ -56,6 +56,7 @@ std::string plain(std::string_view field) {
   return lower(out);
 }
 
+// Heads are quoted by some programs although nothing in them needs it.
 std::string_view unquoted(std::string_view field) {
   field = trimmed(field);
   const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
@@ -75,6 +76,7 @@ std::optional<std::size_t> Head::place(std::string_view wanted) const {
                           : std::optional(static_cast<std::size_t>(at - name.begin()));
 }
 
+// Two columns of one name: which one is meant nobody can say. Columns without a name do not count.
 std::optional<Fault> Head::twice(std::string_view only) const {
   for (std::size_t i = 1; i < name.size(); ++i) {
     const auto before = std::span(name).first(i);

@@ -21,6 +21,7 @@ std::string_view without_plus(std::string_view field) noexcept {
   return field.size() > 1 && field[0] == '+' && field[1] != '-' ? field.substr(1) : field;
 }
 
+// Empty and unreadable are told apart: the one is a sensor that was silent.
 Fault no_number(std::string_view name, std::string_view field, std::size_t line) {
   if (field.empty()) {
     return {line, fmt::format("{} is empty", name), std::string(kRepair)};
@@ -129,6 +130,7 @@ std::expected<double, Fault> NumberReader::with_comma(std::string_view field, st
   return *value;
 }
 
+// Asked once, at the end: any row may have held the proof.
 std::optional<Fault> NumberReader::unproved() const {
   if (comma_line_ == 0 || proved_) {
     return std::nullopt;

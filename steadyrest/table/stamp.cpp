@@ -45,6 +45,7 @@ class Cursor {
   }
 
   /// The digits behind a decimal mark, and how many they are.
+  /// Twelve digits are more than a second's fraction needs in a double.
   double fraction(int& count) noexcept {
     double value = 0.0;
     double scale = 1.0;

@@ -89,8 +89,8 @@ class TrailPieces {
   const ContourError::State& state_;
 };
 
-// Direction of travel at the foot: at a joint the mean of both sides, since on the outside of a
-// corner the foot lies on the corner itself and either leg alone would turn the sign.
+/// Direction of travel at the foot: at a joint the mean of both sides, since on the outside of a
+/// corner the foot lies on the corner itself and either leg alone would turn the sign.
 Point direction_at(PathView path, const Nearest& foot, const geometry::Station& here) noexcept {
   constexpr double kJoint = 1e-9;
   const PathSegment& segment = path[foot.index];
@@ -113,8 +113,8 @@ bool is_fit(const ContourError::Input& input) noexcept {
          (input.path.empty() || input.path_index < input.path.size());
 }
 
-// The error at the foot with its signs: against the centre of curvature on arcs, against the
-// plane's left on lines. The distance is that of the search; only the signs come from here.
+/// The error at the foot with its signs: against the centre of curvature on arcs, against the
+/// plane's left on lines. The distance is that of the search; only the signs come from here.
 void measure(const Point& actual_mm, const Nearest& foot, const geometry::Station& here,
              const Point& plane_normal, ContourError::Output& output) noexcept {
   const Point offset = geometry::subtract(actual_mm, foot.point_mm);

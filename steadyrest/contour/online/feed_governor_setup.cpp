@@ -47,8 +47,8 @@ double longest_lag(const Machine& machine) noexcept {
   return lag;
 }
 
-// Time over which the control's jerk limit averages the acceleration, A/J; its mean delay is half
-// of it.
+/// Time over which the control's jerk limit averages the acceleration, A/J; its mean delay is half
+/// of it.
 double jerk_time(const Machine& machine) noexcept {
   double time = 0.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {

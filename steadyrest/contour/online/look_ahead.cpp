@@ -25,8 +25,8 @@ constexpr double kCornerCosine = 0.995;  // 0.1 rad
 constexpr double kChordTurn = 0.02;      // rad that a chord over short lines may turn
 constexpr double kChordMm = 0.1;
 
-// What a cell's parabola leaves out is h³/6·|p‴|, and |p‴| ≤ κ² + |dκ/ds| on arcs and spirals:
-// h³/6·(κ² + |dκ/ds|) ≤ 2·10⁻⁵ mm.
+/// What a cell's parabola leaves out is h³/6·|p‴|, and |p‴| ≤ κ² + |dκ/ds| on arcs and spirals:
+/// h³/6·(κ² + |dκ/ds|) ≤ 2·10⁻⁵ mm.
 double arc_cell_mm(const PathSegment& segment, double curvature_1_mm) noexcept {
   const double wound = std::abs(1.0 / std::max(segment.radius_end_mm, 1e-3) -
                                 1.0 / std::max(segment.radius_mm, 1e-3)) /

@@ -55,6 +55,7 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
   return best;
 }
 
+// The suggestion, or what the caller says otherwise.
 std::string meant(std::string_view word, std::span<const std::string_view> candidates,
                   std::string otherwise) {
   const std::string_view close = nearest(word, candidates);

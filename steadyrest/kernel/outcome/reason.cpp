@@ -102,6 +102,7 @@ const Entry* find(Reason reason) noexcept {
 
 }  // namespace
 
+// For what lists them all: the generated page, the summary of a run.
 std::span<const ReasonEntry> reasons() noexcept {
   return kEntries;
 }
@@ -112,6 +113,7 @@ std::string_view name(Reason reason) noexcept {
   return entry == nullptr ? "unknown" : entry->name;
 }
 
+// What the operator reads; a full sentence, so that it can be shown alone.
 std::string_view sentence(Reason reason) noexcept {
   const Entry* entry = find(reason);
   return entry == nullptr ? "Unknown reason." : entry->sentence;

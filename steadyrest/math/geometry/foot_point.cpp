@@ -23,6 +23,7 @@ constexpr int kMaxSamples = 25;  // π/6 apart: two turns
 // Newton doubles its digits each step; bisection steps in between are few.
 constexpr int kMaxSteps = 12;
 
+// The projection, held within the permitted part.
 Foot foot_on_line(const PathSegment& segment, const Point& query, double u_low,
                   double u_high) noexcept {
   const Point along = subtract(segment.end_mm, segment.start_mm);

@@ -111,6 +111,7 @@ double arc_length_mm(const PathSegment& segment) noexcept {
   return std::hypot(segment.radius_mm * segment.sweep_rad, segment.rise_mm);
 }
 
+// Only a spiral's length is not proportional to its parameter.
 double distance_at(const PathSegment& segment, double u) noexcept {
   return is_spiral(segment) ? spiral_length(segment, u) : u * segment.length_mm;
 }

@@ -206,8 +206,8 @@ CuttingProcess::Motion CuttingProcess::moved(const Motion& free,
   return out;
 }
 
-// Which edges cut at this displacement; true where that is news. With `keeps_contact` all of them
-// do: the linear process whose multipliers are published.
+/// Which edges cut at this displacement; true where that is news. With `keeps_contact` all of them
+/// do: the linear process whose multipliers are published.
 bool CuttingProcess::touch(const std::array<double, 2>& x) noexcept {
   if (keeps_contact_) {
     return false;

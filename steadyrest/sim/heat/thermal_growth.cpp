@@ -147,8 +147,8 @@ ThermalGrowth::ThermalGrowth(const Config& config)
       }
       body.mode.feed_s *= larger;
       body.turning_decay = decay(period_s_, mode.tau_s * longer);
+      // A spindle at rest may cool at another rate than one that turns.
       body.resting_decay =
-          // A spindle at rest may cool at another rate than one that turns.
           mode.rest_tau_s > 0.0 ? decay(period_s_, mode.rest_tau_s * longer) : body.turning_decay;
       axis.body.push_back(std::move(body));
     }

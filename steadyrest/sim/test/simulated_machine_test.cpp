@@ -60,6 +60,7 @@ Move line(double x0, double y0, double x1, double y1) {
 }
 
 /// R = 10 mm about the origin, counter-clockwise from (10, 0).
+/// Radius and feed of the paper's reference circle.
 Move circle(int turns) {
   Move move = line(10.0, 0.0, 10.0, 0.0);
   move.kind = MoveKind::arc;
@@ -307,6 +308,7 @@ TEST(SimulatedMachine, EveryExampleMachineArrivesAndComesToRest) {
   EXPECT_GE(machines, 4);
 }
 
+// No path, no cycle, no axis.
 TEST(SimulatedMachine, RefusesWhatItCannotRun) {
   const Machine machine = mill();
   const auto path = plan(machine, {circle(1)});

@@ -294,6 +294,7 @@ double Batch::improvement(Way way) const noexcept {
   return error[0].largest_mm / std::max(error[static_cast<std::size_t>(way)].largest_mm, 1e-9);
 }
 
+// A correction that makes one part worse has failed there, however good the mean.
 std::size_t Batch::worse(Way way) const noexcept {
   return static_cast<std::size_t>(std::ranges::count_if(part, [&](const Part& p) {
     return p.error[static_cast<std::size_t>(way)].largest_mm > p.error[0].largest_mm;

@@ -62,6 +62,7 @@ void BelievedAxis::measure(double displacement_mm) noexcept {
   filter_.measure({.displacement_mm = displacement_mm + zero_mm_, .sd_mm = probe_sd_mm_});
 }
 
+// The product's own planner on the model as it is believed now, from the state that it is in.
 Result<nc::rewrite::AxisPlan> BelievedAxis::plan(const thermal::offline::Cyclogram& cyclogram,
                                                  double tolerance_mm) const {
   // The levels as the readings have scaled them, and the bias as it stands.

@@ -99,6 +99,7 @@ Result<std::vector<ChatterChoice>> choose(
     options.progress = [&](double share, std::string_view what) {
       progress((static_cast<double>(i) + share) / count, what);
     };
+    // The offline planner, once for each speed: it takes seconds and has no place in the cycle.
     auto plan = chatter::offline::plan(process, machine, speeds_rev_s[i], depth_mm, options);
     if (!plan) {
       return std::unexpected(plan.error());

@@ -55,6 +55,7 @@ Run run_of(const Recorder& record) {
 
 }  // namespace
 
+// Override table and worst lines come along, so that a report explains itself.
 ReportData compare(const std::filesystem::path& program, const kernel::machine::Machine& machine,
                    const Recorder& without, const Recorder& with) {
   ReportData data;

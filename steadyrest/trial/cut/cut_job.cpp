@@ -120,6 +120,8 @@ double length_of(const nc::plan::PlannedPath& path) {
 }
 
 /// The product's own layer, acting.
+/// Set to act, whatever the machine file says: a trial of a layer that only observes would compare
+/// nothing.
 Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
     const Job& job, const kernel::port::Capability& capability) {
   auto made = supervisor::Supervisor::make(job.machine, capability);

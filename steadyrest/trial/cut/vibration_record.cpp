@@ -85,6 +85,7 @@ void VibrationRecord::add(double time_s, double spindle_rev_s,
   }
 }
 
+// No cutting, no figures: zeros would read as a quiet cut.
 std::optional<VibrationFigures> VibrationRecord::figures() const {
   const double seconds = sum_.cutting_s;
   if (!(seconds > 0.0)) {

@@ -51,6 +51,7 @@ std::optional<Plane> plane_of(const Machine& machine) {
 }
 
 /// Draws about the middle of the plane's travel.
+/// Draws straight into the planner, without a program's text: no dialect, any axes.
 class Pen {
  public:
   Pen(const Machine& machine, const Plane& plane, nc::interpret::Sink& sink)
@@ -127,6 +128,7 @@ void rounded_rectangle(Pen& pen, double a, double b, double r) {
   pen.line(0.0, -b);
 }
 
+// Forty corners 1.5 mm apart: the lag spans more than one of them.
 void zigzag(Pen& pen) {
   pen.rapid(-30.0, 0.0);
   for (int i = 1; i <= 40; ++i) {
@@ -134,6 +136,7 @@ void zigzag(Pen& pen) {
   }
 }
 
+// What CAM writes for a circle: the look-ahead must join the chords.
 void circle_in_chords(Pen& pen, double r, double chord_mm) {
   const double turn = 2.0 * std::numbers::pi;
   const int chords = static_cast<int>(std::ceil(turn * r / chord_mm));

@@ -22,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 using Path = std::shared_ptr<const nc::plan::PlannedPath>;
 
 constexpr double kDecision_s = 0.010;  ///< the governor's own longest time between two decisions
+// Seldom enough that showing it costs nothing.
 constexpr std::size_t kCyclesBetweenProgress = 1024;
 
 /// The least time of each cycle, and whether the governor decided in it.
@@ -61,6 +62,7 @@ Result<void> run_round(const Machine& machine, const Path& path, std::size_t mos
     if (n == cycles.size()) {
       cycles.push_back({.least_s = took_s, .decides = decides});
     }
+    // Interrupts only ever add: the least is nearest to the work.
     cycles[n].least_s = std::min(cycles[n].least_s, took_s);
     if (n % kCyclesBetweenProgress == 0) {
       on_progress(static_cast<double>(decisions) / static_cast<double>(most_decisions));

@@ -17,6 +17,7 @@ constexpr double kUm = 1000.0;
 constexpr double kNothing_um = 0.01;
 
 /// Half the swing of what repeats; `signal` keeps the rest.
+/// Averaged over all whole periods, then taken off: what is left does not repeat.
 double take_repeating(std::vector<double>& signal, std::size_t repeat) {
   std::vector<double> mean(repeat, 0.0);
   const std::size_t whole = signal.size() / repeat;
@@ -40,6 +41,7 @@ double rms(const std::vector<double>& signal) {
 
 }  // namespace
 
+// Hann window against leakage, the first two lines left out since they hold the mean.
 std::optional<double> strongest_line_hz(std::vector<double> signal, double step_s) {
   const std::size_t n = signal.size();
   if (n < 16) {
@@ -71,6 +73,7 @@ void VibrationSummary::add(const Moment& now) {
   seen_.peak_um = std::max(seen_.peak_um, kUm * std::hypot(x[0], x[1]));
   seen_.force_peak_n = std::max(seen_.force_peak_n, std::hypot(f[0], f[1]));
   seen_.power_peak_w = std::max(seen_.power_peak_w, now.cut.power_w);
+  // The first half is left for the entry to die away.
   if (now.t_s < half_s_) {
     return;
   }
@@ -104,6 +107,7 @@ Summary VibrationSummary::summary() const {
       signal.push_back(kUm * x[axis]);
     }
     const double forced = take_repeating(signal, repeat_);
+    // The axis that vibrates more speaks for the cut.
     const double rest = rms(signal);
     if (std::hypot(forced, rest) > most) {
       most = std::hypot(forced, rest);

@@ -88,6 +88,7 @@ TEST(Reason, TheTableCoversEveryEnumeratorByItsOwnName) {
   EXPECT_EQ(reasons().size(), listed.size()) << "a name stands in the table twice";
 }
 
+// In order and without doubles, so that a look at the table finds a number.
 TEST(Reason, TheTableRisesAndEveryEntryHasASentence) {
   EXPECT_TRUE(std::ranges::is_sorted(reasons(), std::less_equal<>{}, &ReasonEntry::reason));
   for (const auto& entry : reasons()) {
@@ -98,6 +99,7 @@ TEST(Reason, TheTableRisesAndEveryEntryHasASentence) {
   }
 }
 
+// A record of a newer version may carry one.
 TEST(Reason, ANumberWithoutEntryIsUnknown) {
   EXPECT_EQ(name(static_cast<Reason>(9999)), "unknown");
   EXPECT_EQ(sentence(static_cast<Reason>(9999)), "Unknown reason.");

@@ -80,6 +80,7 @@ TEST(Ring, NothingIsLostOrTornBetweenTwoThreads) {
   EXPECT_EQ(ring.size(), 0U);
 }
 
+// A reader sees whole values only, and is told whether there is a new one.
 TEST(Snapshot, GivesTheNewestValueOnce) {
   Snapshot<int> snapshot;
   EXPECT_EQ(snapshot.load(), 0);
@@ -134,6 +135,7 @@ TEST(AllocationGuard, FailsTheTestThatAllocates) {
       "3 allocations where none is allowed");
 }
 
+// One allocation counted, then forgiven: the guard must count from there.
 TEST(AllocationGuard, CountsAndForgives) {
   testing::AllocationGuard guard;
   ::operator delete(::operator new(1));

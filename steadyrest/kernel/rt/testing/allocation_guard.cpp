@@ -27,6 +27,7 @@ void* allocate_aligned(std::size_t size, std::align_val_t alignment) {
   return std::aligned_alloc(align, (size + align - 1) / align * align);
 }
 
+// The plain forms of operator new must throw, the nothrow forms must not.
 void* or_throw(void* memory) {
   if (memory == nullptr) {
     throw std::bad_alloc();

@@ -73,8 +73,8 @@ BenchScene ideal_sine() {
   return scene;
 }
 
-// What the table still errs over the lines that were passed, against the true lines. It is the
-// bound that the estimator is told.
+/// What the table still errs over the lines that were passed, against the true lines. It is the
+/// bound that the estimator is told.
 double remaining_error_mm(const Record& record, const online::LineTable& table) {
   double low = online::kNoBound;
   double high = -online::kNoBound;

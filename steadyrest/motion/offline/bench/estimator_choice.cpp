@@ -34,6 +34,7 @@ EstimatorResult made(const typename T::Config& config) {
 }
 
 template <class T>
+// Both of ours have the same settings.
 EstimatorResult kalman(const EstimatorSetup& setup) {
   typename T::Config config;
   config.count_mm = setup.count_mm;

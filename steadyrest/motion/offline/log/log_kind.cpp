@@ -36,6 +36,7 @@ struct Steps {
   double on_grid = 0.0;   ///< rows at multiples of the median
 };
 
+// One pass after the median; shares of the rows, so that lost rows do not decide.
 Steps steps_of(const EdgeLog& log, double cycle_hz) {
   std::vector<double> step;
   for (std::size_t i = 1; i < log.rows.size(); ++i) {

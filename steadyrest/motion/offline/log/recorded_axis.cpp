@@ -81,6 +81,7 @@ std::vector<std::uint8_t> trusted(const Record& record, const RecordedAxisConfig
   return out;
 }
 
+// For the shell: a path may have blanks and quotes.
 std::string quoted(const std::string& path) {
   std::string out = "'";
   for (const char c : path) {

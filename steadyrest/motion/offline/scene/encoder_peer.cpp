@@ -73,6 +73,7 @@ int run_program(std::vector<std::string> words) {
   return WEXITSTATUS(status);
 }
 
+// The component gives no acceleration: NaN, so that no figure is made of it.
 std::vector<online::Estimate> read_estimates(const Record& record, const fs::path& path) {
   std::vector<online::Estimate> out(record.ticks.size());
   for (std::size_t k = 0; k < out.size(); ++k) {

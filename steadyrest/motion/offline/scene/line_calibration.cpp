@@ -22,6 +22,7 @@ std::unexpected<Refusal> refuse(std::string what, std::string to_do) {
   return std::unexpected(Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)});
 }
 
+// One revolution, the range that was asked for, or what the record has passed.
 kernel::outcome::Result<LineTable> table_for(const Record& record,
                                              const LineCalibrationConfig& config) {
   LineTable::Config out = config.learning;
@@ -106,6 +107,7 @@ kernel::outcome::Result<LineCalibration> calibrate_lines(const Record& record,
   return LineCalibration{std::move(*table), record.edges.size(), learnt, before, after};
 }
 
+// The ticks' cells end at the same lines as the edges.
 void apply_lines(const LineTable& table, Record& record) noexcept {
   for (online::Edge& edge : record.edges) {
     edge.position_mm = table.position_mm(edge.line);

@@ -303,8 +303,8 @@ Record record(const Profile& profile, const Recording& how) {
   const auto ticks = static_cast<std::size_t>(std::floor(profile.duration_s * how.cycle_hz + 1e-9));
   for (std::size_t k = 0; k <= ticks; ++k) {
     const double nominal = static_cast<double>(k) / how.cycle_hz;
+    // Less than half a cycle, or ticks would change places.
     const double jitter =
-        // Less than half a cycle, or ticks would change places.
         std::clamp(normal(random) * how.tick_jitter_s, -0.4 / how.cycle_hz, 0.4 / how.cycle_hz);
     const double look = std::clamp(nominal + jitter, 0.0, profile.duration_s);
     while (t < look) {

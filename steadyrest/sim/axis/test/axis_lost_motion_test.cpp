@@ -103,6 +103,7 @@ TEST(AxisServo, FrictionLeavesNoLagAtConstantVelocity) {
   EXPECT_NEAR(x.state().disturbance_mm_s2, 300.0 + 1.0 * 20.0, 0.5);
 }
 
+// From both sides of the border: 2 % below it nothing moves, 10 % above it does.
 TEST(AxisServo, BreaksAwayOnlyAboveTheBreakawayForce) {
   // Integral part off: a step smaller than τ·F/k cannot move the axis, a larger one does.
   const double still_mm = 0.004 * 450.0 / 50.0;

@@ -65,6 +65,7 @@ MachineBody body_of(const Machine& machine, const std::vector<OperatorAction>& a
 }
 
 /// R = 10 mm at F4000 on the override in force, from portable functions.
+/// Takes the interpolator's place: the body is tested without the planner.
 class CircleSource {
  public:
   explicit CircleSource(double period_s) : period_s_(period_s) {}
@@ -287,6 +288,7 @@ TEST(MachineBody, SameSeedSameBytesWithEveryCompiler) {
   EXPECT_NE(hash_of_run(machine), hash_of_run(real_machine()));
 }
 
+// One fault each, NaN among them.
 TEST(MachineBody, RefusesWhatCannotBeBuilt) {
   const std::vector<std::function<void(Machine&)>> faults = {
       [](Machine& m) { m.axes.clear(); },

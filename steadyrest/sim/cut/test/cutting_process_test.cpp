@@ -240,6 +240,7 @@ TEST(CuttingProcess, HelixAndUnevenPitchKeepTheMeanForce) {
   EXPECT_NEAR(mean() / 6.0, straight, 2e-3 * straight);
 }
 
+// A helix and a speed that changes at each step: the most that a step has to do.
 TEST(CuttingProcess, StepsAllocateNothing) {
   Cutting cut = benchmark(3.0);
   cut.helix_rad = 0.5;

@@ -228,6 +228,7 @@ TEST(ThermalGrowth, AReadingChangesNoTruthAndASeedGivesTheSameBytes) {
   EXPECT_NE(last(5, false), last(6, false));
 }
 
+// One fault each; the first line proves that the unspoiled machine is accepted.
 TEST(ThermalGrowth, RefusesWhatCannotBeAMachine) {
   const auto refused = [](auto change) {
     ThermalGrowth::Config config{.passport = ambient(0.005, 600.0), .simulation = {}};
@@ -355,6 +356,7 @@ TEST(MachineBody, AtItsEndAProbingMoveReadsWhatHeatAndOffsetHaveLeft) {
   EXPECT_EQ(go(Motion::rapid, 7, 1.0, 4.0).number, 3U) << "X does not grow";
 }
 
+// Two sensors with noise of their own; a third one that the machine lacks reads NaN.
 TEST(MachineBody, ItsSensorsHangInTheRoom) {
   kernel::machine::Machine machine = growing_machine();
   EXPECT_TRUE(std::isnan(MachineBody::make({.machine = machine})->frame().temperature_c[0]));

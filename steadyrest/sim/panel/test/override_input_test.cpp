@@ -208,6 +208,7 @@ TEST(OverrideInput, StaysWithinPanelAndTableWhateverTheWordsAre) {
   }));
 }
 
+// No table, a dead time of thirty years, no period.
 TEST(OverrideInput, RefusesABadTable) {
   EXPECT_FALSE(OverrideInput::make({}));
   OverrideTable table = switch_table();

@@ -40,6 +40,7 @@ TEST(SpindleDrive, RampsWithItsAccelerationLimit) {
   EXPECT_NEAR(seconds_to_speed(spindle, -40.0, 0.001), 120.0 / 50.0, 0.0011);
 }
 
+// Constant torque up to ω_b = P/M, constant power from there; braking is the same backwards.
 TEST(SpindleDrive, TorqueThenPowerLimitTheRunUpAsTheClosedFormSays) {
   const double inertia = 0.05;
   const double torque = 40.0;
@@ -86,6 +87,7 @@ TEST(SpindleDrive, OverrideScalesAndLimitsHold) {
   EXPECT_EQ(spindle.update({.command_rev_s = 0.0}).target_rev_s, 0.0);
 }
 
+// At rest and told to rest it is at speed; 10 rev/s at 50 rev/s² take 0.2 s.
 TEST(SpindleDrive, SaysWhenItIsAtSpeed) {
   SpindleDrive spindle = drive({.acceleration_rev_s2 = 50.0});
   EXPECT_TRUE(spindle.update({}).at_speed);

@@ -45,6 +45,7 @@ TEST(LayerTiming, MeasuresAsManyDecisionsAsItIsTold) {
   EXPECT_EQ(progress.size(), 2U);
 }
 
+// Only the contour room decides; the rest of the cycle is still timed.
 TEST(LayerTiming, OfAMachineWhoseContourIsLeftAloneHasNoDecisions) {
   Machine machine = machine_of("vmc-840d.toml");
   machine.contour.enabled = false;

@@ -90,8 +90,8 @@ double by_solver(const Process& process, double speed_rev_s, double depth_mm) {
   return chatter::offline::stability(cycle, {}).log_radius_per_pass;
 }
 
-// The first depth at which a scan finds chatter, halved down to 10⁻⁴ of a step. Steps of 15 % so
-// that a narrow lobe is not jumped over.
+/// The first depth at which a scan finds chatter, halved down to 10⁻⁴ of a step. Steps of 15 % so
+/// that a narrow lobe is not jumped over.
 std::optional<double> border_mm(const Process& process, double speed_rev_s) {
   double low = 0.0;
   double high = 0.01;

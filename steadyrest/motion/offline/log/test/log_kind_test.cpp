@@ -46,8 +46,8 @@ EdgeLog ticks(const Motion& x, double jitter_s = 0.0, double from_s = 0.0) {
   return log_of(rows);
 }
 
-// When the count changes within a cycle, found by looking 2000 times; all edges, or only the last
-// one as a latch shows it.
+/// When the count changes within a cycle, found by looking 2000 times; all edges, or only the last
+/// one as a latch shows it.
 EdgeLog edges(const Motion& x, bool all, int lose_each = 0) {
   constexpr int kLooks = 2000;
   std::vector<LogRow> rows;

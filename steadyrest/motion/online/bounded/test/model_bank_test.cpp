@@ -26,6 +26,7 @@ ModelBank with(const Moments& moments) {
 
 const Moments kSome{{1.5, -20.0, 300.0}, {4.0, 3.0, 10.0, 90.0, 120.0, 5000.0}};
 
+// Q = S·[dt⁵/20 dt⁴/8 dt³/6; dt⁴/8 dt³/3 dt²/2; dt³/6 dt²/2 dt].
 TEST(ModelBank, PredictsAsTheClosedFormOfWhiteJerk) {
   ModelBank bank = with(kSome);
   const double d = 0.02;

@@ -102,6 +102,7 @@ TEST(CycleMonitor, TimeThatRunsBackOrIsNoNumberIsCountedAndNotUsed) {
   EXPECT_LT(r.period_rms_s, 1e-15);
 }
 
+// Three stamps in the past are a clock that was set, one or two are bad stamps.
 TEST(CycleMonitor, GoesOnAfterTheClockWasSetBack) {
   std::vector<double> stamps;
   for (int k = 0; k < 100; ++k) {
