@@ -4,10 +4,10 @@
 
 #include <steadyrest/supervisor/frame_check.hpp>
 
-namespace steadyrest::supervisor {
 // Fit or not, in the order of how bad it is: a frame that is not finite may not be compared with
 // anything, so that comes first; age comes last, since only a frame that makes sense can be merely
 // old.
+namespace steadyrest::supervisor {
 namespace {
 
 using kernel::outcome::Reason;

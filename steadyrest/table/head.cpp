@@ -7,9 +7,9 @@
 
 #include <steadyrest/table/head.hpp>
 
-namespace steadyrest::table {
 // Names of columns end in their unit, as everywhere in this project. Heads write units in
 // brackets, in a row below the names or in the name; all are brought to the same form.
+namespace steadyrest::table {
 namespace {
 
 using namespace std::string_view_literals;

@@ -9,10 +9,10 @@
 
 #include <steadyrest/table/number.hpp>
 
-namespace steadyrest::table {
 // A comma may be a decimal mark or group thousands. Numbers are read as they come, and the file is
 // refused at its end if nothing in it has proved which: 12,5 does, 1,234 does not. A point
 // anywhere beside a comma is a contradiction.
+namespace steadyrest::table {
 namespace {
 
 constexpr std::string_view kRepair = "repair the row or cut the log before it";

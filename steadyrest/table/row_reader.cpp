@@ -9,11 +9,11 @@
 #include <steadyrest/table/row_reader.hpp>
 #include <steadyrest/table/stamp.hpp>
 
-namespace steadyrest::table {
 // Logs come from many programs: separators, decimal marks, units and heads differ. The separator
 // is decided when the first row is there to compare with the head; decimal marks are proved or
 // refused at the end (number.hpp). Whatever is ambiguous is refused: a log that is read wrongly
 // does more harm than one that is not read.
+namespace steadyrest::table {
 namespace {
 
 using namespace std::string_view_literals;

@@ -10,10 +10,10 @@
 #include <steadyrest/trial/batch/believed_axis.hpp>
 #include <steadyrest/trial/batch/text_shifts.hpp>
 
-namespace steadyrest::trial::batch {
 // A batch second by second: the true machine grows, the belief about it is carried along, and
 // three ways of cutting (uncorrected, corrected text, layer on line) are judged on the same
 // growth. Before each part the probe measures and a new text is written, as a shop would do it.
+namespace steadyrest::trial::batch {
 namespace {
 
 using kernel::outcome::Kind;

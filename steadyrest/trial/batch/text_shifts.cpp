@@ -16,10 +16,10 @@
 #include <steadyrest/nc/rewrite/text/tag.hpp>
 #include <steadyrest/trial/batch/text_shifts.hpp>
 
-namespace steadyrest::trial::batch {
 // What corrections in the text do to each move: both programs are run through the interpreter and
 // compared move by move, in machine coordinates. So whatever method wrote the corrections
 // (offsets, transforms, changed words), what counts is where the axes go.
+namespace steadyrest::trial::batch {
 namespace {
 
 using kernel::outcome::Kind;

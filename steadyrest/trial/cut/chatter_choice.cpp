@@ -9,9 +9,9 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
 
-namespace steadyrest::trial::cut {
 // The planner's answer for each spindle speed that the program cuts at, turned into what the layer
 // can do: a law, a constant ratio, or nothing.
+namespace steadyrest::trial::cut {
 namespace {
 
 using chatter::offline::PlanDecision;

@@ -11,10 +11,10 @@
 #include <steadyrest/trial/cut/cut_job.hpp>
 #include <steadyrest/trial/cut/motion_score.hpp>
 
-namespace steadyrest::trial::cut {
 // One cut of a program on the simulated machine, with or without the layer. The judge is apart
 // from both: it measures the true tool, which no control can see, against the program's path
 // without the layer's offsets.
+namespace steadyrest::trial::cut {
 namespace {
 
 using contour::online::ContourError;

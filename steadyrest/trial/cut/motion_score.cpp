@@ -6,9 +6,9 @@
 
 #include <steadyrest/trial/cut/motion_score.hpp>
 
-namespace steadyrest::trial::cut {
 // How good the layer's estimates are on this cut, against the difference of the counts that a
 // control would otherwise have; the truth is the motor side, where the encoder sits.
+namespace steadyrest::trial::cut {
 namespace {
 
 using kernel::outcome::Result;

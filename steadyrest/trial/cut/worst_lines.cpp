@@ -12,9 +12,9 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/trial/cut/worst_lines.hpp>
 
-namespace steadyrest::trial::cut {
 // Which lines of the program err most, and at which feed each would keep the limit: the table that
 // tells a programmer where to change F.
+namespace steadyrest::trial::cut {
 namespace {
 
 using kernel::machine::Axis;

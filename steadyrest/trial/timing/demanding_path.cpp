@@ -11,10 +11,10 @@
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/trial/timing/demanding_path.hpp>
 
-namespace steadyrest::trial::timing {
 // A path that is as hard for the layer as a real program can be: arcs of several radii at two
 // feeds, a zigzag of corners, a circle in CAM chords. It fills the look-ahead and makes every
 // decision a search; timing on straight lines would flatter.
+namespace steadyrest::trial::timing {
 namespace {
 
 using kernel::machine::Machine;

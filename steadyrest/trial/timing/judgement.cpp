@@ -7,8 +7,8 @@
 
 #include <steadyrest/trial/timing/judgement.hpp>
 
-namespace steadyrest::trial::timing {
 // The timing, turned into a finding that says what to change.
+namespace steadyrest::trial::timing {
 namespace {
 
 using kernel::machine::Machine;

@@ -10,10 +10,10 @@
 #include <steadyrest/trial/timing/demanding_path.hpp>
 #include <steadyrest/trial/timing/layer_timing.hpp>
 
-namespace steadyrest::trial::timing {
 // What a cycle of the layer takes on this computer. The run is deterministic, so cycle n does the
 // same work in each round: its least time over the rounds is its cost, the rest was the operating
 // system's.
+namespace steadyrest::trial::timing {
 namespace {
 
 using kernel::machine::Machine;

@@ -7,9 +7,9 @@
 
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
-namespace steadyrest::trial::vibration {
 // The process file's cut in time. Shares nothing with the chatter room's solver but the file, so
 // that the two can check each other.
+namespace steadyrest::trial::vibration {
 namespace {
 
 using chatter::offline::Direction;

@@ -6,9 +6,9 @@
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 
-namespace steadyrest::kernel::rt::testing {
 // Counts calls, per thread, of the replaced global operators. What a library allocates by malloc
 // itself is not seen; the project's code in the cycle calls no such library.
+namespace steadyrest::kernel::rt::testing {
 namespace {
 
 // Per thread: a logger that allocates beside the cycle is no fault of the cycle.

@@ -14,10 +14,10 @@
 #include <steadyrest/motion/offline/scene/score.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
-namespace steadyrest::motion::offline {
 // A table of estimators against scenes. Every estimator gets the same records; ours runs twice,
 // with and without the axis's limits. Accuracy and cost are measured in separate runs: reading the
 // clock at each tick would disturb neither the estimate nor, if it is taken off, the cost.
+namespace steadyrest::motion::offline {
 namespace {
 
 using kernel::outcome::Kind;

@@ -10,10 +10,10 @@
 #include <steadyrest/motion/offline/scene/score.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
-namespace steadyrest::motion::offline {
 // Looks for a counterexample: random motions, encoders, clocks and losses, each within the limits
 // that the estimator is told, and one value outside of its bound is a bug. A seed reproduces what
 // was found.
+namespace steadyrest::motion::offline {
 namespace {
 
 using online::MotionEstimator;

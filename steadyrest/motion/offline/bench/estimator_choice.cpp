@@ -17,8 +17,8 @@
 #include <steadyrest/motion/online/estimator/savitzky_golay.hpp>
 #include <steadyrest/motion/online/estimator/worst_case_difference.hpp>
 
-namespace steadyrest::motion::offline {
 // Names, what each estimator needs, and how it is made: the one place to add one.
+namespace steadyrest::motion::offline {
 namespace {
 
 using kernel::outcome::Kind;

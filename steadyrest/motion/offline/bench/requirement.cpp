@@ -7,10 +7,10 @@
 #include <steadyrest/motion/offline/bench/requirement.hpp>
 #include <steadyrest/motion/offline/scene/score.hpp>
 
-namespace steadyrest::motion::offline {
 // The paper's requirement per tick, turned into mm/s and mm/s² by the cycle, against three
 // figures: what physics lets anybody guarantee (Landau, Kolmogorov), what the best estimator
 // reaches on average, what ours proves and reaches.
+namespace steadyrest::motion::offline {
 namespace {
 
 using kernel::outcome::Result;

@@ -10,9 +10,9 @@
 
 #include <steadyrest/motion/offline/log/recorded_axis.hpp>
 
-namespace steadyrest::motion::offline {
 // A servo axis recorded with a very fine encoder, used twice: divided by 64 it is the coarse
 // encoder under test, whole it is the truth.
+namespace steadyrest::motion::offline {
 namespace {
 
 namespace fs = std::filesystem;

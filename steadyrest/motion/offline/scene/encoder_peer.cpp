@@ -18,9 +18,9 @@
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/motion/offline/scene/encoder_peer.hpp>
 
-namespace steadyrest::motion::offline {
 // LinuxCNC's encoder component runs in a separate program, since the package is GPL and may be
 // missing; edges go over as CSV, estimates come back as CSV.
+namespace steadyrest::motion::offline {
 namespace {
 
 namespace fs = std::filesystem;

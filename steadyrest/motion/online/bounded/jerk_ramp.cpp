@@ -4,12 +4,12 @@
 
 #include <steadyrest/motion/online/bounded/jerk_ramp.hpp>
 
-namespace steadyrest::motion::online {
 // The life of a ramp: edge() judges what was foretold, decides whether this edge is a start, and
 // then either follows the start (begin, go_on) or looks for a stop (fit: guess, improve, weigh).
 // at() answers from whichever is believed, with its share.
 // A share is never a matter of one test: it is the likelihood against the best smooth alternative
 // times how often such predictions came true on this axis (Trust).
+namespace steadyrest::motion::online {
 namespace {
 
 constexpr double kOdds = 0.01;       ///< of a stop at any constant jerk, beforehand

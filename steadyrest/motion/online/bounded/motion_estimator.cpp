@@ -4,10 +4,10 @@
 
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
-namespace steadyrest::motion::online {
 // The frame of the estimator: checks, start and restart, what to do with an edge and with a tick,
 // and the clamp to what is proved. What an edge does to the hypotheses is in
 // motion_estimator_observe.cpp, what a tick does in motion_estimator_mix.cpp.
+namespace steadyrest::motion::online {
 namespace {
 
 // What follows was chosen once, on the scenes of bench/motion and the recorded logs together,

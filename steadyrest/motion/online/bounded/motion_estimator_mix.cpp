@@ -5,9 +5,9 @@
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 /// What happens at a tick: the look at the cell, and the exchange between the hypotheses.
-namespace steadyrest::motion::online {
 // Model i differs from i ± 1 by a factor of some 20 … 4000 in density: a motion that changes its
 // nature mostly goes to the next one.
+namespace steadyrest::motion::online {
 namespace {
 
 /// Share of its hand-over that a model gives to another: halved with each model between.
