@@ -5,12 +5,12 @@
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 /// What happens at a tick: the look at the cell, and the exchange between the hypotheses.
-// Model i differs from i ± 1 by a factor of some 20 … 4000 in density: a motion that changes its
-// nature mostly goes to the next one.
 namespace steadyrest::motion::online {
 namespace {
 
 /// Share of its hand-over that a model gives to another: halved with each model between.
+/// Model i differs from i ± 1 by a factor of some 20 … 4000 in density: a motion that changes its
+/// nature mostly goes to the next one.
 constexpr std::array<Lanes, kModels> kNear{{{0.0, 0.5, 0.25, 0.125},
                                             {0.5, 0.0, 0.5, 0.25},
                                             {0.25, 0.5, 0.0, 0.5},
