@@ -58,6 +58,7 @@ std::expected<double, Fault> Clock::seconds(const Row& row) {
   return value;
 }
 
+// All stamps with a zone or none: mixed, an hour's difference could be either.
 std::expected<double, Fault> Clock::stamped(const Row& row) {
   const std::string_view field = row.field(*column_);
   const auto stamp = stamp_of(field);

@@ -103,6 +103,7 @@ std::string unit_of(std::string_view field) {
   return other == kOthers.end() ? std::string() : std::string(other->unit);
 }
 
+// `z [µm]` becomes `z_um`: the form that the program looks its columns up by.
 std::string name_of(std::string_view field) {
   field = unquoted(field);
   const char close = field.empty() ? '\0' : field.back();
@@ -121,6 +122,7 @@ std::string name_of(std::string_view field) {
   return std::string(field);
 }
 
+// A second line of units only, with at least one that is a unit beyond doubt.
 bool are_units(const std::vector<std::string_view>& fields) {
   bool any = false;
   for (const std::string_view field : fields) {

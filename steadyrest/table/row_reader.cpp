@@ -83,6 +83,8 @@ bool holds_value(std::string_view field) {
 }
 
 /// The first mark of the head that parts head and first row alike, else the first one.
+/// A head may contain other marks in its names, a row may contain decimal commas: only a mark that
+/// cuts both into as many fields is believed.
 char separator_of(std::string_view head, std::string_view row) {
   std::vector<std::string_view> of_head;
   std::vector<std::string_view> of_row;
@@ -162,6 +164,7 @@ std::optional<Fault> RowReader::overrun() {
   return std::nullopt;
 }
 
+// Kept as text: without the first row the separator is not known yet.
 std::optional<Fault> RowReader::take_head(std::string_view text) {
   if (text.find('\r') != std::string_view::npos) {
     return Fault{line_, "the lines end with a bare carriage return",
@@ -247,6 +250,7 @@ std::optional<Fault> RowReader::behind_head(std::string_view text) {
   return take_row(text);
 }
 
+// Once, before the first row, so that a missing column is told before any work is done.
 std::optional<Fault> RowReader::give_head() {
   std::optional<Fault> fault;
   if (head_.name.size() > kMostColumns) {
@@ -301,6 +305,7 @@ std::optional<Fault> RowReader::finish() {
   return numbers_.unproved();
 }
 
+// A text that is in memory as a whole; files come through line() block by block.
 std::optional<Fault> read_rows(std::string_view text, RowReader& reader) {
   // NUL bytes: UTF-16 without a mark, or no text at all.
   if (text.find('\0') != std::string_view::npos) {

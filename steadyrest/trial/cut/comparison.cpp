@@ -38,6 +38,7 @@ TracePoint point_of(const Sample& sample) {
           .cutting = sample.motion == kernel::signal::Motion::feed};
 }
 
+// One side of the comparison: figures, trace, and how long each reason held.
 Run run_of(const Recorder& record) {
   Run run{.figures = record.figures(), .trace = {}, .reasons = {}};
   for (const Sample& sample : record.trace()) {

@@ -22,6 +22,7 @@ double fall_s(const Machine& machine) {
   return (machine.contour.max_ratio - machine.contour.min_ratio) / machine.envelope.feed_fall_1_s;
 }
 
+// The fall to the lowest step sets the length of a forecast; only where it is long is it named.
 std::string remedy(const LayerTiming& timing, const Machine& machine) {
   constexpr std::string_view kAlways = "lengthen interpolator_period_ms or use a faster computer";
   if (timing.decisions == 0 || fall_s(machine) <= kLongFall_s) {

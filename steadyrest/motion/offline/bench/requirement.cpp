@@ -32,6 +32,8 @@ struct Measured {
   MotionError bound;
 };
 
+// One scene serves all jerk limits: the motion is the same, only what the estimator is told
+// differs.
 Result<Measured> measure(BenchScene& scene, double jerk_mm_s3) {
   scene.setup.max_jerk_mm_s3 = jerk_mm_s3;
   auto estimator = make_estimator(estimator_names().front(), scene.setup);

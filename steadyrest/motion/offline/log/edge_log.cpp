@@ -252,6 +252,8 @@ class EdgeLogReader::Parser final : public table::Sink {
             "check that the recorder keeps up with the axis"});
   }
 
+  // A recorder that was stopped leaves half a row; that is reported, and the rows before it are
+  // good.
   void cut_off() {
     report({line_number(),
             fmt::format("the log ends within a row: \"{}\"", table::shown(table::trimmed(text_))),
@@ -285,6 +287,7 @@ class EdgeLogReader::Parser final : public table::Sink {
   }
   /// A fault of the head refuses the file. One behind it ends the log; it is kept whatever
   /// max_findings says.
+  /// False ends the reading: what follows a fault may be shifted by a row, or be another log.
   bool take(const Fault& fault) {
     if (!reader_.has_head() || log_.rows.empty()) {
       refuse(fault);

@@ -29,6 +29,7 @@ void MOverT::edge(const Edge& edge) noexcept {
   fresh_ = true;
 }
 
+// v = counts between the last edges of two ticks over the time between them (Ohmae 1982).
 void MOverT::take_edge() noexcept {
   const double span_s = latest_.t_s - reference_.t_s;
   // Velocity needs a reference edge first, else the time since standstill enters Δt.

@@ -31,6 +31,7 @@ WorstCaseDifference::WorstCaseDifference(const Config& config) noexcept
   }
 }
 
+// N̂ of the paper: the least error of position that explains the record under the limit L.
 double WorstCaseDifference::shown_error_mm(std::size_t longest) const noexcept {
   const Sample& now = back(0);
   const double limit = config_.max_acceleration_mm_s2;

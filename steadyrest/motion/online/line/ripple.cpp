@@ -144,6 +144,9 @@ bool Ripple::weigh() noexcept {
   return std::abs(residual_) < kMostResidual;
 }
 
+// Recursive least squares with forgetting. The wave goes through the same weights d as the
+// positions, so that what the cubic takes away of it is taken away of the prediction, too; cos and
+// sin along the window come from one rotation for each line.
 void Ripple::teach() noexcept {
   std::array<double, kStates> h{};
   const auto first = static_cast<double>(middle_ - static_cast<std::int64_t>(kWindow / 2) * sense_);
@@ -196,6 +199,8 @@ void Ripple::teach() noexcept {
   }
 }
 
+// Discrete Fourier sums over the place, one bin each 1/1024 of a count's turn; only sums are kept,
+// so the window may be as long as the axis travels.
 void Ripple::search() noexcept {
   weight_sum_ = kForgetPower * weight_sum_ + 1.0;
   square_sum_ = kForgetPower * square_sum_ + residual_ * residual_;
