@@ -199,8 +199,8 @@ void Ripple::teach() noexcept {
   }
 }
 
-// Discrete Fourier sums over the place, one bin each 1/1024 of a count's turn; only sums are kept,
-// so the window may be as long as the axis travels.
+// Discrete Fourier sums over the place, bins 1/1024 per count apart; only sums are kept, so the
+// window may be as long as the axis travels.
 void Ripple::search() noexcept {
   weight_sum_ = kForgetPower * weight_sum_ + 1.0;
   square_sum_ = kForgetPower * square_sum_ + residual_ * residual_;
