@@ -10,7 +10,8 @@ namespace {
 
 namespace online = chatter::online;
 
-/// Gathers what the spectra of one stretch say.
+/// Gathers the spectra of one stretch of chatter: from the spectrum that raised the alarm to the
+/// first one that is quiet again.
 class Stretch {
  public:
   explicit Stretch(double start_s) : start_s_(start_s) {}
@@ -21,6 +22,9 @@ class Stretch {
     speeds_rev_s_ += speed_rev_s;
   }
 
+  // The median frequency, because a spectrum now and then locks onto a side line of the chatter (fc
+  // ± k tooth frequencies) and one such reading would pull a mean off. The kind goes by majority
+  // for the same reason: flip is judged within one line width and flickers near its edge.
   [[nodiscard]] ChatterEvent finished(double end_s) {
     const auto half = static_cast<std::ptrdiff_t>(frequency_hz_.size() / 2);
     std::ranges::nth_element(frequency_hz_, frequency_hz_.begin() + half);
@@ -44,6 +48,7 @@ class Stretch {
 
 std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal& signal,
                                          chatter::online::Detector& detector, Progress& progress) {
+  // Samples between two updates of the bar: a few seconds of signal, microseconds of bookkeeping.
   constexpr std::size_t kBetweenUpdates = 65536;
   const std::size_t samples = signal.value.size();
   std::vector<ChatterEvent> out;
@@ -52,6 +57,8 @@ std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal&
   for (std::size_t i = 0; i < samples; ++i) {
     t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
     const auto& heard =
+        // The detector judges one spectrum per hop of samples. Only `fresh` outputs are new
+        // readings; the samples between them repeat the last verdict and must not be counted again.
         detector.update({.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i]});
     if (heard.fresh && heard.chatter) {
       if (!open) {
@@ -66,6 +73,7 @@ std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal&
       progress.update(static_cast<double>(i) / static_cast<double>(samples), "listening");
     }
   }
+  // A recording may end while the cut still chatters.
   if (open) {
     out.push_back(open->finished(t_s));
   }

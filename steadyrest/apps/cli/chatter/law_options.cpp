@@ -17,8 +17,12 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+/// The map of one principal period is a product of pass maps. The pass count is bounded, and so is
+/// the number of law periods that may make up one principal period.
 constexpr double kMostPasses = 4096.0;  ///< of the solver, in the principal period
 constexpr int kMostLawPeriods = 64;
+/// Relative mismatch of period and tooth passes: none to speak of, hardly noticeable (0.5 % of
+/// RVF), anything.
 constexpr double kSame = 1e-10;
 constexpr double kNear = 0.005;
 
@@ -26,6 +30,8 @@ std::unexpected<Refusal> bad(std::string what, std::string to_do) {
   return std::unexpected(Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)});
 }
 
+/// RVA = amplitude/mean speed is what the theory uses; the shop thinks in rev/min (Haas setting
+/// 165) or in per cent of the override. CLI11 has made sure that at most one of the three is given.
 Result<double> amplitude(const LawOptions& o, double speed_rpm) {
   if (!o.rva && !o.amplitude_rpm && !o.amplitude_percent) {
     return bad(fmt::format("--law {} needs an amplitude", o.law),
@@ -42,6 +48,7 @@ Result<double> amplitude(const LawOptions& o, double speed_rpm) {
   return rva;
 }
 
+/// RVF = modulation frequency/rotation frequency, so RVF = 1/(period · rev/s).
 Result<double> frequency(const LawOptions& o, double speed_rpm) {
   if (!o.rvf && !o.period_s) {
     return bad(fmt::format("--law {} needs a period", o.law), "give --rvf or --period-s");
@@ -56,6 +63,11 @@ Result<double> frequency(const LawOptions& o, double speed_rpm) {
 }
 
 /// The RVF nearest by whose law has r periods in a whole number of passes.
+/// A law period takes q = N/RVF tooth passes (N teeth; one pass per revolution where the pitch is
+/// uneven). The monodromy matrix exists only over a whole number of passes, so r law periods must
+/// make up an integer. The loop takes the smallest r at the tightest tolerance that works: exact,
+/// then 0.5 %, then the nearest integer whatever it is. In the last round r = 1 nearly always fits,
+/// so an irrational RVF costs half a pass at most.
 Result<double> rational(double rvf, double passes_per_rev) {
   const double q = passes_per_rev / rvf;
   for (const double near : {kSame, kNear, 0.5}) {
@@ -95,6 +107,7 @@ void add_law_options(Verb& verb, LawOptions& options) {
 
 Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, double speed_rpm) {
   ChosenLaw out;
+  // A number without a law is a forgotten --law, not a constant speed.
   const bool numbers = options.rva || options.rvf || options.amplitude_rpm ||
                        options.amplitude_percent || options.period_s;
   if (options.law.empty() && numbers) {
@@ -108,6 +121,8 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
   if (!wanted) {
     return std::unexpected(wanted.error());
   }
+  // With uneven pitch the delays differ from tooth to tooth and the cut repeats only once per
+  // revolution.
   const bool even = process.even_pitch();
   const auto rvf = rational(*wanted, even ? static_cast<double>(process.tool.teeth) : 1.0);
   if (!rvf) {
@@ -117,6 +132,7 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
   out.modulation.rva = *rva;
   out.modulation.rvf = *rvf;
   out.modulation.seed = options.seed;
+  // The answer must say when it is about another RVF than the one asked for.
   if (*rvf != *wanted) {
     out.wanted_rvf = *wanted;
   }
@@ -129,6 +145,7 @@ void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm) {
   if (m.law == Law::constant) {
     return;
   }
+  // Ratios always; rev/min and seconds only where there is one mean speed. A map passes 0.
   json["rva"] = m.rva;
   json["rvf"] = m.rvf;
   if (speed_rpm > 0.0) {

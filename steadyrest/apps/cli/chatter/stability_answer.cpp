@@ -5,6 +5,8 @@
 
 namespace steadyrest::apps::cli {
 
+/// Over a long modulation period ρ is tiny or huge (2e-27 occurs), so its logarithm is in the
+/// answer as well and is the number to compare.
 void put_stability(Json& json, const chatter::offline::Stability& found) {
   json["spectral_radius"] = std::exp(found.log_radius);
   json["log_radius"] = found.log_radius;

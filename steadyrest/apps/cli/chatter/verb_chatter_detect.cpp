@@ -25,6 +25,9 @@
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
+// From a recording to advice. The detector lists the stretches of chatter, then each stretch gets a
+// better speed from the best source at hand: the planner (process and depth known), the deepest
+// override step (process known), or the rule n = 60·fc/(N·k) (nothing but the frequency known).
 namespace {
 
 namespace offline = chatter::offline;
@@ -84,7 +87,8 @@ std::optional<Refusal> unfit(const Options& options) {
   return std::nullopt;
 }
 
-/// Speeds into the signal where it brought none.
+/// A recording from the machine may bring its speed as a column. Otherwise the operator's number
+/// holds for the whole of it. Both at once would leave open which one wins.
 std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
                                  offline::RecordedSignal& signal) {
   std::vector<double>& speed = signal.speed_rev_s;
@@ -98,6 +102,7 @@ std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
   }
   if (options.speed_rpm) {
     const double most_rpm = rpm_from_rev_s(machine.spindle.max_rev_s);
+    // The margin lets a speed pass that is the spindle's limit to the last digit printed.
     if (*options.speed_rpm > most_rpm * (1.0 + 1e-9)) {
       return bad(fmt::format("--speed-rpm {:.6g} is above the spindle's {:.6g}", *options.speed_rpm,
                              most_rpm),
@@ -105,6 +110,7 @@ std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
     }
     speed.assign(signal.value.size(), kernel::units::rev_s_from_rpm(*options.speed_rpm));
   }
+  // All frequencies are judged by their order (frequency over speed), and at speed 0 there is none.
   if (std::ranges::none_of(speed, [](double s) { return s > 0.0; })) {
     return bad("speed_rpm is 0 throughout", "give a recording with the spindle running",
                options.signal);
@@ -112,7 +118,8 @@ std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
   return std::nullopt;
 }
 
-/// What `chatter plan` says of the cut, asked once for speeds that are nearly the same.
+/// Asks the planner once for speeds within 0.5 % of one another: a plan takes seconds, and the
+/// stretches of one recording mostly have one programmed speed.
 class AskedPlans {
  public:
   AskedPlans(const offline::Process& process, const Machine& machine, double depth_mm)
@@ -139,7 +146,9 @@ class AskedPlans {
   std::vector<std::pair<double, offline::Plan>> asked_;
 };
 
-/// The planner's constant step as advice; a law is told beside it.
+/// The planner's constant step as advice. A `keep` counts as a step too when the cut ran at another
+/// override: 100 % is stable, and the recording was not made there. A law is no single speed and is
+/// told in words instead.
 online::SpeedTable::Advice advice_of(const offline::Plan& plan, double programmed_rev_s,
                                      double present_rev_s) {
   constexpr double kSame = 1e-6;
@@ -161,6 +170,8 @@ std::optional<Refusal> advise(const Options& options, const Machine& machine, st
                               std::optional<AskedPlans>& plans, Event& event) {
   online::SpeedTable::Config config = offline::steps_of(machine);
   config.teeth = teeth;
+  // The override steps are shares of the programmed speed. Without that number the recording is
+  // taken as made at 100 %.
   const double programmed = options.programmed_rpm
                                 ? kernel::units::rev_s_from_rpm(*options.programmed_rpm)
                                 : event.speed_rev_s;
@@ -173,6 +184,8 @@ std::optional<Refusal> advise(const Options& options, const Machine& machine, st
     event.plan = std::move(*plan);
     return std::nullopt;
   }
+  // The depth of cut is unknown, so the table holds the limiting depth of each step and the deepest
+  // step wins (depth_mm = 0 below asks for that).
   if (process) {
     if (auto added = offline::add_depths(*process, {programmed}, kMostDepthMm, config); !added) {
       return added.error();
@@ -189,11 +202,13 @@ std::optional<Refusal> advise(const Options& options, const Machine& machine, st
   return std::nullopt;
 }
 
-/// Who advises: the planner, its borders, or the rule.
+/// Where the advice comes from, best first: a plan for this very cut, the border alone, the
+/// frequency alone.
 const char* adviser(const Options& options) {
   return options.process.empty() ? "rule of thumb" : options.depth_mm ? "planner" : "deepest step";
 }
 
+/// The request is neutral when nothing is better; a speed of 0 says so.
 std::string better_words(const Event& event) {
   const auto& advice = event.advice;
   if (advice.speed_rev_s > 0.0) {
@@ -245,6 +260,7 @@ Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>
 
 Json page_of(const Json& answer, const Options& options, const Machine& machine,
              const offline::RecordedSignal& signal, std::size_t teeth, std::size_t window) {
+  // The highest chatter frequency sets how far up the page's spectrogram must reach.
   double chatter_hz = 0.0;
   for (const Json& event : answer["events"]) {
     chatter_hz = std::max(chatter_hz, event["frequency_hz"].get<double>());
@@ -272,6 +288,8 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
   if (!detector) {
     return refused(detector.error());
   }
+  // The detector answers after one full window. Shorter than that it would say "no chatter" about a
+  // signal that it never judged.
   if (signal->value.size() < detector->window()) {
     return refused(bad(fmt::format("has {} samples; one spectrum needs {}", signal->value.size(),
                                    detector->window()),
@@ -281,6 +299,7 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
   for (const ChatterEvent& heard : chatter_events(*signal, *detector, progress)) {
     events.push_back({heard, {}, {}});
   }
+  // Plans are made on demand: a quiet recording needs none.
   std::optional<AskedPlans> plans;
   if (process && options.depth_mm) {
     plans.emplace(*process, machine, *options.depth_mm);
@@ -315,6 +334,7 @@ Outcome run(const Options& options, Progress& progress) {
     }
     process = std::move(*read);
   }
+  // A process file knows its cutter; --teeth is excluded beside it.
   const std::size_t teeth = process ? process->tool.teeth : *options.teeth;
   return detect(options, *machine, teeth, process, progress);
 }

@@ -22,6 +22,8 @@
 namespace steadyrest::apps::cli {
 namespace {
 
+// A tap test gives H(f) at the tool tip. The fit turns it into the [[mode]] sections that a process
+// file takes (the law is in chatter/offline/response/mode_fit.hpp).
 namespace offline = chatter::offline;
 
 struct Options {
@@ -33,7 +35,8 @@ struct Options {
   LogOptions format;
 };
 
-/// Sections for a process file.
+/// Sections for a process file. Eight digits of frequency: the border moves with the frequency and
+/// its flanks are steep, so nothing may be lost by printing.
 std::string modes_toml(const offline::ModeFit& fit, const Options& options) {
   std::string out =
       fmt::format("# Fitted by steadyrest chatter fit: {} {}, residual {:.3g} %\n",
@@ -56,6 +59,7 @@ Answer answer_of(const offline::ModeFit& fit, const Options& options) {
                      {"frequency_hz", mode.frequency_hz},
                      {"damping_ratio", mode.damping_ratio},
                      {"mass_kg", mode.mass_kg},
+                     // N/mm to N/µm.
                      {"stiffness_N_um", 1e-3 * mode.stiffness_n_mm}});
     table.row({options.axis, fmt::format("{:.2f}", mode.frequency_hz),
                fmt::format("{:.3f} %", 100.0 * mode.damping_ratio),
@@ -74,9 +78,11 @@ Answer answer_of(const offline::ModeFit& fit, const Options& options) {
   return answer;
 }
 
+/// Below 0.8 the usual advice is to repeat the tap: a double hit, too soft a tip, or noise.
 constexpr double kLowCoherence = 0.8;
 
-/// What was measured, and how well, of each response.
+/// What each file holds and how good it is. An accelerometer gives accelerance; each integration
+/// divides by iω, so displacement follows after one (velocity) or two (acceleration).
 void put_response(Answer& answer, const std::string& file, const offline::Frf& frf) {
   constexpr std::array kMeasured = {"displacement", "velocity", "acceleration"};
   const auto order = static_cast<std::size_t>(frf.measured_order);
@@ -85,6 +91,7 @@ void put_response(Answer& answer, const std::string& file, const offline::Frf& f
     answer.text += fmt::format("{}: {} per force, converted to displacement by {}\n", file,
                                kMeasured[order], order == 1 ? "1/(iω)" : "−1/ω²");
   }
+  // The order of the derivative is also the number of integrations: 0, 1, 2.
   if (!frf.coherence.empty()) {
     const auto low =
         std::ranges::count_if(frf.coherence, [](double c) { return c < kLowCoherence; });
@@ -98,7 +105,8 @@ void put_response(Answer& answer, const std::string& file, const offline::Frf& f
   answer.json["responses"].push_back(std::move(one));
 }
 
-/// Each response under its file's name, numbered where the file holds several.
+/// The page's legend needs one name per curve: a universal file may hold several responses, which
+/// are numbered.
 page::Json page_of(const Json& answer, const Options& options, const offline::ModeFit& fit,
                    const std::vector<offline::Frf>& responses) {
   const auto name_of = [](const std::string& file) {
@@ -133,6 +141,7 @@ Outcome run(const Options& options) {
   if (!fit) {
     return refused(fit.error());
   }
+  // The file first, then the report: the modes are the result that was asked for.
   if (!options.output.empty()) {
     if (auto written = kernel::file::write_file(options.output, modes_toml(*fit, options));
         !written) {

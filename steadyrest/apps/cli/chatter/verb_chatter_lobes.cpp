@@ -36,6 +36,8 @@ using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using kernel::units::rpm_from_rev_s;
 
+/// Far below any spindle. It keeps 0 and negative speeds out of the grid, with the option's name in
+/// the refusal.
 constexpr double kLeastSpeed_rpm = 1e-3;
 constexpr const char* kBorderHead = "speed_rpm,depth_mm\n";
 
@@ -58,12 +60,15 @@ struct Made {
   double seconds = 0.0;
 };
 
+/// The border gets a file of its own, since its speeds are not those of the map.
 fs::path border_path(const fs::path& csv) {
   return csv.extension() == ".csv" ? fs::path(csv).replace_extension(".border.csv")
                                    : fs::path(csv.string() + ".border.csv");
 }
 
 std::string map_csv(const offline::LobeMap& map) {
+  // Speed is the outer loop, as in `log_radius`: one column of the map is one run of the solver
+  // over all depths, which share everything but the depth.
   std::string out = "speed_rpm,depth_mm,spectral_radius\n";
   const std::size_t depths = map.depth_mm.size();
   for (std::size_t s = 0; s < map.speed_rev_s.size(); ++s) {
@@ -77,6 +82,8 @@ std::string map_csv(const offline::LobeMap& map) {
 }
 
 /// Speeds that are stable at all depths have no row.
+/// Stability up to the greatest depth is no border point; a row with the greatest depth would look
+/// like one.
 std::string border_csv(const offline::BorderLine& border) {
   std::string out = kBorderHead;
   for (std::size_t i = 0; i < border.speed_rev_s.size(); ++i) {
@@ -90,6 +97,8 @@ std::string border_csv(const offline::BorderLine& border) {
 
 Result<Made> make(const offline::Process& process, const offline::LobeMapConfig& config,
                   Progress& progress) {
+  // The map and its border are two searches. The border is refined between the given speeds until
+  // it is smooth, which no grid of the map could give.
   const auto start = std::chrono::steady_clock::now();
   auto map = offline::lobe_map(
       process, config, [&progress](double share) { progress.update(0.5 * share, "the map"); });
@@ -109,7 +118,8 @@ Result<Made> make(const offline::Process& process, const offline::LobeMapConfig&
   return Made{std::move(*map), std::move(*border), taken.count()};
 }
 
-/// RVF is a ratio: with a period in s the law would differ from speed to speed.
+/// RVA and RVF are ratios: given in seconds or rev/min, the law would be another one at each speed
+/// of the map, and the map would mix them.
 Result<ChosenLaw> law_of(const Options& options, const offline::Process& process,
                          const std::vector<double>& speeds_rpm) {
   if (speeds_rpm.size() > 1 && (options.law.period_s || options.law.amplitude_rpm)) {
@@ -127,6 +137,8 @@ Answer answer_of(const Made& made, const ChosenLaw& law, const Options& options)
   std::optional<std::size_t> deepest;
   std::optional<std::size_t> lowest;
   for (std::size_t s = 0; s < line.speed_rev_s.size(); ++s) {
+    // Highest and lowest border over the speeds that have one; where the border is empty the cut is
+    // stable to the bottom of the map, and no number says how much further.
     const auto& border = line.depth_mm[s];
     points += border ? 1U : 0U;
     if (border && (!deepest || *border > *line.depth_mm[*deepest])) {
@@ -159,7 +171,7 @@ Answer answer_of(const Made& made, const ChosenLaw& law, const Options& options)
   return answer;
 }
 
-/// The cut that is wanted, in the map.
+/// The intended cut, worked out at exactly this speed and depth and not read off the grid.
 Result<Json> point_json(const Options& options, const offline::Process& process,
                         const ChosenLaw& law) {
   const auto found =
@@ -183,13 +195,15 @@ std::string point_text(const Json& point) {
       fmt::format("{:.4g} mm at {:.6g} rpm: {}, spectral radius {:.6g}",
                   point["depth_mm"].get<double>(), point["speed_rpm"].get<double>(),
                   stable ? "stable" : "unstable", point["spectral_radius"].get<double>());
+  // A stable cut has a dominant frequency as well, but nobody hears it.
   if (!point["frequency_hz"].is_null() && !stable) {
     out += fmt::format(", chatter at {:.1f} Hz", point["frequency_hz"].get<double>());
   }
   return out + "\n";
 }
 
-/// What --speed-rpm, --depth-mm and --machine may be together.
+/// --speed-rpm and --depth-mm make one point; --machine adds the override steps, which are shares
+/// of that speed.
 std::optional<Refusal> unfit(const Options& options) {
   if (options.speed_rpm.has_value() != options.depth_mm.has_value()) {
     return Refusal{Kind::bad_input, "", 0, "--speed-rpm and --depth-mm belong together",
@@ -217,6 +231,7 @@ struct Task {
 };
 
 std::expected<Task, Refusals> task_of(const Options& options) {
+  // Everything that may be refused is read and checked here, before minutes of work on the map.
   const auto no = [](Refusal refusal) { return std::unexpected(Refusals{std::move(refusal)}); };
   if (auto refusal = unfit(options)) {
     return no(std::move(*refusal));
@@ -255,6 +270,7 @@ std::expected<Task, Refusals> task_of(const Options& options) {
 Result<Json> page_of(const Json& answer, const Task& task, const Options& options, Made made) {
   offline::LobeMap& map = made.map;
   auto others = page::other_borders(task.process, map, made.border, task.law.modulation);
+  // Borders of the same cut under other laws, for comparison in the report.
   if (!others) {
     return std::unexpected(others.error());
   }
@@ -270,6 +286,7 @@ Result<Json> page_of(const Json& answer, const Task& task, const Options& option
 }
 
 Result<void> write_map(const Options& options, const Made& made) {
+  // Both files or neither: a border beside an older map would mislead.
   const std::array files = {
       kernel::file::FileText{.file = options.output, .text = map_csv(made.map)},
       kernel::file::FileText{.file = border_path(options.output).string(),
@@ -295,6 +312,7 @@ Outcome run(const Options& options, Progress& progress) {
   if (const auto done = write_map(options, *made); !done) {
     return refused(done.error());
   }
+  // `made` is still needed whole here; the page takes it over below.
   Answer answer = answer_of(*made, task->law, options);
   if (options.speed_rpm) {
     const auto point = point_json(options, task->process, task->law);

@@ -29,8 +29,11 @@ using kernel::outcome::Refusal;
 using offline::Alternative;
 using offline::PlanDecision;
 
+/// ± 2σ: 95 % of what the natural frequencies may really be.
 constexpr double kSigmas = 2.0;  ///< of the frequencies, within which a best speed holds its depth
 
+/// Defaults are what a careful tap test and a handbook give: frequency to 0.5 %, damping and
+/// cutting coefficients to 10 %.
 struct Options {
   std::string process;
   std::string machine;
@@ -47,7 +50,7 @@ struct Options {
   std::string report;
 };
 
-/// A number, or null where there is none.
+/// JSON has neither NaN nor infinity; both mean that there is no number.
 Json or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
@@ -55,6 +58,7 @@ Json or_null(const std::optional<double>& value) {
 Json percents(const std::vector<double>& ratios) {
   Json out = Json::array();
   for (const double ratio : ratios) {
+    // Six digits are enough and keep 0.85·100 from printing as 85.00000000000001.
     out.push_back(1e-6 * std::round(1e6 * units::percent_from_ratio(ratio)));
   }
   return out;
@@ -64,11 +68,12 @@ bool is_law(const Alternative& a) {
   return a.modulation.law != Law::constant;
 }
 
+/// T = 60/(n·RVF) s with n in rev/min.
 double period_s(const Alternative& a, double speed_rpm) {
   return 60.0 / (speed_rpm * a.modulation.rvf);
 }
 
-/// What both the decision and an alternative say of themselves.
+/// The keys that the decision and every alternative share, so that a script reads both alike.
 void put(Json& json, const Alternative& a, double speed_rpm) {
   json["override_percent"] = percents(a.demand.written_ratio);
   json["law"] = chatter::online::name(a.modulation.law);
@@ -91,6 +96,7 @@ Json to_json(const offline::Plan& plan, const Options& options) {
   out["depth_mm"] = options.depth_mm;
   out["most_depth_mm"] = plan.most_depth_mm;
   out["likely_depth_mm"] =
+      // The depth that would work matters only when nothing works at the intended one.
       plan.decision == PlanDecision::nothing ? Json(plan.likely_depth_mm) : Json(nullptr);
   out["helping_override_percent"] =
       plan.helping_ratio ? percents({*plan.helping_ratio})[0] : Json(nullptr);
@@ -99,6 +105,7 @@ Json to_json(const offline::Plan& plan, const Options& options) {
   out["alternatives"] = Json::array();
   for (const Alternative& a : plan.alternatives) {
     Json one;
+    // A rejected alternative keeps its numbers and its reasons: the user sees how close it came.
     put(one, a, options.speed_rpm);
     one["stable"] = a.stable;
     one["growth_is_lower_bound"] = a.growth_is_lower_bound;
@@ -120,7 +127,8 @@ Json json_of(const BestSpeeds& best) {
   return out;
 }
 
-/// The speeds to program, the best first.
+/// The speeds to program, best first. They need a new S word, so they are apart from the override
+/// steps that work on the program as it is.
 std::string text_of(const BestSpeeds& best, const Options& options, double most_depth_mm) {
   if (best.empty()) {
     return "";
@@ -137,6 +145,8 @@ std::string text_of(const BestSpeeds& best, const Options& options, double most_
   return "\n" + table.text();
 }
 
+/// A constant speed reads as an override step, a law as amplitude and period in the units of the
+/// drive.
 std::string choice_words(const Alternative& a, double speed_rpm) {
   if (!is_law(a)) {
     return fmt::format("{:.4g} % = {:.0f} rpm", units::percent_from_ratio(a.ratio),
@@ -148,12 +158,16 @@ std::string choice_words(const Alternative& a, double speed_rpm) {
                      period_s(a, speed_rpm));
 }
 
+/// Empty: not computed, because the alternative failed a cheaper test. Infinite: stable as deep as
+/// the search went.
 std::string limit_text(const Alternative& a, double most_depth_mm) {
   return !a.limit_depth_mm                  ? "–"
          : std::isfinite(*a.limit_depth_mm) ? fmt::format("{:.3f}", *a.limit_depth_mm)
                                             : fmt::format("> {:.3g}", most_depth_mm);
 }
 
+/// A law whose dominant vibration already grows too much is rejected on that one; the worst of all
+/// vibrations then grows at least as much.
 std::string growth_text(const Alternative& a) {
   return a.peak_growth
              ? fmt::format("{}{:.3g}", a.growth_is_lower_bound ? "≥ " : "", *a.peak_growth)
@@ -174,6 +188,7 @@ std::string headline(const offline::Plan& plan, const Options& options) {
     case PlanDecision::law:
       return fmt::format("Modulate the spindle speed: {}", choice);
     case PlanDecision::nothing:
+      // With --laws-only a step may still solve the problem, and the user should hear of it.
       if (plan.helping_ratio) {
         return fmt::format("No law helps at {:.4g} mm; a constant {:.4g} % = {:.0f} rpm does",
                            options.depth_mm, units::percent_from_ratio(*plan.helping_ratio),
@@ -207,6 +222,8 @@ std::string for_people(const offline::Plan& plan, const Options& options) {
   return out;
 }
 
+/// Order of the work: the files, the options into the planner's units, the plan at the programmed
+/// speed, then the best speeds of the whole spindle range as an alternative to reprogramming.
 Outcome run(Options options, Progress& progress) {
   const auto process = offline::read_process_all_faults(options.process);
   if (!process) {
@@ -306,6 +323,8 @@ void add_options(Verb& verb, Options& o) {
   verb.add_flag("--laws-only", o.laws_only, "Plan a law even if an override step is enough");
   verb.add_flag("--leave-speed-band", o.leave_speed_band,
                 "Allow laws to leave the tolerance band of the control's speed monitor");
+  // Where the literature has a symbol (RVA, RVF) the option is called by it, and the help says what
+  // it is.
   verb.reports(o.report);
 }
 

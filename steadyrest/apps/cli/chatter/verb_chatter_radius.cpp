@@ -18,6 +18,8 @@ namespace {
 
 namespace offline = chatter::offline;
 
+/// One point of the stability map with all that can be said of it: radius, kind, frequency, worst
+/// growth.
 struct Options {
   CutPointOptions cut;
   std::string report;
@@ -40,11 +42,15 @@ Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
   Table table;
   table.row({"cut", found.stable ? std::string("stable")
                                  : fmt::format("unstable ({})", offline::name(found.type))});
+  // ρ is per tooth pass at constant speed, as published tables have it, and per modulation period
+  // under a law; the two must not be compared.
   const bool constant = law.modulation.law == chatter::online::Law::constant;
   table.row({constant ? "spectral radius per pass" : "spectral radius per modulation period",
              fmt::format("{:.6g}", std::exp(found.log_radius))});
   table.row({"its logarithm", fmt::format("{:.6g}", found.log_radius)});
   table.row({"worst growth within the period", fmt::format("{:.4g}", found.peak_growth)});
+  // Under modulation the dominant vibration is e^{λt}·p(t): its multiplier fixes the frequency only
+  // up to multiples of 1/T, hence the comb of lines.
   if (found.frequency_hz) {
     table.row({"frequency", constant
                                 ? fmt::format("{:.1f} Hz", *found.frequency_hz)
@@ -68,9 +74,12 @@ Outcome run(const Options& options, Progress& progress) {
   if (!cycle) {
     return refused(cycle.error());
   }
+  // ρ < 1 alone is not enough under slow modulation: a vibration may grow a thousandfold within the
+  // period before it dies. The growth over all pairs of pass boundaries is worked out as well.
   cycle->set_depth(cut->depth_mm);
   auto found = offline::stability(*cycle, {.frequency = true});
   const auto courses = offline::growth_courses(*cycle);
+  // The worst of the courses is what the report plots, so the number comes from there too.
   found.peak_growth = offline::worst(courses).peak();
   Answer answer = answer_of(options.cut, cut->law, found);
   if (!options.report.empty()) {

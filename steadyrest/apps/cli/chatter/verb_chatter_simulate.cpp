@@ -34,7 +34,9 @@ struct Options {
   std::string report;
 };
 
-/// Steps after which the forced vibration repeats; 0 under modulation.
+/// Steps after which the forced vibration repeats: a tooth pass, or a revolution where teeth differ
+/// by pitch or runout. Under modulation no fixed number of time steps does, hence 0. The mean over
+/// all repeats is the forced vibration; what is left is chatter.
 std::size_t repeat_of(const offline::Process& process,
                       const trial::vibration::CutSettings& settings) {
   const auto cut =
@@ -47,6 +49,7 @@ std::size_t repeat_of(const offline::Process& process,
   return alike ? cut->steps() / process.tool.teeth : cut->steps();
 }
 
+/// Positions to 1e-9 mm: growth is read off small differences.
 void put_row(std::string& row, const trial::vibration::Moment& now) {
   const auto& cut = now.cut;
   row.clear();
@@ -61,8 +64,8 @@ Json number(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-/// Of the chatter: at constant speed out of the cut itself, under modulation, where its lines
-/// smear, that of the dominant multiplier.
+/// Frequency of the chatter. At constant speed it comes from the simulated cut itself; under
+/// modulation its lines smear, and the dominant multiplier of the linear map gives it.
 std::optional<double> frequency_hz(const offline::Process& process,
                                    const trial::vibration::CutSettings& settings,
                                    const trial::vibration::Summary& summary) {
@@ -77,6 +80,8 @@ std::optional<double> frequency_hz(const offline::Process& process,
   return found ? found->frequency_hz : std::nullopt;
 }
 
+/// Stable or not comes from the growth of an infinitesimal vibration. The amplitude cannot tell:
+/// once the tool leaves the cut, chatter settles at a finite size.
 Answer answer_of(const trial::vibration::Summary& summary, double log_growth, std::size_t rows) {
   Answer answer;
   const bool stable = log_growth < 0.0;
@@ -106,7 +111,7 @@ Answer answer_of(const trial::vibration::Summary& summary, double log_growth, st
   return answer;
 }
 
-/// The steps as CSV, each nth of them; nothing without a path.
+/// Every nth step as CSV; nothing without a path.
 class Steps {
  public:
   static Result<Steps> make(const std::string& path, std::size_t every) {
@@ -146,6 +151,7 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
   const trial::vibration::CutSettings settings{.speed_rev_s = point.speed_rev_s,
                                                .depth_mm = point.depth_mm,
                                                .modulation = point.law.modulation};
+  // The linearised growth first: it is short and refuses what cannot be cut.
   const auto growth = trial::vibration::log_growth_per_tooth(point.process, settings);
   if (!growth) {
     return refused(growth.error());
@@ -157,6 +163,7 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
   page::CutRecorder recorder(options.seconds, settings.speed_rev_s);
   trial::vibration::VibrationSummary summary(options.seconds, repeat_of(point.process, settings));
   std::size_t done = 0;
+  // One pass over the steps feeds everything, because hours of steps would not fit in memory.
   const auto sink = [&](const trial::vibration::Moment& now) {
     summary.add(now);
     steps->add(now);
@@ -174,6 +181,7 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
     return refused(written.error());
   }
   trial::vibration::Summary made = summary.summary();
+  // A stable cut has no chatter frequency.
   if (*growth >= 0.0) {
     made.frequency_hz = frequency_hz(point.process, settings, made);
   }
@@ -187,6 +195,7 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
   return answer;
 }
 
+/// An hour is millions of tooth passes; longer is a typing error.
 Outcome run(const Options& options, Progress& progress) {
   if (!(options.seconds > 0.0 && options.seconds <= 3600.0)) {
     return refused(not_allowed("--seconds", options.seconds, "above 0 and at most 3600"));

@@ -23,7 +23,7 @@ std::unexpected<Refusal> refuse(std::string file, std::size_t line, std::string 
       Refusal{Kind::bad_input, std::move(file), line, std::move(what), std::move(to_do)});
 }
 
-/// The level that the plan was made for.
+/// The level in the plan, by default the passport's.
 Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passport) {
   const double number = plan.level.value_or(passport.level);
   if (number != std::floor(number) || !(number >= 0.0) ||
@@ -35,6 +35,8 @@ Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passpo
   }
   const ThermalLevel out{static_cast<std::uint32_t>(number),
                          passport.share[static_cast<std::size_t>(number)]};
+  // k is part of what the parts were made with. Measured against another k they would move the
+  // level for the wrong reason.
   if (plan.share && std::abs(*plan.share - out.share) > 1e-9) {
     return refuse(plan.plan.file, 0,
                   fmt::format("the plan's k = {} is not the machine file's {} of level {}",
@@ -44,7 +46,8 @@ Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passpo
   return out;
 }
 
-/// The work that the plan was made for; none where nobody names it.
+/// The cyclogram or program that the plan was made for, needed for the gains. Without it the level
+/// alone can be learnt.
 Result<std::optional<ThermalJob>> work_of(const AdaptOptions& options,
                                           const ThermalPlanFile& plan) {
   ThermalOptions what = options.thermal;
@@ -55,6 +58,7 @@ Result<std::optional<ThermalJob>> work_of(const AdaptOptions& options,
   if (what.cyclogram.empty() && what.program.file.empty()) {
     return std::optional<ThermalJob>{};
   }
+  // The plan may cover only some axes of the passport.
   for (const auto& axis : plan.plan.axes) {
     what.axes.emplace_back(1, axis.letter);
   }
@@ -63,6 +67,7 @@ Result<std::optional<ThermalJob>> work_of(const AdaptOptions& options,
     return std::unexpected(job.error());
   }
   const double total_s = job->cyclogram.total_s();
+  // The same work has the same length. The slack covers minutes that were rounded in the plan.
   if (std::abs(total_s - plan.plan.total_s) > 1.0 + 1e-4 * total_s) {
     return refuse(plan.plan.file, 0,
                   fmt::format("the plan lasts {:.2f} min, {} {:.2f} min", plan.plan.total_s / 60.0,
@@ -82,6 +87,7 @@ Result<void> read_machine_and_rows(const AdaptOptions& options, AdaptInputs& in)
     return std::unexpected(passport.error());
   }
   in.passport = std::move(*passport);
+  // The level needs both the plan and the passport, so it is checked once both are read.
   const auto level = level_of(in.plan, in.passport);
   if (!level) {
     return std::unexpected(level.error());
@@ -98,6 +104,8 @@ Result<void> read_machine_and_rows(const AdaptOptions& options, AdaptInputs& in)
 
 }  // namespace
 
+/// The order matters: the plan names the machine and the work, these bring the tolerances, and only
+/// then a measured part can be placed.
 Result<AdaptInputs> read_adapt_inputs(AdaptOptions options) {
   AdaptInputs in;
   auto plan = read_thermal_plan(options.plan);

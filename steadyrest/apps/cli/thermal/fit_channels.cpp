@@ -19,6 +19,7 @@ Refusal refusal(std::string file, std::string what, std::string to_do) {
 /// What the column of an axis is called without its unit: Z for z_um, ch1 for ch1_um.
 std::string axis_of(const std::string& column) {
   const bool unit = column.size() > 3 && (column.ends_with("_um") || column.ends_with("_mm"));
+  // Machine files name axes by capital letters.
   std::string name = unit ? column.substr(0, column.size() - 3) : column;
   if (name.size() == 1 && name.front() >= 'a' && name.front() <= 'z') {
     name.front() = static_cast<char>(name.front() - 'a' + 'A');
@@ -37,6 +38,7 @@ bool is_of_a_name(char c) {
 kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>& wanted,
                                                   const Log& log) {
   FitChannels out;
+  // NAME or NAME=AXIS, as everywhere on this command line.
   for (const std::string& given : wanted) {
     const std::size_t at = given.find('=');
     const std::string name = given.substr(0, at);
@@ -54,9 +56,11 @@ kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>
     }
     out.emplace_back(found - log.displacement.begin(), std::move(axis));
   }
+  // Nothing named: every displacement of the log, each with the axis that its column suggests.
   for (std::size_t i = 0; i < log.displacement.size() && wanted.empty(); ++i) {
     out.emplace_back(i, axis_of(log.displacement[i].name));
   }
+  // Two columns of one axis would overwrite each other in the passport. There are few, so pairs do.
   for (std::size_t i = 0; i < out.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (out[i].second == out[j].second) {
