@@ -28,9 +28,12 @@ using nc::rewrite::Method;
 using trial::batch::Batch;
 using trial::batch::Way;
 
+/// Three ways to cut one batch: as it is, with corrections written into the text, and with the
+/// layer on line.
 constexpr std::array<std::pair<Way, const char*>, 3> kWays = {
     {{Way::without, "without"}, {Way::text, "text"}, {Way::online, "online"}}};
 
+/// One part's cyclogram, from the same planner that the simulated control runs.
 Result<std::vector<nc::plan::Transition>> cyclogram_of(const std::string& program,
                                                        const nc::interpret::Config& config,
                                                        const Machine& machine) {
@@ -82,6 +85,7 @@ Json json_of(const Batch& made) {
 
 std::string text_of(const Batch& made) {
   const auto um = [](double mm) { return fmt::format("{:.1f}", um_from_mm(mm)); };
+  // The largest error of each part, because the worst spot of a part decides whether it passes.
   Table table({"part", "start min", "without um", "in program um", "on line um", "corrections"});
   for (std::size_t i = 0; i < made.part.size(); ++i) {
     const trial::batch::Part& part = made.part[i];
@@ -126,6 +130,8 @@ void add_cut_batch_options(Verb& verb, CutBatchOptions& options) {
       ->needs(parts);
 }
 
+/// Cuts the batch and adds it to the answer of `cut`. The corrections go into the program in the
+/// way that the machine file names for its control.
 Result<void> put_batch(Answer& answer, const CutBatchOptions& options,
                        const ProgramOptions& program, const Machine& machine,
                        const std::string& directory, Progress& progress) {
@@ -140,6 +146,7 @@ Result<void> put_batch(Answer& answer, const CutBatchOptions& options,
   if (!way) {
     return std::unexpected(way.error().front());
   }
+  // On a Haas G10 L2 P0 is G52 and no external offset; the interpreter must read it as such.
   config->external_offset = way->method != Method::haas;
   auto cyclogram = cyclogram_of(program.file, *config, machine);
   if (!cyclogram) {
@@ -151,6 +158,7 @@ Result<void> put_batch(Answer& answer, const CutBatchOptions& options,
   job.config = std::move(*config);
   job.cyclogram = std::move(*cyclogram);
   static_cast<nc::rewrite::Way&>(job.settings) = *way;
+  // The same clamp as on line, so that the two ways compete under equal limits.
   job.settings.clamp_mm = machine.envelope.max_offset_mm;
   job.parts = options.parts;
   job.pause_s = 60.0 * options.pause_min;

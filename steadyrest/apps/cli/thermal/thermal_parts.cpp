@@ -23,9 +23,11 @@ std::unexpected<Refusal> refuse(std::string file, std::size_t line, std::string 
       Refusal{Kind::bad_input, std::move(file), line, std::move(what), std::move(to_do)});
 }
 
-/// Of a transition the end counts, before what is corrected there.
+/// Just before the end of a transition: a part is finished there, and the next transition's first
+/// correction comes at the very end.
 constexpr double kBeforeEnd_s = 1e-3;
 
+/// A row names its place by a transition (number or name) or by a time since the start of the plan.
 class Placer {
  public:
   Placer(const ThermalPlanFile& plan, std::string file, double tolerance_mm,
@@ -47,6 +49,7 @@ class Placer {
  private:
   Result<PlacedPart> place(const Measured& row) const {
     const auto& axes = plan_.plan.axes;
+    // With one axis in the plan the column may be missing.
     const auto axis = row.axis.empty() && axes.size() == 1
                           ? axes.begin()
                           : std::ranges::find_if(axes, [&](const auto& a) {
@@ -73,6 +76,7 @@ class Placer {
   [[nodiscard]] Result<double> instant(const Measured& row) const {
     if (row.transition.empty()) {
       const double total_s = plan_.plan.total_s;
+      // A second of grace for times rounded to the minute's last digits.
       if (row.time_s > total_s + 1.0) {
         return refuse(
             file_, row.line,
@@ -87,6 +91,7 @@ class Placer {
     const char* const end = row.transition.data() + row.transition.size();
     const auto parsed = std::from_chars(row.transition.data(), end, number);
     auto found = rows.end();
+    // A whole number is a transition's number from 1, anything else its name.
     if (parsed.ec == std::errc{} && parsed.ptr == end) {
       found = number >= 1 && number <= rows.size()
                   ? rows.begin() + static_cast<std::ptrdiff_t>(number - 1)
@@ -99,9 +104,13 @@ class Placer {
           file_, row.line, fmt::format("the plan has no transition {}", row.transition),
           fmt::format("write a number from 1 to {}, or a transition's name", rows.size()));
     }
+    // A part is measured when its transition is done, so the state at the end of the transition
+    // counts.
     return found->end_s - kBeforeEnd_s;
   }
 
+  // The tightest source first: the row, the command line, the transition in which the part was
+  // made, the plan as a whole.
   [[nodiscard]] double tolerance(const Measured& row, double time_s) const {
     if (row.tolerance_mm > 0.0) {
       return row.tolerance_mm;
@@ -109,6 +118,7 @@ class Placer {
     if (tolerance_mm_ > 0.0) {
       return tolerance_mm_;
     }
+    // Transitions follow one another, so the first whose end is not before the time contains it.
     if (work_ != nullptr) {
       double end_s = 0.0;
       for (const auto& transition : work_->transition) {

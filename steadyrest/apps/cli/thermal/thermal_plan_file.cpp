@@ -12,10 +12,13 @@ namespace steadyrest::apps::cli {
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
+/// The plan's own keys come from the rewriter's reader. This file adds what `thermal plan` noted
+/// about the making of the plan, so that `thermal adapt` need not be told again.
 using PlanJson = nlohmann::ordered_json;  // read_plan() has checked its shape
 
 namespace {
 
+/// Files in a plan are named relative to the plan, so that the folder can be moved as a whole.
 std::string beside(const std::string& plan, const std::string& named) {
   const std::filesystem::path path(named);
   return named.empty() || path.is_absolute()
@@ -49,10 +52,13 @@ Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
     if (json.contains("k")) {
       out.share = json["k"].get<double>();
     }
+    // One axis: `transitions` on the top level. Several: all axes have the same transitions, so the
+    // first one's will do for the ends.
     const PlanJson& rows =
         json.contains("transitions") ? json["transitions"] : json["axes"].front()["transitions"];
     double now_s = 0.0;
     for (const PlanJson& row : rows) {
+      // t_min holds interval durations that sum to the transition; the running sum gives its end.
       for (const PlanJson& minutes : row["t_min"]) {
         now_s += 60.0 * minutes.get<double>();
       }
@@ -78,6 +84,7 @@ std::vector<std::string> files_of(const std::string& plan) {
   return out;
 }
 
+/// δ_j applies from the START of interval j on, and `displacement_um` is the running sum.
 double corrected_um(const nc::rewrite::AxisPlan& axis, double time_s) {
   double sum = 0.0;
   for (const auto& step : axis.steps) {

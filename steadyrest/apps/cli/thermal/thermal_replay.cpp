@@ -17,6 +17,8 @@
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 #include <steadyrest/thermal/offline/plan/replay.hpp>
 
+// A passport tried on a recorded log. Speed and temperatures are the recorded ones, the
+// displacement is forecast, and where the log has readings the forecast is scored on them.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -39,7 +41,9 @@ Refusal refusal(std::string file, std::string what, std::string to_do) {
   return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
 }
 
-/// The column of an axis: named by --channel, or called as the axis, or z_um for Z.
+/// The log column of an axis: as --channel names it, else called like the axis, else z_um or z_mm
+/// for Z. A wrong --channel is refused; a log without the axis is not, since a forecast needs no
+/// readings.
 Result<std::optional<std::size_t>> channel_of(const std::string& axis, const offline::Log& log,
                                               const std::vector<std::string>& given) {
   std::string name = axis;
@@ -67,6 +71,7 @@ Result<std::optional<std::size_t>> channel_of(const std::string& axis, const off
   return std::optional<std::size_t>{};
 }
 
+/// The replay may begin after the log does; its points are the log's last rows.
 std::string csv_of(const std::vector<AxisReplay>& axes, const offline::Log& log, double step_s) {
   std::string text = "t_s,speed_rpm";
   for (const AxisReplay& axis : axes) {
@@ -79,6 +84,8 @@ std::string csv_of(const std::vector<AxisReplay>& axes, const offline::Log& log,
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (first[i].time_s < next_s && i + 1 < first.size()) {
       continue;
+      // Thinned to one row a step, but the last row always: the end is what people look up. The
+      // 1e-6 keeps rounded time stamps of an even log from slipping into the next step.
     }
     next_s = first[i].time_s + step_s - 1e-6;
     text += fmt::format("{:.3f},{:.1f}", first[i].time_s,
@@ -86,6 +93,7 @@ std::string csv_of(const std::vector<AxisReplay>& axes, const offline::Log& log,
     for (const AxisReplay& axis : axes) {
       const offline::ReplayPoint& p = axis.point[i];
       text += fmt::format(",{:.4f},{:.4f},", um_from_mm(p.displacement_mm), um_from_mm(p.sd_mm));
+      // An empty cell, not 0, where nothing was measured.
       text += std::isfinite(p.measured_mm) ? fmt::format("{:.4f}", um_from_mm(p.measured_mm)) : "";
     }
     text += '\n';
@@ -112,6 +120,7 @@ void put(Answer& answer, Table& table, const AxisReplay& axis) {
   table.row({axis.name, fmt::format("{:.2f}", um_from_mm(end.displacement_mm)),
              fmt::format("±{:.2f}", offline::kBand * um_from_mm(end.sd_mm)),
              measured ? fmt::format("{:.2f}", rms_um) : "-",
+             // kBand standard deviations make the 95 % band.
              measured ? fmt::format("{:.1f} %", 100.0 * axis.score.coverage) : "-"});
   answer.json["max_um"] = std::max(answer.json["max_um"].get<double>(), most_um);
 }
@@ -127,7 +136,10 @@ Json page_of(const Answer& answer, const offline::Log& log, const std::vector<Ax
       one.point.push_back({.time_s = p.time_s,
                            .measured_mm = p.measured_mm,
                            .modelled_mm = p.displacement_mm,
+                           // A reading scatters about the displacement by the sensor's noise, so
+                           // the band for readings is the wider one: √(sd² + noise²).
                            .sd_mm = std::hypot(p.sd_mm, axis.noise_mm),
+                           // Before the start the readings set the state, so they prove nothing.
                            .fitted = p.time_s <= from_s});
     }
   }
@@ -149,6 +161,7 @@ Result<AxisReplay> replay_axis(const ThermalReplayOptions& options, const Therma
   request.state_s = passport.state_s;
   request.rezero_s = 60.0 * options.rezero_min;
   request.from_s = from_s(options, log);
+  // Re-zeroing takes readings from the log; without a column there are none.
   if (request.rezero_s > 0.0 && !request.channel) {
     return std::unexpected(refusal(options.log,
                                    fmt::format("{} is not measured in the log", axis.name),

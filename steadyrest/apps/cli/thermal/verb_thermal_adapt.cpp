@@ -19,6 +19,8 @@
 #include <steadyrest/passport/text/text_file.hpp>
 #include <steadyrest/thermal/offline/adapt/adapt.hpp>
 
+// Block 7 and loop D of Marusich's algorithm: the parts of a job are measured, the share k moves by
+// one level, and the gains of the thermal modes are learnt where the model explains the deviations.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -35,7 +37,8 @@ struct Learnt {
   std::vector<std::size_t> part;  ///< of each observation
 };
 
-/// The standard deviation of a measured part by what the passport says.
+/// Standard deviation of a measured part: as given, else the passport's RMS of one reading, else
+/// 0.5 µm, the default of the rules.
 double noise_mm(const AdaptOptions& options, double passport_mm) {
   if (options.noise_um > 0.0) {
     return mm_from_um(options.noise_um);
@@ -43,6 +46,9 @@ double noise_mm(const AdaptOptions& options, double passport_mm) {
   return passport_mm > 0.0 ? passport_mm : 0.0005;
 }
 
+/// One estimate for each axis with measured parts. A deviation is what the forecast got wrong, so
+/// it is explained by the modes: deviation − (forecast − correction in force) = Σ (g_i − 1)·x_i +
+/// b.
 std::vector<Learnt> learn(const AdaptOptions& options, const ThermalPlanFile& plan,
                           const ThermalJob& job, const std::vector<PlacedPart>& parts) {
   std::vector<Learnt> out;
@@ -59,6 +65,7 @@ std::vector<Learnt> learn(const AdaptOptions& options, const ThermalPlanFile& pl
         time_s.push_back(parts[i].time_s);
       }
     }
+    // An axis without a measured part has nothing to learn from.
     if (axis == job.axis.end() || time_s.empty()) {
       continue;
     }
@@ -73,6 +80,8 @@ std::vector<Learnt> learn(const AdaptOptions& options, const ThermalPlanFile& pl
            .expected_mm = said[i].displacement_mm - mm_from_um(corrected_um(axis_plan, time_s[i])),
            .mode_mm = said[i].mode_mm});
     }
+    // A part scatters by the gauge and by what the model never knew (its drift). Both together are
+    // the noise of one deviation; the part's own zero may be off by the drift as well.
     thermal::offline::GainRule rule;
     rule.measuring_sd_mm = std::hypot(noise_mm(options, config.noise_mm), config.drift_mm);
     rule.bias_sd_mm = std::max(rule.bias_sd_mm, config.drift_mm);
@@ -86,7 +95,8 @@ bool fits(const std::vector<Learnt>& learnt) {
   return std::ranges::all_of(learnt, [](const Learnt& one) { return one.gains.fits; });
 }
 
-/// Outliers are not the level's business, unless it is the model that is wrong.
+/// An outlier is a spoilt part or a gauge that slipped, and says nothing about the level. If the
+/// model no longer fits, though, all parts look like outliers and they are the evidence.
 std::vector<bool> outliers(const std::vector<Learnt>& learnt, std::size_t parts) {
   std::vector<bool> out(parts, false);
   for (const Learnt& one : learnt) {
@@ -97,7 +107,8 @@ std::vector<bool> outliers(const std::vector<Learnt>& learnt, std::size_t parts)
   return out;
 }
 
-/// The passport with the new level, and with the new gains where the model fits.
+/// The passport with the new level, and with new gains where the model fits and enough parts speak
+/// for them. Otherwise old gains stay: a wrong gain is worse than a slightly stale one.
 Thermal adapted(Thermal passport, std::uint32_t level, const std::vector<Learnt>& learnt) {
   passport.level = level;
   for (auto& axis : passport.axis) {
@@ -110,6 +121,7 @@ Thermal adapted(Thermal passport, std::uint32_t level, const std::vector<Learnt>
   return passport;
 }
 
+/// Edits the original text, so that comments and all other sections of the machine file survive.
 Result<void> write(const AdaptOptions& options, const std::string& machine,
                    const Thermal& thermal) {
   const auto text = passport::read_text(machine);
@@ -138,7 +150,8 @@ Json axes_json(const std::vector<Learnt>& learnt) {
   return out;
 }
 
-/// The first few, and what became of them.
+/// The first few outliers with their line, so that the user can look at the parts; the JSON has
+/// all.
 std::string text_of(const Json& outliers, bool counted) {
   constexpr std::size_t kShown = 5;
   std::string text;
@@ -203,7 +216,7 @@ Json outliers_json(const std::vector<PlacedPart>& parts, const std::vector<bool>
   return out;
 }
 
-/// The next level by all parts that count for it.
+/// The next level, from all parts that count.
 thermal::offline::LevelChoice choose_level(const AdaptOptions& options, const AdaptInputs& in,
                                            const std::vector<Learnt>& learnt,
                                            const std::vector<bool>& is_outlier) {
@@ -214,6 +227,7 @@ thermal::offline::LevelChoice choose_level(const AdaptOptions& options, const Ad
     }
   }
   thermal::offline::LevelRule rule;
+  // One number for all parts: the gauge is the same.
   rule.measuring_sd_mm = noise_mm(options, in.passport.axis.front().noise_mm);
   return thermal::offline::next_level(in.passport.share, in.level.number, errors, rule);
 }
@@ -231,6 +245,7 @@ Outcome run(const AdaptOptions& options) {
   Answer answer;
   answer.json = {
       {"level", choice.level},
+      // Levels before and after: a script can undo the step.
       {"k", choice.share},
       {"level_before", in.level.number},
       {"k_before", in.level.share},
@@ -280,6 +295,8 @@ void add_verb_thermal_adapt(Session& session) {
              "Cyclogram of the plan; default: the one the plan names");
   verb.reads("--program", options->thermal.program.file,
              "NC program of the plan; default: the one the plan names");
+  // Temperatures and earlier work must be those of the plan, or the forecast is not the one that
+  // the parts were corrected by.
   verb.add_option("--ambient", options->thermal.ambient,
                   "SENSOR=temperature in °C during the work, as for the plan");
   verb.reads("--after", options->thermal.after, "Cyclogram of earlier work, as for the plan");

@@ -23,6 +23,8 @@
 #include <steadyrest/thermal/offline/fit/identify.hpp>
 #include <steadyrest/thermal/offline/fit/shared_tau.hpp>
 
+// A test log in, a passport out: the modes of each axis, the temperatures that move it, and how far
+// to trust them on hours that the fit has not seen.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -55,6 +57,7 @@ Refusal refusal(std::string file, std::string what, std::string to_do) {
   return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
 }
 
+/// The quality figures are NaN where the log is too short to leave hours out.
 Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -75,6 +78,7 @@ Json modes_of(const std::vector<offline::AxisFit>& fits) {
       out.push_back(
           {{"axis", fit.axis.name},
            {"tau_min", mode.tau_s / 60.0},
+           // A mode without a time constant of its own at rest cools as it heats.
            {"rest_tau_min", (mode.rest_tau_s > 0.0 ? mode.rest_tau_s : mode.tau_s) / 60.0},
            {"tau_sd_percent", 100.0 * fit.ln_tau_sd[m]},
            {"polynomial_um", converted(mode.polynomial_mm, um_from_mm)},
@@ -93,6 +97,7 @@ Json axis_of(const offline::AxisFit& fit) {
                        {"tau_min", a.tau_s / 60.0},
                        {"gain_um_k", um_from_mm(a.gain_mm_k)}});
   }
+  // Two ways to use the passport, so two figures: running free, and re-zeroed by a probe each hour.
   return {{"axis", fit.axis.name},
           {"channel", fit.channel},
           {"modes", fit.axis.mode.size()},
@@ -114,7 +119,8 @@ std::string shown(double value) {
   return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
 }
 
-/// The sensors by name, or, where there are many, how many with how many lags.
+/// Temperature inputs of an axis, by name where they fit the table. One sensor may appear with
+/// several lags.
 std::string inputs_of(const ThermalAxis& axis) {
   std::set<std::string> sensors;
   std::set<double> lags;
@@ -132,11 +138,12 @@ std::string inputs_of(const ThermalAxis& axis) {
                              : fmt::format("{} sensors, {} lags", sensors.size(), lags.size());
 }
 
-/// Places of axes that have the same time constants.
+/// Axes that share time constants, as indices into the fits.
 using Groups = std::vector<std::vector<std::size_t>>;
 
-/// Of bands that did not hold when they were made without the hours that they were tried on, or
-/// that cannot know what other days bring.
+/// A band is honest if it holds about 95 % of the hours left out. Below 90 % the fit has already
+/// widened it, and the user is told to log more. An axis without a temperature input cannot know of
+/// a warmer day at all.
 void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
   constexpr double kLow = 0.9;
   answer.json["warnings"] = Json::array();
@@ -163,6 +170,7 @@ void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
   }
 }
 
+/// The overall RMS weighs all axes alike.
 Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared,
                  const offline::Log& log) {
   Answer answer;
@@ -204,7 +212,7 @@ Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared
   return answer;
 }
 
-/// Everything about the files and names, before the work.
+/// Everything that may be refused about files and names, before minutes of fitting.
 struct Job {
   offline::Log log;
   FitChannels channels;
@@ -242,6 +250,7 @@ Result<Job> job_of(const Options& options) {
   job.request.ambient = !options.no_ambient;
   job.request.table = options.levels == "table";
   job.request.horizon_s = 60.0 * options.horizon_min;
+  // Minutes on the command line count from the log's first row; the log's own clock may be a date.
   job.request.from_s = job.log.origin_s + 60.0 * options.from_min;
   job.request.to_s = job.log.origin_s + 60.0 * options.to_min;
   if (options.modes > 0) {
@@ -250,6 +259,7 @@ Result<Job> job_of(const Options& options) {
   return job;
 }
 
+/// The measured and the modelled course of each axis, over the rows that were fitted.
 Result<void> write_page(Answer& answer, const std::string& directory, const Job& job,
                         const std::vector<offline::AxisFit>& fits) {
   std::vector<page::FittedAxis> axes;
@@ -274,6 +284,7 @@ Outcome run(const Options& options, Progress& progress) {
   std::vector<offline::AxisFit> fits;
   Thermal passport = job->known;
   passport.axis.clear();
+  // Each axis alone first. Sharing comes after, since only finished fits can be compared.
   for (const auto& [channel, name] : job->channels) {
     if (!options.tau_from.empty()) {
       const auto known = std::ranges::find(job->known.axis, name, &ThermalAxis::name);
@@ -295,6 +306,8 @@ Outcome run(const Options& options, Progress& progress) {
     fits.push_back(std::move(*fit));
   }
   Groups shared;
+  // Time constants that come from a longer test are known better than from this log, so they are
+  // not pooled again.
   if (options.tau_from.empty() && !options.own_tau) {
     std::vector<std::size_t> columns;
     for (const auto& [channel, name] : job->channels) {
@@ -302,6 +315,7 @@ Outcome run(const Options& options, Progress& progress) {
     }
     shared = offline::share_tau(job->log, columns, job->request, fits);
   }
+  // The passport has one state for all axes, at the latest end of their fits.
   for (const offline::AxisFit& fit : fits) {
     passport.state_s = std::max(passport.axis.empty() ? fit.end_s : passport.state_s, fit.end_s);
     passport.axis.push_back(fit.axis);

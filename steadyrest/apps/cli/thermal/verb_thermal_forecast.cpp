@@ -18,6 +18,8 @@
 #include <steadyrest/thermal/offline/plan/curve.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
+// A passport and a cyclogram in, a displacement with its band out. With --log the recorded inputs
+// replace the cyclogram.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -25,7 +27,7 @@ using kernel::units::rpm_from_rev_s;
 using kernel::units::um_from_mm;
 using thermal::offline::ForecastPoint;
 
-/// What memory and a spreadsheet hold.
+/// Rows that memory and a spreadsheet can still hold.
 constexpr double kMostRows = 2e6;
 
 struct Options {
@@ -42,7 +44,7 @@ struct AxisForecast {
   thermal::offline::Curve::Extreme most;
 };
 
-/// Of a cyclogram or of a log: the one may replace the other.
+/// Written from a cyclogram or from a log; the one may replace the other without --force.
 Content curve_content() {
   return {"the curve of a forecast (CSV)", [](std::string_view text) {
             const std::string_view head = text.substr(0, text.find('\n'));
@@ -73,6 +75,8 @@ std::string csv_of(const std::vector<AxisForecast>& axes,
   return text;
 }
 
+/// max_um is the largest value of the closed curve, not of the sampled rows, so --step-s cannot
+/// hide it.
 void put(Answer& answer, Table& table, const AxisForecast& axis) {
   const ForecastPoint& end = axis.point.back();
   const double most_um = um_from_mm(axis.most.displacement_mm);
@@ -88,6 +92,7 @@ void put(Answer& answer, Table& table, const AxisForecast& axis) {
 }
 
 Outcome run_log(const Options& options) {
+  // A log has its own speeds and temperatures; a second source would contradict it.
   if (!options.thermal.cyclogram.empty() || !options.thermal.program.file.empty() ||
       !options.thermal.after.empty() || !options.thermal.ambient.empty()) {
     return refused({kernel::outcome::Kind::bad_input,
@@ -119,6 +124,7 @@ Outcome run(const Options& options) {
         {kernel::outcome::Kind::bad_input, job->cyclogram.file, 0,
          fmt::format("{:.3g} minutes in steps of {:.3g} s make {:.3g} rows, more than {:.0f}",
                      job->cyclogram.total_s() / 60.0, options.step_s, rows, kMostRows),
+         // The smallest step that fits.
          fmt::format("give --step-s {:.0f} or more",
                      std::ceil(job->cyclogram.total_s() / kMostRows))});
   }
@@ -127,6 +133,7 @@ Outcome run(const Options& options) {
   for (const ThermalJob::Axis& axis : job->axis) {
     axes.push_back(
         {axis.model.config().name,
+         // Samples for the CSV and the plot; the extreme from the closed form.
          thermal::offline::forecast(axis.model, job->cyclogram, options.step_s, axis.ambient_c),
          thermal::offline::curve_of(axis.model, job->cyclogram, axis.ambient_c).largest()});
     most_um = std::max(most_um, std::abs(um_from_mm(axes.back().most.displacement_mm)));

@@ -20,6 +20,8 @@
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 #include <steadyrest/thermal/offline/plan/plan.hpp>
 
+// The paper's system R = {n; {t}; {δ}} for each transition (Marusich 2012): the interval durations
+// t_j and the corrections δ_j at the start of each interval.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -41,12 +43,13 @@ struct Options {
   double resolution_min = -1.0;
 };
 
-/// What binary fractions add behind the seventh digit of a minute goes.
+/// Seven digits of a minute are 6 µs: what lies behind them is binary rounding, and it goes.
 double seven_digits(double minutes) {
   return std::round(minutes * 1e7) * 1e-7;
 }
 
-/// Rounded are the instants, so that the intervals of every axis sum to the same transition.
+/// The instants are rounded, not the intervals, so rounding errors do not add up and the intervals
+/// of every axis sum to the same transition.
 std::vector<double> minutes(const std::vector<double>& interval_s) {
   std::vector<double> out;
   double end_s = 0.0;
@@ -64,6 +67,7 @@ std::vector<double> micrometres(const std::vector<double>& delta_mm) {
   std::vector<double> out;
   out.reserve(delta_mm.size());
   for (const double mm : delta_mm) {
+    // Picometres: no gauge sees them, and 10 stays 10.
     out.push_back(std::round(um_from_mm(mm) * 1e6) * 1e-6);
   }
   return out;
@@ -84,7 +88,7 @@ Json transitions(const AxisCorrections& axis) {
   return out;
 }
 
-/// The system R as the paper writes it.
+/// The system R in the paper's notation, one transition a line.
 std::string system_text(const AxisCorrections& axis) {
   std::string text;
   const auto list = [](const std::vector<double>& values) {
@@ -97,15 +101,18 @@ std::string system_text(const AxisCorrections& axis) {
   return text;
 }
 
-/// Displacements count from the start of the work: the part's zero is set there.
+/// Displacement counts from the start of the work, because the part's zero is touched off there. A
+/// machine that is warm already (--after) starts at 0 all the same.
 thermal::offline::Curve from_start(thermal::offline::Curve curve) {
   const double zero_mm = curve.at(0.0);
   for (auto& piece : curve.piece) {
+    // A constant term −zero in every piece; decay rate 0 makes it constant.
     piece.displacement_mm.push_back({-zero_mm, 0.0});
   }
   return curve;
 }
 
+/// Points of a plotted course; more than a screen has pixels to show.
 constexpr double kPoints = 600.0;
 
 std::vector<thermal::offline::ForecastPoint> course_of(
@@ -114,6 +121,7 @@ std::vector<thermal::offline::ForecastPoint> course_of(
   return thermal::offline::forecast(axis.model, cyclogram, step_s, axis.ambient_c);
 }
 
+/// The worst uncertainty of the whole work, as the one number in the table.
 double largest_sd_mm(const std::vector<thermal::offline::ForecastPoint>& course) {
   return std::ranges::max(course, {}, &thermal::offline::ForecastPoint::sd_mm).sd_mm;
 }
@@ -124,6 +132,7 @@ struct Planned {
   std::vector<std::vector<thermal::offline::ForecastPoint>> course;
 };
 
+/// For each axis: the closed curve for the plan, samples of it for the report, and the band.
 Result<Planned> plan(const ThermalJob& job, const thermal::offline::PlanRequest& request) {
   Planned out;
   for (const ThermalJob::Axis& axis : job.axis) {
@@ -141,7 +150,7 @@ Result<Planned> plan(const ThermalJob& job, const thermal::offline::PlanRequest&
   return out;
 }
 
-/// PLAN.json, what `program compensate` reads.
+/// PLAN.json as `program compensate` reads it. One axis keeps the paper's shape.
 Json file_of(const Planned& planned, const Json& head) {
   Json out = head;
   if (planned.axis.size() == 1) {
@@ -158,6 +167,7 @@ Json file_of(const Planned& planned, const Json& head) {
 
 Json head_of(const Options& options, std::uint32_t level, double share) {
   namespace fs = std::filesystem;
+  // The plan names its machine and work relative to its own folder, so that both can move.
   const auto beside = [&options](const std::string& path) {
     std::error_code error;
     const fs::path folder = fs::absolute(options.output, error).parent_path();
@@ -167,6 +177,7 @@ Json head_of(const Options& options, std::uint32_t level, double share) {
   Json out;
   out["machine"] = beside(options.thermal.machine);
   if (!options.thermal.program.file.empty()) {
+    // Exactly one of program and cyclogram is given.
     out["program"] = beside(options.thermal.program.file);
   } else {
     out["cyclogram"] = beside(options.thermal.cyclogram);
@@ -187,6 +198,7 @@ void show(Answer& answer, const Planned& planned, double share) {
     for (const PlannedTransition& row : axis.transition) {
       band_mm = std::max(band_mm, share * row.tolerance_mm);
     }
+    // Below 1 nothing had to be corrected; the ratio then says "no gain", not "made worse".
     const double ratio = std::max(axis.largest_mm / band_mm, 1.0);
     answer.json["axes"].push_back({{"axis", axis.name},
                                    {"max_um", um_from_mm(axis.largest_mm)},
@@ -207,6 +219,7 @@ void show(Answer& answer, const Planned& planned, double share) {
             : fmt::format("  {} transitions (--json or -o has all)\n", axis.transition.size()));
   }
   answer.text += table.text();
+  // The first axis on the top level, in the paper's shape, for scripts that know one axis.
   answer.json["transitions"] = transitions(planned.axis.front());
 }
 
@@ -216,6 +229,7 @@ Outcome run(const Options& options) {
     return refused(job.error());
   }
   const auto& passport = job->passport;
+  // -1 means not given: then the level in the machine file, which `thermal adapt` keeps up to date.
   const std::uint32_t level =
       options.level < 0 ? passport.level : static_cast<std::uint32_t>(options.level);
   if (level >= passport.share.size()) {
@@ -229,6 +243,7 @@ Outcome run(const Options& options) {
   request.share = passport.share[level];
   request.max_offset_mm = passport.max_offset_mm;
   request.whole_band = options.whole_band;
+  // The cyclogram may ask for whole minutes, as the paper has them; --resolution-min overrides it.
   request.resolution_s =
       options.resolution_min >= 0.0 ? 60.0 * options.resolution_min : job->cyclogram.resolution_s;
   const auto planned = plan(*job, request);
