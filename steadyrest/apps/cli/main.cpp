@@ -27,6 +27,7 @@
 
 /// The command line: every verb that works is registered here, in the order in which --help has
 /// them.
+/// The order here is the order in --help: the main job first, then the verbs that people try next.
 int main(int argc, char** argv) {
   using namespace steadyrest::apps::cli;  // NOLINT(google-build-using-namespace): the verbs
   Session session;

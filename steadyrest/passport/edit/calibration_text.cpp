@@ -13,6 +13,9 @@
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
+// Puts a learnt calibration into a machine file by editing its text. Comments, order and line ends
+// survive because the bytes outside the edited values are never touched. The result is parsed again
+// and compared with the old tree plus the new keys; if anything else differs, nothing is written.
 namespace steadyrest::passport {
 namespace {
 
@@ -23,6 +26,7 @@ using kernel::machine::Machine;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
+/// Relative difference of two counts that still are the same: what ten printed digits lose.
 constexpr double kSameCount = 1e-6;
 constexpr double kDigit = 1e-5;      // of a count, for the lines
 constexpr double kFineDigit = 1e-8;  // for the phases, whose sum must be 0
@@ -38,7 +42,8 @@ std::unexpected<Refusal> refuse(const std::string& file, std::size_t line, std::
   return std::unexpected(Refusal{Kind::bad_input, file, line, std::move(what), std::move(to_do)});
 }
 
-/// With as many decimals as the step has, without noughts at the end.
+/// With as many decimals as the step needs and no trailing zeros: a table of a million lines is the
+/// bulk of the file.
 void put_number(std::string& out, double value, double step) {
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step))), 0, 15);
   std::array<char, 64> digits{};
@@ -50,6 +55,7 @@ void put_number(std::string& out, double value, double step) {
     shown = shown.substr(0, shown.size() - (shown.back() == '.' ? 1 : 0));
   }
   out += shown == "-0" ? std::string_view("0") : shown;
+  // 1e-5 of a count is far below what a calibration can know; -0 would differ from 0 in the text.
 }
 
 std::string list(std::span<const double> values, const Unit& unit, double step_mm) {
@@ -67,6 +73,7 @@ std::string list(std::span<const double> values, const Unit& unit, double step_m
 std::vector<KeyValue> key_values(const Encoder& encoder, bool rotary) {
   const Unit& unit = unit_of(rotary ? "deg" : "um");
   const std::string suffix = rotary ? "_deg" : "_um";
+  // The order here is the order in the file.
   std::vector<KeyValue> out;
   if (!encoder.phase_error_mm.empty()) {
     out.push_back({"phase_error" + suffix,
@@ -81,7 +88,8 @@ std::vector<KeyValue> key_values(const Encoder& encoder, bool rotary) {
   return out;
 }
 
-/// Bytes of a text by line and column as the parser counts them: columns are characters.
+/// Byte offsets from the parser's lines and columns. Its columns count characters, so the
+/// continuation bytes of UTF-8 must be skipped.
 class Places {
  public:
   explicit Places(std::string_view text) : text_(text), lines_{0} {
@@ -124,7 +132,8 @@ const toml::table* axis_of(const toml::table& root, std::string_view name) {
   return nullptr;
 }
 
-/// Behind the last plain value of a section, or its head.
+/// Where new keys of a section go: behind its last plain value, or behind its head. Behind a
+/// subsection they would belong to that one.
 std::size_t end_of(const toml::table& section, const Places& places) {
   std::size_t out = places.line_end(places.at(section.source().begin));
   for (const auto& [key, node] : section) {
@@ -143,6 +152,7 @@ struct Edit {
 };
 
 std::string applied(std::string_view text, std::vector<Edit> edits) {
+  // Edits do not overlap; applied in order, each leaves the text between untouched.
   std::ranges::stable_sort(edits, {}, &Edit::from);
   std::string out;
   std::size_t at = 0;
@@ -155,7 +165,7 @@ std::string applied(std::string_view text, std::vector<Edit> edits) {
   return out;
 }
 
-/// The file's own line ends.
+/// Inserted text takes the file's own line ends: a mixed file confuses editors and version control.
 std::string with_line_ends(std::string text, std::string_view of) {
   if (of.find("\r\n") == std::string_view::npos) {
     return text;
@@ -172,6 +182,7 @@ std::vector<Edit> edits_for(std::string_view text, const toml::table& axis,
   const Places places(text);
   std::vector<Edit> out;
   std::string added = encoder == nullptr ? "[axis.encoder]\n" : "";
+  // A key that is there already is replaced in place; the others are added together.
   for (const KeyValue& key : values) {
     const toml::node* old = encoder == nullptr ? nullptr : encoder->get(key.name);
     if (old != nullptr) {
@@ -182,12 +193,14 @@ std::vector<Edit> edits_for(std::string_view text, const toml::table& axis,
     }
   }
   const std::size_t place = end_of(encoder == nullptr ? axis : *encoder, places);
+  // The last line of a file may lack its line end.
   const bool open = place > 0 && text[place - 1] != '\n';
   out.push_back({place, place, with_line_ends((open ? "\n" : "") + added, text)});
   return out;
 }
 
-/// What the new text must say: the old tree with the keys of `fragment` in the axis's encoder.
+/// The proof: the new text must parse to the old tree with the keys of `fragment` in the axis's
+/// encoder, and to nothing else.
 bool says(std::string_view text, const toml::table& old_tree, std::string_view axis,
           std::string_view fragment) {
   toml::table tree = old_tree;  // NOLINT(performance-unnecessary-copy-initialization): see below
@@ -211,6 +224,7 @@ kernel::outcome::Result<std::string> edited(std::string_view text, const std::st
   const toml::table* old = (*section)["encoder"].as_table();
   const Places places(text);
   for (const toml::table* table : {section, old}) {
+    // Inline tables and dotted keys have no place behind which a new line could go.
     if (table != nullptr && (table->is_inline() || text[places.at(table->source().begin)] != '[')) {
       return refuse(file, line_of(table->source()),
                     "the axis or its encoder is written inline or with dotted keys",
@@ -222,12 +236,15 @@ kernel::outcome::Result<std::string> edited(std::string_view text, const std::st
     return refuse(file, 0, "inserting the calibration would change something else",
                   "write the calibration to a separate file and paste it in by hand");
   }
+  // It must also be a good machine file, ranges and all.
   if (const auto machine = parse(out, file); !machine) {
     return std::unexpected(machine.error());
   }
   return out;
 }
 
+/// A calibration belongs to one count length. Learnt with another one, its table would be scaled
+/// wrongly and shift every edge.
 kernel::outcome::Result<const Axis*> axis_in(const Machine& machine, const std::string& file,
                                              std::string_view name, double count_mm) {
   const auto found = std::ranges::find_if(
@@ -252,6 +269,7 @@ kernel::outcome::Result<Encoder> fragment(std::string_view text, const std::stri
   out.count_mm = count_mm;
   try {
     const toml::table root = toml::parse(text);
+    // The keys alone carry their unit; it tells a rotary axis from a linear one.
     const bool rotary = root.contains("phase_error_deg") || root.contains("line_table_deg");
     SectionReader<Encoder> reader(faults, encoder_keys(), "the calibration",
                                   rotary ? For::rotary : For::linear);
@@ -272,6 +290,7 @@ kernel::outcome::Result<Encoder> fragment(std::string_view text, const std::stri
   return out;
 }
 
+/// A fragment has no [[axis]], a machine file must have one.
 bool is_machine_file(std::string_view text) {
   return text.starts_with("[[axis]]") || text.find("\n[[axis]]") != std::string_view::npos;
 }
@@ -298,6 +317,7 @@ kernel::outcome::Result<std::string> with_calibration(std::string_view text,
   if (!found) {
     return std::unexpected(found.error());
   }
+  // toml++ and its iterators throw; that ends here.
   try {
     return edited(text, file, axis, encoder, (*found)->rotary);
   } catch (const std::exception& error) {

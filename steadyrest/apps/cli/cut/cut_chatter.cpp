@@ -32,7 +32,8 @@ std::unexpected<Refusals> one(Refusal refusal) {
   return std::unexpected(Refusals{std::move(refusal)});
 }
 
-/// Lowest programmed speed of a cut, G96 included; 0: the spindle stands.
+/// Lowest programmed speed of a cut, G96 included; 0 when the spindle is stopped. It sets the time
+/// grid of the simulated cut: the slower the spindle, the more steps a tooth pass needs.
 double slowest_cut_rev_s(const nc::plan::PlannedPath& path) {
   const std::vector<double> speeds = trial::cut::cutting_speeds(path);
   double slowest = speeds.empty() ? 0.0 : speeds.front();
@@ -45,20 +46,26 @@ double slowest_cut_rev_s(const nc::plan::PlannedPath& path) {
   return slowest;
 }
 
+/// The slowest instant of a law is its lower turning point.
 double lowest_ratio(const Modulation& m) {
   return m.law == Law::constant ? m.mean_ratio : m.mean_ratio * (1.0 - m.amplitude_ratio);
 }
 
+/// The layer may slow the spindle down further than the program does. The grid is made once, so it
+/// must cover the slowest speed that any way of fighting chatter can ask for.
 double lowest_ratio(const CutChatter& chatter, const Machine& machine) {
   double lowest = chatter.listener ? machine.envelope.min_spindle_ratio : 1.0;
   for (const ChatterChoice& choice : chatter.choices) {
     lowest = std::min(lowest, lowest_ratio(choice.modulation));
   }
   const kernel::machine::Chatter& c = machine.chatter;
+  // With the file's own [chatter] and an amplitude in rev/min the share depends on the programmed
+  // speed, so the envelope's lower limit is taken.
   if (!chatter.by_plan && c.enabled) {
     lowest = c.amplitude_rev_s > 0.0 ? machine.envelope.min_spindle_ratio
                                      : c.mean_ratio * (1.0 - c.amplitude_ratio);
   }
+  // Half the programmed speed is the least that the grid is prepared for: the switches end at 50 %.
   return std::clamp(lowest, 0.5, 1.0);
 }
 
@@ -78,6 +85,8 @@ std::string choice_words(const ChatterChoice& choice) {
   return {};
 }
 
+/// The layer stays within the operator's switch (min(layer, panel)). A choice above 100 % therefore
+/// works only if the operator opens the switch, and the answer says so.
 std::string switch_words(const ChatterChoice& choice) {
   return choice.switch_ratio > 1.0
              ? fmt::format("; the operator's spindle switch is set to {:.4g} %",
@@ -99,6 +108,8 @@ Json json_of(const ChatterChoice& choice) {
 }
 
 std::string vibration_text(const trial::cut::VibrationFigures& without,
+                           // Only the difference between the two cuts counts; each row therefore
+                           // has both.
                            const trial::cut::VibrationFigures& with) {
   Table table({"the tool in the cut", "without the layer", "with the layer"});
   const auto row = [&](const char* name, const char* unit, double a, double b) {
@@ -136,6 +147,7 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
   CutChatter out;
   if (options.process.empty()) {
     return out;
+    // Without a process the cut has no forces, and everything below is left out.
   }
   if (!options.depth_mm || !(*options.depth_mm > 0.0)) {
     return one({Kind::bad_input, "", 0,
@@ -147,6 +159,7 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
   if (!process) {
     return std::unexpected(process.error());
   }
+  // A tooth that does not turn cuts nothing; the model divides by the speed.
   const double slowest = slowest_cut_rev_s(path);
   if (!(slowest > 0.0)) {
     return one({Kind::bad_input, "", 0, "the program cuts with the spindle stopped",
@@ -163,13 +176,18 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     out.by_plan = true;
     const bool acts = std::ranges::any_of(out.choices, [](const ChatterChoice& choice) {
       return choice.decision == PlanDecision::constant || choice.decision == PlanDecision::law;
+      // The file's own [chatter] would compete with the planner's choices for one override.
     });
     machine.chatter.enabled = false;
+    // The modulator waits at 100 % until the program reaches a speed with a choice. If no choice
+    // acts, the machine gets no modulator at all.
     if (acts) {
       machine = trial::cut::with_modulator(std::move(machine));
     }
   }
   if (options.source == kDetect) {
+    // The sensor's sample rate comes from the simulated machine and decides how high the detector
+    // hears.
     const sim::CuttingVibration::Config sensor;
     auto listener = trial::cut::listener_for(*process, machine, trial::cut::cutting_speeds(path),
                                              *options.depth_mm, sensor.sensor_rate_hz);
@@ -184,6 +202,7 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
   return out;
 }
 
+/// Keys of both cuts, then what the layer heard, then what the planner chose.
 void put_vibration(Answer& answer, const CutChatter& chatter, const trial::cut::Recorder& without,
                    const trial::cut::Recorder& with) {
   if (!chatter.cutting) {
@@ -213,6 +232,7 @@ void put_vibration(Answer& answer, const CutChatter& chatter, const trial::cut::
     return;
   }
   answer.json["chatter"] = Json::array();
+  // One choice for each spindle speed of the program.
   for (const ChatterChoice& choice : chatter.choices) {
     answer.json["chatter"].push_back(json_of(choice));
     answer.text += fmt::format("S{:.0f}: {}{}\n", units::rpm_from_rev_s(choice.speed_rev_s),

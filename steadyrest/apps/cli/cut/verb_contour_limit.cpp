@@ -11,6 +11,8 @@
 #include <steadyrest/contour/offline/closed_form.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
+// Steady state on an arc: the axes with gain k lag by v/k, which pulls the tool inside the circle
+// by ε ≈ v²/(2Rk²). The law is in contour/offline/closed_form.hpp.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -34,7 +36,8 @@ struct Options {
   }
 };
 
-/// A number, or null where there is no limit.
+/// A number, or null: with full feed-forward and no lag no speed reaches the limit, and the feed
+/// has no bound.
 Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -54,7 +57,8 @@ void put(Answer& answer, double feed_mm_min, const CircleErrors& errors) {
                     .text();
 }
 
-/// The feed for an error.
+/// The feed for an error: the largest v for which |ε| stays within the limit at that and every
+/// lower speed.
 Outcome limit(const Options& options) {
   const Result<CircleLimit> found = contour::offline::circle_limit(
       options.servo(), options.radius_mm, options.max_error_mm.value_or(0.0));
@@ -66,7 +70,7 @@ Outcome limit(const Options& options) {
   return answer;
 }
 
-/// The error at a feed; with a limit as well: whether it keeps it, and the feed that would.
+/// The error at a feed. With a limit as well: whether the feed holds it, and the feed that would.
 Outcome errors_at(const Options& options, double feed_mm_min) {
   const Result<CircleErrors> errors = contour::offline::circle_errors(
       options.servo(), options.radius_mm, kernel::units::mm_s_from_mm_min(feed_mm_min));
@@ -81,6 +85,8 @@ Outcome errors_at(const Options& options, double feed_mm_min) {
     if (!found) {
       return refused(found.error());
     }
+    // ε has a sign: a velocity loop with lag (kτ > 0.5) makes the circle too large. The limit holds
+    // for both directions.
     const double limit_mm_min = kernel::units::mm_min_from_mm_s(found->speed_mm_s);
     answer.json["limit_feed_mm_min"] = number_or_null(limit_mm_min);
     answer.json["within_limit"] = std::abs(errors->contour_error_mm) <= *options.max_error_mm;
@@ -91,6 +97,7 @@ Outcome errors_at(const Options& options, double feed_mm_min) {
   return answer;
 }
 
+/// A feed given wins: the limit is then what it is judged by.
 Outcome run(const Options& options) {
   if (options.feed_mm_min) {
     return errors_at(options, *options.feed_mm_min);

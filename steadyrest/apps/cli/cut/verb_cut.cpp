@@ -25,6 +25,8 @@
 #include <steadyrest/trial/cut/cut_job.hpp>
 
 namespace steadyrest::apps::cli {
+// The main job. One path is planned once, cut twice on the same simulated machine with the same
+// noise, and only the layer differs; so every difference in the figures comes from the layer.
 namespace {
 
 using kernel::machine::ContourStrategy;
@@ -52,7 +54,7 @@ const std::map<std::string, ContourStrategy> kStrategies = {
     {"feed_priority", ContourStrategy::feed_priority},
     {"combined", ContourStrategy::combined}};
 
-/// The options that stand above the machine file.
+/// Options of the command line take precedence over the machine file.
 std::optional<Refusal> apply(const Options& options, Machine& machine) {
   if (options.limit_um) {
     if (!(*options.limit_um >= 0.1 && *options.limit_um <= 10'000.0)) {
@@ -68,13 +70,15 @@ std::optional<Refusal> apply(const Options& options, Machine& machine) {
   return std::nullopt;
 }
 
-/// The program as the machine's control would plan it, and what of it the machine cannot do.
+/// The program as the machine's control plans it, with warnings about what the machine cannot do.
 struct Planned {
   PathPointer path;
   std::vector<nc::plan::Warning> warnings;
   std::size_t warning_count = 0;
 };
 
+/// One pass through the program feeds the planner and the check. A refused block ends the job: a
+/// part with a block left out is not the part.
 std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine& machine) {
   Answer answer;
   const auto config = program_config(options, machine);
@@ -89,6 +93,8 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
   const auto report = nc::interpret::run_file(options.file, *config, both);
   if (!report) {
     answer.refusals.push_back(report.error());
+    // A file that cannot be opened is the user's mistake; a disk that fails while it is read is
+    // not.
     answer.exit_code = report.error().kind == Kind::bad_input ? kRefused : kFailed;
     return std::unexpected(std::move(answer));
   }
@@ -112,6 +118,8 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
   }
   Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
               check.count()};
+  // If the feed override hardly acts because the axes never reach the programmed feed, the layer
+  // has little to work with; that warning belongs first.
   if (auto idle = nc::plan::idle_override(*out.path, machine.feed_override)) {
     out.warnings.insert(out.warnings.begin(), std::move(*idle));
     ++out.warning_count;
@@ -119,6 +127,7 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
   return out;
 }
 
+/// Keys that scripts rely on; see the list in the command line's documentation.
 Json json_of(const Figures& figures) {
   return {{"cycle_time_s", figures.cycle_time_s},
           {"contour_error_max_mm", figures.contour_error_max_mm},
@@ -177,7 +186,8 @@ std::string text_of(const Figures& without, const Figures& with, double limit_mm
       .text();
 }
 
-/// What the estimates of each axis's motion were worth in the cut with the layer.
+/// How good the estimates of each axis's motion were in the cut with the layer, against the
+/// differences of counts that a control without time stamps would use.
 std::string text_of(const std::vector<trial::cut::MotionFigures>& motion, const Machine& machine) {
   if (motion.empty()) {
     return {};
@@ -185,6 +195,7 @@ std::string text_of(const std::vector<trial::cut::MotionFigures>& motion, const 
   Table table({"motion estimate error, RMS", "estimate", "by differencing counts"});
   for (const trial::cut::MotionFigures& m : motion) {
     const bool rotary = std::ranges::any_of(
+        // Inside, a rotary axis is in rad; people read degrees.
         machine.axes, [&](const auto& axis) { return axis.rotary && axis.name == m.axis; });
     const auto both = [rotary](double velocity, double acceleration) {
       using kernel::units::deg_from_rad;
@@ -198,7 +209,8 @@ std::string text_of(const std::vector<trial::cut::MotionFigures>& motion, const 
   return "\n" + table.text();
 }
 
-/// What became of the probe's readings.
+/// What became of the probe's readings: found, how much of it the model had not forecast, and the
+/// band within which a reading is believed.
 std::string text_of(const std::vector<trial::cut::ProbeFigures>& probes) {
   if (probes.empty()) {
     return {};
@@ -215,6 +227,7 @@ std::string text_of(const std::vector<trial::cut::ProbeFigures>& probes) {
 
 Result<Recorder> cut_once(const Machine& machine, const PathPointer& path,
                           const CutChatter& chatter, bool with_layer, Progress& progress) {
+  // Each cut takes about half of the time.
   const double from = with_layer ? 0.5 : 0.0;
   const char* what = with_layer ? "cutting with the layer" : "cutting without the layer";
   return trial::cut::run(
@@ -240,6 +253,7 @@ Outcome run(const Options& options, Progress& progress) {
     return std::move(planned.error());
   }
   const PathPointer& path = planned->path;
+  // This may switch the machine's modulator on, so it comes before both cuts.
   const auto chatter = cut_chatter(options.chatter, *path, *machine, progress);
   if (!chatter) {
     return std::unexpected(chatter.error());
@@ -252,6 +266,7 @@ Outcome run(const Options& options, Progress& progress) {
   if (!with) {
     return refused(with.error());
   }
+  // The batch draws a bar of its own.
   progress.clear();
   Answer answer;
   answer.json["program"] = options.program.file;
@@ -273,6 +288,7 @@ Outcome run(const Options& options, Progress& progress) {
   if (!options.report.empty()) {
     page::Json page =
         page::to_page(trial::cut::compare(options.program.file, *machine, *without, *with));
+    // The page shows the warnings too; they are not part of the comparison.
     page["warnings"] = answer.json["warnings"];
     page["warning_count"] = answer.json["warning_count"];
     put_report(answer, options.report, std::move(page));
@@ -293,6 +309,7 @@ void add_verb_cut(Session& session) {
   add_machine_option(verb, options->machine);
   verb.reports(options->report, [options](const std::string& folder) {
     std::vector<PlannedFile> files = report_files(folder);
+    // A batch has a report of its own in a folder below, which must be declared before the work.
     if (options->batch.parts > 0) {
       for (PlannedFile& file : report_files(batch_folder(folder))) {
         files.push_back(std::move(file));

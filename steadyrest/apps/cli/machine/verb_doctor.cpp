@@ -25,11 +25,13 @@ using passport::Finding;
 using passport::Severity;
 using trial::timing::LayerTiming;
 
+/// The shop's unit for cycle times.
 double us(double seconds) {
   return 1e6 * seconds;
 }
 
-/// The monotonic clock must be far finer than a cycle.
+/// Cycles are timed with the monotonic clock; a resolution coarser than 1 % of a cycle would show
+/// up in the figures as jitter.
 std::vector<Finding> check_clock(const Machine& machine) {
   timespec resolution{};
   if (clock_getres(CLOCK_MONOTONIC, &resolution) != 0) {
@@ -47,7 +49,7 @@ std::vector<Finding> check_clock(const Machine& machine) {
   return {};
 }
 
-/// What the layer takes of a cycle, or why it does not run on this machine.
+/// What the layer takes of a cycle on this computer, or why it does not run on this machine.
 struct Measured {
   std::optional<LayerTiming> timing;
   std::vector<Finding> findings;
@@ -56,6 +58,7 @@ struct Measured {
 Measured measure(const Machine& machine, Progress& progress) {
   auto timing = trial::timing::time_layer(
       machine, {}, [&](double share) { progress.update(share, "measuring the layer"); });
+  // The findings print next, and a bar must not remain in between.
   progress.clear();
   if (!timing) {
     return {std::nullopt,
@@ -65,7 +68,7 @@ Measured measure(const Machine& machine, Progress& progress) {
   return {*timing, trial::timing::judge(*timing, machine)};
 }
 
-/// All findings, the worst first.
+/// All findings, errors first, in the order of the checks within one severity.
 std::vector<Finding> examine(const Machine& machine, std::vector<Finding> measured) {
   std::vector<Finding> all = passport::findings(machine);
   for (const auto& more : {check_clock(machine), std::move(measured)}) {
@@ -108,6 +111,7 @@ Answer report(const Machine& machine, const Measured& measured,
               const std::vector<Finding>& findings) {
   const bool ok = std::ranges::none_of(
       findings, [](const Finding& f) { return f.severity == Severity::error; });
+  // Exit code 1, not 2: the file could be read, but the machine does not pass.
   Answer answer;
   answer.exit_code = ok ? kDone : kFailed;
   answer.json["ok"] = ok;
@@ -134,7 +138,7 @@ Answer report(const Machine& machine, const Measured& measured,
   return answer;
 }
 
-/// A file that is refused is a finding too, so that scripts find it where they look.
+/// A refused file is a finding too, so that scripts look in one place.
 Answer report_refused(Refusals refusals) {
   Answer answer;
   answer.json["ok"] = false;

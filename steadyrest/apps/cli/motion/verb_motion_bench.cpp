@@ -31,6 +31,8 @@ struct Options {
   std::string page;
 };
 
+/// The second table: where the source's required accuracy is met, and where no estimator can meet
+/// it.
 fs::path requirement_path(const fs::path& csv) {
   return fs::path(csv).replace_extension(".requirement.csv");
 }
@@ -46,6 +48,7 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
 }
 
+/// A figure next to its target, so that a miss shows in the table.
 std::string against(double value, double target) {
   if (!std::isfinite(target)) {
     return number(value);
@@ -61,6 +64,8 @@ std::string people_table(const offline::Benchmark& benchmark) {
   Table table({"scene, estimator", "v, mm/s", "gain", "a, mm/s²", "gain", "within bound",
                "bound/RMS v", "a", "ns/tick", "ns/edge"});
   for (const BenchRow& row : benchmark.rows) {
+    // How far the stated bound lies above the real error: near 1 it would be broken often, far
+    // above it would be useless.
     const auto ratio = [](const offline::ErrorFigures& e) {
       return number(e.bound_rms_at_speed / e.rms_at_speed);
     };
@@ -77,7 +82,7 @@ std::string people_table(const offline::Benchmark& benchmark) {
   return out;
 }
 
-/// What JSON has no number for is null.
+/// Figures that do not exist are NaN here; nlohmann-json writes null.
 Json figures(const offline::ErrorFigures& e, double gain, double efficiency) {
   return {{"rms", e.rms},
           {"max", e.max},
@@ -109,7 +114,8 @@ Json rows_json(const offline::Benchmark& benchmark) {
   return out;
 }
 
-/// Writes the tables that are asked for and hands the page to the session; the names of the files.
+/// Writes the tables that are asked for and hands the page to the session; returns the names. The
+/// requirement takes long, so nothing is computed when nothing is written.
 Result<Json> write_files(const Options& options, const offline::Benchmark& benchmark,
                          std::vector<Page>& pages, Progress& progress) {
   Json files = Json::array();
@@ -133,6 +139,7 @@ Result<Json> write_files(const Options& options, const offline::Benchmark& bench
     }
     pages.push_back({.folder = {}, .file = options.page, .data = page::to_page(*data)});
   }
+  // Both tables or none.
   if (const auto written = kernel::file::write_files(out); !written) {
     return std::unexpected(written.error());
   }

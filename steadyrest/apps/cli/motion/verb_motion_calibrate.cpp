@@ -19,6 +19,8 @@
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
+// Lines of a scale or disc are not where they should be. On smooth motion the neighbours of a line
+// tell when it should have passed; what comes back at the same line on every pass is its own error.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -40,6 +42,7 @@ struct Options {
   LogOptions format;
 };
 
+/// A:B as whole line numbers, both included; they may be negative.
 std::optional<offline::LineRange> range_of(const std::string& text) {
   offline::LineRange out;
   const char* const end = text.data() + text.size();
@@ -51,7 +54,8 @@ std::optional<offline::LineRange> range_of(const std::string& text) {
   return last.ec == std::errc{} && last.ptr == end ? std::optional(out) : std::nullopt;
 }
 
-/// What is written, and whether its lengths are angles.
+/// What is written, and whether its lengths are angles. With a machine file: the whole file with
+/// the keys put in; without: the keys alone.
 struct Text {
   std::string text;
   bool rotary = false;
@@ -76,6 +80,7 @@ Result<Text> text_for(const Options& options, const Encoder& encoder) {
     return std::unexpected(machine.error());
   }
   const bool rotary = std::ranges::any_of(
+      // The count on the command line and the axis of the file must be of one kind.
       machine->axes, [&](const auto& axis) { return axis.rotary && axis.name == options.axis; });
   if (in_deg && !rotary) {
     return std::unexpected(Refusal{Kind::bad_input, options.machine, 0,
@@ -89,6 +94,8 @@ Result<Text> text_for(const Options& options, const Encoder& encoder) {
   return Text{std::move(*with), rotary};
 }
 
+/// The residual is the RMS distance of a line from the cubic through its neighbours. If the table
+/// does not shrink it, applying it would only add noise, and `worth_applying` says so.
 Answer answer_of(const offline::LineCalibration& calibration, const Encoder& encoder,
                  const offline::EdgeLog& log, bool rotary) {
   const auto shown = [rotary](double error_mm) {
@@ -117,6 +124,7 @@ Answer answer_of(const offline::LineCalibration& calibration, const Encoder& enc
       .row({"residual after", fmt::format("{:.4g}{}", after, unit)});
   answer.text = table.text();
   answer.refusals = log.findings;
+  // The log was read in part. The calibration from that part is written, but the exit code tells.
   if (log.stopped) {
     answer.exit_code = kRefused;
   }
@@ -147,6 +155,7 @@ Outcome run(Options options, Progress& progress) {
     return refused(log.error());
   }
   offline::LogRecordConfig how;
+  // A rotary count is kept in rad, as all inner lengths of rotary axes.
   how.count_mm = options.count_deg ? kernel::units::rad_from_deg(*options.count_deg)
                                    : options.count_mm.value_or(0.0);
   how.cycle_hz = 1.0;  // ticks are not needed
@@ -160,6 +169,7 @@ Outcome run(Options options, Progress& progress) {
   }
   Encoder encoder;
   motion::online::store_lines(calibration->table, encoder);
+  // text_for() refuses a count that does not fit the axis, before anything is written.
   const auto text = text_for(options, encoder);
   if (!text) {
     return refused(text.error());

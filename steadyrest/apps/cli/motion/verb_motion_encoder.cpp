@@ -10,6 +10,8 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
+// The encoder calculus of Kombarov 2011 (KhAI), eqs. 5 to 8: lines per revolution, signal
+// frequency, speed and count, from whichever are known. Four counts a line (quadrature).
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -38,6 +40,7 @@ Refusal missing(const std::string& what, const std::string& to_do) {
 /// Collects the numbers of the answer; the first refusal ends it.
 class Sheet {
  public:
+  // Collecting on after a fault would print half an answer; the first refusal is kept.
   Sheet& put(const char* key, const char* name, const Number& value, const char* unit) {
     if (!value && !refusal_) {
       refusal_ = value.error();
@@ -62,6 +65,7 @@ class Sheet {
   std::optional<Refusal> refusal_;
 };
 
+/// Eq. 8: count = lead/(4·lines).
 void put_lines(Sheet& sheet, const Options& options, const Number& lines) {
   sheet.put("lines_per_rev", "lines per revolution", lines, "");
   if (!lines) {
@@ -76,7 +80,7 @@ void put_lines(Sheet& sheet, const Options& options, const Number& lines) {
   sheet.put("count_deg", "count (rotary)", 360.0 / (offline::kCountsPerLine * *lines), "°");
 }
 
-/// Revolutions per second of the encoder, from the feed or the speed; nothing when neither is
+/// Revolutions per second of the encoder: the spindle's, or feed over lead. Nothing when neither is
 /// given.
 std::optional<double> turn_rev_s(const Options& options) {
   if (options.speed_rpm) {
@@ -88,7 +92,8 @@ std::optional<double> turn_rev_s(const Options& options) {
   return std::nullopt;
 }
 
-/// The encoder is known: eq. 5, and eqs. 6 and 7 solved for the speed.
+/// The encoder is known: eq. 5 gives its signal frequency f = lines·n, and eqs. 6 and 7 solved for
+/// the speed give the fastest that the electronics follow.
 Outcome of_lines(const Options& options, double lines) {
   Sheet sheet;
   put_lines(sheet, options, lines);
@@ -109,7 +114,8 @@ Outcome of_lines(const Options& options, double lines) {
   return sheet.outcome();
 }
 
-/// The speed is known: eq. 6 or 7, and eq. 8.
+/// The speed is known: eq. 6 (feed) or 7 (rev/min) gives the most lines that the frequency limit
+/// allows, and eq. 8 the count.
 Outcome of_speed(const Options& options) {
   Sheet sheet;
   const double limit = *options.max_frequency_hz;
@@ -123,6 +129,8 @@ Outcome of_speed(const Options& options) {
   return sheet.outcome();
 }
 
+/// What is known decides the direction. The order makes a known encoder win over a speed: then the
+/// speed is only looked at for its signal frequency.
 Outcome run(const Options& options) {
   if ((options.feed_mm_min || options.count_mm) && !options.lead_mm) {
     return refused(missing("a linear axis needs a lead",

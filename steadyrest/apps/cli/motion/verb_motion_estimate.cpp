@@ -22,6 +22,9 @@
 #include <steadyrest/motion/online/line/stored_lines.hpp>
 #include <steadyrest/passport/edit/calibration_text.hpp>
 
+// A log of counts in, velocity and acceleration with bounds out, row by row in constant memory.
+// With time-stamped edges the accuracy is that of the clock; with ticks alone it is that of a count
+// per cycle.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -55,6 +58,8 @@ struct Options {
 
 offline::EdgeLogConfig log_config(const Options& options) {
   offline::EdgeLogConfig config;
+  // In a log of edges each row is one edge; a larger step means lost edges. Ticks may pass any
+  // number of counts, but each must have its own time.
   config.max_step = options.edges() ? 1 : 0;
   config.rising_time = !options.edges();
   config.format = format_of(options.format, options.setup.cycle_hz);
@@ -76,13 +81,14 @@ kernel::outcome::Result<Record> record_of(const Options& options, const EdgeLog&
   return offline::record_of(log, config);
 }
 
-/// Runs the estimator and writes each estimate at once: the log may be long.
+/// Runs the estimator and writes each estimate at once: a log may be longer than memory.
 Result<void> write_estimates(const Record& record, online::Estimator& estimator, OutputFile& out,
                              page::EstimateCourse& course, Progress& progress) {
   constexpr std::size_t kBetweenUpdates = 4096;
   offline::EstimateTable table(out);
   auto edge = record.edges.begin();
   for (std::size_t i = 0; i < record.ticks.size(); ++i) {
+    // An edge at the very time of a tick comes before it, as log_record.hpp defines the order.
     for (; edge != record.edges.end() && edge->t_s <= record.ticks[i].t_s; ++edge) {
       estimator.edge(*edge);
     }
@@ -106,7 +112,8 @@ Json findings_json(const EdgeLog& log) {
   return out;
 }
 
-/// How evenly the logged cycles came; the ticks of a log of edges are made, not logged.
+/// How evenly the logged cycles came. Ticks of an edge log are made here, so they say nothing about
+/// the control.
 std::optional<CycleReport> cycle_of(const Options& options, const Record& record) {
   auto monitor = online::CycleMonitor::make({.nominal_period_s = 1.0 / record.how.cycle_hz});
   if (options.edges() || !monitor) {
@@ -133,8 +140,9 @@ void put_cycle(const CycleReport& cycle, Answer& answer, Table& table) {
       .row({"gaps", fmt::format("{}", cycle.gaps)});
 }
 
-/// What was found in the log goes to stderr; a log that was not read to its end is exit code 2,
-/// though the estimates of what stood before are there.
+/// What was found in the log goes to stderr. A log that was not read to its end gives exit code 2,
+/// though the estimates up to there are written: after a row that must be wrong nobody knows which
+/// side of it to believe.
 void put_findings(const EdgeLog& log, Answer& answer) {
   answer.refusals = log.findings;
   const std::size_t unsaid = log.finding_count - log.findings.size();
@@ -179,7 +187,7 @@ Answer answer_of(const Options& options, const EdgeLog& log, const Record& recor
   return answer;
 }
 
-/// The calibration of the encoder's lines, where there is one.
+/// The calibration of the encoder's lines, where one is given. It must be of the same count.
 kernel::outcome::Result<std::optional<online::LineTable>> lines_of(const Options& options) {
   if (options.calibration.empty()) {
     return std::nullopt;
@@ -202,10 +210,12 @@ Outcome estimate(const Options& options, const EdgeLog& log,
   if (!record) {
     return refused(record.error());
   }
+  // Edges are moved to where the lines really are, before any estimator sees them.
   if (lines) {
     offline::apply_lines(*lines, *record);
   }
   offline::EstimatorSetup setup = options.setup;
+  // Found from the log's time stamps unless --clock-ns says otherwise.
   setup.clock_s = record->how.clock_s;
   const auto estimator = offline::make_estimator(options.estimator, setup);
   if (!estimator) {

@@ -9,6 +9,8 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
+// Eqs. 3 and 4 of Kombarov 2011: v·T/q counts per tick and a·T²/q counts per tick², T = 1/cycle
+// rate, q = count.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -26,7 +28,8 @@ struct Options {
   std::optional<double> counts_per_tick2;
 };
 
-/// Eq. 3, from whichever side is given.
+/// Eq. 3, from whichever side is given. A feed goes to counts; counts go to the feed and back, so
+/// that both keys are always in the answer.
 std::optional<Refusal> put_velocity(const Options& options, Answer& answer, Table& table) {
   const Number speed = options.feed_mm_min
                            ? Number(kernel::units::mm_s_from_mm_min(*options.feed_mm_min))
@@ -56,7 +59,7 @@ Number acceleration_of(const Options& options) {
   return offline::acceleration_mm_s2(options.sampling, *options.counts_per_tick2);
 }
 
-/// Eq. 4, from whichever side is given.
+/// Eq. 4, likewise; the overload is the acceleration in units of g.
 std::optional<Refusal> put_acceleration(const Options& options, Answer& answer, Table& table) {
   const Number acceleration = acceleration_of(options);
   if (!acceleration) {
@@ -76,6 +79,7 @@ std::optional<Refusal> put_acceleration(const Options& options, Answer& answer, 
   return std::nullopt;
 }
 
+/// Velocity and acceleration are independent; at least one must be given.
 Outcome run(const Options& options) {
   const bool velocity = options.feed_mm_min || options.counts_per_tick;
   const bool acceleration =

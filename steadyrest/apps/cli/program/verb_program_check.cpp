@@ -16,6 +16,7 @@
 namespace steadyrest::apps::cli {
 namespace {
 
+/// The check of the machine is a sink; without a machine nothing listens to the moves.
 class NoMoves final : public nc::interpret::Sink {
  public:
   void on_move(const nc::interpret::Move& /*move*/) override {}
@@ -33,11 +34,12 @@ std::string text_of(const nc::interpret::Report& report) {
   return fmt::format("refused after {} blocks; not accepted:\n", report.blocks) + table.text();
 }
 
-/// Executes the program to its end, and says how far it has come in the file.
+/// Runs the program to its end and reports progress by the position in the file.
 kernel::outcome::Result<nc::interpret::Report> read_program(const std::string& path,
                                                             const nc::interpret::Config& config,
                                                             nc::interpret::Sink& sink,
                                                             Progress& progress) {
+  // Every 16384 lines, a few times a second.
   constexpr std::uint32_t kEvery = 1U << 14U;
   auto source = nc::read::LineSource::open(path);
   if (!source) {
@@ -47,6 +49,7 @@ kernel::outcome::Result<nc::interpret::Report> read_program(const std::string& p
   if (!run) {
     return std::unexpected(run.error());
   }
+  // stdin and pipes have no size: then there is no bar.
   std::error_code unknown;
   const auto bytes = static_cast<double>(std::filesystem::file_size(path, unknown));
   while (run->step()) {
@@ -62,6 +65,7 @@ struct Options {
   std::string machine;  ///< empty: the program's words alone are looked at
 };
 
+/// The program is read by the rules of its dialect; the machine adds axis letters and limits.
 Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
                Progress& progress) {
   const auto config = machine == nullptr ? program_config(options.program)
@@ -89,6 +93,8 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
   return answer;
 }
 
+/// Without a machine the dialect must be said, because one G code means different things on
+/// different controls.
 Outcome run(const Options& options, Progress& progress) {
   if (options.machine.empty() && options.program.dialect.empty()) {
     return refused({kernel::outcome::Kind::bad_input, "", 0, "--dialect is required",

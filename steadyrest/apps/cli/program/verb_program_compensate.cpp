@@ -16,6 +16,7 @@ struct Options {
   std::string output;
 };
 
+/// One row for each place where the text changed: which line, when it is reached, what it adds.
 Answer answer_of(const nc::rewrite::Compensated& done) {
   Answer answer;
   Table table({"line", "axis", "time s", "planned s", "shift um", "total um", "place"});
@@ -41,6 +42,8 @@ Answer answer_of(const nc::rewrite::Compensated& done) {
   return answer;
 }
 
+/// compensate() proves its result before it writes: the changed program is interpreted again and
+/// compared move by move.
 Outcome run(const Options& options, Progress& progress) {
   const auto task = read_rewrite_task(options.rewrite, progress);
   if (!task) {

@@ -34,6 +34,8 @@ struct Options {
   std::string cyclogram;
 };
 
+/// Keys of the answer. Times by kind of motion show where a shorter program is to be had; the
+/// cyclogram is what the thermal forecast needs.
 void put_time(Answer& answer, const ProgramTime& time, bool lines) {
   answer.json["seconds"] = time.total_s;
   answer.json["moves"] = time.moves;
@@ -63,6 +65,7 @@ void put_time(Answer& answer, const ProgramTime& time, bool lines) {
   if (lines) {
     answer.json["lines"] = Json::array();
     for (std::size_t line = 0; line < time.line_s.size(); ++line) {
+      // Lines that take no time (comments, modal words) would only lengthen the list.
       if (time.line_s[line] > 0.0) {
         answer.json["lines"].push_back({{"line", line}, {"seconds", time.line_s[line]}});
       }
@@ -70,7 +73,8 @@ void put_time(Answer& answer, const ProgramTime& time, bool lines) {
   }
 }
 
-/// The cyclogram as TOML, what `thermal` reads.
+/// The cyclogram as TOML, as `thermal` reads it. Its feed is the mean speed along the path, rapids
+/// included: all travel heats screws and guideways.
 Result<void> write_cyclogram(const ProgramTime& time, const Options& options) {
   std::string text = fmt::format("# What the machine does in {}, transition by transition.\n",
                                  std::filesystem::path(options.program.file).filename().string());
@@ -131,6 +135,8 @@ Outcome run(const Options& options) {
   if (!timer) {
     return refused(timer.error());
   }
+  // Overrides scale the limits before the planner sees them: half the feed is not twice the time,
+  // since short moves never reach it.
   timer->set_overrides(options.feed_percent / 100.0, options.rapid_percent / 100.0,
                        options.spindle_percent / 100.0);
   nc::plan::MachineCheck check(*machine, known_of(options.program));
@@ -141,6 +147,7 @@ Outcome run(const Options& options) {
   }
   Answer answer;
   put_report(answer, *report, options.program.file);
+  // A time up to the refusal is no time of the program.
   if (!report->refused.empty()) {
     return answer;
   }

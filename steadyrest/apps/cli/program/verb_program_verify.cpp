@@ -7,6 +7,8 @@
 #include <steadyrest/apps/cli/shared/rewrite_options.hpp>
 #include <steadyrest/nc/rewrite/prove/verify.hpp>
 
+// The proof that a changed program is the original plus the planned corrections: both are
+// interpreted and compared move by move.
 namespace steadyrest::apps::cli {
 namespace {
 

@@ -8,6 +8,8 @@
 
 #include <steadyrest/apps/cli/shared/content.hpp>
 
+// Judges a file by its content, never by its name: the question is what would be lost if it were
+// overwritten.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -15,7 +17,8 @@ bool among(std::string_view key, const std::vector<std::string>& keys) {
   return std::ranges::find(keys, key) != keys.end();
 }
 
-/// Keys and sections of the top level; none where the text is no TOML.
+/// Keys and sections of the top level; none where the text is no TOML. A file may be cut off at the
+/// reader's limit, and half a table parses as nothing.
 std::vector<std::string> top_of(std::string_view text) {
   std::vector<std::string> out;
   try {
@@ -28,7 +31,8 @@ std::vector<std::string> top_of(std::string_view text) {
   return out;
 }
 
-/// `N10 G1 X1`, `/G0`, `X=R1`, `#1=2`, `o<a> call`, `%`, `(…)`, `;…`.
+/// A line that could be a block of some dialect: `N10 G1 X1`, `/G0`, `X=R1`, `#1=2`, `o<a> call`,
+/// `%`, `(…)`, `;…`. A letter followed by a digit, a sign or an assignment is what prose lacks.
 bool is_block(std::string_view line) {
   const auto is = [&line](std::size_t at, std::string_view set) {
     return at < line.size() && set.find(line[at]) != std::string_view::npos;
@@ -50,6 +54,8 @@ std::string_view trimmed(std::string_view line) {
              : line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
 }
 
+/// Half of the first 200 lines that are not empty: programs have headers of free text, and texts
+/// have a line or two that look like blocks.
 bool is_program(std::string_view text) {
   constexpr std::size_t kLooked = 200;
   std::size_t lines = 0;
@@ -73,6 +79,8 @@ Content csv_content(std::string name, std::vector<std::string> heads) {
           }};
 }
 
+/// TOML of one kind has nothing beside its own keys; one foreign section and it is somebody else's
+/// file.
 Content toml_content(std::string name, std::vector<std::string> only) {
   return {std::move(name), [only = std::move(only)](std::string_view text) {
             const auto top = top_of(text);

@@ -15,7 +15,8 @@ using kernel::outcome::Refusal;
 
 constexpr std::size_t kMostSteps = 100'000;
 
-/// The numbers between the colons; empty when one is none.
+/// The numbers between the colons; empty when one of them is no number. from_chars knows no locale
+/// and takes no blanks, so 1,5 and "1 : 2" are refused.
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> out;
   const char* const last = text.data() + text.size();
@@ -62,6 +63,7 @@ kernel::outcome::Result<std::vector<double>> grid(std::string_view option, const
   const auto steps = static_cast<std::size_t>(count);
   for (std::size_t i = 0; i < steps; ++i) {
     const double share = steps == 1 ? 0.0 : static_cast<double>(i) / (count - 1.0);
+    // The last value is TO itself: a sum of steps would miss it by rounding.
     out.push_back(i + 1 == steps ? to : from + share * (to - from));
   }
   return out;

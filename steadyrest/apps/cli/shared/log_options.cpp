@@ -20,6 +20,7 @@ void add_log_options(CLI::App& verb, LogOptions& options, bool over_time) {
   }
 }
 
+/// What the user did not say is found in the file (Decimal::by_file).
 table::Format format_of(const LogOptions& options, double sample_hz) {
   table::Format out;
   out.columns = options.columns;
@@ -27,6 +28,7 @@ table::Format format_of(const LogOptions& options, double sample_hz) {
                 : options.decimal == "point" ? table::Decimal::point
                                              : table::Decimal::by_file;
   out.sample_hz = options.sample_hz.value_or(sample_hz);
+  // Only an explicit rate turns rows into samples; the verb's default rate does not.
   out.rows_are_samples = options.sample_hz.has_value();
   return out;
 }

@@ -13,7 +13,8 @@ using nc::interpret::Config;
 
 namespace {
 
-/// --dialect first, then the control's data.
+/// --dialect first, because callers make that one required or describe it otherwise; then the
+/// control's data.
 std::vector<CLI::Option*> add_data(Verb& verb, ProgramOptions& options) {
   std::vector<CLI::Option*> made;
   made.push_back(verb.add_option("--dialect", options.dialect, "Control the program is written for")
@@ -49,6 +50,8 @@ void add_program_options(Verb& verb, ProgramOptions& options) {
   verb.add_option("--axes", options.axes, "Letters of the machine's axes");
 }
 
+/// The machine file knows the dialect; --dialect remains for a program that was posted for another
+/// control.
 void add_machine_program_options(Verb& verb, ProgramOptions& options) {
   add_common(verb, options)->description(kOtherDialect);
 }
@@ -62,6 +65,8 @@ void add_optional_program(Verb& verb, ProgramOptions& options, const std::string
   }
 }
 
+/// The settings that change what a program means: the same text is another part with other offsets,
+/// tools or decimal rules.
 Result<Config> program_config(const ProgramOptions& options) {
   Config config;
   config.dialect = nc::read::dialect_from_name(options.dialect).value_or(config.dialect);
@@ -72,6 +77,7 @@ Result<Config> program_config(const ProgramOptions& options) {
   const double unit_mm = options.units == "inch" ? 25.4 : 1.0;
   config.data_unit_mm = unit_mm;
   config.subprogram_folders = options.subprograms;
+  // A subprogram is looked for next to its main program when no folder is named.
   if (options.subprograms.empty()) {
     config.subprogram_folders.push_back(std::filesystem::path(options.file).parent_path().string());
   }
@@ -96,11 +102,13 @@ Result<Config> program_config(const ProgramOptions& options,
   if (of_machine.dialect.empty()) {
     of_machine.dialect = nc::read::name(machine.control.dialect);
   }
+  // A word for an axis that the machine does not have is refused; so the letters are the machine's.
   of_machine.axes.clear();
   for (const kernel::machine::Axis& axis : machine.axes) {
     of_machine.axes += axis.name;
   }
   auto config = program_config(of_machine);
+  // Only a machine whose modulator is enabled knows the two M words.
   if (config && machine.chatter.enabled) {
     config->modulation_on = static_cast<std::int32_t>(machine.chatter.m_code_on);
     config->modulation_off = static_cast<std::int32_t>(machine.chatter.m_code_off);
@@ -123,6 +131,7 @@ void put_report(Answer& answer, const nc::interpret::Report& report, const std::
   answer.json["refused"] = std::move(list);
   if (!report.refused.empty()) {
     answer.exit_code = kRefused;
+    // The first refusal goes to stderr; the JSON has all.
     answer.refusals.push_back(nc::interpret::first_refusal(report, file));
   }
 }

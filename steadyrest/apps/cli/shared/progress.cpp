@@ -11,6 +11,8 @@
 namespace steadyrest::apps::cli {
 namespace {
 
+/// Nothing for the first second: a bar that flashes up and goes is worse than none. Then at most
+/// ten draws a second, and one a second even if the work makes no call.
 constexpr std::chrono::milliseconds kQuiet{1000};
 constexpr std::chrono::milliseconds kBetween{100};
 constexpr std::chrono::milliseconds kTick{1000};
@@ -26,11 +28,14 @@ std::string repeated(std::string_view cell, std::size_t times) {
 
 }  // namespace
 
+/// The thread only ticks the seconds. It draws nothing unless the bar is up, and it waits on a
+/// condition so that the end of a short verb is not delayed.
 Progress::Progress() : Progress(stderr, isatty(STDERR_FILENO) == 1, Clock::now()) {
   if (terminal_) {
     ticker_ = std::thread([this] {
       std::unique_lock lock(mutex_);
       while (!end_.wait_for(lock, kTick, [this] { return ended_; })) {
+        // tick_at() takes the lock itself.
         lock.unlock();
         tick_at(Clock::now());
         lock.lock();
@@ -39,6 +44,7 @@ Progress::Progress() : Progress(stderr, isatty(STDERR_FILENO) == 1, Clock::now()
   }
 }
 
+/// The thread must end before clear(), or it could draw after it.
 Progress::~Progress() {
   {
     const std::scoped_lock lock(mutex_);
@@ -55,6 +61,7 @@ void Progress::update_at(Clock::time_point now, double share, std::string_view w
   if (!terminal_) {
     return;
   }
+  // A share that is no number is 0: progress must never stop the work.
   const std::scoped_lock lock(mutex_);
   share_ = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
   what_ = what;
@@ -75,6 +82,7 @@ void Progress::draw(Clock::time_point now) {
   last_ = now;
   drawn_ = true;
   const auto full = static_cast<std::size_t>(share_ * static_cast<double>(kCells));
+  // \r and erase-to-end-of-line: the bar stays on one line, whatever was longer before.
   fmt::print(stream_, "\r\x1b[K{}{} {:3.0f} %  {}, {} s", repeated("█", full),
              repeated("░", kCells - full), share_ * 100.0, what_,
              std::chrono::duration_cast<std::chrono::seconds>(now - start_).count());

@@ -15,6 +15,8 @@
 #include <steadyrest/apps/cli/shared/value_check.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 
+// What `program compensate` and `program verify` share: how corrections reach this control, and the
+// mark by which a changed program tells how it was made.
 namespace steadyrest::apps::cli {
 
 using kernel::outcome::Kind;
@@ -24,7 +26,7 @@ using nc::rewrite::Way;
 
 namespace {
 
-// A path in a plan is meant from the folder of the plan.
+/// A path in a plan is relative to the plan's folder.
 std::string machine_path(const RewriteOptions& options, const nc::rewrite::Plan& plan) {
   if (!options.machine.empty() || plan.machine.empty()) {
     return options.machine;
@@ -39,7 +41,8 @@ std::expected<Way, Refusals> refuse(std::string what, std::string to_do) {
       Refusals{Refusal{Kind::bad_input, {}, 0, std::move(what), std::move(to_do)}});
 }
 
-// The command line says more than the machine file.
+/// The command line takes precedence over the machine file. --r-parameter names a method and its
+/// number in one.
 CompensationMethod method_of(const RewriteOptions& options,
                              const kernel::machine::Compensation& compensation) {
   if (options.r_parameter != kNoParameter) {
@@ -50,6 +53,8 @@ CompensationMethod method_of(const RewriteOptions& options,
                                       : compensation.method;
 }
 
+/// LinuxCNC's G10 L20 and Fanuc's G10 L2 P0 are what "by dialect" means; a SINUMERIK has no
+/// default, and way_of() has refused it before.
 Method written(CompensationMethod method, kernel::machine::Dialect dialect) {
   switch (method) {
     case CompensationMethod::linuxcnc:
@@ -77,17 +82,21 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
                                     nc::read::Dialect program) {
   using Dialect = kernel::machine::Dialect;
   const kernel::machine::Compensation& compensation = machine.compensation;
+  // An option of another control is a misunderstanding, so it is refused and not ignored.
   if (options.r_parameter != kNoParameter && program != nc::read::Dialect::sinumerik) {
     return refuse(
         fmt::format("--r-parameter with a program of dialect {}", nc::read::name(program)),
         "leave it out; only SINUMERIK controls have R-parameters");
   }
   if (!options.control.empty() && program != nc::read::Dialect::fanuc) {
+    // --control tells Haas from Fanuc: both read the same dialect, but G10 L2 P0 is an external
+    // offset on the one and G52 on the other.
     return refuse(fmt::format("--control {} with a program of dialect {}", options.control,
                               nc::read::name(program)),
                   "leave it out, or choose --dialect fanuc");
   }
   const CompensationMethod method = method_of(options, compensation);
+  // The method of the machine file must exist on the control that the program is read for.
   const Dialect needed = passport::dialect_of(method, program);
   if (needed != program) {
     return refuse(
@@ -96,6 +105,7 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
                     nc::read::name(program)),
         "give the machine file of the control the program is for");
   }
+  // No SINUMERIK method is safe without knowing the machine's PLC, so none is assumed.
   if (program == Dialect::sinumerik && method == CompensationMethod::by_dialect) {
     return refuse("no method for corrections in dialect sinumerik",
                   "add [compensation] to the machine file (method = \"r_parameter\", "
@@ -104,7 +114,8 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
   const auto r_parameter = options.r_parameter == kNoParameter
                                ? compensation.r_parameter
                                : static_cast<std::uint32_t>(options.r_parameter);
-  // What the machine file says of its own method is not said of another.
+  // cleared_after_abort is a promise about one method and one R-parameter. It does not hold for
+  // another chosen on the command line.
   const bool as_in_file = method == compensation.method && r_parameter == compensation.r_parameter;
   return Way{.method = written(method, program),
              .r_parameter = r_parameter,
@@ -119,11 +130,14 @@ namespace {
 
 using nc::rewrite::Told;
 
-/// What a mark tells: everything but the files that verify is given anyway.
+/// What a mark in the program records: everything that changes the result but the files that
+/// `verify` is given anyway.
 constexpr std::array kTold = {"dialect",      "control",        "r-parameter", "window-s",
                               "tools",        "variables",      "data-units",  "subprograms",
                               "block-delete", "least-increment"};
 
+/// Was the option given, and with which values? Defaults do not count as given. A flag has no
+/// value; one empty string stands for it.
 std::vector<std::string> given(const RewriteOptions& options, std::string_view name) {
   const CLI::Option* option = options.verb->get_option_no_throw("--" + std::string(name));
   if (option == nullptr || option->count() == 0) {
@@ -138,6 +152,8 @@ std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options
   std::vector<Told> told;
   for (const std::string name : kTold) {
     std::vector<std::string> values = given(options, name);
+    // Dialect and window are recorded even when they come from the machine file or the default, for
+    // these may change later.
     if (values.empty() && name == "dialect") {
       values = {std::string(nc::read::name(dialect))};
     } else if (values.empty() && name == "window-s") {
@@ -158,7 +174,8 @@ std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options
   return told;
 }
 
-/// A file may have been moved since.
+/// Files are compared by name, since they may have been moved; numbers by value, so that 60 and
+/// 60.0 agree.
 std::string comparable(const std::string& name, const std::string& value) {
   if (name == "tools" || name == "variables" || name == "subprograms") {
     return std::filesystem::path(value).filename().string();
@@ -169,6 +186,7 @@ std::string comparable(const std::string& name, const std::string& value) {
                                                                    : value;
 }
 
+/// The reverse of told_of().
 void set(RewriteOptions& options, const Told& one) {
   ProgramOptions& program = options.program;
   const auto number = [&one](auto& value) {
@@ -201,6 +219,11 @@ void set(RewriteOptions& options, const Told& one) {
 
 std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                        const std::string& changed,
+                                                       // The mark of the changed program supplies
+                                                       // what the command line leaves out. What
+                                                       // both say must agree: a proof under other
+                                                       // settings would prove nothing about this
+                                                       // program.
                                                        Progress& progress) {
   const auto mark = nc::rewrite::read_mark(changed);
   if (!mark) {
@@ -246,6 +269,8 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   return task;
 }
 
+/// The machine file that a plan names is an input too; the report's hashes and the check of outputs
+/// need it.
 std::vector<std::string> files_of(const RewriteOptions& options) {
   const auto plan = nc::rewrite::read_plan(options.plan);
   return plan ? std::vector<std::string>{machine_path(options, *plan)} : std::vector<std::string>{};
@@ -276,6 +301,7 @@ void add_rewrite_options(Verb& verb, RewriteOptions& options) {
 std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                        Progress& progress) {
   RewriteTask task;
+  // Klartext would parse as nothing and "prove" an empty program.
   const std::string extension = std::filesystem::path(options.program.file).extension().string();
   if (extension == ".h" || extension == ".H") {
     return std::unexpected(Refusals{Refusal{
@@ -286,6 +312,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   if (!plan) {
     return std::unexpected(Refusals{plan.error()});
   }
+  // Plan, then machine, then program settings, then the way: each needs the one before.
   task.plan = std::move(*plan);
   const std::string path = machine_path(options, task.plan);
   if (path.empty()) {
@@ -309,6 +336,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   }
   static_cast<Way&>(task.settings) = *way;
   task.settings.axes = task.config.axes;
+  // On a Haas, P0 must be read as G52, or the interpreter would prove another machine.
   task.config.external_offset = way->method != Method::haas;
   task.settings.window_s = options.window_s;
   auto told = told_of(options, task.config.dialect);
@@ -316,6 +344,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
     return std::unexpected(told.error());
   }
   task.settings.told = std::move(*told);
+  // No correction goes beyond the envelope's clamp, in a program as little as on line.
   task.settings.clamp_mm = task.machine.envelope.max_offset_mm;
   task.settings.progress = [&progress](double share, std::string_view what) {
     progress.update(share, what);

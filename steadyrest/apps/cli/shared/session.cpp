@@ -11,6 +11,8 @@
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/temporary.hpp>
 
+// One place for what every verb does alike: parsing, checking files, provenance, running, putting
+// all outputs in place together, printing, exit code.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -37,6 +39,7 @@ Json as_json(const Refusals& refusals) {
   return list;
 }
 
+/// 2 as soon as one refusal is about the input; a full disk alone is 1.
 int exit_code_of(const Refusals& refusals) {
   for (const Refusal& refusal : refusals) {
     if (refusal.kind == Kind::bad_input) {
@@ -46,7 +49,8 @@ int exit_code_of(const Refusals& refusals) {
   return kFailed;
 }
 
-/// False when stdout took not all of it (a full disk, a closed pipe).
+/// False when stdout did not take all of it (a full disk, a closed pipe). fflush shows what fwrite
+/// only buffered.
 bool print_out(std::string_view text) {
   return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
          std::fflush(stdout) == 0;
@@ -74,6 +78,7 @@ Outcome refused(Refusal refusal) {
 
 Session::Session() : app_("Steadyrest: the corrective layer for CNC machines", std::string(kName)) {
   app_.set_version_flag("--version", std::string(kName) + " " + STEADYREST_VERSION);
+  // `steadyrest` alone is a usage error with the list of verbs.
   app_.require_subcommand(1);
   app_.footer(
       "`steadyrest VERB --help` says more and ends with an example.\nExit codes: 0 done, 2 refused "
@@ -81,6 +86,7 @@ Session::Session() : app_("Steadyrest: the corrective layer for CNC machines", s
 }
 
 CLI::App& Session::group(const std::string& name, const std::string& description) {
+  // Verbs register one by one, each asking for its group.
   const auto found =
       app_.get_subcommands([&name](CLI::App* candidate) { return candidate->get_name() == name; });
   if (!found.empty()) {
@@ -101,6 +107,7 @@ Verb& Session::verb(CLI::App& parent, const std::string& name, const std::string
   return made;
 }
 
+/// CLI11 calls back while it still parses; the work waits until the whole line is known to be good.
 void Session::on(Verb& verb, Run run) {
   verb.callback([this, &verb, run = std::move(run)] {
     chosen_ = &verb;
@@ -108,8 +115,11 @@ void Session::on(Verb& verb, Run run) {
   });
 }
 
+/// The last net. Refusals travel as values; an exception here is a bug, and the message says so.
+/// fprintf, because fmt may be what threw.
 int Session::main(int argc, const char* const* argv) noexcept {
   try {
+    // Ctrl-C must not leave temporary files beside the targets.
     kernel::file::remove_temporaries_on_signals();
     return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
@@ -121,6 +131,7 @@ int Session::main(int argc, const char* const* argv) noexcept {
 }
 
 int Session::parse_and_run(int argc, const char* const* argv) {
+  // The command line for the report, before the parser takes it apart.
   command_ = page::command_of(argc, argv);
   try {
     app_.parse(argc, argv);
@@ -136,6 +147,7 @@ int Session::usage(const CLI::ParseError& error) const {
     return std::cout.flush() ? kDone : unwritten();
   }
   const Refusal refusal = usage_refusal(app_, error);
+  // With --json even a usage error is one object on stdout, if the parser got as far as --json.
   if (json_) {
     print_json({{"refused", as_json({refusal})}});
   }
@@ -161,11 +173,16 @@ Result<void> Session::write_pages(const std::vector<Page>& pages,
 }
 
 Outcome Session::work() const {
+  // Outputs are judged before the work: an hour of computing must not end at a folder that does not
+  // exist.
   const auto ready = chosen_->ready(json_);
   if (!ready) {
     return std::unexpected(ready.error());
   }
+  // From here on commit() keeps each finished file beside its target. The last step renames all of
+  // them or none, so a run that fails halfway leaves the old results whole.
   kernel::file::declare_outputs(ready->outputs);
+  // Hashes are of the inputs as they were read, not as they are after the work.
   const page::Provenance provenance = chosen_->provenance(command_);  // before the work
   Progress progress;
   Outcome outcome = run_(progress);
@@ -182,6 +199,7 @@ Outcome Session::work() const {
   if (!outcome || !chosen_->has_outputs()) {
     return outcome;
   }
+  // When the result itself goes to stdout, a summary would corrupt it.
   if (ready->takes_stdout) {
     outcome->text.clear();
     return outcome;

@@ -6,6 +6,7 @@
 namespace steadyrest::apps::cli {
 namespace {
 
+/// Continuation bytes of UTF-8 (10xxxxxx) take no column: µ, ° and ε are one wide.
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
@@ -20,6 +21,7 @@ void append(std::string& out, const std::vector<std::string>& cells,
     line += i == 0 ? "" : "  ";
     line += i == 0 ? cells[i] + pad : pad + cells[i];
   }
+  // No blanks at line ends, so that tables can be compared and pasted.
   line.erase(line.find_last_not_of(' ') + 1);
   out += line + "\n";
 }

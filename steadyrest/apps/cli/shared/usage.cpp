@@ -12,6 +12,8 @@
 #include <steadyrest/apps/cli/shared/usage.hpp>
 #include <steadyrest/kernel/outcome/nearest.hpp>
 
+// CLI11 says what its parser missed. A user wants to know which word was wrong and what was
+// probably meant; this file finds that out.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -28,7 +30,8 @@ std::vector<const CLI::App*> below(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* /*any*/) { return true; });
 }
 
-/// The verbs here; then those one word deeper, which may have been given without their group.
+/// The verbs here; then those one word deeper, which may have been given without their group:
+/// `steadyrest lobes` suggests `chatter lobes`.
 std::vector<Known> verbs_of(const CLI::App& app) {
   std::vector<Known> out;
   for (const CLI::App* verb : below(app)) {
@@ -63,7 +66,7 @@ std::string did_you_mean(std::string_view word, const std::vector<Known>& known)
   return found == known.end() ? std::string{} : fmt::format("did you mean '{}'? ", found->written);
 }
 
-/// The words up to where the parser understood the line.
+/// How far the parser understood the line: the deepest command and its words, for "see … --help".
 std::pair<const CLI::App*, std::string> reached(const CLI::App& root) {
   std::string path = root.get_name();
   const CLI::App* at = &root;
@@ -74,7 +77,8 @@ std::pair<const CLI::App*, std::string> reached(const CLI::App& root) {
   return {at, path};
 }
 
-/// CLI11's sentence about an option or its value, in ours; what is unknown stays as it is.
+/// CLI11's sentence about an option or its value, in ours. A sentence that none of the patterns
+/// knows stays as it is.
 std::string plain(const std::string& sentence) {
   static const std::regex kConvert(R"(Could not convert: (\S+) = (.*))");
   static const std::regex kMissing(R"((\S+): \d+ required .* missing)");
@@ -106,6 +110,8 @@ Refusal usage_refusal(const CLI::App& root, const CLI::ParseError& error) {
     return Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)};
   };
   // A word that is not understood is the reason why another is missing.
+  // CLI11 reports the missing word first, although it is missing because another was misspelt. The
+  // unknown word is the cause, so it is looked for in both cases.
   const bool leftover = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
                         dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   const std::vector<std::string> words =
@@ -117,6 +123,7 @@ Refusal usage_refusal(const CLI::App& root, const CLI::ParseError& error) {
     return refusal(fmt::format("unknown option '{}'", word),
                    did_you_mean(word, options_of(*at)) + help);
   }
+  // A leftover word is a verb only where there are verbs below.
   if (!words.empty() && !below(*at).empty()) {
     return refusal(fmt::format("unknown verb '{}'", words.front()),
                    did_you_mean(words.front(), verbs_of(*at)) + help);

@@ -16,6 +16,7 @@ constexpr const char* kFine = "";
 
 template <class Number>
 std::errc read(std::string_view text, Number& number) {
+  // from_chars takes no leading +; people write +0.5.
   text.remove_prefix(text.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc{} && end != text.data() + text.size() ? std::errc::invalid_argument
@@ -29,6 +30,7 @@ std::string fault_of_real(const std::string& given) {
     return given + " is not a finite number";
   }
   if (error != std::errc{}) {
+    // 1,5 is the usual slip on a keyboard with a decimal comma.
     return given + " is not a number" +
            (given.find(',') == std::string::npos ? "" : ", which has a decimal point");
   }
@@ -42,6 +44,7 @@ std::string fault_of_whole(const std::string& given) {
   if (error == std::errc::result_out_of_range) {
     return given + " is too large";
   }
+  // Well-formed but negative, or no number at all: two different mistakes.
   if (error != std::errc{}) {
     std::int64_t negative = 0;
     return given +
@@ -70,6 +73,8 @@ void check_value(CLI::Option& option) {
 }
 
 CLI::Validator within(double least, double most) {
+  // Blank for CLI11 means valid. What is no number at all is the business of check_value(), which
+  // runs first.
   return {[least, most](const std::string& given) {
             double value = 0.0;
             return read(given, value) == std::errc{} && value >= least && value <= most
@@ -79,6 +84,7 @@ CLI::Validator within(double least, double most) {
           fmt::format("in [{:g} - {:g}]", least, most)};
 }
 
+/// 1e-9 … 1e12 keeps every product and quotient of these verbs far inside the range of a double.
 void check_size(CLI::App& verb) {
   for (CLI::Option* option :
        verb.get_options([](const CLI::Option* one) { return one->get_type_name() == "FLOAT"; })) {

@@ -12,6 +12,8 @@
 
 #include <steadyrest/apps/cli/shared/verb.hpp>
 
+// A verb declares which options name inputs and outputs. All questions about files are then
+// answered in one place, for all outputs at once, before the work starts.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -22,7 +24,8 @@ using Refusals = std::vector<Refusal>;
 
 constexpr std::string_view kNoDate = "none";
 
-/// The file itself; of a folder the files in it.
+/// The file itself; of a folder the files in it, sorted, so that provenance does not depend on the
+/// order of the directory.
 std::vector<std::string> files_in(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) {
@@ -48,7 +51,7 @@ std::string role_of(const CLI::Option& option) {
              : "the file of " + option.get_name() + " itself";
 }
 
-/// What is there: its begin is enough to know it by.
+/// What is there: 8 MB of it are enough to tell its kind, and a huge file is not read whole.
 std::string text_of(const std::filesystem::path& file) {
   constexpr std::size_t kMost = std::size_t{8} << 20U;
   std::ifstream in(file, std::ios::binary);
@@ -63,6 +66,7 @@ std::optional<Refusal> of_another_kind(const PlannedFile& planned, const Place& 
     return std::nullopt;
   }
   const std::string text = text_of(place.path);
+  // An empty file holds nothing worth keeping.
   if (text.empty() || planned.content.fits(text)) {
     return std::nullopt;
   }
@@ -70,6 +74,7 @@ std::optional<Refusal> of_another_kind(const PlannedFile& planned, const Place& 
                  "name another file, or give --force to replace this one");
 }
 
+/// By identity of the file, not by name: links and relative paths lead to the same place.
 std::optional<Refusal> an_input(const PlannedFile& planned, const std::vector<Input>& inputs) {
   for (const Input& input : inputs) {
     if (kernel::file::same_place(planned.file, input.file)) {
@@ -80,7 +85,8 @@ std::optional<Refusal> an_input(const PlannedFile& planned, const std::vector<In
   return std::nullopt;
 }
 
-/// The first fault of one output, beside what the outputs before it are.
+/// The first fault of one output. Two outputs in one file are never right; --force permits the
+/// rest. "-" is refused even so: it would silently become a file of that name.
 std::optional<Refusal> unfit(const PlannedFile& planned, std::span<const PlannedFile> before,
                              const std::vector<Input>& inputs, bool force) {
   for (const PlannedFile& other : before) {
@@ -110,6 +116,7 @@ kernel::outcome::Result<kernel::file::OutputFile> table_output(const std::string
                                                                bool json) {
   if (output.empty() && !json) {
     return kernel::file::OutputFile::standard_output();
+    // With --json and no -o the rows have nowhere to go; /dev/null keeps one code path.
   }
   return kernel::file::OutputFile::open(output.empty() ? "/dev/null" : output);
 }
@@ -124,6 +131,7 @@ CLI::Option* Verb::add_output(const std::string& flags, std::string& path,
                               const std::string& description, Files files, bool folder) {
   CLI::Option* const option =
       CLI::App::add_option(flags, path, description)->type_name(folder ? "DIR" : "OUT");
+  // --force belongs to every verb that writes, once.
   if (outputs_.empty()) {
     add_flag("--force", force_, "Let an output replace an input or a file of another kind");
   }
@@ -155,6 +163,8 @@ void Verb::writes_page(const std::string& flags, std::string& path,
   dates_last_output();
 }
 
+/// A page says when it was made. A fixed date, or none, makes repeated runs byte-identical for
+/// tests and archives.
 void Verb::dates_last_output() {
   outputs_.back().page = true;
   add_option(
@@ -169,6 +179,7 @@ void Verb::dates_last_output() {
 
 page::Provenance Verb::provenance(const std::string& command) const {
   page::Provenance out;
+  // Hashing large inputs is worth its time only if a page will show it.
   if (std::ranges::none_of(outputs_,
                            [](const Output& o) { return o.page && o.option->count() > 0; })) {
     return out;
@@ -185,6 +196,7 @@ page::Provenance Verb::provenance(const std::string& command) const {
   return out;
 }
 
+/// An empty name is nearly always an unset shell variable, and "" would mean the current folder.
 std::vector<Refusal> Verb::empty_names() const {
   Refusals out;
   const auto look = [&out](const CLI::Option& option, const char* to_do) {
@@ -208,6 +220,7 @@ std::vector<Input> Verb::inputs() const {
       out.push_back({file == "-" ? "/dev/stdin" : file, role_of(*option)});
     }
   }
+  // A process file names its measured responses, a plan its machine: they count as inputs.
   for (const auto& named : named_) {
     for (std::string& file : named()) {
       out.push_back({std::move(file), "a file that an input names"});
@@ -221,6 +234,8 @@ std::expected<std::vector<PlannedFile>, Refusals> Verb::plan(Ready& ready) const
   for (const Output& output : outputs_) {
     for (const std::string& given : output.option->results()) {
       for (PlannedFile& file : output.files(given)) {
+        // The folder is made now, so that a report cannot fail after the work for want of one.
+        // `ready` removes it again if the verb is refused.
         if (output.folder) {
           auto made =
               kernel::file::MadeFolders::make(std::filesystem::path(file.file).parent_path());
@@ -257,6 +272,7 @@ std::expected<Ready, Refusals> Verb::ready(bool json) const {
     out.takes_stdout |= place && place->kind == Place::Kind::standard_output;
   }
   if (out.takes_stdout && json) {
+    // stdout belongs to one of the two.
     refusals.push_back(refusal("", "an output goes to stdout, where --json prints its object",
                                "name a file for the output, or leave out --json"));
   }
