@@ -5,6 +5,8 @@
 #include <steadyrest/passport/edit/thermal_text.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
 
+// Replaces the [thermal] sections of a machine file and keeps every other byte. It works on lines,
+// since the sections are written by this program and hold nothing of the user's.
 namespace steadyrest::passport {
 namespace {
 
@@ -16,6 +18,7 @@ std::string_view trimmed(std::string_view line) {
 }
 
 /// [thermal], [[thermal.axis]], …
+/// The name must end there: [thermalx] is another section, [thermal.axis] is not.
 bool heads_thermal(std::string_view line) {
   line.remove_prefix(std::min(line.find_first_not_of("[ \t"), line.size()));
   constexpr std::string_view kName = "thermal";
@@ -29,6 +32,8 @@ kernel::outcome::Result<std::string> with_thermal(std::string_view text, const s
                                                   const Thermal& thermal) {
   const std::string sections = thermal_text(thermal);
   std::string out;
+  // Comments behind the last thermal section may be the header of the next one. They wait in `kept`
+  // and are dropped only if another thermal key follows.
   std::string kept;  // blank and comment lines that may belong to the next section
   bool inside = false;
   bool put = false;
@@ -39,6 +44,7 @@ kernel::outcome::Result<std::string> with_thermal(std::string_view text, const s
     const std::string_view content = trimmed(line);
     const bool head = content.starts_with('[');
     if (head && heads_thermal(content)) {
+      // The first thermal head is where the new sections go; the rest of the old ones vanish.
       out += put ? "" : sections;
       put = true;
       inside = true;
@@ -55,10 +61,13 @@ kernel::outcome::Result<std::string> with_thermal(std::string_view text, const s
       kept.clear();
     }
   }
+  // A file without [thermal] gets it at its end, after a blank line.
   if (!put) {
     out += (out.empty() || out.ends_with('\n') ? "" : "\n");
     out += (out.empty() ? "" : "\n") + sections;
   }
+  // The result must read back as a passport; inline tables and other spellings that the line scan
+  // does not know end in a refusal here.
   const auto again = parse_thermal_passport(out, file);
   if (!again) {
     return std::unexpected(again.error());

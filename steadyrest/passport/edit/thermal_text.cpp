@@ -14,6 +14,7 @@ using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
 
 std::string quoted(const std::string& text) {
+  // TOML's basic strings take every character but controls, quotes and backslashes.
   std::string out = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
@@ -24,7 +25,9 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// The keys of one section that differ from the struct's own defaults, and the mandatory ones.
+/// Writes the keys of one section from the schema, the same table that reads it. Only what differs
+/// from the struct's defaults is written, and the mandatory keys: a passport stays short and says
+/// what was found.
 template <class S>
 class Writer {
  public:
@@ -59,11 +62,13 @@ class Writer {
       put("[" + list + "]");
     }
   }
+  // No thermal section has lists of whole numbers or words to choose from.
   void operator()(std::vector<std::uint32_t> S::* /*field*/) {}
   void operator()(const Choice<S>& /*field*/) {}
 
  private:
   [[nodiscard]] std::string number(double inner) const {
+    // Nine digits keep a state to a nanometre in a metre.
     return fmt::format("{:.9g}", unit_of(key_->name).from_inner(inner));
   }
   template <class T>

@@ -7,6 +7,8 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
 
+// Findings are about machines that load but will disappoint: values that are each in range and
+// together make no sense. The checks say what it costs, in µm or seconds, and what to change.
 namespace steadyrest::passport {
 namespace {
 
@@ -20,7 +22,8 @@ using List = std::vector<Finding>;
 
 constexpr double kSameGain = 0.005;  // of the mean: less is below what a gain can be set to
 
-/// The axes that contour together: present and linear.
+/// Axes that contour together: present and linear. A rotary axis lags in degrees; its share of a
+/// contour error depends on the radius, which no machine file knows.
 std::vector<const Axis*> contouring(const Machine& machine) {
   std::vector<const Axis*> out;
   for (const Axis& axis : machine.axes) {
@@ -31,7 +34,9 @@ std::vector<const Axis*> contouring(const Machine& machine) {
   return out;
 }
 
-/// Gains that differ make ellipses of circles: (v/2)·|1/kx − 1/ky| on a line at 45°.
+/// A line at 45° at speed v: each axis runs at v/√2 and lags by (v/√2)/k; the difference of the
+/// lags, projected across the line, is (v/2)·|1/kx − 1/ky|. Circles become ellipses by the same
+/// amount.
 void servo_gains(const Machine& machine, List& out) {
   const auto axes = contouring(machine);
   if (axes.empty()) {
@@ -45,6 +50,7 @@ void servo_gains(const Machine& machine, List& out) {
   if (k_high - k_low <= kSameGain * k_high) {
     return;
   }
+  // 1000 mm/min, a feed that everybody can picture.
   constexpr double kSpeed_mm_s = 1000.0 / 60.0;
   out.push_back(
       {Severity::warning, "servo_gain",
@@ -55,6 +61,7 @@ void servo_gains(const Machine& machine, List& out) {
        "set axes that contour together to the same gain"});
 }
 
+/// Lag is (1 − a)·v/k, so unequal weights act like unequal gains.
 void feed_forward(const Machine& machine, List& out) {
   const auto axes = contouring(machine);
   const bool differ = std::any_of(axes.begin(), axes.end(), [&](const Axis* axis) {
@@ -66,6 +73,8 @@ void feed_forward(const Machine& machine, List& out) {
   }
 }
 
+/// Closed loop with lag τ in the velocity loop: τ·s² + s + k, damping 1/(2·√(kτ)). It is 1 at kτ =
+/// 0.25, where overshoot begins, and 0.5 at kτ = 1.
 void drives(const Machine& machine, List& out) {
   for (const Axis& axis : machine.axes) {
     if (axis.drive_acceleration_mm_s2 < axis.max_acceleration_mm_s2) {
@@ -74,6 +83,7 @@ void drives(const Machine& machine, List& out) {
            fmt::format("axis {} plans with more acceleration than its drive delivers", axis.name),
            "lower max_acceleration below drive_acceleration, or the drive saturates"});
     }
+    // Friction at least as strong as the drive: the axis never breaks away.
     if (axis.friction.breakaway_mm_s2 >= axis.drive_acceleration_mm_s2) {
       out.push_back(
           {Severity::error, "friction",
@@ -88,6 +98,8 @@ void drives(const Machine& machine, List& out) {
                                  axis.velocity_lag_s * axis.servo_gain_1_s),
                      "lower servo_gain or velocity_lag; overshoot begins at 0.25"});
     }
+    // Sampled with one period of dead time the loop is z² − z + kT = 0; its roots leave the unit
+    // circle at kT = 1.
     if (machine.control.servo_period_s * axis.servo_gain_1_s >= 1.0) {
       out.push_back({Severity::error, "servo_gain",
                      fmt::format("axis {} is unstable: gain times servo period is {:.2f}",
@@ -97,7 +109,8 @@ void drives(const Machine& machine, List& out) {
   }
 }
 
-/// Limits of the path that no axis can reach are harmless but mislead.
+/// A limit along the path beyond what all axes together can do (the root of the sum of squares) is
+/// harmless, but the reader of the file expects it to act.
 void path_limits(const Machine& machine, List& out) {
   double speed2 = 0.0;
   double acceleration2 = 0.0;
@@ -123,6 +136,8 @@ bool has_ratio(const OverrideTable& table, double ratio) {
                      [ratio](double step) { return std::abs(step - ratio) < 1e-9; });
 }
 
+/// Handing back means writing 100 %. Without that step the layer could only leave its own value
+/// behind.
 void override_table(std::string_view name, const OverrideTable& table, List& out) {
   if (!has_ratio(table, 1.0)) {
     out.push_back({Severity::error, "override_100",
@@ -147,6 +162,7 @@ void override_table(std::string_view name, const OverrideTable& table, List& out
 void overrides(const Machine& machine, List& out) {
   override_table("feed", machine.feed_override, out);
   // Without [override.rapid] the rapid table is the feed's: one fault is enough.
+  // Same codes: the rapid table was made from the feed's, and one fault is enough.
   if (machine.rapid_override.code != machine.feed_override.code) {
     override_table("rapid", machine.rapid_override, out);
   }
@@ -157,7 +173,8 @@ void overrides(const Machine& machine, List& out) {
   }
 }
 
-/// A limit that the position feedback cannot see is never kept, only guessed.
+/// Position feedback resolves one count, so a limit below two would be guessed, not held. Backlash
+/// leaves the axis half of it behind on either side of a reversal, at any feed.
 void contour_limit(const Machine& machine, List& out) {
   if (!machine.contour.enabled) {
     return;
@@ -181,6 +198,8 @@ void contour_limit(const Machine& machine, List& out) {
   }
 }
 
+/// The envelope clamps last, whatever the rooms ask for; it must leave them room, and 100 % above
+/// all, because neutral is 100 %.
 void envelope(const Machine& machine, List& out) {
   const Envelope& envelope = machine.envelope;
   const Contour& contour = machine.contour;
@@ -208,7 +227,7 @@ void envelope(const Machine& machine, List& out) {
   }
 }
 
-/// What the modulator would refuse, said before a run.
+/// What the modulator would refuse, told before a run: a modulation needs two speeds.
 void chatter(const Machine& machine, List& out) {
   if (!machine.chatter.enabled) {
     return;
@@ -226,6 +245,7 @@ void chatter(const Machine& machine, List& out) {
   }
 }
 
+/// Distance covered until an override acts is v·delay; only the look-ahead can act earlier.
 void tempo(const Machine& machine, List& out) {
   const double delay_s = machine.feed_override.scan_period_s + machine.feed_override.dead_time_s;
   if (delay_s > 0.5) {
@@ -239,6 +259,7 @@ void tempo(const Machine& machine, List& out) {
 
 }  // namespace
 
+/// All checks run: a machine file is corrected once, not fault by fault.
 std::vector<Finding> findings(const Machine& machine) {
   List out;
   servo_gains(machine, out);

@@ -7,6 +7,9 @@
 
 #include <steadyrest/passport/file/contradictions.hpp>
 
+// Contradictions between keys of one section. Ranges of single keys are the schema's; these
+// functions see the section only when all its keys are good, and with the lines on which they were
+// written.
 namespace steadyrest::passport {
 namespace {
 
@@ -21,7 +24,8 @@ using kernel::machine::Envelope;
 using kernel::machine::Friction;
 using kernel::machine::Spindle;
 
-/// A fault unless low ≤ high; the values are shown as the file's own unit has them.
+/// A fault unless low ≤ high, shown in the file's own units. A value that is the default has no
+/// line, so the one that was written is pointed at.
 void ordered(const Given& given, Faults& faults, std::string_view low_key, double low,
              std::string_view high_key, double high) {
   if (low <= high) {
@@ -37,7 +41,8 @@ void ordered(const Given& given, Faults& faults, std::string_view low_key, doubl
       fmt::format("give {} no higher than {}", low_key, high_key));
 }
 
-/// Errors of a whole count would put one line beyond its neighbour.
+/// An error of a whole count would put one line beyond its neighbour, and edges would change
+/// places.
 void below_a_count(const Encoder& encoder, std::span<const double> errors, const Given& given,
                    Faults& faults, std::string_view um, std::string_view deg) {
   const auto worst = std::ranges::find_if(
@@ -51,6 +56,8 @@ void below_a_count(const Encoder& encoder, std::span<const double> errors, const
   }
 }
 
+/// Phase errors are the deviations of the four edges of a line from their mean, so they sum to 0; a
+/// common part would be an offset of the scale.
 void calibration(const Encoder& encoder, const Given& given, Faults& faults) {
   constexpr double kRounding = 1e-6;  // of a count
   const std::vector<double>& phase = encoder.phase_error_mm;
@@ -66,6 +73,7 @@ void calibration(const Encoder& encoder, const Given& given, Faults& faults) {
   }
   below_a_count(encoder, phase, given, faults, "phase_error_um", "phase_error_deg");
   below_a_count(encoder, encoder.line_table_mm, given, faults, "line_table_um", "line_table_deg");
+  // A quadrature encoder has four edges a line, so a revolution has a multiple of four.
   const std::size_t lines = encoder.line_table_mm.size();
   if (encoder.line_table_periodic && (lines == 0 || lines % 4 != 0)) {
     faults.add(given.at({"line_table_periodic"}),
@@ -77,6 +85,7 @@ void calibration(const Encoder& encoder, const Given& given, Faults& faults) {
 
 }  // namespace
 
+/// Set-points come every whole number of servo periods; anything else would beat.
 void contradictions(const Control& control, const Given& given, Faults& faults) {
   const double ratio = control.interpolator_period_s / control.servo_period_s;
   if (std::abs(ratio - std::round(ratio)) > 1e-9 || ratio < 1.0) {
@@ -102,6 +111,7 @@ void contradictions(const Axis& axis, const Given& given, Faults& faults) {
   }
 }
 
+/// ×4 decoding makes four counts of a line.
 void contradictions(const Encoder& encoder, const Given& given, Faults& faults) {
   if (encoder.line_error_mm > 0.0 && encoder.line_period_mm < encoder.count_mm) {
     faults.add(given.at({"line_period_um", "line_period_deg", "count_um", "count_deg"}),
@@ -111,6 +121,7 @@ void contradictions(const Encoder& encoder, const Given& given, Faults& faults) 
   calibration(encoder, given, faults);
 }
 
+/// The Stribeck curve falls from breakaway to sliding friction; the other way round it would rise.
 void contradictions(const Friction& friction, const Given& given, Faults& faults) {
   if (friction.breakaway_mm_s2 < friction.coulomb_mm_s2) {
     faults.add(given.at({"breakaway_mm_s2", "breakaway_deg_s2", "coulomb_mm_s2", "coulomb_deg_s2"}),
@@ -127,6 +138,7 @@ void contradictions(const Spindle& spindle, const Given& given, Faults& faults) 
   }
 }
 
+/// Both weights 0 would make every feed equally good.
 void contradictions(const Contour& contour, const Given& given, Faults& faults) {
   ordered(given, faults, "target_um", contour.target_mm, "limit_um", contour.limit_mm);
   ordered(given, faults, "min_percent", contour.min_ratio, "max_percent", contour.max_ratio);
@@ -137,6 +149,7 @@ void contradictions(const Contour& contour, const Given& given, Faults& faults) 
   }
 }
 
+/// The M words come in pairs, and 0 for both means that the program has no say.
 void contradictions(const Chatter& chatter, const Given& given, Faults& faults) {
   if (given.has("amplitude_percent") && chatter.amplitude_rev_s > 0.0) {
     faults.add(given.at({"amplitude_rpm"}),
@@ -152,6 +165,8 @@ void contradictions(const Chatter& chatter, const Given& given, Faults& faults) 
   }
 }
 
+/// Each method needs its own keys and none of the others': a key that has no effect here was meant
+/// for another control, and the operator would trust it.
 void contradictions(const Compensation& compensation, const Given& given, Faults& faults) {
   using Method = CompensationMethod;
   const Method method = compensation.method;
@@ -164,6 +179,8 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
     }
   };
   needs(method == Method::r_parameter, "r_parameter", given.has("r_parameter"));
+  // The sign is tried out on the machine with an indicator. There is no safe default: the wrong one
+  // doubles the error.
   needs(method == Method::setting_data, "sign", given.has("sign"));
   if (given.has("sign") && compensation.sign == 0) {
     faults.add(given.at({"sign"}), fmt::format("{} has sign = 0", given.section),
@@ -172,6 +189,8 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
   if (compensation.external_offset_free && method != Method::fanuc) {
     needs(false, "external_offset_free", true);
   }
+  // cleared_after_abort speaks of a place that only corrections use. Work offsets and frames belong
+  // to the operator as well.
   const bool own_place = method == Method::r_parameter || method == Method::setting_data ||
                          (method == Method::fanuc && compensation.external_offset_free);
   if (compensation.cleared_after_abort && !own_place) {
@@ -185,6 +204,8 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
   if (method == Method::linuxcnc) {
     needs(false, "least_increment_um", given.has("least_increment_um"));
   }
+  // Least increments are decimal fractions of a millimetre (Fanuc IS-A 0.01, IS-B 0.001, IS-C
+  // 0.0001 mm); whole multiples of 1e-5 mm cover them all.
   constexpr double kGrain_mm = 1e-5;
   constexpr double kRounding = 1e-6;
   const double grains = compensation.least_increment_mm / kGrain_mm;

@@ -15,6 +15,8 @@
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
+// Reads the sections one by one, also after a fault, so that one run shows every fault.
+// Contradictions are looked for only in sections whose keys are all good.
 namespace steadyrest::passport {
 namespace {
 
@@ -195,8 +197,8 @@ class FileReader {
     });
   }
 
-  /// Everything above counts on X, Y, Z being the first three; a missing one gets an ideal stand-in
-  /// that cannot move.
+  // X, Y and Z must be the first three axes; a missing one (a lathe has no Y) gets an ideal
+  // stand-in with no travel.
   void stand_ins() {
     const Axis like = machine_.axes.front();
     for (const char letter : {'X', 'Y', 'Z'}) {
@@ -233,7 +235,7 @@ class FileReader {
                             word(machine_.compensation.method), word(needed)));
   }
 
-  /// Behind the thermal passport, whose terms the errors are of.
+  // Read behind the thermal passport, because the errors are those of its modes.
   void simulation(const toml::table& root) {
     const std::size_t before = faults_.list.size();
     section<Simulation>(root, "simulation", simulation_keys(), machine_.simulation, nullptr);

@@ -9,14 +9,19 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/file/override_table.hpp>
 
+// An override table is machine data and never a constant: on one 840D sl the code that means 100 %
+// elsewhere means 70 %. So a table is checked for everything that a slip of the pen can do to it:
+// order, codes twice, neighbours that differ in two bits.
 namespace steadyrest::passport {
 namespace {
 
 using kernel::machine::Coding;
 using kernel::machine::OverrideTable;
 
+/// 1000 % in steps of 0.5 %.
 constexpr std::size_t kMaxSteps = 2001;
 
+/// Binary mode: the word is the number of the step, from 0 (SINUMERIK's binary mode, LinuxCNC).
 bool even_steps(const OverrideKeys& keys, const Given& given, Faults& faults, OverrideTable& out) {
   if (keys.coding != Coding::binary) {
     faults.add(given.at({"binary_max_percent"}),
@@ -24,6 +29,7 @@ bool even_steps(const OverrideKeys& keys, const Given& given, Faults& faults, Ov
                "write coding = \"binary\", or give the steps as percent = [ … ]");
     return false;
   }
+  // The steps must end exactly at the largest value, or the last code would mean more than it says.
   const double ratio = keys.binary_max / keys.binary_step;
   const double whole = std::round(ratio);
   if (std::abs(ratio - whole) > 1e-6 || whole < 1 || whole + 1 > static_cast<double>(kMaxSteps)) {
@@ -43,6 +49,9 @@ bool even_steps(const OverrideKeys& keys, const Given& given, Faults& faults, Ov
   return true;
 }
 
+/// The switch is a staircase: a step that falls is a swapped entry, and the search for the next
+/// lower step relies on the order. Equal steps are allowed (unused positions repeat the last
+/// value).
 bool rising(const OverrideKeys& keys, const Given& given, Faults& faults) {
   for (std::size_t i = 1; i < keys.percent.size(); ++i) {
     if (keys.percent[i] < keys.percent[i - 1]) {
@@ -57,6 +66,8 @@ bool rising(const OverrideKeys& keys, const Given& given, Faults& faults) {
   return true;
 }
 
+/// Without codes: SINUMERIK's rule, position p has the Gray code of p + 1 (index i has gray(i + 1),
+/// so 00000 is never a valid position); or, binary, the percent itself.
 bool default_codes(const OverrideKeys& keys, const Given& given, Faults& faults,
                    OverrideTable& out) {
   for (std::size_t i = 0; i < keys.percent.size(); ++i) {
@@ -76,6 +87,7 @@ bool default_codes(const OverrideKeys& keys, const Given& given, Faults& faults,
   return true;
 }
 
+/// One code with two meanings could not be read back from the panel.
 bool distinct(const Given& given, Faults& faults, const OverrideTable& out) {
   std::set<std::uint32_t> seen;
   for (const std::uint32_t code : out.code) {
@@ -89,7 +101,8 @@ bool distinct(const Given& given, Faults& faults, const OverrideTable& out) {
   return true;
 }
 
-/// Neighbours of a Gray switch differ in one bit; where they do not, a code is mistyped.
+/// Neighbours of a Gray switch differ in one bit, so a word read between two positions is one of
+/// them. A pair that differs in more is a typing error.
 bool gray_neighbours(const Given& given, Faults& faults, const OverrideTable& out) {
   for (std::size_t i = 1; out.coding == Coding::gray && i < out.code.size(); ++i) {
     const std::uint32_t before = out.code[i - 1];
@@ -107,6 +120,7 @@ bool gray_neighbours(const Given& given, Faults& faults, const OverrideTable& ou
   return true;
 }
 
+/// The steps of a switch, position by position.
 bool listed_steps(const OverrideKeys& keys, const Given& given, Faults& faults,
                   OverrideTable& out) {
   if (given.has("binary_step_percent")) {
@@ -143,6 +157,7 @@ bool listed_steps(const OverrideKeys& keys, const Given& given, Faults& faults,
 
 }  // namespace
 
+/// Either even steps or a list; both would be two tables.
 bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
                    OverrideTable& out) {
   const bool even = given.has("binary_max_percent");
@@ -168,6 +183,7 @@ bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
   if (!(even ? even_steps(keys, given, faults, table) : listed_steps(keys, given, faults, table))) {
     return false;
   }
+  // A table of zeros would stop the machine for good.
   if (table.ratio.back() <= 0.0) {
     faults.add(given.at({"percent"}), fmt::format("{} has no step above 0 %", given.section),
                "list the steps of the switch");
@@ -184,6 +200,8 @@ bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
   return true;
 }
 
+/// Without a table of its own the rapid override follows the feed switch up to 100 %: no control
+/// runs rapids faster than their setting.
 OverrideTable rapid_from_feed(const OverrideTable& feed) {
   OverrideTable rapid = feed;
   for (double& ratio : rapid.ratio) {
@@ -193,6 +211,7 @@ OverrideTable rapid_from_feed(const OverrideTable& feed) {
   return rapid;
 }
 
+/// No switch: the spindle has 100 % and nothing else, so every request ends there.
 OverrideTable without_override() {
   OverrideTable table;
   table.coding = Coding::binary;

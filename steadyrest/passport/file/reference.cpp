@@ -5,6 +5,8 @@
 #include <steadyrest/passport/keys/section_reader.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 
+// Writes docs/machine-file.md from the schema, the same table that reads the files; so the page
+// cannot promise a key that does not exist. A test compares it with the file in docs/.
 namespace steadyrest::passport {
 namespace {
 
@@ -12,7 +14,8 @@ std::string quoted(std::string_view text) {
   return fmt::format("`\"{}\"`", text);
 }
 
-/// Range and default of one field, as the page shows them.
+/// Range and default of one field as the page shows them, in the file's unit. The default comes
+/// from a fresh struct: there is no second list.
 template <class S>
 struct Describe {
   const Key<S>& key;
@@ -27,6 +30,7 @@ struct Describe {
   void operator()(double S::* field) {
     between("");
     const double value = standard.*field;
+    // An infinite default means that there is no limit.
     standard_value = std::isfinite(value) ? shown(unit_of(key.name).from_inner(value)) : "no limit";
   }
   void operator()(bool S::* field) {
@@ -60,6 +64,7 @@ std::string default_of(const Key<S>& key, const Describe<S>& described) {
   if (key.need == Need::mandatory) {
     return "**mandatory**";
   }
+  // binary_max_percent has a default in the struct that means "not given".
   if (described.standard_value.empty() || key.name == "binary_max_percent") {
     return "—";
   }
@@ -106,6 +111,7 @@ limit, leave the key out. UTF-8, at most {} MB.
 
 std::string reference_page() {
   std::string out = fmt::format(fmt::runtime(kOpening), kMaxFileBytes >> 20U);
+  // The order here is the order of the page, and of the example files.
   out += section("Top level", "\nThese come before any section.\n", top_keys());
   out += section("`[control]`", "\nHow the control plans motion. Mandatory.\n", control_keys());
   out +=

@@ -7,6 +7,7 @@
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
+// A passport comes alone, as `thermal fit` writes it, or as part of a machine file.
 namespace steadyrest::passport {
 namespace {
 
@@ -16,7 +17,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-/// True when the file is a passport alone; its sections are read then.
+/// True when the file has nothing but [thermal]; its sections are read then. Everything else goes
+/// to the machine file's reader, which gives the better messages.
 bool passport_alone(std::string_view text, Thermal& thermal, Faults& faults) {
   try {
     const toml::table root = toml::parse(text);

@@ -6,6 +6,8 @@
 
 #include <steadyrest/passport/file/thermal_section.hpp>
 
+// [thermal] nests lists of tables three deep. Each level is read even when the one above is faulty,
+// and judged only when its own keys are good.
 namespace steadyrest::passport {
 namespace {
 
@@ -37,6 +39,7 @@ void each(const toml::table& parent, std::string_view name, std::string_view hea
   }
 }
 
+/// G(n) is a table or a polynomial, never both: they would disagree between the table's speeds.
 void check(const ThermalMode& mode, const Given& given, Faults& faults) {
   if (mode.level_mm.size() != mode.speed_rev_s.size()) {
     faults.add(given.at({"levels_um", "speeds_rpm"}),
@@ -57,11 +60,13 @@ void check(const ThermalMode& mode, const Given& given, Faults& faults) {
   }
 }
 
+/// A level is an index into the shares; a higher level is stricter, so they fall.
 void check(const Thermal& thermal, const Given& given, Faults& faults) {
   if (std::ranges::adjacent_find(thermal.share, std::ranges::less{}) != thermal.share.end()) {
     faults.add(given.at({"shares"}), "shares rise from one level to the next",
                "a higher level is stricter: write them in falling order");
   }
+  // The slow slope protects the surface in the cut. Out of it there is nothing to protect.
   if (thermal.retract_slope_mm_s > 0.0 && thermal.retract_slope_mm_s < thermal.slope_mm_s) {
     faults.add(given.at({"retract_slope_um_min", "slope_um_min"}),
                "retract_slope_um_min is below slope_um_min",
@@ -109,6 +114,7 @@ class AxisReader {
   }
 
  private:
+  // Upper limits come from the fixed-size arrays of the on-line model.
   void bounds(const ThermalAxis& axis, const Given& given) {
     if (axis.mode.empty() || axis.mode.size() > kMaxThermalModes ||
         axis.ambient.size() > kMaxThermalAmbients) {
@@ -119,6 +125,7 @@ class AxisReader {
                               kMaxThermalAmbients));
     }
     const std::size_t n = axis.parameters();
+    // The triangle of an n × n matrix, stored row by row.
     if (!axis.covariance.empty() && axis.covariance.size() != n * (n + 1) / 2) {
       faults_.add(given.at({"covariance"}),
                   fmt::format("covariance has {} entries; {} linear parameters need {}",
@@ -150,6 +157,7 @@ void read_thermal(const toml::table& root, Thermal& out, Faults& faults) {
     check(out, given, faults);
   }
   AxisReader axes(faults);
+  // Two sections of one axis would be two models that both want to move it.
   each(*table, "axis", "[[thermal.axis]]", faults, [&](const toml::table& t) {
     ThermalAxis axis = axes.read(t);
     const bool twice = std::ranges::any_of(

@@ -3,6 +3,8 @@
 
 #include <steadyrest/passport/keys/schema.hpp>
 
+// The method decides which store of the control holds a correction; the reasons for each are in
+// nc/rewrite/README.md.
 namespace steadyrest::passport {
 namespace {
 
@@ -57,6 +59,8 @@ std::span<const Key<Compensation>> compensation_keys() noexcept {
   return kKeys;
 }
 
+/// by_dialect goes with whatever dialect the file has; the SINUMERIK methods and those of Fanuc and
+/// Haas are tied to theirs.
 Dialect dialect_of(CompensationMethod method, Dialect own) noexcept {
   switch (method) {
     case CompensationMethod::linuxcnc:

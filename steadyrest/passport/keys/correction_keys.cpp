@@ -4,7 +4,8 @@
 #include <steadyrest/passport/keys/choice.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 
-// What the layer may do: [contour], [chatter], [envelope].
+// What the layer may do: [contour], [chatter], [envelope]. One row per key: name with unit, field,
+// range in the file's unit, meaning for docs/machine-file.md.
 namespace steadyrest::passport {
 namespace {
 
@@ -42,6 +43,8 @@ std::span<const Key<Contour>> contour_keys() noexcept {
       Key<Contour>{"margin_percent", &Contour::margin, 0, 90,
                    "Share of the limit kept in reserve against what the model does not know."},
   };
+  // Amplitude, period and mean speed describe the law; the two bounds of the feed per tooth decide
+  // how much of it the feed can follow without rubbing or overloading the tooth.
   return kKeys;
 }
 
@@ -71,6 +74,7 @@ std::span<const Key<Chatter>> chatter_keys() noexcept {
       Key<Chatter>{"m_code_off", &Chatter::m_code_off, 0, 9999, "M word that switches it off."},
       Key<Chatter>{"seed", &Chatter::seed, 0, 9007199254740992.0, "Seed of the random law."},
   };
+  // Fall and rise have separate rates: taking feed away is urgent, giving it back is not.
   return kKeys;
 }
 

@@ -4,6 +4,8 @@
 #include <steadyrest/passport/keys/choice.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 
+// The schema: one table of keys for reading, for the refusals' ranges, for writing and for the
+// reference page. Adding a key is one row here and one field in the struct.
 namespace steadyrest::passport {
 namespace {
 
@@ -34,6 +36,8 @@ constexpr auto kRotary = For::rotary;
 
 }  // namespace
 
+/// Only ports that are built are allowed, so a machine file cannot promise a port that does
+/// nothing.
 std::span<const Key<Machine>> top_keys() noexcept {
   static const std::array kKeys = {
       Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
@@ -46,6 +50,8 @@ std::span<const Key<Machine>> top_keys() noexcept {
   return kKeys;
 }
 
+/// How the control plans. Periods fix the grid of the simulated control; shares and tolerances
+/// imitate the look-ahead of the real one.
 std::span<const Key<Control>> control_keys() noexcept {
   static const std::array kKeys = {
       Key<Control>{"dialect", choice<Control, &Control::dialect>(kernel::machine::kDialectNames), 0,
@@ -94,6 +100,8 @@ std::span<const Key<Control>> control_keys() noexcept {
   return kKeys;
 }
 
+/// Two keys of one stem with different units (servo_gain) fill one field; giving both is refused.
+/// Rotary axes have keys in degrees for fields that hold rad.
 std::span<const Key<Axis>> axis_keys() noexcept {
   static const std::array kKeys = {
       Key<Axis>{"name", &Axis::name, 1, 1, "One of X Y Z U V W (linear) or A B C (rotary).", kMust},
@@ -137,6 +145,7 @@ std::span<const Key<Axis>> axis_keys() noexcept {
   return kKeys;
 }
 
+/// A calibration comes with the axis because it belongs to one scale, not to a type of machine.
 std::span<const Key<Encoder>> encoder_keys() noexcept {
   static const std::array kKeys = {
       Key<Encoder>{"count_um", &Encoder::count_mm, 0, 1000,
@@ -177,6 +186,7 @@ std::span<const Key<Encoder>> encoder_keys() noexcept {
   return kKeys;
 }
 
+/// Friction as an acceleration (force over moved mass), so that no mass has to be known.
 std::span<const Key<Friction>> friction_keys() noexcept {
   static const std::array kKeys = {
       Key<Friction>{"coulomb_mm_s2", &Friction::coulomb_mm_s2, 0, 1e5,
@@ -200,6 +210,8 @@ std::span<const Key<Friction>> friction_keys() noexcept {
   return kKeys;
 }
 
+/// binary_max_percent and percent exclude each other; override_table.cpp makes the table from
+/// either.
 std::span<const Key<OverrideKeys>> override_keys() noexcept {
   using O = OverrideKeys;
   static const std::array kKeys = {
@@ -228,6 +240,8 @@ std::span<const Key<OverrideKeys>> override_keys() noexcept {
   return kKeys;
 }
 
+/// The drive's limits decide which speed laws it can follow: acceleration for the slope, RMS torque
+/// for the heat of the motor.
 std::span<const Key<Spindle>> spindle_keys() noexcept {
   static const std::array kKeys = {
       Key<Spindle>{"max_rpm", &Spindle::max_rev_s, 1, 1e6, "Largest speed."},
@@ -247,6 +261,8 @@ std::span<const Key<Spindle>> spindle_keys() noexcept {
   return kKeys;
 }
 
+/// True values that differ from the passport: without them the simulated machine would drift
+/// exactly as forecast, and the correction would look perfect.
 std::span<const Key<Simulation>> simulation_keys() noexcept {
   static const std::array kKeys = {
       Key<Simulation>{"seed", &Simulation::seed, 0, 9007199254740992.0,
@@ -279,6 +295,7 @@ std::span<const Key<Simulation>> simulation_keys() noexcept {
   return kKeys;
 }
 
+/// The words of a choice, as the file spells them.
 string_view word(PortKind port) noexcept {
   return pick(kPorts, port);
 }

@@ -3,6 +3,8 @@
 
 #include <steadyrest/passport/keys/schema.hpp>
 
+// The thermal model's keys. Its law is x' = (G(n) − x)/τ for each mode, and gain·(lagged
+// temperature − reference) for the surroundings (thermal/README.md).
 namespace steadyrest::passport {
 using kernel::machine::kMaxThermalLevels;
 using kernel::machine::Thermal;
@@ -32,6 +34,7 @@ std::span<const Key<Thermal>> thermal_keys() noexcept {
   return kKeys;
 }
 
+/// Noise and drift set the width of the band and how much a reading is believed.
 std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalAxis>{"name", &ThermalAxis::name, 1, 32,
@@ -59,6 +62,8 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
   return kKeys;
 }
 
+/// tau_min is with the spindle turning: windage carries heat away, so a spindle often cools more
+/// slowly at rest (rest_tau_min).
 std::span<const Key<ThermalMode>> thermal_mode_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalMode>{"tau_min", &ThermalMode::tau_s, 0.01, 1e5,
@@ -89,6 +94,7 @@ std::span<const Key<ThermalMode>> thermal_mode_keys() noexcept {
   return kKeys;
 }
 
+/// The lag is that of the machine behind the air: iron follows the room by hours.
 std::span<const Key<ThermalAmbient>> thermal_ambient_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalAmbient>{"sensor", &ThermalAmbient::sensor, 1, 32,

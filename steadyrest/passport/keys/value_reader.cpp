@@ -3,6 +3,8 @@
 
 #include <steadyrest/passport/keys/section_reader.hpp>
 
+// Reads one value and says what is wrong with it: what was seen, its type, what is allowed, what to
+// write. A value is never repaired.
 namespace steadyrest::passport {
 namespace {
 
@@ -29,6 +31,7 @@ std::string_view type_name(const toml::node& node) {
 
 }  // namespace
 
+/// A value in a message must not flood the terminal.
 std::string cut(std::string_view text) {
   if (text.size() <= kShownCharacters) {
     return std::string(text);
@@ -60,6 +63,7 @@ std::string shown(const toml::node& node) {
   return std::string(type_name(node));
 }
 
+/// toml++ counts lines from 1; 0 stands for the file as a whole.
 std::size_t line_of(const toml::source_region& source) {
   return source.begin.line;
 }
@@ -73,6 +77,7 @@ void ValueReader::wrong_type(const toml::node& node, std::string_view needed,
 }
 
 bool ValueReader::in_range(const toml::node& node, double value) const {
+  // TOML has inf and nan. Neither is a limit: a missing key means no limit.
   if (std::isfinite(value) && value >= min_ && value <= max_) {
     return true;
   }
@@ -88,6 +93,8 @@ bool ValueReader::in_range(const toml::node& node, double value) const {
 }
 
 bool ValueReader::number(const toml::node& node, double& out) const {
+  // Whole numbers are fine where a number is asked for; quoted ones are not, for "50" is a text and
+  // a unit in quotes would be lost.
   if (!node.is_integer() && !node.is_floating_point()) {
     const std::string_view unit = unit_of(key_).shown;
     wrong_type(node, unit.empty() ? "a number" : fmt::format("a number in {}", unit),
@@ -102,6 +109,7 @@ bool ValueReader::number(const toml::node& node, double& out) const {
   return true;
 }
 
+/// 1e3 is floating point to TOML even if it is whole.
 bool ValueReader::integer(const toml::node& node, std::int64_t& out) const {
   const auto* value = node.as_integer();
   if (value == nullptr) {
@@ -112,6 +120,7 @@ bool ValueReader::integer(const toml::node& node, std::int64_t& out) const {
     return false;
   }
   out = value->get();
+  // Ranges of whole keys stay below 2^53, so the comparison in double is exact.
   return true;
 }
 
@@ -132,6 +141,7 @@ bool ValueReader::text(const toml::node& node, std::string& out) const {
     return false;
   }
   const std::string& text = value->get();
+  // The length is in bytes; names are short enough for that not to matter.
   if (static_cast<double>(text.size()) < min_ || static_cast<double>(text.size()) > max_) {
     faults_.add(line_of(node.source()),
                 fmt::format("{} = {} has {} characters; allowed: {} … {}", key_, shown(node),
@@ -139,6 +149,7 @@ bool ValueReader::text(const toml::node& node, std::string& out) const {
                 "shorten or fill it");
     return false;
   }
+  // A name is printed into tables, comments and pages, so no line breaks.
   if (std::any_of(text.begin(), text.end(),
                   [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; })) {
     faults_.add(line_of(node.source()), fmt::format("{} has a control character", key_),
@@ -163,6 +174,7 @@ bool ValueReader::choice(const toml::node& node, std::span<const std::string_vie
   }
   const auto found = std::find(words.begin(), words.end(), value->get());
   if (found == words.end()) {
+    // A slip of the pen gets the nearest word as a suggestion.
     const std::string_view close = kernel::outcome::nearest(value->get(), words);
     faults_.add(line_of(node.source()),
                 fmt::format("{} = {} is unknown; allowed: {}{}", key_, shown(node),
@@ -182,6 +194,7 @@ const toml::array* ValueReader::list(const toml::node& node, std::string_view of
     wrong_type(node, fmt::format("a list of {}", of), "write [first, second, …]");
     return nullptr;
   }
+  // A limit, because a list of a million entries where four belong is a wrong file.
   if (array->empty() || array->size() > max_entries_) {
     faults_.add(
         line_of(node.source()),
@@ -198,6 +211,7 @@ bool ValueReader::numbers(const toml::node& node, std::vector<double>& out) cons
     return false;
   }
   out.reserve(array->size());
+  // The first bad element ends the list: a thousand equal faults help nobody.
   for (const toml::node& element : *array) {
     double value = 0.0;
     if (!number(element, value)) {

@@ -5,12 +5,15 @@
 
 #include <steadyrest/passport/text/text_check.hpp>
 
+// What TOML's parser must not be given at all: bytes that are no text, and nesting that would
+// overflow its stack. Checked on the raw text, with the line of the fault.
 namespace steadyrest::passport {
 namespace {
 
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
+/// A machine file needs three parts; sixteen leaves room.
 constexpr int kMaxKeyParts = 16;
 
 std::size_t line_at(std::string_view text, std::size_t offset) {
@@ -22,7 +25,8 @@ unsigned byte_at(std::string_view text, std::size_t i) {
   return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
 }
 
-/// Length of the UTF-8 sequence that begins at i; 0 when it is none (RFC 3629).
+/// Length of the UTF-8 sequence that begins at i; 0 when it is none (RFC 3629, table of section 4:
+/// overlong forms, surrogates and code points above U+10FFFF are excluded by the second byte).
 std::size_t sequence_length(std::string_view text, std::size_t i) {
   const unsigned a = byte_at(text, i);
   const unsigned b = byte_at(text, i + 1);
@@ -30,6 +34,7 @@ std::size_t sequence_length(std::string_view text, std::size_t i) {
   if (a < 0x80U) {
     return 1;
   }
+  // C0 and C1 could only begin overlong forms.
   if (a >= 0xC2U && a <= 0xDFU) {
     return tail(1) ? 2 : 0;
   }
@@ -48,6 +53,7 @@ std::size_t sequence_length(std::string_view text, std::size_t i) {
 
 std::optional<Refusal> unfit_bytes(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
+    // Control characters but tab and line ends: a TOML file has none, a binary file soon does.
     const unsigned c = byte_at(text, i);
     if ((c < 0x20U && c != '\t' && c != '\n' && c != '\r') || c == 0x7FU) {
       return Refusal{Kind::bad_input, "", line_at(text, i),
@@ -66,6 +72,7 @@ std::optional<Refusal> unfit_bytes(std::string_view text) {
 }
 
 /// The TOML parser and the destructor of its tree recurse once for each part of a dotted key.
+/// Counted roughly, without reading strings: numbers and dates have few dots.
 std::optional<Refusal> too_deep(std::string_view text) {
   int parts = 1;
   bool comment = false;
@@ -89,6 +96,7 @@ std::optional<Refusal> too_deep(std::string_view text) {
 
 }  // namespace
 
+/// Size first, before anything walks through the text.
 std::optional<Refusal> unfit_text(std::string_view text) {
   if (text.size() > kMaxFileBytes) {
     return Refusal{

@@ -4,6 +4,8 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/text/unit.hpp>
 
+// A key's name ends in its unit, and this table is the only place where a file's unit becomes an
+// inner one (mm, s, rad, rev/s, N; ratios with 1.0 = 100 %).
 namespace steadyrest::passport {
 namespace {
 
@@ -25,6 +27,7 @@ constexpr double w_from_kw(double power_kw) noexcept {
 constexpr double kw_from_w(double power_w) noexcept {
   return power_w * 1e-3;
 }
+/// k [1/s] = 1000/60 · Kv [(m/min)/mm].
 constexpr double m_min_mm_from_1_s(double gain_1_s) noexcept {
   return gain_1_s * (60.0 / 1000.0);
 }
@@ -47,7 +50,7 @@ constexpr double mm_s_from_um_min(double speed_um_min) noexcept {
 constexpr double um_min_from_mm_s(double speed_mm_s) noexcept {
   return speed_mm_s * 60e3;
 }
-/// Displacement for a feed: 1 µm/(m/min) = 6e-5 mm/(mm/s).
+/// Displacement for a feed: 1 µm/(m/min) = 1e-3 mm/(1000/60 mm/s) = 6e-5 s.
 constexpr double s_from_um_m_min(double gain_um_m_min) noexcept {
   return gain_um_m_min * 6e-5;
 }
@@ -64,6 +67,7 @@ constexpr double n_um_from_n_mm(double stiffness_n_mm) noexcept {
 
 constexpr Unit kNone{"", "", same, same};
 
+/// The order is free: unit_of() takes the longest ending that fits.
 constexpr std::array kUnits = {
     Unit{"1_s", "1/s", same, same},
     Unit{"m_min_mm", "(m/min)/mm", gain_1_s_from_m_min_mm, m_min_mm_from_1_s},
@@ -102,7 +106,7 @@ constexpr std::array kUnits = {
     Unit{"N_um", "N/µm", n_mm_from_n_um, n_um_from_n_mm},
 };
 
-// Units that no key has; known only to say "wrong unit" instead of "wrong word".
+/// Units that no key has, known only to say "wrong unit" instead of "unknown key".
 constexpr std::array<std::string_view, 20> kForeign = {
     "us",  "khz", "m",     "m_s",   "m_s2",   "m_min", "g", "in", "inch", "in_min",
     "ipm", "rad", "rad_s", "rev_s", "rev_s2", "ratio", "w", "nm", "m_s3", "mm_min_mm"};
@@ -132,6 +136,7 @@ const Unit& unit_of(std::string_view key) noexcept {
   return *best;
 }
 
+/// The shortest stem belongs to the longest unit.
 std::string_view stem_of(std::string_view key) noexcept {
   std::size_t shortest = key.size();
   for (const Unit& unit : kUnits) {

@@ -17,6 +17,9 @@ using kernel::machine::Encoder;
 
 using testing::HasSubstr;
 
+/// A file with everything that byte editing can trip over: characters of two bytes before and in
+/// the edited lines, comments behind heads and keys, an indented section, an axis without an
+/// encoder, a last line without line end.
 const std::string kHead = "name = \"µ\" # a comment\n[control]\ndialect = \"linuxcnc\"\n\n";
 const std::string kX =
     "[[axis]] # X\nname = \"X\" # größer µm\nservo_gain_1_s = 50\nmax_feed_mm_min = 12000\n"
@@ -27,8 +30,11 @@ const std::string kB =
     "max_acceleration_deg_s2 = 360\n[axis.friction]\nviscous_1_s = 1\n";
 const std::string kTail = "\n[override.feed]\npercent = [0, 50, 100]";
 
+/// Line −3 to begin with: tables may reach below the scale's zero. sin(i²) repeats nowhere, so a
+/// shifted table would show.
 Encoder learnt(std::size_t lines) {
   Encoder out;
+  // The four phase errors sum to 0: they are measured against their own mean.
   out.phase_error_mm = {3.012e-5, -5e-5, 4.4e-5, -2.412e-5};
   out.line_table_first = -3;
   for (std::size_t i = 0; i < lines; ++i) {
@@ -42,7 +48,8 @@ std::string refusal_of(const std::string& text, std::string_view axis, const Enc
   return out ? "accepted" : kernel::outcome::text(out.error());
 }
 
-/// The calibration reads back, and taking its bytes out gives the old text.
+/// Three claims at once: what surrounds the calibration is untouched byte for byte; what reads back
+/// is the calibration to half a printed digit; and a second run changes nothing.
 void expect_put_in(const std::string& text, std::string_view axis, std::size_t index,
                    const Encoder& encoder, const std::string& before, const std::string& after) {
   const auto out = with_calibration(text, "m.toml", axis, encoder);
@@ -71,6 +78,7 @@ TEST(CalibrationText, GoesBehindTheEncodersKeysAndLeavesTheRestAsItWas) {
                 kB + kTail);
 }
 
+// A single bare \n would show an edit that ignored the file's line ends.
 TEST(CalibrationText, KeepsTheFilesLineEnds) {
   std::string text;
   for (const char c : kHead + kX + kEncoder + kB + kTail) {
@@ -88,6 +96,7 @@ TEST(CalibrationText, MakesTheSectionOfAnAxisThatHasNone) {
                 kB + kTail);
 }
 
+// Written in degrees, kept in rad: a factor of 57 if one of the two conversions were missing.
 TEST(CalibrationText, TakesARotaryAxisInDegrees) {
   const double kDegree = 3.14159265358979 / 180.0;
   Encoder encoder = learnt(8);
@@ -104,6 +113,7 @@ TEST(CalibrationText, TakesARotaryAxisInDegrees) {
   expect_put_in(kHead + kX + b + kTail, "B", 3, encoder, kHead + kX + b, kTail);
 }
 
+// 1000 lines replaced by 5: the bytes behind the list must move up without a gap.
 TEST(CalibrationText, ReplacesAnOlderOneOfAnotherLength) {
   const auto first =
       with_calibration(kHead + kX + kEncoder + kB + kTail, "m.toml", "X", learnt(1000));
@@ -111,6 +121,8 @@ TEST(CalibrationText, ReplacesAnOlderOneOfAnotherLength) {
   expect_put_in(*first, "X", 0, learnt(5), kHead + kX + kEncoder, kB + kTail);
 }
 
+// What the editor cannot place safely it must refuse; each text here would otherwise be changed in
+// the wrong spot or into a file that does not load.
 TEST(CalibrationText, RefusesWhatItCannotDoSafely) {
   const std::string inlined = kHead + kX + "encoder = {count_um = 1}\n" + kB + kTail;
   EXPECT_THAT(refusal_of(inlined, "X", learnt(3)), HasSubstr("inline or with dotted keys"));
@@ -127,6 +139,8 @@ TEST(CalibrationText, RefusesWhatItCannotDoSafely) {
   EXPECT_THAT(refusal_of(good, "X", wild), HasSubstr("line_table_um"));
 }
 
+// The last five are no calibrations: a wrong key, an error of a whole count, broken TOML, nothing,
+// another count.
 TEST(CalibrationText, AFragmentReadsBack) {
   const Encoder encoder = learnt(50);
   const auto read =
@@ -141,6 +155,8 @@ TEST(CalibrationText, AFragmentReadsBack) {
   EXPECT_FALSE(parse_calibration("count_um = 2\n", "f.toml", "", 0.001));
 }
 
+// Scales have 10⁵ lines and more; a reader that copies the list for each element would take
+// minutes.
 TEST(CalibrationText, AFileWithAHundredThousandLinesIsReadWhole) {
   const Encoder encoder = learnt(100'000);
   const auto machine =
@@ -152,6 +168,7 @@ TEST(CalibrationText, AFileWithAHundredThousandLinesIsReadWhole) {
   EXPECT_NEAR(read.back(), encoder.line_table_mm.back(), 0.5001e-5 * encoder.count_mm);
 }
 
+// The limit from both sides.
 TEST(CalibrationText, TakesTheLongestTableAndNotALongerOne) {
   const std::string head = kHead + kX + kEncoder;
   EXPECT_TRUE(parse(head + calibration_text(learnt(kMaxLineTable), false) + kB + kTail, "m.toml"));

@@ -7,6 +7,8 @@
 #include <steadyrest/passport/file/consistency.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
+// Each case spoils one thing in a good machine. Exactly one check may complain: that a finding
+// appears shows that the check works, that no other appears shows that the checks are independent.
 namespace steadyrest::passport {
 namespace {
 
@@ -34,10 +36,12 @@ std::vector<Case> cases() {
       {"oscillates",
        [](Machine& m) {
          for (Axis& axis : m.axes) {
+           // kτ: the gain of 50 1/s times 30 ms is 1.5, beyond the 1 at which the check warns.
            axis.velocity_lag_s = 0.03;
          }
        },
        "servo_gain", Severity::warning},
+      // kT = 50 · 0.1 = 5.
       {"unstable", [](Machine& m) { m.control.servo_period_s = 0.1; }, "servo_gain",
        Severity::error},
       {"drive", [](Machine& m) { m.axes[0].drive_acceleration_mm_s2 = 1000; }, "drive_acceleration",
@@ -53,8 +57,10 @@ std::vector<Case> cases() {
        Severity::error},
       {"steps_above_max", [](Machine& m) { m.feed_override.max_ratio = 1.1; }, "override_max",
        Severity::warning},
+      // 6 µm a count against a limit of 10 µm: fewer than two counts.
       {"blind", [](Machine& m) { m.axes[2].encoder.count_mm = 0.006; }, "contour_limit",
        Severity::error},
+      // Half of 21 µm is above the limit of 10 µm.
       {"backlash", [](Machine& m) { m.axes[2].backlash_mm = 0.021; }, "contour_limit",
        Severity::warning},
       {"apart",
@@ -78,6 +84,7 @@ std::vector<Case> cases() {
   };
 }
 
+/// The control: a good machine has no finding at all.
 class Consistency : public testing::TestWithParam<Case> {};
 
 TEST_P(Consistency, FindsTheOneThingThatWasSpoilt) {

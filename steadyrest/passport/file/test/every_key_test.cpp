@@ -36,6 +36,8 @@ Machine full() {
 
 constexpr double kPi = std::numbers::pi;
 
+// The full machine gives each key a value of its own (1001, 1002, …), so two keys that were swapped
+// show. Values are in the inner units: ms to s, mm/min to mm/s, ° to rad.
 TEST(EveryKey, TopAndControl) {
   const Machine m = full();
   EXPECT_EQ(m.name, "Full");
@@ -93,9 +95,11 @@ TEST(EveryKey, LinearAxis) {
   EXPECT_DOUBLE_EQ(x.friction.breakaway_mm_s2, 25);
   EXPECT_DOUBLE_EQ(x.friction.stribeck_mm_s, 26);
   EXPECT_DOUBLE_EQ(x.friction.viscous_1_s, 27);
+  // The second axis gives its gain as 6 (m/min)/mm: 6·1000/60 = 100 1/s.
   EXPECT_DOUBLE_EQ(full().axes[1].servo_gain_1_s, 100);
 }
 
+// All values of the rotary axis are simple fractions of 180°, hence of π.
 TEST(EveryKey, RotaryAxis) {
   const Axis b = full().axes[3];
   ASSERT_EQ(b.name, "B");
@@ -121,6 +125,7 @@ TEST(EveryKey, RotaryAxis) {
   EXPECT_DOUBLE_EQ(b.friction.stribeck_mm_s, 0.3 * kPi);
 }
 
+// Codes 7, 8, 9 are nobody's default, so they must come from the file.
 TEST(EveryKey, Overrides) {
   const Machine m = full();
   const OverrideTable& feed = m.feed_override;
@@ -138,6 +143,7 @@ TEST(EveryKey, Overrides) {
   EXPECT_EQ(m.spindle_override.code, (std::vector{1U, 3U}));
 }
 
+// The rest of the sections, one value each.
 TEST(EveryKey, SpindleContourEnvelopeSimulation) {
   const Machine m = full();
   EXPECT_DOUBLE_EQ(m.spindle.max_rev_s, 41);
@@ -195,6 +201,8 @@ TEST(EveryKey, Chatter) {
   EXPECT_EQ(chatter.m_code_on, 138U);
   EXPECT_EQ(chatter.m_code_off, 139U);
   EXPECT_EQ(chatter.seed, 73U);
+  // amplitude_rpm and amplitude_percent exclude each other; the second is tried in a text of its
+  // own.
   std::string text(test::kFullMachine);
   text.replace(text.find("amplitude_rpm = 180"), 19, "amplitude_percent = 18");
   const auto percent = parse(text, "percent.toml");
@@ -231,9 +239,11 @@ TEST(EveryKey, Compensation) {
   EXPECT_EQ(with(kSinumerik, "method = \"frame_fine\"").method, Method::frame_fine);
   EXPECT_EQ(fanuc.least_increment_mm, 1e-3);
   EXPECT_EQ(with("dialect = \"fanuc\"", "least_increment_um = 0.1").least_increment_mm, 1e-4);
+  // The methods exclude one another, so this count must be kept by hand.
   EXPECT_EQ(compensation_keys().size(), 6U) << "a key is not tried here";
 }
 
+/// A key in the schema that the full machine does not set would be read by nobody here.
 template <class S>
 void expect_all_tried(std::span<const Key<S>> keys) {
   for (const Key<S>& key : keys) {

@@ -11,6 +11,9 @@
 #include <steadyrest/passport/file/consistency.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
+// A small file whose expected values are round in the inner units: 6000 mm/min is 100 mm/s, 3
+// (m/min)/mm is 50 1/s, 180 °/s is π rad/s. Z comes before X and there is no Y, so sorting and
+// stand-ins show.
 namespace steadyrest::passport {
 namespace {
 
@@ -81,6 +84,8 @@ TEST(MachineFile, PutsAStandInWhereXYOrZIsMissing) {
 
 TEST(MachineFile, GivesGrayCodesThatStartAtOne) {
   const auto machine = parse(kSmall, "small.toml");
+  // Gray codes of 1, 2, 3, 4, 5. Rapid follows the feed switch but never above 100 %; a machine
+  // without a spindle switch has the one step 100 %.
   ASSERT_TRUE(machine) << kernel::outcome::text(machine.error());
   EXPECT_THAT(machine->feed_override.code, testing::ElementsAre(1, 3, 2, 6, 7));
   EXPECT_THAT(machine->feed_override.ratio,
@@ -95,6 +100,7 @@ Machine example(const std::string& name) {
   return machine.value_or(Machine{});
 }
 
+/// The examples are what users start from; doctor must have nothing to say about them.
 class ExampleMachine : public testing::TestWithParam<std::string> {};
 
 TEST_P(ExampleMachine, LoadsAndIsConsistent) {
@@ -120,7 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, ExampleMachine, testing::ValuesIn(example_nam
                            return name;
                          });
 
-// SINUMERIK 840D: codes and percents of the panel's 23 positions and of the 15 spindle values.
+// SINUMERIK 840D: position p of the panel's 23 has the Gray code p ^ (p >> 1) (Siemens HT2 table);
+// 100 % is position 19, 120 % the last. The spindle switch has 15 values from 50 %.
 TEST(ExampleMachines, VmcHasTheSwitchesOfThe840D) {
   const Machine vmc = example("vmc-840d");
   ASSERT_EQ(vmc.feed_override.ratio.size(), 23U);
@@ -134,7 +141,8 @@ TEST(ExampleMachines, VmcHasTheSwitchesOfThe840D) {
   EXPECT_DOUBLE_EQ(vmc.axes[0].servo_gain_1_s, 50.0);
 }
 
-// KhAI: F = 9000 mm/min is 150 counts per tick; 0.9 counts/tick² and 2.1 counts/tick².
+// Figures of the KhAI lathe (Kombarov 2011): F = 9000 mm/min is 150 counts per tick, the planned
+// acceleration 0.9 counts/tick², the drive's 2.1 counts/tick².
 TEST(ExampleMachines, LatheHasThePapersFiguresInCountsAndTicks) {
   const Machine lathe = example("lathe-16k20f3");
   const Axis& z = lathe.axes[2];
@@ -146,7 +154,8 @@ TEST(ExampleMachines, LatheHasThePapersFiguresInCountsAndTicks) {
   EXPECT_FALSE(lathe.axes[1].present);
 }
 
-// A real 840D sl whose table has 100 % at index 24, where others have 70 % at 11010.
+// MD12030 of a real 840D sl (DMG archive): 100 % is index 24, code 10101; 11010, which is 100 % on
+// the standard panel, means 70 % here. A constant table in the code would fail this test.
 TEST(MachineFile, TakesAMachinesOwnTableOfThirtyOneSteps) {
   std::string text(kSmall);
   const std::string small_table = "percent = [0, 10, 50, 100, 120]";
@@ -164,6 +173,7 @@ TEST(MachineFile, TakesAMachinesOwnTableOfThirtyOneSteps) {
   EXPECT_NEAR(feed.ratio[18], 0.7, 1e-12);
 }
 
+// LinuxCNC in half per cents: 201 steps, word = number of the step.
 TEST(MachineFile, TakesABinaryWordAsThePercentOrAsTheNumberOfTheStep) {
   const Machine cnc = example("linuxcnc-mill");
   ASSERT_EQ(cnc.feed_override.ratio.size(), 201U);

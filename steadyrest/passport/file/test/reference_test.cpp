@@ -7,6 +7,8 @@
 
 #include <steadyrest/passport/file/reference.hpp>
 
+// The page in docs/ is generated; an edit of the schema without it, or of the page by hand, shows
+// here.
 namespace steadyrest::passport {
 namespace {
 

@@ -11,6 +11,8 @@
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 
+// What must be refused. Each file of the corpus promises its refusal in its first line, so the
+// corpus grows without a line of code; texts that need odd bytes or sizes are made here.
 namespace steadyrest::passport {
 namespace {
 
@@ -51,6 +53,8 @@ Promise promise_of(const fs::path& path) {
 
 class RefusedMachineFile : public testing::TestWithParam<std::string> {};
 
+// The fault, its line, a piece of its message, and no second message: one mistake must not set off
+// others, or people correct the wrong one.
 TEST_P(RefusedMachineFile, NamesItsFault) {
   const fs::path path = kCorpus / (GetParam() + ".toml");
   const Promise promise = promise_of(path);
@@ -75,6 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Corpus, RefusedMachineFile, testing::ValuesIn(corpus())
                            return name;
                          });
 
+// Guards against a corpus that was moved away: an empty one would pass.
 TEST(RefusedMachineFiles, AreAtLeastThirtyFive) {
   EXPECT_GE(corpus().size(), 35U);
 }
@@ -89,6 +94,7 @@ TEST(RefusedMachineText, EmptyFile) {
   EXPECT_THAT(refusal_of(" \n\n\t"), HasSubstr("the file is empty"));
 }
 
+// An executable, a NUL in a text, UTF-16 with its byte order mark.
 TEST(RefusedMachineText, BinaryFile) {
   EXPECT_THAT(refusal_of(std::string_view("\x7f"
                                           "ELF\x02\x01\x01\0\0\0",
@@ -101,12 +107,13 @@ TEST(RefusedMachineText, BinaryFile) {
               HasSubstr("given.toml:1: byte 0xff is not UTF-8"));
 }
 
+// The last byte of the file begins a character that never ends.
 TEST(RefusedMachineText, EndsInTheMiddleOfACharacter) {
   EXPECT_THAT(refusal_of("# µm \xc2"), HasSubstr("byte 0xc2 is not UTF-8"));
   EXPECT_THAT(refusal_of("# \xe2\x82"), HasSubstr("byte 0xe2 is not UTF-8"));
 }
 
-/// A file of the given size that takes no room on the disk.
+/// A file of the given size that takes no room on the disk: nothing but its length is read.
 class SparseFile {
  public:
   explicit SparseFile(std::uintmax_t bytes)
@@ -130,6 +137,7 @@ TEST(RefusedMachineText, LargeFileWithoutReadingItWhole) {
   EXPECT_THAT(kernel::outcome::text(result.error()), HasSubstr("larger than 16 MB"));
 }
 
+// /dev/zero has no end; only a reader with a limit comes back.
 TEST(RefusedMachineText, FileThatNeverEnds) {
   const auto result = read("/dev/zero");
   ASSERT_FALSE(result);
@@ -142,6 +150,8 @@ TEST(RefusedMachineText, NoFileAndAFolder) {
   EXPECT_THAT(kernel::outcome::text(read(kCorpus.string()).error()), HasSubstr("is a folder"));
 }
 
+// toml++ and the destructor of its tree recurse; without the check before it these texts would
+// overflow the stack.
 TEST(RefusedMachineText, NestingThatWouldExhaustTheStack) {
   std::string keys;
   for (int i = 0; i < 1'000'000; ++i) {
@@ -156,6 +166,7 @@ TEST(RefusedMachineText, NestingThatWouldExhaustTheStack) {
   EXPECT_THAT(refusal_of("a = " + tables), HasSubstr("given.toml:1:"));
 }
 
+// Two lines of five have number 0 and come first: sections that are missing.
 TEST(RefusedMachineText, ShowsAllFaultsInTheOrderOfTheirLines) {
   const AllFaults result = parse_all_faults(
       "nmae = \"x\"\n[control]\ndialect = 3\n[contour]\nlimit_mm = 1\n", "given.toml");

@@ -6,6 +6,7 @@
 #include <steadyrest/passport/file/thermal_passport.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
+// The thermal passport alone: read, written, and put into a machine file.
 namespace steadyrest::passport {
 namespace {
 
@@ -52,6 +53,7 @@ tau_min = 16
 polynomial_um = [7, 8]
 )";
 
+// µm to mm, minutes to s, rev/min to rev/s, % to ratio, each by its own key.
 TEST(ThermalPassport, EveryKeyReachesItsField) {
   const auto thermal = parse_thermal_passport(kFull, "passport.toml");
   ASSERT_TRUE(thermal) << kernel::outcome::text(thermal.error());
@@ -78,6 +80,7 @@ TEST(ThermalPassport, EveryKeyReachesItsField) {
   EXPECT_EQ(mode.level_mm, (std::vector<double>{0.004, -0.005}));
   EXPECT_DOUBLE_EQ(mode.cutting_ratio, 1.25);
   EXPECT_DOUBLE_EQ(mode.coolant_ratio, 0.5);
+  // The feed term is a time: mm of displacement per mm/s of feed.
   EXPECT_DOUBLE_EQ(mode.feed_s * 1000.0 / 60.0, 0.002) << "2 µm at 1 m/min";
   EXPECT_DOUBLE_EQ(mode.tau_sd_ratio, 0.12);
   EXPECT_DOUBLE_EQ(mode.state_mm, 0.013);
@@ -87,10 +90,14 @@ TEST(ThermalPassport, EveryKeyReachesItsField) {
   EXPECT_DOUBLE_EQ(z.ambient[0].gain_mm_k, 0.015);
   EXPECT_DOUBLE_EQ(z.ambient[0].reference_c, 21.0);
   EXPECT_DOUBLE_EQ(z.ambient[0].state_c, 22.0);
+  // Two levels of the table and one ambient gain are linear; time constants are not. The
+  // covariance's lower triangle then has 3·4/2 = 6 entries.
   EXPECT_EQ(z.parameters(), 3U);
   EXPECT_EQ(thermal->axis[1].mode[0].polynomial_mm, (std::vector<double>{0.007, 0.008}));
 }
 
+// Write, read, write: the second text must be the first, so no digit is lost after the first
+// rounding.
 TEST(ThermalPassport, IsWrittenAsItIsRead) {
   const auto thermal = parse_thermal_passport(kFull, "passport.toml");
   ASSERT_TRUE(thermal);
@@ -103,6 +110,7 @@ TEST(ThermalPassport, IsWrittenAsItIsRead) {
   EXPECT_NEAR(again->axis[0].mode[0].feed_s, thermal->axis[0].mode[0].feed_s, 1e-13);
 }
 
+// A sensor that moves two axes is one sensor.
 TEST(ThermalPassport, NamesEachSensorOnceInTheOrderOfTheFile) {
   Thermal thermal;
   EXPECT_TRUE(thermal.sensors().empty());
@@ -112,6 +120,8 @@ TEST(ThermalPassport, NamesEachSensorOnceInTheOrderOfTheFile) {
   EXPECT_EQ(thermal.sensors(), (std::vector<std::string>{"spindle", "room", "bed"}));
 }
 
+// The comment before the next section and the blank line must survive, the comment inside the old
+// section must go with it.
 TEST(ThermalEdit, ReplacesTheThermalSectionsAndNothingElse) {
   const auto thermal = parse_thermal_passport(kFull, "passport.toml");
   ASSERT_TRUE(thermal);
@@ -128,11 +138,13 @@ TEST(ThermalEdit, ReplacesTheThermalSectionsAndNothingElse) {
   const auto twice = with_thermal(*out, "mill.toml", *thermal);
   ASSERT_TRUE(twice);
   EXPECT_EQ(*twice, *out);
+  // No [thermal] yet: at the end of the file.
   const auto added = with_thermal(before, "mill.toml", *thermal);
   ASSERT_TRUE(added);
   EXPECT_EQ(*added, before + "\n" + thermal_text(*thermal));
 }
 
+// A broken file, and a [thermal] that is written inline.
 TEST(ThermalEdit, RefusesWhatItCannotReplace) {
   const auto thermal = parse_thermal_passport(kFull, "passport.toml");
   ASSERT_TRUE(thermal);

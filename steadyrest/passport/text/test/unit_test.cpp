@@ -12,6 +12,8 @@ namespace {
 
 using kernel::machine::kUnlimited;
 
+// max_feed_mm_min ends in min, mm_min and feed_mm_min; only the longest ending that is a unit is
+// right. Gains end in m_min_mm, which ends in mm.
 TEST(Unit, IsTheLongestEndingThatFits) {
   EXPECT_EQ(unit_of("servo_gain_m_min_mm").shown, "(m/min)/mm");
   EXPECT_EQ(unit_of("max_feed_mm_min").shown, "mm/min");
@@ -21,6 +23,7 @@ TEST(Unit, IsTheLongestEndingThatFits) {
   EXPECT_EQ(unit_of("feed_forward").shown, "");
 }
 
+// Foreign units count too: servo_gain_hz is a wrong unit, not an unknown key.
 TEST(Unit, StemLeavesOutAnyUnitKnownOrForeign) {
   EXPECT_EQ(stem_of("servo_gain_m_min_mm"), "servo_gain");
   EXPECT_EQ(stem_of("servo_gain_hz"), "servo_gain");
@@ -28,6 +31,7 @@ TEST(Unit, StemLeavesOutAnyUnitKnownOrForeign) {
   EXPECT_EQ(stem_of("backlash"), "backlash");
 }
 
+// 3.7 is round in no unit, so a factor that is inverted on the way back shows.
 TEST(Unit, GoesThereAndBack) {
   for (const std::string_view key : {"gain_1_s", "gain_m_min_mm", "feed_mm_min", "a_um", "a_deg",
                                      "t_ms", "n_rpm", "p_percent", "p_kw", "j_kg_m2", "k_N_um"}) {
@@ -36,6 +40,7 @@ TEST(Unit, GoesThereAndBack) {
   }
   EXPECT_NEAR(unit_of("gain_m_min_mm").to_inner(3.0), 50.0, 1e-12);
   EXPECT_NEAR(unit_of("n_rpm").to_inner(6000.0), 100.0, 1e-12);
+  // 1.5 N/µm = 1500 N/mm.
   EXPECT_NEAR(unit_of("stiffness_N_um").to_inner(1.5), 1500.0, 1e-12);
 }
 
