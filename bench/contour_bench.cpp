@@ -19,6 +19,7 @@
 #include <steadyrest/contour/online/test/closed_loop.hpp>
 #include <steadyrest/contour/online/test/paths.hpp>
 
+// Frames are recorded first and replayed, so that only the calls are timed.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -31,6 +32,7 @@ using test::PathSegment;
 enum PathKind { kArcs, kCamChords, kHelices, kSpirals, kCorners, kPocket, kPathKinds };
 constexpr const char* kNames[] = {"arcs", "cam_10um", "helices", "spirals", "corners", "pocket"};
 
+/// A rounded rectangle: the arcs force decisions, the lines let the governor recover.
 void rounded(PathMaker& path, double a, double b, double r) {
   path.line_to({a - r, -b, 0}).arc({a - r, -b + r, 0}, kTurn / 4);
   path.line_to({a, b - r, 0}).arc({a - r, b - r, 0}, kTurn / 4);
@@ -70,6 +72,8 @@ std::vector<PathSegment> make_path(int kind) {
   return path.limited(2000.0, 5.0);
 }
 
+/// Frames with what the envelope had let through when they were recorded: the governor decides by
+/// both.
 struct Recording {
   Machine machine;
   std::vector<PathSegment> path;
@@ -93,6 +97,8 @@ Recording record(int kind, double period_s) {
 
 using Clock = std::chrono::steady_clock;
 
+/// `least` is each frame's best time over the iterations. A cycle is deterministic, so what it
+/// takes at best is the algorithm's; the rest is the operating system's.
 template <class Call>
 void time_calls(benchmark::State& state, const Recording& recording, Call&& call) {
   std::vector<double> ns;
@@ -139,6 +145,8 @@ void FootPoint(benchmark::State& state) {
 }
 BENCHMARK(FootPoint)->DenseRange(0, kPathKinds - 1)->Iterations(8);
 
+/// Without the path the error comes from following errors and the estimated curvature alone, the
+/// mode of controls that show no path.
 void FootPointWithoutPath(benchmark::State& state) {
   const Recording recording = record(static_cast<int>(state.range(0)), 0.001);
   ContourError error = ContourError::make({}).value();

@@ -40,6 +40,7 @@ const std::string kExamples = std::string(STEADYREST_SOURCE_DIR) + "/examples/";
 constexpr int kRounds = 3;
 constexpr double kDemanding_s = 60.0;
 
+/// A real program: the rib pocket as LinuxCNC's control would plan it.
 Path rib_pocket(const Machine& machine) {
   nc::plan::PathBuilder builder(machine);
   benchmark::DoNotOptimize(
@@ -60,6 +61,7 @@ class Timed {
     const auto before = Clock::now();
     const FeedGovernor::Output output = governor_->update(frame, in_force);
     const double took_s = std::chrono::duration<double>(Clock::now() - before).count();
+    // Cycles without a decision are cheap and many; they would hide the cost of one with.
     if (!output.decided) {
       return;
     }
@@ -81,6 +83,8 @@ class Timed {
   std::vector<double> forecasts_;
 };
 
+/// The layer that acts is a third governor inside the supervisor, so the two that are timed see the
+/// same frames and neither changes the cut.
 void cut(const Machine& machine, const Path& path, Timed& bounded, Timed& exhaustive) {
   bounded.begin();
   exhaustive.begin();
@@ -100,7 +104,9 @@ void Decision201Steps(benchmark::State& state) {
   const bool pocket = state.range(0) == 0;
   const Path path =
       pocket ? rib_pocket(machine) : trial::timing::demanding_path(machine, kDemanding_s).value();
+  // Defaults: the search bounded in steps and work.
   Timed bounded({.machine = machine});
+  // The same governor with every bound lifted.
   Timed exhaustive({.machine = machine,
                     .work_share = 1.0,
                     .exhaustive_steps = std::numeric_limits<std::size_t>::max()});

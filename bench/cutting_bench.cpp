@@ -11,9 +11,10 @@ namespace {
 using steadyrest::sim::Cutting;
 using steadyrest::sim::CuttingProcess;
 
-/// Two modes, three teeth, 6000 rpm; range: helix in degrees, share of a percent by which the
-/// speed is modulated.
+/// Two modes, three teeth, 6000 rpm: the 2-DOF case common in the literature, 600 and 660 Hz. Args:
+/// helix in degrees, steps per period of the fastest mode, 1 for a modulated speed.
 void Cutting_TwoModes(benchmark::State& state) {
+  // The stiffness of 5600 N/mm is in the masses: m = k/ω².
   Cutting cut;
   cut.modes = {{{1.0, 0.0}, 600.0, 0.035, 0.394}, {{0.0, 1.0}, 660.0, 0.035, 0.326}};
   cut.teeth = 3;

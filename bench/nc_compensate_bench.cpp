@@ -29,6 +29,7 @@ namespace {
 
 using namespace steadyrest;
 
+/// User and system time of this process (or of its children, for rs274).
 double cpu_s(int whose) {
   rusage used{};
   getrusage(whose, &used);
@@ -44,7 +45,7 @@ double spent_s(int whose, const std::function<void()>& work) {
   return cpu_s(whose) - before;
 }
 
-/// As examples/machines/linuxcnc-mill.toml.
+/// As examples/machines/linuxcnc-mill.toml, so that both sides plan for the same control.
 kernel::machine::Machine mill() {
   kernel::machine::Machine m;
   for (const char* name : {"X", "Y", "Z"}) {
@@ -65,7 +66,8 @@ kernel::machine::Machine mill() {
   return m;
 }
 
-/// Lines of the program that is made at `path`.
+/// Lines of the program that is made at `path`: a print job without its extruder words is a plain
+/// three-axis program of many short moves.
 std::size_t make_program(const std::string& from, const std::string& path, int repeats) {
   const std::regex unread("^(G92 E|M82|M84|M2).*");
   const std::regex extruder(" *E-?[0-9.]+");
@@ -87,7 +89,8 @@ std::size_t make_program(const std::string& from, const std::string& path, int r
   return lines == 0 ? 0 : lines * static_cast<std::size_t>(repeats) + 2;
 }
 
-/// Corrections of Z at a quarter, a half and three quarters of the time.
+/// Corrections of Z at a quarter, a half and three quarters of the time. The program's time must be
+/// known for that, so it is measured first, which gives the cost of reading and timing as well.
 nc::rewrite::Plan quarters(double total_s) {
   const std::string quarter = std::to_string(total_s / 240.0);
   const std::string text = R"({"transitions": [{"n": 4, "t_min": [)" + quarter + "," + quarter +
@@ -123,6 +126,7 @@ void measure(const std::string& name, const std::string& from, const std::string
       std::exit(1);
     }
   });
+  // rs274 only interprets; it neither plans nor proves. The ratio is what a user waits.
   const double theirs_s = spent_s(RUSAGE_CHILDREN, [&] {
     if (std::system(("rs274 -g " + program + " > /dev/null 2>&1").c_str()) != 0) {
       std::printf("rs274 is not installed, or refuses the program\n");
@@ -140,6 +144,7 @@ void measure(const std::string& name, const std::string& from, const std::string
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::atoi(argv[1]) : 10;
   const std::string data = steadyrest::kernel::file::testing::shared_data();
+  // A folder of its own, since two runs at once would share the changed file.
   std::string folder = std::filesystem::temp_directory_path() / "compensate-XXXXXX";
   if (::mkdtemp(folder.data()) == nullptr) {
     return 1;

@@ -27,6 +27,7 @@ Machine mill(double jerk_mm_s3) {
   return m;
 }
 
+/// A polygon as a spiral: z rises, so that no two corners are alike.
 plan::PlannedPath polygon(const Machine& m, int corners, double radius_mm, int turns) {
   plan::PathBuilder builder(m);
   interpret::Axes at{radius_mm};
@@ -46,6 +47,7 @@ plan::PlannedPath polygon(const Machine& m, int corners, double radius_mm, int t
 void measure(const std::string& name, const Machine& m, const plan::PlannedPath& path,
              bool wobble) {
   using Clock = std::chrono::steady_clock;
+  // A hundred updates between two readings of the clock, which costs as much as one update.
   constexpr std::size_t kBatch = 100;
   std::vector<double> batches;
   double worst = 0.0;
@@ -56,6 +58,7 @@ void measure(const std::string& name, const Machine& m, const plan::PlannedPath&
     const auto start = Clock::now();
     for (std::size_t i = 0; i < kBatch; ++i) {
       plan::Overrides o;
+      // An override that moves every ten cycles makes the interpolator plan again and again.
       o.feed_ratio = wobble && (cycles / 10) % 2 == 0 ? 0.9 : 1.0;
       interpolator.update(o);
       ++cycles;
@@ -68,6 +71,7 @@ void measure(const std::string& name, const Machine& m, const plan::PlannedPath&
   std::sort(batches.begin(), batches.end());
   std::printf("%-34s mean %6.0f  median %6.0f  p99.9 %6.0f  worst of %zu: %6.0f ns\n", name.c_str(),
               total / static_cast<double>(cycles), batches[batches.size() / 2],
+              // The 99.9 % quantile of the batches.
               batches[batches.size() - 1 - batches.size() / 1000], kBatch, worst);
 }
 

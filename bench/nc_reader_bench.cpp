@@ -23,6 +23,7 @@ class Nothing final : public interpret::Sink {
   void on_event(const interpret::Event& /*event*/) override {}
 };
 
+/// Lines of a typical finishing program, with numbers that do not repeat.
 std::string generated() {
   std::string text = "G21 G90 F1000\n";
   for (int i = 0; i < 100'000; ++i) {
@@ -46,6 +47,7 @@ void count(benchmark::State& state, std::uint64_t lines, const std::string& text
                           static_cast<std::int64_t>(state.iterations()));
 }
 
+/// Reading: splitting blocks into words. Interpreting: that, and what the words mean.
 void read_only(benchmark::State& state, const std::string& text) {
   if (text.empty()) {
     state.SkipWithError("the shared data is absent");
@@ -73,6 +75,7 @@ void interpreted(benchmark::State& state, const std::string& text) {
   }
   std::uint64_t lines = 0;
   for (auto _ : state) {
+    // A sink that looks at each move and keeps nothing.
     Nothing sink;
     const auto report = interpret::run_text(text, {}, sink);
     if (!report || !report->refused.empty()) {

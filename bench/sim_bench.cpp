@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+/// The simulated machine, from its body alone to a whole program with planner and panel.
 /// How much faster than real time the simulated machine runs: each benchmark reports `x_real_time`,
 /// simulated seconds for each second of one core; SimulatedMachine_Cycle the time of one cycle.
 #include <algorithm>
@@ -21,10 +22,12 @@ namespace {
 using steadyrest::kernel::machine::Machine;
 using steadyrest::sim::MachineBody;
 
+/// 4000 mm/min, the feed of the paper's arc.
 constexpr double kFeed_mm_s = 4000.0 / 60.0;
 
 Machine three_axes() {
   Machine machine;
+  // Axes with their defaults and a switch of 13 Gray positions, 0 … 120 %.
   for (const char* name : {"X", "Y", "Z"}) {
     steadyrest::kernel::machine::Axis axis;
     axis.name = name;
@@ -34,6 +37,7 @@ Machine three_axes() {
     machine.feed_override.ratio.push_back(0.1 * i);
     machine.feed_override.code.push_back(steadyrest::kernel::override::gray_code(i + 1));
   }
+  // The delay of a PLC's path, so that the queue of pending words is used.
   machine.feed_override.dead_time_s = 0.03;
   machine.rapid_override = machine.feed_override;
   machine.spindle_override = machine.feed_override;
@@ -77,6 +81,7 @@ std::vector<steadyrest::nc::plan::Setpoint> setpoints(double period_s) {
   return all;
 }
 
+/// The word changes every half second, as a layer at work changes it.
 void run_body(benchmark::State& state, const Machine& machine) {
   const auto path = setpoints(machine.control.interpolator_period_s);
   auto body = MachineBody::make({.machine = machine});
@@ -84,6 +89,7 @@ void run_body(benchmark::State& state, const Machine& machine) {
   command.feed_masks_panel = true;
   double sum = 0.0;
   for (auto _ : state) {
+    // Every iteration starts at rest, so that they are alike.
     body->reset(path.front().position);
     for (const auto& setpoint : path) {
       ++command.heartbeat;
@@ -154,6 +160,7 @@ void run_program(const Machine& machine,
   }
 }
 
+/// x_real_time of a whole program: what `cut` needs for one of its two runs.
 void SimulatedMachine_Program(benchmark::State& state) {
   const Machine machine = with_all_on();
   const auto path = program(machine);
@@ -168,6 +175,7 @@ void SimulatedMachine_Program(benchmark::State& state) {
 }
 BENCHMARK(SimulatedMachine_Program)->Unit(benchmark::kMillisecond);
 
+/// The distribution over single cycles; the mean of the above hides planning spikes.
 void SimulatedMachine_Cycle(benchmark::State& state) {
   using Clock = std::chrono::steady_clock;
   const Machine machine = with_all_on();
@@ -180,6 +188,7 @@ void SimulatedMachine_Cycle(benchmark::State& state) {
       cycle_us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
     });
   }
+  // Quantiles over all cycles of all iterations.
   std::ranges::sort(cycle_us);
   const auto share = [&](double q) {
     return cycle_us[static_cast<std::size_t>(q * static_cast<double>(cycle_us.size() - 1))];

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Three axes of two modes and one sensor each are a full machine.
 // The thermal room in the cycle: one step of the filter, and a cycle of the governor at 1 kHz with
 // one and with three axes of two modes and one sensor each.
 #include <benchmark/benchmark.h>
@@ -24,8 +25,8 @@ kernel::machine::ThermalAxis axis(const char* name) {
   return axis;
 }
 
-/// Range 0: the step varies, so that every exponential is computed anew. Range 1: so many ambient
-/// inputs of three time constants more.
+/// Range 0: the step varies, so that every exponential is computed again. Range 1: that many more
+/// ambient inputs, of three time constants.
 void filter_step(benchmark::State& state) {
   kernel::machine::ThermalAxis z = axis("Z");
   for (std::int64_t j = 0; j < state.range(1); ++j) {

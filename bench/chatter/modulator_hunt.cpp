@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   const std::uint64_t changes = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1'000'000'000ULL;
   std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   steadyrest::chatter::online::test::Hunt all;
+  // Seeds run on with the parts, so any first fault can be repeated from its seed alone.
   while (all.changes < changes) {
     const auto part =
         steadyrest::chatter::online::test::hunt(seed, std::min(kPart, changes - all.changes));

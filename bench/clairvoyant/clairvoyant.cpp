@@ -6,9 +6,14 @@
 
 #include <bench/clairvoyant/clairvoyant.hpp>
 
+// The yardstick of the feed governor. The state is the slewed ratio, the stage is the stretch of
+// path, and costs are added backwards, so each stretch is looked at once for each level. O(stations
+// · levels) by the sliding window of relax().
 namespace steadyrest::bench::clairvoyant {
 namespace {
 
+/// A second over the limit costs as much as ten thousand seconds: the limit is broken only where no
+/// permitted choice keeps it.
 constexpr double kPenalty = 1e4;
 
 /// The slewed ratio's grid and the step that each of its points puts in force.
@@ -23,6 +28,7 @@ Grid make_grid(const Config& config) {
   const auto last = static_cast<std::size_t>(std::llround(config.max_ratio / grid.spacing));
   for (std::size_t i = first; i <= last; ++i) {
     const double ratio = static_cast<double>(i) * grid.spacing;
+    // The step in force is the largest one not above the ratio, as the envelope floors it.
     const auto above = std::ranges::upper_bound(config.ratio, ratio + 0.5 * grid.spacing);
     const auto count = static_cast<std::size_t>(above - config.ratio.begin());
     grid.step.push_back(count == 0 ? 0 : count - 1);
@@ -30,6 +36,8 @@ Grid make_grid(const Config& config) {
   return grid;
 }
 
+/// Rounded up: the slew of the schedule is never slower than the machine's, so the result stays a
+/// lower bound.
 std::size_t cells(double ratio_change, double spacing) {
   return static_cast<std::size_t>(std::ceil(ratio_change / spacing));
 }
@@ -43,8 +51,9 @@ struct Band {
   std::size_t up = 0;
 };
 
-/// For every level of the band its cost and the cheapest level within reach, by a window that
-/// slides upwards. Of equal costs the highest: it is the one that the operator would expect.
+/// For every level of the band its cost and the cheapest level within reach. The window slides
+/// upwards with the level, and the deque keeps its minima in rising order: each level enters and
+/// leaves once. Of equal costs the highest wins, the one that an operator would expect.
 void relax(const Band& band, const std::vector<double>& cost_ahead, std::vector<double>& cost_here,
            std::vector<std::uint16_t>& choice) {
   std::deque<std::size_t> rising;  // levels of rising cost; the front is the cheapest
@@ -66,6 +75,7 @@ void relax(const Band& band, const std::vector<double>& cost_ahead, std::vector<
 
 }  // namespace
 
+/// Backwards for the costs, then forwards along the choices.
 Schedule best_schedule(const std::vector<Station>& stations, const Config& config) {
   const Grid grid = make_grid(config);
   const std::size_t levels = grid.step.size();
@@ -74,6 +84,7 @@ Schedule best_schedule(const std::vector<Station>& stations, const Config& confi
   std::vector<std::vector<std::uint16_t>> choice(stations.size(),
                                                  std::vector<std::uint16_t>(levels));
   for (std::size_t j = stations.size(); j-- > 0;) {
+    // Levels that put the same step in force share time, error and reach; they are one band.
     for (std::size_t first = 0, end = 0; first < levels; first = end) {
       const std::size_t step = grid.step[first];
       while (end < levels && grid.step[end] == step) {
@@ -90,6 +101,7 @@ Schedule best_schedule(const std::vector<Station>& stations, const Config& confi
     }
     std::swap(cost_ahead, cost_here);
   }
+  // The ratio that is in force when the program starts.
   const double offset = (config.start_ratio - config.min_ratio) / grid.spacing;
   std::size_t r =
       std::min(levels - 1, static_cast<std::size_t>(std::llround(std::max(0.0, offset))));
@@ -106,6 +118,8 @@ Schedule best_schedule(const std::vector<Station>& stations, const Config& confi
   return schedule;
 }
 
+/// What the dynamic programming leaves out, put back as foresight: a change of speed takes time and
+/// the axes lag, so a fast stretch just before a tight one spoils it.
 std::vector<Station> widened(const std::vector<Station>& stations, double ahead_s,
                              double behind_s) {
   std::vector<Station> wide = stations;

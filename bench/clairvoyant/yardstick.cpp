@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feed governor against the clairvoyant schedule:
-//   steadyrest_yardstick PROGRAM MACHINE.toml   →   a table and one JSON line on stdout
+// Feed governor against the clairvoyant schedule: steadyrest_yardstick PROGRAM MACHINE.toml prints
+// a table and one JSON line. Every permitted step is run over the whole program, which gives time
+// and error of each stretch at that step; dynamic programming picks the best sequence; that
+// sequence is run again, because only the simulation knows what its transitions cost.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,6 +31,7 @@ using trial::cut::Job;
 using trial::cut::Recorder;
 using trial::cut::Sample;
 
+/// Short against any feature of a part, long against the way of one cycle.
 constexpr double kStation_mm = 0.25;
 
 [[noreturn]] void fail(const std::string& text) {
@@ -44,7 +47,8 @@ T take(kernel::outcome::Result<T> result) {
   return std::move(*result);
 }
 
-/// A layer that puts one step of the table in force, whatever happens.
+/// A layer that puts one step of the table in force, whatever happens. It masks the panel, as the
+/// real layer does.
 class FixedStep {
  public:
   explicit FixedStep(const kernel::machine::OverrideTable& table) : table_(table) {}
@@ -64,7 +68,8 @@ class FixedStep {
   std::uint64_t heartbeat_ = 0;
 };
 
-/// Spreads samples over the stations that they pass through.
+/// Spreads samples over the stretches that they pass through: time in proportion to the way, the
+/// largest error to each of them.
 class Stations {
  public:
   Stations(double length_mm, std::size_t steps)
@@ -85,9 +90,11 @@ class Stations {
     for (std::size_t j = first; j <= last; ++j) {
       const double lower = std::max(from, static_cast<double>(j) * kStation_mm);
       const double upper = std::min(to, static_cast<double>(j + 1) * kStation_mm);
+      // A dwell does not move; its time goes to its own stretch.
       const double share = to > from ? std::max(0.0, upper - lower) / (to - from)
                                      : 1.0 / static_cast<double>(last - first + 1);
       stations_[j].time_s[step] += share * time_s;
+      // Rapids cut nothing, so their error is no error of the part.
       if (now.motion == kernel::signal::Motion::feed) {
         stations_[j].error_mm[step] =
             std::max(stations_[j].error_mm[step], std::abs(now.contour_error_mm));
@@ -121,7 +128,8 @@ void run_at_constant_step(const Job& job, std::size_t step, Stations& stations) 
   }
 }
 
-/// Runs a schedule: the word is written so much ahead that it acts where it should.
+/// Runs a schedule. The word is written as much ahead as it takes to act: the dead time and, on
+/// average, half a scan.
 Figures run_schedule(const Job& job, const Schedule& schedule, const Stations& stations) {
   const auto& table = job.machine.feed_override;
   const double ahead_s = table.dead_time_s + 0.5 * table.scan_period_s;
@@ -148,8 +156,8 @@ double share_over(const Figures& figures) {
 }
 
 /// The fastest schedule that keeps the limit in the simulation but for `kShareOver` of the samples.
-/// Nobody could do better within the dynamic programming's family: how far it looks ahead is
-/// halved down to `kResolution_s` for each of a few reaches behind.
+/// Foresight costs time, so the search halves how far it looks ahead, down to `kResolution_s`, for
+/// each of a few reaches behind. Nobody could do better within this family.
 Figures best_that_keeps_the_limit(const Job& job, const Stations& stations, const Config& config) {
   constexpr double kShareOver = 0.001;
   constexpr double kFarthest_s = 0.32;
@@ -167,6 +175,7 @@ Figures best_that_keeps_the_limit(const Job& job, const Stations& stations, cons
       if (keeps && (!best || figures.cycle_time_s < best->cycle_time_s)) {
         best = figures;
       }
+      // Even the longest look ahead fails with this reach behind: shorter ones will too.
       if (!keeps && ahead_s >= kFarthest_s) {
         break;
       }
@@ -225,6 +234,8 @@ int main_with(const std::string& program, const std::string& machine_file) {
     fmt::print(stderr, "constant step {:.0f} %\n", 100.0 * config.ratio[step]);
     run_at_constant_step(job, step, stations);
   }
+  // The lower bound takes changes of speed as immediate; the simulated schedule is what can be had.
+  // The governor is judged by the latter.
   const Schedule bound = best_schedule(stations.all(), config);
   const Figures clairvoyant = best_that_keeps_the_limit(job, stations, config);
   const Figures without = take(trial::cut::run(job)).figures();

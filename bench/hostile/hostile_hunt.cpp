@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hunts for a cycle after which a rule of safety does not hold:
 // by default 10⁶ cycles on each machine of examples/machines, run in the project's root.
+// One summary line a machine; the first broken rule with seed and cycle, from which it repeats.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   app.add_option("seed", seed)->capture_default_str();
   app.add_option("machines", files, "machine files; without them those of examples/machines");
   CLI11_PARSE(app, argc, argv)
+  // All examples: Gray and binary switches, latched and not, with and without spindle override.
   if (files.empty()) {
     for (const char* name :
          {"ideal-k50", "lathe-16k20f3", "linuxcnc-mill", "mill-802d", "vmc-840d"}) {
@@ -39,6 +41,7 @@ int main(int argc, char** argv) {
       return 2;
     }
     Tally all;
+    // Parts of half a million cycles, each with seeds of its own.
     for (std::uint64_t part = 0; all.cycles < cycles; ++part) {
       const Tally more = steadyrest::bench::hostile::hunt(*machine, seed + 1'000'000 * part,
                                                           std::min(kPart, cycles - all.cycles));

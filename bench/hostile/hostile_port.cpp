@@ -4,6 +4,8 @@
 
 #include <bench/hostile/hostile_port.hpp>
 
+// Faults are drawn once per act and then strike one frame in so many: a control that fails in one
+// way for a while is what happens in practice, and what finds more than single wild frames.
 namespace steadyrest::bench::hostile {
 namespace {
 
@@ -29,11 +31,13 @@ HostilePort::HostilePort(const kernel::machine::Machine& machine,
     const double middle = axis.rotary ? 0.0 : 0.5 * (axis.min_mm + axis.max_mm);
     frame.axis[i].command_mm = frame.axis[i].actual_mm = middle;
   }
+  // The control's clock need not start at 0, and it may start below.
   real_s_ = dice.of({0.0, 1.0, 1000.0, 1e6, -50.0});
 }
 
 void HostilePort::begin_act() {
   frame.motion = static_cast<Motion>(dice_.below(9));
+  // A third of the acts cut, whatever the other draw says; most rules hold only there.
   if (dice_.one_in(3)) {
     frame.motion = Motion::feed;
   }
@@ -45,6 +49,7 @@ void HostilePort::begin_act() {
   glitch_ = dice_.of<std::uint64_t>({0, 0, 0, 200, 20, 5, 2});
   fault_ = dice_.of<std::uint64_t>({0, 0, 0, 100, 10, 2});
   turns_ = dice_.of<std::uint64_t>({0, 0, 300, 60, 3});
+  // One fault may last for the whole act.
   lasting_ = dice_.one_in(6) ? 1 + static_cast<int>(dice_.below(7)) : 0;
   if (dice_.one_in(8)) {  // the control's clock is set, or begins again
     offset_s_ = dice_.of({-real_s_, -real_s_ - 7.0, 3600.0, -0.05, 0.3, 1e6});
@@ -60,6 +65,8 @@ void HostilePort::behave(Motion motion) {
   frame.motion = motion;
 }
 
+/// Wrong stamps: not finite, off by a millisecond to a fortnight in either direction, off by less
+/// than a second, absurd, or standing still for some cycles.
 double HostilePort::stamp() noexcept {
   const double truth_s = real_s_ + offset_s_;
   if (stands_ > 0) {
@@ -88,6 +95,8 @@ double HostilePort::stamp() noexcept {
   }
 }
 
+/// The panel: mostly on a step, sometimes between two, sometimes 0, which must stop whatever the
+/// layer wants.
 void HostilePort::turn(signal::OverrideState& state, double& truth,
                        const kernel::machine::OverrideTable& table) noexcept {
   if (table.ratio.empty()) {
@@ -110,7 +119,8 @@ void HostilePort::turn(signal::OverrideState& state, double& truth,
   state.effective_ratio = truth;
 }
 
-/// One fault of a frame.
+/// One fault of a frame: stale, not finite, more axes than there are, or a panel that shows nothing
+/// sensible. The last two must not stop the rooms, only the panel's own channel.
 void HostilePort::spoil() noexcept {
   const int fault = lasting_ > 0 ? lasting_ - 1 : static_cast<int>(dice_.below(7));
   clean = false;
@@ -146,6 +156,7 @@ kernel::outcome::Result<signal::Frame> HostilePort::read() noexcept {
     return std::unexpected(link_lost().error());
   }
   frame.time_s = stamp();
+  // `clean` is what the scene may take for certain: a true stamp, no fault, no clock just set.
   const double late_s = std::abs(frame.time_s - (real_s_ + offset_s_));
   true_stamp_ = late_s == 0.0;
   clean = true_stamp_ && !set_;
@@ -161,6 +172,8 @@ kernel::outcome::Result<signal::Frame> HostilePort::read() noexcept {
   if (lasting_ > 0 || (fault_ > 0 && dice_.one_in(fault_))) {
     spoil();
   }
+  // The panel as the layer has seen it last; the watch compares with that and not with a truth that
+  // was never shown.
   const auto show = [this](const signal::OverrideState& state, double& shown) {
     if (state.panel_code_known && std::isfinite(state.panel_ratio) && state.panel_ratio >= 0.0 &&
         state.panel_ratio <= 10.0) {
@@ -173,6 +186,7 @@ kernel::outcome::Result<signal::Frame> HostilePort::read() noexcept {
   return frame;
 }
 
+/// A link that fails on writes still shows frames; the layer must notice by the answer.
 kernel::outcome::Result<void> HostilePort::write(const signal::Command& command) noexcept {
   if (outage > 0 && !reads_fail) {
     return link_lost();

@@ -16,6 +16,7 @@ void Tally::add(const Tally& other) {
 }
 
 Tally hunt(const kernel::machine::Machine& machine, std::uint64_t seed, std::uint64_t cycles) {
+  // Forty acts, then another machine: most faults show within a few.
   constexpr int kActs = 40;
   Tally all;
   while (all.cycles < cycles) {

@@ -6,11 +6,14 @@
 #include <bench/hostile/override_watch.hpp>
 #include <fmt/format.h>
 
+// The machine's side, written a second time from the safety section of the design, so that a
+// mistake of the layer's code cannot hide in the same code here.
 namespace steadyrest::bench::hostile {
 
 OverrideWatch::OverrideWatch(const Rules& rules) : rules_(rules) {
   const auto& table = rules_.table;
   for (std::size_t i = 0; i < table.ratio.size(); ++i) {
+    // Gray code of position p is p ^ (p >> 1).
     // A switch without codes of its own counts its positions from 1 in Gray code.
     const auto position = static_cast<std::uint32_t>(i) + 1U;
     const std::uint32_t code = table.code.empty() ? position ^ (position >> 1U) : table.code[i];
@@ -28,6 +31,7 @@ double OverrideWatch::decode(std::uint32_t code) const {
   return code < by_code_.size() ? by_code_[code] : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// The design's first rule: min(layer, panel), panel 0 stops.
 double OverrideWatch::in_force(const Word& word) const {
   if (panel_ == 0.0 || !word.masks) {
     return panel_;
@@ -44,6 +48,8 @@ double OverrideWatch::floor(double ratio) const {
   return below;
 }
 
+/// A walk over all neighbours takes a scan each; twice that, and the way at the slower of the two
+/// rates.
 double OverrideWatch::longest_way_s() const noexcept {
   const double walk_s =
       static_cast<double>(rules_.table.ratio.size() + 4) * rules_.table.scan_period_s;
@@ -51,10 +57,12 @@ double OverrideWatch::longest_way_s() const noexcept {
   return 2.0 * walk_s + range / std::min(rules_.rise_1_s, rules_.fall_1_s);
 }
 
+/// Bounds on what may be in force widen with real time, by the permitted rates.
 void OverrideWatch::pass(double real_s) {
   now_s_ += real_s;
   highest_ += rules_.rise_1_s * real_s;
   lowest_ -= rules_.fall_1_s * real_s;
+  // A word that was replaced more than a scan ago can no longer be read by anyone.
   while (!past_.empty() && past_.front().until_s <=
                                now_s_ + rules_.slack_s - rules_.table.scan_period_s + kTolerance) {
     past_.pop_front();
@@ -66,7 +74,9 @@ void OverrideWatch::drop() {
   past_.clear();
 }
 
-/// Each word that the reader may put together from those of one scan.
+/// A word that is not latched may be read while its wires change: any mixture of the bits of old
+/// and new words, with either mask. Each mixture must decode to a ratio between those of the words
+/// involved.
 std::string OverrideWatch::check_mixtures(const Word& word) {
   if (rules_.latched) {
     return {};
@@ -86,6 +96,7 @@ std::string OverrideWatch::check_mixtures(const Word& word) {
   if (!some_mask) {
     return {};
   }
+  // All subsets of the differing bits, by counting down through the mask.
   for (std::uint32_t part = differing;; part = (part - 1) & differing) {
     for (const bool mask : {true, all_mask}) {
       const double seen = in_force({.code = word.code ^ part, .masks = mask});
@@ -102,6 +113,8 @@ std::string OverrideWatch::check_mixtures(const Word& word) {
   }
 }
 
+/// A word is judged in the order of the design's rules: capability, table, panel, threads,
+/// mixtures, slew.
 std::string OverrideWatch::write(const Word& word, bool hold) {
   if (std::isnan(panel_)) {
     word_ = word;
@@ -120,6 +133,7 @@ std::string OverrideWatch::write(const Word& word, bool hold) {
   }
   const double before = in_force();
   const double now = in_force(word);
+  // In a thread the feed is tied to the spindle; a change would tear it.
   if (hold && std::abs(now - before) > kTolerance) {
     return fmt::format("hold: {:g} → {:g} in a thread, panel {:g}", before, now, panel_);
   }
@@ -130,11 +144,12 @@ std::string OverrideWatch::write(const Word& word, bool hold) {
   if (std::string broken = check_mixtures(word); !broken.empty()) {
     return broken;
   }
+  // One step of the table is always permitted: a ratio between two steps does not exist.
   const double step = widest_ + kTolerance;
   const double rise = step + rules_.rise_1_s * rules_.slack_s;
   const double fall = step + rules_.fall_1_s * rules_.slack_s;
   const double passed_s = now_s_ - std::exchange(written_s_, now_s_);
-  // The operator's turning counts as his.
+  // What the operator turned counts as his, so the bounds take it in.
   highest_ = std::max(highest_, before + rise + rules_.rise_1_s * passed_s);
   lowest_ = std::min(lowest_, before - fall - rules_.fall_1_s * passed_s);
   if (now > highest_ || now < lowest_) {

@@ -17,14 +17,17 @@ using signal::Motion;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
+/// A stamp may be late by half a cycle, so real time and stamped time differ by that.
 constexpr double kLateSteps = 0.5;  // a stamp may be late by so much of a cycle
+/// The layer holds an offset through short standstills between two blocks; the watch must too.
 constexpr double kShortIdle_s = 0.5;
 
 bool thread(Motion motion) {
   return motion == Motion::thread || motion == Motion::tap;
 }
 
-/// Another machine of the same kind: other wires, other rights, other rates.
+/// Another machine of the same kind: other wires, other rights, other rates. The contour room is
+/// off, because wishes are made here.
 void vary(machine::Machine& m, Dice& dice) {
   for (auto* table : {&m.feed_override, &m.spindle_override}) {
     table->layer_may_exceed_panel = dice.one_in(4);
@@ -57,6 +60,8 @@ OverrideWatch::Rules rules(const machine::OverrideTable& table, bool latched, bo
 
 }  // namespace
 
+/// The rules that apply depend on what the port can do; a supervisor that refuses the combination
+/// is right, and the scene takes the one that works.
 Scene::Scene(const machine::Machine& of, std::uint64_t seed)
     : dice_(seed), seed_(seed), machine_(of) {
   vary(machine_, dice_);
@@ -99,7 +104,7 @@ void Scene::broken(const std::string& what) {
   }
 }
 
-/// Wishes of all kinds, reasonable ones among them.
+/// Wishes of all kinds: good ones, impossible ones, several at once from different rooms.
 void Scene::wish() {
   const auto reason = [this] {
     return dice_.of({Reason::contour_limit, Reason::contour_limit, Reason::chatter_modulating,
@@ -128,6 +133,8 @@ void Scene::wish() {
   }
 }
 
+/// Real time passes on the machine's side, whatever the layer's clock believes. After the
+/// watchdog's time nothing of the layer is left in force.
 void Scene::let_pass(double real_s) {
   port_->pass(real_s);
   unheard_s_ += real_s;
@@ -148,6 +155,7 @@ void Scene::let_pass(double real_s) {
   }
 }
 
+/// A new process takes over the state of the old one; the machine may have waited for minutes.
 void Scene::restart(double away_s) {
   const supervisor::Supervisor::State state = layer_->state();
   layer_.emplace(supervisor::Supervisor::make(machine_, can_).value());
@@ -158,7 +166,8 @@ void Scene::restart(double away_s) {
   ++tally_.interrupted;
 }
 
-/// What two clean frames show, one after the other, the layer knows.
+/// What the layer certainly knows. Two clean frames, one after the other, show the motion; one
+/// frame may be believed or not, so rules that depend on the motion are not checked then.
 void Scene::know() {
   const Motion motion = port_->frame.motion;
   if (port_->clean && was_clean_ && motion == last_) {
@@ -174,7 +183,8 @@ void Scene::know() {
     idle_s_ += cycle_s_;
     cut_ = cut_ && idle_s_ < kShortIdle_s;
   }
-  // A frame that shows something else may be believed by the layer, unless it is certainly unfit.
+  // A frame that shows something else may be believed by the layer, unless it is certainly unfit:
+  // then it must keep to what it knew.
   if (!thread(motion) && !port_->unfit && thread(shown_)) {
     unsure_ = true;
   }
@@ -190,6 +200,7 @@ bool Scene::in_cut() const {
   return cut_;
 }
 
+/// Each command that arrived is judged by the three watches.
 void Scene::check_write() {
   const signal::Command& c = port_->last;
   unheard_s_ = 0.0;
@@ -209,10 +220,13 @@ void Scene::check_write() {
   } else if (c.spindle_masks_panel) {
     broken("capability: a spindle override that the machine does not have");
   }
+  // An offset may move in the cut only while someone asks for it with good input in mode act.
   const bool asks = !offset_wish_.empty() || machine_.thermal.enabled;
   broken(offset_->write(c.offset_mm, asks && !port_->unfit && wanted_ == Mode::act, in_cut()));
 }
 
+/// observe and advise write nothing, but the way back to neutral does: until nothing is left, a
+/// write without act is right.
 void Scene::check_mode(bool has_command, const signal::Command& command) {
   if (port_->taken && !may_write_) {
     broken("mode: written without act");
@@ -229,6 +243,8 @@ void Scene::check_mode(bool has_command, const signal::Command& command) {
   }
 }
 
+/// Order as in the design: time passes, the layer cycles, the frame becomes known, the write is
+/// judged.
 void Scene::cycle() {
   let_pass(cycle_s_);
   const auto command =
@@ -252,7 +268,8 @@ void Scene::cycle() {
   port_->outage -= port_->outage > 0 ? 1 : 0;
 }
 
-/// Between two cycles: modes, restarts, lost links, a process that was held up.
+/// Between two cycles: another mode, a restart with and without a long absence, a lost link, a
+/// process that was held up for less than the watchdog's time.
 void Scene::events() {
   if (dice_.one_in(400)) {
     wanted_ = dice_.of({Mode::observe, Mode::advise, Mode::act, Mode::act});
@@ -284,6 +301,7 @@ void Scene::act() {
     if (dice_.one_in(100)) {
       wish();
     }
+    // Not at the edges of an act, so that the scene knows what it began and ended with.
     if (i > 20 && i + 5 < cycles && port_->outage == 0) {
       events();
     }
@@ -297,7 +315,8 @@ void Scene::act() {
   }
 }
 
-/// With good input for long enough a wish is in force, whatever was before.
+/// Liveness: with good input for long enough a wish is in force, whatever was before. A layer that
+/// always stays neutral would pass every safety rule.
 void Scene::settle_on_a_wish() {
   if (!feed_ || !can_.feed_override || port_->outage > 0) {
     return;
@@ -310,11 +329,14 @@ void Scene::settle_on_a_wish() {
   offset_wish_.clear();
   const double wished = dice_.within(0.05, 0.9);
   feed_wish_ = {{signal::Room::contour, wished, Reason::contour_limit}};
+  // Twice the longest way, 0.2 s for the neutral times after a fault, 40 cycles of slack.
   const auto cycles =
       static_cast<std::size_t>((2.0 * feed_->longest_way_s() + 0.2) / cycle_s_) + 40;
   for (std::size_t i = 0; i < cycles && tally_.broken == 0; ++i) {
     cycle();
   }
+  // The lowest value that a wish can reach: the envelope's minimum, floored to a step, and one step
+  // of tolerance.
   const double least = feed_->floor(machine_.envelope.min_feed_ratio) + feed_->widest_step();
   const double most = std::max(wished, std::min(least, feed_->panel()));
   if (tally_.broken == 0 && !(feed_->in_force() <= most + kTolerance)) {
@@ -323,7 +345,7 @@ void Scene::settle_on_a_wish() {
   }
 }
 
-/// With good input, nothing in the cut and observe asked for, nothing of the layer is left.
+/// The other liveness: with good input, no cut and observe asked for, nothing of the layer is left.
 void Scene::settle_on_observe() {
   if (port_->outage > 0) {
     return;

@@ -18,6 +18,7 @@
 #include <steadyrest/motion/offline/scene/scene.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
+// The baseline of every call is the clock itself, taken as a median and subtracted.
 namespace {
 
 namespace offline = steadyrest::motion::offline;
@@ -45,6 +46,7 @@ double clock_ns() {
 }
 
 /// Times of the calls of a record, several runs of each.
+/// Median over the runs of the same call: interruptions hit different calls in each run.
 class Calls {
  public:
   void add(std::size_t call, double ns) {
@@ -68,6 +70,8 @@ double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
+/// With limits the axis's own bounds narrow the estimate; the line error is the largest that the
+/// record can contain: phases, and four standard deviations of single lines.
 online::MotionEstimator estimator(const offline::Record& record, bool limits) {
   online::MotionEstimator::Config config{.count_mm = record.how.count_mm,
                                          .cycle_s = 1.0 / record.how.cycle_hz,
@@ -83,6 +87,7 @@ online::MotionEstimator estimator(const offline::Record& record, bool limits) {
 }
 
 /// The edges of each cycle together.
+/// Reading the clock costs as much as an edge does; once a cycle it is lost in the mean.
 void time_cycles(const offline::Record& record, bool limits, double reading_ns, Calls& cycles) {
   auto ours = estimator(record, limits);
   auto edge = record.edges.begin();
@@ -118,6 +123,7 @@ std::vector<online::Estimate> time_calls(const offline::Record& record, bool lim
   return out;
 }
 
+/// Runs of both kinds alternate, so that a slow spell of the computer hits both.
 void measure(const offline::Record& record, bool limits, int runs, double reading_ns,
              std::FILE* estimates) {
   Calls cycles;
@@ -139,6 +145,8 @@ void measure(const offline::Record& record, bool limits, int runs, double readin
              at(tick, 0.999), at(tick, 1.0));
 }
 
+/// From reversals at a crawl to half a million edges a second, and control cycles of 250 Hz to 10
+/// kHz.
 std::vector<offline::Record> records() {
   std::vector<offline::Record> out;
   const auto add = [&](const char* name, const offline::Profile& profile,

@@ -28,6 +28,9 @@
 #include <steadyrest/thermal/offline/plan/replay.hpp>
 #include <steadyrest/thermal/offline/test/shop_log.hpp>
 
+// A band is honest if it holds about 95 % of readings that the fit never saw. Whole runs are kept
+// back, not single readings: neighbours in time are alike, and a fit that has seen them would look
+// better than it is.
 namespace {
 
 namespace bench = steadyrest::bench;
@@ -47,7 +50,8 @@ struct Split {
   Span kept;  ///< from the fit
 };
 
-/// What a band was worth over the readings of a span.
+/// What a band was worth over the readings of a span: error, width, and share held. Width counts as
+/// much as the share: a band of a metre holds everything.
 struct Worth {
   double readings = 0.0;
   double square_um2 = 0.0;
@@ -81,9 +85,11 @@ struct Sum {
   }
 };
 
-/// From each start of the spindle to the next.
+/// From each start of the spindle to the next. A start counts after half an hour of rest; shorter
+/// stops belong to the run.
 std::vector<Span> runs_of(const Log& log) {
   std::vector<double> start_s;
+  // The machine has been at rest before the log.
   double stood_s = kHour_s;
   for (std::size_t i = 0; i + 1 < log.rows(); ++i) {
     if (log.speed_rev_s[i] > 0.0) {
@@ -103,6 +109,8 @@ std::vector<Span> runs_of(const Log& log) {
   return out;
 }
 
+/// Two ways to keep hours back: the end of the log (forecasting), and one run out of the middle
+/// (another day).
 std::vector<Split> splits_of(const Log& log) {
   std::vector<Split> out;
   const double end_s = log.time_s.back() + 1.0;
@@ -129,7 +137,8 @@ double fastest(const Log& log, const Span& span, bool in) {
   return out;
 }
 
-/// The log up to the end of a span: what came afterwards the forecast did not have.
+/// The log up to the end of a span. What came afterwards a forecast cannot have had, not even as a
+/// reading for the drift.
 Log until(const Log& log, double to_s) {
   Log out = log;
   const auto rows =
@@ -147,6 +156,7 @@ Log until(const Log& log, double to_s) {
 std::optional<Worth> worth(const AxisFit& fit, const Log& log, std::size_t channel,
                            const Span& span, double rezero_s) {
   auto axis = fit.axis;
+  // The check of the speed has been made by the caller, with the speeds of the fit.
   axis.max_speed_rev_s = 0.0;  // the runs before it may have been faster
   ReplayRequest request;
   request.channel = channel;
@@ -159,6 +169,7 @@ std::optional<Worth> worth(const AxisFit& fit, const Log& log, std::size_t chann
     const ReplayPoint& p = (*points)[i];
     if (p.forecast && std::isfinite(p.measured_mm)) {
       const double error_um = 1e3 * (p.measured_mm - p.displacement_mm);
+      // The half width for a reading: √(sd² + noise²), as the report draws it.
       const double half_um = 1e3 * kBand * std::hypot(p.sd_mm, axis.noise_mm);
       out.readings += 1.0;
       out.square_um2 += error_um * error_um;
@@ -179,6 +190,7 @@ class Coverage {
     }
   }
 
+  // A run much faster than all others has no level in the fit; nobody would forecast it.
   void run(const Log& log, const std::vector<std::string>& sensors, const std::string& kind) {
     for (std::size_t channel = 0; channel < log.displacement.size(); ++channel) {
       for (const Split& split : splits_of(log)) {
@@ -204,6 +216,8 @@ class Coverage {
   }
 
  private:
+  // Readings of the span become NaN, while speeds and temperatures stay: the fit must not see them,
+  // but time goes on.
   void one(const Log& log, std::size_t channel, const std::vector<std::string>& sensors,
            const std::string& kind, const Split& split) {
     Log known = log;
@@ -214,6 +228,7 @@ class Coverage {
     }
     FitRequest request;
     request.sensors = sensors;
+    // Without sensors the room goes unobserved, the honest worst case.
     request.ambient = !sensors.empty();
     request.horizon_s = 3.0 * kHour_s;
     const auto fit = identify(known, channel, "Z", request);
@@ -237,6 +252,7 @@ class Coverage {
   int refused_ = 0;
 };
 
+/// No sensor, some alone, all: what a machine with few sensors gets.
 void run(Coverage& coverage, const Log& log) {
   constexpr std::size_t kAlone = 3;
   std::vector<std::string> all;
@@ -248,6 +264,7 @@ void run(Coverage& coverage, const Log& log) {
   for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(all.size() / kAlone, 1)) {
     coverage.run(log, {all[i]}, "one sensor");
   }
+  // The fit chooses among them by itself.
   coverage.run(log, all, "all sensors");
 }
 
@@ -262,6 +279,7 @@ int main(int argc, char** argv) {
       Log machine = bench::random_machine(seed);
       machine.file = fmt::format("machine {}", seed);
       run(coverage, machine);
+      // The shop log comes from a machine that is known: one bed that follows the room, 3 µm/K.
       if (i % 5 == 0) {
         const auto runs = test::kShopDays_rpm.begin();
         Log shop = test::shop(seed, {runs, runs + 6});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <steadyrest/apps/page/chatter/chatter_page.hpp>
 
+// The head of every chatter page; `answer` is what --json prints, so page and script never differ.
 namespace steadyrest::apps::page {
 
 Json chatter_head(std::string_view kind, std::string_view process, const Json& answer) {

@@ -7,6 +7,8 @@
 #include <steadyrest/apps/page/shared/json_numbers.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
+// A cut of hours in a page of a megabyte: extremes per stretch for the long view, one point per
+// revolution for the Poincaré view, the last turns in full for the shape.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -14,6 +16,7 @@ using trial::vibration::Moment;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kUm = 1000.0;
+/// As many stretches as a wide screen has pixels.
 constexpr double kStretches = 3000.0;
 constexpr double kWhole = 1e-6;  ///< short of a whole number counts as one
 constexpr double kMostTurns = 4000.0;
@@ -30,6 +33,7 @@ Json columns_of(const CutRecorder::Envelope& e) {
           {"force_high_N", short_numbers(e.high[2])}};
 }
 
+/// The last turns in columns, one array per quantity.
 Json columns_of(const std::vector<Moment>& moments) {
   const auto column = [&moments](auto value) {
     std::vector<double> out;
@@ -52,9 +56,11 @@ Json columns_of(const std::vector<Moment>& moments) {
 
 }  // namespace
 
+/// The last stretch takes the rest of the time, and rounding must not open another one.
 CutRecorder::CutRecorder(double seconds, double mean_rev_s)
     : stretch_s_(seconds / kStretches),
       last_stretch_(std::max(0.0, std::floor(seconds / stretch_s_ + kWhole) - 1.0)),
+      // Every nth turn, so that the points stay below 4000.
       stride_(
           static_cast<std::size_t>(std::max(1.0, std::ceil(seconds * mean_rev_s / kMostTurns)))) {}
 
@@ -69,6 +75,7 @@ void CutRecorder::add(const Moment& now) {
   }
 }
 
+/// Extremes, not means: a mean over a vibration is 0.
 void CutRecorder::widen(const Moment& now) {
   const std::array value{kUm * now.cut.displacement_mm[0], kUm * now.cut.displacement_mm[1],
                          std::hypot(now.cut.force_n[0], now.cut.force_n[1])};
@@ -90,6 +97,9 @@ void CutRecorder::widen(const Moment& now) {
   }
 }
 
+/// Once a revolution, at the angle 0: a stable cut shows one point (it repeats), Hopf chatter a
+/// closed curve, flip chatter two points (one with an even number of teeth, where it repeats with
+/// the revolution).
 void CutRecorder::turn(const Moment& now) {
   const Moment& before = last_.back();
   const double whole = std::floor(now.angle_rad / kTurn);
@@ -100,6 +110,7 @@ void CutRecorder::turn(const Moment& now) {
   if (std::fmod(whole, static_cast<double>(stride_)) != 0.0) {
     return;
   }
+  // The crossing lies between two steps; linear interpolation finds it.
   const double share = (whole * kTurn - before.angle_rad) / (now.angle_rad - before.angle_rad);
   turns_.t_s.push_back(std::lerp(before.t_s, now.t_s, share));
   for (std::size_t axis = 0; axis < 2; ++axis) {

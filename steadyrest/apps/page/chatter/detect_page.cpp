@@ -7,6 +7,7 @@
 #include <steadyrest/apps/page/shared/json_numbers.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
+// Spectrogram and course of a recording.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -14,6 +15,8 @@ using chatter::offline::RecordedSignal;
 using kernel::units::rpm_from_rev_s;
 
 constexpr std::size_t kStretches = 1500;
+/// The tooth orders that a machinist looks for, the chatter with its first multiple, and never less
+/// than 1 kHz.
 constexpr double kTeethShown = 12.0;   ///< orders of the teeth in the picture …
 constexpr double kChatterShown = 2.2;  ///< … and times the chatter's frequency
 constexpr double kLeastShown_hz = 1000.0;
@@ -25,7 +28,7 @@ double shown_hz(const DetectPage& page, const RecordedSignal& signal) {
       std::max({kTeethShown * tooth_hz, kChatterShown * page.chatter_hz, kLeastShown_hz}));
 }
 
-/// The signal's extremes and its mean speed within even stretches.
+/// The signal's extremes and its mean speed within even stretches, of any length of recording.
 Json course_json(const RecordedSignal& signal) {
   std::vector<double> t_s;
   std::vector<double> low;
@@ -64,6 +67,7 @@ Json detect_page(const Json& answer, const DetectPage& page, const RecordedSigna
   Json out = chatter_head("detect", page.signal_name, answer);
   out["machine"] = page.machine;
   out["teeth"] = page.teeth;
+  // The spectrum's resolution, for the reader: one over the window.
   out["bin_hz"] = signal.rate_hz / static_cast<double>(page.window);
   out["start_s"] = signal.start_s;
   out["course"] = course_json(signal);

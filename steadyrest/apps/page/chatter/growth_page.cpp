@@ -7,6 +7,7 @@
 #include <steadyrest/apps/page/shared/json_numbers.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
+// How far a vibration grows on its way through the law's period.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -23,6 +24,7 @@ std::size_t end_pass(const GrowthCourse& course) {
   return course.start_pass + course.log_growth.size() - 1;
 }
 
+/// The growth is known at pass boundaries; the speed profile gives their times.
 Json course_json(const GrowthCourse& course, const DelayCycle& cycle, const SpeedProfile& speed) {
   std::vector<double> time_s;
   for (std::size_t pass = course.start_pass; pass <= end_pass(course); ++pass) {
@@ -33,7 +35,7 @@ Json course_json(const GrowthCourse& course, const DelayCycle& cycle, const Spee
           {"log_growth", short_numbers(course.log_growth)}};
 }
 
-/// Even angles, and both sides of what jumps.
+/// Even angles, and both sides of every jump: otherwise a square law would be drawn with slopes.
 Json speed_json(const SpeedProfile& speed, double last_rad) {
   std::vector<double> angle_rad;
   for (std::size_t i = 0; i <= kSpeedPoints; ++i) {
@@ -60,6 +62,7 @@ Json speed_json(const SpeedProfile& speed, double last_rad) {
 
 Json growth_page(const Json& answer, const offline::Process& process, const DelayCycle& cycle,
                  const SpeedProfile& speed, const std::vector<GrowthCourse>& courses) {
+  // The course with the greatest peak is drawn in front.
   Json page = chatter_head("growth", process.name, answer);
   const GrowthCourse& most = offline::worst(courses);
   std::size_t last = 0;

@@ -11,6 +11,7 @@
 #include <steadyrest/chatter/offline/plan/drive_limits.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
+// Stability lobes: the map thinned to what a screen shows, the borders whole.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -24,7 +25,8 @@ constexpr std::size_t kMostSpeeds = 400;
 constexpr std::size_t kMostDepths = 250;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// At most `most` of `count` indices, even ones, both ends among them.
+/// At most `most` of `count` indices, even ones, both ends among them, so that the map keeps its
+/// range.
 std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
   const std::size_t n = std::min(count, most);
   std::vector<std::size_t> out;
@@ -48,6 +50,7 @@ std::vector<double> in_rpm(std::vector<double> speed_rev_s) {
   return speed_rev_s;
 }
 
+/// Stable at all depths: NaN here, null in the page, a gap in the line.
 std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
   std::vector<double> out;
   out.reserve(values.size());
@@ -57,6 +60,8 @@ std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
   return out;
 }
 
+/// Zero order (Altintas, Budak 1995) averages the cutting forces over a revolution: straight teeth
+/// of even pitch in milling, no process damping. It is a sketch to compare with and never decides.
 bool sketch_applies(const Process& process) {
   return process.cut.operation == offline::Operation::milling && process.even_pitch() &&
          process.tool.helix_rad == 0.0 && process.cut.process_damping_n_mm == 0.0;
@@ -78,12 +83,14 @@ Json map_json(const LobeMap& map) {
 
 }  // namespace
 
+/// Under a law the border at constant speed shows what the law gains.
 Result<std::vector<Border>> other_borders(const Process& process, const LobeMap& map,
                                           const offline::BorderLine& border,
                                           const offline::Modulation& modulation) {
   std::vector<Border> out;
   if (modulation.law != chatter::online::Law::constant) {
     auto constant =
+        // Thinned like the map: this border is refined again between its points.
         offline::border_line(process, {.speed_rev_s = picked(map.speed_rev_s, kMostSpeeds),
                                        .most_depth_mm = map.depth_mm.back(),
                                        .modulation = {}});
@@ -102,6 +109,7 @@ Result<std::vector<Border>> other_borders(const Process& process, const LobeMap&
   return out;
 }
 
+/// The border at each step that may be written, under the same law as the map.
 std::vector<Step> override_steps(const Process& process, const kernel::machine::Machine& machine,
                                  double programmed_rev_s, double most_depth_mm,
                                  const offline::Modulation& modulation) {
@@ -117,6 +125,7 @@ std::vector<Step> override_steps(const Process& process, const kernel::machine::
   return out;
 }
 
+/// A step without a limit is stable to the bottom of the map.
 void put_lobes(Json& page, const LobesPage& lobes) {
   page["map"] = map_json(lobes.map);
   page["border"] = {{"speed_rpm", in_rpm(lobes.border.speed_rev_s)},

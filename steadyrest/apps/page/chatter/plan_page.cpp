@@ -6,12 +6,15 @@
 #include <steadyrest/apps/page/chatter/lobes_page.hpp>
 #include <steadyrest/apps/page/chatter/plan_page.hpp>
 
+// The lobes at constant speed behind the planner's alternatives.
 namespace steadyrest::apps::page {
 namespace {
 
 namespace offline = chatter::offline;
 using kernel::outcome::Result;
 
+/// Enough points for a smooth picture. A point under a law costs far more than one at constant
+/// speed, so its border starts from fewer.
 constexpr std::size_t kSpeeds = 241;
 constexpr std::size_t kDepths = 101;
 constexpr std::size_t kLawSpeeds = 41;
@@ -26,7 +29,7 @@ std::vector<double> even(double from, double to, std::size_t count) {
   return out;
 }
 
-/// Around the speeds that may be asked for.
+/// The speeds to show: all steps that may be asked for, and a margin.
 struct Range {
   double low_rev_s;
   double high_rev_s;
@@ -37,6 +40,7 @@ Range range_of(const std::vector<Step>& steps, double programmed_rev_s) {
     out.low_rev_s = std::min(out.low_rev_s, step.speed_rev_s);
     out.high_rev_s = std::max(out.high_rev_s, step.speed_rev_s);
   }
+  // Never down to 0, where the lobes pile up.
   out.low_rev_s = std::max(out.low_rev_s - kBeyond * programmed_rev_s, 0.5 * out.low_rev_s);
   out.high_rev_s += kBeyond * programmed_rev_s;
   return out;
@@ -53,6 +57,7 @@ Result<offline::BorderLine> border_under(const offline::Process& process, const 
 
 }  // namespace
 
+/// The plan has chosen already; this only draws the map around the choice.
 Result<Json> plan_page(const Json& answer, const offline::Process& process,
                        const kernel::machine::Machine& machine, double programmed_rev_s,
                        const offline::Plan& plan) {

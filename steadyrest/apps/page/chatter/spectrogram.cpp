@@ -8,12 +8,15 @@
 
 #include <steadyrest/apps/page/chatter/spectrogram.hpp>
 
+// Power over time and frequency, thinned for a picture by maxima, never by means: a short burst of
+// chatter must not vanish between two pixels.
 namespace steadyrest::apps::page {
 namespace {
 
 constexpr double kFloor_db = -120.0;
 constexpr std::size_t kClose = 8;  ///< windows are at least this share of their length apart
 
+/// Hann: its side lobes fall fast, so a strong tooth line does not cover chatter beside it.
 std::vector<double> hann(std::size_t n) {
   std::vector<double> out(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -27,12 +30,14 @@ std::size_t rounded_up(std::size_t a, std::size_t b) {
   return (a + b - 1) / b;
 }
 
-/// Windows begin `hop` apart: close together in a short signal, half a window in a long one.
+/// Windows begin `hop` apart: close together in a short signal, for a smooth picture; half a window
+/// in a long one, so that nothing lies between two of them.
 std::size_t hop_of(std::size_t samples, const SpectrogramConfig& config) {
   const std::size_t even = (samples - config.window) / config.columns + 1;
   return std::clamp(even, std::max<std::size_t>(config.window / kClose, 1), config.window / 2);
 }
 
+/// dB under the strongest cell; whole decibels make the page a third of the size.
 std::vector<int> in_db(const std::vector<double>& power) {
   const double most = std::ranges::max(power);
   std::vector<int> out;
@@ -60,6 +65,7 @@ Spectrogram spectrogram(const std::vector<double>& signal, const SpectrogramConf
   out.rows = rounded_up(bins, bins_in_row);
   out.column_s = static_cast<double>(together * hop) / config.rate_hz;
   out.row_hz = bin_hz * static_cast<double>(bins_in_row);
+  // The centre of the first window is the centre of the first hop.
   out.start_s = config.start_s + 0.5 * static_cast<double>(n - hop) / config.rate_hz;
   const std::vector<double> window = hann(n);
   std::vector<double> power(out.columns * out.rows, 0.0);

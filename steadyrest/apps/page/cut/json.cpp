@@ -5,6 +5,8 @@
 
 #include <steadyrest/apps/page/cut/report.hpp>
 
+// The page of `cut`. Columns instead of objects, values rounded to what a person can use: a trace
+// of minutes stays within a few megabytes.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -21,8 +23,8 @@ using trial::cut::VibrationFigures;
 using trial::cut::VibrationPoint;
 using trial::cut::WorstLine;
 
-/// To a decimal place, so that the shortest text of the double is short. nlohmann-json writes what
-/// is not finite as null.
+/// Rounded to a decimal place, so that the shortest text of the double is short. nlohmann-json
+/// writes what is not finite as null.
 double rounded(double value, double per_unit) {
   return std::round(value * per_unit) / per_unit;
 }
@@ -39,6 +41,7 @@ Json to_object(const Figures& figures) {
           {"override_changes", figures.override_changes}};
 }
 
+/// Which rule gave the feed that would hold the limit on a line.
 std::string_view name_of(HeldBy by) {
   switch (by) {
     case HeldBy::closed_form:
@@ -85,7 +88,7 @@ Json to_object(const std::vector<VibrationPoint>& course) {
           {"speed_rpm", std::move(speed)}};
 }
 
-/// One array for each quantity: a tenth of the size of one object for each sample.
+/// One array per quantity: a tenth of the size of one object per sample.
 template <class Value>
 Json column(const std::vector<TracePoint>& trace, Value value) {
   Json::array_t out;
@@ -122,6 +125,7 @@ Json to_object(const std::vector<TracePoint>& trace) {
   };
 }
 
+/// The reasons with the time that each was in force: why the layer did what it did.
 Json to_object(const Run& run) {
   Json reasons = Json::array();
   for (const ReasonTime& entry : run.reasons) {
@@ -160,6 +164,7 @@ Json to_object(const ProbeFigures& p) {
           {"sentence", kernel::outcome::sentence(p.reason)}};
 }
 
+/// The lines with the largest errors, and the feed at which each would have kept the limit.
 Json to_object(const WorstLine& w) {
   constexpr double kTenths = 1e1;
   constexpr double kHundredths = 1e2;
@@ -181,6 +186,7 @@ std::string to_json(const VibrationFigures& vibration) {
   return to_object(vibration).dump();
 }
 
+/// The order of the keys is fixed, so that the same data give the same bytes.
 Json to_page(const ReportData& data) {
   Json table = Json::array();
   for (const OverrideStep& step : data.override_table) {

@@ -12,6 +12,7 @@
 #include <steadyrest/apps/page/chatter/lobes_page.hpp>
 #include <steadyrest/apps/page/chatter/spectrogram.hpp>
 
+// Signals that are known exactly: tones, and circles of one vibration a turn.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -23,7 +24,8 @@ using testing::StartsWith;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kRate_hz = 8000.0;
 
-/// A tone of 1000 Hz, from half of the time on with one of 2000 Hz at a tenth of its amplitude.
+/// A tone of 1000 Hz; from half of the time on also one of 2000 Hz at a tenth of its amplitude, 20
+/// dB below. Both are whole numbers of bins of a 256-sample window at 8 kHz, so nothing leaks.
 std::vector<double> tones(std::size_t samples) {
   std::vector<double> out;
   for (std::size_t i = 0; i < samples; ++i) {
@@ -52,6 +54,7 @@ TEST(Spectrogram, HasToneAndTimeWhereTheyAre) {
   EXPECT_LT(level(s, 3.8, 3000.0, bin_hz), -80);
 }
 
+// 400 000 samples in 50 × 40 cells: maxima keep the tones where means would lose them.
 TEST(Spectrogram, OfALongSignalIsNoLargerAndLosesNoTone) {
   const auto s = spectrogram(
       tones(400'000),
@@ -63,7 +66,7 @@ TEST(Spectrogram, OfALongSignalIsNoLargerAndLosesNoTone) {
   EXPECT_NEAR(level(s, 40.0, 2000.0, bin_hz), -20, 1);
 }
 
-/// One vibration for each turn and 50 steps.
+/// One vibration per turn, 50 steps each; the place at angle 0 is (1, 0) µm in every turn.
 trial::vibration::Moment moment(std::size_t step, double turns_per_s) {
   trial::vibration::Moment out;
   out.angle_rad = kTurn * (static_cast<double>(step) + 0.5) / 50.0;
@@ -74,6 +77,8 @@ trial::vibration::Moment moment(std::size_t step, double turns_per_s) {
   return out;
 }
 
+// 200 turns, of which the last is not complete. Linear interpolation between two of 50 steps on a
+// cosine errs by 1 − cos(π/50) = 0.002 at most.
 TEST(CutRecorder, SamplesOnceARevolutionAndKeepsExtremes) {
   CutRecorder cut(2.0, 100.0);
   for (std::size_t step = 0; step < 50 * 200; ++step) {
@@ -93,6 +98,7 @@ TEST(CutRecorder, SamplesOnceARevolutionAndKeepsExtremes) {
   EXPECT_NEAR(last.back().angle_rad - last.front().angle_rad, 6.0 * kTurn, kTurn / 49.0);
 }
 
+// 20 000 turns; every fifth is kept, so that at most 4000 remain.
 TEST(CutRecorder, OfALongCutTakesNoMoreRoom) {
   CutRecorder cut(200.0, 100.0);
   for (std::size_t step = 0; step < 50 * 20'000; ++step) {
@@ -104,6 +110,8 @@ TEST(CutRecorder, OfALongCutTakesNoMoreRoom) {
   EXPECT_LE(cut.last().size(), 8000U);
 }
 
+// A border loses its cusps if it is thinned; the map does not mind. The last value of the map
+// proves that both ends are kept: 1001·501 − 1.
 TEST(LobesPage, ThinsTheMapButNotTheBorder) {
   LobesPage lobes;
   for (std::size_t i = 0; i < 1001; ++i) {
@@ -127,6 +135,7 @@ TEST(LobesPage, ThinsTheMapButNotTheBorder) {
   EXPECT_EQ(page["map"]["log_radius"].back(), 501500.0);
 }
 
+// A file name or a block of a program can hold </script>; the page must not end there.
 TEST(ChatterPage, NoTextLeavesTheScriptElement) {
   const std::string html =
       to_html(text_of(chatter_head("lobes", "</script><b>", {{"text", "\xff<!--"}})));

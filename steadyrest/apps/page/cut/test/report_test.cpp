@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// A folder of this test's own, gone afterwards.
+/// A folder for each test, gone afterwards: tests run side by side.
 class Report : public ::testing::Test {
  protected:
   Report() {
@@ -51,12 +51,14 @@ auto write(std::size_t points, const fs::path& folder) {
   return write_files(to_html(json), json, folder);
 }
 
+/// What the browser will parse: the text between the element's tags.
 std::string data_element(const std::string& html) {
   const std::string open = R"(id="report-data" type="application/json">)";
   const std::size_t begin = html.find(open) + open.size();
   return html.substr(begin, html.find("</script>", begin) - begin);
 }
 
+// One value of each part of the report, compared as parsed JSON.
 TEST_F(Report, JsonSaysWhatTheDataSay) {
   const ReportData data = sample_report(50);
   const auto json = nlohmann::json::parse(text(data));
@@ -80,6 +82,7 @@ TEST_F(Report, JsonSaysWhatTheDataSay) {
   EXPECT_EQ(json["probes"][0]["reason"], "thermal_reading_taken");
 }
 
+// The page draws column against column; a short one would shift everything behind it.
 TEST_F(Report, ColumnsOfATraceAreEquallyLong) {
   const auto json = nlohmann::json::parse(text(sample_report(37)));
   for (const char* run : {"without", "with"}) {
@@ -90,10 +93,12 @@ TEST_F(Report, ColumnsOfATraceAreEquallyLong) {
   }
 }
 
+// Byte for byte: archives and tests compare reports by hash.
 TEST_F(Report, TheSameDataGiveTheSameBytes) {
   EXPECT_EQ(to_html(text(sample_report(50))), to_html(text(sample_report(50))));
 }
 
+// JSON has no NaN; a parser would stop at it.
 TEST_F(Report, ValuesThatAreNotFiniteBecomeNull) {
   ReportData data = sample_report(2);
   data.with.trace[1].contour_error_um = std::numeric_limits<double>::quiet_NaN();
@@ -103,6 +108,7 @@ TEST_F(Report, ValuesThatAreNotFiniteBecomeNull) {
   EXPECT_TRUE(json["worst_lines"][0]["with_um"].is_null());
 }
 
+// ä in Latin-1, as old programs have it, is no UTF-8.
 TEST_F(Report, BytesThatAreNotUtf8AreReplaced) {
   ReportData data = sample_report(1);
   data.worst_lines[0].text = "( fr\xE4sen )";
@@ -110,6 +116,7 @@ TEST_F(Report, BytesThatAreNotUtf8AreReplaced) {
   EXPECT_EQ(json["worst_lines"][0]["text"], "( fr\xEF\xBF\xBDsen )");
 }
 
+// No `<` at all in the data: then no text can end the element, whatever it says.
 TEST_F(Report, NoTextLeavesTheScriptElement) {
   const std::string html = to_html(text(sample_report(3)));
   EXPECT_THAT(html, StartsWith("<!doctype html>"));
@@ -119,6 +126,7 @@ TEST_F(Report, NoTextLeavesTheScriptElement) {
             nlohmann::json::parse(text(sample_report(3))));
 }
 
+// From disk, without a network: no script and no style from elsewhere.
 TEST_F(Report, ThePageNeedsNothingFromOutside) {
   const std::string html = to_html("{}");
   EXPECT_THAT(html, Not(HasSubstr("<script src")));
@@ -126,6 +134,7 @@ TEST_F(Report, ThePageNeedsNothingFromOutside) {
   EXPECT_THAT(html, Not(HasSubstr("@STEADYREST_REPORT_DATA@")));
 }
 
+// The folder is made, two files appear, and no temporary stays behind.
 TEST_F(Report, WritesBothFilesAndLeavesNothingElse) {
   const auto written = write(20, folder_ / "a" / "b");
   ASSERT_TRUE(written.has_value());
@@ -142,6 +151,7 @@ TEST_F(Report, ReplacesAnOlderReport) {
   EXPECT_EQ(read(folder_ / "report.json"), text(sample_report(3)) + "\n");
 }
 
+// A file where the folder should be, at the end and in the middle of the path.
 TEST_F(Report, RefusesAFileInPlaceOfTheDirectory) {
   std::ofstream(folder_ / "taken") << "x";
   for (const fs::path& directory : {folder_ / "taken", folder_ / "taken" / "below"}) {
@@ -153,6 +163,7 @@ TEST_F(Report, RefusesAFileInPlaceOfTheDirectory) {
   }
 }
 
+// A folder in the place of report.json: the rename fails, and report.html must not be left alone.
 TEST_F(Report, RefusesWhenAFileCannotBeReplacedAndLeavesNoPart) {
   fs::create_directories(folder_ / "report.json" / "in-the-way");
   const auto written = write(2, folder_);
