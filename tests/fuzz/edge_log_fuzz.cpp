@@ -7,6 +7,8 @@
 
 #include <steadyrest/motion/offline/log/log_record.hpp>
 
+// Bytes in, nothing unfit out: whatever the log reader accepts must be safe to estimate from, and
+// every refusal must say what to do.
 namespace {
 
 using namespace steadyrest::motion;
@@ -24,6 +26,7 @@ void must_be_fit(const offline::EdgeLog& log) {
     must(std::isfinite(log.rows[i].t_s));
     must(i == 0 || log.rows[i].t_s >= log.rows[i - 1].t_s);
   }
+  // Few ticks, or a log with one wild time stamp would take the fuzzer's memory.
   offline::LogRecordConfig config;
   config.max_ticks = 1000;
   const auto record = offline::record_of(log, config);

@@ -8,6 +8,7 @@
 #include <steadyrest/chatter/offline/response/frf.hpp>
 #include <steadyrest/chatter/offline/response/uff58.hpp>
 
+// The same for frequency responses, in both formats.
 namespace {
 
 using namespace steadyrest;

@@ -8,6 +8,7 @@
 #include <steadyrest/passport/file/consistency.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
+// The same for machine files; the findings must not fail on anything that loads.
 namespace {
 
 namespace passport = steadyrest::passport;

@@ -12,6 +12,8 @@
 
 #include <steadyrest/nc/interpret/program.hpp>
 
+// A program, a plan for it, and files to work on, for the fuzz targets of the rewriter. The plan
+// must fit the program, or nothing would ever be inserted.
 namespace steadyrest::fuzz {
 namespace {
 
@@ -19,7 +21,7 @@ namespace interpret = nc::interpret;
 namespace rewrite = nc::rewrite;
 using kernel::machine::Machine;
 
-/// About how long a program takes.
+/// Roughly how long a program takes: exact times do not matter, plans are placed within a window.
 class Length final : public interpret::Sink {
  public:
   void on_move(const interpret::Move& move) override {
@@ -37,6 +39,7 @@ class Length final : public interpret::Sink {
   std::size_t moves = 0;
 };
 
+/// Corrections between 30 % and 80 % of the time, where a program has moves before and after.
 rewrite::AxisPlan axis_plan(char letter, std::size_t index, double total_s, bool many) {
   constexpr std::array kOnce = {10.0, -5.5};
   constexpr std::array kOften = {10.0, -5.5, 3.0, 20.123, 7.0, -2.0};
@@ -65,6 +68,7 @@ Job::Job(std::string_view program, rewrite::Method method, std::uint8_t choice) 
   config.most_repeated_lines = 2000;
 }
 
+/// Long programs cost time and find nothing that short ones do not.
 bool Job::plan_it(std::uint8_t choice) {
   constexpr std::size_t kMostMoves = 500;
   constexpr double kMost_s = 60.0;  // a plan may differ from the program by 30 s
@@ -82,6 +86,7 @@ bool Job::plan_it(std::uint8_t choice) {
   return true;
 }
 
+/// A coarse cycle makes timing quick; rotary axes let rotary words be read.
 const Machine& mill() {
   static const Machine made = [] {
     Machine machine;
@@ -97,6 +102,7 @@ const Machine& mill() {
   return made;
 }
 
+/// In memory where that can be had: the targets write thousands of files a second.
 Files::Files() {
   namespace fs = std::filesystem;
   std::error_code absent;

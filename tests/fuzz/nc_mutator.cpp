@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+// Random bytes hardly ever make a program. So lines of the three dialects are inserted, moved,
+// repeated and erased, and numbers are changed; one time in five bytes change as well.
 namespace steadyrest::fuzz {
 namespace {
 
@@ -161,6 +163,7 @@ constexpr auto kSinumerik = std::to_array<std::string_view>({
     "T=\"DRILL\" M6",
 });
 
+/// The low bits of minstd_rand are poor; division leaves them out.
 std::size_t below(Random& random, std::size_t limit) {
   return random() / 7 % limit;
 }
@@ -178,6 +181,7 @@ std::string one_line(Random& random, std::uint8_t dialect) {
   static constexpr std::array<std::span<const std::string_view>, 3> kOwn = {kLinuxcnc, kFanuc,
                                                                             kSinumerik};
   const std::span<const std::string_view> own = kOwn[dialect % kOwn.size()];
+  // Two thirds of the choice from what all dialects know.
   const std::size_t at = below(random, 2 * kLines.size() + own.size());
   std::string text;
   for (const char c : at < 2 * kLines.size() ? kLines[at / 2] : own[at - 2 * kLines.size()]) {
@@ -199,6 +203,7 @@ class Program {
   void change(Random& random, std::uint8_t dialect) {
     const std::size_t at = below(random, lines_.size() + 1);
     const auto place = lines_.begin() + static_cast<long>(at);
+    // Inserting as often as everything else together, so that programs grow.
     const std::size_t what = below(random, 8);
     if (what < 4 || place == lines_.end()) {
       lines_.insert(place, one_line(random, dialect));
@@ -213,6 +218,7 @@ class Program {
     }
   }
 
+  // A program without an end is refused at once, which teaches the fuzzer nothing.
   void end_well() {
     if (lines_.empty() || (lines_.back() != "M2" && lines_.back() != "M30")) {
       lines_.emplace_back("M2");
@@ -244,6 +250,7 @@ std::uint8_t choice_of(std::uint8_t byte, const Layout& layout) {
   return static_cast<std::uint8_t>(static_cast<std::uint8_t>(byte - '0') % layout.dialects);
 }
 
+/// The choice byte stays legal, or most inputs would go to the same place.
 std::size_t mutate_bytes(std::uint8_t* data, std::size_t size, std::size_t most,
                          const Layout& layout) {
   const std::size_t now = LLVMFuzzerMutate(data, size, most);
@@ -255,6 +262,7 @@ std::size_t mutate_bytes(std::uint8_t* data, std::size_t size, std::size_t most,
 
 }  // namespace
 
+/// seed decides everything: libFuzzer expects the same change for the same seed.
 std::size_t mutate_program(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed,
                            const Layout& layout) {
   Random random(seed);
@@ -279,11 +287,13 @@ std::size_t mutate_program(std::uint8_t* data, std::size_t size, std::size_t mos
       program.change(random, layout.dialect_of == nullptr ? choice : layout.dialect_of[choice]);
     }
   }
+  // Now and then without an end, for that path too.
   if (below(random, 8) != 0) {
     program.end_well();
   }
   std::string made = head + program.text();
   if (layout.edits) {
+    // Some edits of the corrected program are kept, new ones are added.
     if (edits.size() > 16 || below(random, 4) == 0) {
       edits.clear();
     }

@@ -9,6 +9,8 @@
 #include <steadyrest/nc/rewrite/correct/compensate.hpp>
 #include <steadyrest/nc/rewrite/text/tag.hpp>
 
+// Compensate and strip are inverse: original → corrected → original, byte for byte, or nothing was
+// written at all.
 namespace {
 
 namespace fuzz = steadyrest::fuzz;
@@ -24,6 +26,7 @@ void play(std::string_view text, rewrite::Method method, std::uint8_t choice) {
     return;
   }
   const fuzz::Files& files = fuzz::files();
+  // An older file must be as it was after a refusal.
   constexpr std::string_view kOld = "what was there";
   fuzz::write_file(files.original, text);
   fuzz::write_file(files.changed, kOld);

@@ -58,6 +58,7 @@ struct Lines {
 class Trace final : public interpret::Sink {
  public:
   void on_move(const Move& move) override {
+    // The spline's points lie in memory of the interpreter that may be gone.
     moves.push_back(move);
     moves.back().spline = {};
   }
@@ -79,6 +80,7 @@ bool run(std::string_view text, const interpret::Config& config, Trace& trace) {
   return run->take().refused.empty();
 }
 
+/// 1e-7 mm is what rounding in two different sums may leave; the smallest correction is far larger.
 bool near(double a, double b) {
   return std::abs(a - b) <= 1e-7;
 }
@@ -106,12 +108,17 @@ int step_of(const rewrite::AxisPlan* plan, double shift_mm) {
   return -1;
 }
 
+/// The second way: both programs are run from offsets that verify never saw, and their moves are
+/// compared in machine coordinates. A correction that is right only for the offsets it was proved
+/// with shows here.
 class Judge {
  public:
   Judge(const fuzz::Job& job, const Lines& changed) : job_(job), changed_(changed) {}
 
   void judge() {
     interpret::Config config = job_.config;
+    // Offsets with a quarter millimetre, different for each system, so that mixing two of them
+    // shows.
     config.external[2] = job_.settings.method == rewrite::Method::fanuc ? -0.75 : 0.0;
     for (std::size_t i = 0; i < config.work_offset.size(); ++i) {
       const double own_mm = 1.5 * static_cast<double>(i);
@@ -127,6 +134,7 @@ class Judge {
     require(run(changed_.text(), config, after), "the changed program is read");
     const bool beside = rewrite::beside_program(job_.settings.method);
     std::size_t paired = 0;
+    // Moves of inserted lines are judged alone; all others go in pairs with the original's.
     for (const Move& move : after.moves) {
       if (changed_.inserted(move.line - 1)) {
         require(!beside, "an R-parameter moves nothing");
@@ -160,6 +168,8 @@ class Judge {
   }
 
  private:
+  // Kind, feed and modes must be equal; the end may differ by a correction of the plan, and
+  // corrections must come in the plan's order.
   void pair(const Move& before, const Move& after) {
     require(before.kind == after.kind && before.feed_mode == after.feed_mode &&
                 before.feed_mm_s == after.feed_mm_s && before.path_mode == after.path_mode &&
@@ -187,7 +197,8 @@ class Judge {
     }
   }
 
-  // Start, end and centre are shifted alike.
+  // An arc is shifted as a whole. Start moved without its centre bends it, and no control complains
+  // below some tens of micrometres.
   static void arc(const Move& before, const Move& after) {
     const interpret::Axes start = machine_of(before, before.start);
     const interpret::Axes moved = machine_of(after, after.start);
@@ -210,7 +221,8 @@ class Judge {
     }
   }
 
-  // A step may be passed over where the next one is planned at the same place.
+  // Every step of the plan is reached. With a wide window two steps may fall on the same place, and
+  // the first is then passed over.
   void all_steps() const {
     for (const rewrite::AxisPlan& axis : job_.plan.axes) {
       require(axis.steps.empty() || reached_[axis.index] == static_cast<int>(axis.steps.size()) ||
@@ -243,7 +255,8 @@ class Judge {
   std::array<int, 9> reached_{};
 };
 
-/// One edit: what, where (counted among the inserted lines), and with what.
+/// One edit of the corrected program: what, where (counted among the inserted lines), and with
+/// what. Only inserted lines change, because verify compares the others as text.
 void edit(Lines& text, std::uint8_t what, std::uint8_t where, std::uint8_t a, std::uint8_t b) {
   std::vector<std::size_t> own;
   for (std::size_t i = 0; i < text.lines.size(); ++i) {
@@ -299,6 +312,8 @@ void edit(Lines& text, std::uint8_t what, std::uint8_t where, std::uint8_t a, st
   }
 }
 
+/// compensate first, then the edits, then verify. What it refuses is no finding; what it accepts
+/// must survive the judge.
 void play(const fuzz::Job& job, std::string_view edits) {
   const fuzz::Files& files = fuzz::files();
   fuzz::write_file(files.original, job.text);

@@ -6,11 +6,14 @@
 
 #include "place.hpp"
 
+// Rules that one file answers by itself. Comments and literals are blanked first where a word in
+// them must not count.
 namespace house {
 namespace {
 
 void check_spdx(FileCheck& check) {
   std::string_view text = check.file.text;
+  // A script's first line must stay its shebang.
   if (text.starts_with("#!")) {
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
   }

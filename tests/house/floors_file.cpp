@@ -4,6 +4,7 @@
 #include "rules.hpp"
 #include <toml++/toml.h>
 
+// The rules as data, so that a new folder is a line in floors.toml and not in a program.
 namespace house {
 namespace {
 
@@ -40,6 +41,7 @@ std::expected<Rules, std::string> read_rules(std::string_view toml_text) {
     rules.noexcept_functions = strings(table["in_cycle"]["noexcept_functions"]);
     rules.stage_folder = table["stages"]["folder"].value_or<std::string>("");
     rules.stage_shape = strings(table["stages"]["shape"]);
+    // An empty list would let everything pass.
     if (rules.root.empty() || rules.places.empty() || rules.in_cycle_folders.empty() ||
         rules.most_files == 0 || rules.most_lines == 0) {
       return std::unexpected("root, both of [size], [[place]] and in_cycle.folders are needed");

@@ -8,7 +8,7 @@
 namespace house {
 namespace {
 
-/// <new> as a header is fine.
+/// <new> as a header is fine; `new` as a word is not.
 bool is_in_preprocessor_line(std::string_view blanked, std::size_t offset) {
   const std::size_t newline = blanked.rfind('\n', offset);
   const std::size_t start = newline == std::string_view::npos ? 0 : newline + 1;
@@ -27,6 +27,8 @@ void check_words(FileCheck& check) {
   }
 }
 
+/// Blanks are taken out first, for `while ( true )` is spelt in many ways; `origin` leads back to
+/// the line.
 void check_loops(FileCheck& check) {
   std::string dense;
   std::vector<std::size_t> origin;
@@ -44,7 +46,8 @@ void check_loops(FileCheck& check) {
   }
 }
 
-/// A call stands after `return`, `=` or at the start of a statement; a declaration after a type.
+/// update( after a type is a declaration; after `return`, `=`, `.` or at the start of a statement
+/// it is a call.
 bool follows_type(std::string_view blanked, std::size_t offset) {
   const std::size_t last = blanked.find_last_not_of(" \n", offset - 1);
   if (last == std::string_view::npos) {
@@ -63,7 +66,8 @@ bool is_declaration(std::string_view blanked, const Word& word) {
          follows_type(blanked, word.offset);
 }
 
-/// `Output update(Input) noexcept`: in each declaration before its end.
+/// Each declaration of `update(…)` must say noexcept before its end: an exception in the cycle
+/// would end the process with the override still masked.
 void check_noexcept(FileCheck& check) {
   const auto& functions = check.rules.noexcept_functions;
   for (const Word& word : words(check.blanked)) {

@@ -8,6 +8,7 @@
 namespace house {
 namespace {
 
+/// `*` permits everything (apps, tests).
 bool is_permitted(const Place& place, std::string_view target_folder) {
   return std::ranges::any_of(place.includes, [&](std::string_view allowed) {
     return allowed == "*" || is_within(target_folder, allowed);
@@ -19,7 +20,8 @@ bool header_matches(std::string_view pattern, std::string_view header) {
                                 : header == pattern;
 }
 
-/// Within a place with shelves: only what lies lower. Tests may use the helpers of other tests.
+/// Within a place with shelves only lower ones may be included, so that the order stays a line and
+/// never a circle. Tests may use the helpers of other tests.
 void check_shelf(FileCheck& check, const Location& here, const std::string& target,
                  const Include& include) {
   if (has_folder(check.file.path, "test") || has_folder(include.target, "test")) {
@@ -39,10 +41,12 @@ void check_floor(FileCheck& check, const Location& here, const std::string& targ
     check.report("place", include.line, include.target + " has no place in floors.toml");
     return;
   }
+  // Inside its own place the shelves decide, between places the floors.
   if (is_within(target, here.folder)) {
     check_shelf(check, here, target, include);
     return;
   }
+  // Both conditions: a list that permits a higher floor by mistake must not win.
   const bool higher = there->place->floor > here.place->floor;
   if (higher || !is_permitted(*here.place, target)) {
     check.report("floor", include.line,
@@ -51,6 +55,7 @@ void check_floor(FileCheck& check, const Location& here, const std::string& targ
   }
 }
 
+/// The name of the half decides, wherever it occurs in the path.
 void check_half(FileCheck& check, const std::string& target, const Include& include) {
   if (has_folder(check.file.path, "online") && has_folder(target + "/", "offline")) {
     check.report("half", include.line, "online must not include offline: " + include.target);
@@ -77,6 +82,7 @@ void check_includes(FileCheck& check) {
   const bool in_cycle = is_in_cycle(check.rules, check.file.path);
   for (const Include& include : includes(check.file.text)) {
     if (in_cycle) {
+      // Locks, streams and clocks come in by their headers.
       check_in_cycle_header(check, include);
     }
     const auto target = folder_under_root(check.rules, include.target);

@@ -6,6 +6,7 @@
 namespace house {
 namespace {
 
+/// Folder by folder, shelves excepted: they share the namespace of their place.
 std::string expected_namespace(const FileCheck& check) {
   std::string name = check.rules.root + "/" + home_of(check.rules, check.folder);
   for (std::size_t at = name.find('/'); at != std::string::npos; at = name.find('/')) {
@@ -16,6 +17,8 @@ std::string expected_namespace(const FileCheck& check) {
 
 }  // namespace
 
+/// An alias (`namespace x = steadyrest::…;`) and `using namespace` name other rooms' namespaces by
+/// right.
 void check_namespaces(FileCheck& check) {
   const std::string expected = expected_namespace(check);
   bool matched = false;
@@ -37,6 +40,7 @@ void check_namespaces(FileCheck& check) {
                    "namespace " + actual + " in the folder of " + expected);
     }
   }
+  // A source may define only things of the unnamed namespace; a header must declare something.
   if (!matched && check.file.path.ends_with(".hpp")) {
     check.report("namespace", 1, "the header declares nothing in namespace " + expected);
   }

@@ -37,6 +37,7 @@ bool is_within(std::string_view path, std::string_view folder) {
          (path.starts_with(folder) && path.substr(folder.size()).starts_with('/'));
 }
 
+/// The most specific place wins: contour/online before contour.
 std::optional<Location> locate(const Rules& rules, std::string_view folder) {
   std::optional<Location> best;
   for (const Place& place : rules.places) {
@@ -48,6 +49,7 @@ std::optional<Location> locate(const Rules& rules, std::string_view folder) {
   return best;
 }
 
+/// What lies beside the shelves is above them all.
 std::size_t shelf_rank(const Location& at, std::string_view folder) {
   return shelf_of(at, folder).value_or(at.place->shelves.size());
 }
@@ -77,6 +79,7 @@ bool is_in_cycle(const Rules& rules, std::string_view path) {
   if (has_folder(path, "test") || has_folder(path, "testing")) {
     return false;
   }
+  // A folder name alone (`online`) holds anywhere; a path only there.
   return std::ranges::any_of(rules.in_cycle_folders, [&](std::string_view folder) {
     return folder.find('/') != std::string_view::npos ? is_within(path, folder)
                                                       : has_folder(path, folder);

@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+// Each rule by the smallest tree that breaks it and the nearest one that does not. Violations are
+// compared as rule:line, so a rule that fires in the wrong place fails as well.
 namespace house {
 namespace {
 
@@ -38,7 +40,8 @@ std::string namespace_of(std::string path) {
   return path;
 }
 
-/// A file that keeps every rule but for what `body` does; the body starts on line 2.
+/// A file that keeps every rule but for what `body` does; the body starts on line 2, behind the
+/// licence line.
 SourceFile file(const std::string& path, const std::string& body) {
   return {path, std::string(kSpdx) + body + "\nnamespace " + namespace_of(path) + " {}\n"};
 }
@@ -61,6 +64,7 @@ std::vector<std::string> shelved(const std::string& path, const std::string& bod
   return found({path, std::string(kSpdx) + body + "\nnamespace steadyrest::chatter::offline {}\n"});
 }
 
+// kernel below the rooms; within nc, interpret below plan but above read.
 TEST(Floors, ALowerFloorMayBeIncluded) {
   EXPECT_THAT(
       found("steadyrest/contour/online/x.hpp", "#include <steadyrest/kernel/port/port.hpp>"),
@@ -91,6 +95,7 @@ TEST(Floors, MathDoesNotKnowPrograms) {
               ElementsAre("floor:2"));
 }
 
+// All sixteen pairs.
 TEST(Floors, RoomsNeverMeet) {
   const std::vector<std::string> rooms = {"motion", "contour", "chatter", "thermal"};
   for (const std::string& here : rooms) {
@@ -131,6 +136,8 @@ TEST(Floors, AFolderWithoutAPlaceIsRefused) {
               ElementsAre("place:2"));
 }
 
+// An include in a comment, a block comment or a raw string is no include; one with blanks after #
+// is.
 TEST(Includes, InCommentsAndStringsDoNotCount) {
   const std::string higher = "#include <steadyrest/apps/x.hpp>";
   const std::string path = "steadyrest/kernel/x.hpp";
@@ -190,6 +197,7 @@ TEST(Shelves, ShareTheNamespaceOfTheirPlace) {
               ElementsAre("namespace:2", "namespace:1"));
 }
 
+// 15 pairs of header and source are 15 files; tests count in their own folder.
 TEST(Crowded, AFolderHoldsNoMoreThanOneCanLookThrough) {
   std::vector<SourceFile> tree;
   for (char c = 'a'; c < 'a' + 15; ++c) {
@@ -220,6 +228,7 @@ TEST(LongFile, IsFoundAtItsFirstLineTooMany) {
   EXPECT_THAT(of_lines("web/test/x.mjs", 500), IsEmpty());
 }
 
+// The same header is fine in offline/ and in tests.
 TEST(InCycle, HeadersOfLocksStreamsAndClocksAreRefused) {
   for (const std::string header :
        {"mutex", "iostream", "chrono", "fmt/ostream.h", "sys/time.h", "map"}) {
@@ -250,6 +259,7 @@ TEST(InCycle, TheSupervisorAndTheEnvelopeRunInTheCycleToo) {
   EXPECT_THAT(found("steadyrest/kernel/machine/x.cpp", "#include <map>"), IsEmpty());
 }
 
+// `renew`, 1'000, a literal and a comment contain or look like a forbidden word.
 TEST(InCycle, WordsInCommentsNamesAndLiteralsDoNotCount) {
   const std::string path = "steadyrest/motion/online/x.cpp";
   EXPECT_THAT(
@@ -266,6 +276,7 @@ TEST(InCycle, LoopsWithoutABoundAreRefused) {
   EXPECT_THAT(found(path, "void f() { for (int i = 0; i < 9; ++i) {} }"), IsEmpty());
 }
 
+// Declarations must say noexcept; calls are no declarations.
 TEST(InCycle, UpdateMustBeNoexcept) {
   const std::string path = "steadyrest/motion/online/x.hpp";
   EXPECT_THAT(found(path, "class X { Output update(const Input& i); };"),
@@ -289,6 +300,7 @@ TEST(Namespaces, FollowTheFolder) {
   EXPECT_THAT(found({"steadyrest/apps/cli/main.cpp", text + "int main() {}\n"}), IsEmpty());
 }
 
+// The licence line opens every file, whatever its comment sign; in scripts it follows #!.
 TEST(Spdx, OpensEveryFile) {
   EXPECT_THAT(found({"tests/x.cpp", "int a;\n"}), ElementsAre("spdx:1"));
   EXPECT_THAT(found({"scripts/x.sh", "#!/bin/sh\n# SPDX-License-Identifier: Apache-2.0\n"}),
@@ -314,7 +326,7 @@ TEST(Built, ASourceThatNoListNamesIsFound) {
   EXPECT_EQ(violations[0].rule, "unbuilt");
 }
 
-/// Of a class in the cycle that the supervisor holds as a member.
+/// Violations of a class in the cycle that the supervisor holds as a member.
 std::vector<std::string> held(const std::string& member, const std::string& body) {
   const auto violations = check_stages(
       {file("steadyrest/supervisor/layer.hpp", "struct Layer {\n  " + member + "\n};"),
@@ -340,6 +352,7 @@ TEST(Stages, HaveConfigMakeStateAndRestore) {
   EXPECT_THAT(held(member, all.substr(0, all.find("void restore"))),
               ElementsAre(HasSubstr("restore(")));
   EXPECT_THAT(held("// contour::online::Governor governor_;", "int update(int x);"), IsEmpty());
+  // A class without update() is no stage: nothing in it changes from cycle to cycle.
   EXPECT_THAT(held(member, "int look(int x) const;"), IsEmpty()) << "nothing changes in it";
 }
 

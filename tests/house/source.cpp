@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 
+// A lexer just good enough for the rules: it tells code from comments and literals, keeps every
+// offset and line, and knows nothing else of C++.
 namespace house {
 namespace {
 
@@ -20,7 +22,8 @@ void blank(std::string& text, std::size_t from, std::size_t to) {
   }
 }
 
-/// One past the closing quote of the literal that opens at `open`.
+/// One past the closing quote of the literal that opens at `open`. It also ends at the line's end,
+/// so that an apostrophe in unusual code cannot swallow the rest of the file.
 std::size_t end_of_quoted(std::string_view text, std::size_t open) {
   const char quote = text[open];
   std::size_t i = open + 1;
@@ -41,6 +44,7 @@ std::size_t end_of_raw(std::string_view text, std::size_t open) {
   return end == std::string_view::npos ? text.size() : end + closing.size();
 }
 
+/// R, u8R, uR, UR and LR open a raw string; an identifier that ends in R does not.
 bool opens_raw(std::string_view text, std::size_t quote) {
   return quote > 0 && text[quote - 1] == 'R' &&
          (quote == 1 || !is_word_character(text[quote - 2]) || text[quote - 2] == '8' ||
@@ -63,6 +67,7 @@ std::string blank_comments_and_literals(std::string_view text) {
       blank(out, i, end);
     } else if (text[i] == '"') {
       end = opens_raw(text, i) ? end_of_raw(text, i) : end_of_quoted(text, i);
+      // The quotes stay, so that a quoted include is still seen as one.
       blank(out, i + 1, end - 1);
     } else if (text[i] == '\'' && (i == 0 || !is_word_character(text[i - 1]))) {
       // After a digit it separates thousands: 1'000.
@@ -87,6 +92,7 @@ std::vector<Include> includes(std::string_view text) {
     if (i == std::string::npos || (blanked[i] != '<' && blanked[i] != '"')) {
       continue;
     }
+    // The name is read from the original text: in the blanked one a quoted name is blank.
     const bool quoted = blanked[i] == '"';
     const std::size_t end = text.find(quoted ? '"' : '>', i + 1);
     if (end == std::string_view::npos) {
@@ -128,6 +134,7 @@ std::string_view folder_of(std::string_view path) {
   return slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash);
 }
 
+/// Whole folder names: `online` must not match `online_help`.
 bool has_folder(std::string_view path, std::string_view folder) {
   const std::string padded = "/" + std::string(folder_of(path)) + "/";
   return padded.find("/" + std::string(folder) + "/") != std::string::npos;

@@ -19,7 +19,7 @@ struct Class {
   std::string body;
 };
 
-/// From the brace at `open` to its partner.
+/// From the brace at `open` to its partner. Literals are blanked, so no brace in a string counts.
 std::string_view braced(std::string_view blanked, std::size_t open) {
   std::size_t depth = 0;
   for (std::size_t at = open; at < blanked.size(); ++at) {
@@ -52,7 +52,8 @@ void collect(const SourceFile& file, std::map<std::string, Class>& classes) {
   }
 }
 
-/// Types of the data members (and of nothing else that looks like them) that a header declares.
+/// Types of the data members that a header declares; what merely looks like one finds no class of
+/// its name and drops out.
 std::vector<std::string> held_in(const SourceFile& file) {
   static const std::regex kMember(R"((\w+)>?\s+\w+\s*(;|=|\{))");
   const std::string blanked = blank_comments_and_literals(file.text);
@@ -101,6 +102,7 @@ std::vector<Violation> check_stages(const std::vector<SourceFile>& tree, const R
         found.push_back({"stage", stage->second.path, stage->second.line,
                          type + " lacks '" + *part + "', and " + file.path + " holds it"});
       }
+      // Reported once, however many members have the type.
       classes.erase(stage);
     }
   }

@@ -16,6 +16,7 @@ std::vector<Violation> check_built(const std::vector<SourceFile>& tree, const Ru
     if (!file.path.ends_with(".cpp") || !is_within(file.path, rules.root)) {
       continue;
     }
+    // A list names sources relative to its own folder.
     const bool named = std::ranges::any_of(tree, [&](const SourceFile& list) {
       const std::string_view folder = folder_of(list.path);
       return list.path.ends_with("CMakeLists.txt") && is_within(file.path, folder) &&
@@ -32,6 +33,7 @@ std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree, const 
   std::map<std::string, std::set<std::string>> folders;
   for (const SourceFile& file : tree) {
     if (is_cpp(file.path)) {
+      // Without the ending, so a header and its source are one.
       folders[std::string(folder_of(file.path))].insert(file.path.substr(0, file.path.rfind('.')));
     }
   }

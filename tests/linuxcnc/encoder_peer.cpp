@@ -24,6 +24,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+// The peer is LinuxCNC's own code, loaded and called as its threads would; so a comparison is with
+// what people really run.
 namespace {
 
 using steadyrest::test::linuxcnc::hal;
@@ -55,6 +57,7 @@ std::optional<Row> parse(const std::string& line) {
   Row row;
   char rest = 0;
   long long count = 0;
+  // The trailing %c catches anything behind the second number.
   if (std::sscanf(line.c_str(), "%lf,%lld %c", &row.t_s, &count, &rest) != 2 ||
       !std::isfinite(row.t_s)) {
     return std::nullopt;
@@ -86,7 +89,8 @@ std::optional<std::vector<Row>> read(std::istream& in, std::size_t& line_number)
   return rows;
 }
 
-/// The component and its channel 0.
+/// The component and its channel 0. Pins are shared memory on a real machine and plain variables
+/// here.
 class Encoder {
  public:
   explicit Encoder(double min_speed_counts_s)
@@ -99,7 +103,7 @@ class Encoder {
         position_(hal().pin<double>("encoder.0.position-interpolated")) {
     hal().pin<double>("encoder.0.min-speed-estimate") = min_speed_counts_s;
   }
-  /// The base thread reads the levels that belong to this count.
+  // The base thread reads the levels that belong to this count: 00, 10, 11, 01.
   void base(std::int64_t count, std::int64_t period_ns) {
     const std::int64_t phase = count & 3;
     a_ = phase == 1 || phase == 2;
@@ -126,6 +130,8 @@ std::int64_t play(const Options& options, const std::vector<Row>& rows, std::ost
   const auto tick_ns = static_cast<std::int64_t>(std::llround(options.tick_s * 1e9));
   const double start_s = rows.front().t_s;
   const std::int64_t origin = rows.front().count;  // levels begin as the component does: both low
+  // An edge is seen with the first base period that ends at or after it. The tiny margin keeps
+  // rounding from moving an edge at a period's very end to the next.
   const auto sample_of = [&](const Row& row) {
     const double periods = (row.t_s - start_s) * 1e9 / static_cast<double>(options.base_ns);
     return static_cast<std::int64_t>(std::ceil(periods - 1e-6));
@@ -143,6 +149,8 @@ std::int64_t play(const Options& options, const std::vector<Row>& rows, std::ost
       for (; next < rows.size() && sample_of(rows[next]) <= sample; ++next) {
         count = rows[next].count;
       }
+      // Two counts in one base period look like none or like a step backwards to a quadrature
+      // decoder.
       missed += std::abs(count - before) > 1 ? 1 : 0;
       encoder.base(count - origin, options.base_ns);
     }
@@ -157,6 +165,7 @@ std::int64_t play(const Options& options, const std::vector<Row>& rows, std::ost
 
 int run(const Options& options) {
   const double tick_ns = std::round(options.tick_s * 1e9);
+  // Whole periods, because both threads are driven by one count of samples.
   if (options.base_ns < 1 || !(tick_ns >= 1.0 && tick_ns < 4e9) ||
       static_cast<std::int64_t>(tick_ns) % options.base_ns != 0) {
     return refuse("the tick must be a whole number of base periods and below 4 s");
@@ -171,6 +180,7 @@ int run(const Options& options) {
     return refuse(fmt::format("{}:{}: rows are t_s,count with that header, times never falling",
                               options.edges, line));
   }
+  // The module's symbols come from this program, which plays the HAL.
   void* module = dlopen(options.module.c_str(), RTLD_NOW);
   if (module == nullptr) {
     fmt::print(stderr, "encoder_peer: {}\n", dlerror());

@@ -4,11 +4,14 @@
 #include <steadyrest/apps/page/motion/bench_page.hpp>
 #include <steadyrest/apps/page/shared/json_numbers.hpp>
 
+// The benchmark's page: every row, every trace and the source's figures as columns.
 namespace steadyrest::apps::page {
 namespace {
 
 namespace offline = motion::offline;
 
+/// bound_ratio is how far the proved bound lies above the real error at the same speed: the price
+/// of a guarantee.
 Json to_object(const offline::ErrorFigures& e, double gain, double efficiency, double target) {
   return {{"rms", e.rms},
           {"max", e.max},
@@ -70,6 +73,7 @@ Json to_object(const Trace& trace) {
           {"acceleration_bound_mm_s2", short_numbers(trace.acceleration_bound_mm_s2)}};
 }
 
+/// The figures of the source (Kombarov 2011), computed from its equations.
 Json to_object(const offline::Curve& curve) {
   return {{"name", curve.name}, {"x", short_numbers(curve.x)}, {"y", short_numbers(curve.y)}};
 }
@@ -85,6 +89,7 @@ Json array_of(const std::vector<T>& values) {
 
 }  // namespace
 
+/// The lags at which `rms_at_lag` is given; one axis for all rows.
 Json to_page(const PageData& data) {
   Json page = page_head("steadyrest-motion-bench/1");
   page.update({{"lags_s", offline::curve_lags_s()},

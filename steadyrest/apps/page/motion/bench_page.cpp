@@ -14,6 +14,7 @@ using kernel::outcome::Result;
 
 namespace {
 
+/// Differences of counts are "before", our first estimator "after", on the first record of a scene.
 Result<std::vector<motion::online::Estimate>> estimates(std::string_view name,
                                                         const offline::BenchScene& scene) {
   auto estimator = offline::make_estimator(name, scene.setup);
@@ -36,6 +37,7 @@ Result<offline::BenchScene> scene_named(const std::string& name) {
 }  // namespace
 
 Result<Trace> trace(const std::string& name) {
+  // The first phase only: a trace shows one record.
   const auto scene = scene_named(name);
   if (!scene) {
     return std::unexpected(scene.error());
@@ -67,6 +69,7 @@ Result<PageData> page_data(offline::Benchmark benchmark,
   PageData out;
   out.benchmark = std::move(benchmark);
   out.requirement = std::move(requirement);
+  // An S-curve is what axes do; the flywheel is the source's own experiment (fig. 2).
   for (const char* scene : {"s-curve", "flywheel"}) {
     auto made = trace(scene);
     if (!made) {
@@ -75,6 +78,7 @@ Result<PageData> page_data(offline::Benchmark benchmark,
     out.traces.push_back(std::move(*made));
   }
   constexpr double kCount_mm = 0.001;
+  // The cycles of the source's figures 3 a and b; figure 5 has its 300 kHz and 10 mm lead.
   constexpr std::array kCycles_hz{1000.0, 2000.0, 2500.0};
   auto figure_3a = offline::figure_3a(kCount_mm, kCycles_hz);
   auto figure_3b = offline::figure_3b(kCount_mm, kCycles_hz);

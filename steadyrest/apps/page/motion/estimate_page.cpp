@@ -4,10 +4,13 @@
 #include <steadyrest/apps/page/motion/estimate_page.hpp>
 #include <steadyrest/apps/page/shared/json_numbers.hpp>
 
+// A log of any length as a picture of bounded size. When the stretches are used up, neighbours join
+// in pairs and each then holds twice as many ticks, so no second pass over the log is needed.
 namespace steadyrest::apps::page {
 
 using motion::online::Estimate;
 
+/// Extremes and the widest bound survive every joining: no peak is lost.
 void EstimateCourse::Range::widen(const Range& other) {
   low = std::min(low, other.low);
   high = std::max(high, other.high);
@@ -30,6 +33,7 @@ void EstimateCourse::add(const Estimate& e) {
                      .position = one(e.position_mm, e.position_bound_mm),
                      .velocity = one(e.velocity_mm_s, e.velocity_bound_mm_s),
                      .acceleration = one(e.acceleration_mm_s2, e.acceleration_bound_mm_s2)};
+  // Full and a new stretch is due: join pairs, so half the places are free again.
   if (in_last_ == 0 && stretches_.size() == most_) {
     for (std::size_t i = 0; 2 * i < stretches_.size(); ++i) {
       stretches_[i] = stretches_[2 * i];
@@ -50,6 +54,7 @@ void EstimateCourse::add(const Estimate& e) {
   in_last_ = (in_last_ + 1) % each_;
 }
 
+/// low and high are drawn as a band, bound as a wider one.
 Json EstimateCourse::column(Range Stretch::* quantity) const {
   std::vector<double> low;
   std::vector<double> high;

@@ -5,6 +5,8 @@
 
 namespace steadyrest::apps::page {
 
+/// Six significant digits: 5 − floor(log10|x|) decimals. A scale that overflows belongs to a number
+/// too small to draw.
 double short_number(double value) {
   if (!std::isfinite(value) || value == 0.0) {
     return value;

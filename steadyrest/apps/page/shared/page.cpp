@@ -3,6 +3,7 @@
 
 #include <steadyrest/apps/page/shared/page.hpp>
 
+// The one page of all reports is linked into the binary; the data go into its script element.
 // template.S puts the page between these two.
 extern "C" {
 // NOLINTBEGIN(readability-identifier-naming): the symbols of template.S
@@ -14,6 +15,7 @@ extern const char steadyrest_page_end[];
 namespace steadyrest::apps::page {
 namespace {
 
+/// With the quotes: the placeholder is a JSON string in the page as it was built.
 constexpr std::string_view kPlace = "\"@STEADYREST_REPORT_DATA@\"";
 
 /// Without `<` no text can close the script element or open a comment in it; JSON reads the escape
@@ -34,10 +36,12 @@ Json page_head(std::string_view schema) {
   return {{"schema", schema}, {"version", STEADYREST_VERSION}};
 }
 
+/// Text from programs and file names need not be UTF-8.
 std::string text_of(const Json& page) {
   return page.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// One search for the place, one copy: pages of tens of megabytes are written in one go.
 std::string to_html(std::string_view json) {
   const char* const begin = static_cast<const char*>(steadyrest_page_begin);
   const char* const end = static_cast<const char*>(steadyrest_page_end);

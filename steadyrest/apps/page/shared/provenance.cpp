@@ -12,6 +12,8 @@
 
 #include <steadyrest/apps/page/shared/provenance.hpp>
 
+// When, by what command and from what inputs a report was made; without it a report cannot be
+// repeated.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -24,6 +26,8 @@ bool is_plain(std::string_view word) {
   return !word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos;
 }
 
+/// Single quotes stop every shell expansion; a quote inside ends them, adds an escaped quote and
+/// begins again.
 std::string quoted(std::string_view word) {
   if (is_plain(word)) {
     return std::string(word);
@@ -41,6 +45,7 @@ std::string quoted(std::string_view word) {
 
 }  // namespace
 
+/// Without the program's path, which differs between machines.
 std::string command_of(int argc, const char* const* argv) {
   std::string out = "steadyrest";
   for (int i = 1; i < argc; ++i) {
@@ -58,6 +63,7 @@ std::string now_utc() {
   return {text.data(), length};
 }
 
+/// The pattern bounds each number; chrono knows how long the months are.
 bool is_iso_date(std::string_view text) {
   static const std::regex kDate(
       R"(\d{4}-(0[1-9]|1[0-2])-(0[1-9]|[12]\d|3[01]))"
@@ -76,6 +82,8 @@ bool is_iso_date(std::string_view text) {
       .ok();
 }
 
+/// stdin and pipes cannot be read twice and have no hash. Chunked, since inputs may be logs of
+/// gigabytes.
 std::optional<std::string> sha256_of_file(const std::string& file) {
   std::error_code error;
   std::ifstream in(file, std::ios::binary);
@@ -99,6 +107,7 @@ std::optional<std::string> sha256_of_file(const std::string& file) {
   return std::string(text.data());
 }
 
+/// Under `made`, apart from the data, so that two reports can be compared without it.
 void put_provenance(Json& page, const Provenance& provenance) {
   Json inputs = Json::array();
   for (const InputFile& input : provenance.inputs) {

@@ -6,6 +6,8 @@
 #include <steadyrest/apps/page/shared/write_files.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 
+// report.html and report.json belong together: a program must not find the new data beside the old
+// page.
 namespace steadyrest::apps::page {
 namespace fs = std::filesystem;
 using kernel::outcome::Kind;

@@ -7,6 +7,8 @@
 #include <steadyrest/apps/page/thermal/hysteresis.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
+// The page of `thermal fit` shows why a temperature alone does not tell a displacement (the paper's
+// figure 1: one temperature, different displacements), beside what the model makes of it.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -16,13 +18,14 @@ using thermal::offline::FittedPoint;
 using thermal::offline::Log;
 
 constexpr std::size_t kCourse = 2000;  ///< points of a curve over time, about
+/// Smaller changes of speed are noise of the reading.
 constexpr double kSpeedStep_rpm = 20.0;
 
 double hours(double seconds) {
   return seconds / 3600.0;
 }
 
-/// Turns a log's time into hours since its origin.
+/// A log's time in hours since its origin.
 auto clock_h(const Log& log) {
   return [origin_s = log.origin_s](double time_s) { return hours(time_s - origin_s); };
 }
@@ -42,6 +45,8 @@ double as_it_is(double value) {
   return value;
 }
 
+/// Regimes (heating at one speed, cooling) are drawn in colours of their own: the loop that they
+/// make is the hysteresis.
 Json regimes_json(const Log& log, const std::vector<Regime>& regimes) {
   Json out = Json::array();
   for (const Regime& regime : regimes) {
@@ -58,7 +63,7 @@ Json regimes_json(const Log& log, const std::vector<Regime>& regimes) {
   return out;
 }
 
-/// The speed where it changes, and when.
+/// The speed where it changes, and when: a handful of points instead of thousands.
 Json speed_json(const Log& log) {
   std::vector<double> t_h;
   std::vector<double> rpm;
@@ -72,7 +77,7 @@ Json speed_json(const Log& log) {
   return {{"t_h", short_numbers(t_h)}, {"speed_rpm", short_numbers(rpm)}};
 }
 
-/// What one temperature tells of the displacement, for each sensor.
+/// How well one temperature alone describes the displacement, for each sensor.
 Json over_json(const std::vector<Hysteresis>& all) {
   Json out = Json::array();
   for (const Hysteresis& one : all) {
@@ -88,7 +93,7 @@ Json over_json(const std::vector<Hysteresis>& all) {
   return out;
 }
 
-/// Every so manyth point.
+/// Every nth point, so that about kCourse remain; a thermal curve is smooth.
 template <class Value>
 Json column(const std::vector<FittedPoint>& points, Value value) {
   const std::size_t step = points.size() / kCourse + 1;
@@ -104,6 +109,7 @@ void put_course(Json& out, const Log& log, const std::vector<FittedPoint>& point
   if (points.empty()) {
     return;
   }
+  // Where fitting ends and forecasting begins, drawn as a line.
   const auto first_free =
       std::ranges::find_if(points, [](const FittedPoint& p) { return !p.fitted; });
   const auto last = first_free == points.begin() ? first_free : first_free - 1;
@@ -133,6 +139,7 @@ Json fit_page(const Json& answer, const Log& log, const std::vector<FittedAxis>&
     const auto& channel = log.displacement[axis.channel];
     const std::vector<Hysteresis> over = hysteresis_of(log, channel);
     Json one = {{"axis", axis.axis}, {"channel", channel.name}};
+    // A log without temperatures has no sensor to compare with.
     one["best_sensor"] = over.empty() ? Json(nullptr) : Json(best_of(over));
     one["over"] = over_json(over);
     one["displacement_um"] = Json::array();

@@ -12,9 +12,12 @@ namespace {
 using thermal::offline::Log;
 using thermal::offline::LogChannel;
 
+/// A spindle under load breathes by a per cent or two.
 constexpr double kSameSpeed = 0.02;  ///< of it: noise of the reading
+/// Below half a revolution per second the spindle is at rest.
 constexpr double kStands_rev_s = 0.5;
 constexpr double kShortest_s = 300.0;  ///< shorter stretches are no regime
+/// Displacements at "one temperature": within half a kelvin.
 constexpr double kCell_c = 0.5;
 
 using Pairs = std::vector<std::pair<double, double>>;  ///< °C, mm
@@ -30,6 +33,8 @@ Pairs pairs_of(const LogChannel& sensor, const LogChannel& channel) {
   return out;
 }
 
+/// Least squares: slope = cov/var; what the line leaves is var(d) − slope·cov. Means first, then
+/// deviations: sums of raw squares would cancel.
 void put_line(const Pairs& pairs, Hysteresis& out) {
   const auto n = static_cast<double>(pairs.size());
   for (const auto& [c, mm] : pairs) {
@@ -49,6 +54,8 @@ void put_line(const Pairs& pairs, Hysteresis& out) {
   out.residual_mm = std::sqrt(std::max(dd - out.slope_mm_k * cd, 0.0));
 }
 
+/// The largest range of displacement within one cell of temperature: the error that a correction by
+/// this sensor alone would make at worst.
 void put_spread(const Pairs& pairs, Hysteresis& out) {
   std::map<long, std::pair<double, double>> cells;
   for (const auto& [c, mm] : pairs) {
@@ -67,6 +74,7 @@ void put_spread(const Pairs& pairs, Hysteresis& out) {
 
 }  // namespace
 
+/// A regime is a stretch at one speed of five minutes or more.
 std::vector<Regime> regimes_of(const Log& log, std::size_t points) {
   std::vector<Regime> out;
   for (std::size_t i = 0; i < log.rows();) {
@@ -81,6 +89,7 @@ std::vector<Regime> regimes_of(const Log& log, std::size_t points) {
                   .seconds = log.time_s[end - 1] - log.time_s[i],
                   .row = {}};
     if (regime.seconds >= kShortest_s) {
+      // Thinned evenly; the first row is always in.
       const std::size_t step = (end - i - 1) / std::max<std::size_t>(points, 1) + 1;
       for (std::size_t row = i; row < end; row += step) {
         regime.row.push_back(row);
@@ -106,6 +115,7 @@ std::vector<Hysteresis> hysteresis_of(const Log& log, const LogChannel& channel)
   return out;
 }
 
+/// By |correlation|: a sensor that falls while the axis grows is as good.
 std::size_t best_of(const std::vector<Hysteresis>& all) {
   const auto best = std::ranges::max_element(
       all, {}, [](const Hysteresis& one) { return std::abs(one.correlation); });

@@ -39,6 +39,7 @@ Json transitions_json(const Cyclogram& cyclogram) {
   return out;
 }
 
+/// From the start of the work, as the plan counts.
 Json course_json(const Course& course) {
   const double zero_mm = course.point.empty() ? 0.0 : course.point.front().displacement_mm;
   return {
@@ -50,6 +51,8 @@ Json course_json(const Course& course) {
       {"sd_um", column(course.point, [](const ForecastPoint& p) { return um_from_mm(p.sd_mm); })}};
 }
 
+/// δ_j applies from the start of interval j; totals run on over the transitions, as the control's
+/// offset does.
 void put_corrections(Json& out, const Course& course, double share) {
   out["corrections"] = Json::array();
   out["bands"] = Json::array();
@@ -106,6 +109,7 @@ Json plan_page(const Json& answer, const Cyclogram& cyclogram, const std::vector
   return page;
 }
 
+/// The three ways side by side over the batch, with the model's forecast, its band and the room.
 Json batch_page(const Json& answer, std::string_view program, const trial::batch::Batch& made) {
   using trial::batch::Point;
   Json page = thermal_head("batch", program, answer);

@@ -16,6 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
+/// One scene and two estimators keep the test short; the note with </script> tests the escaping.
 const PageData& sample() {
   static const PageData data = [] {
     motion::offline::BenchConfig config;
@@ -32,10 +33,12 @@ const PageData& sample() {
 TEST(BenchPage, JsonSaysWhatWasMeasured) {
   const auto json = nlohmann::json::parse(text_of(to_page(sample())));
   EXPECT_EQ(json["schema"], "steadyrest-motion-bench/1");
+  // Kalman with and without the axis's limits, and differences, which know no limits.
   ASSERT_EQ(json["rows"].size(), 3U);
   EXPECT_EQ(json["rows"][1]["limits"], true);
   EXPECT_EQ(json["rows"][0]["velocity"]["rms"], sample().benchmark.rows[0].velocity.rms);
   EXPECT_EQ(json["rows"][2]["velocity"]["rms_at_lag"].size(), json["lags_s"].size());
+  // Differences have no efficiency: there is no bound to compare with.
   EXPECT_TRUE(json["rows"][2]["velocity"]["efficiency"].is_null());
 }
 
@@ -49,6 +52,8 @@ TEST(BenchPage, ColumnsOfATraceAreEquallyLong) {
   }
 }
 
+// Counts are whole, so their second differences are whole: a resolution of 1 count/tick² = 1000
+// mm/s² at 1 µm and 1 kHz, against an acceleration of 6 mm/s².
 TEST(BenchPage, TheFlywheelByDifferencesIsWhatTheSourceShows) {
   // Fig. 2 of the source: second differences of counts are −1, 0 or +1 counts/tick² (of 1000 mm/s²)
   // where the flywheel has −0.006.

@@ -22,6 +22,7 @@ Json page_of(const EstimateCourse& course) {
       estimate_page({{"ticks", 1}}, {.log = "axis </script>.csv", .count_mm = 0.001}, course)));
 }
 
+// Up to the limit each tick has a stretch of its own. NaN bounds become null.
 TEST(EstimatePage, OfAShortLogHasEveryTick) {
   EstimateCourse course(4);
   for (int i = 0; i < 4; ++i) {
@@ -37,6 +38,8 @@ TEST(EstimatePage, OfAShortLogHasEveryTick) {
   EXPECT_EQ(page["acceleration_mm_s2"]["bound"], Json({nullptr, nullptr, nullptr, nullptr}));
 }
 
+// Odd and even limits and lengths around powers of two, where joining in pairs goes wrong first. A
+// dip of −70 and a bound of 9 in one tick each must survive.
 TEST(EstimatePage, OfALongLogLosesNoPeakAndNoBound) {
   for (const std::size_t most : {2U, 3U, 64U}) {
     for (const int ticks : {5, 64, 65, 1000, 1001}) {

@@ -32,6 +32,7 @@ class HashedFile : public ::testing::Test {
 };
 
 // The examples of FIPS 180-2, appendix B.
+// Each file of the tests is rewritten with the next content.
 TEST_F(HashedFile, HasTheHashOfTheStandard) {
   EXPECT_EQ(hash_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(hash_of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
@@ -41,12 +42,14 @@ TEST_F(HashedFile, HasTheHashOfTheStandard) {
   EXPECT_EQ(hash_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
+// An absent file, a folder, and stdin.
 TEST_F(HashedFile, WhatIsNoFileHasNone) {
   EXPECT_EQ(sha256_of_file(path_ + "-absent"), std::nullopt);
   EXPECT_EQ(sha256_of_file(std::filesystem::temp_directory_path().string()), std::nullopt);
   EXPECT_EQ(sha256_of_file("-"), std::nullopt);
 }
 
+// A blank, a quote and an empty word each need quoting; the path of the program goes.
 TEST(Provenance, TheCommandCanBePastedIntoAShell) {
   const std::array<const char*, 6> words = {"/opt/bin/steadyrest", "cut",       "my part.ngc",
                                             "--machine",           "it's.toml", ""};
@@ -54,6 +57,7 @@ TEST(Provenance, TheCommandCanBePastedIntoAShell) {
             "steadyrest cut 'my part.ngc' --machine 'it'\\''s.toml' ''");
 }
 
+// Leap days, months of 30 days and the leap second :60 are where date checks fail.
 TEST(Provenance, TakesDatesOfIso8601Alone) {
   for (const char* good : {"2026-01-02", "2028-02-29", "2026-01-02T03:04", "2026-12-31T23:59:60Z",
                            "2026-01-02T03:04:05+01:00"}) {

@@ -11,11 +11,12 @@
 namespace steadyrest::apps::page {
 namespace {
 
-/// What the page finds: not finite numbers are null.
+/// What the page reads: numbers that are not finite are null.
 Json as_read(const Json& page) {
   return Json::parse(text_of(page));
 }
 
+/// Two transitions of an hour at 1000 and 2000 rpm; the file's name would end a script element.
 thermal::offline::Cyclogram two_hours() {
   thermal::offline::Cyclogram cyclogram;
   cyclogram.file = "work </script>.toml";
@@ -28,6 +29,7 @@ thermal::offline::Cyclogram two_hours() {
   return cyclogram;
 }
 
+/// Displacements of 2, 12 and 22 µm, so that counting from the start (0, 10, 20) shows.
 Course course() {
   Course out;
   out.name = "Z";
@@ -40,6 +42,7 @@ Course course() {
   return out;
 }
 
+// The zero of the part is set at the start; minutes, rpm and µm are the shop's units.
 TEST(ThermalPage, CountsDisplacementsFromTheStartInTheUnitsOfTheShopFloor) {
   const Json page = as_read(forecast_page({{"max_um", 20.0}}, two_hours(), {course()}));
   EXPECT_EQ(page["kind"], "forecast");
@@ -51,6 +54,8 @@ TEST(ThermalPage, CountsDisplacementsFromTheStartInTheUnitsOfTheShopFloor) {
   EXPECT_EQ(page["courses"][0]["t_min"], Json({0.0, 60.0, 120.0}));
 }
 
+// 5 µm in the first transition, 4 in the second: totals 5 and 9. With k = 0.5 the band is half the
+// tolerance.
 TEST(ThermalPage, AddsCorrectionsUpOverTheTransitions) {
   const Json one = as_read(plan_page({}, two_hours(), {course()}, 0.5))["courses"][0];
   ASSERT_EQ(one["corrections"].size(), 2U);
@@ -61,6 +66,8 @@ TEST(ThermalPage, AddsCorrectionsUpOverTheTransitions) {
       Json({{"from_min", 60.0}, {"to_min", 120.0}, {"tolerance_um", 20.0}, {"band_um", 10.0}}));
 }
 
+// 100 hours: half of them at 1200 rpm, then rest; the second temperature is proportional to the
+// displacement (1000 µm/K), the first is noise.
 TEST(ThermalPage, OfAFitHasEachDisplacementOverEachTemperatureAndItsCourse) {
   thermal::offline::Log log;
   log.file = "made.csv";
@@ -97,6 +104,7 @@ TEST(ThermalPage, OfAFitHasEachDisplacementOverEachTemperatureAndItsCourse) {
     EXPECT_EQ(one["displacement_um"][r].size(), rows);
     EXPECT_EQ(page["regimes"][r]["temperature_c"][1].size(), rows);
   }
+  // i ≤ 4800 minutes are fitted: 80 h.
   EXPECT_EQ(one["fitted_to_h"], 80.0);
   ASSERT_LE(one["t_h"].size(), 2000U);
   EXPECT_EQ(one["t_h"].size(), one["sd_um"].size());
@@ -104,6 +112,8 @@ TEST(ThermalPage, OfAFitHasEachDisplacementOverEachTemperatureAndItsCourse) {
               2.0, 1e-2);
 }
 
+// No point was fitted: the border between fit and forecast is the first point, and nothing before
+// it may be read.
 TEST(ThermalPage, OfALogThatIsAllForecastSaysSo) {
   thermal::offline::Log log;
   log.time_s = {0.0, 3600.0};
@@ -124,6 +134,7 @@ TEST(ThermalPage, OfALogThatIsAllForecastSaysSo) {
   EXPECT_EQ(one["modelled_um"], Json({2.0}));
 }
 
+// No temperature and no course: the page says less and does not fail.
 TEST(ThermalPage, OfAFitWithoutTemperaturesHasTheCourseAlone) {
   thermal::offline::Log log;
   log.displacement = {{"z_um", {0.001}}};
