@@ -20,6 +20,7 @@ using testing::StartsWith;
 
 const std::string kCircle = "contour limit --radius-mm 10 --kv-1-s 50 ";
 
+// stdout belongs to answers; nothing else may go there.
 TEST(Cli, VersionOnStdout) {
   const Finished finished = run({"--version"});
   EXPECT_EQ(finished.code, 0);
@@ -43,6 +44,7 @@ TEST(Cli, UnknownVerbAndUnknownFlagAreRefused) {
   EXPECT_THAT(finished.err, HasSubstr("; see steadyrest contour limit --help"));
 }
 
+// The nearest word for typing errors of one or two letters, and the group for a verb without one.
 TEST(Cli, NamesTheNearestVerbAndOption) {
   const std::string cut = " examples/processes/slot-922hz.toml --speed-rpm 5000 ";
   for (const auto& [line, said] :
@@ -68,6 +70,7 @@ TEST(Cli, NamesTheNearestVerbAndOption) {
   }
 }
 
+// A file that promises a port must not load while that port does nothing.
 TEST(Cli, APortThatIsNotBuiltIsRefused) {
   const Scratch scratch;
   const std::string mill = text_of_file(project_file("examples/machines/linuxcnc-mill.toml"));
@@ -90,6 +93,7 @@ TEST(Cli, BadUsageIsOneJsonObjectToo) {
               HasSubstr("--radius-mm"));
 }
 
+// /dev/full takes no byte, like a full disk or a closed pipe.
 TEST(Cli, SaysSoWhenStdoutTakesNothing) {
   for (const char* verb : {"--version", "--help"}) {
     EXPECT_EQ(run_on_full_disk({verb}).code, 1) << verb;
@@ -100,6 +104,7 @@ TEST(Cli, SaysSoWhenStdoutTakesNothing) {
   EXPECT_THAT(finished.err, HasSubstr("failed to write the answer to stdout"));
 }
 
+// R = 10 mm, Kv = 3 (m/min)/mm = 50 1/s, 10 µm: v = k·R·√((R/(R−ε))² − 1) = 1343 mm/min.
 TEST(ContourLimit, GivesTheFeedForAnError) {
   const Finished finished = run_line(kCircle + "--max-error-mm 0.010 --json");
   ASSERT_EQ(finished.code, 0) << finished.err;
@@ -110,6 +115,7 @@ TEST(ContourLimit, GivesTheFeedForAnError) {
   EXPECT_TRUE(answer.contains("tracking_error_mm"));
 }
 
+// ε = R(1 − 1/√(1 + q²)) and Ed = R·q/√(1 + q²) with q = v/(R·k) = 0.1333.
 TEST(ContourLimit, GivesTheErrorsAtAFeed) {
   const Finished finished = run_line(kCircle + "--feed-mm-min 4000 --json");
   ASSERT_EQ(finished.code, 0) << finished.err;
@@ -126,6 +132,8 @@ TEST(ContourLimit, JudgesAFeedByALimit) {
   EXPECT_NEAR(answer["limit_feed_mm_min"], 1343.0, 0.6);
 }
 
+// a = 0.5 gives about (1 − a²), τ = 5 ms about (1 − 2kτ) of the error without; the figures are
+// simulated ones.
 TEST(ContourLimit, TakesFeedForwardAndLag) {
   const Finished forward = run_line(kCircle + "--feed-mm-min 4000 --feed-forward 0.5 --json");
   EXPECT_NEAR(json::parse(forward.out)["contour_error_mm"], 0.0656, 1.5e-4);
@@ -133,6 +141,7 @@ TEST(ContourLimit, TakesFeedForwardAndLag) {
   EXPECT_NEAR(json::parse(lag.out)["contour_error_mm"], 0.0443, 1.5e-4);
 }
 
+// Full feed-forward without lag: no feed reaches the limit.
 TEST(ContourLimit, HasNoFeedWhereNothingLimitsIt) {
   const Finished finished = run_line(kCircle + "--max-error-mm 0.01 --feed-forward 1 --json");
   EXPECT_EQ(finished.code, 0);
@@ -177,6 +186,7 @@ TEST(Cli, NoOptionTakesANumberThatIsNotFinite) {
   }
 }
 
+// One line per kind of nonsense: not a number, a comma, hexadecimal, too large, empty, twice.
 TEST(Cli, SaysWhatWasWrittenAndWhyItIsNoValue) {
   const std::string units = "motion units --count-mm 0.001 --cycle-hz ";
   const std::string radius =
@@ -221,6 +231,7 @@ TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
                  "--kv-1-s 1e-300 is outside 0.001 to");
 }
 
+// The 840D's interpolator has 4 ms. Times depend on the computer, so only their order is checked.
 TEST(Doctor, FindsAGoodMachineWell) {
   const Finished finished = run_line("doctor --machine examples/machines/vmc-840d.toml --json");
   ASSERT_EQ(finished.code, 0) << finished.err;
@@ -239,6 +250,8 @@ TEST(Doctor, FindsAGoodMachineWell) {
   EXPECT_LE(timing["decision_p999_us"], timing["cycle_us"]);
 }
 
+// A feed range that no step of the switch lies in: the layer refuses it, and doctor says so as a
+// finding.
 TEST(Doctor, FindsThatTheLayerRefusesAMachine) {
   const Scratch scratch;
   std::string text = text_of_file(project_file("examples/machines/linuxcnc-mill.toml"));

@@ -12,7 +12,7 @@
 namespace steadyrest::test {
 namespace {
 
-/// The commands below `Example:`, without the program's name.
+/// The commands below `Example:`, without the program's name; a verb may have several.
 Words examples(const std::string& help) {
   const std::string head = "Example:\n";
   const std::size_t at = help.find(head);
@@ -28,6 +28,7 @@ Words examples(const std::string& help) {
   return out;
 }
 
+// Two verbs of different depth, so that the walk through the help works at all.
 TEST(Help, ShowsTheVerbs) {
   EXPECT_THAT(verbs(), testing::IsSupersetOf({Words{"doctor"}, Words{"contour", "limit"}}));
 }
@@ -38,6 +39,7 @@ TEST(Help, EveryVerbTakesJson) {
   }
 }
 
+// Eleven verbs make reports; a twelfth must show it in its help.
 TEST(Help, EveryVerbWithAReportShowsHowToGetIt) {
   std::size_t reports = 0;
   for (const Words& verb : verbs()) {
@@ -51,6 +53,7 @@ TEST(Help, EveryVerbWithAReportShowsHowToGetIt) {
   EXPECT_EQ(reports, 11U);
 }
 
+// The examples of --help are run as they are written: a reader copies them.
 TEST(Help, EveryVerbEndsWithAnExampleThatWorks) {
   for (const Words& verb : verbs()) {
     const Words commands = examples(help_of(verb));

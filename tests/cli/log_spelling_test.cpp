@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// A file line by line.
+/// A file line by line, changed by `line`.
 template <class Line>
 std::string changed(const std::string& file, const Line& line) {
   std::istringstream in(text_of_file(project_file(file)));
@@ -37,7 +37,7 @@ bool is_comment(const std::string& line) {
   return line.find('#') == 0;
 }
 
-/// The rows alone, with this between the fields and this behind them.
+/// The rows alone, with this between the fields and this behind them: a log without a head.
 std::string rows_alone(const std::string& file, char separator, const std::string& end) {
   return changed(file, [&](const std::string& line) {
     std::string out;
@@ -49,7 +49,8 @@ std::string rows_alone(const std::string& file, char separator, const std::strin
   });
 }
 
-/// `;` between the fields, a decimal comma, CR LF and a byte order mark.
+/// `;` between the fields, a decimal comma, CR LF and a byte order mark: what a spreadsheet writes
+/// in half of Europe.
 std::string continental(const std::string& file) {
   return "\xEF\xBB\xBF" + changed(file, [](const std::string& line) {
            std::string out = line + "\r\n";
@@ -68,6 +69,7 @@ json without(json answer, const std::vector<std::string>& keys) {
   return answer;
 }
 
+// Not only the answers but the tables of estimates must be equal to the byte.
 TEST(LogSpelling, MotionEstimateReadsEachAlike) {
   const std::string file = "examples/logs/sine-edges.csv";
   const std::string how = " --input edges --count-mm 0.001 --cycle-hz 1000 -o ";
@@ -89,6 +91,7 @@ TEST(LogSpelling, MotionEstimateReadsEachAlike) {
   same("t [s]\tcount\n" + rows_alone(file, '\t', "\n"), "");
 }
 
+// halsampler -t writes sample numbers, blanks and no head; 40 … 539 at 1 kHz end at 0.539 s.
 TEST(LogSpelling, MotionEstimateReadsTheSampler) {
   const Scratch scratch;
   std::string sampler;
@@ -109,6 +112,8 @@ TEST(LogSpelling, MotionEstimateReadsTheSampler) {
       "there is no header");
 }
 
+// Edges come at any time, ticks at even times; the two kinds tell themselves apart, and each
+// refusal names the other option.
 TEST(LogSpelling, MotionEstimateKnowsCyclesFromEdges) {
   const Scratch scratch;
   std::string ticks = "t_s,count\n";
@@ -125,6 +130,7 @@ TEST(LogSpelling, MotionEstimateKnowsCyclesFromEdges) {
   EXPECT_EQ(answer_of("motion estimate " + log + " --input ticks" + rest)["ticks"], 500);
 }
 
+// One wrong stamp of 21 hours would make 77 million cycles of output.
 TEST(LogSpelling, OneWrongStampMakesNoEndlessFile) {
   const Scratch scratch;
   int row = 0;
@@ -144,6 +150,8 @@ TEST(LogSpelling, OneWrongStampMakesNoEndlessFile) {
   EXPECT_LT(text_of_file(out).size(), 20'000U);
 }
 
+// A = −ω²·H: the same tap test as accelerance must give the same mode. m/s²/N and µm/N differ by
+// 1e6.
 TEST(LogSpelling, ChatterFitReadsAccelerance) {
   const std::string file = "examples/processes/tap-922hz.csv";
   const json plain = answer_of("chatter fit " + file + " --axis x");
@@ -189,7 +197,7 @@ TEST(LogSpelling, ChatterDetectReadsEachAlike) {
   EXPECT_EQ(without(answer_of("chatter detect " + log + how), {"signal"}), plain);
 }
 
-/// The same hours by the clock on the wall, over midnight.
+/// The same hours by the clock on the wall, over midnight and with a zone.
 std::string by_the_wall(const std::string& file) {
   return changed(file, [](const std::string& line) {
     std::string out = line + "\n";
@@ -207,6 +215,7 @@ std::string by_the_wall(const std::string& file) {
   });
 }
 
+// Minutes of --from-min count from the first row whatever the clock.
 TEST(LogSpelling, ThermalFitReadsEachAlike) {
   const std::string file = "examples/thermal/spindle-test.csv";
   const Scratch scratch;
@@ -240,9 +249,12 @@ TEST(LogSpelling, ThermalForecastReadsEachAlike) {
             plain);
   const json by_wall = forecast(scratch.file("stamped.csv", by_the_wall(file)));
   EXPECT_EQ(by_wall["axes"][0]["points"], plain["axes"][0]["points"]);
+  // Stamps and seconds are different clocks; so the passport's state time says nothing here, and
+  // all of the log is forecast.
   EXPECT_EQ(by_wall["minutes"], 464.5) << "the passport's state is of another clock: the whole log";
 }
 
+// Two numbers run together in the last row, as a log that was written twice has it.
 TEST(LogSpelling, ThermalForecastOfOneWrongTimeIsRefused) {
   const std::string file = "examples/thermal/spindle-test.csv";
   const Scratch scratch;
@@ -270,6 +282,7 @@ TEST(LogSpelling, ThermalAdaptReadsEachAlike) {
     return is_comment(line) || line.find("part") == 0 ? "" : line + "\n";
   });
   EXPECT_EQ(adapt(scratch.file("rows.csv", rows), " --columns part,time_min,deviation_um"), plain);
+  // As a gauge exports it: columns in its own language, its own clock, a decimal comma.
   const std::string gauged = changed(file, [](const std::string& line) -> std::string {
     int part = 0;
     int minute = 0;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A progress bar that draws into a file, at instants of the test's choice.
+/// A progress bar that draws into a file, at instants of the test's choice: no sleeping.
 class Drawn {
  public:
   explicit Drawn(bool terminal) : progress_(file_.get(), terminal, start_) {}
@@ -58,6 +58,7 @@ TEST(Progress, ShowsTheShareAndLeavesNothingBehind) {
   EXPECT_TRUE(text.ends_with("\r\x1b[K"));
 }
 
+// A thousand calls within a second.
 TEST(Progress, DrawsAtMostTenTimesASecond) {
   Drawn drawn(true);
   for (int i = 0; i < 1000; ++i) {
@@ -68,6 +69,7 @@ TEST(Progress, DrawsAtMostTenTimesASecond) {
   EXPECT_GE(std::count(text.begin(), text.end(), '%'), 9);
 }
 
+// The seconds go on without calls, but only once the first second is over.
 TEST(Progress, CountsTheSecondsOfWorkThatMakesNoCall) {
   Drawn drawn(true);
   drawn.tick(900ms);

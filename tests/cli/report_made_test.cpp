@@ -26,7 +26,7 @@ const std::string kTapped = "examples/processes/slot-tapped.toml";
 const std::string kRadius = " --speed-rpm 5000 --depth-mm 0.2 --report ";
 const std::string kTap = "examples/processes/tap-922hz.csv";
 
-/// As another program has it.
+/// As another program has it: coreutils' sha256sum.
 std::string sha256sum(const std::string& file) {
   FILE* const pipe = ::popen(("sha256sum '" + project_file(file) + "'").c_str(), "r");
   std::array<char, 65> hash{};
@@ -53,6 +53,7 @@ TEST(ReportMade, SaysDateCommandAndHashesOfItsInputs) {
   EXPECT_THAT(made["command"].get<std::string>(), Not(HasSubstr("bin/")));
 }
 
+// The process file names a tap test; both are inputs.
 TEST(ReportMade, NamesWhatAnInputNames) {
   const Scratch scratch;
   const json made = made_by("chatter radius " + kTapped + kRadius, scratch.at("out"));
@@ -81,6 +82,7 @@ TEST(ReportMade, IsInTheReportOfEachNewPage) {
   EXPECT_EQ(estimate["inputs"][0]["sha256"], sha256sum(log));
 }
 
+// ticks_each is 1 here, so each stretch is one row of the table.
 TEST(MotionEstimateReport, HoldsWhatTheTableHolds) {
   const Scratch scratch;
   answer_of(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C functions that a component links against; signatures are those of LinuxCNC's public hal.h.
+// The C functions that a component links against, reduced to what one component in one thread
+// needs; signatures are those of LinuxCNC's public hal.h.
 #include "hal_in_process.hpp"
 
 #include <cstdarg>
@@ -39,6 +40,7 @@ int hal_exit(int /*component*/) {
 int hal_ready(int /*component*/) {
   return 0;
 }
+/// Pins live as long as the process, like HAL's shared memory.
 void* hal_malloc(long size) {
   return std::calloc(1, static_cast<std::size_t>(size));
 }
@@ -49,6 +51,7 @@ int hal_export_funct(const char* name, void (*function)(void*, long), void* argu
   return 0;
 }
 
+/// Components name pins by a format; the name is the only way to find a pin here.
 int hal_pin_bit_newf(int /*direction*/, bool** pin, int /*component*/, const char* format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -81,6 +84,7 @@ int rtapi_get_msg_level() {
 int rtapi_set_msg_level(int /*level*/) {
   return 0;
 }
+/// Silence: the component reports its start on stderr, which the tests compare.
 void rtapi_print_msg(int /*level*/, const char* /*format*/, ...) {}
 
 int rtapi_snprintf(char* text, unsigned long size, const char* format, ...) {

@@ -27,7 +27,9 @@ constexpr double kChatterHz = 943.0;
 const std::string kMachine = " --machine examples/machines/vmc-840d.toml";
 const std::string kExample = "chatter detect examples/logs/slot-chatter.csv" + kMachine;
 
-/// 1.2 s of two teeth; with `chatter` it begins at 0.5 s. Values within ±1.
+/// 1.2 s of a cut with two teeth: the forced vibration has the tooth order and its double, 1 %
+/// noise. With `chatter` a tone at 943 Hz joins at 0.5 s with a rise of 20 ms; no tooth order is
+/// near it (166.7 Hz · 5.66). Values within ±1, as WAV needs them.
 std::vector<double> cut(bool chatter) {
   std::mt19937_64 rng(3);
   std::normal_distribution<double> noise(0.0, 0.01);
@@ -53,6 +55,8 @@ std::string csv(const std::vector<double>& values, bool speed) {
   return text;
 }
 
+/// A WAV of one channel and 16 bits, written byte by byte: the reader must not be tested with its
+/// own writer.
 std::string little_endian(std::uint32_t value, std::size_t bytes) {
   std::string out;
   for (std::size_t i = 0; i < bytes; ++i) {
@@ -74,6 +78,7 @@ std::string wav(const std::vector<double>& values) {
   return out;
 }
 
+/// Heard within 150 ms after the onset, until the end, the frequency to 1 %.
 void expect_the_chatter(const json& answer) {
   ASSERT_EQ(answer["events"].size(), 1U);
   const json& event = answer["events"][0];
@@ -85,6 +90,7 @@ void expect_the_chatter(const json& answer) {
   EXPECT_NEAR(event["speed_rpm"], kSpeedRpm, 1e-6);
 }
 
+// The same signal with a speed column, with a given speed, and as WAV.
 TEST(ChatterDetect, FindsChatterAndItsFrequency) {
   const Scratch scratch;
   const auto values = cut(true);
@@ -107,6 +113,7 @@ TEST(ChatterDetect, IsSilentInAStableCut) {
   EXPECT_THAT(run_line(line).out, HasSubstr("no chatter in 1.2"));
 }
 
+// The rule n = 60·fc/(N·k): 6 whole waves between two teeth.
 TEST(ChatterDetect, AdvisesWholeWavesBetweenTwoTeeth) {
   const json event = answer_of(kExample + " --teeth 2")["events"].at(0);
   EXPECT_GT(event["start_s"], 0.6);
@@ -121,6 +128,8 @@ TEST(ChatterDetect, AdvisesWholeWavesBetweenTwoTeeth) {
   EXPECT_NEAR(of_programmed["advised_override_percent"], 100.0, 1e-9);
 }
 
+// Without a depth the deepest step is advised. The solver confirms it: unstable as recorded, stable
+// at the advised speed.
 TEST(ChatterDetect, AdvisesTheDeepestStepOfTheProcess) {
   const std::string process = "examples/processes/slot-922hz.toml";
   const json event = answer_of(kExample + " --process " + process)["events"].at(0);
@@ -157,6 +166,7 @@ TEST(ChatterDetect, WithProcessAndDepthSaysWhatThePlannerSays) {
               HasSubstr("better speed, by the rule of thumb"));
 }
 
+// A spindle from 4990 to 5010 rpm has no other step.
 TEST(ChatterDetect, AdvisesNothingBeyondTheSpindle) {
   const Scratch scratch;
   std::string machine = text_of_file(project_file("examples/machines/vmc-840d.toml"));
@@ -174,6 +184,7 @@ TEST(ChatterDetect, AdvisesNothingBeyondTheSpindle) {
   EXPECT_TRUE(event["advised_override_percent"].is_null());
 }
 
+// What each kind of signal lacks: speed, teeth, samples, even stamps; WAV cut short.
 TEST(ChatterDetect, Refuses) {
   const Scratch scratch;
   const auto detect = [](const std::string& signal, const std::string& rest = " --teeth 2") {

@@ -20,7 +20,8 @@ const std::string kTool =
     "[tool]\nteeth = 2\n[cut]\nradial_immersion = 1.0\n"
     "tangential_N_mm2 = 600.0\nradial_N_mm2 = 200.0\n";
 
-/// The tap test was made of 922 Hz, 1.1 % and 0.03993 kg, with noise.
+// The tap test of the example was made of 922 Hz, 1.1 % and 0.03993 kg, with noise; so the truth is
+// known.
 TEST(ChatterFit, FindsTheModeThatTheTapTestWasMadeOf) {
   const json fit = answer_of("chatter fit " + kTap + " --axis x");
   ASSERT_EQ(fit["order"], 1);
@@ -34,6 +35,8 @@ TEST(ChatterFit, FindsTheModeThatTheTapTestWasMadeOf) {
   EXPECT_EQ(answer_of("chatter fit " + kTap + " --axis y")["modes"][0]["axis"], "y");
 }
 
+// Round trip: fitted modes in a process file give the published radius of the slot (0.81974278) as
+// far as noise allows.
 TEST(ChatterFit, WritesSectionsThatAProcessFileTakes) {
   const Scratch scratch;
   const std::string out = scratch.at("modes.toml");
@@ -45,6 +48,7 @@ TEST(ChatterFit, WritesSectionsThatAProcessFileTakes) {
   EXPECT_NEAR(point["spectral_radius"], 0.81974278, 5e-3);
 }
 
+// The same, but the process names the measured response and fits it itself.
 TEST(ChatterFit, AProcessTakesTheResponseItself) {
   const json tapped = answer_of(
       "chatter radius examples/processes/slot-tapped.toml --speed-rpm 5000 --depth-mm 0.2");
@@ -63,6 +67,7 @@ TEST(ChatterFit, RefusesBadUsage) {
   EXPECT_EQ(run_line("chatter fit " + kTap + " --axis x -o no/such/modes.toml").code, 1);
 }
 
+// Line numbers in the corpus's files, of both formats.
 TEST(ChatterFit, SaysFileAndLineOfABadResponse) {
   const std::string corpus = STEADYREST_SOURCE_DIR "/tests/refused/frf/";
   expect_refused("chatter fit " + corpus + "unit-inches-per-pound.csv --axis x",

@@ -16,7 +16,8 @@ using testing::HasSubstr;
 const std::string kPlan = "chatter plan examples/processes/slot-922hz.toml ";
 const std::string kMill = "--machine examples/machines/vmc-840d.toml ";
 
-/// 5000 rpm is stable to 0.4086 mm; 110 % of it, 5500 rpm, to 2.7653 mm.
+// Borders from the table of converged values: 5000 rpm is stable to 0.4086 mm, 110 % of it, 5500
+// rpm, to 2.7653 mm. The machine has 15 spindle steps; 100 % is index 10.
 TEST(ChatterPlan, TakesTheOverrideStepIntoTheStablePocket) {
   const json plan = answer_of(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1");
   EXPECT_EQ(plan["decision"], "constant");
@@ -31,7 +32,8 @@ TEST(ChatterPlan, TakesTheOverrideStepIntoTheStablePocket) {
   EXPECT_FALSE(plan["alternatives"][10]["reasons"].empty());
 }
 
-/// Ranked, within the spindle's limits, and what `chatter radius` says of them.
+// Ranked, within the spindle's limits, and stable by `chatter radius` at 95 % of the depth that
+// they promise.
 TEST(ChatterPlan, NamesTheBestSpeedsOfTheSpindle) {
   const json plan = answer_of(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1");
   const json& best = plan["best_speeds"];
@@ -59,7 +61,8 @@ TEST(ChatterPlan, KeepsWhatIsStable) {
   EXPECT_EQ(plan["override_percent"], json::array({100.0}));
 }
 
-/// The example's drive makes 4000 rpm/s: too little for any law at this speed.
+// A triangle needs RVA·RVF·n²/15 = 0.2·0.1·5000²/15 = 33 333 rpm/s; the example's drive makes 4000
+// rpm/s.
 TEST(ChatterPlan, SaysWhyALawCannotBe) {
   const std::string line =
       kPlan + kMill + "--speed-rpm 5000 --depth-mm 1 --laws-only --laws triangle --rva 0.2 ";

@@ -32,7 +32,8 @@ struct Report {
   json page;
 };
 
-/// Runs the verb with --report; the page must be there, with the answer inside.
+/// Runs the verb with --report. The page must be there with the answer inside, so that page and
+/// script cannot differ.
 Report report_of(const std::string& line, const Scratch& scratch) {
   Report out;
   out.answer = answer_of(line + " --report " + scratch.at("report"));
@@ -60,6 +61,8 @@ std::vector<std::pair<double, double>> border_of(const std::string& path) {
   return out;
 }
 
+// Every point of the CSV border is in the page, and nothing else but gaps. The zero-order sketch
+// must be near the true border, not on it.
 TEST(ChatterReport, LobesHaveTheBorderOfTheCsv) {
   const Scratch scratch;
   const json page = report_of(kLobes + " -o " + scratch.at("map.csv"), scratch).page;
@@ -84,6 +87,7 @@ TEST(ChatterReport, LobesHaveTheBorderOfTheCsv) {
   EXPECT_NEAR(page["others"][0]["depth_mm"].back(), 0.3224, 0.03);
 }
 
+// One cut, three verbs, one answer.
 TEST(ChatterReport, TheWantedCutIsWhatRadiusAndPlanSayOfIt) {
   const Scratch scratch;
   const auto made = report_of(kLobes + kWanted + kMill + " -o " + scratch.at("map.csv"), scratch);
@@ -106,6 +110,7 @@ TEST(ChatterReport, TheWantedCutIsWhatRadiusAndPlanSayOfIt) {
   }
 }
 
+// Under a law the border at constant speed is drawn too, with its published values.
 TEST(ChatterReport, LobesUnderALawShowConstantSpeedBesideThem) {
   const Scratch scratch;
   const json page =
@@ -121,6 +126,8 @@ TEST(ChatterReport, LobesUnderALawShowConstantSpeedBesideThem) {
   EXPECT_GT(page["border"]["depth_mm"].back(), 2.0);
 }
 
+// The square law: 6000 rpm in the first half of 0.12 s, 4000 in the second; times near the jumps
+// are left out. The plotted peak is the answer's.
 TEST(ChatterReport, GrowthHasThePeakOfTheAnswerAndTheSpeedOfTheLaw) {
   const Scratch scratch;
   const auto made =
@@ -142,6 +149,7 @@ TEST(ChatterReport, GrowthHasThePeakOfTheAnswerAndTheSpeedOfTheLaw) {
   }
 }
 
+// 5000 rpm make a turn in 12 ms: 25 in 0.3 s.
 TEST(ChatterReport, SimulationHasItsPeakAndOnePointForEachRevolution) {
   const Scratch scratch;
   const auto made = report_of("chatter simulate " + kSlot + kWanted + " --seconds 0.3", scratch);
@@ -159,6 +167,7 @@ TEST(ChatterReport, SimulationHasItsPeakAndOnePointForEachRevolution) {
   EXPECT_NEAR(turns[20] - turns[19], 0.012, 1e-6);
 }
 
+// The spectrogram is judged where the detector heard the chatter.
 TEST(ChatterReport, DetectionHasTheRecordingWithItsLoudestLine) {
   const Scratch scratch;
   const auto made =
@@ -175,6 +184,7 @@ TEST(ChatterReport, DetectionHasTheRecordingWithItsLoudestLine) {
   EXPECT_NEAR(made.page["course"]["speed_rpm"][0], 5000.0, 1e-6);
 }
 
+// All 15 steps, and a map that reaches beyond the lowest and the highest.
 TEST(ChatterReport, PlanShowsTheLobesOverTheSteps) {
   const Scratch scratch;
   const auto made = report_of("chatter plan " + kSlot + kMill + kWanted, scratch);
@@ -193,6 +203,7 @@ TEST(ChatterReport, SaysToPeopleWhereItIs) {
   EXPECT_THAT(finished.out, HasSubstr("report: " + scratch.at("a/b/report.html")));
 }
 
+// A file where the folder should be, and cuts that are half given.
 TEST(ChatterReport, RefusesWhatItCannotWriteOrPlace) {
   const Scratch scratch;
   const std::string file = scratch.file("file", "");

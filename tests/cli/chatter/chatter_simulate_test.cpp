@@ -22,6 +22,7 @@ json answer_to(const std::string& line) {
   return json::parse(finished.out);
 }
 
+// 0.396 mm is 3 % below the published border, 0.5 mm above it.
 TEST(ChatterSimulate, TellsStableFromChatterOnBothSidesOfTheBorder) {
   // Border 0.4086 mm; μ at 0.5 mm is −0.505 ± 0.948i: lines at (k ± 0.328)·166.67 Hz.
   const json below = answer_to(kSlot + " --depth-mm 0.396 --seconds 0.5");
@@ -35,6 +36,7 @@ TEST(ChatterSimulate, TellsStableFromChatterOnBothSidesOfTheBorder) {
   EXPECT_GT(above["peak_um"].get<double>(), below["peak_um"].get<double>());
 }
 
+// One row per step; the slot needs more than 500 in 20 ms.
 TEST(ChatterSimulate, WritesItsSteps) {
   const Scratch scratch;
   const std::string out = scratch.at("out.csv");

@@ -20,6 +20,8 @@ using testing::HasSubstr;
 const std::string kSlot = "chatter radius examples/processes/slot-922hz.toml";
 const std::string kPoint = kSlot + " --speed-rpm 5000 --depth-mm 1";
 
+// Converged values of reference tables (spectral collocation, 8 digits), not the literature's
+// three.
 TEST(ChatterRadius, GivesTheConvergedRadiusOfTheSlot) {
   const json stable = answer_of(kSlot + " --speed-rpm 5000 --depth-mm 0.2");
   EXPECT_NEAR(stable["spectral_radius"], 0.81974278, 1e-7);
@@ -39,6 +41,7 @@ TEST(ChatterRadius, GivesTheConvergedRadiusOfTheSlot) {
               1e-6);
 }
 
+// RVA 0.2 and RVF 0.1 at 5000 rpm are ±1000 rpm every 0.12 s: all ways to say it are one law.
 TEST(ChatterRadius, TakesAModulationInRatiosAndInTheWordsOfTheShopFloor) {
   const json ratios = answer_of(kPoint + " --law sine --rva 0.2 --rvf 0.1");
   EXPECT_NEAR(ratios["spectral_radius"], 0.0446131, 5e-7);
@@ -56,6 +59,8 @@ TEST(ChatterRadius, TakesAModulationInRatiosAndInTheWordsOfTheShopFloor) {
   }
 }
 
+// ρ = 3e-14 over the period, and yet a vibration grows 921-fold on its way: the radius alone would
+// call it harmless.
 TEST(ChatterRadius, TellsSlowModulationThoughTheRadiusIsNothing) {
   const json slow = answer_of(kPoint + " --law triangle --rva 0.2 --rvf 0.02");
   EXPECT_NEAR(slow["log_radius"], std::log(3e-14), 0.2);
@@ -76,6 +81,8 @@ TEST(ChatterRadius, KnowsEveryLaw) {
             answer_of(kPoint)["spectral_radius"]);
 }
 
+// 2/0.1234567891 is no ratio of small numbers; the RVF moves by 0.5 % at most and the answer says
+// so.
 TEST(ChatterRadius, MovesAPeriodToWholeToothPassesAndSaysSo) {
   const json moved = answer_of(kPoint + " --law sine --rva 0.1 --rvf 0.1234567891");
   EXPECT_NEAR(moved["wanted_rvf"], 0.1234567891, 1e-12);
@@ -100,6 +107,7 @@ TEST(ChatterRadius, ReadsTurningAndHelix) {
             true);
 }
 
+// One line per way to get amplitude, period, law or file wrong.
 TEST(ChatterRadius, RefusesBadUsage) {
   const std::string sine = kPoint + " --law sine";
   expect_refused(kSlot + " --speed-rpm 5000");
@@ -127,7 +135,7 @@ TEST(ChatterRadius, RefusesBadUsage) {
 
 const std::string kLobes = "chatter lobes examples/processes/slot-922hz.toml";
 
-/// Rows of numbers below the head.
+/// Rows of numbers below the head, which must be the documented one.
 std::vector<std::vector<double>> rows_of(const std::string& path, const std::string& head) {
   std::istringstream in(text_of_file(path));
   std::string line;
@@ -145,6 +153,7 @@ std::vector<std::vector<double>> rows_of(const std::string& path, const std::str
   return out;
 }
 
+// Four map points and two border points with published values; more border points in between.
 TEST(ChatterLobes, WritesTheMapAndItsBorder) {
   const Scratch scratch;
   const json made = answer_of(kLobes + " --speeds-rpm 5000:10000:2 --depths-mm 0.2:0.5:2 -o " +
@@ -169,6 +178,7 @@ TEST(ChatterLobes, WritesTheMapAndItsBorder) {
   EXPECT_NEAR(border.back()[1], 0.3224, 5e-5);
 }
 
+// The border leaves the map upwards; beyond, no row says "stable to the bottom".
 TEST(ChatterLobes, HasNoBorderWhereAllDepthsAreStable) {
   const Scratch scratch;
   const json made = answer_of(kLobes + " --speeds-rpm 5000:5500:2 --depths-mm 0:0.6:4 -o " +
@@ -192,6 +202,7 @@ TEST(ChatterLobes, TakesALaw) {
   EXPECT_NEAR(map[0][2], 0.0446131, 5e-7);
 }
 
+// FROM:TO:STEPS in every broken spelling.
 TEST(ChatterLobes, RefusesBadUsage) {
   const std::string speeds = kLobes + " --speeds-rpm 5000:6000:3";
   const Scratch scratch;

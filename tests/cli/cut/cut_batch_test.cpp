@@ -23,6 +23,8 @@ const std::string kPaper =
     " --machine examples/paper-thermal/machine.toml --cyclogram "
     "examples/paper-thermal/cyclogram.toml";
 
+// The batch adds its keys and changes none of the cut's; the band is k3 times the tolerance,
+// 0.35·10 µm.
 TEST(CutBatch, StandsBesideTheKeysOfTheCut) {
   const json answer = answer_of(kShort + " --batch 3 --pause-min 10");
   EXPECT_TRUE(answer["without"]["contour_error_max_mm"].is_number());
@@ -76,6 +78,7 @@ TEST(CutBatch, WritesItsPageBesideThatOfTheCut) {
   EXPECT_EQ(page["course"]["t_min"].size(), page["course"]["online_um"].size());
 }
 
+// The instants of the paper's example (Marusich 2012).
 TEST(ThermalReport, OfAPlanHasTheCorrectionsOfThePaper) {
   const Scratch scratch;
   const json answer =

@@ -29,6 +29,8 @@ std::string at_depth(double depth_mm, const std::string& more = "") {
   return kSlot + kProcess + fmt::format(" --depth-mm {}", depth_mm) + more;
 }
 
+// 5000 rpm, 1 mm: far in the unstable region; 110 % is stable. The margins (1 % of the chatter,
+// half the force) leave room for the approach.
 TEST(CutChatter, TheLayerTakesTheOverrideStepThatIsStable) {
   const json answer = answer_of(at_depth(1.0));
   for (const char* cut : {"without", "with"}) {
@@ -48,7 +50,7 @@ TEST(CutChatter, TheLayerTakesTheOverrideStepThatIsStable) {
   EXPECT_NEAR(answer["chatter"][0]["spindle_switch_percent"].get<double>(), 110.0, 1e-9);
 }
 
-/// What does not repeat from tooth to tooth, in the cut without the layer, µm over s.
+/// What does not repeat from tooth to tooth, in the cut without the layer: µm over s.
 std::vector<std::pair<double, double>> unforced(double depth_mm) {
   const Scratch scratch;
   answer_of(at_depth(depth_mm, " --report " + scratch.at("report")));
@@ -76,6 +78,8 @@ TEST(CutChatter, DiesAndGrowsOnEitherSideOfThePublishedBorder) {
   EXPECT_GT(at_time(above, 5.0), 10.0 * at_time(above, 2.0));
 }
 
+// Two speeds in one program, each unstable as programmed: each gets a step of its own, which the
+// solver then confirms.
 TEST(CutChatter, EachSpindleSpeedOfTheProgramGetsItsOwnChoice) {
   const Scratch scratch;
   const std::string program = scratch.file("two-speeds.mpf",
@@ -131,6 +135,7 @@ TEST(CutChatter, HearsNothingInAStableCut) {
   EXPECT_TRUE(answer_of(at_depth(0.3, " --chatter detect"))["heard"].empty());
 }
 
+// [chatter] of the example is off, so the cut chatters as without the layer.
 TEST(CutChatter, ByTheMachineFileNothingIsPlanned) {
   const json answer = answer_of(at_depth(1.0, " --chatter machine"));
   EXPECT_FALSE(answer.contains("chatter"));
@@ -179,6 +184,7 @@ TEST(CutChatter, RefusesWhatCannotBeCut) {
       "with the spindle stopped");
 }
 
+// No spindle override: the answer is "nothing", not a refusal.
 TEST(CutChatter, AMachineWithoutASpindleOverrideCanBeAskedToo) {
   const json answer =
       answer_of("cut examples/programs/circle-r10.mpf --machine examples/machines/ideal-k50.toml" +

@@ -23,6 +23,7 @@ const std::string kCircle = "examples/programs/circle-r10.mpf";
 const std::string kIdeal = " --machine examples/machines/ideal-k50.toml";
 const std::string kCut = "cut " + kCircle + kIdeal;
 
+// Ideal axes with 50 1/s and the arc of the reference table: R = 10 mm at 4000 mm/min.
 TEST(Cut, GivesBothCutsAsJson) {
   const json answer = answer_of(kCut);
   EXPECT_EQ(answer["program"], kCircle);
@@ -38,6 +39,8 @@ TEST(Cut, GivesBothCutsAsJson) {
   }
 }
 
+// 840D with encoders of 1 µm: the estimate must beat differences, and the guaranteed bounds must
+// hold for every sample (coverage 1).
 TEST(Cut, SaysWhatTheEstimatesOfTheMotionAreWorthOnEachAxis) {
   const json motion =
       answer_of("cut " + kCircle + " --machine examples/machines/vmc-840d.toml")["motion"];
@@ -56,6 +59,8 @@ TEST(Cut, SaysWhatTheEstimatesOfTheMotionAreWorthOnEachAxis) {
   EXPECT_TRUE(answer_of(kCut)["motion"].empty()) << "ideal encoders have no counts";
 }
 
+// Without the layer the closed form rules: ε = 0.0877 mm, following error v/k on the lines. With it
+// the limit of 10 µm holds, and the price is time.
 TEST(Cut, BuysTheLimitWithTime) {
   const json answer = answer_of(kCut);
   const json& without = answer["without"];
@@ -69,6 +74,7 @@ TEST(Cut, BuysTheLimitWithTime) {
   EXPECT_GT(with["cycle_time_s"], without["cycle_time_s"]);
 }
 
+// 5 µm, 40 µm: the cut without the layer does not care.
 TEST(Cut, TakesTheLimitFromTheCommandLine) {
   const json tight = answer_of(kCut + " --limit-um 5");
   const json loose = answer_of(kCut + " --limit-um 40");
@@ -80,6 +86,7 @@ TEST(Cut, TakesTheLimitFromTheCommandLine) {
   EXPECT_EQ(tight["without"]["cycle_time_s"], loose["without"]["cycle_time_s"]);
 }
 
+// Contour priority must be the slowest; the three must differ.
 TEST(Cut, TakesTheStrategyFromTheCommandLine) {
   const double contour_s = answer_of(kCut + " --strategy contour_priority")["with"]["cycle_time_s"];
   const double feed_s = answer_of(kCut + " --strategy feed_priority")["with"]["cycle_time_s"];
@@ -123,6 +130,7 @@ TEST(Cut, WritesTheReportAsPageAndAsJson) {
   EXPECT_EQ(report["with"]["figures"], answer["with"]);
 }
 
+// Same seed, same bytes, with noise and all.
 TEST(Cut, TwiceTheSameIsTheSameToTheByte) {
   const Scratch scratch;
   const std::string noisy = "cut " + kCircle +
@@ -139,6 +147,7 @@ TEST(Cut, TwiceTheSameIsTheSameToTheByte) {
   EXPECT_TRUE(first == both());
 }
 
+// A feed that left the limit cannot be the feed that would hold it, whatever the closed form says.
 TEST(Cut, NamesNoFeedAsHoldingThatIsFasterThanOneThatLeftTheLimit) {
   const Scratch scratch;
   answer_of(kCut + " --report " + scratch.at("out"));
@@ -153,6 +162,7 @@ TEST(Cut, NamesNoFeedAsHoldingThatIsFasterThanOneThatLeftTheLimit) {
   EXPECT_TRUE(left) << "10.08 µm at 1200 mm/min, at the circle's entry";
 }
 
+// Worst lines in falling order; on the arc the holding feed is that of `contour limit`.
 TEST(Cut, ShowsTheWorstLinesWithTheFeedThatWouldHold) {
   const Scratch scratch;
   answer_of(kCut + " --strategy contour_priority --report " + scratch.at("out"));
@@ -176,6 +186,7 @@ TEST(Cut, ShowsTheWorstLinesWithTheFeedThatWouldHold) {
   EXPECT_TRUE(arc);
 }
 
+// A program for another control, one that does not move, and a binary file.
 TEST(Cut, RefusesAProgramByFileLineAndWord) {
   expect_refused("cut examples/programs/circle-r10.ngc" + kIdeal,
                  "examples/programs/circle-r10.ngc:2: `G21`");
@@ -207,6 +218,7 @@ TEST(Cut, RefusesAReportFolderThatCannotBeMade) {
   expect_refused(kCut + " --report " + file + "/below", file);
 }
 
+// 600 mm at 600 mm/min and a dwell of 2 s.
 TEST(ProgramTime, IsPathOverFeedAndItsParts) {
   const Scratch scratch;
   // 600 mm at 600 mm/min are 60 s; the ramps cost v/a = 1 ms.

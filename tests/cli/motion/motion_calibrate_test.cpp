@@ -27,7 +27,8 @@ constexpr double kOmega = 2.0 * std::numbers::pi * 2.0;
 const std::string kCount = " --count-mm 0.001";
 
 /// 4 s of x = 1 mm·(1 − cos 2π·2 Hz·t) over lines with 2 % random and ±5 % phase error, stamps of
-/// 100 ns. The log has the count after each edge.
+/// 100 ns. The times are exact: t = acos(1 − x)/ω at each line's true place. The log has the count
+/// after each edge.
 void write_log(const std::string& path) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -49,7 +50,7 @@ void write_log(const std::string& path) {
   }
 }
 
-/// RMS error of the estimated velocity from 50 ms on.
+/// RMS error of the estimated velocity from 50 ms on, against the exact derivative.
 double error_mm_s(const std::string& table) {
   std::istringstream in(table);
   std::string line;
@@ -69,6 +70,8 @@ double error_mm_s(const std::string& table) {
   return std::sqrt(sum2 / n);
 }
 
+// Learnt phases within 0.004 counts of the true ones; the residual falls fivefold, the estimate's
+// error by a third at least.
 TEST(MotionCalibrate, WhatItLearnsTakesAThirdOffTheErrorOfTheEstimate) {
   const Scratch scratch;
   const std::string log = scratch.at("edges.csv");
@@ -90,6 +93,8 @@ TEST(MotionCalibrate, WhatItLearnsTakesAThirdOffTheErrorOfTheEstimate) {
   EXPECT_LT(error_mm_s(after.out), 0.67 * error_mm_s(before.out));
 }
 
+// Into the machine file (bytes around it untouched) and back: the estimates are the same as from
+// the keys alone.
 TEST(MotionCalibrate, PutsTheTableIntoAMachineFileAndEstimateTakesItFromThere) {
   const Scratch scratch;
   const std::string log = scratch.at("edges.csv");
@@ -121,6 +126,7 @@ TEST(MotionCalibrate, PutsTheTableIntoAMachineFileAndEstimateTakesItFromThere) {
   EXPECT_EQ(run_line(estimate + machine).code, 2);
 }
 
+// The same log read as 0.01° a count: errors scale with the count, in degrees and not in µm.
 TEST(MotionCalibrate, SaysAnglesOfARotaryAxisInDegrees) {
   const Scratch scratch;
   const std::string log = scratch.at("edges.csv");
@@ -159,6 +165,7 @@ TEST(MotionCalibrate, SaysAnglesOfARotaryAxisInDegrees) {
   expect_refused(learn + " -o " + keys, "--count-mm");
 }
 
+// Ranges, passes and revolutions that cannot be, and an output that is the log itself.
 TEST(MotionCalibrate, RefusesWhatCannotWork) {
   const Scratch scratch;
   const std::string log = scratch.at("edges.csv");

@@ -58,7 +58,8 @@ std::vector<Row> rows_of(const std::string& table) {
   return out;
 }
 
-/// RMS error of the velocity against x = 0.15 mm·(1 − cos 2π·2 Hz·t), from 50 ms on.
+/// RMS error of the velocity against x = 0.15 mm·(1 − cos 2π·2 Hz·t), the exact motion of the
+/// example's log, from 50 ms on.
 double sine_error_mm_s(const std::vector<Row>& rows) {
   const double w = 2.0 * std::numbers::pi * 2.0;
   double squares = 0.0;
@@ -109,10 +110,12 @@ TEST(MotionEstimate, DifferencesErrByWhatTheirQuantisationAllows) {
   EXPECT_NEAR(sine_error_mm_s(sine_by("difference")), 0.408, 0.05);
 }
 
+// Time stamps alone, without any limit of the axis, halve the error.
 TEST(MotionEstimate, EdgesWithTheirTimesBeatDifferences) {
   EXPECT_LT(sine_error_mm_s(sine_by("mt")), 0.5 * sine_error_mm_s(sine_by("difference")));
 }
 
+// 0.00408 mm/s is a hundredth of what differences give, and every tick must keep its proven bound.
 TEST(MotionEstimate, TheDefaultIsAHundredTimesFinerThanDifferencesAndKeepsItsBounds) {
   const Finished finished =
       run_line("motion estimate " + kSine + kEdges +
@@ -133,6 +136,7 @@ TEST(MotionEstimate, WithoutALimitOfTheJerkThereIsNoBound) {
   EXPECT_THAT(table, HasSubstr(",inf,inf\n"));
 }
 
+// The list in --help is the list that works.
 TEST(MotionEstimate, EveryEstimatorOfItsHelpGivesFiniteNumbers) {
   const std::string help = run_line("motion estimate --help").out;
   const std::size_t at = help.find("One of ");
@@ -165,6 +169,7 @@ TEST(MotionEstimate, ReadsStdin) {
   EXPECT_EQ(finished.out, run_line("motion estimate " + log + kEdges).out);
 }
 
+// What came before the bad row is worth having; exit code 2 says that it is not all.
 TEST(MotionEstimate, KeepsWhatWasGoodBeforeABadRow) {
   const Scratch scratch;
   const std::string log = scratch.file("log.csv",
@@ -206,6 +211,7 @@ TEST(MotionEstimate, ReportsALogThatEndsMidRow) {
   EXPECT_EQ(json::parse(finished.out)["ticks"], 2);
 }
 
+// A refusal must leave an older result alone.
 TEST(MotionEstimate, RefusesALogThatItCannotReadAndLeavesTheOutputAlone) {
   const Scratch scratch;
   const std::string older = "t_s,position_mm,velocity_mm_s,acceleration_mm_s2,precious\n";
@@ -319,7 +325,8 @@ TEST_P(RecordedAxis, TheJitterOfItsCycleIsTold) {
 }
 
 TEST_P(RecordedAxis, CoarseEdgesKeepThePositionWithinTheirCount) {
-  // Counts ÷ 64, edges in the straight line between two samples.
+  // Counts ÷ 64, edges in the straight line between two samples: a coarse encoder on a real motion.
+  // The position must lie within a coarse count of the recorded one.
   constexpr long kCoarse = 64;
   const auto cell = [](long count) {
     return count >= 0 ? count / kCoarse : -((-count + kCoarse - 1) / kCoarse);

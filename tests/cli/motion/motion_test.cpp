@@ -16,6 +16,8 @@ using testing::HasSubstr;
 const std::string kUnits = "motion units --cycle-hz 1000 --count-mm 0.001 ";
 const std::string kEncoder = "motion encoder --max-frequency-hz 300000 ";
 
+// Figures of the paper (Kombarov 2011): F = 20 000 mm/min is 333.3 counts/tick at 1 kHz and 1 µm; 2
+// g is 19.6 counts/tick², at 2.5 kHz 3.14.
 TEST(MotionUnits, ConvertsFeedAndOverload) {
   EXPECT_NEAR(answer_of(kUnits + "--feed-mm-min 20000")["counts_per_tick"], 333.3, 0.05);
   const json both = answer_of(kUnits + "--feed-mm-min 9000 --overload-g 2");
@@ -36,6 +38,7 @@ TEST(MotionUnits, ShowsAShortTableToPeople) {
   EXPECT_THAT(run_line(kUnits + "--feed-mm-min 20000").out, HasSubstr("333.333 counts/tick\n"));
 }
 
+// Each needed number missing, 0, negative, not finite, or given twice.
 TEST(MotionUnits, RefusesBadUsage) {
   expect_all_refused({"motion units --feed-mm-min 100", "motion units --cycle-hz 1000",
                       "motion units --cycle-hz 0 --feed-mm-min 100",
@@ -51,6 +54,7 @@ TEST(MotionUnits, RefusesBadUsage) {
                       "motion units --cycle-hz 1000 --overload-g 1 --counts-per-tick2 1"});
 }
 
+// Eq. 6: lines = W·h/v = 300 kHz · 10 mm/125 mm/s = 24 000; eq. 8: count = h/(4·lines) = 0.1 µm.
 TEST(MotionEncoder, GivesTheLinesForAFeed) {
   const json lathe = answer_of(kEncoder + "--feed-mm-min 7500 --lead-mm 10");
   EXPECT_NEAR(lathe["lines_per_rev"], 24000.0, 1e-6);
@@ -61,12 +65,14 @@ TEST(MotionEncoder, GivesTheLinesForAFeed) {
   EXPECT_NEAR(fast["count_mm"], 0.83e-3, 0.005e-3);
 }
 
+// Eq. 7: lines = W/n; 7000 rpm gives 2571.4, and whole lines can be bought only.
 TEST(MotionEncoder, GivesTheLinesForASpindle) {
   EXPECT_NEAR(answer_of(kEncoder + "--speed-rpm 2000")["lines_per_rev"], 9000.0, 1e-6);
   EXPECT_NEAR(answer_of(kEncoder + "--speed-rpm 10000")["lines_per_rev"], 1800.0, 1e-6);
   EXPECT_EQ(answer_of(kEncoder + "--speed-rpm 7000")["whole_lines_per_rev"], 2571.0);
 }
 
+// The way back, and a wanted count of 1 µm: 2500 lines.
 TEST(MotionEncoder, GivesTheLargestSpeedForLines) {
   const json back = answer_of(kEncoder + "--lines-per-rev 3000 --lead-mm 10");
   EXPECT_NEAR(back["feed_mm_min"], 60000.0, 1e-6);
@@ -77,6 +83,7 @@ TEST(MotionEncoder, GivesTheLargestSpeedForLines) {
   EXPECT_NEAR(wanted["feed_mm_min"], 72000.0, 1e-6);
 }
 
+// Eq. 5: 180 000 lines at 5000 rpm are 15 MHz, beyond any counter: why finer is not the answer.
 TEST(MotionEncoder, GivesTheSignalFrequency) {
   const std::string a110 = "motion encoder --lines-per-rev 180000 --speed-rpm 5000";
   EXPECT_NEAR(answer_of(a110)["signal_frequency_hz"], 15e6, 1e-3);

@@ -32,7 +32,8 @@ unsigned long number_from(const char* name, unsigned long otherwise) {
   return text == nullptr ? otherwise : std::strtoul(text, nullptr, 10);
 }
 
-/// What happens to the files of some folders.
+/// What happens to the files of some folders, by inotify: so a process can be ended at the very
+/// moment when it writes, and not only at times that are mostly spent computing.
 class Watch {
  public:
   explicit Watch(const std::set<std::string>& folders) {
@@ -76,7 +77,7 @@ class Watch {
 
 class Killed : public testing::TestWithParam<OutputRow> {
  protected:
-  /// All of a new file is there: the same bytes, or the same end where it says how long it took.
+  // All of a new file is there: the same bytes, or, where it states how long it took, the same end.
   static bool whole(const std::string& text, const std::string& made) {
     constexpr std::size_t kEnd = 6;
     return GetParam().timed
@@ -84,6 +85,8 @@ class Killed : public testing::TestWithParam<OutputRow> {
                : text == made;
   }
 
+  // Old or new, never a part. Only SIGKILL may leave temporary files behind, for no one can tidy up
+  // after it.
   void expect_nothing_lost(const Texts& old, const Texts& made, const std::string& how) const {
     Texts found = folder_.results();
     for (const auto& [name, text] : old) {
@@ -110,6 +113,8 @@ class Killed : public testing::TestWithParam<OutputRow> {
   const Texts examples_ = folder_.examples();
 };
 
+// First an undisturbed run, for the new results and the number of file events; then runs that are
+// ended at random events or times.
 TEST_P(Killed, LeavesTheOldFileOrTheNewOne) {
   ASSERT_EQ(Process(folder_.command(), folder_.path()).wait(), 0);
   const Texts made = folder_.results();

@@ -22,7 +22,7 @@ using testing::IsEmpty;
 using testing::Key;
 using testing::UnorderedElementsAreArray;
 
-/// Old results of the same kind that differ from the new ones.
+/// Old results of the same kind that differ from the new ones by a line end.
 Texts older(const Texts& results) {
   Texts out = results;
   for (auto& [name, text] : out) {
@@ -49,7 +49,7 @@ class Outputs : public testing::TestWithParam<OutputRow> {
   std::string err_;
 };
 
-/// OUT and DIR in a verb's help.
+/// OUT and DIR in a verb's help are the outputs that exist.
 std::set<std::string> output_flags(const std::string& help) {
   static const std::regex kOutput(R"((--[a-z-]+) (OUT|DIR)\b)");
   std::set<std::string> out;
@@ -59,6 +59,7 @@ std::set<std::string> output_flags(const std::string& help) {
   return out;
 }
 
+// Help and table must agree, so a new output cannot escape these tests.
 TEST(OutputTable, HasEveryOutputOfEveryVerb) {
   std::set<std::pair<std::string, std::string>> in_help;
   for (const Words& verb : verbs()) {
@@ -91,6 +92,7 @@ TEST_P(Outputs, AreWrittenWholeAndReplaceOlderOnes) {
   EXPECT_EQ(folder_.examples(), examples_);
 }
 
+// By name, by another spelling of the path, by symbolic and by hard link.
 TEST_P(Outputs, ThatAreAnInputAreRefused) {
   const auto refused = [this](const std::vector<std::string>& command, const std::string& how) {
     EXPECT_EQ(run(command), 2) << how;
@@ -117,6 +119,8 @@ TEST_P(Outputs, ThatAreAnInputAreRefused) {
   }
 }
 
+// A note, a log, a process file, JSON and a page that are not ours: each kind looks a little like a
+// result.
 TEST_P(Outputs, ReplaceNothingOfAnotherKindWithoutForce) {
   for (const std::string& output : folder_.outputs()) {
     for (const std::string precious :
@@ -134,6 +138,7 @@ TEST_P(Outputs, ReplaceNothingOfAnotherKindWithoutForce) {
   EXPECT_EQ(folder_.results().size(), folder_.outputs().size());
 }
 
+// A limit on file size behaves like a full disk: at the first byte and in the middle.
 TEST_P(Outputs, StayAsTheyWereWhenTheDiskIsFull) {
   const Texts old = older(made());
   for (const long bytes : {0L, 40L}) {
@@ -147,7 +152,7 @@ TEST_P(Outputs, StayAsTheyWereWhenTheDiskIsFull) {
   EXPECT_THAT(folder_.results(), IsEmpty());
 }
 
-/// The last output is the first that does not fit.
+// The first outputs fit, the largest does not: none may be renamed.
 TEST_P(Outputs, TakeTheirPlacesTogetherOrNot) {
   const Texts results = made();
   const Texts old = older(results);
@@ -161,6 +166,7 @@ TEST_P(Outputs, TakeTheirPlacesTogetherOrNot) {
   EXPECT_EQ(folder_.results(), old);
 }
 
+// The files are there even if nobody reads the summary.
 TEST_P(Outputs, AreKeptWhenStdoutIsClosed) {
   EXPECT_EQ(run(folder_.command(), {.out = Process::Stdout::closed_pipe}), 1);
   EXPECT_THAT(err_, HasSubstr("failed to write the answer to stdout"));
@@ -176,6 +182,7 @@ TEST_P(Outputs, WithoutANameAreRefused) {
   }
 }
 
+// Before the work: a folder as a file, a folder that is missing, a file as a folder.
 TEST_P(Outputs, ThatCannotBeAreRefusedBeforeTheWork) {
   fs::create_directory(folder_.at("folder"));
   for (const OutputOption& option : GetParam().outputs) {

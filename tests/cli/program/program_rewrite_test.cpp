@@ -18,6 +18,8 @@ const std::string kProgram = "examples/programs/rib-pocket.ngc";
 const std::string kPlan =
     " --plan examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml";
 
+// The example's compensated program is stored; compensate must reproduce it, verify prove it, strip
+// give the original back.
 TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.ngc");
@@ -39,6 +41,8 @@ TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
   EXPECT_EQ(text_of_file(changed), text_of_file(project_file(kProgram)));
 }
 
+// A window too small for any safe place, a control without a method, a program that is corrected
+// already.
 TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
   const Scratch scratch;
   const std::string to = " -o " + scratch.at("changed.ngc");
@@ -57,6 +61,7 @@ TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
   EXPECT_FALSE(std::filesystem::exists(scratch.at("changed.ngc")));
 }
 
+// The mark in the program supplies --window-s; 45.0 agrees with 45, 60 does not.
 TEST(ProgramVerify, KnowsFromTheMarkWhatTheProgramWasMadeWith) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.ngc");

@@ -23,7 +23,7 @@ using testing::IsEmpty;
 
 const std::string kMill = "examples/machines/linuxcnc-mill.toml";  // ±500 mm, 12 m/min, S24000
 
-/// G54 at X450, turned by 30°.
+/// G54 at X450, turned by 30°: so a move in programmed X ends elsewhere in machine X.
 std::string variables(const Scratch& scratch) {
   std::string out;
   for (const auto& [number, value] : {std::pair{5161, 0},
@@ -58,6 +58,8 @@ std::vector<std::string> warned(const json& answer) {
   return out;
 }
 
+// Line 5 ends at 450 + 100·cos 30° = 536.603 mm; arcs must be checked along the way, not only at
+// their ends.
 TEST(ProgramWarnings, AreThoseOfEachVerbThatHasTheMachine) {
   const Scratch scratch;
   const std::string program = scratch.file("part.ngc",
@@ -93,6 +95,7 @@ TEST(ProgramWarnings, AreThoseOfEachVerbThatHasTheMachine) {
   }
 }
 
+// 500 inch/min are 12 700 mm/min; 19.7 inch are 500.380 mm.
 TEST(ProgramWarnings, OfInchesAreTheSame) {
   const Scratch scratch;
   const std::string program = scratch.file("inch.ngc",
@@ -112,6 +115,7 @@ TEST(ProgramWarnings, OfInchesAreTheSame) {
   }
 }
 
+// F60000 on axes of 12 m/min: 99.5 % of it changes nothing.
 TEST(ProgramWarnings, CutSaysWhenTheOverrideHasNoEffect) {
   const Scratch scratch;
   const auto cut = [&](int feed_mm_min) {
@@ -126,6 +130,7 @@ TEST(ProgramWarnings, CutSaysWhenTheOverrideHasNoEffect) {
   EXPECT_THAT(cut(6000), IsEmpty());
 }
 
+// The examples must not warn about themselves.
 TEST(ProgramWarnings, SayNothingOfTheExamples) {
   for (const char* fits :
        {"programs/rib-pocket.ngc --machine examples/machines/linuxcnc-mill.toml",

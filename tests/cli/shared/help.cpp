@@ -9,7 +9,7 @@
 namespace steadyrest::test {
 namespace {
 
-/// The words below `Subcommands:`.
+/// The words below `Subcommands:`. Continuation lines of a description are indented further.
 Words children(const std::string& help) {
   Words names;
   std::istringstream in(help);
@@ -37,6 +37,7 @@ std::string help_of(Words path) {
   return finished.out;
 }
 
+/// Verbs are the leaves of the tree of subcommands.
 std::vector<Words> verbs(const Words& path) {
   std::vector<Words> out;
   const Words names = children(help_of(path));

@@ -31,6 +31,7 @@ Texts texts_of(const fs::path& folder, bool examples) {
 
 }  // namespace
 
+/// A copy of the examples, because verbs are told here to overwrite them.
 OutputFolder::OutputFolder(const OutputRow& row) : row_(row) {
   fs::copy(project_file("examples"), scratch_.at("examples"), fs::copy_options::recursive);
 }
@@ -64,6 +65,7 @@ Texts OutputFolder::examples() const {
   return texts_of(scratch_.at(""), true);
 }
 
+/// Everything but the examples goes, so that a result of an earlier run cannot pass for this one's.
 void OutputFolder::place(const Texts& results) const {
   for (const auto& entry : fs::directory_iterator(scratch_.at(""))) {
     if (entry.path().filename() != "examples") {

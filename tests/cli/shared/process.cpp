@@ -14,6 +14,7 @@
 namespace steadyrest::test {
 namespace {
 
+/// The pipe's reading end is closed: the first write fails, as with `| head`.
 void redirect_stdout(Process::Stdout out) {
   if (out == Process::Stdout::nowhere) {
     dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
@@ -36,6 +37,7 @@ Process::Process(const std::vector<std::string>& arguments, const std::string& f
     argv.push_back(const_cast<char*>(argument.c_str()));
   }
   argv.push_back(nullptr);
+  // Close-on-exec, so that the child's own children cannot keep the pipe open.
   std::array<int, 2> err{};
   if (pipe2(err.data(), O_CLOEXEC) != 0) {
     return;
@@ -45,6 +47,7 @@ Process::Process(const std::vector<std::string>& arguments, const std::string& f
   if (child_ == 0) {
     dup2(err[1], STDERR_FILENO);
     redirect_stdout(limits.out);
+    // The kernel refuses writes beyond it: a full disk without a disk.
     if (limits.largest_file >= 0) {
       const auto most = static_cast<rlim_t>(limits.largest_file);
       const rlimit limit{most, most};
@@ -60,6 +63,7 @@ Process::Process(const std::vector<std::string>& arguments, const std::string& f
   pidfd_ = static_cast<int>(syscall(SYS_pidfd_open, child_, 0));
 }
 
+/// A test that fails early must not leave a process behind.
 Process::~Process() {
   if (child_ > 0) {
     send(SIGKILL);
@@ -79,6 +83,7 @@ int Process::wait() {
   if (child_ <= 0) {
     return code_;
   }
+  // Read to the end first: a child that fills the pipe would wait for ever.
   std::array<char, 4096> block{};
   for (ssize_t got = 0; (got = read(err_read_, block.data(), block.size())) > 0;) {
     err_.append(block.data(), static_cast<std::size_t>(got));

@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Each run has a folder of its own with the examples in it, so that paths in commands are short
+/// and tests run side by side.
 class Folder {
  public:
   Folder() {
@@ -37,6 +39,7 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+/// 126 and 127 are codes that the program itself never returns.
 void redirect(const char* path, int descriptor) {
   const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (file < 0 || dup2(file, descriptor) < 0) {

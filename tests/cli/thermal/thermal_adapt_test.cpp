@@ -18,6 +18,7 @@ std::string adapt(const Scratch& scratch, const std::string& csv, const std::str
   return "thermal adapt " + kPlan + " --measured " + scratch.file("measured.csv", csv) + more;
 }
 
+// The stored plan is what the verb writes today: the other tests rest on it.
 TEST(ThermalAdapt, ItsExampleIsThePlanOfThePapersExample) {
   const Scratch scratch;
   answer_of(
@@ -30,6 +31,8 @@ TEST(ThermalAdapt, ItsExampleIsThePlanOfThePapersExample) {
   EXPECT_EQ(written["k"], stored["k"]);
 }
 
+// The parts were measured on a machine that grows 1.1 times as far as its passport says; 1.3 times
+// k·Δ at the end asks for the next level.
 TEST(ThermalAdapt, FindsTheGainOfTheExamplesMachineAndTheNextLevel) {
   const auto answer = answer_of(kExample);
   EXPECT_EQ(answer["level_before"], 0);
@@ -44,6 +47,7 @@ TEST(ThermalAdapt, FindsTheGainOfTheExamplesMachineAndTheNextLevel) {
   EXPECT_GT(z["rms_before_um"].get<double>(), 3.0);
 }
 
+// The new passport forecasts the real growth: 48.79 µm, the example's final value, times the gain.
 TEST(ThermalAdapt, WritesTheMachineFileByWhichTheNextPlanIsRight) {
   const Scratch scratch;
   const std::string machine = scratch.at("new.toml");
@@ -62,6 +66,7 @@ TEST(ThermalAdapt, WritesTheMachineFileByWhichTheNextPlanIsRight) {
   EXPECT_NEAR(again["max_um"].get<double>(), 48.79 * gain, 0.05);
 }
 
+// All parts at 2 µm, below half of k·Δ: one level back.
 TEST(ThermalAdapt, PartsWellInsideGoBackOneLevel) {
   const Scratch scratch;
   answer_of(
@@ -79,6 +84,7 @@ TEST(ThermalAdapt, PartsWellInsideGoBackOneLevel) {
   EXPECT_EQ(answer["k"], 0.7);
 }
 
+// ±60 µm in turns: no gain explains that. The level still rises, the gains stay.
 TEST(ThermalAdapt, SaysWhenTheModelNoLongerFitsAndKeepsItsGains) {
   const Scratch scratch;
   std::string csv = "part,time_min,deviation_um\n";
@@ -96,6 +102,7 @@ TEST(ThermalAdapt, SaysWhenTheModelNoLongerFitsAndKeepsItsGains) {
   EXPECT_NE(shown.out.find("fit it again"), std::string::npos) << shown.out;
 }
 
+// One part with a chip under it among good ones.
 TEST(ThermalAdapt, NamesAnOutlierAndLeavesItOut) {
   const Scratch scratch;
   std::string csv = text_of_file(project_file("examples/paper-thermal/measured.csv"));
@@ -108,6 +115,7 @@ TEST(ThermalAdapt, NamesAnOutlierAndLeavesItOut) {
   EXPECT_NEAR(answer["axes"][0]["gain"][0].get<double>(), 1.1, 0.02);
 }
 
+// Nobody can tell what is wrong from three parts: all count for the level, none for the gains.
 TEST(ThermalAdapt, OfThreePartsOutliersCountForTheLevelAndTheGainsStay) {
   const Scratch scratch;
   const std::string far = "part,time_min,deviation_um\na,5,900\nb,98,-900\nc,192,900\n";
@@ -124,6 +132,7 @@ TEST(ThermalAdapt, OfThreePartsOutliersCountForTheLevelAndTheGainsStay) {
   EXPECT_NE(shown.out.find("3 parts are too few"), std::string::npos) << shown.out;
 }
 
+// The first one, two, three, four lines of the example: from the fourth part on gains change.
 TEST(ThermalAdapt, ThreeGoodPartsAreTooFewForTheGainsToo) {
   const Scratch scratch;
   const std::string all = text_of_file(project_file("examples/paper-thermal/measured.csv"));
@@ -144,6 +153,7 @@ TEST(ThermalAdapt, ThreeGoodPartsAreTooFewForTheGainsToo) {
   }
 }
 
+// A plan written by hand: no machine, no work. The level needs only parts and tolerances.
 TEST(ThermalAdapt, APlanThatNamesNoWorkStillGivesTheLevel) {
   const Scratch scratch;
   const std::string plan = scratch.file(

@@ -14,7 +14,7 @@ namespace {
 
 const std::string kLog = "examples/thermal/spindle-test.csv";
 
-/// The first rows of the example's log.
+/// The first rows of the example's log, head included.
 std::string beginning(int rows) {
   std::istringstream all(text_of_file(project_file(kLog)));
   std::string out;
@@ -25,8 +25,9 @@ std::string beginning(int rows) {
   return out;
 }
 
-// examples/thermal/make_spindle_test.py: 20 min with 2 µm and 110 min with 4.5 µm for each 1000
-// rpm.
+// Truth: examples/thermal/make_spindle_test.py, 20 min with 2 µm and 110 min with 4.5 µm for each
+// 1000 rpm, noise 0.3 µm RMS. The fit must find the time constants within three of its own standard
+// deviations.
 TEST(ThermalFit, FindsTheMachineOfTheExample) {
   const Scratch scratch;
   const auto fit =
@@ -53,6 +54,7 @@ TEST(ThermalFit, FindsTheMachineOfTheExample) {
                   .starts_with("t_s,speed_rpm,Z_um,Z_sd_um,Z_measured_um\n"));
 }
 
+// The band must widen with the distance from the last reading.
 TEST(ThermalForecast, OfALogWritesAPageToo) {
   const Scratch scratch;
   answer_of("thermal fit " + kLog + " --channel z_um=Z -o " + scratch.at("passport.toml"));
@@ -68,6 +70,7 @@ TEST(ThermalForecast, OfALogWritesAPageToo) {
       << "further ahead it is less certain";
 }
 
+// The RMS of the plotted residuals is the fit's.
 TEST(ThermalFit, WritesAPageOfWhatTemperaturesTellAndWhatTheModelLeaves) {
   const Scratch scratch;
   const auto fit = answer_of("thermal fit " + kLog + " --channel z_um=Z --to-min 350 --report " +
@@ -95,6 +98,8 @@ TEST(ThermalFit, WritesAPageOfWhatTemperaturesTellAndWhatTheModelLeaves) {
   expect_refused("thermal fit " + kLog + " --report /dev/null/here", "/dev/null");
 }
 
+// W is half of Z: one body, one set of time constants. Each last digit differs, so the two are not
+// the same column.
 TEST(ThermalFit, TwoProbesOfOneBodyAreToldToShareItsTimeConstants) {
   const Scratch scratch;
   std::istringstream in(text_of_file(project_file(kLog)));
@@ -112,6 +117,7 @@ TEST(ThermalFit, TwoProbesOfOneBodyAreToldToShareItsTimeConstants) {
   EXPECT_TRUE(answer_of("thermal fit " + log + " --no-ambient --own-tau")["shared_tau"].empty());
 }
 
+// Empty, a second =, a quote, a line break and 33 characters.
 TEST(ThermalFit, TakesNoNameOfAnAxisThatAPassportCannotHave) {
   for (const char* axis : {"", "Z=X", "a\"b", "Q\n[x]", "123456789012345678901234567890123"}) {
     const Finished finished =
@@ -121,6 +127,7 @@ TEST(ThermalFit, TakesNoNameOfAnAxisThatAPassportCannotHave) {
   }
 }
 
+// A band from these hours alone cannot know a warmer day.
 TEST(ThermalFit, WarnsThatABandWithoutTemperaturesKnowsTheseDaysAlone) {
   EXPECT_TRUE(answer_of("thermal fit " + kLog)["warnings"].empty());
   const auto warnings = answer_of("thermal fit " + kLog + " --no-ambient")["warnings"];
@@ -128,7 +135,7 @@ TEST(ThermalFit, WarnsThatABandWithoutTemperaturesKnowsTheseDaysAlone) {
   EXPECT_TRUE(warnings[0].get<std::string>().starts_with("Z: no temperature is an input, so"));
 }
 
-// The example's levels are in proportion to the speed: 6.5 µm for each 1000 rpm.
+// Truth: the example's levels are in proportion to the speed, 6.5 µm for each 1000 rpm.
 TEST(ThermalFit, GivesLevelsAsATableThatForecastTakes) {
   const Scratch scratch;
   const auto fit = answer_of("thermal fit " + kLog + " --channel z_um=Z --modes 2 --levels table " +
@@ -159,6 +166,7 @@ TEST(ThermalFit, TheProgramOfTheTestIsAccepted) {
   EXPECT_GE(checked["blocks"].get<int>(), 10);
 }
 
+// 90 rows are too short for a horizon of 4 h; the refusal must say how long is enough.
 TEST(ThermalFit, SaysHowLongTheTestMustRun) {
   const Scratch scratch;
   const std::string short_log = scratch.file("short.csv", beginning(90));
@@ -170,6 +178,8 @@ TEST(ThermalFit, SaysHowLongTheTestMustRun) {
                  "runs backwards");
 }
 
+// The method's own premise: with known time constants a short window suffices, without it is
+// refused.
 TEST(ThermalFit, AnHourIsEnoughWithTheTimeConstantsOfALongerTest) {
   const Scratch scratch;
   answer_of("thermal fit " + kLog + " --channel z_um=Z -o " + scratch.at("long.toml"));

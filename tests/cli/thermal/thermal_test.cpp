@@ -21,7 +21,7 @@ const std::string kPaper =
     " --machine examples/paper-thermal/machine.toml --cyclogram "
     "examples/paper-thermal/cyclogram.toml";
 
-// Marusich 2012, eq. (1).
+// Marusich 2012, eq. (1): R = {3;{18,27,15};{0,10,10}}, {3;{15,40,5};{0,10,10}}, 3 × {1;{60};{0}}.
 TEST(ThermalPlan, IsThePapersExample) {
   const auto answer = answer_of("thermal plan" + kPaper + " --tolerance-um 10 --level 0");
   const auto rows = nlohmann::json::parse(R"([
@@ -35,6 +35,7 @@ TEST(ThermalPlan, IsThePapersExample) {
   EXPECT_EQ(answer["k"], 1.0);
 }
 
+// The shares are 1, 0.7, …, 0.35 of 10 µm; without rounding the residual is the band itself.
 TEST(ThermalPlan, AHigherLevelIsStricter) {
   const auto at = [](int level) {
     return answer_of("thermal plan" + kPaper + " --tolerance-um 10 --resolution-min 0 --level " +
@@ -50,6 +51,7 @@ TEST(ThermalPlan, AHigherLevelIsStricter) {
   expect_refused("thermal plan" + kPaper + " --tolerance-um 10 --level 4", "0 … 3");
 }
 
+// From forecast to proven program: as many insertions as the plan has corrections.
 TEST(ThermalPlan, GoesIntoAProgramAndIsProved) {
   const Scratch scratch;
   const std::string machine = scratch.file(
@@ -66,7 +68,8 @@ TEST(ThermalPlan, GoesIntoAProgramAndIsProved) {
   EXPECT_GE(done["insertions"].size(), 2U);
 }
 
-// Instants of two axes that no decimal holds: rounded one by one they end at different times.
+// Instants of two axes that no decimal holds. Rounded one by one, intervals would end at different
+// times, and the plan would be refused.
 TEST(ThermalPlan, OfTwoAxesGoesIntoAProgramAndIsAdapted) {
   const Scratch scratch;
   std::string machine = text_of_file(project_file("examples/machines/linuxcnc-mill.toml"));
@@ -101,7 +104,8 @@ TEST(ThermalPlan, OfTwoAxesGoesIntoAProgramAndIsAdapted) {
   }
 }
 
-// The truth: one mode of a minute over two stretches of 60 s each, in closed form.
+// Truth in closed form: one mode of a minute over two stretches of 60 s each, x = 20·(1 − e⁻¹) µm
+// after the first.
 TEST(ThermalForecast, TakesCoolantAndCuttingFromTheProgram) {
   const Scratch scratch;
   const std::string machine =
@@ -124,7 +128,8 @@ TEST(ThermalForecast, TakesCoolantAndCuttingFromTheProgram) {
       << "nothing is cut";
 }
 
-// Out and back at 30 mm/s, rapids of the same length: half of the path is cut.
+// Out at 30 mm/s and back as a rapid, dwells between: about half of the time is cut, and the level
+// lies between those of running and cutting in that proportion.
 TEST(ThermalForecast, OnlyFeedMovesHeatLikeCutting) {
   const Scratch scratch;
   const std::string machine =
@@ -147,6 +152,7 @@ TEST(ThermalForecast, OnlyFeedMovesHeatLikeCutting) {
   EXPECT_NEAR(answer["max_um"].get<double>(), 20.0 * (1.0 + share), 0.05);
 }
 
+// Two exponentials with the example's A1, A2 and τ, at the end of the fifth stage.
 TEST(ThermalForecast, WritesTheCurve) {
   const Scratch scratch;
   const auto answer = answer_of("thermal forecast" + kPaper + " -o " + scratch.at("curve.csv"));
@@ -158,6 +164,7 @@ TEST(ThermalForecast, WritesTheCurve) {
   EXPECT_NE(csv.find("\n18000.000,5,2000.0,48.79"), std::string::npos);
 }
 
+// 1000 min at 2000 rpm settle at 49.0785 µm; after one τ at rest 1/e of it is left.
 TEST(ThermalForecast, StartsFromWhatTheMachineHasDone) {
   const Scratch scratch;
   const std::string before =
@@ -170,6 +177,7 @@ TEST(ThermalForecast, StartsFromWhatTheMachineHasDone) {
   EXPECT_NEAR(answer["axes"][0]["end_um"].get<double>(), 49.0785 / std::exp(1.0), 1e-4);
 }
 
+// A sensor that was not given is named; given, the note goes.
 TEST(ThermalForecast, SaysWhichTemperaturesItTakesForGranted) {
   const Scratch scratch;
   const std::string work = scratch.file("work.toml", R"(
@@ -195,7 +203,7 @@ gain_um_k = 1
   EXPECT_TRUE(answer_of(line + " --ambient motor_c=21")["notes"].empty());
 }
 
-// Of a radius that only the tool table has: without it the program is refused.
+// A program with radius compensation: without the tool table it is refused, and so is its forecast.
 TEST(ThermalPlan, TakesTheDataThatTheProgramNeeds) {
   const Scratch scratch;
   const std::string machine = scratch.file(
@@ -219,6 +227,7 @@ TEST(ThermalPlan, TakesTheDataThatTheProgramNeeds) {
   expect_refused("thermal plan" + kPaper + " --tolerance-um 10 --tools " + tools, "--program");
 }
 
+// 40 000 min in steps of 0.1 s would be 24 million rows.
 TEST(ThermalForecast, RefusesMoreRowsThanMemoryHolds) {
   const Scratch scratch;
   const std::string work =
@@ -235,6 +244,7 @@ TEST(ThermalForecast, OptionsOfALogNeedOne) {
   expect_refused("thermal forecast" + kPaper + " --channel z_um=Z", "--log");
 }
 
+// Beyond 1.2 times the fitted 2000 rpm, unknown axes and sensors, no tolerance.
 TEST(Thermal, RefusesWhatItCannotForecast) {
   const Scratch scratch;
   const std::string machine = " --machine examples/paper-thermal/machine.toml";
