@@ -26,7 +26,7 @@ constexpr std::array<string_view, 7> kLaws = {"constant", "square", "pulse", "tr
 
 std::span<const Key<Contour>> contour_keys() noexcept {
   static const std::array kKeys = {
-      Key<Contour>{"enabled", &Contour::enabled, 0, 0, "Whether the contour room corrects at all."},
+      Key<Contour>{"enabled", &Contour::enabled, 0, 0, "Turns contour correction on."},
       Key<Contour>{"strategy", choice<Contour, &Contour::strategy>(kStrategies), 0, 0,
                    "What comes first: the smallest error, the highest feed within the limit, or a "
                    "weighted sum of both."},
@@ -35,13 +35,14 @@ std::span<const Key<Contour>> contour_keys() noexcept {
                    "Contour priority: errors below this count as equal."},
       Key<Contour>{"min_percent", &Contour::min_ratio, 0, 1000,
                    "The layer never asks for less than this share of the programmed feed."},
-      Key<Contour>{"max_percent", &Contour::max_ratio, 0.1, 1000, "Nor for more than this."},
+      Key<Contour>{"max_percent", &Contour::max_ratio, 0.1, 1000,
+                   "The layer never asks for more than this share of the programmed feed."},
       Key<Contour>{"weight_contour", &Contour::weight_contour, 0, 1000,
                    "Combined strategy: weight of the contour error."},
       Key<Contour>{"weight_feed", &Contour::weight_feed, 0, 1000,
                    "Combined strategy: weight of the feed."},
       Key<Contour>{"margin_percent", &Contour::margin, 0, 90,
-                   "Share of the limit kept in reserve against what the model does not know."},
+                   "Share of the limit kept in reserve for what the model does not cover."},
   };
   // Amplitude, period and mean speed describe the law; the two bounds of the feed per tooth decide
   // how much of it the feed can follow without rubbing or overloading the tooth.
@@ -50,28 +51,27 @@ std::span<const Key<Contour>> contour_keys() noexcept {
 
 std::span<const Key<Chatter>> chatter_keys() noexcept {
   static const std::array kKeys = {
-      Key<Chatter>{"enabled", &Chatter::enabled, 0, 0,
-                   "Whether the spindle's speed may be modulated at all."},
-      Key<Chatter>{
-          "law", choice<Chatter, &Chatter::law>(kLaws), 0, 0,
-          "Shape of the modulation: a square wave, a pulse up for a quarter of the period, "
-          "a triangle, a sine, random, a brief fall (`stop`), or `constant` for none."},
+      Key<Chatter>{"enabled", &Chatter::enabled, 0, 0, "Allows spindle-speed modulation."},
+      Key<Chatter>{"law", choice<Chatter, &Chatter::law>(kLaws), 0, 0,
+                   "Shape of the modulation: square wave, pulse (up for a quarter of the period), "
+                   "triangle, sine, random, a brief slow-down (`stop`), or `constant` for none."},
       Key<Chatter>{"amplitude_percent", &Chatter::amplitude_ratio, 0, 90,
                    "Swing to either side of the mean speed. Either this or `amplitude_rpm`."},
       Key<Chatter>{"amplitude_rpm", &Chatter::amplitude_rev_s, 0, 1e5,
-                   "The same as a speed; 0 = `amplitude_percent` counts."},
-      Key<Chatter>{"period_s", &Chatter::period_s, 0.02, 600, "Time of one whole swing."},
+                   "The same in rev/min; 0 = use `amplitude_percent`."},
+      Key<Chatter>{"period_s", &Chatter::period_s, 0.02, 600, "Period of the modulation."},
       Key<Chatter>{"mean_percent", &Chatter::mean_ratio, 10, 200,
                    "Mean speed as a share of the programmed one."},
       Key<Chatter>{"feed_per_tooth_min_percent", &Chatter::min_feed_per_tooth_ratio, 1, 100,
-                   "Smallest feed per tooth as a share of the programmed one: bounds the swing "
-                   "upwards."},
+                   "Smallest feed per tooth, as a share of the programmed one; limits how far the "
+                   "speed may rise."},
       Key<Chatter>{"feed_per_tooth_max_percent", &Chatter::max_feed_per_tooth_ratio, 100, 1000,
-                   "Largest feed per tooth: the feed follows when the spindle slows down."},
-      Key<Chatter>{"m_code_on", &Chatter::m_code_on, 0, 9999,
-                   "M word that switches the modulation on in the program; 0 = it is always on and "
-                   "the program has no say."},
-      Key<Chatter>{"m_code_off", &Chatter::m_code_off, 0, 9999, "M word that switches it off."},
+                   "Largest feed per tooth, as a share of the programmed one; when the spindle "
+                   "slows down, the feed follows."},
+      Key<Chatter>{
+          "m_code_on", &Chatter::m_code_on, 0, 9999,
+          "M word that turns the modulation on; 0 = always on, whatever the program says."},
+      Key<Chatter>{"m_code_off", &Chatter::m_code_off, 0, 9999, "M word that turns it off."},
       Key<Chatter>{"seed", &Chatter::seed, 0, 9007199254740992.0, "Seed of the random law."},
   };
   // Fall and rise have separate rates: taking feed away is urgent, giving it back is not.
@@ -81,25 +81,25 @@ std::span<const Key<Chatter>> chatter_keys() noexcept {
 std::span<const Key<Envelope>> envelope_keys() noexcept {
   static const std::array kKeys = {
       Key<Envelope>{"min_feed_percent", &Envelope::min_feed_ratio, 0, 1000,
-                    "Smallest feed override that is ever written."},
+                    "Smallest feed override ever written."},
       Key<Envelope>{"max_feed_percent", &Envelope::max_feed_ratio, 1, 1000,
-                    "Largest feed override that is ever written."},
+                    "Largest feed override ever written."},
       Key<Envelope>{"feed_fall_percent_s", &Envelope::feed_fall_1_s, 0.1, 1e6,
                     "How fast the feed override may fall."},
       Key<Envelope>{"feed_rise_percent_s", &Envelope::feed_rise_1_s, 0.1, 1e6,
-                    "How fast it may rise."},
+                    "How fast the feed override may rise."},
       Key<Envelope>{"min_spindle_percent", &Envelope::min_spindle_ratio, 0, 1000,
-                    "Smallest spindle override that is ever written."},
+                    "Smallest spindle override ever written."},
       Key<Envelope>{"max_spindle_percent", &Envelope::max_spindle_ratio, 1, 1000,
-                    "Largest spindle override that is ever written."},
+                    "Largest spindle override ever written."},
       Key<Envelope>{"spindle_slew_percent_s", &Envelope::spindle_slew_1_s, 0.1, 1e6,
                     "How fast the spindle override may change."},
       Key<Envelope>{"max_offset_um", &Envelope::max_offset_mm, 0, 10000,
-                    "Largest axis offset that is ever written."},
+                    "Largest axis offset ever written."},
       Key<Envelope>{"offset_slew_um_s", &Envelope::offset_slew_mm_s, 0.001, 1e6,
                     "How fast an axis offset may change."},
       Key<Envelope>{"stale_after_ms", &Envelope::stale_after_s, 0.1, 60000,
-                    "Older input is not acted on."},
+                    "Input older than this is not acted on."},
   };
   return kKeys;
 }

@@ -253,7 +253,8 @@ TEST(Thermal, RefusesWhatItCannotForecast) {
   expect_refused("thermal forecast" + machine + " --cyclogram " + fast, "covers up to 2000 rpm");
   expect_refused("thermal forecast" + machine, "--cyclogram");
   expect_refused("thermal forecast" + kPaper + " --axis X", "no [[thermal.axis]] X");
-  expect_refused("thermal forecast" + kPaper + " --ambient t1=20", "knows a sensor t1");
+  expect_refused("thermal forecast" + kPaper + " --ambient t1=20",
+                 "no thermal axis has a sensor t1");
   expect_refused("thermal forecast" + kPaper + " --ambient t1", "SENSOR=");
   expect_refused(
       "thermal plan --machine examples/machines/vmc-840d.toml --cyclogram "

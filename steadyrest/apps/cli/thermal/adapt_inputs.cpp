@@ -28,10 +28,11 @@ Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passpo
   const double number = plan.level.value_or(passport.level);
   if (number != std::floor(number) || !(number >= 0.0) ||
       number >= static_cast<double>(passport.share.size())) {
-    return refuse(plan.plan.file, 0,
-                  fmt::format("level {} has no share; [thermal] shares of the machine file has {}",
-                              number, passport.share.size()),
-                  "give the machine file that the plan was made with");
+    return refuse(
+        plan.plan.file, 0,
+        fmt::format("level {} has no share; [thermal] shares in the machine file has {} entries",
+                    number, passport.share.size()),
+        "give the machine file that the plan was made with");
   }
   const ThermalLevel out{static_cast<std::uint32_t>(number),
                          passport.share[static_cast<std::size_t>(number)]};
@@ -39,9 +40,9 @@ Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passpo
   // level for the wrong reason.
   if (plan.share && std::abs(*plan.share - out.share) > 1e-9) {
     return refuse(plan.plan.file, 0,
-                  fmt::format("the plan's k = {} is not the machine file's {} of level {}",
+                  fmt::format("the plan's k = {} differs from the machine file's {} for level {}",
                               *plan.share, out.share, out.number),
-                  "plan again with the machine file as it is now");
+                  "make the plan again with this machine file");
   }
   return out;
 }
@@ -70,8 +71,8 @@ Result<std::optional<ThermalJob>> work_of(const AdaptOptions& options,
   // The same work has the same length. The slack covers minutes that were rounded in the plan.
   if (std::abs(total_s - plan.plan.total_s) > 1.0 + 1e-4 * total_s) {
     return refuse(plan.plan.file, 0,
-                  fmt::format("the plan lasts {:.2f} min, {} {:.2f} min", plan.plan.total_s / 60.0,
-                              job->cyclogram.file, total_s / 60.0),
+                  fmt::format("the plan lasts {:.2f} min, but {} lasts {:.2f} min",
+                              plan.plan.total_s / 60.0, job->cyclogram.file, total_s / 60.0),
                   "give the cyclogram or the program that the plan was made for");
   }
   return std::optional(std::move(*job));

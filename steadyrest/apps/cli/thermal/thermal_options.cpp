@@ -229,7 +229,7 @@ Result<ThermalJob> thermal_job(const ThermalOptions& options) {
   }
   for (const auto& [sensor, value] : *ambient) {
     if (std::ranges::find(sensors, sensor) == sensors.end()) {
-      return refuse(options.machine, fmt::format("no thermal axis knows a sensor {}", sensor),
+      return refuse(options.machine, fmt::format("no thermal axis has a sensor {}", sensor),
                     "use the sensor of an [[thermal.axis.ambient]]");
     }
   }

@@ -65,9 +65,9 @@ Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
       out.transition.push_back({row.value("name", ""), now_s});
     }
   } catch (const PlanJson::exception&) {
-    return std::unexpected(Refusal{Kind::bad_input, path, 0,
-                                   "its notes are not of the type `thermal plan` writes",
-                                   "level, k and tolerance_um are numbers, files are texts"});
+    return std::unexpected(
+        Refusal{Kind::bad_input, path, 0, "a note has the wrong type",
+                "write level, k and tolerance_um as numbers and file names as strings"});
   }
   return out;
 }

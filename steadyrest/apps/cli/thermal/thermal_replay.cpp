@@ -189,8 +189,7 @@ Result<std::vector<AxisReplay>> replay_axes(const ThermalReplayOptions& options,
     out.push_back(std::move(*one));
   }
   if (out.empty()) {
-    return std::unexpected(refusal(options.machine,
-                                   "the passport has none of the axes that are named",
+    return std::unexpected(refusal(options.machine, "the passport has none of the named axes",
                                    "choose an axis of the passport"));
   }
   return out;

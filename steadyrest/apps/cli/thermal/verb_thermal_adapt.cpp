@@ -186,11 +186,11 @@ std::string text_of(const ThermalLevel& before, const thermal::offline::LevelCho
     text += "The parts exceed their share even at the strictest level.\n";
   }
   for (const Learnt& one : learnt) {
-    text += fmt::format("{}: levels times", one.axis);
+    text += fmt::format("{}: gains", one.axis);
     for (std::size_t i = 0; i < one.gains.gain.size(); ++i) {
       text += fmt::format(" {:.3f} ± {:.3f}", one.gains.gain[i], one.gains.gain_sd[i]);
     }
-    text += fmt::format("; on all parts {:.1f} µm; error {:.1f} → {:.1f} µm RMS\n",
+    text += fmt::format("; common offset {:.1f} µm; error {:.1f} → {:.1f} µm RMS\n",
                         um_from_mm(one.gains.bias_mm), um_from_mm(one.gains.rms_before_mm),
                         um_from_mm(one.gains.rms_after_mm));
     if (one.gains.few) {

@@ -376,7 +376,8 @@ void add_verb_thermal_fit(Session& session) {
   verb.add_option(
       "--from-min", options->from_min,
       "Ignore rows before this minute; in a log with time stamps, minutes since its first row");
-  verb.add_option("--to-min", options->to_min, "Ignore rows after this minute, likewise");
+  verb.add_option("--to-min", options->to_min,
+                  "Ignore rows after this minute, counted the same way");
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });
 }
 

@@ -233,10 +233,10 @@ Outcome run(const Options& options) {
   const std::uint32_t level =
       options.level < 0 ? passport.level : static_cast<std::uint32_t>(options.level);
   if (level >= passport.share.size()) {
-    return refused(Refusal{
-        Kind::bad_input, options.thermal.machine, 0,
-        fmt::format("level {} has no share; [thermal] shares has {}", level, passport.share.size()),
-        fmt::format("choose a level, 0 … {}", passport.share.size() - 1)});
+    return refused(Refusal{Kind::bad_input, options.thermal.machine, 0,
+                           fmt::format("level {} has no share; [thermal] shares has {} entries",
+                                       level, passport.share.size()),
+                           fmt::format("choose a level, 0 … {}", passport.share.size() - 1)});
   }
   thermal::offline::PlanRequest request;
   request.tolerance_mm = mm_from_um(options.tolerance_um);
@@ -290,8 +290,7 @@ void add_verb_thermal_plan(Session& session) {
   verb.add_option("--level", options->level,
                   "Level, the index of the machine's share k; default: the level in force")
       ->check(within(0, 7));
-  verb.add_flag("--whole-band", options->whole_band,
-                "Corrections of 2·k·Δ, in half as many places");
+  verb.add_flag("--whole-band", options->whole_band, "Correct by 2·k·Δ, in half as many places");
   verb.add_option("--resolution-min", options->resolution_min,
                   "Round correction times to whole multiples, min; 0 = no rounding")
       ->check(within(0.0, 60.0));
