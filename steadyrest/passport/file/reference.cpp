@@ -24,6 +24,7 @@ struct Describe {
   std::string range;
   std::string standard_value;
 
+  // The range is in the key's own unit, as the user writes it.
   void between(std::string_view before) {
     range = fmt::format("{}{} … {}", before, shown(key.min), shown(key.max));
   }
@@ -59,6 +60,7 @@ struct Describe {
   }
 };
 
+/// What the page shows in the column "default".
 template <class S>
 std::string default_of(const Key<S>& key, const Describe<S>& described) {
   if (key.need == Need::mandatory) {
@@ -71,6 +73,7 @@ std::string default_of(const Key<S>& key, const Describe<S>& described) {
   return described.standard_value;
 }
 
+/// One line per key, in the schema's order. Keys of linear or rotary axes alone say so first.
 template <class S>
 std::string rows(std::span<const Key<S>> keys) {
   std::string out = "| key | unit | allowed | default | meaning |\n|--|--|--|--|--|\n";
@@ -87,6 +90,7 @@ std::string rows(std::span<const Key<S>> keys) {
   return out;
 }
 
+/// A heading, what the section is for, and its table.
 template <class S>
 std::string section(std::string_view head, std::string_view text, std::span<const Key<S>> keys) {
   return fmt::format("\n## {}\n{}\n{}", head, text, rows(keys));

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kShownCharacters = 40;
 
+/// TOML's types in words a user knows.
 std::string_view type_name(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
@@ -47,6 +48,7 @@ std::string shown(double value) {
   return fmt::format("{:.10g}", value);
 }
 
+/// A value as the file has it; lists and tables only by their type.
 std::string shown(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     return fmt::format("\"{}\"", cut(text->get()));
@@ -68,6 +70,7 @@ std::size_t line_of(const toml::source_region& source) {
   return source.begin.line;
 }
 
+/// One form for all: what the key was given, what that is, what it needs.
 void ValueReader::wrong_type(const toml::node& node, std::string_view needed,
                              std::string_view way) const {
   faults_.add(
@@ -160,6 +163,7 @@ bool ValueReader::text(const toml::node& node, std::string& out) const {
   return true;
 }
 
+/// Words are compared exactly: case and blanks count, and the refusal lists what is allowed.
 bool ValueReader::choice(const toml::node& node, std::span<const std::string_view> words,
                          std::size_t& out) const {
   std::string allowed;
@@ -205,6 +209,7 @@ const toml::array* ValueReader::list(const toml::node& node, std::string_view of
   return array;
 }
 
+/// A list of numbers, each within the key's range.
 bool ValueReader::numbers(const toml::node& node, std::vector<double>& out) const {
   const toml::array* array = list(node, "numbers");
   if (array == nullptr) {

@@ -52,6 +52,7 @@ struct Options {
   LogOptions format;
 };
 
+/// A stretch of chatter with the advice for it.
 struct Event : ChatterEvent {
   online::SpeedTable::Advice advice;
   std::optional<offline::Plan> plan;  ///< where process and depth are known
@@ -61,6 +62,7 @@ Refusal bad(std::string what, std::string to_do, const std::string& file = {}) {
   return {Kind::bad_input, file, 0, std::move(what), std::move(to_do)};
 }
 
+/// Combinations and ranges that are wrong whatever the files say.
 std::optional<Refusal> unfit(const Options& options) {
   struct Given {
     const char* option;
@@ -258,6 +260,8 @@ Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>
   return answer;
 }
 
+/// What the page needs beyond the answer: the recording itself, the teeth for its order lines, and
+/// how far up the spectrogram must go.
 Json page_of(const Json& answer, const Options& options, const Machine& machine,
              const offline::RecordedSignal& signal, std::size_t teeth, std::size_t window) {
   // The highest chatter frequency sets how far up the page's spectrogram must reach.
@@ -275,6 +279,7 @@ Json page_of(const Json& answer, const Options& options, const Machine& machine,
       signal);
 }
 
+/// Reads, listens from the first sample to the last, then asks for advice on each stretch.
 Outcome detect(const Options& options, const Machine& machine, std::size_t teeth,
                const std::optional<offline::Process>& process, Progress& progress) {
   auto signal = offline::read_signal(options.signal, format_of(options.format));
@@ -318,6 +323,7 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
   return answer;
 }
 
+/// Files first: a missing process is told before a long recording is read.
 Outcome run(const Options& options, Progress& progress) {
   if (auto refusal = unfit(options)) {
     return refused(*refusal);

@@ -130,6 +130,8 @@ Result<ChosenLaw> law_of(const Options& options, const offline::Process& process
   return chosen_law(options.law, process, speeds_rpm.front());
 }
 
+/// Figures about the map and its border; `border_settled` is false where the refinement ran out of
+/// work before the line was smooth.
 Answer answer_of(const Made& made, const ChosenLaw& law, const Options& options) {
   const offline::LobeMap& map = made.map;
   const offline::BorderLine& line = made.border;
@@ -189,6 +191,7 @@ Result<Json> point_json(const Options& options, const offline::Process& process,
   return out;
 }
 
+/// One line for people about the intended cut.
 std::string point_text(const Json& point) {
   const bool stable = point["stable"].get<bool>();
   std::string out =
@@ -267,6 +270,7 @@ std::expected<Task, Refusals> task_of(const Options& options) {
   return out;
 }
 
+/// The map and its borders with, if a machine is given, its override steps drawn over them.
 Result<Json> page_of(const Json& answer, const Task& task, const Options& options, Made made) {
   offline::LobeMap& map = made.map;
   auto others = page::other_borders(task.process, map, made.border, task.law.modulation);
@@ -285,6 +289,7 @@ Result<Json> page_of(const Json& answer, const Task& task, const Options& option
       {std::move(map), std::move(made.border), std::move(*others), std::move(steps)});
 }
 
+/// The two tables of the verb, one beside the other.
 Result<void> write_map(const Options& options, const Made& made) {
   // Both files or neither: a border beside an older map would mislead.
   const std::array files = {

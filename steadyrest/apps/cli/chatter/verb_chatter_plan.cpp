@@ -55,6 +55,7 @@ Json or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
 
+/// Override steps in per cent, as the switch is labelled.
 Json percents(const std::vector<double>& ratios) {
   Json out = Json::array();
   for (const double ratio : ratios) {
@@ -115,8 +116,10 @@ Json to_json(const offline::Plan& plan, const Options& options) {
   return out;
 }
 
+/// One speed from each lobe, for a new S word.
 using BestSpeeds = std::vector<offline::BestSpeed>;
 
+/// A null depth means stable as deep as the search went.
 Json json_of(const BestSpeeds& best) {
   Json out = Json::array();
   for (const offline::BestSpeed& one : best) {
@@ -174,10 +177,12 @@ std::string growth_text(const Alternative& a) {
              : "–";
 }
 
+/// ln ρ; −∞ and numbers that were not computed are a dash.
 std::string log_text(const std::optional<double>& log_radius) {
   return log_radius && std::isfinite(*log_radius) ? fmt::format("{:.3g}", *log_radius) : "–";
 }
 
+/// The decision as an instruction to the operator.
 std::string headline(const offline::Plan& plan, const Options& options) {
   const std::string choice = choice_words(plan.chosen, options.speed_rpm);
   switch (plan.decision) {
@@ -199,6 +204,8 @@ std::string headline(const offline::Plan& plan, const Options& options) {
   return {};
 }
 
+/// The table of all alternatives first, then each rejection with its reason, then the planner's
+/// notes.
 std::string for_people(const offline::Plan& plan, const Options& options) {
   std::string out = headline(plan, options) + "\n\n";
   Table table(
@@ -283,6 +290,8 @@ Outcome run(Options options, Progress& progress) {
   return answer;
 }
 
+/// The uncertainties are those of a measurement, one standard deviation each; the planner draws
+/// possible cuts from them.
 void add_options(Verb& verb, Options& o) {
   verb.reads("PROCESS", o.process, "Process file (TOML): tool, cut, modes")->required();
   verb.also_reads([&o] { return offline::response_files(o.process); });

@@ -16,6 +16,9 @@
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/trial/vibration/vibration_summary.hpp>
 
+// A cut in the time domain: teeth, regeneration, modes, and a tool that may leave the material. The
+// linear theory says when a vibration grows; only the simulation says how large it gets, and what
+// force, power and wall error come with it.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -60,6 +63,7 @@ void put_row(std::string& row, const trial::vibration::Moment& now) {
                  cut.power_w, cut.chip_mm);
 }
 
+/// A figure that this cut does not have is null.
 Json number(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
@@ -81,7 +85,8 @@ std::optional<double> frequency_hz(const offline::Process& process,
 }
 
 /// Stable or not comes from the growth of an infinitesimal vibration. The amplitude cannot tell:
-/// once the tool leaves the cut, chatter settles at a finite size.
+/// once the tool leaves the cut, chatter settles at a finite size. Chatter frequency only for a cut
+/// that chatters; forced amplitude only at constant speed, where it can be told apart.
 Answer answer_of(const trial::vibration::Summary& summary, double log_growth, std::size_t rows) {
   Answer answer;
   const bool stable = log_growth < 0.0;

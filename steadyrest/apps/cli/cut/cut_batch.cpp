@@ -18,6 +18,9 @@
 #include <steadyrest/nc/plan/time/program_timer.hpp>
 #include <steadyrest/trial/batch/batch.hpp>
 
+// `cut --batch`: a day of parts on a machine that warms up. The cut itself is followed by a batch
+// in which the machine drifts by its thermal passport; the same parts are made without correction,
+// with corrections in the program, and with the layer's on-line offset.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -55,6 +58,8 @@ Result<std::vector<nc::plan::Transition>> cyclogram_of(const std::string& progra
   return std::move(time->cyclogram);
 }
 
+/// Sums for each way, then part by part. `worse_parts` counts parts that a correction made worse:
+/// an improvement on average is no comfort to them.
 Json json_of(const Batch& made) {
   Json out;
   out["axes"] = made.axis;
@@ -83,6 +88,7 @@ Json json_of(const Batch& made) {
   return out;
 }
 
+/// error[0 … 2] in the order of Way: without, text, online.
 std::string text_of(const Batch& made) {
   const auto um = [](double mm) { return fmt::format("{:.1f}", um_from_mm(mm)); };
   // The largest error of each part, because the worst spot of a part decides whether it passes.
@@ -107,6 +113,8 @@ std::string batch_folder(const std::string& report) {
   return (std::filesystem::path(report) / "batch").string();
 }
 
+/// Pauses and breaks matter: it is the cooling between parts and over lunch that a simple warm-up
+/// model gets wrong.
 void add_cut_batch_options(Verb& verb, CutBatchOptions& options) {
   auto* parts =
       verb.add_option("--batch", options.parts,

@@ -140,6 +140,8 @@ Json json_of(const Figures& figures) {
           {"samples_over_limit", figures.samples_over_limit}};
 }
 
+/// Coverage is the share of samples whose true value lies within the stated bound: 1, or a
+/// guarantee was broken.
 Json json_of(const std::vector<trial::cut::MotionFigures>& motion) {
   Json axes = Json::array();
   for (const trial::cut::MotionFigures& m : motion) {
@@ -154,6 +156,8 @@ Json json_of(const std::vector<trial::cut::MotionFigures>& motion) {
   return axes;
 }
 
+/// Innovation: reading less forecast. A reading outside the band is not believed, and `reason` says
+/// so.
 Json json_of(const std::vector<trial::cut::ProbeFigures>& probes) {
   Json out = Json::array();
   for (const trial::cut::ProbeFigures& p : probes) {
@@ -168,6 +172,7 @@ Json json_of(const std::vector<trial::cut::ProbeFigures>& probes) {
   return out;
 }
 
+/// The two cuts side by side: what the layer gained in error and what it cost in time.
 std::string text_of(const Figures& without, const Figures& with, double limit_mm) {
   using kernel::units::um_from_mm;
   const auto um = [](double mm) { return fmt::format("{:.1f} µm", um_from_mm(mm)); };
@@ -225,6 +230,7 @@ std::string text_of(const std::vector<trial::cut::ProbeFigures>& probes) {
   return "\n" + table.text();
 }
 
+/// One run of the simulated machine over the whole path.
 Result<Recorder> cut_once(const Machine& machine, const PathPointer& path,
                           const CutChatter& chatter, bool with_layer, Progress& progress) {
   // Each cut takes about half of the time.

@@ -17,6 +17,9 @@
 #include <steadyrest/trial/timing/judgement.hpp>
 #include <steadyrest/trial/timing/layer_timing.hpp>
 
+// Will this machine file work, and is this computer fast enough for it? The file is judged first
+// (passport/file/consistency.cpp), then the clock, then the layer is run on a path full of
+// decisions and timed cycle by cycle.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -55,6 +58,7 @@ struct Measured {
   std::vector<Finding> findings;
 };
 
+/// A layer that refuses the machine is a finding too, with the reason that it gives.
 Measured measure(const Machine& machine, Progress& progress) {
   auto timing = trial::timing::time_layer(
       machine, {}, [&](double share) { progress.update(share, "measuring the layer"); });
@@ -83,6 +87,8 @@ std::vector<Finding> examine(const Machine& machine, std::vector<Finding> measur
   return sorted;
 }
 
+/// `most_share` is the part of a cycle that the layer may take; port and operating system need the
+/// rest.
 Json json_of(const LayerTiming& timing) {
   return {{"cycle_us", us(timing.cycle_s)},
           {"most_share", trial::timing::kMostShare},
@@ -107,6 +113,7 @@ std::string text_of(const LayerTiming& timing) {
   return text + "\n";
 }
 
+/// Findings by severity; `timing` is null where the layer does not run.
 Answer report(const Machine& machine, const Measured& measured,
               const std::vector<Finding>& findings) {
   const bool ok = std::ranges::none_of(

@@ -15,6 +15,9 @@
 #include <steadyrest/motion/offline/bench/estimator_choice.hpp>
 #include <steadyrest/motion/offline/bench/requirement.hpp>
 
+// All estimators on motions that are known exactly, against each other, against LinuxCNC's own
+// encoder component, and against what physics permits. The same table is what the project's own
+// figures come from.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -60,6 +63,8 @@ std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.6g} %", 100.0 * share) : "–";
 }
 
+/// One line per scene and estimator: error against the required one, gain over differences of
+/// counts, and whether stated bounds hold.
 std::string people_table(const offline::Benchmark& benchmark) {
   Table table({"scene, estimator", "v, mm/s", "gain", "a, mm/s²", "gain", "within bound",
                "bound/RMS v", "a", "ns/tick", "ns/edge"});
@@ -94,6 +99,7 @@ Json figures(const offline::ErrorFigures& e, double gain, double efficiency) {
           {"efficiency", efficiency}};
 }
 
+/// All figures of all rows, unrounded.
 Json rows_json(const offline::Benchmark& benchmark) {
   Json out = Json::array();
   for (const BenchRow& row : benchmark.rows) {
@@ -152,6 +158,7 @@ Result<Json> write_files(const Options& options, const offline::Benchmark& bench
   return files;
 }
 
+/// The scenes first, the tables after them: a misspelt estimator is refused at once.
 Outcome run(Options options, Progress& progress) {
   options.bench.recorded_folder = options.recorded;
   options.bench.peer = options.peer;

@@ -61,7 +61,10 @@ struct Text {
   bool rotary = false;
 };
 
+/// Keys in degrees for an axis counted in degrees, in micrometres otherwise; in a machine file the
+/// axis decides.
 Result<Text> text_for(const Options& options, const Encoder& encoder) {
+  // The unit in which the count was given is the one in which the keys are written.
   const bool in_deg = options.count_deg.has_value();
   if (options.machine.empty()) {
     const std::string count = in_deg ? fmt::format("{:.10g}°", *options.count_deg)
@@ -95,7 +98,8 @@ Result<Text> text_for(const Options& options, const Encoder& encoder) {
 }
 
 /// The residual is the RMS distance of a line from the cubic through its neighbours. If the table
-/// does not shrink it, applying it would only add noise, and `worth_applying` says so.
+/// does not shrink it, applying it would only add noise, and `worth_applying` says so. Figures in
+/// the unit of the axis; the keys' names carry it.
 Answer answer_of(const offline::LineCalibration& calibration, const Encoder& encoder,
                  const offline::EdgeLog& log, bool rotary) {
   const auto shown = [rotary](double error_mm) {
@@ -131,6 +135,7 @@ Answer answer_of(const offline::LineCalibration& calibration, const Encoder& enc
   return answer;
 }
 
+/// Options, log, learning, text, file. The log is read edge by edge, so ticks are not needed here.
 Outcome run(Options options, Progress& progress) {
   if (!options.count_mm && !options.count_deg) {
     return refused(Refusal{Kind::bad_input, "", 0, "the length of a count is missing",

@@ -70,6 +70,7 @@ offline::EdgeLogConfig log_config(const Options& options) {
   return config;
 }
 
+/// The log as an estimator takes it: edges with lines and directions, or ticks.
 kernel::outcome::Result<Record> record_of(const Options& options, const EdgeLog& log) {
   offline::LogRecordConfig config;
   config.input = options.edges() ? LogInput::edges : LogInput::ticks;
@@ -104,6 +105,7 @@ Result<void> write_estimates(const Record& record, online::Estimator& estimator,
   return out.commit();
 }
 
+/// Faults that were reported while the log was read, with their lines.
 Json findings_json(const EdgeLog& log) {
   Json out = Json::array();
   for (const Refusal& finding : log.findings) {
@@ -125,6 +127,8 @@ std::optional<CycleReport> cycle_of(const Options& options, const Record& record
   return monitor->report();
 }
 
+/// Mean, jitter and the longest deviation; missed cycles and gaps apart, because a gap of seconds
+/// is a recorder that stopped and no jitter.
 void put_cycle(const CycleReport& cycle, Answer& answer, Table& table) {
   answer.json["cycle"] = {{"mean_s", cycle.mean_period_s},
                           {"jitter_rms_s", cycle.period_rms_s},
@@ -145,6 +149,7 @@ void put_cycle(const CycleReport& cycle, Answer& answer, Table& table) {
 /// side of it to believe.
 void put_findings(const EdgeLog& log, Answer& answer) {
   answer.refusals = log.findings;
+  // The reader keeps the text of the first twenty findings and counts the rest.
   const std::size_t unsaid = log.finding_count - log.findings.size();
   if (unsaid > 0) {
     answer.refusals.push_back({Kind::bad_input, log.file, 0,
@@ -159,6 +164,7 @@ void put_findings(const EdgeLog& log, Answer& answer) {
   }
 }
 
+/// What was read and how; `complete` is false where the log had to be given up.
 Answer answer_of(const Options& options, const EdgeLog& log, const Record& record) {
   Answer answer;
   answer.json = {{"estimator", options.estimator},
@@ -204,6 +210,8 @@ kernel::outcome::Result<std::optional<online::LineTable>> lines_of(const Options
   return std::move(*table);
 }
 
+/// Everything after the reading. The estimator is made once more, now that the clock of the time
+/// stamps is known.
 Outcome estimate(const Options& options, const EdgeLog& log,
                  const std::optional<online::LineTable>& lines, bool json, Progress& progress) {
   auto record = record_of(options, log);
@@ -243,6 +251,7 @@ Outcome estimate(const Options& options, const EdgeLog& log,
   return answer;
 }
 
+/// Order: options, calibration, log, estimates. What can be refused cheaply is refused first.
 Outcome run(Options options, bool json, Progress& progress) {
   options.setup.has_edges = options.edges();
   options.setup.lag_s = kernel::units::s_from_ms(options.lag_ms);
@@ -266,6 +275,8 @@ Outcome run(Options options, bool json, Progress& progress) {
   return estimate(options, *log, *lines, json, progress);
 }
 
+/// Limits of the axis are worth giving: they make the estimate finer and are the only source of a
+/// guaranteed bound.
 void add_axis_options(Verb& verb, Options& options) {
   offline::EstimatorSetup& setup = options.setup;
   verb.add_option("--count-mm", setup.count_mm, "One count in mm")->required();

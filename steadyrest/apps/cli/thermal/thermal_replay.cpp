@@ -101,6 +101,7 @@ std::string csv_of(const std::vector<AxisReplay>& axes, const offline::Log& log,
   return text;
 }
 
+/// Error and coverage are null for an axis that the log does not measure.
 void put(Answer& answer, Table& table, const AxisReplay& axis) {
   double most_um = 0.0;
   for (const offline::ReplayPoint& p : axis.point) {
@@ -125,6 +126,7 @@ void put(Answer& answer, Table& table, const AxisReplay& axis) {
   answer.json["max_um"] = std::max(answer.json["max_um"].get<double>(), most_um);
 }
 
+/// Measured and forecast on one time axis.
 Json page_of(const Answer& answer, const offline::Log& log, const std::vector<AxisReplay>& axes,
              double from_s) {
   std::vector<page::FittedAxis> shown;
@@ -150,6 +152,8 @@ std::optional<double> from_s(const ThermalReplayOptions& options, const offline:
   return options.from_min ? std::optional(log.origin_s + 60.0 * *options.from_min) : std::nullopt;
 }
 
+/// One axis of the passport on the log: recorded inputs in, displacement and band out, scored where
+/// the log has readings.
 Result<AxisReplay> replay_axis(const ThermalReplayOptions& options, const Thermal& passport,
                                const ThermalAxis& axis, const offline::Log& log) {
   const auto channel = channel_of(axis.name, log, options.channels);
@@ -175,6 +179,7 @@ Result<AxisReplay> replay_axis(const ThermalReplayOptions& options, const Therma
   return AxisReplay{axis.name, axis.noise_mm, std::move(*points), worth};
 }
 
+/// The axes that were asked for, or all of the passport.
 Result<std::vector<AxisReplay>> replay_axes(const ThermalReplayOptions& options,
                                             const Thermal& passport, const offline::Log& log) {
   std::vector<AxisReplay> out;
@@ -215,6 +220,7 @@ Answer answer_of(const std::vector<AxisReplay>& axes, const offline::Log& log) {
 
 }  // namespace
 
+/// Passport, log, replay, then the curve and the page.
 Outcome replay_thermal_log(const ThermalReplayOptions& options) {
   const auto passport = passport::read_thermal_passport(options.machine);
   if (!passport) {

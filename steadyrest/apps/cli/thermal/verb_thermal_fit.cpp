@@ -62,6 +62,7 @@ Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+/// JSON in the shop's units, whatever the model keeps inside.
 Json converted(const std::vector<double>& values, double (*convert)(double)) {
   Json out = Json::array();
   for (const double value : values) {
@@ -70,6 +71,9 @@ Json converted(const std::vector<double>& values, double (*convert)(double)) {
   return out;
 }
 
+/// One entry per mode, over all axes: time constants with their uncertainty, the level as a
+/// function of the spindle speed, and the displacement at the end of the log, from which a forecast
+/// can go on.
 Json modes_of(const std::vector<offline::AxisFit>& fits) {
   Json out = Json::array();
   for (const offline::AxisFit& fit : fits) {
@@ -90,6 +94,9 @@ Json modes_of(const std::vector<offline::AxisFit>& fits) {
   return out;
 }
 
+/// One entry per axis: what moves it, how well the model describes the hours it was fitted to, and
+/// how well those that were left out, running free and with an hourly probe. Only the latter two
+/// say what a forecast will be worth.
 Json axis_of(const offline::AxisFit& fit) {
   Json ambient = Json::array();
   for (const auto& a : fit.axis.ambient) {
@@ -115,6 +122,7 @@ Json axis_of(const offline::AxisFit& fit) {
           {"condition", fit.condition}};
 }
 
+/// A dash for a figure that the log was too short to give.
 std::string shown(double value) {
   return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
 }
@@ -130,6 +138,7 @@ std::string inputs_of(const ThermalAxis& axis) {
     sensors.insert(a.sensor);
     lags.insert(a.tau_s);
   }
+  // More names than these would make the table wider than a terminal.
   constexpr std::size_t kNamed = 3;
   if (axis.ambient.size() <= kNamed) {
     return names.empty() ? "-" : names;
@@ -145,6 +154,8 @@ using Groups = std::vector<std::vector<std::size_t>>;
 /// widened it, and the user is told to log more. An axis without a temperature input cannot know of
 /// a warmer day at all.
 void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
+  // Coverage below which a band nominally at 95 % is called wrong: well beyond the scatter of a few
+  // left-out runs.
   constexpr double kLow = 0.9;
   answer.json["warnings"] = Json::array();
   for (const offline::AxisFit& fit : fits) {
@@ -174,6 +185,7 @@ void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
 Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared,
                  const offline::Log& log) {
   Answer answer;
+  // Mean square over the axes; the root follows below.
   double square = 0.0;
   Table table({"axis", "tau min", "inputs", "rms um", "left out", "hourly probe", "95 % holds"});
   Json axes = Json::array();

@@ -76,7 +76,7 @@ std::string csv_of(const std::vector<AxisForecast>& axes,
 }
 
 /// max_um is the largest value of the closed curve, not of the sampled rows, so --step-s cannot
-/// hide it.
+/// hide it. Largest and final displacement with the band: what the part gets if nothing is done.
 void put(Answer& answer, Table& table, const AxisForecast& axis) {
   const ForecastPoint& end = axis.point.back();
   const double most_um = um_from_mm(axis.most.displacement_mm);
@@ -91,6 +91,8 @@ void put(Answer& answer, Table& table, const AxisForecast& axis) {
              fmt::format("±{:.2f}", thermal::offline::kBand * um_from_mm(end.sd_mm))});
 }
 
+/// --log is a replay of recorded inputs; the two ways share their options as far as they mean the
+/// same.
 Outcome run_log(const Options& options) {
   // A log has its own speeds and temperatures; a second source would contradict it.
   if (!options.thermal.cyclogram.empty() || !options.thermal.program.file.empty() ||
@@ -110,6 +112,7 @@ Outcome run_log(const Options& options) {
   return replay_thermal_log(replay);
 }
 
+/// The closed form gives any instant exactly, so --step-s only decides how many rows are written.
 Outcome run(const Options& options) {
   if (!options.replay.log.empty()) {
     return run_log(options);

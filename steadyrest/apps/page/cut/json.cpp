@@ -54,10 +54,12 @@ std::string_view name_of(HeldBy by) {
   return "";
 }
 
+/// A figure that does not exist (no finished wall in this cut) is null.
 Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+/// Of one cut. `unforced` is what does not repeat from tooth to tooth: chatter.
 Json to_object(const VibrationFigures& v) {
   return {{"vibration_rms_um", v.rms_um},
           {"vibration_peak_um", v.peak_um},
@@ -69,6 +71,7 @@ Json to_object(const VibrationFigures& v) {
           {"surface_range_um", or_null(v.surface_range_um)}};
 }
 
+/// Over time, in stretches; three decimals of a micrometre are beyond any sensor.
 Json to_object(const std::vector<VibrationPoint>& course) {
   constexpr double kThousandths = 1e3;
   constexpr double kTenths = 1e1;
@@ -99,6 +102,7 @@ Json column(const std::vector<TracePoint>& trace, Value value) {
   return out;
 }
 
+/// The trace of one cut. `line` leads back to the program, `cutting` tells feed from rapids.
 Json to_object(const std::vector<TracePoint>& trace) {
   constexpr double kTenThousandths = 1e4;
   constexpr double kHundredths = 1e2;
@@ -143,6 +147,7 @@ Json to_object(const Run& run) {
   return out;
 }
 
+/// Estimates against differences of counts, on the true motion of the simulated axis.
 Json to_object(const MotionFigures& m) {
   return {{"axis", m.axis},
           {"velocity_rms_mm_s", m.velocity_rms_mm_s},
@@ -153,6 +158,7 @@ Json to_object(const MotionFigures& m) {
           {"acceleration_coverage_ratio", m.acceleration_coverage_ratio}};
 }
 
+/// A reading of the probe and what became of it, with the sentence of its reason.
 Json to_object(const ProbeFigures& p) {
   return {{"time_s", p.time_s},
           {"line", p.line},
@@ -182,6 +188,7 @@ Json to_object(const WorstLine& w) {
 
 }  // namespace
 
+/// The same figures for --json, so that page and script cannot differ.
 std::string to_json(const VibrationFigures& vibration) {
   return to_object(vibration).dump();
 }
