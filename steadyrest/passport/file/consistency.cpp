@@ -131,6 +131,7 @@ void path_limits(const Machine& machine, List& out) {
          std::sqrt(acceleration2));
 }
 
+/// Steps are decimal fractions, so equality needs a tolerance of rounding only.
 bool has_ratio(const OverrideTable& table, double ratio) {
   return std::any_of(table.ratio.begin(), table.ratio.end(),
                      [ratio](double step) { return std::abs(step - ratio) < 1e-9; });
@@ -274,6 +275,7 @@ std::vector<Finding> findings(const Machine& machine) {
   return out;
 }
 
+/// As doctor prints it.
 std::string_view word(Severity severity) noexcept {
   switch (severity) {
     case Severity::note:

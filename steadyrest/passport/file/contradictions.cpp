@@ -99,6 +99,7 @@ void contradictions(const Control& control, const Given& given, Faults& faults) 
   }
 }
 
+/// Ends of travel that leave no travel.
 void contradictions(const Axis& axis, const Given& given, Faults& faults) {
   const bool rotary = axis.rotary;
   if (axis.min_mm >= axis.max_mm) {
@@ -130,6 +131,8 @@ void contradictions(const Friction& friction, const Given& given, Faults& faults
   }
 }
 
+/// The rated torque has no default of its own; without it the largest torque counts, and there is
+/// nothing to compare.
 void contradictions(const Spindle& spindle, const Given& given, Faults& faults) {
   ordered(given, faults, "min_rpm", spindle.min_rev_s, "max_rpm", spindle.max_rev_s);
   if (given.has("rated_torque_n_m")) {
@@ -217,6 +220,7 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
   }
 }
 
+/// The envelope's lower and upper limits.
 void contradictions(const Envelope& envelope, const Given& given, Faults& faults) {
   ordered(given, faults, "min_feed_percent", envelope.min_feed_ratio, "max_feed_percent",
           envelope.max_feed_ratio);

@@ -168,6 +168,7 @@ class FileReader {
     machine_.axes.push_back(std::move(out));
   }
 
+  // Two sections of one axis would overwrite each other.
   void twice(const std::string& name, const Given& given) {
     const bool seen =
         std::any_of(machine_.axes.begin(), machine_.axes.end(),
@@ -349,6 +350,7 @@ kernel::outcome::Result<Machine> first_fault(AllFaults&& all) {
 
 }  // namespace
 
+/// Bytes first: the TOML parser must not see what could overflow its stack.
 AllFaults parse_all_faults(std::string_view text, const std::string& file) {
   Faults faults{file, {}};
   Machine machine;

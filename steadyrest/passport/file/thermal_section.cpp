@@ -80,6 +80,7 @@ void check(const Thermal& thermal, const Given& given, Faults& faults) {
   }
 }
 
+/// One [[thermal.axis]] with its modes and ambient inputs.
 class AxisReader {
  public:
   explicit AxisReader(Faults& faults) : faults_(faults) {}
@@ -139,6 +140,7 @@ class AxisReader {
 
 }  // namespace
 
+/// [thermal] is optional; its axes may stand for displacements that no machine axis corrects.
 void read_thermal(const toml::table& root, Thermal& out, Faults& faults) {
   const toml::node* node = root.get("thermal");
   if (node == nullptr) {

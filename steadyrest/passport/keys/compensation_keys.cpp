@@ -39,11 +39,15 @@ std::span<const Key<Compensation>> compensation_keys() noexcept {
                         "The effect of a positive value of the setting data on this machine: 1 "
                         "moves the axis to larger positions, -1 to smaller ones. Try it with an "
                         "indicator. Mandatory with `setting_data`; 0 is refused."},
+      // The external offset belongs to the operator unless the shop says otherwise; then it may be
+      // set, and not only shifted.
       Key<Compensation>{"external_offset_free", &Compensation::external_offset_free, 0, 0,
                         "`fanuc`: nothing else uses the external offset, so it is 0 whenever a "
                         "program starts. The head of the program then sets it to 0, which removes "
                         "whatever an aborted run has left. A program is refused if it sets the "
                         "offset itself, or names an axis before G90 or G91."},
+      // An aborted program leaves its last correction behind. Touching off on top of it would build
+      // the error into the work offset.
       Key<Compensation>{"cleared_after_abort", &Compensation::cleared_after_abort, 0, 0,
                         "`r_parameter`, `setting_data`, and `fanuc` with `external_offset_free`: "
                         "after an aborted program the PLC or the operator removes the correction "

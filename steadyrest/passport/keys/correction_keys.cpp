@@ -31,6 +31,8 @@ std::span<const Key<Contour>> contour_keys() noexcept {
                    "What comes first: the smallest error, the highest feed within the limit, or a "
                    "weighted sum of both."},
       Key<Contour>{"limit_um", &Contour::limit_mm, 0.01, 1e5, "Largest contour error allowed."},
+      // Below the target all feeds are equally good for contour priority, so it takes the fastest
+      // of them; with 0 it would creep.
       Key<Contour>{"target_um", &Contour::target_mm, 0, 1e5,
                    "Contour priority: errors below this count as equal."},
       Key<Contour>{"min_percent", &Contour::min_ratio, 0, 1000,
@@ -69,6 +71,7 @@ std::span<const Key<Chatter>> chatter_keys() noexcept {
                    "Largest feed per tooth, as a share of the programmed one; when the spindle "
                    "slows down, the feed follows."},
       Key<Chatter>{
+          // Programs choose where to modulate: M38 and M39 are what Haas lathes use for it.
           "m_code_on", &Chatter::m_code_on, 0, 9999,
           "M word that turns the modulation on; 0 = always on, whatever the program says."},
       Key<Chatter>{"m_code_off", &Chatter::m_code_off, 0, 9999, "M word that turns it off."},
@@ -94,6 +97,7 @@ std::span<const Key<Envelope>> envelope_keys() noexcept {
                     "Largest spindle override ever written."},
       Key<Envelope>{"spindle_slew_percent_s", &Envelope::spindle_slew_1_s, 0.1, 1e6,
                     "How fast the spindle override may change."},
+      // A wrong sign or a broken sensor must not move an axis further than this.
       Key<Envelope>{"max_offset_um", &Envelope::max_offset_mm, 0, 10000,
                     "Largest axis offset ever written."},
       Key<Envelope>{"offset_slew_um_s", &Envelope::offset_slew_mm_s, 0.001, 1e6,

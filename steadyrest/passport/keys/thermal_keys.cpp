@@ -17,6 +17,8 @@ std::span<const Key<Thermal>> thermal_keys() noexcept {
       Key<Thermal>{"enabled", &Thermal::enabled, 0, 0,
                    "The layer offsets the axes on line to cancel the forecast drift."},
       Key<Thermal>{
+          // The paper's k: the part of the tolerance that drift may use up. Measured parts move it
+          // by one level at a time.
           "shares", &Thermal::share, 0.01, 1,
           "Share k of the tolerance allowed for drift, level by level, falling: k0, k1, k2, k3.",
           Need::optional, For::any, 8},
@@ -41,6 +43,8 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
                        "The axis that drifts, or the name of a displacement that no axis corrects.",
                        Need::mandatory},
       Key<ThermalAxis>{"noise_um", &ThermalAxis::noise_mm, 0, 1000, "RMS noise of a reading."},
+      // What no mode explains is modelled as noise with a memory, so that a reading corrects the
+      // near future more than the far one.
       Key<ThermalAxis>{"drift_um", &ThermalAxis::drift_mm, 0, 1000,
                        "RMS of the unmodelled part, a first-order process."},
       Key<ThermalAxis>{"drift_tau_min", &ThermalAxis::drift_tau_s, 0.1, 1e5,
@@ -54,6 +58,8 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
           "max_speed_rpm", &ThermalAxis::max_speed_rev_s, 0, 1e6,
           "Fastest spindle speed in the fit; 0 = unknown. No forecast beyond 1.2 times that."},
       Key<ThermalAxis>{
+          // The parameters were fitted together and their errors are tied; the band of a forecast
+          // needs all of it.
           "covariance", &ThermalAxis::covariance, -1e12, 1e12,
           "Lower triangle, row by row, of the covariance of the linear parameters (µm, µm/K): the "
           "levels or coefficients of each mode, then the ambient gains.",

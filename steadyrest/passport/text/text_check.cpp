@@ -16,11 +16,13 @@ using kernel::outcome::Refusal;
 /// A machine file needs three parts; sixteen leaves room.
 constexpr int kMaxKeyParts = 16;
 
+/// Only for a refusal, so counting from the start is cheap enough.
 std::size_t line_at(std::string_view text, std::size_t offset) {
   return 1 + static_cast<std::size_t>(std::count(
                  text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
 }
 
+/// 0 beyond the end: no byte of a sequence, so a cut-off character fails its check.
 unsigned byte_at(std::string_view text, std::size_t i) {
   return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
 }

@@ -111,7 +111,8 @@ constexpr std::array<std::string_view, 20> kForeign = {
     "us",  "khz", "m",     "m_s",   "m_s2",   "m_min", "g", "in", "inch", "in_min",
     "ipm", "rad", "rad_s", "rev_s", "rev_s2", "ratio", "w", "nm", "m_s3", "mm_min_mm"};
 
-/// Length of the part before `_suffix`; npos when the key does not end so.
+/// Length of the part before `_suffix`; npos when the key does not end so. A suffix begins after an
+/// underscore, or is the whole key (`percent`).
 std::size_t stem_length(std::string_view key, std::string_view suffix) noexcept {
   if (key == suffix) {
     return 0;

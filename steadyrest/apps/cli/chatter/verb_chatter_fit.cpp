@@ -50,6 +50,8 @@ std::string modes_toml(const offline::ModeFit& fit, const Options& options) {
   return out;
 }
 
+/// Modes, and how well they describe the measurement: residual, noise, and the criterion for each
+/// order tried.
 Answer answer_of(const offline::ModeFit& fit, const Options& options) {
   Answer answer;
   Json modes = Json::array();
@@ -123,6 +125,7 @@ page::Json page_of(const Json& answer, const Options& options, const offline::Mo
   return page::fit_page(answer, page, fit, options.fit);
 }
 
+/// All responses of all files count as measurements of one point in one direction.
 Outcome run(const Options& options) {
   std::vector<offline::Frf> responses;
   Answer said;

@@ -61,6 +61,7 @@ Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
   return answer;
 }
 
+/// The map of one period is made once; radius, kind and growth all come from it.
 Outcome run(const Options& options, Progress& progress) {
   const auto cut = cut_point(options.cut);
   if (!cut) {

@@ -94,6 +94,7 @@ std::string switch_words(const ChatterChoice& choice) {
              : "";
 }
 
+/// One choice, in per cent of the programmed speed.
 Json json_of(const ChatterChoice& choice) {
   const Modulation& m = choice.modulation;
   const bool law = m.law != Law::constant;
@@ -107,6 +108,7 @@ Json json_of(const ChatterChoice& choice) {
           {"notes", choice.notes}};
 }
 
+/// The wall is shown only if both cuts have finished it.
 std::string vibration_text(const trial::cut::VibrationFigures& without,
                            // Only the difference between the two cuts counts; each row therefore
                            // has both.

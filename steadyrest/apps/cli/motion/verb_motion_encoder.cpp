@@ -33,6 +33,7 @@ struct Options {
   std::optional<double> count_mm;
 };
 
+/// Each refusal names the option that would help.
 Refusal missing(const std::string& what, const std::string& to_do) {
   return {Kind::bad_input, "", 0, what, to_do};
 }

@@ -49,6 +49,7 @@ std::optional<Refusal> put_velocity(const Options& options, Answer& answer, Tabl
   return std::nullopt;
 }
 
+/// Three ways to give it; CLI11 lets only one through.
 Number acceleration_of(const Options& options) {
   if (options.overload_g) {
     return offline::acceleration_of_overload_mm_s2(*options.overload_g);

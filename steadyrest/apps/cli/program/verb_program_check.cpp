@@ -23,6 +23,7 @@ class NoMoves final : public nc::interpret::Sink {
   void on_event(const nc::interpret::Event& /*event*/) override {}
 };
 
+/// Nothing is ignored: a word that is not understood is listed with its line and the reason.
 std::string text_of(const nc::interpret::Report& report) {
   if (report.refused.empty()) {
     return fmt::format("accepted: {} blocks, {} moves\n", report.blocks, report.moves);

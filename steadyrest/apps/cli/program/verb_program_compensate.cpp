@@ -8,6 +8,9 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/nc/rewrite/correct/compensate.hpp>
 
+// A plan of corrections becomes text in the program. Each correction goes to the safe place nearest
+// to its planned time; where there is none within the window, the program is refused and not half
+// corrected.
 namespace steadyrest::apps::cli {
 namespace {
 

@@ -17,6 +17,7 @@ struct Options {
   std::string changed;
 };
 
+/// A proof either holds or is refused with the line at which it fails; there is no partial answer.
 Outcome run(const Options& options, Progress& progress) {
   const auto task = read_rewrite_task(options.rewrite, options.changed, progress);
   if (!task) {

@@ -13,6 +13,7 @@ namespace {
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
+/// A map of 10⁵ × 10⁵ points would never end; one side of that is still a typing error.
 constexpr std::size_t kMostSteps = 100'000;
 
 /// The numbers between the colons; empty when one of them is no number. from_chars knows no locale
@@ -36,6 +37,7 @@ std::vector<double> numbers(const std::string& text) {
 
 }  // namespace
 
+/// One value is a grid of one step, so that a map can be a line or a point.
 kernel::outcome::Result<std::vector<double>> grid(std::string_view option, const std::string& text,
                                                   double least) {
   const auto bad = [&](std::string_view why) {

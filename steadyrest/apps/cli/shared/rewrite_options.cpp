@@ -77,6 +77,9 @@ Method written(CompensationMethod method, kernel::machine::Dialect dialect) {
 
 }  // namespace
 
+/// The way in which a correction reaches the control: method, store, sign, increment. Every
+/// combination that a control does not have is refused here, because in the program it would look
+/// right and do nothing.
 std::expected<Way, Refusals> way_of(const RewriteOptions& options,
                                     const kernel::machine::Machine& machine,
                                     nc::read::Dialect program) {

@@ -45,6 +45,7 @@ Refusal refusal(const std::string& file, std::string what, std::string to_do) {
   return {Kind::bad_input, file, 0, std::move(what), std::move(to_do)};
 }
 
+/// How the refusal calls the input: by its option, or as the positional argument it is.
 std::string role_of(const CLI::Option& option) {
   return option.get_positional() && option.get_lnames().empty()
              ? "the " + option.get_name() + " itself"
@@ -127,6 +128,7 @@ std::vector<PlannedFile> report_files(const std::string& folder) {
           {(in / "report.json").string(), page_data_content()}};
 }
 
+/// An option's value may stand for several files, which `files` lists.
 CLI::Option* Verb::add_output(const std::string& flags, std::string& path,
                               const std::string& description, Files files, bool folder) {
   CLI::Option* const option =
@@ -229,6 +231,7 @@ std::vector<Input> Verb::inputs() const {
   return out;
 }
 
+/// All files that the given options will make.
 std::expected<std::vector<PlannedFile>, Refusals> Verb::plan(Ready& ready) const {
   std::vector<PlannedFile> out;
   for (const Output& output : outputs_) {
@@ -251,6 +254,8 @@ std::expected<std::vector<PlannedFile>, Refusals> Verb::plan(Ready& ready) const
   return out;
 }
 
+/// Empty names, planned files, then each file against inputs, other outputs and what it would
+/// replace. All faults are told at once.
 std::expected<Ready, Refusals> Verb::ready(bool json) const {
   Refusals refusals = empty_names();
   if (!refusals.empty()) {

@@ -238,6 +238,7 @@ Result<ThermalJob> thermal_job(const ThermalOptions& options) {
   return job;
 }
 
+/// Assumptions are part of the answer, for people and for scripts.
 void put_notes(Answer& answer, const ThermalJob& job) {
   answer.json["notes"] = job.notes;
   for (const std::string& note : job.notes) {

@@ -142,6 +142,7 @@ class Placer {
 
 }  // namespace
 
+/// One bad row refuses the whole file: a level learnt from part of the parts would be a guess.
 Result<std::vector<PlacedPart>> place_parts(const ThermalPlanFile& plan,
                                             const std::vector<Measured>& rows,
                                             const std::string& file, double tolerance_mm,

@@ -135,6 +135,8 @@ Result<void> write(const AdaptOptions& options, const std::string& machine,
   return kernel::file::write_file(options.output, *with);
 }
 
+/// `gains_kept`: the passport's gains stay, because the parts are too few or the model does not
+/// fit.
 Json axes_json(const std::vector<Learnt>& learnt) {
   Json out = Json::array();
   for (const Learnt& one : learnt) {
@@ -204,6 +206,7 @@ std::string text_of(const ThermalLevel& before, const thermal::offline::LevelCho
   return text;
 }
 
+/// By line of the measured file, so that the part can be found.
 Json outliers_json(const std::vector<PlacedPart>& parts, const std::vector<bool>& is_outlier) {
   Json out = Json::array();
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -232,6 +235,7 @@ thermal::offline::LevelChoice choose_level(const AdaptOptions& options, const Ad
   return thermal::offline::next_level(in.passport.share, in.level.number, errors, rule);
 }
 
+/// Gains first, for they decide which parts are outliers; then the level from the rest.
 Outcome run(const AdaptOptions& options) {
   const auto read = read_adapt_inputs(options);
   if (!read) {

@@ -73,6 +73,7 @@ std::vector<double> micrometres(const std::vector<double>& delta_mm) {
   return out;
 }
 
+/// Rows of R for JSON: n, t_min, delta_um, with the name of the transition where it has one.
 Json transitions(const AxisCorrections& axis) {
   Json out = Json::array();
   for (const PlannedTransition& row : axis.transition) {
@@ -223,6 +224,8 @@ void show(Answer& answer, const Planned& planned, double share) {
   answer.json["transitions"] = transitions(planned.axis.front());
 }
 
+/// Level and share from the passport unless the command line says otherwise; tolerance from each
+/// transition, else the option.
 Outcome run(const Options& options) {
   const auto job = thermal_job(options.thermal);
   if (!job) {

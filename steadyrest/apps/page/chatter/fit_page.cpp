@@ -43,6 +43,7 @@ class Columns {
   std::vector<double> imag_;
 };
 
+/// The band that the fit used; 0 Hz is out, for displacement is accelerance over ω².
 bool in_band(double frequency_hz, const ModeFitConfig& config) {
   return frequency_hz > 0.0 && frequency_hz >= config.least_frequency_hz &&
          frequency_hz <= config.most_frequency_hz;
@@ -109,6 +110,7 @@ Json fitted_json(const ModeFit& fit, const std::pair<double, double>& band) {
 
 }  // namespace
 
+/// Each measurement by itself, the fit once: it is one set of modes for all of them.
 Json fit_page(const Json& answer, const FitPage& page, const ModeFit& fit,
               const ModeFitConfig& config) {
   Json out = chatter_head("fit", page.title, answer);

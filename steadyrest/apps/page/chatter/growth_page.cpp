@@ -20,6 +20,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr std::size_t kSpeedPoints = 1200;
 constexpr double kBesideJump = 1e-9;  ///< of the law's period
 
+/// A course has one value per pass boundary, its start included.
 std::size_t end_pass(const GrowthCourse& course) {
   return course.start_pass + course.log_growth.size() - 1;
 }
@@ -60,6 +61,7 @@ Json speed_json(const SpeedProfile& speed, double last_rad) {
 
 }  // namespace
 
+/// The growth from several starting passes, and below it the speed that makes it.
 Json growth_page(const Json& answer, const offline::Process& process, const DelayCycle& cycle,
                  const SpeedProfile& speed, const std::vector<GrowthCourse>& courses) {
   // The course with the greatest peak is drawn in front.

@@ -37,6 +37,7 @@ std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
   return out;
 }
 
+/// The values at the thinned indices.
 std::vector<double> picked(const std::vector<double>& values, std::size_t most) {
   std::vector<double> out;
   for (const std::size_t i : thinned(values.size(), most)) {
@@ -145,6 +146,7 @@ void put_lobes(Json& page, const LobesPage& lobes) {
   }
 }
 
+/// The page of `chatter lobes`; the plan's page takes the same columns.
 Json lobes_page(const Json& answer, const Process& process, const LobesPage& lobes) {
   Json page = chatter_head("lobes", process.name, answer);
   put_lobes(page, lobes);

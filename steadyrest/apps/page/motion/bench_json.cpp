@@ -39,6 +39,7 @@ Json to_object(const offline::BenchRow& row) {
           {"ns_per_edge", row.ns_per_edge}};
 }
 
+/// One speed of the requirement: required, provable floor, reached, and the verdict of each.
 Json to_object(const offline::RequirementRow& row) {
   return {{"speed_mm_s", row.speed_mm_s},
           {"clock_s", row.clock_s},
@@ -60,6 +61,7 @@ Json to_object(const offline::Benchmark::Scene& scene) {
   return {{"name", scene.name}, {"what", scene.what}};
 }
 
+/// Columns of equal length: truth, differences, estimate with its bound.
 Json to_object(const Trace& trace) {
   return {{"name", trace.name},
           {"t_s", short_numbers(trace.t_s)},

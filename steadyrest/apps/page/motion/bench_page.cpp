@@ -5,6 +5,8 @@
 #include <steadyrest/apps/page/motion/bench_page.hpp>
 #include <steadyrest/motion/offline/scene/score.hpp>
 
+// Data of the benchmark's page: the table, two traces that show what the figures mean, and the
+// source's own figures for comparison.
 namespace steadyrest::apps::page {
 
 namespace offline = motion::offline;
@@ -24,6 +26,7 @@ Result<std::vector<motion::online::Estimate>> estimates(std::string_view name,
   return offline::run(**estimator, scene.records.front());
 }
 
+/// Scenes are made on demand; only the named one is.
 Result<offline::BenchScene> scene_named(const std::string& name) {
   for (const offline::SceneChoice& choice : offline::bench_scenes({"", 1})) {
     if (choice.name == name) {
@@ -64,6 +67,7 @@ Result<Trace> trace(const std::string& name) {
   return out;
 }
 
+/// Cheap beside the benchmark itself: two scenes and a few closed forms.
 Result<PageData> page_data(offline::Benchmark benchmark,
                            std::vector<offline::RequirementRow> requirement) {
   PageData out;

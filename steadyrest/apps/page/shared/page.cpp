@@ -32,6 +32,7 @@ void append_escaped(std::string& out, std::string_view json) {
 
 }  // namespace
 
+/// The schema tells the page what to draw; the version tells a reader which program drew it.
 Json page_head(std::string_view schema) {
   return {{"schema", schema}, {"version", STEADYREST_VERSION}};
 }

@@ -125,6 +125,7 @@ void put_course(Json& out, const Log& log, const std::vector<FittedPoint>& point
 
 }  // namespace
 
+/// Displacement over each temperature, regime by regime, and the fitted course over time.
 Json fit_page(const Json& answer, const Log& log, const std::vector<FittedAxis>& axes) {
   Json page = thermal_head("fit", log.file, answer);
   const std::vector<Regime> regimes = regimes_of(log);
@@ -152,6 +153,7 @@ Json fit_page(const Json& answer, const Log& log, const std::vector<FittedAxis>&
   return page;
 }
 
+/// The same course for a forecast; temperatures are not needed.
 Json replay_page(const Json& answer, const Log& log, const std::vector<FittedAxis>& axes) {
   Json page = thermal_head("replay", log.file, answer);
   page["speed"] = speed_json(log);

@@ -22,6 +22,7 @@ constexpr double kCell_c = 0.5;
 
 using Pairs = std::vector<std::pair<double, double>>;  ///< °C, mm
 
+/// Readings that are there on both sides; sensors drop out now and then.
 Pairs pairs_of(const LogChannel& sensor, const LogChannel& channel) {
   Pairs out;
   out.reserve(channel.value.size());
@@ -101,6 +102,8 @@ std::vector<Regime> regimes_of(const Log& log, std::size_t points) {
   return out;
 }
 
+/// Every sensor is judged by the same rule, so the best is the best that a one-sensor correction
+/// could use.
 std::vector<Hysteresis> hysteresis_of(const Log& log, const LogChannel& channel) {
   std::vector<Hysteresis> out;
   out.reserve(log.temperature.size());

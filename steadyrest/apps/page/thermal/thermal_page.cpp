@@ -25,6 +25,7 @@ Json column(const Points& points, Value value) {
   return short_numbers(out);
 }
 
+/// The cyclogram as the page's background: what the machine did, and when.
 Json transitions_json(const Cyclogram& cyclogram) {
   Json out = Json::array();
   double start_s = 0.0;
@@ -78,6 +79,7 @@ void put_corrections(Json& out, const Course& course, double share) {
 
 }  // namespace
 
+/// The head of every thermal page; the folder says nothing to a reader.
 Json thermal_head(std::string_view kind, std::string_view file, const Json& answer) {
   Json page = page_head("steadyrest-thermal/1");
   const std::string title = std::filesystem::path(file).filename().string();
@@ -85,6 +87,7 @@ Json thermal_head(std::string_view kind, std::string_view file, const Json& answ
   return page;
 }
 
+/// Displacements over the transitions that cause them.
 Json forecast_page(const Json& answer, const Cyclogram& cyclogram,
                    const std::vector<Course>& courses) {
   Json page = thermal_head("forecast", cyclogram.file, answer);
@@ -96,6 +99,8 @@ Json forecast_page(const Json& answer, const Cyclogram& cyclogram,
   return page;
 }
 
+/// The paper's figures 4 and 5: displacement with and without correction, the band k·Δ of each
+/// transition, and the staircase of corrections.
 Json plan_page(const Json& answer, const Cyclogram& cyclogram, const std::vector<Course>& courses,
                double share) {
   Json page = thermal_head("plan", cyclogram.file, answer);
