@@ -138,7 +138,8 @@ bool has_ratio(const OverrideTable& table, double ratio) {
 }
 
 /// Handing back means writing 100 %. Without that step the layer could only leave its own value
-/// behind.
+/// behind. Faults of one switch. A max_percent below its steps means that the control clips them:
+/// what the layer writes is not what it gets.
 void override_table(std::string_view name, const OverrideTable& table, List& out) {
   if (!has_ratio(table, 1.0)) {
     out.push_back({Severity::error, "override_100",

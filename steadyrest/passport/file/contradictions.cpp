@@ -141,7 +141,8 @@ void contradictions(const Spindle& spindle, const Given& given, Faults& faults) 
   }
 }
 
-/// Both weights 0 would make every feed equally good.
+/// Target below limit, least feed below greatest. With both weights 0 every feed would be equally
+/// good.
 void contradictions(const Contour& contour, const Given& given, Faults& faults) {
   ordered(given, faults, "target_um", contour.target_mm, "limit_um", contour.limit_mm);
   ordered(given, faults, "min_percent", contour.min_ratio, "max_percent", contour.max_ratio);

@@ -87,7 +87,7 @@ bool default_codes(const OverrideKeys& keys, const Given& given, Faults& faults,
   return true;
 }
 
-/// One code with two meanings could not be read back from the panel.
+/// One code with two meanings makes the panel unreadable.
 bool distinct(const Given& given, Faults& faults, const OverrideTable& out) {
   std::set<std::uint32_t> seen;
   for (const std::uint32_t code : out.code) {

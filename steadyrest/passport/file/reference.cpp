@@ -51,6 +51,7 @@ struct Describe {
   }
   void operator()(std::vector<double> S::* /*field*/) { between("list of "); }
   void operator()(std::vector<std::uint32_t> S::* /*field*/) { between("list of whole numbers "); }
+  // The words that are allowed, as they are written in the file.
   void operator()(const Choice<S>& field) {
     for (const std::string_view word : field.words) {
       range += range.empty() ? "" : ", ";

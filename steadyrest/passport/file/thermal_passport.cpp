@@ -35,6 +35,8 @@ bool passport_alone(std::string_view text, Thermal& thermal, Faults& faults) {
 
 }  // namespace
 
+/// A thermal verb works on a passport without a machine, so a spindle test needs no complete
+/// machine file.
 Result<Thermal> parse_thermal_passport(std::string_view text, const std::string& file) {
   Thermal thermal;
   Faults faults{file, {}};

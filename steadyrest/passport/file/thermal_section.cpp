@@ -140,7 +140,7 @@ class AxisReader {
 
 }  // namespace
 
-/// [thermal] is optional; its axes may stand for displacements that no machine axis corrects.
+/// [thermal] is optional; its axes may be displacements that no machine axis corrects.
 void read_thermal(const toml::table& root, Thermal& out, Faults& faults) {
   const toml::node* node = root.get("thermal");
   if (node == nullptr) {

@@ -32,7 +32,7 @@ std::span<const Key<Contour>> contour_keys() noexcept {
                    "weighted sum of both."},
       Key<Contour>{"limit_um", &Contour::limit_mm, 0.01, 1e5, "Largest contour error allowed."},
       // Below the target all feeds are equally good for contour priority, so it takes the fastest
-      // of them; with 0 it would creep.
+      // of them; with 0 it creeps wherever the path is curved.
       Key<Contour>{"target_um", &Contour::target_mm, 0, 1e5,
                    "Contour priority: errors below this count as equal."},
       Key<Contour>{"min_percent", &Contour::min_ratio, 0, 1000,

@@ -61,8 +61,7 @@ std::span<const Key<Control>> control_keys() noexcept {
           "Time between set-points from the interpolator; a whole multiple of `servo_period_ms`."},
       Key<Control>{"servo_period_ms", &Control::servo_period_s, 0.05, 100,
                    "Period of the position loop."},
-      // Limits along the path come on top of the axes' own: a SINUMERIK and LinuxCNC both have
-      // them, and on many machines they and not the axes decide.
+      // Limits along the path come on top of the axes' own: whichever is reached first decides.
       Key<Control>{"max_path_acceleration_mm_s2", &Control::max_path_acceleration_mm_s2, 1, 1e6,
                    "Acceleration limit along the path, in addition to the axes' own."},
       Key<Control>{"max_path_jerk_mm_s3", &Control::max_path_jerk_mm_s3, 1, 1e9,
@@ -80,8 +79,7 @@ std::span<const Key<Control>> control_keys() noexcept {
       Key<Control>{"junction_deviation_mm", &Control::junction_deviation_mm, 0, 1,
                    "Speed limit through a corner of the exact path."},
       Key<Control>{"tool_change_s", &Control::tool_change_s, 0, 3600, "Time for one tool change."},
-      // The rest of this section imitates LinuxCNC's planner, block by block; without it program
-      // times would be off by several per cent.
+      // The rest of this section imitates LinuxCNC's planner; program times depend on it.
       Key<Control>{"centripetal_share", &Control::centripetal_share, 0.1, 0.999,
                    "Share of the axes' acceleration that arcs may use across the path."},
       Key<Control>{"blend_share", &Control::blend_share, 0.01, 0.5,

@@ -65,7 +65,7 @@ std::string shown(const toml::node& node) {
   return std::string(type_name(node));
 }
 
-/// toml++ counts lines from 1; 0 stands for the file as a whole.
+/// toml++ counts lines from 1; 0 means the file as a whole.
 std::size_t line_of(const toml::source_region& source) {
   return source.begin.line;
 }

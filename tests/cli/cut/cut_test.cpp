@@ -147,7 +147,7 @@ TEST(Cut, TwiceTheSameIsTheSameToTheByte) {
   EXPECT_TRUE(first == both());
 }
 
-// A feed that left the limit cannot be the feed that would hold it, whatever the closed form says.
+// A feed that left the limit does not hold it, whatever the closed form says.
 TEST(Cut, NamesNoFeedAsHoldingThatIsFasterThanOneThatLeftTheLimit) {
   const Scratch scratch;
   answer_of(kCut + " --report " + scratch.at("out"));

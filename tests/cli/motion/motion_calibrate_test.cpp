@@ -165,7 +165,7 @@ TEST(MotionCalibrate, SaysAnglesOfARotaryAxisInDegrees) {
   expect_refused(learn + " -o " + keys, "--count-mm");
 }
 
-// Ranges, passes and revolutions that cannot be, and an output that is the log itself.
+// Impossible ranges, passes and revolutions, and an output that is the log itself.
 TEST(MotionCalibrate, RefusesWhatCannotWork) {
   const Scratch scratch;
   const std::string log = scratch.at("edges.csv");

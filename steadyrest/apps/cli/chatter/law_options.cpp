@@ -139,6 +139,7 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
   return out;
 }
 
+/// The law in the ratios of the literature and, at one speed, in the words of the shop.
 void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm) {
   const Modulation& m = chosen.modulation;
   json["law"] = chatter::online::name(m.law);
@@ -160,6 +161,7 @@ void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm) {
   }
 }
 
+/// The same in one line; a moved RVF is mentioned, for the answer is about that one.
 std::string law_text(const ChosenLaw& chosen, double speed_rpm) {
   const Modulation& m = chosen.modulation;
   const std::string_view name = chatter::online::name(m.law);

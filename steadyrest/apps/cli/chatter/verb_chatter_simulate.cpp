@@ -156,7 +156,7 @@ Outcome cut(const CutPoint& point, const Options& options, Progress& progress) {
   const trial::vibration::CutSettings settings{.speed_rev_s = point.speed_rev_s,
                                                .depth_mm = point.depth_mm,
                                                .modulation = point.law.modulation};
-  // The linearised growth first: it is short and refuses what cannot be cut.
+  // The linearised growth first: it is short and refuses impossible cuts.
   const auto growth = trial::vibration::log_growth_per_tooth(point.process, settings);
   if (!growth) {
     return refused(growth.error());

@@ -46,6 +46,8 @@ std::string feed_text(double feed_mm_min) {
   return std::isfinite(feed_mm_min) ? fmt::format("{:.1f} mm/min", feed_mm_min) : "no limit";
 }
 
+/// Contour and tracking error side by side: the following errors are many times larger than what
+/// they cost on the contour, and people mix them up.
 void put(Answer& answer, double feed_mm_min, const CircleErrors& errors) {
   answer.json["feed_mm_min"] = number_or_null(feed_mm_min);
   answer.json["contour_error_mm"] = errors.contour_error_mm;

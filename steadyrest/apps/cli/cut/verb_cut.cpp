@@ -93,8 +93,7 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
   const auto report = nc::interpret::run_file(options.file, *config, both);
   if (!report) {
     answer.refusals.push_back(report.error());
-    // A file that cannot be opened is the user's mistake; a disk that fails while it is read is
-    // not.
+    // A missing file is the user's mistake; a disk that fails while it is read is not.
     answer.exit_code = report.error().kind == Kind::bad_input ? kRefused : kFailed;
     return std::unexpected(std::move(answer));
   }

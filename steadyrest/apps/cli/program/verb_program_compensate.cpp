@@ -8,8 +8,8 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/nc/rewrite/correct/compensate.hpp>
 
-// A plan of corrections becomes text in the program. Each correction goes to the safe place nearest
-// to its planned time; where there is none within the window, the program is refused and not half
+// A plan of corrections becomes text in the program. Each correction goes to a safe place within a
+// window around its planned time; where there is none, the program is refused and not half
 // corrected.
 namespace steadyrest::apps::cli {
 namespace {

@@ -97,6 +97,7 @@ Content machine_content() {
           }};
 }
 
+/// One axis has `transitions` on the top level, several have `axes`.
 Content plan_content() {
   return {"a plan of corrections", [](std::string_view text) {
             const auto json = nlohmann::json::parse(text, nullptr, false);
@@ -104,6 +105,7 @@ Content plan_content() {
           }};
 }
 
+/// A page is known by its title; the data element lies megabytes further down.
 Content page_content() {
   return {"a page of Steadyrest", [](std::string_view text) {
             constexpr std::size_t kHead = 1024;
@@ -112,6 +114,7 @@ Content page_content() {
           }};
 }
 
+/// Data begin with their schema, `steadyrest-…/1`.
 Content page_data_content() {
   return {"the data of a report of Steadyrest", [](std::string_view text) {
             constexpr std::size_t kHead = 64;

@@ -96,6 +96,7 @@ Result<Config> program_config(const ProgramOptions& options) {
   return config;
 }
 
+/// With a machine file: dialect, axis letters and M words are the machine's.
 Result<Config> program_config(const ProgramOptions& options,
                               const kernel::machine::Machine& machine) {
   ProgramOptions of_machine = options;
@@ -116,6 +117,7 @@ Result<Config> program_config(const ProgramOptions& options,
   return config;
 }
 
+/// Every refused word is in the JSON with its line; exit code 2 as soon as there is one.
 void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file) {
   answer.json["blocks"] = report.blocks;
   Json list = Json::array();

@@ -57,6 +57,7 @@ Progress::~Progress() {
   clear();
 }
 
+/// Called often, so everything but a comparison is left to the few calls that draw.
 void Progress::update_at(Clock::time_point now, double share, std::string_view what) {
   if (!terminal_) {
     return;

@@ -139,8 +139,8 @@ constexpr std::array kTold = {"dialect",      "control",        "r-parameter", "
                               "tools",        "variables",      "data-units",  "subprograms",
                               "block-delete", "least-increment"};
 
-/// Was the option given, and with which values? Defaults do not count as given. A flag has no
-/// value; one empty string stands for it.
+/// Was the option given, and with which values? Defaults do not count as given. A flag has no value
+/// and gives one empty string.
 std::vector<std::string> given(const RewriteOptions& options, std::string_view name) {
   const CLI::Option* option = options.verb->get_option_no_throw("--" + std::string(name));
   if (option == nullptr || option->count() == 0) {

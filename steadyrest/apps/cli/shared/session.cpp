@@ -56,6 +56,7 @@ bool print_out(std::string_view text) {
          std::fflush(stdout) == 0;
 }
 
+/// Indented by two: people read it too.
 bool print_json(const Json& json) {
   // A file name need not be UTF-8; JSON must.
   return print_out(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -70,6 +71,7 @@ int unwritten() {
 
 }  // namespace
 
+/// One refusal as the list that an Outcome carries.
 Outcome refused(Refusal refusal) {
   Refusals list;
   list.push_back(std::move(refusal));
@@ -85,6 +87,7 @@ Session::Session() : app_("Steadyrest: the corrective layer for CNC machines", s
       "(bad usage, bad input), 1 anything else.");
 }
 
+/// A group is made by the first verb that asks for it.
 CLI::App& Session::group(const std::string& name, const std::string& description) {
   // Verbs register one by one, each asking for its group.
   const auto found =
@@ -155,6 +158,8 @@ int Session::usage(const CLI::ParseError& error) const {
   return kRefused;
 }
 
+/// Pages are written last, with how they were made. A page alone (--page) has no data file beside
+/// it.
 Result<void> Session::write_pages(const std::vector<Page>& pages,
                                   const page::Provenance& provenance) const {
   for (const Page& page : pages) {
@@ -212,6 +217,7 @@ Outcome Session::work() const {
   return outcome;
 }
 
+/// Refusals to stderr, the answer to stdout; with --json one object on stdout in either case.
 int Session::run_verb() {
   const Outcome outcome = work();
   if (!outcome) {

@@ -28,6 +28,7 @@ void append(std::string& out, const std::vector<std::string>& cells,
 
 }  // namespace
 
+/// Two passes: widths first, then lines.
 std::string Table::text() const {
   std::vector<std::size_t> widths(head_.size(), 0);
   const auto widen = [&widths](const std::vector<std::string>& cells) {

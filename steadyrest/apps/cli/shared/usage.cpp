@@ -55,6 +55,7 @@ std::vector<Known> options_of(const CLI::App& app) {
   return out;
 }
 
+/// Nothing where no known word is near: a far-fetched guess is worse than none.
 std::string did_you_mean(std::string_view word, const std::vector<Known>& known) {
   std::vector<std::string_view> words;
   words.reserve(known.size());
@@ -103,6 +104,8 @@ std::string plain(const std::string& sentence) {
 
 }  // namespace
 
+/// From the most telling to the least: an unknown option, an unknown verb, a word too many, and
+/// else what CLI11 says.
 Refusal usage_refusal(const CLI::App& root, const CLI::ParseError& error) {
   const auto [at, path] = reached(root);
   const std::string help = fmt::format("see {} --help", path);

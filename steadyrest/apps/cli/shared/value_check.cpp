@@ -23,6 +23,8 @@ std::errc read(std::string_view text, Number& number) {
                                                                   : error;
 }
 
+/// Finite decimal numbers only. from_chars also reads inf and nan, which a range check does not
+/// always stop.
 std::string fault_of_real(const std::string& given) {
   double number = 0.0;
   const std::errc error = read(given, number);
@@ -37,6 +39,7 @@ std::string fault_of_real(const std::string& given) {
   return kFine;
 }
 
+/// Whole decimal numbers that fit.
 template <class Whole>
 std::string fault_of_whole(const std::string& given) {
   Whole number = 0;

@@ -128,7 +128,7 @@ std::vector<PlannedFile> report_files(const std::string& folder) {
           {(in / "report.json").string(), page_data_content()}};
 }
 
-/// An option's value may stand for several files, which `files` lists.
+/// One option may lead to several files, which `files` lists.
 CLI::Option* Verb::add_output(const std::string& flags, std::string& path,
                               const std::string& description, Files files, bool folder) {
   CLI::Option* const option =

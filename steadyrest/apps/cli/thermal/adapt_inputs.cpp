@@ -78,6 +78,7 @@ Result<std::optional<ThermalJob>> work_of(const AdaptOptions& options,
   return std::optional(std::move(*job));
 }
 
+/// The machine file of the command line, else the one that the plan names.
 Result<void> read_machine_and_rows(const AdaptOptions& options, AdaptInputs& in) {
   in.machine = options.thermal.machine.empty() ? in.plan.machine : options.thermal.machine;
   if (in.machine.empty()) {

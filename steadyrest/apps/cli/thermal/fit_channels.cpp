@@ -35,6 +35,7 @@ bool is_of_a_name(char c) {
 
 }  // namespace
 
+/// Which columns are fitted, and what their axes are called in the passport.
 kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>& wanted,
                                                   const Log& log) {
   FitChannels out;

@@ -28,6 +28,8 @@ std::string beside(const std::string& plan, const std::string& named) {
 
 }  // namespace
 
+/// Read twice: once as the rewriter reads it, with all its checks, once for the notes, which may be
+/// missing in a plan written by hand.
 Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
   auto plan = nc::rewrite::read_plan(path);
   const auto text = passport::read_text(path);

@@ -46,6 +46,7 @@ Range range_of(const std::vector<Step>& steps, double programmed_rev_s) {
   return out;
 }
 
+/// The border at this law over the range of the steps.
 Result<offline::BorderLine> border_under(const offline::Process& process, const Range& range,
                                          std::size_t speeds, double most_depth_mm,
                                          const offline::Modulation& modulation) {

@@ -41,7 +41,7 @@ Json to_object(const Figures& figures) {
           {"override_changes", figures.override_changes}};
 }
 
-/// Which rule gave the feed that would hold the limit on a line.
+/// Which rule gave the feed that would hold the limit on a line. Words for the page's table.
 std::string_view name_of(HeldBy by) {
   switch (by) {
     case HeldBy::closed_form:

@@ -68,6 +68,7 @@ Json EstimateCourse::column(Range Stretch::* quantity) const {
       {"low", short_numbers(low)}, {"high", short_numbers(high)}, {"bound", short_numbers(bound)}};
 }
 
+/// One time per stretch: that of its first tick.
 void EstimateCourse::put(Json& page) const {
   std::vector<double> t_s;
   t_s.reserve(stretches_.size());
@@ -81,6 +82,7 @@ void EstimateCourse::put(Json& page) const {
   page["acceleration_mm_s2"] = column(&Stretch::acceleration);
 }
 
+/// What --json prints, and the course as bands.
 Json estimate_page(const Json& answer, const EstimatePage& page, const EstimateCourse& course) {
   Json out = page_head("steadyrest-motion/1");
   out.update(

@@ -12,8 +12,8 @@
 
 #include <steadyrest/apps/page/shared/provenance.hpp>
 
-// When, by what command and from what inputs a report was made; without it a report cannot be
-// repeated.
+// When, by what command and from what inputs a report was made; without it nobody can repeat a
+// report.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -82,7 +82,7 @@ bool is_iso_date(std::string_view text) {
       .ok();
 }
 
-/// stdin and pipes cannot be read twice and have no hash. Chunked, since inputs may be logs of
+/// stdin and pipes can be read only once and have no hash. Chunked, since inputs may be logs of
 /// gigabytes.
 std::optional<std::string> sha256_of_file(const std::string& file) {
   std::error_code error;
