@@ -17,6 +17,7 @@ namespace {
 namespace interpret = steadyrest::nc::interpret;
 namespace read = steadyrest::nc::read;
 
+/// Looks at each move and keeps nothing.
 class Nothing final : public interpret::Sink {
  public:
   void on_move(const interpret::Move& move) override { benchmark::DoNotOptimize(&move); }
@@ -75,7 +76,6 @@ void interpreted(benchmark::State& state, const std::string& text) {
   }
   std::uint64_t lines = 0;
   for (auto _ : state) {
-    // A sink that looks at each move and keeps nothing.
     Nothing sink;
     const auto report = interpret::run_text(text, {}, sink);
     if (!report || !report->refused.empty()) {

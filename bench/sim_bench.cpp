@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The simulated machine, from its body alone to a whole program with planner and panel.
-/// How much faster than real time the simulated machine runs: each benchmark reports `x_real_time`,
-/// simulated seconds for each second of one core; SimulatedMachine_Cycle the time of one cycle.
+/// How much faster than real time the simulated machine runs, from its body alone to a whole
+/// program with planner and panel: each benchmark reports `x_real_time`, simulated seconds for each
+/// second of one core; SimulatedMachine_Cycle the time of one cycle.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

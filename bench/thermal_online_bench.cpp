@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three axes of two modes and one sensor each are a full machine.
 // The thermal room in the cycle: one step of the filter, and a cycle of the governor at 1 kHz with
-// one and with three axes of two modes and one sensor each.
+// one and with three axes of two modes and one sensor each, which is a full machine.
 #include <benchmark/benchmark.h>
 
 #include <steadyrest/thermal/online/offset_governor.hpp>

@@ -52,7 +52,6 @@ TEST(Clairvoyant, FallsBeforeTheTightStretchAndRisesAfterItAsFastAsTheSlewAllows
   EXPECT_EQ(schedule.step[60], 9U);
   // Rising by 0.9 at 2 1/s takes 0.45 s, less the last part of the way during which the next step
   // is in force already.
-  // Rising by 0.9 at 2 1/s takes 0.45 s.
   double rising_s = 0.0;
   for (std::size_t j = 90; schedule.step[j] < 9; ++j) {
     rising_s += stations[j].time_s[schedule.step[j]];

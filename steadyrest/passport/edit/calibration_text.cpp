@@ -54,8 +54,8 @@ void put_number(std::string& out, double value, double step) {
     shown = shown.substr(0, shown.find_last_not_of('0') + 1);
     shown = shown.substr(0, shown.size() - (shown.back() == '.' ? 1 : 0));
   }
+  // Otherwise a tiny negative value would be written as -0.
   out += shown == "-0" ? std::string_view("0") : shown;
-  // 1e-5 of a count is far below what a calibration can know; -0 would differ from 0 in the text.
 }
 
 std::string list(std::span<const double> values, const Unit& unit, double step_mm) {

@@ -137,8 +137,8 @@ bool has_ratio(const OverrideTable& table, double ratio) {
                      [ratio](double step) { return std::abs(step - ratio) < 1e-9; });
 }
 
-/// Handing back means writing 100 %. Without that step the layer could only leave its own value
-/// behind. Faults of one switch. A max_percent below its steps means that the control clips them:
+/// Faults of one switch. Handing back means writing 100 %: without that step the layer could only
+/// leave its own value behind. A max_percent below its steps means that the control clips them:
 /// what the layer writes is not what it gets.
 void override_table(std::string_view name, const OverrideTable& table, List& out) {
   if (!has_ratio(table, 1.0)) {
@@ -163,8 +163,8 @@ void override_table(std::string_view name, const OverrideTable& table, List& out
 
 void overrides(const Machine& machine, List& out) {
   override_table("feed", machine.feed_override, out);
-  // Without [override.rapid] the rapid table is the feed's: one fault is enough.
-  // Same codes: the rapid table was made from the feed's, and one fault is enough.
+  // The same codes: without [override.rapid] the rapid table is made from the feed's, and one fault
+  // is enough.
   if (machine.rapid_override.code != machine.feed_override.code) {
     override_table("rapid", machine.rapid_override, out);
   }

@@ -66,8 +66,8 @@ bool rising(const OverrideKeys& keys, const Given& given, Faults& faults) {
   return true;
 }
 
-/// Without codes: SINUMERIK's rule, position p has the Gray code of p + 1 (index i has gray(i + 1),
-/// so 00000 is never a valid position); or, binary, the percent itself.
+/// Without codes: SINUMERIK's rule, index i has the Gray code of i + 1, so 00000 is never a valid
+/// position; or, binary, the percent itself.
 bool default_codes(const OverrideKeys& keys, const Given& given, Faults& faults,
                    OverrideTable& out) {
   for (std::size_t i = 0; i < keys.percent.size(); ++i) {

@@ -46,11 +46,11 @@ std::span<const Key<Contour>> contour_keys() noexcept {
       Key<Contour>{"margin_percent", &Contour::margin, 0, 90,
                    "Share of the limit kept in reserve for what the model does not cover."},
   };
-  // Amplitude, period and mean speed describe the law; the two bounds of the feed per tooth decide
-  // how much of it the feed can follow without rubbing or overloading the tooth.
   return kKeys;
 }
 
+/// Amplitude, period and mean speed describe the law; the two bounds of the feed per tooth decide
+/// how much of it the feed can follow without rubbing or overloading the tooth.
 std::span<const Key<Chatter>> chatter_keys() noexcept {
   static const std::array kKeys = {
       Key<Chatter>{"enabled", &Chatter::enabled, 0, 0, "Allows spindle-speed modulation."},
@@ -77,10 +77,10 @@ std::span<const Key<Chatter>> chatter_keys() noexcept {
       Key<Chatter>{"m_code_off", &Chatter::m_code_off, 0, 9999, "M word that turns it off."},
       Key<Chatter>{"seed", &Chatter::seed, 0, 9007199254740992.0, "Seed of the random law."},
   };
-  // Fall and rise have separate rates: taking feed away is urgent, giving it back is not.
   return kKeys;
 }
 
+/// Fall and rise have separate rates: taking feed away is urgent, giving it back is not.
 std::span<const Key<Envelope>> envelope_keys() noexcept {
   static const std::array kKeys = {
       Key<Envelope>{"min_feed_percent", &Envelope::min_feed_ratio, 0, 1000,

@@ -281,7 +281,6 @@ std::span<const Key<Simulation>> simulation_keys() noexcept {
   static const std::array kKeys = {
       Key<Simulation>{"seed", &Simulation::seed, 0, 9007199254740992.0,
                       "Seed for all noise: same seed, same output, byte for byte."},
-      // Noise is seeded: the same run twice gives the same bytes.
       Key<Simulation>{"position_noise_um", &Simulation::position_noise_mm, 0, 1000,
                       "RMS disturbance of the true position (vibration, load)."},
       Key<Simulation>{

@@ -119,11 +119,11 @@ bool ValueReader::integer(const toml::node& node, std::int64_t& out) const {
     wrong_type(node, "a whole number", "write it without decimal point, exponent or quotes");
     return false;
   }
+  // Ranges of whole keys end at 2^53 at the latest; up to there double is exact.
   if (!in_range(node, static_cast<double>(value->get()))) {
     return false;
   }
   out = value->get();
-  // Ranges of whole keys stay below 2^53, so the comparison in double is exact.
   return true;
 }
 

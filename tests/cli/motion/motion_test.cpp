@@ -65,14 +65,14 @@ TEST(MotionEncoder, GivesTheLinesForAFeed) {
   EXPECT_NEAR(fast["count_mm"], 0.83e-3, 0.005e-3);
 }
 
-// Eq. 7: lines = W/n; 7000 rpm gives 2571.4, and whole lines can be bought only.
+// Eq. 7: lines = W/n; 7000 rpm gives 2571.4, and only whole lines can be bought.
 TEST(MotionEncoder, GivesTheLinesForASpindle) {
   EXPECT_NEAR(answer_of(kEncoder + "--speed-rpm 2000")["lines_per_rev"], 9000.0, 1e-6);
   EXPECT_NEAR(answer_of(kEncoder + "--speed-rpm 10000")["lines_per_rev"], 1800.0, 1e-6);
   EXPECT_EQ(answer_of(kEncoder + "--speed-rpm 7000")["whole_lines_per_rev"], 2571.0);
 }
 
-// The way back, and a wanted count of 1 µm: 2500 lines.
+// The way back, and an intended count of 1 µm: 2500 lines.
 TEST(MotionEncoder, GivesTheLargestSpeedForLines) {
   const json back = answer_of(kEncoder + "--lines-per-rev 3000 --lead-mm 10");
   EXPECT_NEAR(back["feed_mm_min"], 60000.0, 1e-6);

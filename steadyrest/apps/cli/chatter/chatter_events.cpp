@@ -56,9 +56,9 @@ std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal&
   double t_s = signal.start_s;
   for (std::size_t i = 0; i < samples; ++i) {
     t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
+    // The detector judges one spectrum per hop of samples. Only `fresh` outputs are new readings;
+    // the samples between them repeat the last verdict and must not be counted again.
     const auto& heard =
-        // The detector judges one spectrum per hop of samples. Only `fresh` outputs are new
-        // readings; the samples between them repeat the last verdict and must not be counted again.
         detector.update({.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i]});
     if (heard.fresh && heard.chatter) {
       if (!open) {

@@ -93,7 +93,6 @@ void put_response(Answer& answer, const std::string& file, const offline::Frf& f
     answer.text += fmt::format("{}: {} per force, converted to displacement by {}\n", file,
                                kMeasured[order], order == 1 ? "1/(iω)" : "−1/ω²");
   }
-  // The order of the derivative is also the number of integrations: 0, 1, 2.
   if (!frf.coherence.empty()) {
     const auto low =
         std::ranges::count_if(frf.coherence, [](double c) { return c < kLowCoherence; });

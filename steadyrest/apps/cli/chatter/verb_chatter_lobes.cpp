@@ -273,8 +273,8 @@ std::expected<Task, Refusals> task_of(const Options& options) {
 /// The map and its borders with, if a machine is given, its override steps drawn over them.
 Result<Json> page_of(const Json& answer, const Task& task, const Options& options, Made made) {
   offline::LobeMap& map = made.map;
-  auto others = page::other_borders(task.process, map, made.border, task.law.modulation);
   // Borders of the same cut under other laws, for comparison in the report.
+  auto others = page::other_borders(task.process, map, made.border, task.law.modulation);
   if (!others) {
     return std::unexpected(others.error());
   }

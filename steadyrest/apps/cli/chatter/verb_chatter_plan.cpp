@@ -322,6 +322,8 @@ void add_options(Verb& verb, Options& o) {
   verb.add_option("--laws", o.laws,
                   "Laws to try: triangle,sine,square,pulse,stop,random; default: all but random")
       ->delimiter(',');
+  // Where the literature has a symbol (RVA, RVF) the option is called by it, and the help says what
+  // it is.
   verb.add_option("--rva", o.plan.rva,
                   "Amplitudes over mean speed; default: from the override's steps")
       ->delimiter(',');
@@ -332,8 +334,6 @@ void add_options(Verb& verb, Options& o) {
   verb.add_flag("--laws-only", o.laws_only, "Plan a law even if an override step is enough");
   verb.add_flag("--leave-speed-band", o.leave_speed_band,
                 "Allow laws to leave the tolerance band of the control's speed monitor");
-  // Where the literature has a symbol (RVA, RVF) the option is called by it, and the help says what
-  // it is.
   verb.reports(o.report);
 }
 

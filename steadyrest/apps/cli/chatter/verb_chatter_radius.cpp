@@ -75,12 +75,12 @@ Outcome run(const Options& options, Progress& progress) {
   if (!cycle) {
     return refused(cycle.error());
   }
-  // ρ < 1 alone is not enough under slow modulation: a vibration may grow a thousandfold within the
-  // period before it dies. The growth over all pairs of pass boundaries is worked out as well.
   cycle->set_depth(cut->depth_mm);
   auto found = offline::stability(*cycle, {.frequency = true});
   const auto courses = offline::growth_courses(*cycle);
-  // The worst of the courses is what the report plots, so the number comes from there too.
+  // ρ < 1 alone is not enough under slow modulation: a vibration may grow a thousandfold within the
+  // period before it dies. The worst of the courses is what the report plots, so the number comes
+  // from there too.
   found.peak_growth = offline::worst(courses).peak();
   Answer answer = answer_of(options.cut, cut->law, found);
   if (!options.report.empty()) {

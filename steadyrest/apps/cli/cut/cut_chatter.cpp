@@ -108,10 +108,9 @@ Json json_of(const ChatterChoice& choice) {
           {"notes", choice.notes}};
 }
 
-/// The wall is shown only if both cuts have finished it.
+/// Only the difference between the two cuts counts, so each row has both. The wall is shown only if
+/// both cuts have finished it.
 std::string vibration_text(const trial::cut::VibrationFigures& without,
-                           // Only the difference between the two cuts counts; each row therefore
-                           // has both.
                            const trial::cut::VibrationFigures& with) {
   Table table({"the tool in the cut", "without the layer", "with the layer"});
   const auto row = [&](const char* name, const char* unit, double a, double b) {
@@ -147,9 +146,9 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
                                                 const nc::plan::PlannedPath& path, Machine& machine,
                                                 Progress& progress) {
   CutChatter out;
+  // Without a process the cut has no forces, and everything below is left out.
   if (options.process.empty()) {
     return out;
-    // Without a process the cut has no forces, and everything below is left out.
   }
   if (!options.depth_mm || !(*options.depth_mm > 0.0)) {
     return one({Kind::bad_input, "", 0,
@@ -178,8 +177,8 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     out.by_plan = true;
     const bool acts = std::ranges::any_of(out.choices, [](const ChatterChoice& choice) {
       return choice.decision == PlanDecision::constant || choice.decision == PlanDecision::law;
-      // The file's own [chatter] would compete with the planner's choices for one override.
     });
+    // The file's own [chatter] would compete with the planner's choices for one override.
     machine.chatter.enabled = false;
     // The modulator waits at 100 % until the program reaches a speed with a choice. If no choice
     // acts, the machine gets no modulator at all.

@@ -198,8 +198,8 @@ std::string text_of(const std::vector<trial::cut::MotionFigures>& motion, const 
   }
   Table table({"motion estimate error, RMS", "estimate", "by differencing counts"});
   for (const trial::cut::MotionFigures& m : motion) {
+    // Inside, a rotary axis is in rad; people read degrees.
     const bool rotary = std::ranges::any_of(
-        // Inside, a rotary axis is in rad; people read degrees.
         machine.axes, [&](const auto& axis) { return axis.rotary && axis.name == m.axis; });
     const auto both = [rotary](double velocity, double acceleration) {
       using kernel::units::deg_from_rad;

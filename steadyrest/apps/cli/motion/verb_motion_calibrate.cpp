@@ -83,8 +83,8 @@ Result<Text> text_for(const Options& options, const Encoder& encoder) {
     return std::unexpected(machine.error());
   }
   const bool rotary = std::ranges::any_of(
-      // The count on the command line and the axis of the file must be of one kind.
       machine->axes, [&](const auto& axis) { return axis.rotary && axis.name == options.axis; });
+  // The count on the command line and the axis of the file must be of one kind.
   if (in_deg && !rotary) {
     return std::unexpected(Refusal{Kind::bad_input, options.machine, 0,
                                    fmt::format("has no rotary axis {}", options.axis),

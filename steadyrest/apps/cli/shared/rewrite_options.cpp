@@ -220,13 +220,10 @@ void set(RewriteOptions& options, const Told& one) {
 
 }  // namespace
 
+/// The mark of the changed program supplies what the command line leaves out. What both say must
+/// agree: a proof under other settings would prove nothing about this program.
 std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                        const std::string& changed,
-                                                       // The mark of the changed program supplies
-                                                       // what the command line leaves out. What
-                                                       // both say must agree: a proof under other
-                                                       // settings would prove nothing about this
-                                                       // program.
                                                        Progress& progress) {
   const auto mark = nc::rewrite::read_mark(changed);
   if (!mark) {

@@ -117,8 +117,8 @@ kernel::outcome::Result<kernel::file::OutputFile> table_output(const std::string
                                                                bool json) {
   if (output.empty() && !json) {
     return kernel::file::OutputFile::standard_output();
-    // With --json and no -o the rows have nowhere to go; /dev/null keeps one code path.
   }
+  // With --json and no -o the rows have nowhere to go; /dev/null keeps one code path.
   return kernel::file::OutputFile::open(output.empty() ? "/dev/null" : output);
 }
 

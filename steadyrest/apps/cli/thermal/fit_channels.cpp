@@ -19,8 +19,8 @@ Refusal refusal(std::string file, std::string what, std::string to_do) {
 /// What the column of an axis is called without its unit: Z for z_um, ch1 for ch1_um.
 std::string axis_of(const std::string& column) {
   const bool unit = column.size() > 3 && (column.ends_with("_um") || column.ends_with("_mm"));
-  // Machine files name axes by capital letters.
   std::string name = unit ? column.substr(0, column.size() - 3) : column;
+  // Machine files name axes by capital letters.
   if (name.size() == 1 && name.front() >= 'a' && name.front() <= 'z') {
     name.front() = static_cast<char>(name.front() - 'a' + 'A');
   }

@@ -7,13 +7,14 @@
 #include <steadyrest/apps/cli/thermal/thermal_plan_file.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
+// The plan's own keys come from the rewriter's reader. This file adds what `thermal plan` noted
+// about the making of the plan, so that `thermal adapt` need not be told again.
 namespace steadyrest::apps::cli {
 
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
-/// The plan's own keys come from the rewriter's reader. This file adds what `thermal plan` noted
-/// about the making of the plan, so that `thermal adapt` need not be told again.
+
 using PlanJson = nlohmann::ordered_json;  // read_plan() has checked its shape
 
 namespace {

@@ -82,10 +82,10 @@ std::string csv_of(const std::vector<AxisReplay>& axes, const offline::Log& log,
   double next_s = -std::numeric_limits<double>::infinity();
   const std::size_t skipped = log.rows() - first.size();
   for (std::size_t i = 0; i < first.size(); ++i) {
+    // Thinned to one row a step, but the last row always: the end is what people look up. The 1e-6
+    // keeps rounded time stamps of an even log from slipping into the next step.
     if (first[i].time_s < next_s && i + 1 < first.size()) {
       continue;
-      // Thinned to one row a step, but the last row always: the end is what people look up. The
-      // 1e-6 keeps rounded time stamps of an even log from slipping into the next step.
     }
     next_s = first[i].time_s + step_s - 1e-6;
     text += fmt::format("{:.3f},{:.1f}", first[i].time_s,
@@ -118,10 +118,10 @@ void put(Answer& answer, Table& table, const AxisReplay& axis) {
        {"points", axis.score.points},
        {"rms_um", measured ? Json(rms_um) : Json(nullptr)},
        {"coverage", measured ? Json(axis.score.coverage) : Json(nullptr)}});
+  // kBand standard deviations make the 95 % band.
   table.row({axis.name, fmt::format("{:.2f}", um_from_mm(end.displacement_mm)),
              fmt::format("±{:.2f}", offline::kBand * um_from_mm(end.sd_mm)),
              measured ? fmt::format("{:.2f}", rms_um) : "-",
-             // kBand standard deviations make the 95 % band.
              measured ? fmt::format("{:.1f} %", 100.0 * axis.score.coverage) : "-"});
   answer.json["max_um"] = std::max(answer.json["max_um"].get<double>(), most_um);
 }

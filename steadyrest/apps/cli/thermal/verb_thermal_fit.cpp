@@ -104,7 +104,6 @@ Json axis_of(const offline::AxisFit& fit) {
                        {"tau_min", a.tau_s / 60.0},
                        {"gain_um_k", um_from_mm(a.gain_mm_k)}});
   }
-  // Two ways to use the passport, so two figures: running free, and re-zeroed by a probe each hour.
   return {{"axis", fit.axis.name},
           {"channel", fit.channel},
           {"modes", fit.axis.mode.size()},

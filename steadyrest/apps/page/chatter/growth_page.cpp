@@ -64,8 +64,8 @@ Json speed_json(const SpeedProfile& speed, double last_rad) {
 /// The growth from several starting passes, and below it the speed that makes it.
 Json growth_page(const Json& answer, const offline::Process& process, const DelayCycle& cycle,
                  const SpeedProfile& speed, const std::vector<GrowthCourse>& courses) {
-  // The course with the greatest peak is drawn in front.
   Json page = chatter_head("growth", process.name, answer);
+  // The course with the greatest peak is drawn in front.
   const GrowthCourse& most = offline::worst(courses);
   std::size_t last = 0;
   page["courses"] = Json::array();

@@ -90,8 +90,8 @@ Result<std::vector<Border>> other_borders(const Process& process, const LobeMap&
                                           const offline::Modulation& modulation) {
   std::vector<Border> out;
   if (modulation.law != chatter::online::Law::constant) {
+    // Thinned like the map: this border is refined again between its points.
     auto constant =
-        // Thinned like the map: this border is refined again between its points.
         offline::border_line(process, {.speed_rev_s = picked(map.speed_rev_s, kMostSpeeds),
                                        .most_depth_mm = map.depth_mm.back(),
                                        .modulation = {}});

@@ -40,7 +40,6 @@ Result<offline::BenchScene> scene_named(const std::string& name) {
 }  // namespace
 
 Result<Trace> trace(const std::string& name) {
-  // The first phase only: a trace shows one record.
   const auto scene = scene_named(name);
   if (!scene) {
     return std::unexpected(scene.error());
@@ -52,6 +51,7 @@ Result<Trace> trace(const std::string& name) {
   }
   Trace out;
   out.name = name;
+  // The first phase only: a trace shows one record.
   const offline::Record& record = scene->records.front();
   for (std::size_t k = 0; k < record.ticks.size(); ++k) {
     out.t_s.push_back(record.ticks[k].t_s);

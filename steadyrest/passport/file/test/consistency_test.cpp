@@ -84,7 +84,6 @@ std::vector<Case> cases() {
   };
 }
 
-/// The control: a good machine has no finding at all.
 class Consistency : public testing::TestWithParam<Case> {};
 
 TEST_P(Consistency, FindsTheOneThingThatWasSpoilt) {
@@ -102,6 +101,7 @@ TEST_P(Consistency, FindsTheOneThingThatWasSpoilt) {
 INSTANTIATE_TEST_SUITE_P(Spoilt, Consistency, testing::ValuesIn(cases()),
                          [](const testing::TestParamInfo<Case>& at) { return at.param.name; });
 
+// The control: a good machine has no finding at all.
 TEST(ConsistencyOfAGoodMachine, FindsNothing) {
   EXPECT_TRUE(findings(good()).empty());
 }

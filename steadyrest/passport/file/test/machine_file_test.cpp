@@ -82,10 +82,10 @@ TEST(MachineFile, PutsAStandInWhereXYOrZIsMissing) {
   EXPECT_TRUE(machine->axes[3].rotary);
 }
 
+// Gray codes of 1, 2, 3, 4, 5. Rapid follows the feed switch but never above 100 %; a machine
+// without a spindle switch has the one step 100 %.
 TEST(MachineFile, GivesGrayCodesThatStartAtOne) {
   const auto machine = parse(kSmall, "small.toml");
-  // Gray codes of 1, 2, 3, 4, 5. Rapid follows the feed switch but never above 100 %; a machine
-  // without a spindle switch has the one step 100 %.
   ASSERT_TRUE(machine) << kernel::outcome::text(machine.error());
   EXPECT_THAT(machine->feed_override.code, testing::ElementsAre(1, 3, 2, 6, 7));
   EXPECT_THAT(machine->feed_override.ratio,

@@ -23,7 +23,6 @@ struct Known {
 // one temperature, as tests/recorded/make_excerpts.py finds them without our program. The published
 // figures, with 6.2 h more than this log has, are 0.48/0.38/0.90/0.91/0.51, 5.2/5.1/9.0/8.8/8.5 µm
 // and 20.6/22.2/44.0/42.6/39.1 µm.
-/// Truth from tests/recorded/make_excerpts.py, a separate implementation (NumPy), on the same log.
 void expect_hysteresis(const std::string& path, const std::array<Known, 5>& known) {
   SCOPED_TRACE(path);
   const auto log = thermal::offline::read_log(path);
