@@ -104,12 +104,13 @@ void Decision201Steps(benchmark::State& state) {
   const bool pocket = state.range(0) == 0;
   const Path path =
       pocket ? rib_pocket(machine) : trial::timing::demanding_path(machine, kDemanding_s).value();
+  FeedGovernor::Config config = FeedGovernor::Config::of(machine);
   // Defaults: the search bounded in steps and work.
-  Timed bounded({.machine = machine});
+  Timed bounded(config);
+  config.work_share = 1.0;
+  config.exhaustive_steps = std::numeric_limits<std::size_t>::max();
   // The same governor with every bound lifted.
-  Timed exhaustive({.machine = machine,
-                    .work_share = 1.0,
-                    .exhaustive_steps = std::numeric_limits<std::size_t>::max()});
+  Timed exhaustive(config);
   for (auto _ : state) {
     for (int round = 0; round < kRounds; ++round) {
       cut(machine, path, bounded, exhaustive);

@@ -93,7 +93,7 @@ void FeedGovernor::refresh_model(double dt) noexcept {
   if (!renew) {
     return;
   }
-  cycle_s_ = dt > 0.0 ? dt : config_.machine.control.interpolator_period_s;
+  cycle_s_ = dt > 0.0 ? dt : config_.control.interpolator_period_s;
   for (std::size_t i = 0; i < 3; ++i) {
     model_[i] = servo_.axis(i);
     cycle_step_[i] = AxisStep::of(model_[i], cycle_s_);
@@ -146,8 +146,8 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
   }
   const Point across = tangential_error_mm(residual, error.tangent);
   double quantisation = 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.machine.axes.size()); ++i) {
-    const double count = config_.machine.axes[i].encoder.count_mm;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {
+    const double count = config_.axes[i].encoder.count_mm;
     quantisation = std::max(quantisation, count * count / 6.0);
   }
   const double excess = std::max(0.0, geometry::norm_squared(across) - quantisation);
@@ -158,7 +158,7 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
 // Not more than 60 % of the limit: a reserve that eats all of it would always ask for the lowest
 // step.
 double FeedGovernor::limit_mm() const noexcept {
-  const auto& contour = config_.machine.contour;
+  const auto& contour = config_.contour;
   const double beyond_margin =
       3.0 * std::sqrt(std::max(0.0, state_.unexplained_mm2)) - contour.margin * contour.limit_mm;
   const double reserve_mm = unseen_mm_ + std::max(0.0, beyond_margin);
@@ -217,8 +217,8 @@ void FeedGovernor::extrapolate(const Frame& frame) noexcept {
   const double fine = curvature > 1e-6 ? std::cbrt(3e-4 / (curvature * curvature)) : ahead;
   const double length = std::max(fine, (back + ahead) / 400.0);
   double a = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.machine.axes.size()); ++i) {
-    a = std::min(a, config_.machine.axes[i].max_acceleration_mm_s2);
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {
+    a = std::min(a, config_.axes[i].max_acceleration_mm_s2);
   }
   for (double s = -back; s < ahead; s += length) {
     Cell cell;
@@ -250,7 +250,7 @@ bool FeedGovernor::look(const Frame& frame, const ContourError::Output& error) n
     return false;
   }
   const double speed = std::max(
-      {frame.path_speed_mm_s, frame.programmed_feed_mm_s * config_.machine.contour.max_ratio, 5.0});
+      {frame.path_speed_mm_s, frame.programmed_feed_mm_s * config_.contour.max_ratio, 5.0});
   const double s = frame.path_position_mm;
   const double foot = error.valid ? error.foot_position_mm : s;
   ahead_.update(frame.path, frame.path_index, std::min(foot, s) - 0.5, s, s + speed * reach_s_);
@@ -290,7 +290,7 @@ Outset FeedGovernor::outset(const Frame& frame) const noexcept {
   outset.rapid_ratio = frame.rapid.effective_ratio;
   // The operator's panel caps the forecast as it will cap the word, unless the machine file lets
   // the layer exceed it.
-  outset.panel_ratio = config_.machine.feed_override.layer_may_exceed_panel
+  outset.panel_ratio = config_.feed_override.layer_may_exceed_panel
                            ? std::numeric_limits<double>::infinity()
                            : frame.feed.panel_ratio;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -334,7 +334,7 @@ void FeedGovernor::watch_effect(const Frame& frame, double dt) noexcept {
 
 FeedGovernor::Output FeedGovernor::update(const Frame& frame,
                                           const kernel::signal::InForce& in_force) noexcept {
-  if (!config_.machine.contour.enabled) {
+  if (!config_.contour.enabled) {
     return {};
   }
   remember(in_force.feed);
@@ -352,7 +352,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
     state_.fallen_s = frame.time_s - config_.pause_s;
     state_.idle_effect_s = 0.0;
   }
-  if (frame.age_s > config_.machine.envelope.stale_after_s) {
+  if (frame.age_s > config_.envelope.stale_after_s) {
     servo_.pause();
     return state_.last = withdraw(Reason::input_stale, {});
   }

@@ -13,7 +13,12 @@
 #include <steadyrest/contour/online/nominal_error.hpp>
 #include <steadyrest/contour/online/objective_search.hpp>
 #include <steadyrest/contour/online/servo_model.hpp>
+#include <steadyrest/kernel/machine/axis.hpp>
+#include <steadyrest/kernel/machine/contour.hpp>
+#include <steadyrest/kernel/machine/control.hpp>
+#include <steadyrest/kernel/machine/envelope.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/machine/override_table.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/signal/in_force.hpp>
@@ -81,14 +86,21 @@ class FeedGovernor {
   static constexpr std::size_t kHistory = 1024;
 
   struct Config {
-    kernel::machine::Machine machine;   ///< axes, feed_override, contour, envelope, control
-    double decision_s = 0.0;            ///< 0 = the override's scan period, 4…10 ms
-    double objective_s = 0.10;          ///< period of the full search of the other strategies
-    double pause_s = 0.5;               ///< after a fall, rises need more room
-    double work_share = 0.1;            ///< of a control cycle that one search may take
-    std::size_t exhaustive_steps = 32;  ///< up to so many are all looked at
-    double forecast_step_s = 0.0;       ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
+    std::vector<kernel::machine::Axis> axes;  ///< X, Y, Z first
+    kernel::machine::OverrideTable feed_override;
+    kernel::machine::Contour contour;
+    kernel::machine::Envelope envelope;  ///< of the feed, and how old a frame may be
+    kernel::machine::Control control;    ///< its period and its limit along the path
+    double decision_s = 0.0;             ///< 0 = the override's scan period, 4…10 ms
+    double objective_s = 0.10;           ///< period of the full search of the other strategies
+    double pause_s = 0.5;                ///< after a fall, rises need more room
+    double work_share = 0.1;             ///< of a control cycle that one search may take
+    std::size_t exhaustive_steps = 32;   ///< up to so many are all looked at
+    double forecast_step_s = 0.0;        ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
     double (*objective)(const Candidate&) noexcept = combined_objective;
+
+    /// These sections of a passport, the rest as above.
+    static Config of(const kernel::machine::Machine& machine);
   };
 
   struct Output {

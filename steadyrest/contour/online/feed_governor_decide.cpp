@@ -177,7 +177,7 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
 /// that no gauge would show.
 void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noexcept {
   const LookAhead& path = state_.last.path_known ? ahead_ : guess_;
-  const auto& contour = config_.machine.contour;
+  const auto& contour = config_.contour;
   const bool by_contour = contour.strategy == ContourStrategy::contour_priority;
   ObjectiveSearch& search = state_.objective;
   for (std::size_t spent = 0; !search.done() && spent < search_steps_;) {
@@ -206,7 +206,7 @@ void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noex
 /// The candidate that the strategy would have: with feed priority the fastest.
 std::size_t FeedGovernor::wanted_candidate(const Outset& outset, Output& output) noexcept {
   std::size_t candidate = candidate_.size() - 1;
-  if (config_.machine.contour.strategy == ContourStrategy::feed_priority) {
+  if (config_.contour.strategy == ContourStrategy::feed_priority) {
     return candidate;
   }
   if (state_.objective.done() && state_.time_s >= state_.next_objective_s) {
@@ -250,7 +250,7 @@ Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
   if (falls) {
     return Reason::contour_limit;
   }
-  const bool by_objective = config_.machine.contour.strategy != ContourStrategy::feed_priority;
+  const bool by_objective = config_.contour.strategy != ContourStrategy::feed_priority;
   return by_objective && choice.candidate == wanted ? Reason::contour_objective
                                                     : Reason::contour_within_limit;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -11,7 +12,9 @@
 namespace steadyrest::contour::online {
 namespace {
 
+using kernel::machine::Axis;
 using kernel::machine::Machine;
+using Axes = std::span<const Axis>;
 
 kernel::outcome::Refusal refuse(std::string what, std::string to_do) {
   return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), std::move(to_do)};
@@ -23,36 +26,36 @@ constexpr double kForecastStepCostS = 100e-9;
 
 // The stiffest axis sets the forecast's step, the softest one how far back the foot lies and how
 // long a change takes to settle.
-double stiffest(const Machine& machine) noexcept {
+double stiffest(Axes axes) noexcept {
   double k = 1.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
-    k = std::max(k, machine.axes[i].servo_gain_1_s);
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
+    k = std::max(k, axes[i].servo_gain_1_s);
   }
   return k;
 }
 
-double softest(const Machine& machine) noexcept {
+double softest(Axes axes) noexcept {
   double k = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
-    k = std::min(k, machine.axes[i].servo_gain_1_s);
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
+    k = std::min(k, axes[i].servo_gain_1_s);
   }
   return std::clamp(k, 1.0, 1000.0);
 }
 
-double longest_lag(const Machine& machine) noexcept {
+double longest_lag(Axes axes) noexcept {
   double lag = 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
-    lag = std::max(lag, machine.axes[i].velocity_lag_s);
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
+    lag = std::max(lag, axes[i].velocity_lag_s);
   }
   return lag;
 }
 
 /// Time over which the control's jerk limit averages the acceleration, A/J; its mean delay is half
 /// of it.
-double jerk_time(const Machine& machine) noexcept {
+double jerk_time(Axes axes) noexcept {
   double time = 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
-    const auto& axis = machine.axes[i];
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
+    const auto& axis = axes[i];
     if (std::isfinite(axis.max_jerk_mm_s3) && axis.max_jerk_mm_s3 > 0.0) {
       time = std::max(time, axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3);
     }
@@ -86,40 +89,39 @@ double walking_1_s(const kernel::machine::OverrideTable& table,
 }
 
 /// What backlash puts between the encoders on the motors and the tool: half of it either way.
-double unseen_by_encoders_mm(const Machine& machine) noexcept {
+double unseen_by_encoders_mm(Axes axes) noexcept {
   double backlash_mm = 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
-    backlash_mm = std::max(backlash_mm, machine.axes[i].backlash_mm);
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
+    backlash_mm = std::max(backlash_mm, axes[i].backlash_mm);
   }
   return 0.5 * backlash_mm;
 }
 
 kernel::outcome::Result<void> check(const FeedGovernor::Config& config) {
-  const Machine& m = config.machine;
-  if (m.axes.empty()) {
+  if (config.axes.empty()) {
     return std::unexpected(
         refuse("the machine has no axis; allowed: one or more", "add an [[axis]] for each axis"));
   }
-  if (!(m.contour.limit_mm > 0.0)) {
+  if (!(config.contour.limit_mm > 0.0)) {
     return std::unexpected(refuse(
-        "the contour limit is " + std::to_string(m.contour.limit_mm) + " mm; allowed: above 0",
+        "the contour limit is " + std::to_string(config.contour.limit_mm) + " mm; allowed: above 0",
         "correct limit_um in [contour]"));
   }
-  if (!(m.contour.margin >= 0.0 && m.contour.margin < 1.0)) {
+  if (!(config.contour.margin >= 0.0 && config.contour.margin < 1.0)) {
     return std::unexpected(refuse(
-        "the contour margin is " + std::to_string(m.contour.margin) + "; allowed: 0 … below 1",
+        "the contour margin is " + std::to_string(config.contour.margin) + "; allowed: 0 … below 1",
         "correct margin_percent in [contour]"));
   }
-  if (!(m.contour.min_ratio > 0.0 && m.contour.min_ratio <= m.contour.max_ratio)) {
+  if (!(config.contour.min_ratio > 0.0 && config.contour.min_ratio <= config.contour.max_ratio)) {
     return std::unexpected(
-        refuse("the feed ratios of [contour] are " + std::to_string(m.contour.min_ratio) + " … " +
-                   std::to_string(m.contour.max_ratio) + "; allowed: above 0, rising",
+        refuse("the feed ratios of [contour] are " + std::to_string(config.contour.min_ratio) + " … " +
+                   std::to_string(config.contour.max_ratio) + "; allowed: above 0, rising",
                "correct min_percent and max_percent in [contour]"));
   }
-  if (!(m.envelope.feed_fall_1_s > 0.0 && m.envelope.feed_rise_1_s > 0.0)) {
+  if (!(config.envelope.feed_fall_1_s > 0.0 && config.envelope.feed_rise_1_s > 0.0)) {
     return std::unexpected(refuse("the feed's slew limits are " +
-                                      std::to_string(m.envelope.feed_fall_1_s) + " 1/s down and " +
-                                      std::to_string(m.envelope.feed_rise_1_s) +
+                                      std::to_string(config.envelope.feed_fall_1_s) + " 1/s down and " +
+                                      std::to_string(config.envelope.feed_rise_1_s) +
                                       " 1/s up; allowed: above 0",
                                   "correct the slew limits in [envelope]"));
   }
@@ -143,10 +145,18 @@ double combined_objective(const Candidate& c) noexcept {
   return c.weight_contour * c.error_mm / c.limit_mm + c.weight_feed * slowness;
 }
 
-kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Machine& machine) {
+FeedGovernor::Config FeedGovernor::Config::of(const Machine& machine) {
   Config config;
-  config.machine = machine;
-  return make(config);
+  config.axes = machine.axes;
+  config.feed_override = machine.feed_override;
+  config.contour = machine.contour;
+  config.envelope = machine.envelope;
+  config.control = machine.control;
+  return config;
+}
+
+kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Machine& machine) {
+  return make(Config::of(machine));
 }
 
 kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
@@ -154,12 +164,12 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
     return std::unexpected(fit.error());
   }
   ContourError::Config contour_config;
-  contour_config.servo_gain_1_s = softest(config.machine);
+  contour_config.servo_gain_1_s = softest(config.axes);
   auto contour = ContourError::make(contour_config);
   if (!contour) {
     return std::unexpected(contour.error());
   }
-  auto servo = ServoModel::make(config.machine);
+  auto servo = ServoModel::make(config.axes, config.control.interpolator_period_s);
   if (!servo) {
     return std::unexpected(servo.error());
   }
@@ -177,9 +187,9 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
     : config_(config),
       contour_(contour),
       servo_(servo),
-      ahead_(config.machine),
-      guess_(config.machine) {
-  const Machine& m = config_.machine;
+      ahead_(config.axes, config.control.max_path_acceleration_mm_s2),
+      guess_(config.axes, config.control.max_path_acceleration_mm_s2) {
+  const Config& m = config_;
   // The strictest of the three: [contour], the envelope and the table. Steps at 0 stop the machine
   // and are no candidates.
   const double low = std::max(m.contour.min_ratio, m.envelope.min_feed_ratio);
@@ -194,8 +204,8 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
       table_step_.push_back(i);
     }
   }
-  softest_gain_1_s_ = softest(m);
-  unseen_mm_ = unseen_by_encoders_mm(m);
+  softest_gain_1_s_ = softest(m.axes);
+  unseen_mm_ = unseen_by_encoders_mm(m.axes);
   // Deciding more often than the control scans the word changes nothing.
   decision_s_ = config_.decision_s > 0.0 ? config_.decision_s
                                          : std::clamp(m.feed_override.scan_period_s, 0.004, 0.010);
@@ -205,17 +215,17 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   // 0.12/k: eight steps to a time constant of the stiffest axis. The step itself is exact; it is
   // the curvature between two instants that must stay small.
   timing.step_s = config_.forecast_step_s > 0.0 ? config_.forecast_step_s
-                                                : std::clamp(0.12 / stiffest(m), 5e-4, 4e-3);
+                                                : std::clamp(0.12 / stiffest(m.axes), 5e-4, 4e-3);
   // A word that is written now acts after the table's dead time, one cycle of the interpolator and
   // half of the jerk filter.
   timing.dead_s =
-      m.feed_override.dead_time_s + m.control.interpolator_period_s + 0.5 * jerk_time(m);
+      m.feed_override.dead_time_s + m.control.interpolator_period_s + 0.5 * jerk_time(m.axes);
   timing.scan_s = m.feed_override.scan_period_s + m.control.interpolator_period_s;
   const double walk_1_s = walking_1_s(m.feed_override, candidate_);
   timing.fall_1_s = std::min(m.envelope.feed_fall_1_s, walk_1_s);
   timing.rise_1_s = std::min(m.envelope.feed_rise_1_s, walk_1_s);
   // e⁻⁴ of a change is left after four time constants of the softest axis.
-  timing.settle_s = 4.0 / softest(m) + 3.0 * longest_lag(m);
+  timing.settle_s = 4.0 / softest(m.axes) + 3.0 * longest_lag(m.axes);
   forecast_.set_timing(timing);
   forecast_.set_table(table_ratio_);
   // How far ahead a decision must see: until a fall that begins at the next decision has ended and
@@ -230,7 +240,7 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
 // look along it are made in any case. The objective's search overshoots by one forecast.
 std::size_t FeedGovernor::most_forecast_steps() const noexcept {
   const bool by_objective =
-      config_.machine.contour.strategy != kernel::machine::ContourStrategy::feed_priority;
+      config_.contour.strategy != kernel::machine::ContourStrategy::feed_priority;
   const std::size_t objective = by_objective ? search_steps_ + Forecast::kMaxSteps : 0;
   return objective + search_steps_ + 4 * Forecast::kMaxSteps;
 }

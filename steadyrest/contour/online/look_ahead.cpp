@@ -46,11 +46,12 @@ bool breaks(const Cell& before, const Cell& next) noexcept {
 
 }  // namespace
 
-LookAhead::LookAhead(const kernel::machine::Machine& machine)
-    : path_mm_s2_(machine.control.max_path_acceleration_mm_s2),
+LookAhead::LookAhead(std::span<const kernel::machine::Axis> axes,
+                     double max_path_acceleration_mm_s2)
+    : path_mm_s2_(max_path_acceleration_mm_s2),
       ring_(std::make_unique<std::array<Cell, kCells>>()) {
   for (std::size_t i = 0; i < 3; ++i) {
-    axis_mm_s2_[i] = i < machine.axes.size() ? machine.axes[i].max_acceleration_mm_s2 : kInfinite;
+    axis_mm_s2_[i] = i < axes.size() ? axes[i].max_acceleration_mm_s2 : kInfinite;
   }
 }
 LookAhead::~LookAhead() = default;

@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
-#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 
 namespace steadyrest::contour::online {
@@ -55,7 +56,8 @@ class LookAhead {
     bool complete = false;
   };
 
-  explicit LookAhead(const kernel::machine::Machine& machine);
+  /// What the control plans with: the axes, and its own limit along the path.
+  LookAhead(std::span<const kernel::machine::Axis> axes, double max_path_acceleration_mm_s2);
   ~LookAhead();
   LookAhead(LookAhead&&) noexcept;
   LookAhead& operator=(LookAhead&&) noexcept;

@@ -68,17 +68,18 @@ kernel::outcome::Result<ServoModel> ServoModel::make(const Config& config) {
   return ServoModel(config);
 }
 
-kernel::outcome::Result<ServoModel> ServoModel::make(const kernel::machine::Machine& machine) {
+kernel::outcome::Result<ServoModel> ServoModel::make(std::span<const kernel::machine::Axis> axes,
+                                                     double interpolator_period_s) {
   Config config;
-  config.axes = std::min<std::size_t>(3, machine.axes.size());
+  config.axes = std::min<std::size_t>(3, axes.size());
   for (std::size_t i = 0; i < config.axes; ++i) {
-    const kernel::machine::Axis& axis = machine.axes[i];
+    const kernel::machine::Axis& axis = axes[i];
     config.prior[i] = {axis.servo_gain_1_s, axis.feed_forward, axis.velocity_lag_s};
     config.count_mm[i] = axis.encoder.count_mm;
     config.drive_mm_s2[i] =
         std::isfinite(axis.drive_acceleration_mm_s2) ? axis.drive_acceleration_mm_s2 : 0.0;
   }
-  config.window_s = std::max(config.window_s, 10.0 * machine.control.interpolator_period_s);
+  config.window_s = std::max(config.window_s, 10.0 * interpolator_period_s);
   return make(config);
 }
 

@@ -4,8 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
-#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 
@@ -76,7 +77,8 @@ class ServoModel {
 
   static kernel::outcome::Result<ServoModel> make(const Config& config);
   /// Prior, encoder and drive from the machine file.
-  static kernel::outcome::Result<ServoModel> make(const kernel::machine::Machine& machine);
+  static kernel::outcome::Result<ServoModel> make(std::span<const kernel::machine::Axis> axes,
+                                                  double interpolator_period_s);
 
   /// One cycle. True when some axis' model was renewed.
   bool update(const kernel::signal::Frame& frame) noexcept;

@@ -124,9 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
         Row{ContourStrategy::feed_priority, 0.5, 0.0, 0.30, 0.0080, Reason::contour_within_limit}));
 
 TEST(FeedGovernor, AnotherObjectiveCanBePutIn) {
-  FeedGovernor::Config config;
-  config.machine = test::mill(50.0);
-  config.machine.contour.strategy = ContourStrategy::combined;
+  FeedGovernor::Config config = FeedGovernor::Config::of(test::mill(50.0));
+  config.contour.strategy = ContourStrategy::combined;
   config.objective = [](const Candidate& c) noexcept { return std::abs(c.ratio - 0.2); };
   FeedGovernor governor = FeedGovernor::make(config).value();
   const auto path = circle(10.0, 4000.0, 4.0);

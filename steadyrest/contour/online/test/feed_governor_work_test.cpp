@@ -90,7 +90,9 @@ TEST(FeedGovernorWork, AnObjectiveThatDoesNotFitIntoOneDecisionIsFoundOverSevera
   machine.contour.strategy = ContourStrategy::combined;
   for (const double work_share : {1.0, 0.1}) {
     ClosedLoop loop(machine, path);
-    loop.governor() = FeedGovernor::make({.machine = machine, .work_share = work_share}).value();
+    FeedGovernor::Config config = FeedGovernor::Config::of(machine);
+    config.work_share = work_share;
+    loop.governor() = FeedGovernor::make(config).value();
     bool left = false;
     while (loop.step().time_s < 3.0) {
       left = left || !loop.governor().course().objective.done();

@@ -29,7 +29,7 @@ double closed_form_mm(const AxisModel& m, double radius, double speed) {
 }
 
 struct Scene {
-  LookAhead ahead{test::mill()};
+  LookAhead ahead{test::mill().axes, kernel::machine::kUnlimited};
   Forecast forecast;
   Outset outset;
   RatioPlan plan;
@@ -147,7 +147,7 @@ RC_GTEST_PROP(LookAhead, CellsReproduceThePathAndItsSpeedLimits, ()) {
   }
   const auto path = maker.limited(2000.0, 4.0);
   const double whole = path.back().position_mm + path.back().length_mm;
-  LookAhead ahead(test::mill());
+  LookAhead ahead(test::mill().axes, kernel::machine::kUnlimited);
   for (int i = 0; i < 400; ++i) {
     ahead.update(path, 0, 0.0, 0.0, whole + 1.0);
   }

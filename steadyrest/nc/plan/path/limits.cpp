@@ -14,19 +14,20 @@ using kernel::signal::Point;
 
 // The fields of rotary axes hold rad/s and rad/s², and a direction has rad per mm of path there, so
 // the quotients below come out in mm/s and mm/s² for them too.
-PathLimits::PathLimits(const kernel::machine::Machine& machine)
-    : path_acceleration_mm_s2_(machine.control.max_path_acceleration_mm_s2),
-      period_s_(machine.control.interpolator_period_s),
-      deviation_mm_(machine.control.junction_deviation_mm),
-      centripetal_share_(machine.control.centripetal_share),
-      junction_share_(machine.control.junction_share) {
+PathLimits::PathLimits(std::span<const kernel::machine::Axis> axes,
+                       const kernel::machine::Control& control)
+    : path_acceleration_mm_s2_(control.max_path_acceleration_mm_s2),
+      period_s_(control.interpolator_period_s),
+      deviation_mm_(control.junction_deviation_mm),
+      centripetal_share_(control.centripetal_share),
+      junction_share_(control.junction_share) {
   speed_.fill(kUnlimited);
   acceleration_.fill(kUnlimited);
   jerk_.fill(kUnlimited);
-  axes_ = std::clamp<std::size_t>(machine.axes.size(), 3, kMaxAxes);
+  axes_ = std::clamp<std::size_t>(axes.size(), 3, kMaxAxes);
   double largest_linear = 0.0;
-  for (std::size_t i = 0; i < std::min(machine.axes.size(), kMaxAxes); ++i) {
-    const auto& axis = machine.axes[i];
+  for (std::size_t i = 0; i < std::min(axes.size(), kMaxAxes); ++i) {
+    const auto& axis = axes[i];
     speed_[i] = axis.max_speed_mm_s;
     acceleration_[i] = axis.max_acceleration_mm_s2;
     jerk_[i] = axis.max_jerk_mm_s3;
@@ -39,10 +40,10 @@ PathLimits::PathLimits(const kernel::machine::Machine& machine)
       largest_linear = std::max(largest_linear, acceleration_[i]);
     }
   }
-  if (std::isfinite(machine.control.max_path_jerk_mm_s3)) {
+  if (std::isfinite(control.max_path_jerk_mm_s3)) {
     // Along a space diagonal three axes together give √3 times the acceleration of one.
     const double most = std::min(path_acceleration_mm_s2_, std::sqrt(3.0) * largest_linear);
-    jerk_time_s_ = std::max(jerk_time_s_, most / machine.control.max_path_jerk_mm_s3);
+    jerk_time_s_ = std::max(jerk_time_s_, most / control.max_path_jerk_mm_s3);
   }
 }
 

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
-#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/machine/axis.hpp>
+#include <steadyrest/kernel/machine/control.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 
 /// What the machine's axes permit along a path.
@@ -41,7 +43,7 @@ struct PlaneLimits {
 /// The limits of a machine in the order of its axes; an axis that it does not have is unlimited.
 class PathLimits {
  public:
-  explicit PathLimits(const kernel::machine::Machine& machine);
+  PathLimits(std::span<const kernel::machine::Axis> axes, const kernel::machine::Control& control);
 
   [[nodiscard]] SpeedLimits line(const kernel::signal::AxisValues& direction) const noexcept;
   /// `segment` must be an arc with its length set.

@@ -122,7 +122,8 @@ void set_arc(PathSegment& s, const Move& move) {
 
 // The machine file lists axes in any order after X, Y, Z; the first letter of the name says which
 // of the program's axes one is. A B C turn: rad inside, degrees in the program.
-PieceMaker::PieceMaker(const Machine& machine) : machine_(machine), limits_(machine) {
+PieceMaker::PieceMaker(const Machine& machine)
+    : machine_(machine), limits_(machine.axes, machine.control) {
   constexpr const char* kLetters = "XYZABCUVW";
   axis_of_ = {0, 1, 2, kNoAxis, kNoAxis, kNoAxis, kNoAxis, kNoAxis, kNoAxis};
   for (std::size_t i = 3; i < std::min(machine.axes.size(), kMaxAxes); ++i) {

@@ -46,7 +46,8 @@ Result<Interpolator> Interpolator::make(const Machine& machine, const PathWindow
   }
   // Rounded up: a longer averaging time only lowers the jerk. The 1e-9 keeps a quotient that is
   // whole but for rounding from costing a period.
-  const double taps = std::max(1.0, std::ceil(PathLimits(machine).jerk_time_s() / period - 1e-9));
+  const PathLimits limits(machine.axes, machine.control);
+  const double taps = std::max(1.0, std::ceil(limits.jerk_time_s() / period - 1e-9));
   if (!(taps <= 10000.0)) {
     return std::unexpected(Refusal{Kind::bad_input, machine.file, 0,
                                    "the jerk limits ask for an averaging time of " +

@@ -325,7 +325,8 @@ Result<SegmentTimer> SegmentTimer::make(const Machine& machine) {
     return std::unexpected(possible.error());
   }
   auto runner = std::make_unique<Runner>(machine);
-  if (PathLimits(machine).jerk_time_s() > machine.control.interpolator_period_s) {
+  if (PathLimits(machine.axes, machine.control).jerk_time_s() >
+      machine.control.interpolator_period_s) {
     auto stepper = ProgramTimer::make(machine);
     if (!stepper) {
       return std::unexpected(stepper.error());
