@@ -19,14 +19,14 @@ bool all_finite(std::initializer_list<double> values) noexcept {
 
 }  // namespace
 
-FrameCheck::FrameCheck(const kernel::machine::Machine& machine) noexcept
-    : stale_after_s_(machine.envelope.stale_after_s) {
+FrameCheck::FrameCheck(std::span<const kernel::machine::Axis> axes, double stale_after_s) noexcept
+    : stale_after_s_(stale_after_s) {
   // A linear axis may show up to its own travel beyond its limits: machine files are often wrong
   // by an offset, while garbage from a broken link is off by powers of ten. Rotary axes turn on
   // and on.
   range_.fill({.min = -kernel::machine::kUnlimited, .max = kernel::machine::kUnlimited});
-  for (std::size_t i = 0; i < std::min(machine.axes.size(), range_.size()); ++i) {
-    const auto& axis = machine.axes[i];
+  for (std::size_t i = 0; i < std::min(axes.size(), range_.size()); ++i) {
+    const auto& axis = axes[i];
     if (!axis.rotary) {
       const double travel_mm = axis.max_mm - axis.min_mm;
       range_[i] = {.min = axis.min_mm - travel_mm, .max = axis.max_mm + travel_mm};

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <array>
+#include <span>
 
-#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 
@@ -20,7 +21,7 @@ namespace steadyrest::supervisor {
 /// A port that shows an old sample must say so in `age_s`; there is no clock here.
 class FrameCheck {
  public:
-  explicit FrameCheck(const kernel::machine::Machine& machine) noexcept;
+  FrameCheck(std::span<const kernel::machine::Axis> axes, double stale_after_s) noexcept;
 
   /// `of_time`: FrameClock's verdict on the frame's time stamp.
   [[nodiscard]] kernel::outcome::Reason fault(const kernel::signal::Frame& frame,

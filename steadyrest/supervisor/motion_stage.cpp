@@ -12,7 +12,6 @@
 namespace steadyrest::supervisor {
 namespace {
 
-using kernel::machine::Machine;
 using kernel::outcome::Result;
 using kernel::signal::AxisSample;
 using motion::online::Estimate;
@@ -62,7 +61,7 @@ double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) 
 // An axis brakes harder than its drive pulls: friction helps. So |a| ≤ drive + Coulomb (or
 // breakaway) + viscous at full speed. No limit of jerk: friction that reverses is a step of
 // acceleration, and a bound on a broken limit would be a lie.
-MotionEstimator::Config config_of(const Machine& machine, const kernel::machine::Axis& axis,
+MotionEstimator::Config config_of(const kernel::machine::Axis& axis, double cycle_s,
                                   double error_mm) {
   const kernel::machine::Friction& friction = axis.friction;
   const double drive_mm_s2 = std::isfinite(axis.drive_acceleration_mm_s2)
@@ -70,7 +69,6 @@ MotionEstimator::Config config_of(const Machine& machine, const kernel::machine:
                                  : axis.max_acceleration_mm_s2;
   const double braking_mm_s2 = std::max(friction.coulomb_mm_s2, friction.breakaway_mm_s2) +
                                friction.viscous_1_s * axis.max_speed_mm_s;
-  const double cycle_s = machine.control.interpolator_period_s;
   return {.count_mm = axis.encoder.count_mm,
           .cycle_s = cycle_s,
           .clock_s = std::min(axis.encoder.clock_s, cycle_s),
@@ -90,11 +88,10 @@ double line_mm(const LineTable& lines, std::int64_t line) noexcept {
 }  // namespace
 
 Result<MotionStage> MotionStage::make(const Config& config) {
-  const Machine& machine = config.machine;
   MotionStage stage;
-  stage.gap_s_ = kGapCycles * machine.control.interpolator_period_s;
-  for (std::size_t i = 0; i < std::min(machine.axes.size(), kernel::signal::kMaxAxes); ++i) {
-    const kernel::machine::Axis& axis = machine.axes[i];
+  stage.gap_s_ = kGapCycles * config.cycle_s;
+  for (std::size_t i = 0; i < std::min(config.axes.size(), kernel::signal::kMaxAxes); ++i) {
+    const kernel::machine::Axis& axis = config.axes[i];
     if (!axis.present || !(axis.encoder.count_mm > 0.0)) {
       continue;
     }
@@ -102,7 +99,8 @@ Result<MotionStage> MotionStage::make(const Config& config) {
     if (!lines) {
       return std::unexpected(std::move(lines.error()));
     }
-    const MotionEstimator::Config limits = config_of(machine, axis, line_error_mm(*lines, axis));
+    const MotionEstimator::Config limits =
+        config_of(axis, config.cycle_s, line_error_mm(*lines, axis));
     auto estimator = MotionEstimator::make(limits);
     if (!estimator) {
       return std::unexpected(std::move(estimator.error()));

@@ -42,7 +42,8 @@ namespace steadyrest::supervisor {
 class MotionStage {
  public:
   struct Config {
-    kernel::machine::Machine machine;  ///< axes and their encoders, control
+    std::vector<kernel::machine::Axis> axes;  ///< with their encoders
+    double cycle_s = 0.001;                   ///< the control's interpolator period
   };
 
   struct AxisState {
@@ -59,7 +60,7 @@ class MotionStage {
 
   static kernel::outcome::Result<MotionStage> make(const Config& config);
   static kernel::outcome::Result<MotionStage> make(const kernel::machine::Machine& machine) {
-    return make(Config{machine});
+    return make({.axes = machine.axes, .cycle_s = machine.control.interpolator_period_s});
   }
 
   /// Fills in the estimates; `fit` false: the frame may not be used, the estimates are none.

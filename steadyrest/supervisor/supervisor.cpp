@@ -178,7 +178,7 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
 
 Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capability& capability,
                        const FrameClock& clock, MotionStage motion, const OffsetEnvelope& offset)
-    : check_(machine),
+    : check_(machine.axes, machine.envelope.stale_after_s),
       clock_(clock),
       watchdog_s_(machine.envelope.stale_after_s),
       motion_(std::move(motion)),

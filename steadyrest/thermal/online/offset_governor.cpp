@@ -90,23 +90,22 @@ std::unexpected<Refusal> too_many_sensors(std::size_t count) {
 }  // namespace
 
 Result<OffsetGovernor> OffsetGovernor::make(const Config& config) {
-  const machine::Machine& machine = config.machine;
-  const machine::Thermal& thermal = machine.thermal;
+  const machine::Thermal& thermal = config.thermal;
   const auto sensors = thermal.sensors();
   if (sensors.size() > kernel::signal::kMaxTemperatures) {
     return too_many_sensors(sensors.size());
   }
   OffsetGovernor made;
-  made.max_offset_mm_ = std::min(thermal.max_offset_mm, machine.envelope.max_offset_mm);
+  made.max_offset_mm_ = std::min(thermal.max_offset_mm, config.max_offset_mm);
   made.slope_mm_s_ = thermal.slope_mm_s;
   made.retract_slope_mm_s_ = std::max(thermal.retract_slope_mm_s, thermal.slope_mm_s);
   made.sensors_ = sensors.size();
-  const std::size_t axes = std::min(machine.axes.size(), kernel::signal::kMaxAxes);
+  const std::size_t axes = std::min(config.axes.size(), kernel::signal::kMaxAxes);
   for (std::size_t i = 0; i < axes; ++i) {
     const auto of =
-        std::ranges::find(thermal.axis, machine.axes[i].name, &machine::ThermalAxis::name);
+        std::ranges::find(thermal.axis, config.axes[i].name, &machine::ThermalAxis::name);
     // Offsets are lengths; a displacement of no machine axis is only forecast.
-    if (of == thermal.axis.end() || machine.axes[i].rotary) {
+    if (of == thermal.axis.end() || config.axes[i].rotary) {
       continue;
     }
     StateFilter::Config model;

@@ -47,7 +47,9 @@ namespace steadyrest::thermal::online {
 class OffsetGovernor {
  public:
   struct Config {
-    kernel::machine::Machine machine;  ///< axes, thermal, envelope
+    std::vector<kernel::machine::Axis> axes;
+    kernel::machine::Thermal thermal;
+    double max_offset_mm = 0.2;  ///< of the envelope
   };
 
   /// What became of the last reading that a frame brought.
@@ -98,7 +100,9 @@ class OffsetGovernor {
   [[nodiscard]] static kernel::outcome::Result<OffsetGovernor> make(const Config& config);
   [[nodiscard]] static kernel::outcome::Result<OffsetGovernor> make(
       const kernel::machine::Machine& machine) {
-    return make(Config{machine});
+    return make({.axes = machine.axes,
+                 .thermal = machine.thermal,
+                 .max_offset_mm = machine.envelope.max_offset_mm});
   }
 
   /// One cycle. `unfit`: why the frame must not be acted on, or none. `tool_in_cut`: by what is

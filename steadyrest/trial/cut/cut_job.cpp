@@ -272,7 +272,7 @@ Result<Recorder> run(const Job& job) {
   }
   Recorder record({.limit_mm = job.machine.contour.limit_mm,
                    .cycle_s = job.machine.control.interpolator_period_s});
-  auto motion = MotionScore::make(job.machine);
+  auto motion = MotionScore::make(job.machine.axes, job.machine.control.interpolator_period_s);
   if (!motion) {
     return std::unexpected(motion.error());
   }

@@ -23,15 +23,15 @@ double share(std::size_t part, std::size_t whole) {
 }  // namespace
 
 // Axes without counts have nothing to estimate.
-Result<MotionScore> MotionScore::make(const kernel::machine::Machine& machine) {
+Result<MotionScore> MotionScore::make(std::span<const kernel::machine::Axis> axes, double cycle_s) {
   MotionScore score;
-  for (std::size_t i = 0; i < std::min(machine.axes.size(), kernel::signal::kMaxAxes); ++i) {
-    const kernel::machine::Axis& axis = machine.axes[i];
+  for (std::size_t i = 0; i < std::min(axes.size(), kernel::signal::kMaxAxes); ++i) {
+    const kernel::machine::Axis& axis = axes[i];
     if (!axis.present || !(axis.encoder.count_mm > 0.0)) {
       continue;
     }
-    auto difference = BackwardDifference::make(
-        {.count_mm = axis.encoder.count_mm, .cycle_s = machine.control.interpolator_period_s});
+    auto difference =
+        BackwardDifference::make({.count_mm = axis.encoder.count_mm, .cycle_s = cycle_s});
     if (!difference) {
       return std::unexpected(std::move(difference.error()));
     }

@@ -4,10 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
@@ -24,7 +25,9 @@ namespace steadyrest::trial::cut {
 /// |error| ≤ the bound given, of those that gave one.
 class MotionScore {
  public:
-  static kernel::outcome::Result<MotionScore> make(const kernel::machine::Machine& machine);
+  /// `cycle_s`: the control's interpolator period.
+  static kernel::outcome::Result<MotionScore> make(std::span<const kernel::machine::Axis> axes,
+                                                   double cycle_s);
 
   void add(const kernel::signal::Frame& frame, const kernel::signal::AxisValues& velocity_mm_s,
            const kernel::signal::AxisValues& acceleration_mm_s2) noexcept;

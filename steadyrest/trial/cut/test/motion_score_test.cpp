@@ -79,7 +79,7 @@ TEST(MotionScore, AnIdealEncoderHasNoFigures) {
 TEST(MotionScore, TheFiguresAreThoseOfTheErrorsPutIn) {
   Machine machine;
   machine.axes.resize(1);
-  auto score = MotionScore::make(machine).value();
+  auto score = MotionScore::make(machine.axes, machine.control.interpolator_period_s).value();
   kernel::signal::Frame frame;
   for (int i = 0; i < 100; ++i) {
     auto& axis = frame.axis[0];
