@@ -11,14 +11,14 @@ using interpret::Move;
 
 // The original may exceed the travel by itself; that is the control's affair. Here only what the
 // correction adds is judged.
-std::string over_travel(const kernel::machine::Machine& machine, char letter, const Reach& original,
-                        const Reach& corrected) {
+std::string over_travel(std::span<const kernel::machine::Axis> axes, char letter,
+                        const Reach& original, const Reach& corrected) {
   constexpr double kRounding_mm = 1e-9;
   // Rotary axes take no corrections.
-  const auto axis = std::ranges::find_if(machine.axes, [letter](const auto& one) {
+  const auto axis = std::ranges::find_if(axes, [letter](const auto& one) {
     return one.name.size() == 1 && one.name[0] == letter && !one.rotary;
   });
-  if (axis == machine.axes.end()) {
+  if (axis == axes.end()) {
     return {};
   }
   const auto fault = [letter](double to_mm, double end_mm, double own_mm) {
@@ -39,13 +39,13 @@ std::string over_travel(const kernel::machine::Machine& machine, char letter, co
   return {};
 }
 
-std::string over_travel(const kernel::machine::Machine& machine, const Plan& plan,
+std::string over_travel(std::span<const kernel::machine::Axis> axes, const Plan& plan,
                         const Move& original, const Move& corrected) {
   std::string fault;
   for (std::size_t i = 0; fault.empty() && i < plan.axes.size(); ++i) {
     // Reach counts the bulges of arcs, which leave the travel before the ends do.
     const AxisPlan& axis = plan.axes[i];
-    fault = over_travel(machine, axis.letter, reach_of(original, axis.index),
+    fault = over_travel(axes, axis.letter, reach_of(original, axis.index),
                         reach_of(corrected, axis.index));
   }
   return fault;

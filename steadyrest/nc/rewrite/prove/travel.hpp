@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
-#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 #include <steadyrest/nc/plan/check/reach.hpp>
 #include <steadyrest/nc/rewrite/text/plan_file.hpp>
@@ -21,10 +22,10 @@ inline constexpr std::string_view kAgainstTravel =
 /// The fault when a correction takes a linear axis over an end of its travel that the original move
 /// keeps; empty when there is none. What is over the end without the correction is the program's
 /// own affair, or shows that the work offset is not the machine's.
-[[nodiscard]] std::string over_travel(const kernel::machine::Machine& machine, char letter,
+[[nodiscard]] std::string over_travel(std::span<const kernel::machine::Axis> axes, char letter,
                                       const Reach& original, const Reach& corrected);
 /// The same for a pair of moves and all axes of a plan.
-[[nodiscard]] std::string over_travel(const kernel::machine::Machine& machine, const Plan& plan,
+[[nodiscard]] std::string over_travel(std::span<const kernel::machine::Axis> axes, const Plan& plan,
                                       const interpret::Move& original,
                                       const interpret::Move& corrected);
 

@@ -330,7 +330,7 @@ class Prover {
       if (!config_.start_known) {
         continue;
       }
-      if (auto fault = over_travel(machine_, plan_, before[i], after[i]); !fault.empty()) {
+      if (auto fault = over_travel(machine_.axes, plan_, before[i], after[i]); !fault.empty()) {
         return refuse_at(original_, walk_->top_line(), std::move(fault),
                          std::string(kAgainstTravel));
       }

@@ -136,7 +136,7 @@ class Prover {
     for (const interpret::Move& move : walk.moves()) {
       const Reach own = reach_of(move, axis_.index);
       auto fault =
-          over_travel(machine_, axis_.letter, own,
+          over_travel(machine_.axes, axis_.letter, own,
                       {.low_mm = own.low_mm + stands_mm_, .high_mm = own.high_mm + stands_mm_});
       if (!fault.empty() && !refusal_) {
         refusal_ = Refusal{Kind::bad_input, original_, walk.line(), std::move(fault),
