@@ -92,7 +92,7 @@ class TrailPieces {
 /// Direction of travel at the foot: at a joint the mean of both sides, since on the outside of a
 /// corner the foot lies on the corner itself and either leg alone would turn the sign.
 Point direction_at(PathView path, const Nearest& foot, const geometry::Station& here) noexcept {
-  constexpr double kJoint = 1e-9;
+  constexpr double kJoint = 1e-9;  // mm, to which the foot is found
   const PathSegment& segment = path[foot.index];
   const double from_start = foot.position_mm - segment.position_mm;
   if (from_start <= kJoint && foot.index > 0) {

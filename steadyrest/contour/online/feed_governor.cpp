@@ -19,8 +19,12 @@ using kernel::signal::Frame;
 using kernel::signal::Motion;
 using kernel::signal::Point;
 
+// What halving and doubling them does to the rib pocket: README, "What the constants do".
 constexpr double kUnexplainedMemoryS = 1.0;
 constexpr double kMostReserve = 0.6;  // of the limit
+constexpr double kReserveRms = 3.0;   // the reserve, in RMS of what the model does not explain
+constexpr double kDrift = 0.003;      // of k and a together, from which the forecast takes it over
+constexpr double kOtherModel = 0.02;  // … and what was unexplained before no longer counts
 
 bool is_fit(const Frame& frame) noexcept {
   bool fit = std::isfinite(frame.time_s) && std::isfinite(frame.age_s) &&
@@ -87,8 +91,8 @@ void FeedGovernor::refresh_model(double dt) noexcept {
     const AxisModel& now = servo_.axis(i);
     const double drift = std::abs(now.gain_1_s / model_[i].gain_1_s - 1.0) +
                          std::abs(now.feed_forward - model_[i].feed_forward);
-    renew = renew || drift > 0.003;
-    is_other = is_other || drift > 0.02;
+    renew = renew || drift > kDrift;
+    is_other = is_other || drift > kOtherModel;
   }
   if (!renew) {
     return;
@@ -159,8 +163,8 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
 // step.
 double FeedGovernor::limit_mm() const noexcept {
   const auto& contour = config_.contour;
-  const double beyond_margin =
-      3.0 * std::sqrt(std::max(0.0, state_.unexplained_mm2)) - contour.margin * contour.limit_mm;
+  const double beyond_margin = kReserveRms * std::sqrt(std::max(0.0, state_.unexplained_mm2)) -
+                               contour.margin * contour.limit_mm;
   const double reserve_mm = unseen_mm_ + std::max(0.0, beyond_margin);
   return contour.limit_mm * (1.0 - contour.margin) -
          std::min(reserve_mm, kMostReserve * contour.limit_mm);

@@ -16,13 +16,14 @@ using kernel::outcome::Reason;
 using kernel::signal::Frame;
 using kernel::signal::Point;
 
+// What halving and doubling them does to the rib pocket: README, "What the constants do".
 constexpr double kRiseRoom = 0.98;  // share of the limit that a rise may use
 constexpr double kRiseRoomInPause = 0.85;
-constexpr double kTieMm = 1e-4;       // errors closer than this are equal
-constexpr double kTie = 1e-9;         // other objectives
-constexpr double kStretchTurn = 0.1;  // rad by which an even stretch may depart from its mean
-constexpr double kTraceRoom = 1.02;
-constexpr double kTraceRoomMm = 2e-4;
+constexpr double kStretchTurn = 0.1;   // rad by which an even stretch may depart from its mean
+constexpr double kTraceRoom = 1.02;    // over the fall's own error: twenty times what a forecast …
+constexpr double kTraceRoomMm = 2e-4;  // … is off by, and twice (0.1 % + 0.1 µm, forecast.hpp)
+constexpr double kTieMm = 1e-4;        // errors closer than this are equal: a forecast's 0.1 µm
+constexpr double kTie = 1e-9;          // other objectives: their rounding
 
 /// Adds a forecast to what the decision took; its steps.
 std::size_t count(const Forecast::Result& result, FeedGovernor::Output& output) noexcept {

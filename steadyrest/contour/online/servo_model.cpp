@@ -15,9 +15,15 @@ namespace {
 
 using kernel::signal::Frame;
 
-constexpr double kGainSpan = 3.0;      // k₀/3 … 3·k₀
-constexpr double kMinTravelMm = 0.02;  // of a window that is worth a row
-constexpr double kMaxGapRatio = 1.9;   // a missing sample ends the window
+// k₀/3 … 3·k₀. A file that is further off is to be corrected: test NeverLeavesItsBounds….
+constexpr double kGainSpan = 3.0;
+// Of a window that is worth a row: 0.3 counts of 1 µm are 1.5 % of it, about what row_noise_ratio
+// says of the law. Test NeedsFiftiethsOfAMillimetre….
+constexpr double kMinTravelMm = 0.02;
+// A missing sample, 2 periods, ends the window; up to 1.9 it is late. Test AMissingSample….
+constexpr double kMaxGapRatio = 1.9;
+// Of the drive's limit; the rest is for friction and cutting force, which the command does not
+// show. Test LearnsBelowFourFifths….
 constexpr double kSaturationShare = 0.8;
 
 kernel::outcome::Refusal refuse(std::string what) {

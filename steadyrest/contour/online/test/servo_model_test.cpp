@@ -165,6 +165,48 @@ TEST(ServoModel, ASaturatedDriveTeachesNothing) {
   EXPECT_EQ(model.state().axis[0].rows, 0u);
 }
 
+TEST(ServoModel, LearnsBelowFourFifthsOfTheDrivesLimitAndNotAbove) {
+  const auto rows = [](double acceleration_mm_s2) {
+    ServoModel::Config config;
+    config.axes = 1;
+    config.drive_mm_s2[0] = 100.0;
+    ServoModel model = ServoModel::make(config).value();
+    TrueAxis axis({50.0, 0.0, 0.0}, 0.0);
+    run(model, axis, 1.0, 0.001,
+        [=](double t) { return 0.5 * acceleration_mm_s2 * (t + 1.0) * (t + 1.0); });
+    return model.state().axis[0].rows;
+  };
+  EXPECT_GT(rows(75.0), 0U);
+  EXPECT_EQ(rows(88.0), 0U);
+}
+
+TEST(ServoModel, NeedsFiftiethsOfAMillimetreOfTravelInAWindow) {
+  const auto rows = [](double speed_mm_s) {
+    ServoModel model = model_with({50.0, 0.0, 0.0});
+    TrueAxis axis({50.0, 0.0, 0.0}, 0.0);
+    run(model, axis, 1.0, 0.001, [=](double t) { return speed_mm_s * t; });
+    return model.state().axis[0].rows;
+  };
+  EXPECT_EQ(rows(0.015 / 0.040), 0U);
+  EXPECT_GT(rows(0.025 / 0.040), 0U);
+}
+
+TEST(ServoModel, AMissingSampleEndsTheWindowAndALateOneDoesNot) {
+  const auto rows = [](double thirtieth_s) {
+    ServoModel model = model_with({50.0, 0.0, 0.0});
+    Frame frame;
+    for (int i = 1; i <= 1000; ++i) {
+      frame.time_s += i % 30 == 0 ? thirtieth_s : 0.001;
+      frame.axis[0].command_mm = 30.0 * frame.time_s;
+      frame.axis[0].actual_mm = frame.axis[0].command_mm - 0.6;
+      model.update(frame);
+    }
+    return model.state().axis[0].rows;
+  };
+  EXPECT_EQ(rows(0.002), 0U);  // 29 ms are left, a window takes 40
+  EXPECT_GT(rows(0.0018), 0U);
+}
+
 TEST(ServoModel, RefusesAGainOutsideOfItsRange) {
   ServoModel::Config config;
   config.prior[1].gain_1_s = 0.0;
