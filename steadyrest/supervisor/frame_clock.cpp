@@ -14,9 +14,14 @@ namespace {
 
 using kernel::outcome::Reason;
 
-constexpr double kSlackSteps = 1.5;    // beyond the calls: a late stamp and a lost frame
-constexpr double kMemorySteps = 16.0;  // of the usual step
-constexpr double kMostSteps = 1.1;     // that one call counts: as many as can have passed in it
+constexpr double kSlackSteps =
+    1.5;  // beyond the calls: a late stamp, half a step, and a lost frame
+// Of the usual step: the jitter of the stamps gets into it by 1/√31, less than a fifth.
+constexpr double kMemorySteps = 16.0;
+// That one call counts: as many as can have passed in it. So a clock that runs fast carries the
+// usual step along by 0.1/16 a call at most. Property CreditNeverPassesTheRealTime….
+constexpr double kMostSteps = 1.1;
+// As long as the memory. Test ASlowSourceCountsFromItsSeventeenthFrame.
 constexpr std::uint32_t kSlowerRun = 16;
 constexpr double kFarthestS = 1e10;     // beyond it a double has no steps as small as a cycle
 constexpr double kLongestStepS = 10.0;  // no source delivers more slowly

@@ -18,13 +18,15 @@ using motion::online::Estimate;
 using motion::online::LineTable;
 using motion::online::MotionEstimator;
 
-constexpr double kGapCycles = 50.0;
-constexpr double kImpossibleSpeed = 2.0;  ///< times the axis's largest
+constexpr double kGapCycles = 50.0;  ///< as MotionEstimator's
+/// Times the axis's largest: overshoot stays below it, a counter that was set is far above.
+constexpr double kImpossibleSpeed = 2.0;
 /// A count beyond it cannot be told from its neighbours in mm.
 constexpr double kFarthestCount = 1e12;
-constexpr double kMostLost = 255.0;
-constexpr double kSigmas = 4.0;  ///< as MotionEstimator takes of a σ that it learnt
-constexpr double kFits = 0.004;  ///< counts RMS that a learnt table is wrong by on ideal lines
+constexpr double kMostLost = 255.0;  ///< what the field holds
+constexpr double kSigmas = 4.0;      ///< as MotionEstimator takes of a σ that it learnt
+/// Counts RMS that a learnt table is wrong by on ideal lines: motion/README.md, calibration.
+constexpr double kFits = 0.004;
 
 /// How far a line may stand off from where it is taken to be.
 /// With a table, what is left of the lines' errors; without one, the machine file's bound. A table

@@ -22,8 +22,9 @@ using kernel::override::OffsetEnvelope;
 using machine::Mode;
 
 // Age of the frame before the first one was read: stale by any limit.
-constexpr double kNeverReadS = 1e9;
-/// Between two blocks a control may show idle for some cycles with the tool in the cut.
+constexpr double kNeverReadS = 1e9;  ///< older than any limit on stale input
+/// Between two blocks a control may show idle for some cycles with the tool in the cut. Tests
+/// AfterAnAbortTheOffsetFades, ADwellOrAShortIdleInTheCutKeepsTheOffset.
 constexpr double kIdleLeavesCutS = 1.0;
 
 // No table, no override: the machine file need not name what the control does not have.

@@ -24,7 +24,7 @@
 /// neutral with the reason. All O(1) for each request, noexcept, without allocation.
 namespace steadyrest::kernel::override {
 
-inline constexpr double kMaxRequestRatio = 10.0;
+inline constexpr double kMaxRequestRatio = 10.0;  ///< five times what a control lets through
 
 /// The reason says that the room asks for something.
 [[nodiscard]] constexpr bool is_wish(outcome::Reason reason) noexcept {

@@ -14,7 +14,7 @@
 namespace steadyrest::kernel::override {
 namespace {
 
-constexpr double kTimeTolerance = 1e-9;
+constexpr double kTimeTolerance = 1e-9;  // s: rounding of summed cycles
 
 outcome::Refusal not_walkable(const Table& table, std::size_t from, std::size_t to) {
   return {.kind = outcome::Kind::bad_input,

@@ -22,11 +22,18 @@ using kernel::signal::Motion;
 
 namespace {
 
-constexpr double kHold_s = 1.0;         ///< the filters are told at least that often
-constexpr double kStands_rev_s = 0.01;  ///< slower is the noise of a standing encoder
-constexpr double kGap_s = 60.0;         ///< what happened in longer gaps is not known
-constexpr double kBeyondSpeed = 1.2;    ///< of the fastest that was fitted
-constexpr double kThere_mm = 1e-4;      ///< nearer to the wish is there
+/// The filters are told at least that often. Of a mode with τ = 1 min a second's mean instead of
+/// its course is off by 1/(2·60) of what the level changed in it.
+constexpr double kHold_s = 1.0;
+/// Slower is the noise of a standing encoder: 0.6 rpm, one count of 1024 in 0.1 s.
+constexpr double kStands_rev_s = 0.01;
+/// What happened in longer gaps is not known: a restart or a lost link, no pause between blocks.
+/// Test AfterAGapTheMachineHasStood.
+constexpr double kGap_s = 60.0;
+/// Of the fastest that was fitted: with heat as n^1.5 a fifth more speed is a third more of it, as
+/// far as the levels are carried on. Test HoldsAboveTheSpeedsThatWereFitted.
+constexpr double kBeyondSpeed = 1.2;
+constexpr double kThere_mm = 1e-4;  ///< nearer to the wish is there: a control's finest increment
 
 bool feeds(Motion motion) noexcept {
   return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;

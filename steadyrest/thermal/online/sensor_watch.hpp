@@ -30,6 +30,7 @@ namespace steadyrest::thermal::online {
 /// Fixed size, noexcept, no allocation.
 class SensorWatch {
  public:
+  // The reasons are above; each is met from both sides by a test in sensor_watch_test.cpp.
   static constexpr double kColdest_c = -20.0;
   static constexpr double kHottest_c = 80.0;
   static constexpr double kStep_k = 3.0;

@@ -33,8 +33,12 @@ class StateFilter {
   static constexpr std::size_t kBias = kMaxThermalModes;
   static constexpr std::size_t kGain = kMaxThermalModes + 1;
   static constexpr std::size_t kStates = kMaxThermalModes + 2;
-  static constexpr std::size_t kWindow = 12;  ///< readings that say whether the model fits
-  static constexpr std::size_t kLeast = 4;    ///< fewer say nothing
+  /// Readings that say whether the model fits. Held to ±3 each, a lasting error of e shows when
+  /// e·√N > 3.09: one standard deviation in 10 readings. Test ASmallErrorThatStaysIsToldFromNoise.
+  static constexpr std::size_t kWindow = 12;
+  /// Fewer say nothing: four are the fewest of which two at ±3 reach neither point, 18 < 18.5 of
+  /// χ²₄ and 6/√4 < 3.09. Test AnOutlierChangesNothingAndAloneSaysNothing.
+  static constexpr std::size_t kLeast = 4;
 
   struct Config {
     kernel::machine::ThermalAxis axis;
