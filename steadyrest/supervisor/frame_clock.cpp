@@ -14,9 +14,10 @@ namespace {
 
 using kernel::outcome::Reason;
 
-constexpr double kSlackSteps =
-    1.5;  // beyond the calls: a late stamp, half a step, and a lost frame
-// Of the usual step: the jitter of the stamps gets into it by 1/√31, less than a fifth.
+// Beyond the calls: a late stamp, half a step, and a lost frame. Test AStampMayBeLate….
+constexpr double kSlackSteps = 1.5;
+// Of the usual step: the jitter of the stamps gets into it by 1/√31, less than a fifth. Test
+// TheUsualStepFollowsByASixteenth.
 constexpr double kMemorySteps = 16.0;
 // That one call counts: as many as can have passed in it. So a clock that runs fast carries the
 // usual step along by 0.1/16 a call at most. Property CreditNeverPassesTheRealTime….

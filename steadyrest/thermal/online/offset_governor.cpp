@@ -28,7 +28,7 @@ constexpr double kHold_s = 1.0;
 /// Slower is the noise of a standing encoder: 0.6 rpm, one count of 1024 in 0.1 s.
 constexpr double kStands_rev_s = 0.01;
 /// What happened in longer gaps is not known: a restart or a lost link, no pause between blocks.
-/// Test AfterAGapTheMachineHasStood.
+/// Test AGapBelowAMinuteIsNone.
 constexpr double kGap_s = 60.0;
 /// Of the fastest that was fitted: with heat as n^1.5 a fifth more speed is a third more of it, as
 /// far as the levels are carried on. Test HoldsAboveTheSpeedsThatWereFitted.

@@ -232,6 +232,17 @@ TEST(OffsetGovernor, AfterAGapTheMachineHasStood) {
   EXPECT_NEAR(on.cycle().displacement_mm[kZ], warm * std::exp(-900.0 / kTau_s), 1e-5);
 }
 
+TEST(OffsetGovernor, AGapBelowAMinuteIsNone) {
+  const auto risen_mm = [](double gap_s) {
+    Governed on;
+    const double before = on.seconds(100.0).displacement_mm[kZ];
+    on.frame.time_s += gap_s;
+    return std::abs(on.cycle().displacement_mm[kZ]) - std::abs(before);
+  };
+  EXPECT_GT(risen_mm(55.0), 0.0);
+  EXPECT_LT(risen_mm(65.0), 0.0);
+}
+
 TEST(OffsetGovernor, RefusesWhatItCannotDo) {
   auto machine = mill();
   machine.thermal.axis[0].mode[0].tau_s = -1.0;

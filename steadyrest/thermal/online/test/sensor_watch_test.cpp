@@ -77,7 +77,7 @@ TEST(SensorWatch, AFineSensorThatStopsToMoveIsStuckAfterTwoHours) {
 
 TEST(SensorWatch, AFineSensorThatNeverMovesIsStuckToo) {
   Watched watched([](double) { return 21.373; });
-  EXPECT_LT(watched.doubted_at_h(8.0, Reason::thermal_sensor_stuck), 4.0);
+  EXPECT_NEAR(watched.doubted_at_h(8.0, Reason::thermal_sensor_stuck), 2.0, 0.1);
 }
 
 // The false alarm that matters: in a temperature-controlled room a sensor of 0.1 K repeats itself
@@ -104,6 +104,31 @@ TEST(SensorWatch, ACoarseSensorThatMovedAndStopsIsStuckAfterEightHours) {
   // 10 h and 8 h later, less the time that its last step had lasted.
   EXPECT_GT(at_h, 17.0);
   EXPECT_LT(at_h, 21.0);
+}
+
+TEST(SensorWatch, IsStuckAfterThreeTimesTheLongestStandThatItHasShown) {
+  // It stands from 2 h to 3.5 h and moves again; at 5 h it stops.
+  Watched watched(
+      [](double hours) { return fine(hours > 2.0 && hours < 3.5 ? 2.0 : std::min(hours, 5.0)); });
+  EXPECT_NEAR(watched.doubted_at_h(15.0, Reason::thermal_sensor_stuck), 5.0 + 3.0 * 1.5, 0.1);
+}
+
+TEST(SensorWatch, IsStuckOnlyBesideTwoExcursionsOfAKelvin) {
+  const auto stuck_beside = [](const std::function<double(double)>& other) {
+    SensorWatch watch;
+    for (int i = 0; i < 8 * 360; ++i) {
+      const double hours = i / 360.0;
+      Temperatures now = kernel::signal::unknown_temperatures();
+      now[0] = 21.373;
+      now[1] = other(hours) + 0.013 * std::sin(hours * 977.0);
+      watch.update(10.0, 2, now);
+    }
+    return watch.fault(0) == Reason::thermal_sensor_stuck;
+  };
+  const auto up = [](double hours) { return 24.0 + 1.5 * std::min(hours, 1.0); };
+  EXPECT_FALSE(stuck_beside(up));
+  EXPECT_TRUE(stuck_beside([&](double hours) { return hours < 2.0 ? up(hours) : 24.0; }));
+  EXPECT_FALSE(stuck_beside([](double hours) { return 24.0 + 0.4 * std::sin(hours * 6.0); }));
 }
 
 // A closed shop over a weekend: silence is a fault only while others speak.
@@ -136,6 +161,22 @@ TEST(SensorWatch, WhatNoMachineShowsIsWild) {
   EXPECT_EQ(from_the_start.doubted_at_h(0.9, Reason::thermal_sensor_wild), 0.0);
   from_the_start.doubted_at_h(1.1, Reason::thermal_sensor_wild);
   EXPECT_TRUE(from_the_start.believed());
+}
+
+TEST(SensorWatch, ItsRangeEndsTwentyBelowAndEightyAbove) {
+  const auto doubted = [](double value_c) {
+    Watched watched([=](double hours) { return value_c + 0.013 * std::sin(hours * 977.0); });
+    return !std::isnan(watched.doubted_at_h(0.9, Reason::thermal_sensor_wild));
+  };
+  EXPECT_TRUE(doubted(-25.0));
+  EXPECT_FALSE(doubted(-15.0));
+  EXPECT_FALSE(doubted(75.0));
+  EXPECT_TRUE(doubted(85.0));
+}
+
+TEST(SensorWatch, AStepBelowThreeKelvinIsBelieved) {
+  Watched watched([](double hours) { return fine(hours) + (hours < 1.0 ? 0.0 : 2.9); });
+  EXPECT_TRUE(std::isnan(watched.doubted_at_h(1.4, Reason::none)));
 }
 
 TEST(SensorWatch, AStepIsWildUntilAMachineCouldHaveComeThatFar) {
