@@ -12,6 +12,7 @@
 namespace steadyrest::motion::online {
 namespace {
 
+// Which test fails when one is moved: README, "What the constants do".
 constexpr double kOdds = 0.01;       ///< of a stop at any constant jerk, beforehand
 constexpr double kOddsKnown = 0.5;   ///< … when it is the known one
 constexpr double kSame = 0.03;       ///< to this it is the known one

@@ -10,7 +10,8 @@
 namespace steadyrest::motion::online {
 namespace {
 
-constexpr double kMissRatio = 1.5;
+constexpr double kMissRatio = 1.5;  // midway between a period and two
+// Stamps in a row that lie back; one or two are wrong stamps. Test GoesOnAfterTheClockWasSetBack.
 constexpr int kClockWasSet = 3;
 constexpr double kBinUnitS = 1e-9;
 

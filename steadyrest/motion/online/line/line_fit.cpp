@@ -8,7 +8,7 @@ namespace steadyrest::motion::online {
 namespace {
 
 /// The middle line is far from the middle of the time where the speed changes much; there the fit
-/// is a poor one.
+/// is a poor one. README, "What the constants do".
 constexpr double kMostSkew = 0.25;
 constexpr std::size_t kTerms = 4;
 

@@ -10,6 +10,7 @@ namespace {
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
+// Which test fails when one is moved: README, "What the constants do".
 constexpr double kPhaseLearn =
     0.02;  ///< of a residual, per edge: a phase is seen a quarter of the time
 /// Share of an error that is forgotten when it is learnt anew. A fit is a little wrong in the same

@@ -9,6 +9,7 @@
 namespace steadyrest::motion::online {
 namespace {
 
+// Which test fails when one is moved: README, "What the constants do".
 constexpr double kLongest = 0.08;       ///< s; a window that took longer is no smooth motion
 constexpr double kMostResidual = 0.15;  ///< counts
 constexpr double kForgetPower = 0.9995;
