@@ -7,7 +7,7 @@
 namespace steadyrest::chatter::online {
 namespace {
 
-constexpr double kSameSpeed = 0.01;
+constexpr double kSameSpeed = 0.01;  // rounding of S words; override steps are 5 % apart
 
 }  // namespace
 

@@ -15,6 +15,8 @@ using kernel::outcome::Reason;
 
 namespace {
 
+// What halving and doubling does to the tests: README, "What the constants do". The rates that
+// they give together: bench/chatter/detector_hunt.
 constexpr double kSteady = 0.003;   // relative spread of the speed that still counts as constant
 constexpr double kGuardBins = 1.5;  // half width of what a line takes of the spectrum
 constexpr double kWideBins = 8.0;   // tooth orders nearer than this leave no gap to look into

@@ -15,6 +15,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// README, "What the constants do". 64 blocks are 0.1 s, the window of the spectrum.
 constexpr double kBlockRate = 625.0;  // 1/s
 constexpr double kSame = 1e-3;        // of a column's energy: the columns before give the rest
 constexpr std::size_t kSpare = 4;     // rows more than columns

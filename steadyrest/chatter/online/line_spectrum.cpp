@@ -12,11 +12,13 @@
 namespace steadyrest::chatter::online {
 namespace {
 
-constexpr double kPart = 10.0;  // of a line: this many times the noise
-constexpr double kClip = 3.0;   // bins above are no noise
-constexpr double kClipBias =
-    1.36;  // mean of an exponential over its mean clipped so again and again
-constexpr double kHannEnergy = 0.375;  // mean of the squared window
+// Of a line: this many times the noise, which a bin of white noise passes with e⁻¹⁰ = 5·10⁻⁵.
+constexpr double kPart = 10.0;
+constexpr double kClip = 3.0;  // bins above are no noise; of white noise e⁻³ = 5 % of them
+// White noise's bins are exponential. Clipping at c = 3 times the mean leaves the mean
+// 1 − c·e⁻ᶜ/(1 − e⁻ᶜ): 0.843, 0.781, 0.751, 0.735 after kNoisePasses, of which this is the inverse.
+constexpr double kClipBias = 1.36;
+constexpr double kHannEnergy = 0.375;  // mean of the squared window, sin⁴
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 kernel::outcome::Refusal refuse(const char* what) {

@@ -14,7 +14,7 @@ namespace steadyrest::chatter::online {
 /// sample.
 ///
 /// Law: Hann window over the last n samples, n the power of 2 next to window_s·fs, anew every n/8.
-/// Noise level m of a bin: the mean, three times over without the bins above 3·m. A bin above 10·m
+/// Noise level m of a bin: the mean, four times over without the bins above 3·m. A bin above 10·m
 /// is part of a line. The strongest bin's frequency is interpolated by f = (k + δ)·fs/n,
 /// δ = (2r − 1)/(r + 1), r the amplitude ratio of the stronger neighbour to the peak (Grandke
 /// 1983).

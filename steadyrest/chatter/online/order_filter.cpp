@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kUnknown = 10.0;    // p at the start, as in the source
 constexpr double kSlowStart = 0.01;  // the same of runout, as if 100 samples had been heard
-constexpr double kHighest = 0.45;    // of the sample rate
+constexpr double kHighest = 0.45;    // of the sample rate; 0.5 is the last that can be told
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 kernel::outcome::Refusal refuse(std::string what) {

@@ -16,8 +16,10 @@ using kernel::outcome::Reason;
 namespace {
 
 constexpr double kSameRatio = 1e-6;
-constexpr double kRuleReach = 0.025;  // of the speed, between the rule's and the step's
-constexpr double kRuleWaves = 0.1;    // and of a wave, where many lie between two teeth
+// Of the speed, between the rule's and the step's: half a step of a switch in steps of 5 %.
+constexpr double kRuleReach = 0.025;
+// And of a wave, where many lie between two teeth. README, "What the constants do".
+constexpr double kRuleWaves = 0.1;
 
 kernel::outcome::Refusal refuse(const char* what) {
   return {kernel::outcome::Kind::bad_input, {}, 0, what, "correct the table of speeds"};
