@@ -120,16 +120,16 @@ kernel::outcome::Result<void> check(const FeedGovernor::Config& config) {
   }
   if (!(config.contour.min_ratio > 0.0 && config.contour.min_ratio <= config.contour.max_ratio)) {
     return std::unexpected(
-        refuse("the feed ratios of [contour] are " + std::to_string(config.contour.min_ratio) + " … " +
-                   std::to_string(config.contour.max_ratio) + "; allowed: above 0, rising",
+        refuse("the feed ratios of [contour] are " + std::to_string(config.contour.min_ratio) +
+                   " … " + std::to_string(config.contour.max_ratio) + "; allowed: above 0, rising",
                "correct min_percent and max_percent in [contour]"));
   }
   if (!(config.envelope.feed_fall_1_s > 0.0 && config.envelope.feed_rise_1_s > 0.0)) {
-    return std::unexpected(refuse("the feed's slew limits are " +
-                                      std::to_string(config.envelope.feed_fall_1_s) + " 1/s down and " +
-                                      std::to_string(config.envelope.feed_rise_1_s) +
-                                      " 1/s up; allowed: above 0",
-                                  "correct the slew limits in [envelope]"));
+    return std::unexpected(
+        refuse("the feed's slew limits are " + std::to_string(config.envelope.feed_fall_1_s) +
+                   " 1/s down and " + std::to_string(config.envelope.feed_rise_1_s) +
+                   " 1/s up; allowed: above 0",
+               "correct the slew limits in [envelope]"));
   }
   if (!(config.work_share > 0.0 && config.work_share <= 1.0)) {
     return std::unexpected(
