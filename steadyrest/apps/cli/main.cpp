@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <string>
+#include <vector>
+
 #include <steadyrest/apps/cli/chatter/verb_chatter_detect.hpp>
 #include <steadyrest/apps/cli/chatter/verb_chatter_fit.hpp>
 #include <steadyrest/apps/cli/chatter/verb_chatter_lobes.hpp>
@@ -25,35 +29,163 @@
 #include <steadyrest/apps/cli/thermal/verb_thermal_forecast.hpp>
 #include <steadyrest/apps/cli/thermal/verb_thermal_plan.hpp>
 
+namespace steadyrest::apps::cli {
+namespace {
+
+/// A verb, or a word that only leads to verbs.
+struct Entry {
+  const char* path = nullptr;
+  const char* does = nullptr;
+  void (*add)(Session&, Verb&) = nullptr;
+  std::array<const char*, 3> examples{};
+};
+
+/// The command line: every verb that works, in the order in which --help has them.
+constexpr Entry kVerbs[] = {
+    {"cut",
+     "Cut a part twice on the simulated machine, without and with the layer, and compare",
+     add_verb_cut,
+     {"examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml --report "
+      "out/rib-pocket"}},
+    {"doctor",
+     "Check a machine file and this computer's clock, and measure whether the layer fits in the "
+     "control cycle",
+     add_verb_doctor,
+     {"--machine examples/machines/vmc-840d.toml"}},
+    {"chatter", "Chatter: stability of a cut"},
+    {"chatter simulate",
+     "Simulate a cut in time; the tool may leave the material",
+     add_verb_chatter_simulate,
+     {"examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5 --seconds 0.5 -o out.csv "
+      "--report out/cut"}},
+    {"contour", "Contour error"},
+    {"contour limit",
+     "Contour error on an arc and the feed that holds it, in closed form",
+     add_verb_contour_limit,
+     {"--radius-mm 10 --kv-1-s 50 --max-error-mm 0.010"}},
+    {"motion", "Motion of the axes from their encoders"},
+    {"motion units",
+     "Convert feed and overload to the control's counts and ticks, and back",
+     add_verb_motion_units,
+     {"--feed-mm-min 20000 --cycle-hz 1000 --count-mm 0.001",
+      "--counts-per-tick2 0.9 --cycle-hz 1000"}},
+    {"motion encoder",
+     "Find the finest encoder for a speed, or the largest speed for an encoder",
+     add_verb_motion_encoder,
+     {"--feed-mm-min 7500 --lead-mm 10 --max-frequency-hz 300000",
+      "--speed-rpm 2000 --max-frequency-hz 300000",
+      "--lines-per-rev 2500 --lead-mm 10 --max-frequency-hz 300000"}},
+    {"motion estimate",
+     "Estimate velocity and acceleration from a log of counts (CSV: t_s,count)",
+     add_verb_motion_estimate,
+     {"examples/logs/sine-edges.csv --input edges --count-mm 0.001 --cycle-hz 1000 "
+      "--max-acceleration 25 --max-jerk 300 -o out.csv --report out/motion"}},
+    {"motion bench",
+     "Compare all estimators on exactly known motions",
+     add_verb_motion_bench,
+     {"--scenes sine,s-curve --phases 1"}},
+    {"motion calibrate",
+     "Calibrate an encoder's lines from a log of edges (CSV: t_s,count)",
+     add_verb_motion_calibrate,
+     {"examples/logs/sine-edges.csv --count-mm 0.001 -o lines.toml"}},
+    {"chatter radius",
+     "Is a cut stable at this speed and depth, constant or modulated?",
+     add_verb_chatter_radius,
+     {"examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5",
+      "examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 1 --law sine --rva 0.2 --rvf "
+      "0.1 --report out/growth"}},
+    {"chatter lobes",
+     "Map stability over speed and depth, with the border at each speed",
+     add_verb_chatter_lobes,
+     {"examples/processes/slot-922hz.toml --speeds-rpm 5000:15000:101 --depths-mm 0:5:51 -o "
+      "lobes.csv --speed-rpm 5000 --depth-mm 1 --machine examples/machines/vmc-840d.toml --report "
+      "out/lobes"}},
+    {"chatter plan",
+     "Choose the override step or speed law that keeps a cut stable",
+     add_verb_chatter_plan,
+     {"examples/processes/slot-922hz.toml --machine examples/machines/vmc-840d.toml --speed-rpm "
+      "5000 --depth-mm 1 --report out/plan"}},
+    {"chatter fit",
+     "Fit modes to measured frequency responses of the tool tip (tap test)",
+     add_verb_chatter_fit,
+     {"examples/processes/tap-922hz.csv --axis x -o modes.toml --report out/tap"}},
+    {"chatter detect",
+     "Find chatter in a recorded vibration or sound, and a better speed",
+     add_verb_chatter_detect,
+     {"examples/logs/slot-chatter.csv --machine examples/machines/vmc-840d.toml --teeth 2",
+      "examples/logs/slot-chatter.csv --machine examples/machines/vmc-840d.toml --process "
+      "examples/processes/slot-922hz.toml --report out/heard"}},
+    {"thermal", "Thermal drift"},
+    {"thermal fit",
+     "Fit a machine's thermal passport to the log of a test",
+     add_verb_thermal_fit,
+     {"examples/thermal/spindle-test.csv -o passport.toml --report out/fit"}},
+    {"thermal forecast",
+     "Forecast the thermal drift of each axis",
+     add_verb_thermal_forecast,
+     {"--machine examples/paper-thermal/machine.toml --cyclogram "
+      "examples/paper-thermal/cyclogram.toml --report out/forecast"}},
+    {"thermal plan",
+     "Plan when to correct each axis, and by how much",
+     add_verb_thermal_plan,
+     {"--machine examples/paper-thermal/machine.toml --cyclogram "
+      "examples/paper-thermal/cyclogram.toml --tolerance-um 10 --level 0 --report out/plan"}},
+    {"thermal adapt",
+     "Check measured parts against the plan; learn the level k and the model's gains",
+     add_verb_thermal_adapt,
+     {"examples/paper-thermal/plan.json --measured examples/paper-thermal/measured.csv"}},
+    {"program", "NC programs"},
+    {"program check",
+     "Read an NC program and list every word it does not understand, by line",
+     add_verb_program_check,
+     {"examples/programs/rib-pocket.ngc --dialect linuxcnc"}},
+    {"program moves",
+     "List the moves of an NC program as CSV, in mm, degrees and mm/min",
+     add_verb_program_moves,
+     {"examples/programs/rib-pocket.ngc --dialect linuxcnc"}},
+    {"program time",
+     "How long a program takes on a machine, and where the time goes",
+     add_verb_program_time,
+     {"examples/programs/rib-pocket.ngc --dialect linuxcnc --machine "
+      "examples/machines/linuxcnc-mill.toml"}},
+    {"program compensate",
+     "Write a plan's corrections into an NC program, and prove the result",
+     add_verb_program_compensate,
+     {"examples/programs/rib-pocket.ngc --dialect linuxcnc --plan examples/plans/rib-pocket.json "
+      "--machine examples/machines/linuxcnc-mill.toml -o rib-pocket-compensated.ngc"}},
+    {"program strip",
+     "Take the corrections out of an NC program, byte for byte",
+     add_verb_program_strip,
+     {"examples/programs/rib-pocket.ngc -o rib-pocket.ngc"}},
+    {"program verify",
+     "Prove that a changed program differs only by a plan's corrections",
+     add_verb_program_verify,
+     {"examples/programs/rib-pocket.ngc examples/plans/rib-pocket-compensated.ngc --dialect "
+      "linuxcnc --plan examples/plans/rib-pocket.json --machine "
+      "examples/machines/linuxcnc-mill.toml"}},
+};
+
+}  // namespace
+}  // namespace steadyrest::apps::cli
+
 /// The command line: every verb that works is registered here, in the order in which --help has
 /// them.
 /// The order here is the order in --help: the main job first, then the verbs that people try next.
 int main(int argc, char** argv) {
   using namespace steadyrest::apps::cli;  // NOLINT(google-build-using-namespace): the verbs
   Session session;
-  add_verb_cut(session);
-  add_verb_doctor(session);
-  add_verb_chatter_simulate(session);
-  add_verb_contour_limit(session);
-  add_verb_motion_units(session);
-  add_verb_motion_encoder(session);
-  add_verb_motion_estimate(session);
-  add_verb_motion_bench(session);
-  add_verb_motion_calibrate(session);
-  add_verb_chatter_radius(session);
-  add_verb_chatter_lobes(session);
-  add_verb_chatter_plan(session);
-  add_verb_chatter_fit(session);
-  add_verb_chatter_detect(session);
-  add_verb_thermal_fit(session);
-  add_verb_thermal_forecast(session);
-  add_verb_thermal_plan(session);
-  add_verb_thermal_adapt(session);
-  add_verb_program_check(session);
-  add_verb_program_moves(session);
-  add_verb_program_time(session);
-  add_verb_program_compensate(session);
-  add_verb_program_strip(session);
-  add_verb_program_verify(session);
+  for (const Entry& entry : kVerbs) {
+    if (entry.add == nullptr) {
+      session.group(entry.path, entry.does);
+      continue;
+    }
+    std::vector<std::string> examples;
+    for (const char* example : entry.examples) {
+      if (example != nullptr) {
+        examples.emplace_back(example);
+      }
+    }
+    entry.add(session, session.verb(entry.path, entry.does, examples));
+  }
   return session.main(argc, argv);
 }

@@ -347,15 +347,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_chatter_detect(Session& session) {
-  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  Verb& verb = session.verb(
-      group, "detect", "Find chatter in a recorded vibration or sound, and a better speed",
-      "chatter detect examples/logs/slot-chatter.csv --machine examples/machines/vmc-840d.toml "
-      "--teeth 2\n"
-      "  steadyrest chatter detect examples/logs/slot-chatter.csv --machine "
-      "examples/machines/vmc-840d.toml --process examples/processes/slot-922hz.toml "
-      "--report out/heard");
+void add_verb_chatter_detect(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.reads("signal", options->signal, "CSV (t_s, value, optional speed_rpm) or WAV, 1 … 50 kHz")
       ->required();

@@ -161,11 +161,7 @@ Outcome run(const Options& options) {
 
 }  // namespace
 
-void add_verb_chatter_fit(Session& session) {
-  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  Verb& verb = session.verb(
-      group, "fit", "Fit modes to measured frequency responses of the tool tip (tap test)",
-      "chatter fit examples/processes/tap-922hz.csv --axis x -o modes.toml --report out/tap");
+void add_verb_chatter_fit(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.reads("frf", options->files,
              "Responses at one point in one direction: CSV (frequency_hz, real and imag or "

@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest chatter fit`: modes out of measured frequency responses.
-void add_verb_chatter_fit(Session& session);
+void add_verb_chatter_fit(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -339,13 +339,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_chatter_lobes(Session& session) {
-  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  Verb& verb = session.verb(
-      group, "lobes", "Map stability over speed and depth, with the border at each speed",
-      "chatter lobes examples/processes/slot-922hz.toml --speeds-rpm 5000:15000:101 "
-      "--depths-mm 0:5:51 -o lobes.csv --speed-rpm 5000 --depth-mm 1 "
-      "--machine examples/machines/vmc-840d.toml --report out/lobes");
+void add_verb_chatter_lobes(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.reads("process", options->process, "Process file (TOML): tool, cut and modes")->required();
   verb.also_reads([options] { return offline::response_files(options->process); });

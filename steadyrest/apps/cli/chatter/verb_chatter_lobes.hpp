@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest chatter lobes`: the stability map and its border.
-void add_verb_chatter_lobes(Session& session);
+void add_verb_chatter_lobes(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

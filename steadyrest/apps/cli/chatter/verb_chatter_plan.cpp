@@ -339,12 +339,7 @@ void add_options(Verb& verb, Options& o) {
 
 }  // namespace
 
-void add_verb_chatter_plan(Session& session) {
-  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  Verb& verb = session.verb(
-      group, "plan", "Choose the override step or speed law that keeps a cut stable",
-      "chatter plan examples/processes/slot-922hz.toml --machine "
-      "examples/machines/vmc-840d.toml --speed-rpm 5000 --depth-mm 1 --report out/plan");
+void add_verb_chatter_plan(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_options(verb, *options);
   session.on(verb, [options](Progress& progress) { return run(*options, progress); });

@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest chatter plan`: the override step or the speed law that keeps a cut stable.
-void add_verb_chatter_plan(Session& session);
+void add_verb_chatter_plan(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

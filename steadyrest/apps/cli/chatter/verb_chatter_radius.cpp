@@ -93,13 +93,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_chatter_radius(Session& session) {
-  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  Verb& verb = session.verb(
-      group, "radius", "Is a cut stable at this speed and depth, constant or modulated?",
-      "chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5\n"
-      "  steadyrest chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm "
-      "1 --law sine --rva 0.2 --rvf 0.1 --report out/growth");
+void add_verb_chatter_radius(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_cut_point_options(verb, options->cut);
   verb.reports(options->report);

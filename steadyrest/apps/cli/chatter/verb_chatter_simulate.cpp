@@ -214,12 +214,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_chatter_simulate(Session& session) {
-  CLI::App& group = session.group("chatter", "Chatter: stability of a cut");
-  Verb& verb = session.verb(
-      group, "simulate", "Simulate a cut in time; the tool may leave the material",
-      "chatter simulate examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.5 "
-      "--seconds 0.5 -o out.csv --report out/cut");
+void add_verb_chatter_simulate(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_cut_point_options(verb, options->cut);
   verb.add_option("--seconds", options->seconds, "Length of the cut")->capture_default_str();

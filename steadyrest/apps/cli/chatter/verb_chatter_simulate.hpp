@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest chatter simulate`: a cut in time, with the tool leaving the material.
-void add_verb_chatter_simulate(Session& session);
+void add_verb_chatter_simulate(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

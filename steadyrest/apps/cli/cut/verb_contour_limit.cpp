@@ -114,11 +114,7 @@ Outcome run(const Options& options) {
 
 }  // namespace
 
-void add_verb_contour_limit(Session& session) {
-  CLI::App& group = session.group("contour", "Contour error");
-  Verb& verb = session.verb(group, "limit",
-                            "Contour error on an arc and the feed that holds it, in closed form",
-                            "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 0.010");
+void add_verb_contour_limit(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.add_option("--radius-mm", options->radius_mm, "Radius of the arc")
       ->required()

@@ -303,12 +303,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_cut(Session& session) {
-  Verb& verb = session.verb(
-      session.root(), "cut",
-      "Cut a part twice on the simulated machine, without and with the layer, and compare",
-      "cut examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml "
-      "--report out/rib-pocket");
+void add_verb_cut(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);

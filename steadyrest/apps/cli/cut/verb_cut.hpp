@@ -7,6 +7,6 @@ namespace steadyrest::apps::cli {
 
 /// `cut PROGRAM --machine M [--report DIR]`: the main job. The part is cut twice on the simulated
 /// machine, without and with the layer, and the two are compared.
-void add_verb_cut(Session& session);
+void add_verb_cut(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

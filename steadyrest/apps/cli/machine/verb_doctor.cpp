@@ -165,11 +165,7 @@ Answer report_refused(Refusals refusals) {
 
 }  // namespace
 
-void add_verb_doctor(Session& session) {
-  Verb& verb = session.verb(session.root(), "doctor",
-                            "Check a machine file and this computer's clock, and measure whether "
-                            "the layer fits in the control cycle",
-                            "doctor --machine examples/machines/vmc-840d.toml");
+void add_verb_doctor(Session& session, Verb& verb) {
   auto path = std::make_shared<std::string>();
   add_machine_option(verb, *path);
   session.on(verb, [path](Progress& progress) -> Outcome {

@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest doctor`: is this machine file fit to be worked with, here and now?
-void add_verb_doctor(Session& session);
+void add_verb_doctor(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -180,10 +180,7 @@ Outcome run(Options options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_motion_bench(Session& session) {
-  CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  Verb& verb = session.verb(group, "bench", "Compare all estimators on exactly known motions",
-                            "motion bench --scenes sine,s-curve --phases 1");
+void add_verb_motion_bench(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.add_option("--scenes", options->bench.scenes,
                   "Scenes or families of scenes, separated by commas: sine, sine-line, "

@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest motion bench`: all estimators on all scenes, with known truth.
-void add_verb_motion_bench(Session& session);
+void add_verb_motion_bench(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -187,11 +187,7 @@ Outcome run(Options options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_motion_calibrate(Session& session) {
-  CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  Verb& verb = session.verb(
-      group, "calibrate", "Calibrate an encoder's lines from a log of edges (CSV: t_s,count)",
-      "motion calibrate examples/logs/sine-edges.csv --count-mm 0.001 -o lines.toml");
+void add_verb_motion_calibrate(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.reads("log", options->log, "Log of edges with columns t_s and count; - is stdin")
       ->required();

@@ -158,13 +158,7 @@ Outcome run(const Options& options) {
 
 }  // namespace
 
-void add_verb_motion_encoder(Session& session) {
-  CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  Verb& verb = session.verb(
-      group, "encoder", "Find the finest encoder for a speed, or the largest speed for an encoder",
-      "motion encoder --feed-mm-min 7500 --lead-mm 10 --max-frequency-hz 300000\n"
-      "  steadyrest motion encoder --speed-rpm 2000 --max-frequency-hz 300000\n"
-      "  steadyrest motion encoder --lines-per-rev 2500 --lead-mm 10 --max-frequency-hz 300000");
+void add_verb_motion_encoder(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.add_option("--max-frequency-hz", options->max_frequency_hz,
                   "Largest frequency of one channel of the encoder");

@@ -7,6 +7,6 @@ namespace steadyrest::apps::cli {
 
 /// `steadyrest motion encoder`: the encoder that a speed permits, and the speed that an encoder
 /// permits.
-void add_verb_motion_encoder(Session& session);
+void add_verb_motion_encoder(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

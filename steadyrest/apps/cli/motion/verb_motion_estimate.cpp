@@ -296,12 +296,7 @@ void add_axis_options(Verb& verb, Options& options) {
 
 }  // namespace
 
-void add_verb_motion_estimate(Session& session) {
-  CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  Verb& verb = session.verb(
-      group, "estimate", "Estimate velocity and acceleration from a log of counts (CSV: t_s,count)",
-      "motion estimate examples/logs/sine-edges.csv --input edges --count-mm 0.001 "
-      "--cycle-hz 1000 --max-acceleration 25 --max-jerk 300 -o out.csv --report out/motion");
+void add_verb_motion_estimate(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.reads("log", options->log, "Log with columns t_s and count; - is stdin")->required();
   verb.add_option("--input", options->input,

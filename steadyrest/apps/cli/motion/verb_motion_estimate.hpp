@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest motion estimate`: velocity and acceleration out of a log of counts.
-void add_verb_motion_estimate(Session& session);
+void add_verb_motion_estimate(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -110,12 +110,7 @@ Outcome run(const Options& options) {
 
 }  // namespace
 
-void add_verb_motion_units(Session& session) {
-  CLI::App& group = session.group("motion", "Motion of the axes from their encoders");
-  Verb& verb = session.verb(group, "units",
-                            "Convert feed and overload to the control's counts and ticks, and back",
-                            "motion units --feed-mm-min 20000 --cycle-hz 1000 --count-mm 0.001\n"
-                            "  steadyrest motion units --counts-per-tick2 0.9 --cycle-hz 1000");
+void add_verb_motion_units(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.add_option("--cycle-hz", options->sampling.cycle_hz, "Control cycles per second")
       ->required();

@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest motion units`: feed and overload in counts and ticks, and back.
-void add_verb_motion_units(Session& session);
+void add_verb_motion_units(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -110,11 +110,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_program_check(Session& session) {
-  CLI::App& group = session.group("program", "NC programs");
-  Verb& verb = session.verb(
-      group, "check", "Read an NC program and list every word it does not understand, by line",
-      "program check examples/programs/rib-pocket.ngc --dialect linuxcnc");
+void add_verb_program_check(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_program_options(verb, options->program);
   verb.get_option("--dialect")->required(false);

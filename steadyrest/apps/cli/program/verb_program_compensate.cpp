@@ -63,13 +63,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_program_compensate(Session& session) {
-  CLI::App& group = session.group("program", "NC programs");
-  Verb& verb = session.verb(
-      group, "compensate", "Write a plan's corrections into an NC program, and prove the result",
-      "program compensate examples/programs/rib-pocket.ngc --dialect linuxcnc --plan "
-      "examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml "
-      "-o rib-pocket-compensated.ngc");
+void add_verb_program_compensate(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->rewrite.program);
   add_rewrite_options(verb, options->rewrite);

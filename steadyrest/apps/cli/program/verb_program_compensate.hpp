@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest program compensate`: writes a plan of corrections into an NC program, and proves it.
-void add_verb_program_compensate(Session& session);
+void add_verb_program_compensate(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

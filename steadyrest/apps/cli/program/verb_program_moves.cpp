@@ -46,11 +46,7 @@ Outcome run(const Options& options, bool json) {
 
 }  // namespace
 
-void add_verb_program_moves(Session& session) {
-  CLI::App& group = session.group("program", "NC programs");
-  Verb& verb = session.verb(group, "moves",
-                            "List the moves of an NC program as CSV, in mm, degrees and mm/min",
-                            "program moves examples/programs/rib-pocket.ngc --dialect linuxcnc");
+void add_verb_program_moves(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_program_options(verb, options->program);
   verb.writes("-o,--output", options->output, "Write the table to this file instead of stdout",

@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `steadyrest program moves`: the moves of an NC program as CSV.
-void add_verb_program_moves(Session& session);
+void add_verb_program_moves(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -29,11 +29,7 @@ Outcome run(const Options& options) {
 
 }  // namespace
 
-void add_verb_program_strip(Session& session) {
-  CLI::App& group = session.group("program", "NC programs");
-  Verb& verb =
-      session.verb(group, "strip", "Take the corrections out of an NC program, byte for byte",
-                   "program strip examples/programs/rib-pocket.ngc -o rib-pocket.ngc");
+void add_verb_program_strip(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.reads("FILE", options->file, "The changed program")->required();
   verb.writes("-o,--output", options->output,

@@ -175,12 +175,7 @@ Outcome run(const Options& options) {
 
 }  // namespace
 
-void add_verb_program_time(Session& session) {
-  CLI::App& group = session.group("program", "NC programs");
-  Verb& verb =
-      session.verb(group, "time", "How long a program takes on a machine, and where the time goes",
-                   "program time examples/programs/rib-pocket.ngc --dialect linuxcnc "
-                   "--machine examples/machines/linuxcnc-mill.toml");
+void add_verb_program_time(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);

@@ -45,13 +45,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_program_verify(Session& session) {
-  CLI::App& group = session.group("program", "NC programs");
-  Verb& verb = session.verb(
-      group, "verify", "Prove that a changed program differs only by a plan's corrections",
-      "program verify examples/programs/rib-pocket.ngc "
-      "examples/plans/rib-pocket-compensated.ngc --dialect linuxcnc --plan "
-      "examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml");
+void add_verb_program_verify(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_machine_program_options(verb, options->rewrite.program);
   verb.reads("CHANGED", options->changed, "The changed program")->required();

@@ -7,6 +7,6 @@ namespace steadyrest::apps::cli {
 
 /// `steadyrest program verify`: proves that a changed program differs by a plan's corrections
 /// alone.
-void add_verb_program_verify(Session& session);
+void add_verb_program_verify(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -88,25 +88,25 @@ Session::Session() : app_("Steadyrest: the corrective layer for CNC machines", s
 }
 
 /// A group is made by the first verb that asks for it.
-CLI::App& Session::group(const std::string& name, const std::string& description) {
-  // Verbs register one by one, each asking for its group.
-  const auto found =
-      app_.get_subcommands([&name](CLI::App* candidate) { return candidate->get_name() == name; });
-  if (!found.empty()) {
-    return *found.front();
-  }
-  CLI::App& made = *app_.add_subcommand(name, description);
-  made.require_subcommand(1);
-  return made;
+void Session::group(const std::string& name, const std::string& description) {
+  app_.add_subcommand(name, description)->require_subcommand(1);
 }
 
-Verb& Session::verb(CLI::App& parent, const std::string& name, const std::string& description,
-                    const std::string& example) {
-  const auto owned = std::make_shared<Verb>(description, name, parent);
+Verb& Session::verb(const std::string& path, const std::string& description,
+                    const std::vector<std::string>& examples) {
+  const std::size_t blank = path.find(' ');
+  CLI::App& parent =
+      blank == std::string::npos ? app_ : *app_.get_subcommand(path.substr(0, blank));
+  const auto owned = std::make_shared<Verb>(
+      description, path.substr(blank == std::string::npos ? 0 : blank + 1), parent);
   parent.add_subcommand(owned);
   Verb& made = *owned;
   made.add_flag("--json", json_, "Print one JSON object, and nothing else, on stdout");
-  made.footer("Example:\n  steadyrest " + example);
+  std::string footer = "Example:";
+  for (const std::string& example : examples) {
+    footer += "\n  steadyrest " + path + " " + example;
+  }
+  made.footer(footer);
   return made;
 }
 

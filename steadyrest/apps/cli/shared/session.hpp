@@ -53,13 +53,12 @@ class Session {
  public:
   Session();
 
-  [[nodiscard]] CLI::App& root() { return app_; }
-  /// A word that only leads to verbs: `steadyrest contour …`. Made once, then found again.
-  CLI::App& group(const std::string& name, const std::string& description);
-  /// A verb. `example` is the command that --help ends with, without `steadyrest`; it must work as
-  /// it stands in the project's folder.
-  Verb& verb(CLI::App& parent, const std::string& name, const std::string& description,
-             const std::string& example);
+  /// A word that only leads to verbs: `steadyrest contour …`. Before its verbs.
+  void group(const std::string& name, const std::string& description);
+  /// A verb by its path: `cut`, or `contour limit`. --help ends with the path and each of the
+  /// `examples`; they must work as they stand in the project's folder.
+  Verb& verb(const std::string& path, const std::string& description,
+             const std::vector<std::string>& examples);
   void on(Verb& verb, Run run);
 
   /// --json was given: stdout belongs to the answer's one object.

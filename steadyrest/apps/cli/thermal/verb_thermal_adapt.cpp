@@ -273,13 +273,7 @@ Outcome run(const AdaptOptions& options) {
 
 }  // namespace
 
-void add_verb_thermal_adapt(Session& session) {
-  CLI::App& group = session.group("thermal", "Thermal drift");
-  Verb& verb =
-      session.verb(group, "adapt",
-                   "Check measured parts against the plan; learn the level k and the model's gains",
-                   "thermal adapt examples/paper-thermal/plan.json --measured "
-                   "examples/paper-thermal/measured.csv");
+void add_verb_thermal_adapt(Session& session, Verb& verb) {
   auto options = std::make_shared<AdaptOptions>();
   verb.reads("plan", options->plan, "PLAN.json that the parts were made with")->required();
   verb.reads("--measured", options->measured,

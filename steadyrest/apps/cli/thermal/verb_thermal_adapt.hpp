@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `thermal adapt`: measured parts change the level k and the gains of the model.
-void add_verb_thermal_adapt(Session& session);
+void add_verb_thermal_adapt(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -349,11 +349,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 }  // namespace
 
-void add_verb_thermal_fit(Session& session) {
-  CLI::App& group = session.group("thermal", "Thermal drift");
-  Verb& verb = session.verb(group, "fit", "Fit a machine's thermal passport to the log of a test",
-                            "thermal fit examples/thermal/spindle-test.csv -o passport.toml "
-                            "--report out/fit");
+void add_verb_thermal_fit(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   verb.reads("log", options->log,
              "Test log: CSV, or CSV packed with gzip, with time_s, spindle_rpm, displacements "

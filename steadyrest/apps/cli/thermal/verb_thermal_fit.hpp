@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `thermal fit`: the thermal passport of a machine from the log of a test.
-void add_verb_thermal_fit(Session& session);
+void add_verb_thermal_fit(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -170,12 +170,7 @@ Outcome run(const Options& options) {
 
 }  // namespace
 
-void add_verb_thermal_forecast(Session& session) {
-  CLI::App& group = session.group("thermal", "Thermal drift");
-  Verb& verb =
-      session.verb(group, "forecast", "Forecast the thermal drift of each axis",
-                   "thermal forecast --machine examples/paper-thermal/machine.toml "
-                   "--cyclogram examples/paper-thermal/cyclogram.toml --report out/forecast");
+void add_verb_thermal_forecast(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
   verb.writes("-o,--output", options->output, "Write the curve to this CSV", curve_content());

@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `thermal forecast`: the displacement with its uncertainty.
-void add_verb_thermal_forecast(Session& session);
+void add_verb_thermal_forecast(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

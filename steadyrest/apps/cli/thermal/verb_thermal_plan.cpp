@@ -279,12 +279,7 @@ Outcome run(const Options& options) {
 
 }  // namespace
 
-void add_verb_thermal_plan(Session& session) {
-  CLI::App& group = session.group("thermal", "Thermal drift");
-  Verb& verb = session.verb(group, "plan", "Plan when to correct each axis, and by how much",
-                            "thermal plan --machine examples/paper-thermal/machine.toml "
-                            "--cyclogram examples/paper-thermal/cyclogram.toml "
-                            "--tolerance-um 10 --level 0 --report out/plan");
+void add_verb_thermal_plan(Session& session, Verb& verb) {
   auto options = std::make_shared<Options>();
   add_thermal_options(verb, options->thermal);
   verb.add_option("--tolerance-um", options->tolerance_um,

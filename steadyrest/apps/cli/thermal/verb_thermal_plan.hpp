@@ -6,6 +6,6 @@
 namespace steadyrest::apps::cli {
 
 /// `thermal plan`: the system R of corrections.
-void add_verb_thermal_plan(Session& session);
+void add_verb_thermal_plan(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

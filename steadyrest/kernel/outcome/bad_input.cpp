@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+namespace steadyrest::kernel::outcome {
+
+Refusal bad_input(std::string what, std::string to_do) {
+  return bad_input("", 0, std::move(what), std::move(to_do));
+}
+
+Refusal bad_input(std::string file, std::string what, std::string to_do) {
+  return bad_input(std::move(file), 0, std::move(what), std::move(to_do));
+}
+
+Refusal bad_input(std::string file, std::size_t line, std::string what, std::string to_do) {
+  return {Kind::bad_input, std::move(file), line, std::move(what), std::move(to_do)};
+}
+
+}  // namespace steadyrest::kernel::outcome
