@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
@@ -12,8 +13,7 @@
 namespace steadyrest::sim {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kPlunge = 0.05;  ///< less of the path's speed than this lies in the XY plane
@@ -127,11 +127,8 @@ Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
 Result<void> SimulatedMachine::write(const kernel::signal::Command& command) noexcept {
   // A supervisor that writes in another mode than act is a fault worth stopping for.
   if (!command.write) {
-    return std::unexpected(Refusal{Kind::bad_input,
-                                   {},
-                                   0,
-                                   "the port was handed a command in a mode that does not write",
-                                   "write only in mode act"});
+    return refuse("the port was handed a command in a mode that does not write",
+                  "write only in mode act");
   }
   command_ = command;
   return {};

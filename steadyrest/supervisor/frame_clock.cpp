@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/supervisor/frame_clock.hpp>
 
 // Good time: a stamp is believed when it lies no further ahead than the calls since the last good
@@ -31,12 +32,8 @@ constexpr double kLongestStepS = 10.0;  // no source delivers more slowly
 
 kernel::outcome::Result<FrameClock> FrameClock::make(const Config& config) {
   if (!(std::isfinite(config.usual_s) && config.usual_s > 0.0)) {
-    return std::unexpected(
-        kernel::outcome::Refusal{.kind = kernel::outcome::Kind::bad_input,
-                                 .file = {},
-                                 .line = 0,
-                                 .what = "the interpolator's period is not above 0",
-                                 .to_do = "correct interpolator_period_ms"});
+    return kernel::outcome::refuse("the interpolator's period is not above 0",
+                                   "correct interpolator_period_ms");
   }
   return FrameClock(config);
 }

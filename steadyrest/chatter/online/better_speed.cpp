@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <steadyrest/chatter/online/better_speed.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::chatter::online {
 namespace {
@@ -13,11 +14,7 @@ constexpr double kSameSpeed = 0.01;  // rounding of S words; override steps are 
 
 kernel::outcome::Result<BetterSpeed> BetterSpeed::make(Config config) {
   if (!(config.again_s > 0.0)) {
-    return std::unexpected(kernel::outcome::Refusal{kernel::outcome::Kind::bad_input,
-                                                    {},
-                                                    0,
-                                                    "again_s is not above 0",
-                                                    "correct the detector's setup"});
+    return kernel::outcome::refuse("again_s is not above 0", "correct the detector's setup");
   }
   auto detector = Detector::make(config.detector);
   if (!detector) {

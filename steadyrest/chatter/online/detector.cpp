@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <steadyrest/chatter/online/detector.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // A sample passes the order filter, the once-a-revolution witness and the energies; what the filter
 // leaves goes to the spectrum, which speaks every eighth of a window. Each spectrum starts a
@@ -51,7 +52,7 @@ constexpr double kHop = 1.0 / 8.0;  // of the window, between spectra
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 kernel::outcome::Refusal refuse(const char* what) {
-  return {kernel::outcome::Kind::bad_input, {}, 0, what, "correct the detector's setup"};
+  return kernel::outcome::bad_input(what, "correct the detector's setup");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // Copy, butterflies, power, noise floor and sum of the lines are steps of a state machine: each
 // call does a portion, so that a transform of a thousand points never falls into one cycle.
@@ -22,7 +23,7 @@ constexpr double kHannEnergy = 0.375;  // mean of the squared window, sin⁴
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 kernel::outcome::Refusal refuse(const char* what) {
-  return {kernel::outcome::Kind::bad_input, {}, 0, what, "correct the detector's setup"};
+  return kernel::outcome::bad_input(what, "correct the detector's setup");
 }
 
 }  // namespace

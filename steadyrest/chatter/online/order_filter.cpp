@@ -5,6 +5,7 @@
 #include <string>
 
 #include <steadyrest/chatter/online/order_filter.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // A Kalman filter whose states are cosine and sine of each order. Between samples they turn with
 // the spindle, so a modulated speed needs no resampling. Each order keeps one scalar variance
@@ -19,7 +20,7 @@ constexpr double kHighest = 0.45;    // of the sample rate; 0.5 is the last that
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 kernel::outcome::Refusal refuse(std::string what) {
-  return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), "correct the detector's setup"};
+  return kernel::outcome::bad_input(std::move(what), "correct the detector's setup");
 }
 
 bool is_memory(double revolutions) {

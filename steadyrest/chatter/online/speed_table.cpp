@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <steadyrest/chatter/online/speed_table.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // A table from the planner answers by depth; without one the rule of thumb does: n = 60·f/(N·k)
 // puts a whole number k of waves between two teeth, where inner and outer wave are in phase and the
@@ -22,7 +23,7 @@ constexpr double kRuleReach = 0.025;
 constexpr double kRuleWaves = 0.1;
 
 kernel::outcome::Refusal refuse(const char* what) {
-  return {kernel::outcome::Kind::bad_input, {}, 0, what, "correct the table of speeds"};
+  return kernel::outcome::bad_input(what, "correct the table of speeds");
 }
 
 bool within(const std::vector<double>& values, double low) {

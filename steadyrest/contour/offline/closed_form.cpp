@@ -8,12 +8,14 @@
 #include <fmt/core.h>
 
 #include <steadyrest/contour/offline/closed_form.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -24,10 +26,9 @@ std::optional<Refusal> outside(std::string_view what, double value, double low, 
   if (std::isfinite(value) && above && value <= high) {
     return std::nullopt;
   }
-  return Refusal{Kind::bad_input, "", 0,
-                 fmt::format("{} = {:.10g}; allowed: {} {:.10g} … {:.10g}", what, value,
-                             low_allowed ? "from" : "above", low, high),
-                 "give a value in that range"};
+  return bad_input(fmt::format("{} = {:.10g}; allowed: {} {:.10g} … {:.10g}", what, value,
+                               low_allowed ? "from" : "above", low, high),
+                   "give a value in that range");
 }
 
 std::optional<Refusal> unfit(const Servo& servo, double radius_mm) {
@@ -119,9 +120,7 @@ Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double ma
     return std::unexpected(*refusal);
   }
   if (max_error_mm == radius_mm) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "the largest error is not below the radius",
-                                   "give an error below the radius"});
+    return refuse("the largest error is not below the radius", "give an error below the radius");
   }
   const double share = max_error_mm / radius_mm;
   // R′ = R ∓ ε: g − 1 = (1 ∓ ε/R)² − 1, written without the 1 that would swallow a small share.

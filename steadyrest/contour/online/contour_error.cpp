@@ -4,6 +4,7 @@
 
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/contour/online/window_search.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/math/geometry/foot_point.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
@@ -15,6 +16,7 @@ namespace steadyrest::contour::online {
 namespace {
 
 namespace geometry = math::geometry;
+using kernel::outcome::refuse;
 using kernel::signal::PathSegment;
 using kernel::signal::PathView;
 using kernel::signal::Point;
@@ -133,24 +135,17 @@ void measure(const Point& actual_mm, const Nearest& foot, const geometry::Statio
   output.foot_position_mm = foot.position_mm;
 }
 
-kernel::outcome::Refusal refuse(const char* what, const char* to_do) {
-  return {kernel::outcome::Kind::bad_input, {}, 0, what, to_do};
-}
-
 }  // namespace
 
 kernel::outcome::Result<ContourError> ContourError::make(const Config& config) {
   if (!(config.servo_gain_1_s >= 1.0 && config.servo_gain_1_s <= 1000.0)) {
-    return std::unexpected(refuse("the lowest servo gain is out of range; allowed: 1 … 1000 1/s",
-                                  "correct the axes' servo gain"));
+    return refuse("the lowest servo gain is out of range; allowed: 1 … 1000 1/s", "correct the axes' servo gain");
   }
   if (!(config.reserve_mm > 0.0 && config.reserve_mm <= 10.0)) {
-    return std::unexpected(refuse("the window's reserve is out of range; allowed: above 0 … 10 mm",
-                                  "correct the reserve"));
+    return refuse("the window's reserve is out of range; allowed: above 0 … 10 mm", "correct the reserve");
   }
   if (!(std::abs(geometry::norm(config.plane_normal) - 1.0) < 1e-6)) {
-    return std::unexpected(
-        refuse("the plane's normal has another length; allowed: 1", "give a unit vector"));
+    return refuse("the plane's normal has another length; allowed: 1", "give a unit vector");
   }
   return ContourError(config);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <steadyrest/contour/online/servo_model.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // Law: τ·ẍ + ẋ = k·e + a·ċ. Multiplied by φ(t) = 4t(T − t)/T², which vanishes at both ends of a
 // window, and integrated by parts, all derivatives move from the signals to φ: ∫φẋ = −∫φ′x, ∫φẍ =
@@ -27,11 +28,7 @@ constexpr double kMaxGapRatio = 1.9;
 constexpr double kSaturationShare = 0.8;
 
 kernel::outcome::Refusal refuse(std::string what) {
-  return {kernel::outcome::Kind::bad_input,
-          {},
-          0,
-          std::move(what),
-          "correct the axis in the machine file"};
+  return kernel::outcome::bad_input(std::move(what), "correct the axis in the machine file");
 }
 
 bool is_finite(const Frame& frame, std::size_t axes) noexcept {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/override/arbiter.hpp>
 #include <steadyrest/kernel/override/channel.hpp>
 
@@ -13,12 +14,10 @@ namespace steadyrest::kernel::override {
 namespace {
 
 outcome::Refusal no_step_between(const Channel::Config& config) {
-  return {.kind = outcome::Kind::bad_input,
-          .file = {},
-          .line = 0,
-          .what = fmt::format("the override table has no step within the envelope's {:g} … {:g} %",
-                              100.0 * config.min_ratio, 100.0 * config.max_ratio),
-          .to_do = "widen the envelope or correct the table"};
+  return outcome::bad_input(
+      fmt::format("the override table has no step within the envelope's {:g} … {:g} %",
+                  100.0 * config.min_ratio, 100.0 * config.max_ratio),
+      "widen the envelope or correct the table");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/override/arbiter.hpp>
 #include <steadyrest/kernel/override/envelope.hpp>
 
@@ -16,11 +17,8 @@ namespace {
 using outcome::Reason;
 
 outcome::Refusal refusal(const char* name, double value, const char* allowed) {
-  return {.kind = outcome::Kind::bad_input,
-          .file = {},
-          .line = 0,
-          .what = fmt::format("envelope: {} is {}; allowed: {}", name, value, allowed),
-          .to_do = "correct the envelope in the machine file"};
+  return outcome::bad_input(fmt::format("envelope: {} is {}; allowed: {}", name, value, allowed),
+                            "correct the envelope in the machine file");
 }
 
 bool positive(double value) noexcept {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/override/gray.hpp>
 #include <steadyrest/kernel/override/table.hpp>
 
@@ -18,29 +19,23 @@ namespace {
 
 using Check = std::optional<outcome::Refusal>;
 
-outcome::Refusal refusal(std::string what, std::string to_do) {
-  return {.kind = outcome::Kind::bad_input,
-          .file = {},
-          .line = 0,
-          .what = std::move(what),
-          .to_do = std::move(to_do)};
-}
-
 // Rising order makes "the next step" the neighbour in ratio as well as in code.
 Check check_ratios(const std::vector<double>& ratio) {
   if (ratio.empty()) {
-    return refusal("an override table has no steps", "list the ratio of each switch position");
+    return outcome::bad_input("an override table has no steps",
+                              "list the ratio of each switch position");
   }
   for (std::size_t i = 0; i < ratio.size(); ++i) {
     if (!std::isfinite(ratio[i]) || ratio[i] < 0.0) {
-      return refusal(
+      return outcome::bad_input(
           fmt::format("override step {} has ratio {}; allowed: a finite ratio ≥ 0", i, ratio[i]),
           "correct the value");
     }
     if (i > 0 && ratio[i] < ratio[i - 1]) {
-      return refusal(fmt::format("override step {} has ratio {}, less than {} of the step before",
-                                 i, ratio[i], ratio[i - 1]),
-                     "list the steps in rising order");
+      return outcome::bad_input(
+          fmt::format("override step {} has ratio {}, less than {} of the step before", i, ratio[i],
+                      ratio[i - 1]),
+          "list the steps in rising order");
     }
   }
   return std::nullopt;
@@ -50,7 +45,7 @@ Check check_ratios(const std::vector<double>& ratio) {
 Check check_codes(const Table::Config& config) {
   const auto& code = config.code;
   if (code.size() != config.ratio.size()) {
-    return refusal(
+    return outcome::bad_input(
         fmt::format("an override table has {} ratios and {} codes", config.ratio.size(),
                     code.size()),
         "give each step one code, or a Gray table none for the codes of positions 1, 2, 3 …");
@@ -61,10 +56,11 @@ Check check_codes(const Table::Config& config) {
   for (std::size_t i = 1; i < code.size(); ++i) {
     const int bits = std::popcount(code[i] ^ code[i - 1]);
     if (bits != 1) {
-      return refusal(fmt::format("Gray codes {:05b} and {:05b} of override steps {} and {} differ "
-                                 "in {} bits; neighbours differ in exactly one",
-                                 code[i - 1], code[i], i - 1, i, bits),
-                     "correct the codes, or say that the coding is binary");
+      return outcome::bad_input(
+          fmt::format("Gray codes {:05b} and {:05b} of override steps {} and {} differ "
+                      "in {} bits; neighbours differ in exactly one",
+                      code[i - 1], code[i], i - 1, i, bits),
+          "correct the codes, or say that the coding is binary");
     }
   }
   return std::nullopt;
@@ -72,12 +68,13 @@ Check check_codes(const Table::Config& config) {
 
 Check check_scalars(const Table::Config& config) {
   if (std::isnan(config.max_ratio) || config.max_ratio <= 0.0) {
-    return refusal(fmt::format("max_ratio of an override is {}; allowed: > 0", config.max_ratio),
-                   "give the ratio at which the control clips");
+    return outcome::bad_input(
+        fmt::format("max_ratio of an override is {}; allowed: > 0", config.max_ratio),
+        "give the ratio at which the control clips");
   }
   for (const double time_s : {config.scan_period_s, config.dead_time_s}) {
     if (!std::isfinite(time_s) || time_s < 0.0) {
-      return refusal(
+      return outcome::bad_input(
           fmt::format("a time of an override table is {} s; allowed: finite and ≥ 0", time_s),
           "correct the scan period and the dead time");
     }
@@ -119,9 +116,9 @@ outcome::Result<Table> Table::make(const Config& config) {
   std::ranges::sort(table.by_code_, {}, &CodeEntry::code);
   const auto twin = std::ranges::adjacent_find(table.by_code_, {}, &CodeEntry::code);
   if (twin != table.by_code_.end()) {
-    return std::unexpected(refusal(fmt::format("override steps {} and {} have the same code {:#b}",
-                                               twin->step, (twin + 1)->step, twin->code),
-                                   "give each step its own code"));
+    return outcome::refuse(fmt::format("override steps {} and {} have the same code {:#b}",
+                                       twin->step, (twin + 1)->step, twin->code),
+                           "give each step its own code");
   }
   table.ratio_ = std::move(filled.ratio);
   table.code_ = std::move(filled.code);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/override/transition.hpp>
 
 // A word of several bits on separate wires changes bit by bit, and a PLC may read it in between. A
@@ -17,15 +18,13 @@ namespace {
 constexpr double kTimeTolerance = 1e-9;  // s: rounding of summed cycles
 
 outcome::Refusal not_walkable(const Table& table, std::size_t from, std::size_t to) {
-  return {.kind = outcome::Kind::bad_input,
-          .file = {},
-          .line = 0,
-          .what = fmt::format(
-              "override codes {:#b} ({:g} %) and {:#b} ({:g} %) differ in {} bits: a PLC that sees "
-              "them change one by one reads a value that is neither",
-              table.code(from), 100.0 * table.ratio(from), table.code(to), 100.0 * table.ratio(to),
-              std::popcount(table.code(from) ^ table.code(to))),
-          .to_do = "use a port that latches the whole word, or a Gray table"};
+  return outcome::bad_input(
+      fmt::format(
+          "override codes {:#b} ({:g} %) and {:#b} ({:g} %) differ in {} bits: a PLC that sees "
+          "them change one by one reads a value that is neither",
+          table.code(from), 100.0 * table.ratio(from), table.code(to), 100.0 * table.ratio(to),
+          std::popcount(table.code(from) ^ table.code(to))),
+      "use a port that latches the whole word, or a Gray table");
 }
 
 }  // namespace
@@ -57,12 +56,9 @@ outcome::Result<void> check_walk(const Table& table) {
 
 outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config) {
   if (!std::isfinite(config.scan_period_s) || config.scan_period_s < 0.0) {
-    return std::unexpected(outcome::Refusal{
-        .kind = outcome::Kind::bad_input,
-        .file = {},
-        .line = 0,
-        .what = fmt::format("scan period is {} s; allowed: finite and ≥ 0", config.scan_period_s),
-        .to_do = "give the period at which the override word is read"});
+    return outcome::refuse(
+        fmt::format("scan period is {} s; allowed: finite and ≥ 0", config.scan_period_s),
+        "give the period at which the override word is read");
   }
   if (!config.latched) {
     if (auto walk = check_walk(table); !walk) {

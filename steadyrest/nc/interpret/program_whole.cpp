@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 
 // Programs from their first line to their last.
@@ -36,11 +37,10 @@ kernel::outcome::Refusal first_refusal(const Report& report, const std::string& 
     return {};
   }
   const read::Refused& first = report.refused.front();
-  return {.kind = kernel::outcome::Kind::bad_input,
-          .file = first.file.empty() ? path : first.file,
-          .line = first.line,
-          .what = first.word.empty() ? first.text : "`" + first.word + "`: " + first.text,
-          .to_do = "change this line, or choose the dialect that the program was written for"};
+  return kernel::outcome::bad_input(
+      first.file.empty() ? path : first.file, first.line,
+      first.word.empty() ? first.text : "`" + first.word + "`: " + first.text,
+      "change this line, or choose the dialect that the program was written for");
 }
 
 }  // namespace steadyrest::nc::interpret

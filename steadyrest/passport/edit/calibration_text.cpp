@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/edit/calibration_text.hpp>
 #include <steadyrest/passport/file/contradictions.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -22,9 +23,7 @@ namespace {
 using kernel::machine::Axis;
 using kernel::machine::Encoder;
 using kernel::machine::Machine;
-
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 
 /// Relative difference of two counts that still are the same: what ten printed digits lose.
 constexpr double kSameCount = 1e-6;
@@ -36,11 +35,6 @@ struct KeyValue {
   std::string name;
   std::string value;
 };
-
-std::unexpected<Refusal> refuse(const std::string& file, std::size_t line, std::string what,
-                                std::string to_do) {
-  return std::unexpected(Refusal{Kind::bad_input, file, line, std::move(what), std::move(to_do)});
-}
 
 /// With as many decimals as the step needs and no trailing zeros: a table of a million lines is the
 /// bulk of the file.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 #include <steadyrest/passport/file/contradictions.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -34,7 +35,6 @@ using kernel::machine::OverrideTable;
 using kernel::machine::Simulation;
 using kernel::machine::Spindle;
 
-using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 
 constexpr std::string_view kAxisOrder = "XYZABCUVW";
@@ -370,8 +370,7 @@ AllFaults parse_all_faults(std::string_view text, const std::string& file) {
 kernel::outcome::Result<std::string> read_text(const std::string& path) {
   std::string text;
   if (const std::string why = unreadable(path, text); !why.empty()) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, path, 0, why, "give the path of a machine file (TOML)"});
+    return kernel::outcome::refuse(path, why, "give the path of a machine file (TOML)");
   }
   return text;
 }

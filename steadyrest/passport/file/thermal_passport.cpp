@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
 #include <steadyrest/passport/file/thermal_section.hpp>
@@ -13,8 +14,7 @@ namespace {
 
 using kernel::machine::Thermal;
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 /// True when the file has nothing but [thermal]; its sections are read then. Everything else goes
@@ -51,8 +51,8 @@ Result<Thermal> parse_thermal_passport(std::string_view text, const std::string&
     return std::unexpected(faults.list.front());
   }
   if (thermal.axis.empty()) {
-    return std::unexpected(Refusal{Kind::bad_input, file, 0, "there is no [[thermal.axis]]",
-                                   "add the thermal passport: `steadyrest thermal fit` writes it"});
+    return refuse(file, "there is no [[thermal.axis]]",
+                  "add the thermal passport: `steadyrest thermal fit` writes it");
   }
   return thermal;
 }

@@ -13,6 +13,7 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/outcome/nearest.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
@@ -30,8 +31,7 @@ struct Faults {
     const auto later = std::upper_bound(
         list.begin(), list.end(), line,
         [](std::size_t at, const kernel::outcome::Refusal& fault) { return at < fault.line; });
-    list.insert(later,
-                {kernel::outcome::Kind::bad_input, file, line, std::move(what), std::move(to_do)});
+    list.insert(later, kernel::outcome::bad_input(file, line, std::move(what), std::move(to_do)));
   }
 };
 

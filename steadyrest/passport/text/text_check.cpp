@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 
 // What TOML's parser must not be given at all: bytes that are no text, and nesting that would
@@ -10,7 +11,7 @@
 namespace steadyrest::passport {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 /// A machine file needs three parts; sixteen leaves room.
@@ -58,15 +59,14 @@ std::optional<Refusal> unfit_bytes(std::string_view text) {
     // Control characters but tab and line ends: a TOML file has none, a binary file soon does.
     const unsigned c = byte_at(text, i);
     if ((c < 0x20U && c != '\t' && c != '\n' && c != '\r') || c == 0x7FU) {
-      return Refusal{Kind::bad_input, "", line_at(text, i),
-                     fmt::format("byte 0x{:02x} is not text; this looks like a binary file", c),
-                     "give a machine file: TOML in plain UTF-8"};
+      return bad_input("", line_at(text, i),
+                       fmt::format("byte 0x{:02x} is not text; this looks like a binary file", c),
+                       "give a machine file: TOML in plain UTF-8");
     }
     const std::size_t length = sequence_length(text, i);
     if (length == 0) {
-      return Refusal{Kind::bad_input, "", line_at(text, i),
-                     fmt::format("byte 0x{:02x} is not UTF-8", c),
-                     "save the file as UTF-8 (iconv -f CP1252 -t UTF-8, for example)"};
+      return bad_input("", line_at(text, i), fmt::format("byte 0x{:02x} is not UTF-8", c),
+                       "save the file as UTF-8 (iconv -f CP1252 -t UTF-8, for example)");
     }
     i += length;
   }
@@ -88,9 +88,9 @@ std::optional<Refusal> too_deep(std::string_view text) {
     } else if (c == ',' || c == '=' || c == '{' || c == '[') {
       parts = 1;
     } else if (c == '.' && !comment && ++parts > kMaxKeyParts) {
-      return Refusal{Kind::bad_input, "", line_at(text, i),
-                     fmt::format("more than {} dots in one key or value", kMaxKeyParts),
-                     "write plain keys below a [section]"};
+      return bad_input("", line_at(text, i),
+                       fmt::format("more than {} dots in one key or value", kMaxKeyParts),
+                       "write plain keys below a [section]");
     }
   }
   return std::nullopt;
@@ -101,15 +101,13 @@ std::optional<Refusal> too_deep(std::string_view text) {
 /// Size first, before anything walks through the text.
 std::optional<Refusal> unfit_text(std::string_view text) {
   if (text.size() > kMaxFileBytes) {
-    return Refusal{
-        Kind::bad_input, "", 0,
+    return bad_input(
         fmt::format("larger than {} MB; a machine file has a few kB", kMaxFileBytes >> 20U),
-        "give a machine file, not a program or a log"};
+        "give a machine file, not a program or a log");
   }
   if (std::all_of(text.begin(), text.end(),
                   [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; })) {
-    return Refusal{Kind::bad_input, "", 0, "the file is empty",
-                   "start from a file in examples/machines/"};
+    return bad_input("the file is empty", "start from a file in examples/machines/");
   }
   if (auto refusal = unfit_bytes(text)) {
     return refusal;

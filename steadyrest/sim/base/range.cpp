@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/sim/base/range.hpp>
 
 namespace steadyrest::sim {
 
 kernel::outcome::Refusal refusal(std::string what) {
-  return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), "correct the machine file"};
+  return kernel::outcome::bad_input(std::move(what), "correct the machine file");
 }
 
 // Written as not (low ≤ value ≤ high): a NaN fails it.

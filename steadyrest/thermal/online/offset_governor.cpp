@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/online/offset_governor.hpp>
 
 // A frame passes drive_on() (time, heat and sensors to the filters), probe() (a reading, once), and
@@ -12,9 +13,9 @@
 namespace steadyrest::thermal::online {
 
 namespace machine = kernel::machine;
-using kernel::outcome::Kind;
 using kernel::outcome::Reason;
 using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::signal::Frame;
 using kernel::signal::InForce;
@@ -86,12 +87,8 @@ int weight(Reason reason) noexcept {
 }
 
 std::unexpected<Refusal> too_many_sensors(std::size_t count) {
-  return std::unexpected(
-      Refusal{Kind::bad_input,
-              {},
-              0,
-              "the thermal passport names " + std::to_string(count) + " temperature sensors",
-              "use at most " + std::to_string(kernel::signal::kMaxTemperatures) + " on line"});
+  return refuse("the thermal passport names " + std::to_string(count) + " temperature sensors",
+                "use at most " + std::to_string(kernel::signal::kMaxTemperatures) + " on line");
 }
 
 }  // namespace

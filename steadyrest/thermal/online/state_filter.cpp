@@ -4,6 +4,7 @@
 #include <ranges>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/online/state_filter.hpp>
 
 // A Kalman filter over modes, bias and one scale of all levels. The modes themselves live in the
@@ -12,9 +13,8 @@
 // bias, and the scale only through what it has done to the modes.
 namespace steadyrest::thermal::online {
 
-using kernel::outcome::Kind;
 using kernel::outcome::Reason;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 namespace {
@@ -53,12 +53,8 @@ Result<StateFilter> StateFilter::make(const Config& config) {
     return std::unexpected(std::move(model.error()));
   }
   if (!usable(config)) {
-    return std::unexpected(
-        Refusal{Kind::bad_input,
-                {},
-                0,
-                "the filter for " + config.axis.name + " has bad settings",
-                "give standard deviations ≥ 0, a gate > 0, and scale limits on either side of 1"});
+    return refuse("the filter for " + config.axis.name + " has bad settings",
+                  "give standard deviations ≥ 0, a gate > 0, and scale limits on either side of 1");
   }
   return StateFilter(config, std::move(*model));
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/online/thermal_model.hpp>
 
 // The law of the README, one step at a time. Inputs are constant within a step, so each mode and
@@ -14,8 +15,7 @@
 namespace steadyrest::thermal::online {
 
 using kernel::machine::ThermalMode;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 namespace {
@@ -62,12 +62,9 @@ Result<ThermalModel> ThermalModel::make(const Config& config) {
       std::ranges::all_of(config.mode, usable) &&
       std::ranges::all_of(config.ambient, [](const auto& a) { return a.tau_s >= 0.0; });
   if (!fits) {
-    return std::unexpected(Refusal{Kind::bad_input,
-                                   {},
-                                   0,
-                                   "the thermal passport of " + config.name + " is incomplete",
-                                   "give each mode a positive time constant and either a rising "
-                                   "table of levels or a polynomial"});
+    return refuse("the thermal passport of " + config.name + " is incomplete",
+                  "give each mode a positive time constant and either a rising "
+                  "table of levels or a polynomial");
   }
   return ThermalModel(config);
 }

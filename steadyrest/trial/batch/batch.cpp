@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/sim/heat/thermal_growth.hpp>
 #include <steadyrest/trial/batch/acting_layer.hpp>
 #include <steadyrest/trial/batch/batch.hpp>
@@ -16,8 +17,7 @@
 namespace steadyrest::trial::batch {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kStep_s = 1.0;
@@ -279,10 +279,9 @@ Result<std::vector<BelievedAxis>> believed(const Job& job) {
     out.push_back(*std::move(axis));
   }
   if (out.empty()) {
-    return std::unexpected(Refusal{
-        Kind::bad_input, job.machine.file, 0,
-        "the machine file has no [[thermal.axis]] for any of its axes",
-        "add [[thermal.axis]] with the name of an axis: `steadyrest thermal fit` writes it"});
+    return refuse(
+        job.machine.file, "the machine file has no [[thermal.axis]] for any of its axes",
+        "add [[thermal.axis]] with the name of an axis: `steadyrest thermal fit` writes it");
   }
   return out;
 }

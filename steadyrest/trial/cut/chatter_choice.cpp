@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/plan/speed_table_of.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
 
@@ -16,8 +17,7 @@ namespace {
 
 using chatter::offline::PlanDecision;
 using chatter::online::Law;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using nc::plan::PathEventKind;
 
@@ -85,12 +85,10 @@ Result<std::vector<ChatterChoice>> choose(
     const std::vector<double>& speeds_rev_s, double depth_mm,
     const std::function<void(double share, std::string_view what)>& progress) {
   if (speeds_rev_s.size() > kMostSpeeds) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, "", 0,
-                fmt::format("the program cuts at {} spindle speeds; the planner takes {}",
-                            speeds_rev_s.size(), kMostSpeeds),
-                "plan each cut with `chatter plan`, or set law and amplitude in [chatter] of the "
-                "machine file"});
+    return refuse(fmt::format("the program cuts at {} spindle speeds; the planner takes {}",
+                              speeds_rev_s.size(), kMostSpeeds),
+                  "plan each cut with `chatter plan`, or set law and amplitude in [chatter] of the "
+                  "machine file");
   }
   std::vector<ChatterChoice> choices;
   const auto count = static_cast<double>(speeds_rev_s.size());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
@@ -18,8 +19,7 @@ namespace steadyrest::trial::cut {
 namespace {
 
 using contour::online::ContourError;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::signal::Frame;
 using kernel::signal::Point;
@@ -131,9 +131,8 @@ Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
   auto layer = std::make_shared<supervisor::Supervisor>(std::move(*made));
   layer->set_mode(kernel::machine::Mode::act);
   if (job.listener && !layer->listen(*job.listener)) {
-    return std::unexpected(Refusal{
-        Kind::bad_input, "", 0, "the machine has no spindle override to act against chatter with",
-        "add [override.spindle], or use --chatter machine"});
+    return refuse("the machine has no spindle override to act against chatter with",
+                  "add [override.spindle], or use --chatter machine");
   }
   return layer;
 }
@@ -241,9 +240,8 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
     // The truth is that of the end of this cycle; the command acts in the next.
     on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()), reason));
     if (standstill.too_long(*frame)) {
-      return std::unexpected(Refusal{Kind::bad_input, "", frame->program_line,
-                                     "no motion for ten simulated minutes in this line",
-                                     "look for a 0 % override or a very long dwell"});
+      return refuse("", frame->program_line, "no motion for ten simulated minutes in this line",
+                    "look for a 0 % override or a very long dwell");
     }
     if (frame->cycle % kCyclesBetweenProgress == 0) {
       job.progress(frame->path_position_mm / length_mm);

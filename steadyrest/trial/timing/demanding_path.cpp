@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/trial/timing/demanding_path.hpp>
@@ -18,8 +19,7 @@ namespace steadyrest::trial::timing {
 namespace {
 
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using nc::interpret::Move;
 using nc::interpret::MoveKind;
@@ -164,9 +164,8 @@ Result<std::shared_ptr<const nc::plan::PlannedPath>> demanding_path(const Machin
                                                                     double least_s) {
   const auto plane = plane_of(machine);
   if (!plane) {
-    return std::unexpected(Refusal{Kind::bad_input, machine.file, 0,
-                                   "the machine has fewer than two of the axes X, Y, Z",
-                                   "add the axes that contour together"});
+    return refuse(machine.file, "the machine has fewer than two of the axes X, Y, Z",
+                  "add the axes that contour together");
   }
   nc::plan::PathBuilder builder(machine);
   Pen pen(machine, *plane, builder);

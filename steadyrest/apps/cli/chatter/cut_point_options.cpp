@@ -6,10 +6,12 @@
 
 #include <steadyrest/apps/cli/chatter/cut_point_options.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
 
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
@@ -22,9 +24,8 @@ void add_cut_point_options(Verb& verb, CutPointOptions& options) {
 }
 
 Refusal not_allowed(const char* option, double value, const char* allowed) {
-  return {kernel::outcome::Kind::bad_input, "", 0,
-          fmt::format("{} {} is not {}", option, value, allowed),
-          fmt::format("give a number {}", allowed)};
+  return bad_input(fmt::format("{} {} is not {}", option, value, allowed),
+                   fmt::format("give a number {}", allowed));
 }
 
 Result<CutPoint> cut_point(const CutPointOptions& options) {

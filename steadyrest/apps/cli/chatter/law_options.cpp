@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/chatter/law_options.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -13,8 +14,7 @@ namespace {
 using chatter::offline::Modulation;
 using chatter::offline::Process;
 using chatter::online::Law;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 /// The map of one principal period is a product of pass maps. The pass count is bounded, and so is
@@ -26,22 +26,18 @@ constexpr int kMostLawPeriods = 64;
 constexpr double kSame = 1e-10;
 constexpr double kNear = 0.005;
 
-std::unexpected<Refusal> bad(std::string what, std::string to_do) {
-  return std::unexpected(Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)});
-}
-
 /// RVA = amplitude/mean speed is what the theory uses; the shop thinks in rev/min (Haas setting
 /// 165) or in per cent of the override. CLI11 has made sure that at most one of the three is given.
 Result<double> amplitude(const LawOptions& o, double speed_rpm) {
   if (!o.rva && !o.amplitude_rpm && !o.amplitude_percent) {
-    return bad(fmt::format("--law {} needs an amplitude", o.law),
-               "give --rva, --amplitude-percent or --amplitude-rpm");
+    return refuse(fmt::format("--law {} needs an amplitude", o.law),
+                  "give --rva, --amplitude-percent or --amplitude-rpm");
   }
   const double rva = o.rva             ? *o.rva
                      : o.amplitude_rpm ? *o.amplitude_rpm / speed_rpm
                                        : kernel::units::ratio_from_percent(*o.amplitude_percent);
   if (!(rva > 0.0 && rva < 1.0)) {
-    return bad(
+    return refuse(
         fmt::format("the amplitude is {:.6g} of the mean speed; it must be between 0 and 1", rva),
         "the spindle must not stop or reverse; 0.1 … 0.3 is usual");
   }
@@ -51,13 +47,13 @@ Result<double> amplitude(const LawOptions& o, double speed_rpm) {
 /// RVF = modulation frequency/rotation frequency, so RVF = 1/(period · rev/s).
 Result<double> frequency(const LawOptions& o, double speed_rpm) {
   if (!o.rvf && !o.period_s) {
-    return bad(fmt::format("--law {} needs a period", o.law), "give --rvf or --period-s");
+    return refuse(fmt::format("--law {} needs a period", o.law), "give --rvf or --period-s");
   }
   if (o.rvf && !(*o.rvf > 0.0 && std::isfinite(*o.rvf))) {
-    return bad(fmt::format("--rvf {}", *o.rvf), "give a ratio above 0, 0.01 … 0.5 is usual");
+    return refuse(fmt::format("--rvf {}", *o.rvf), "give a ratio above 0, 0.01 … 0.5 is usual");
   }
   if (o.period_s && !(*o.period_s > 0.0 && std::isfinite(*o.period_s))) {
-    return bad(fmt::format("--period-s {}", *o.period_s), "give a period above 0");
+    return refuse(fmt::format("--period-s {}", *o.period_s), "give a period above 0");
   }
   return o.rvf ? *o.rvf : 1.0 / (*o.period_s * kernel::units::rev_s_from_rpm(speed_rpm));
 }
@@ -78,9 +74,9 @@ Result<double> rational(double rvf, double passes_per_rev) {
       }
     }
   }
-  return bad(fmt::format("a modulation period of {:.6g} tooth passes; allowed: {:.3g} … {}", q,
-                         1.0 / kMostLawPeriods, kMostPasses),
-             "give a shorter period or a larger RVF");
+  return refuse(fmt::format("a modulation period of {:.6g} tooth passes; allowed: {:.3g} … {}", q,
+                            1.0 / kMostLawPeriods, kMostPasses),
+                "give a shorter period or a larger RVF");
 }
 
 }  // namespace
@@ -111,7 +107,7 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
   const bool numbers = options.rva || options.rvf || options.amplitude_rpm ||
                        options.amplitude_percent || options.period_s;
   if (options.law.empty() && numbers) {
-    return bad("a modulation without a law", "give --law, for example --law sine");
+    return refuse("a modulation without a law", "give --law, for example --law sine");
   }
   if (!options.modulated()) {
     return out;

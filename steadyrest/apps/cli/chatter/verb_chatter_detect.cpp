@@ -22,6 +22,7 @@
 #include <steadyrest/chatter/offline/signal/signal_file.hpp>
 #include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/chatter/online/speed_table.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -33,7 +34,7 @@ namespace {
 namespace offline = chatter::offline;
 namespace online = chatter::online;
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using kernel::units::rpm_from_rev_s;
@@ -59,7 +60,7 @@ struct Event : ChatterEvent {
 };
 
 Refusal bad(std::string what, std::string to_do, const std::string& file = {}) {
-  return {Kind::bad_input, file, 0, std::move(what), std::move(to_do)};
+  return bad_input(file, std::move(what), std::move(to_do));
 }
 
 /// Combinations and ranges that are wrong whatever the files say.

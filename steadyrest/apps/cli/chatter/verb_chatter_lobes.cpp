@@ -24,6 +24,7 @@
 #include <steadyrest/chatter/offline/depth/lobe_map.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -31,8 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace offline = chatter::offline;
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::units::rpm_from_rev_s;
 
@@ -123,9 +125,8 @@ Result<Made> make(const offline::Process& process, const offline::LobeMapConfig&
 Result<ChosenLaw> law_of(const Options& options, const offline::Process& process,
                          const std::vector<double>& speeds_rpm) {
   if (speeds_rpm.size() > 1 && (options.law.period_s || options.law.amplitude_rpm)) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, "", 0, "--period-s or --amplitude-rpm with several speeds",
-                "give --rvf, and --rva or --amplitude-percent: they apply at every speed"});
+    return refuse("--period-s or --amplitude-rpm with several speeds",
+                  "give --rvf, and --rva or --amplitude-percent: they apply at every speed");
   }
   return chosen_law(options.law, process, speeds_rpm.front());
 }
@@ -209,12 +210,12 @@ std::string point_text(const Json& point) {
 /// of that speed.
 std::optional<Refusal> unfit(const Options& options) {
   if (options.speed_rpm.has_value() != options.depth_mm.has_value()) {
-    return Refusal{Kind::bad_input, "", 0, "--speed-rpm and --depth-mm belong together",
-                   "give both, for the cut you want, or neither"};
+    return bad_input("--speed-rpm and --depth-mm belong together",
+                     "give both, for the cut you want, or neither");
   }
   if (!options.speed_rpm && !options.machine.empty()) {
-    return Refusal{Kind::bad_input, "", 0, "--machine without --speed-rpm and --depth-mm",
-                   "give the programmed speed: the override steps are shares of it"};
+    return bad_input("--machine without --speed-rpm and --depth-mm",
+                     "give the programmed speed: the override steps are shares of it");
   }
   if (options.speed_rpm && !(*options.speed_rpm > 0.0 && std::isfinite(*options.speed_rpm))) {
     return not_allowed("--speed-rpm", *options.speed_rpm, "above 0");

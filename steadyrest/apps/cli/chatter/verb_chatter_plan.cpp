@@ -16,6 +16,7 @@
 #include <steadyrest/chatter/offline/depth/best_speeds.hpp>
 #include <steadyrest/chatter/offline/plan/planner.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -24,8 +25,7 @@ namespace {
 namespace offline = chatter::offline;
 namespace units = kernel::units;
 using chatter::online::Law;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::bad_input;
 using offline::Alternative;
 using offline::PlanDecision;
 
@@ -247,8 +247,8 @@ Outcome run(Options options, Progress& progress) {
   for (const std::string& word : options.laws) {
     const auto law = chatter::online::law_of(word);
     if (!law || *law == Law::constant) {
-      return refused(Refusal{Kind::bad_input, "", 0, fmt::format("--laws: {} is not a law", word),
-                             "choose from triangle, sine, square, pulse, stop, random"});
+      return refused(bad_input(fmt::format("--laws: {} is not a law", word),
+                               "choose from triangle, sine, square, pulse, stop, random"));
     }
     plan.laws.push_back(*law);
   }

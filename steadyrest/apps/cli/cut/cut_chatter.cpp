@@ -9,6 +9,7 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/cut/report.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
@@ -20,7 +21,7 @@ using chatter::offline::PlanDecision;
 using chatter::online::Law;
 using chatter::online::Modulation;
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using trial::cut::ChatterChoice;
 
@@ -151,10 +152,10 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     return out;
   }
   if (!options.depth_mm || !(*options.depth_mm > 0.0)) {
-    return one({Kind::bad_input, "", 0,
-                options.depth_mm ? fmt::format("--depth-mm {} is not above 0", *options.depth_mm)
-                                 : "--process without --depth-mm",
-                "give a depth of cut above 0, as in --depth-mm 1.5"});
+    return one(bad_input(options.depth_mm
+                             ? fmt::format("--depth-mm {} is not above 0", *options.depth_mm)
+                             : "--process without --depth-mm",
+                         "give a depth of cut above 0, as in --depth-mm 1.5"));
   }
   const auto process = chatter::offline::read_process_all_faults(options.process);
   if (!process) {
@@ -163,8 +164,8 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
   // A tooth that does not turn cuts nothing; the model divides by the speed.
   const double slowest = slowest_cut_rev_s(path);
   if (!(slowest > 0.0)) {
-    return one({Kind::bad_input, "", 0, "the program cuts with the spindle stopped",
-                "program S and M3 before the first G1, or leave out --process"});
+    return one(bad_input("the program cuts with the spindle stopped",
+                         "program S and M3 before the first G1, or leave out --process"));
   }
   if (options.source == kPlan) {
     auto choices = trial::cut::choose(

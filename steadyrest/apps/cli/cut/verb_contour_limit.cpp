@@ -9,6 +9,7 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/cli/shared/value_check.hpp>
 #include <steadyrest/contour/offline/closed_form.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 // Steady state on an arc: the axes with gain k lag by v/k, which pulls the tool inside the circle
@@ -19,8 +20,7 @@ namespace {
 using contour::offline::CircleErrors;
 using contour::offline::CircleLimit;
 using contour::offline::Servo;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::bad_input;
 using kernel::outcome::Result;
 
 struct Options {
@@ -107,9 +107,8 @@ Outcome run(const Options& options) {
   if (options.max_error_mm) {
     return limit(options);
   }
-  return refused(Refusal{Kind::bad_input, "", 0,
-                         "neither --max-error-mm nor --feed-mm-min is given",
-                         "give the error to get the feed, or the feed to get the error"});
+  return refused(bad_input("neither --max-error-mm nor --feed-mm-min is given",
+                           "give the error to get the feed, or the feed to get the error"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <steadyrest/apps/cli/shared/log_options.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/log/edge_log.hpp>
 #include <steadyrest/motion/offline/log/log_record.hpp>
@@ -26,8 +27,8 @@ namespace {
 
 namespace offline = motion::offline;
 using kernel::machine::Encoder;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::bad_input;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 struct Options {
@@ -86,9 +87,8 @@ Result<Text> text_for(const Options& options, const Encoder& encoder) {
       machine->axes, [&](const auto& axis) { return axis.rotary && axis.name == options.axis; });
   // The count on the command line and the axis of the file must be of one kind.
   if (in_deg && !rotary) {
-    return std::unexpected(Refusal{Kind::bad_input, options.machine, 0,
-                                   fmt::format("has no rotary axis {}", options.axis),
-                                   "give --count-mm for a linear axis"});
+    return refuse(options.machine, fmt::format("has no rotary axis {}", options.axis),
+                  "give --count-mm for a linear axis");
   }
   auto with = passport::with_calibration(*text, options.machine, options.axis, encoder);
   if (!with) {
@@ -138,20 +138,19 @@ Answer answer_of(const offline::LineCalibration& calibration, const Encoder& enc
 /// Options, log, learning, text, file. The log is read edge by edge, so ticks are not needed here.
 Outcome run(Options options, Progress& progress) {
   if (!options.count_mm && !options.count_deg) {
-    return refused(Refusal{Kind::bad_input, "", 0, "the length of a count is missing",
-                           "give --count-mm, or --count-deg for a rotary axis"});
+    return refused(bad_input("the length of a count is missing",
+                             "give --count-mm, or --count-deg for a rotary axis"));
   }
   if (!options.range.empty()) {
     options.config.range = range_of(options.range);
   }
   if (!options.range.empty() && !options.config.range) {
-    return refused(Refusal{Kind::bad_input, "", 0,
-                           fmt::format("--range {} is not a pair of line numbers", options.range),
-                           "write the first and the last line as A:B"});
+    return refused(bad_input(fmt::format("--range {} is not a pair of line numbers", options.range),
+                             "write the first and the last line as A:B"));
   }
   if (options.machine.empty() != options.axis.empty()) {
-    return refused(Refusal{Kind::bad_input, "", 0, "--machine and --axis go together",
-                           "give both, or neither for the keys alone"});
+    return refused(
+        bad_input("--machine and --axis go together", "give both, or neither for the keys alone"));
   }
   const auto log =
       offline::read_edge_log(options.log, {.format = format_of(options.format)},

@@ -7,6 +7,7 @@
 
 #include <steadyrest/apps/cli/motion/verb_motion_encoder.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
@@ -16,7 +17,7 @@ namespace steadyrest::apps::cli {
 namespace {
 
 namespace offline = motion::offline;
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::units::mm_min_from_mm_s;
 using kernel::units::mm_s_from_mm_min;
@@ -32,11 +33,6 @@ struct Options {
   std::optional<double> lines_per_rev;
   std::optional<double> count_mm;
 };
-
-/// Each refusal names the option that would help.
-Refusal missing(const std::string& what, const std::string& to_do) {
-  return {Kind::bad_input, "", 0, what, to_do};
-}
 
 /// Collects the numbers of the answer; the first refusal ends it.
 class Sheet {
@@ -134,8 +130,8 @@ Outcome of_speed(const Options& options) {
 /// speed is only looked at for its signal frequency.
 Outcome run(const Options& options) {
   if ((options.feed_mm_min || options.count_mm) && !options.lead_mm) {
-    return refused(missing("a linear axis needs a lead",
-                           "give --lead-mm, the travel per turn of the encoder"));
+    return refused(bad_input("a linear axis needs a lead",
+                             "give --lead-mm, the travel per turn of the encoder"));
   }
   if (options.lines_per_rev) {
     return of_lines(options, *options.lines_per_rev);
@@ -145,13 +141,13 @@ Outcome run(const Options& options) {
     return lines ? of_lines(options, *lines) : refused(lines.error());
   }
   if (!options.max_frequency_hz) {
-    return refused(missing("the encoder's frequency limit is missing",
-                           "give --max-frequency-hz, or --lines-per-rev for a known encoder"));
+    return refused(bad_input("the encoder's frequency limit is missing",
+                             "give --max-frequency-hz, or --lines-per-rev for a known encoder"));
   }
   if (!options.feed_mm_min && !options.speed_rpm) {
-    return refused(missing("neither a speed nor the number of lines is given",
-                           "give --feed-mm-min with --lead-mm, or --speed-rpm, to get the lines; "
-                           "--lines-per-rev to get the largest speed"));
+    return refused(bad_input("neither a speed nor the number of lines is given",
+                             "give --feed-mm-min with --lead-mm, or --speed-rpm, to get the lines; "
+                             "--lines-per-rev to get the largest speed"));
   }
   return of_speed(options);
 }

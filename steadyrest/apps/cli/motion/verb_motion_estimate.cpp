@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/motion/estimate_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/bench/estimator_choice.hpp>
 #include <steadyrest/motion/offline/log/edge_log.hpp>
@@ -31,7 +32,7 @@ namespace {
 namespace offline = motion::offline;
 namespace online = motion::online;
 using kernel::file::OutputFile;
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using CycleReport = online::CycleMonitor::Report;
@@ -152,15 +153,15 @@ void put_findings(const EdgeLog& log, Answer& answer) {
   // The reader keeps the text of the first twenty findings and counts the rest.
   const std::size_t unsaid = log.finding_count - log.findings.size();
   if (unsaid > 0) {
-    answer.refusals.push_back({Kind::bad_input, log.file, 0,
-                               fmt::format("{} more of these", unsaid), "fix the recorder first"});
+    answer.refusals.push_back(
+        bad_input(log.file, fmt::format("{} more of these", unsaid), "fix the recorder first"));
   }
   if (log.stopped) {
     answer.exit_code = kRefused;
     answer.refusals.push_back(
-        {Kind::bad_input, log.file, log.findings.back().line,
-         fmt::format("reading stops at this line; {} rows are kept", log.rows.size()),
-         "the estimates end there"});
+        bad_input(log.file, log.findings.back().line,
+                  fmt::format("reading stops at this line; {} rows are kept", log.rows.size()),
+                  "the estimates end there"));
   }
 }
 

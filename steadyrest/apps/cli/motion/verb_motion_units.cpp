@@ -6,6 +6,7 @@
 
 #include <steadyrest/apps/cli/motion/verb_motion_units.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
@@ -15,7 +16,7 @@ namespace steadyrest::apps::cli {
 namespace {
 
 namespace offline = motion::offline;
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using offline::Number;
 
@@ -86,9 +87,9 @@ Outcome run(const Options& options) {
   const bool acceleration =
       options.overload_g || options.acceleration_mm_s2 || options.counts_per_tick2;
   if (!velocity && !acceleration) {
-    return refused(Refusal{Kind::bad_input, "", 0, "nothing to convert",
-                           "give --feed-mm-min, --overload-g or --acceleration-mm-s2, or "
-                           "--counts-per-tick or --counts-per-tick2 for the way back"});
+    return refused(bad_input("nothing to convert",
+                             "give --feed-mm-min, --overload-g or --acceleration-mm-s2, or "
+                             "--counts-per-tick or --counts-per-tick2 for the way back"));
   }
   Answer answer;
   Table table;

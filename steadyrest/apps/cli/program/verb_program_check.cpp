@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/apps/cli/shared/program_warnings.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -98,8 +99,9 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
 /// different controls.
 Outcome run(const Options& options, Progress& progress) {
   if (options.machine.empty() && options.program.dialect.empty()) {
-    return refused({kernel::outcome::Kind::bad_input, "", 0, "--dialect is required",
-                    "give --dialect, or --machine with the machine the program is for"});
+    return refused(kernel::outcome::bad_input(
+        "--dialect is required",
+        "give --dialect, or --machine with the machine the program is for"));
   }
   if (options.machine.empty()) {
     return run_on(options, nullptr, progress);

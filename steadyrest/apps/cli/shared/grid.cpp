@@ -6,12 +6,12 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/shared/grid.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 
 /// A map of 10⁵ × 10⁵ points would never end; one side of that is still a typing error.
 constexpr std::size_t kMostSteps = 100'000;
@@ -41,9 +41,8 @@ std::vector<double> numbers(const std::string& text) {
 kernel::outcome::Result<std::vector<double>> grid(std::string_view option, const std::string& text,
                                                   double least) {
   const auto bad = [&](std::string_view why) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   fmt::format("{} {}: {}", option, text, why),
-                                   "write FROM:TO:STEPS, for example 5000:10000:51"});
+    return refuse(fmt::format("{} {}: {}", option, text, why),
+                  "write FROM:TO:STEPS, for example 5000:10000:51");
   };
   const std::vector<double> given = numbers(text);
   if (given.size() != 1 && given.size() != 3) {

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/shared/usage.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/outcome/nearest.hpp>
 
 // CLI11 says what its parser missed. A user wants to know which word was wrong and what was
@@ -17,7 +18,7 @@
 namespace steadyrest::apps::cli {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 /// A word that is known, and what to write for it.
@@ -109,9 +110,6 @@ std::string plain(const std::string& sentence) {
 Refusal usage_refusal(const CLI::App& root, const CLI::ParseError& error) {
   const auto [at, path] = reached(root);
   const std::string help = fmt::format("see {} --help", path);
-  const auto refusal = [](std::string what, std::string to_do) {
-    return Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)};
-  };
   // A word that is not understood is the reason why another is missing.
   // CLI11 reports the missing word first, although it is missing because another was misspelt. The
   // unknown word is the cause, so it is looked for in both cases.
@@ -123,18 +121,18 @@ Refusal usage_refusal(const CLI::App& root, const CLI::ParseError& error) {
       std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("-"); });
   if (option != words.end() && option->size() > 1) {
     const std::string word = option->substr(0, option->find('='));
-    return refusal(fmt::format("unknown option '{}'", word),
-                   did_you_mean(word, options_of(*at)) + help);
+    return bad_input(fmt::format("unknown option '{}'", word),
+                     did_you_mean(word, options_of(*at)) + help);
   }
   // A leftover word is a verb only where there are verbs below.
   if (!words.empty() && !below(*at).empty()) {
-    return refusal(fmt::format("unknown verb '{}'", words.front()),
-                   did_you_mean(words.front(), verbs_of(*at)) + help);
+    return bad_input(fmt::format("unknown verb '{}'", words.front()),
+                     did_you_mean(words.front(), verbs_of(*at)) + help);
   }
   if (!words.empty()) {
-    return refusal(fmt::format("one argument too many: '{}'", words.front()), help);
+    return bad_input(fmt::format("one argument too many: '{}'", words.front()), help);
   }
-  return refusal(plain(error.what()), help);
+  return bad_input(plain(error.what()), help);
 }
 
 }  // namespace steadyrest::apps::cli

@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/shared/verb.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // A verb declares which options name inputs and outputs. All questions about files are then
 // answered in one place, for all outputs at once, before the work starts.
@@ -18,7 +19,7 @@ namespace steadyrest::apps::cli {
 namespace {
 
 using kernel::file::Place;
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using Refusals = std::vector<Refusal>;
 
@@ -39,10 +40,6 @@ std::vector<std::string> files_in(const std::string& path) {
   }
   std::ranges::sort(out);
   return out;
-}
-
-Refusal refusal(const std::string& file, std::string what, std::string to_do) {
-  return {Kind::bad_input, file, 0, std::move(what), std::move(to_do)};
 }
 
 /// How the refusal calls the input: by its option, or as the positional argument it is.
@@ -71,16 +68,16 @@ std::optional<Refusal> of_another_kind(const PlannedFile& planned, const Place& 
   if (text.empty() || planned.content.fits(text)) {
     return std::nullopt;
   }
-  return refusal(planned.file, fmt::format("exists and is not {}", planned.content.name),
-                 "name another file, or give --force to replace this one");
+  return bad_input(planned.file, fmt::format("exists and is not {}", planned.content.name),
+                   "name another file, or give --force to replace this one");
 }
 
 /// By identity of the file, not by name: links and relative paths lead to the same place.
 std::optional<Refusal> an_input(const PlannedFile& planned, const std::vector<Input>& inputs) {
   for (const Input& input : inputs) {
     if (kernel::file::same_place(planned.file, input.file)) {
-      return refusal(planned.file, "is " + input.role,
-                     "name another file, or give --force to replace this one");
+      return bad_input(planned.file, "is " + input.role,
+                       "name another file, or give --force to replace this one");
     }
   }
   return std::nullopt;
@@ -92,8 +89,8 @@ std::optional<Refusal> unfit(const PlannedFile& planned, std::span<const Planned
                              const std::vector<Input>& inputs, bool force) {
   for (const PlannedFile& other : before) {
     if (kernel::file::same_place(planned.file, other.file)) {
-      return refusal(planned.file, fmt::format("is the same file as the output {}", other.file),
-                     "give each output a different name");
+      return bad_input(planned.file, fmt::format("is the same file as the output {}", other.file),
+                       "give each output a different name");
     }
   }
   const auto place = kernel::file::place_of(planned.file);
@@ -101,8 +98,8 @@ std::optional<Refusal> unfit(const PlannedFile& planned, std::span<const Planned
     return place.error();
   }
   if (planned.file == "-") {
-    return refusal(planned.file, "would be a file called -",
-                   "write /dev/stdout for stdout, or ./- for that file");
+    return bad_input(planned.file, "would be a file called -",
+                     "write /dev/stdout for stdout, or ./- for that file");
   }
   if (force) {
     return std::nullopt;
@@ -203,7 +200,7 @@ std::vector<Refusal> Verb::empty_names() const {
   Refusals out;
   const auto look = [&out](const CLI::Option& option, const char* to_do) {
     if (std::ranges::find(option.results(), "") != option.results().end()) {
-      out.push_back(refusal("", option.get_name() + " is empty", to_do));
+      out.push_back(bad_input(option.get_name() + " is empty", to_do));
     }
   };
   for (const CLI::Option* option : inputs_) {
@@ -278,8 +275,8 @@ std::expected<Ready, Refusals> Verb::ready(bool json) const {
   }
   if (out.takes_stdout && json) {
     // stdout belongs to one of the two.
-    refusals.push_back(refusal("", "an output goes to stdout, where --json prints its object",
-                               "name a file for the output, or leave out --json"));
+    refusals.push_back(bad_input("an output goes to stdout, where --json prints its object",
+                                 "name a file for the output, or leave out --json"));
   }
   if (!refusals.empty()) {
     return std::unexpected(std::move(refusals));

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/thermal/adapt_inputs.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
 
@@ -12,16 +13,9 @@ namespace steadyrest::apps::cli {
 namespace {
 
 using kernel::machine::Thermal;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::units::mm_from_um;
-
-std::unexpected<Refusal> refuse(std::string file, std::size_t line, std::string what,
-                                std::string to_do) {
-  return std::unexpected(
-      Refusal{Kind::bad_input, std::move(file), line, std::move(what), std::move(to_do)});
-}
 
 /// The level in the plan, by default the passport's.
 Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passport) {

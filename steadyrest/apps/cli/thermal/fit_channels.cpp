@@ -4,17 +4,13 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/thermal/fit_channels.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using thermal::offline::Log;
-
-Refusal refusal(std::string file, std::string what, std::string to_do) {
-  return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
-}
 
 /// What the column of an axis is called without its unit: Z for z_um, ch1 for ch1_um.
 std::string axis_of(const std::string& column) {
@@ -46,14 +42,14 @@ kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>
     const auto found =
         std::ranges::find(log.displacement, name, &thermal::offline::LogChannel::name);
     if (found == log.displacement.end()) {
-      return std::unexpected(refusal(log.file, fmt::format("there is no displacement {}", name),
-                                     "name a column of the log, as --channel z_um=Z"));
+      return refuse(log.file, fmt::format("there is no displacement {}", name),
+                    "name a column of the log, as --channel z_um=Z");
     }
     std::string axis = at == std::string::npos ? axis_of(name) : given.substr(at + 1);
     if (axis.empty() || axis.size() > kLongestName || !std::ranges::all_of(axis, is_of_a_name)) {
-      return std::unexpected(refusal({}, fmt::format("--channel {} names no axis", given),
-                                     "write the axis after =, as --channel z_um=Z; or a name of "
-                                     "letters, digits and _ if no axis corrects it"));
+      return refuse(fmt::format("--channel {} names no axis", given),
+                    "write the axis after =, as --channel z_um=Z; or a name of "
+                    "letters, digits and _ if no axis corrects it");
     }
     out.emplace_back(found - log.displacement.begin(), std::move(axis));
   }
@@ -65,8 +61,8 @@ kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>
   for (std::size_t i = 0; i < out.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (out[i].second == out[j].second) {
-        return std::unexpected(refusal({}, fmt::format("two channels are called {}", out[i].second),
-                                       "give each a different name"));
+        return refuse(fmt::format("two channels are called {}", out[i].second),
+                      "give each a different name");
       }
     }
   }

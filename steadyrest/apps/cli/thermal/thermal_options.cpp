@@ -10,6 +10,7 @@
 
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/thermal/thermal_options.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/plan/time/segment_timer.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
@@ -17,8 +18,8 @@
 namespace steadyrest::apps::cli {
 
 using kernel::machine::ThermalAxis;
-using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using thermal::offline::Cyclogram;
 using thermal::online::ThermalModel;
@@ -28,11 +29,6 @@ namespace {
 /// A thermal level is fitted as a polynomial or a table over speed, and neither holds far beyond
 /// the fastest speed of the test: n² turns 20 % more speed into 44 % more drift.
 constexpr double kBeyondFitted = 1.2;
-
-std::unexpected<Refusal> refuse(std::string file, std::string what, std::string to_do) {
-  return std::unexpected(
-      Refusal{Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)});
-}
 
 /// The program as a cyclogram: the planner times every block with the machine's limits and joins
 /// what runs at one spindle speed.
@@ -79,7 +75,7 @@ Result<std::vector<std::pair<std::string, double>>> temperatures(
                             ? std::from_chars_result{one.data(), std::errc::invalid_argument}
                             : std::from_chars(one.data() + at + 1, end, value);
     if (parsed.ec != std::errc{} || parsed.ptr != end || !(value > -60.0 && value < 150.0)) {
-      return refuse({}, fmt::format("--ambient {} is not SENSOR=temperature in °C", one),
+      return refuse(fmt::format("--ambient {} is not SENSOR=temperature in °C", one),
                     "write it as --ambient t16_c=23.5");
     }
     out.emplace_back(one.substr(0, at), value);
@@ -178,7 +174,7 @@ void add_thermal_options(Verb& verb, ThermalOptions& options) {
 /// axis or sensor would otherwise be ignored in silence.
 Result<ThermalJob> thermal_job(const ThermalOptions& options) {
   if (options.cyclogram.empty() == options.program.file.empty()) {
-    return refuse({}, "exactly one of --cyclogram, --program is needed",
+    return refuse("exactly one of --cyclogram, --program is needed",
                   "give --cyclogram FILE or --program FILE");
   }
   auto passport = passport::read_thermal_passport(options.machine);

@@ -6,22 +6,16 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/thermal/thermal_parts.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using thermal::offline::Measured;
 
 namespace {
-
-std::unexpected<Refusal> refuse(std::string file, std::size_t line, std::string what,
-                                std::string to_do) {
-  return std::unexpected(
-      Refusal{Kind::bad_input, std::move(file), line, std::move(what), std::move(to_do)});
-}
 
 /// Just before the end of a transition: a part is finished there, and the next transition's first
 /// correction comes at the very end.

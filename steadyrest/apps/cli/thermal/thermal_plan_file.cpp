@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include <steadyrest/apps/cli/thermal/thermal_plan_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
 // The plan's own keys come from the rewriter's reader. This file adds what `thermal plan` noted
 // about the making of the plan, so that `thermal adapt` need not be told again.
 namespace steadyrest::apps::cli {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 using PlanJson = nlohmann::ordered_json;  // read_plan() has checked its shape
@@ -35,8 +35,8 @@ Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
   auto plan = nc::rewrite::read_plan(path);
   const auto text = passport::read_text(path);
   if (!text) {  // a wrong path is the caller's mistake, whatever keeps it from being read
-    return std::unexpected(Refusal{Kind::bad_input, path, 0, text.error().what,
-                                   "give the path of a plan (JSON): thermal plan -o writes it"});
+    return refuse(path, text.error().what,
+                  "give the path of a plan (JSON): thermal plan -o writes it");
   }
   if (!plan) {
     return std::unexpected(plan.error());
@@ -68,9 +68,8 @@ Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
       out.transition.push_back({row.value("name", ""), now_s});
     }
   } catch (const PlanJson::exception&) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, path, 0, "a note has the wrong type",
-                "write level, k and tolerance_um as numbers and file names as strings"});
+    return refuse(path, "a note has the wrong type",
+                  "write level, k and tolerance_um as numbers and file names as strings");
   }
   return out;
 }

@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/thermal/thermal_replay.hpp>
 #include <steadyrest/apps/page/thermal/fit_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
@@ -25,8 +26,7 @@ namespace {
 namespace offline = thermal::offline;
 using kernel::machine::Thermal;
 using kernel::machine::ThermalAxis;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::units::um_from_mm;
 
@@ -36,10 +36,6 @@ struct AxisReplay {
   std::vector<offline::ReplayPoint> point;
   offline::ReplayScore score;
 };
-
-Refusal refusal(std::string file, std::string what, std::string to_do) {
-  return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
-}
 
 /// The log column of an axis: as --channel names it, else called like the axis, else z_um or z_mm
 /// for Z. A wrong --channel is refused; a log without the axis is not, since a forecast needs no
@@ -53,8 +49,8 @@ Result<std::optional<std::size_t>> channel_of(const std::string& axis, const off
       name = one.substr(0, at);
       if (std::ranges::find(log.displacement, name, &offline::LogChannel::name) ==
           log.displacement.end()) {
-        return std::unexpected(refusal(log.file, fmt::format("there is no displacement {}", name),
-                                       "name a column of the log, as --channel z_um=Z"));
+        return refuse(log.file, fmt::format("there is no displacement {}", name),
+                      "name a column of the log, as --channel z_um=Z");
       }
     }
   }
@@ -167,9 +163,8 @@ Result<AxisReplay> replay_axis(const ThermalReplayOptions& options, const Therma
   request.from_s = from_s(options, log);
   // Re-zeroing takes readings from the log; without a column there are none.
   if (request.rezero_s > 0.0 && !request.channel) {
-    return std::unexpected(refusal(options.log,
-                                   fmt::format("{} is not measured in the log", axis.name),
-                                   fmt::format("name its column: --channel z_um={}", axis.name)));
+    return refuse(options.log, fmt::format("{} is not measured in the log", axis.name),
+                  fmt::format("name its column: --channel z_um={}", axis.name));
   }
   auto points = offline::replay(axis, log, request);
   if (!points) {
@@ -194,8 +189,8 @@ Result<std::vector<AxisReplay>> replay_axes(const ThermalReplayOptions& options,
     out.push_back(std::move(*one));
   }
   if (out.empty()) {
-    return std::unexpected(refusal(options.machine, "the passport has none of the named axes",
-                                   "choose an axis of the passport"));
+    return refuse(options.machine, "the passport has none of the named axes",
+                  "choose an axis of the passport");
   }
   return out;
 }

@@ -17,6 +17,7 @@
 #include <steadyrest/apps/cli/thermal/verb_thermal_fit.hpp>
 #include <steadyrest/apps/page/thermal/fit_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/edit/thermal_text.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
@@ -31,8 +32,8 @@ namespace {
 namespace offline = thermal::offline;
 using kernel::machine::Thermal;
 using kernel::machine::ThermalAxis;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::bad_input;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::units::um_from_mm;
 
@@ -52,10 +53,6 @@ struct Options {
   bool own_tau = false;
   LogOptions format;
 };
-
-Refusal refusal(std::string file, std::string what, std::string to_do) {
-  return {Kind::bad_input, std::move(file), 0, std::move(what), std::move(to_do)};
-}
 
 /// The quality figures are NaN where the log is too short to leave hours out.
 Json number_or_null(double value) {
@@ -246,8 +243,8 @@ Result<Job> job_of(const Options& options) {
   for (const std::string& sensor : options.sensors) {
     if (std::ranges::find(job.log.temperature, sensor, &offline::LogChannel::name) ==
         job.log.temperature.end()) {
-      return std::unexpected(refusal(options.log, fmt::format("there is no temperature {}", sensor),
-                                     "name a column of the log, as --ambient t1_c"));
+      return refuse(options.log, fmt::format("there is no temperature {}", sensor),
+                    "name a column of the log, as --ambient t1_c");
     }
   }
   if (!options.tau_from.empty()) {
@@ -300,9 +297,9 @@ Outcome run(const Options& options, Progress& progress) {
     if (!options.tau_from.empty()) {
       const auto known = std::ranges::find(job->known.axis, name, &ThermalAxis::name);
       if (known == job->known.axis.end()) {
-        return refused(refusal(options.tau_from,
-                               fmt::format("there is no [[thermal.axis]] {}", name),
-                               "name the channels as in the passport, with --channel z_um=Z"));
+        return refused(bad_input(options.tau_from,
+                                 fmt::format("there is no [[thermal.axis]] {}", name),
+                                 "name the channels as in the passport, with --channel z_um=Z"));
       }
       job->request.known = &*known;
     }

@@ -16,6 +16,7 @@
 #include <steadyrest/apps/cli/thermal/verb_thermal_plan.hpp>
 #include <steadyrest/apps/page/thermal/thermal_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 #include <steadyrest/thermal/offline/plan/plan.hpp>
@@ -25,8 +26,7 @@
 namespace steadyrest::apps::cli {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::bad_input;
 using kernel::outcome::Result;
 using kernel::units::mm_from_um;
 using kernel::units::um_from_mm;
@@ -236,10 +236,10 @@ Outcome run(const Options& options) {
   const std::uint32_t level =
       options.level < 0 ? passport.level : static_cast<std::uint32_t>(options.level);
   if (level >= passport.share.size()) {
-    return refused(Refusal{Kind::bad_input, options.thermal.machine, 0,
-                           fmt::format("level {} has no share; [thermal] shares has {} entries",
-                                       level, passport.share.size()),
-                           fmt::format("choose a level, 0 … {}", passport.share.size() - 1)});
+    return refused(bad_input(
+        options.thermal.machine,
+        fmt::format("level {} has no share; [thermal] shares has {} entries", level, passport.share.size()),
+        fmt::format("choose a level, 0 … {}", passport.share.size() - 1)));
   }
   thermal::offline::PlanRequest request;
   request.tolerance_mm = mm_from_um(options.tolerance_um);

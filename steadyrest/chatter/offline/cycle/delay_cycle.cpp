@@ -8,6 +8,7 @@
 
 #include <steadyrest/chatter/offline/cycle/delay_cycle.hpp>
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // make() settles the length of the period, plan() in delay_cycle_plan.cpp makes the matrices, and
 // set_depth() the inverses. advance() then walks the pieces of one pass: right side from the modes'
@@ -18,8 +19,7 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 using Eigen::Index;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 // A period of q passes costs q matrix products and keeps q sets of matrices, so both are bounded:
@@ -63,11 +63,9 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
       }
     }
     if (out.passes_ == 0) {
-      return std::unexpected(
-          Refusal{Kind::bad_input, "", 0,
-                  fmt::format("RVF {} has no principal period of {} tooth passes or less",
-                              config.modulation.rvf, kMostPasses),
-                  "use RVF = teeth/q with whole q, or a ratio of small whole numbers"});
+      return refuse(fmt::format("RVF {} has no principal period of {} tooth passes or less",
+                                config.modulation.rvf, kMostPasses),
+                    "use RVF = teeth/q with whole q, or a ratio of small whole numbers");
     }
   }
   if (auto refusal =

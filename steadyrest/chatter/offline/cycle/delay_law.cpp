@@ -7,6 +7,7 @@
 
 #include <steadyrest/chatter/offline/cycle/delay_law.hpp>
 #include <steadyrest/chatter/offline/cycle/gauss_nodes.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // The method of steps: even pieces shorter than every delay, so that a piece's right side is known
 // before it is solved. All pieces then share one set of matrices; only the rows that interpolate
@@ -15,8 +16,7 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 using Eigen::Index;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 
 // 24 nodes for 8 rad are 3 per radian, twice DelayCycle's 1.5: good to 1e-10.
 constexpr double kPiecePhase = 8.0;  ///< of the oscillation in one piece, rad
@@ -29,10 +29,9 @@ constexpr double kLeastDelay = 1e-4;  ///< of T
 
 kernel::outcome::Result<DelayLaw> DelayLaw::make(const Config& config) {
   if (!(config.natural_rad_s > 0.0) || !(config.period_s > 0.0)) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   fmt::format("frequency {} rad/s, period {} s; allowed: above 0",
-                                               config.natural_rad_s, config.period_s),
-                                   "give both above 0"});
+    return refuse(fmt::format("frequency {} rad/s, period {} s; allowed: above 0",
+                              config.natural_rad_s, config.period_s),
+                  "give both above 0");
   }
   double least = config.period_s;
   double most = 0.0;
@@ -47,10 +46,9 @@ kernel::outcome::Result<DelayLaw> DelayLaw::make(const Config& config) {
     square += std::abs(term.stiffness_1_s2);
   }
   if (!(least > kLeastDelay * config.period_s) || !std::isfinite(most)) {
-    return std::unexpected(Refusal{
-        Kind::bad_input, "", 0,
+    return refuse(
         fmt::format("delay of {} s; allowed: above {} s", least, kLeastDelay * config.period_s),
-        "keep the delay above 0 at all times"});
+        "keep the delay above 0 at all times");
   }
   DelayLaw out;
   // A piece shorter than the least delay never reads itself, so each follows from earlier ones

@@ -8,6 +8,7 @@
 
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // The work grows with the waves in the period: nodes go with waves, matrices with their square.
 // Each bound below turns a cost or a loss of digits into a limit that a machinist can check, and
@@ -15,7 +16,7 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -78,10 +79,6 @@ std::string allowed(double speed_rev_s, double depth_mm, const Fits& fits) {
   return out.empty() ? "a faster spindle and a smaller depth" : out;
 }
 
-Refusal refusal(std::string what, std::string to_do) {
-  return {Kind::bad_input, "", 0, std::move(what), std::move(to_do)};
-}
-
 }  // namespace
 
 double fastest_waves(const Process& process, double slowest_rev_s, double depth_mm) noexcept {
@@ -100,16 +97,16 @@ double free_waves(const Process& process, double speed_rev_s) noexcept {
 std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s,
                                     double most_depth_mm, std::size_t passes) {
   if (!(slowest_rev_s > 0.0) || !std::isfinite(slowest_rev_s)) {
-    return refusal(fmt::format("speed {} rpm; allowed: above 0", 60.0 * slowest_rev_s),
-                   "give a speed above 0");
+    return bad_input(fmt::format("speed {} rpm; allowed: above 0", 60.0 * slowest_rev_s),
+                     "give a speed above 0");
   }
   if (!(most_depth_mm >= 0.0 && most_depth_mm <= kMostDepth_mm)) {
-    return refusal(
+    return bad_input(
         fmt::format("depth {:.6g} mm; allowed: up to {:g} mm", most_depth_mm, kMostDepth_mm),
         "give the axial depth of cut in mm");
   }
   if (const double turns = winding(process, most_depth_mm); turns > kMostWinding) {
-    return refusal(
+    return bad_input(
         fmt::format("at a depth of {:.6g} mm a helical edge winds {:.4g} times around the tool; "
                     "allowed: {:g} turns, {:.4g} mm",
                     most_depth_mm, turns, kMostWinding, most_depth_mm * kMostWinding / turns),
@@ -125,7 +122,7 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
            fastest_waves(process, speed_rev_s, depth_mm) <= std::min(kMostDamped, in_period);
   };
   if (!fits(slowest_rev_s, most_depth_mm)) {
-    return refusal(
+    return bad_input(
         fmt::format("at {:.6g} rpm and {:.6g} mm the fastest vibration makes {:.4g} waves between "
                     "two teeth; the solver follows {:.4g}{}: {}",
                     60.0 * slowest_rev_s, most_depth_mm,
@@ -142,10 +139,11 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
   }
   const double most_rev_s = lowest_hz / (kLeastWaves * passes_per_rev(process));
   if (slowest_rev_s > most_rev_s && !process.modes.empty()) {
-    return refusal(fmt::format("at {:.6g} rpm the mode of {:.4g} Hz makes less than {:g} of a wave "
-                               "between two teeth; allowed: up to {:.4g} rpm",
-                               60.0 * slowest_rev_s, lowest_hz, kLeastWaves, 60.0 * most_rev_s),
-                   kCheck);
+    return bad_input(
+        fmt::format("at {:.6g} rpm the mode of {:.4g} Hz makes less than {:g} of a wave "
+                    "between two teeth; allowed: up to {:.4g} rpm",
+                    60.0 * slowest_rev_s, lowest_hz, kLeastWaves, 60.0 * most_rev_s),
+        kCheck);
   }
   return std::nullopt;
 }

@@ -13,6 +13,7 @@
 #include <steadyrest/chatter/offline/depth/border_line.hpp>
 #include <steadyrest/chatter/offline/depth/depth_line.hpp>
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // Adaptive bisection in rounds: first_spans() puts six points on each lobe, each round evaluates
 // the middles of all open spans in parallel, and halved() keeps those whose middle was off the
@@ -20,8 +21,8 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
-using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kOfDepth = 1e-2;  ///< tolerance
@@ -209,9 +210,8 @@ Result<BorderLine> border_line(const Process& process, const BorderLineConfig& c
   const std::vector<double>& speed = config.speed_rev_s;
   const bool rises = std::ranges::adjacent_find(speed, std::ranges::greater_equal{}) == speed.end();
   if (speed.empty() || !rises) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "the border speeds are not in rising order",
-                                   "give one speed or more, in rising order"});
+    return refuse("the border speeds are not in rising order",
+                  "give one speed or more, in rising order");
   }
   return Line(process, config).run(progress);
 }

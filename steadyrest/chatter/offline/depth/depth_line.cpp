@@ -11,20 +11,16 @@
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
 #include <steadyrest/chatter/offline/depth/crossing.hpp>
 #include <steadyrest/chatter/offline/depth/depth_line.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kTolerance = 1e-10;  ///< of the multipliers
-
-std::unexpected<Refusal> refusal(std::string what, std::string to_do) {
-  return std::unexpected(Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)});
-}
 
 /// The free vibration that dies most slowly.
 /// At depth 0 only the modes' own damping counts: ln ρ = −ζω·T of the most persistent one.
@@ -41,21 +37,21 @@ double least_decay_1_s(const Process& process) {
 Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
                                   const Modulation& modulation, double most_depth_mm) {
   if (process.modes.empty()) {
-    return refusal("the process has no mode", "give at least one vibration mode");
+    return refuse("the process has no mode", "give at least one vibration mode");
   }
   if (!(speed_rev_s > 0.0) || !std::isfinite(speed_rev_s)) {
-    return refusal(fmt::format("speed {} rev/s; allowed: above 0", speed_rev_s),
-                   "give a speed above 0");
+    return refuse(fmt::format("speed {} rev/s; allowed: above 0", speed_rev_s),
+                  "give a speed above 0");
   }
   if (!(most_depth_mm > 0.0) || !std::isfinite(most_depth_mm)) {
-    return refusal(fmt::format("depth {} mm; allowed: above 0", most_depth_mm),
-                   "give a depth above 0");
+    return refuse(fmt::format("depth {} mm; allowed: above 0", most_depth_mm),
+                  "give a depth above 0");
   }
   const bool constant = SpeedProfile(speed_rev_s, modulation).constant();
   if (!constant && !(modulation.rva >= 0.0 && modulation.rva < 1.0 && modulation.rvf > 0.0)) {
-    return refusal(fmt::format("RVA {}, RVF {}; allowed: RVA 0 to below 1, RVF above 0",
-                               modulation.rva, modulation.rvf),
-                   "give both within their ranges");
+    return refuse(fmt::format("RVA {}, RVF {}; allowed: RVA 0 to below 1, RVF above 0",
+                              modulation.rva, modulation.rvf),
+                  "give both within their ranges");
   }
   DepthLine out;
   out.process_ = process;

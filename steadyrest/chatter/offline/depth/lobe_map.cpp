@@ -10,11 +10,12 @@
 
 #include <steadyrest/chatter/offline/depth/depth_line.hpp>
 #include <steadyrest/chatter/offline/depth/lobe_map.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
@@ -22,24 +23,21 @@ constexpr std::size_t kMostPoints = 10'000'000;
 
 std::optional<Refusal> fault(const LobeMapConfig& config) {
   if (config.speed_rev_s.empty()) {
-    return Refusal{Kind::bad_input, "", 0, "no speed", "give at least one speed"};
+    return bad_input("no speed", "give at least one speed");
   }
   const std::vector<double>& depth = config.depth_mm;
   if (config.speed_rev_s.size() > kMostPoints / std::max<std::size_t>(depth.size(), 1)) {
-    return Refusal{Kind::bad_input, "", 0,
-                   fmt::format("a map of {} speeds × {} depths; allowed: {} points",
-                               config.speed_rev_s.size(), depth.size(), kMostPoints),
-                   "give fewer steps; the border is refined between them"};
+    return bad_input(fmt::format("a map of {} speeds × {} depths; allowed: {} points",
+                                 config.speed_rev_s.size(), depth.size(), kMostPoints),
+                     "give fewer steps; the border is refined between them");
   }
   if (depth.empty() || !(depth.front() >= 0.0) || !(depth.back() > 0.0)) {
-    return Refusal{Kind::bad_input, "", 0, "depths must start at 0 or above and end above 0",
-                   "give rising depths"};
+    return bad_input("depths must start at 0 or above and end above 0", "give rising depths");
   }
   for (std::size_t i = 1; i < depth.size(); ++i) {
     if (!(depth[i] > depth[i - 1])) {
-      return Refusal{Kind::bad_input, "", 0,
-                     fmt::format("depth {} mm after {} mm", depth[i], depth[i - 1]),
-                     "give rising depths"};
+      return bad_input(fmt::format("depth {} mm after {} mm", depth[i], depth[i - 1]),
+                       "give rising depths");
     }
   }
   return std::nullopt;

@@ -6,21 +6,18 @@
 
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
 #include <steadyrest/chatter/offline/plan/plan_request.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 constexpr double kDepthsOver = 5.0;  ///< limit depths up to so many times the wanted one
 // Process damping grows as the waves on the flank get shorter, which means at low speed. Ten waves
 // between two teeth is a cautious threshold for the note.
 constexpr double kManyWaves = 10.0;
-
-Refusal bad(std::string what, std::string to_do) {
-  return {Kind::bad_input, "", 0, std::move(what), std::move(to_do)};
-}
 
 struct Range {
   const char* what;
@@ -33,9 +30,9 @@ std::optional<Refusal> out_of(const Range& range) {
   if (range.value >= range.least && range.value <= range.most) {
     return std::nullopt;
   }
-  return bad(fmt::format("{} = {:.10g}; allowed: from {:g} to {:g}", range.what, range.value,
-                         range.least, range.most),
-             "give a value in that range");
+  return bad_input(fmt::format("{} = {:.10g}; allowed: from {:g} to {:g}", range.what, range.value,
+                               range.least, range.most),
+                   "give a value in that range");
 }
 
 std::optional<Refusal> fault_of_options(double depth, const PlanOptions& o) {
@@ -54,19 +51,19 @@ std::optional<Refusal> fault_of_options(double depth, const PlanOptions& o) {
     }
   }
   if (o.most_depth_mm != 0.0 && !(o.most_depth_mm >= depth)) {
-    return bad(
+    return bad_input(
         fmt::format("the border search ends at {:.10g} mm, short of the wanted depth of {:.10g} mm",
                     o.most_depth_mm, depth),
         "extend the search to that depth or beyond");
   }
   for (const double rva : o.rva) {
     if (!(rva > 0.0 && rva < 1.0)) {
-      return bad(fmt::format("RVA {} is not between 0 and 1", rva), "give e.g. 0.1");
+      return bad_input(fmt::format("RVA {} is not between 0 and 1", rva), "give e.g. 0.1");
     }
   }
   for (const double rvf : o.rvf) {
     if (!(rvf > 0.0 && rvf <= 1.0)) {
-      return bad(fmt::format("RVF {} is not above 0 and at most 1", rvf), "give e.g. 0.1");
+      return bad_input(fmt::format("RVF {} is not above 0 and at most 1", rvf), "give e.g. 0.1");
     }
   }
   return std::nullopt;
@@ -97,13 +94,13 @@ double most_depth_mm(double depth_mm, const PlanOptions& options) noexcept {
 std::optional<Refusal> fault_of_request(const Process& process, double speed_rev_s, double depth_mm,
                                         const PlanOptions& options) {
   if (process.modes.empty()) {
-    return bad("the process has no mode", "give at least one [[mode]]");
+    return bad_input("the process has no mode", "give at least one [[mode]]");
   }
   if (!(speed_rev_s > 0.0) || !std::isfinite(speed_rev_s) || !(depth_mm > 0.0) ||
       !std::isfinite(depth_mm)) {
-    return bad(fmt::format("speed {} rpm and depth {} mm; both must be above 0", 60.0 * speed_rev_s,
-                           depth_mm),
-               "give the programmed speed and the wanted depth");
+    return bad_input(fmt::format("speed {} rpm and depth {} mm; both must be above 0",
+                                 60.0 * speed_rev_s, depth_mm),
+                     "give the programmed speed and the wanted depth");
   }
   if (auto refused = beyond_reach(process, speed_rev_s, most_depth_mm(depth_mm, options))) {
     refused->to_do +=

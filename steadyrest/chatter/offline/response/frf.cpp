@@ -11,6 +11,7 @@
 
 #include <steadyrest/chatter/offline/response/frf.hpp>
 #include <steadyrest/chatter/offline/response/uff58.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
 // Names and units of a header are read apart, so that any order of differentiation and any length
@@ -18,8 +19,7 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using table::Fault;
 
@@ -175,7 +175,7 @@ Result<Frf> parse_frf_csv(std::string_view text, const std::string& file,
                   "give the whole response"};
   }
   if (fault) {
-    return std::unexpected(Refusal{Kind::bad_input, file, fault->line, fault->what, fault->to_do});
+    return refuse(file, fault->line, fault->what, fault->to_do);
   }
   return out;
 }

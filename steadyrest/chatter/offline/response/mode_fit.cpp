@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/response/mode_fit.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // Orders rise one by one: with_one_more() adds a mode where the residual stands out, refine() moves
 // all modes by Levenberg–Marquardt with the linear parameters solved inside, estimate_noise()
@@ -22,8 +23,7 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -316,12 +316,11 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
   const std::size_t most = config.order > 0 ? config.order : config.most_modes;
   constexpr int kSteps = 60;
   if (data.w.size() < static_cast<Index>(kLeastPoints) || most < 1 || most > 16) {
-    return std::unexpected(Refusal{
-        Kind::bad_input, "", 0,
+    return refuse(
         fmt::format(
             "{} points in the band for up to {} modes; {} points are needed, and 1 … 16 modes",
             data.w.size(), most, kLeastPoints),
-        "give more of the response or fewer modes"});
+        "give more of the response or fewer modes");
   }
   Model model;
   std::optional<ModeFit> best;
@@ -357,9 +356,8 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
     }
   }
   if (!best) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, "", 0, "no mode with a positive mass explains the response",
-                "check the sign and the unit, and that this is a drive-point response"});
+    return refuse("no mode with a positive mass explains the response",
+                  "check the sign and the unit, and that this is a drive-point response");
   }
   best->criterion = criterion;
   return *best;

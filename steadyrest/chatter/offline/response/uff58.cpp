@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/response/uff58.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // Universal files are Fortran records of 80 columns: −1 opens and closes a dataset, five title
 // lines, record 6 tells the function, record 7 the form of the data, records 8 to 11 the axes.
@@ -18,7 +19,7 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
@@ -135,7 +136,7 @@ class UffReader {
   }
 
   [[nodiscard]] Refusal bad(std::string what, std::string to_do) const {
-    return {Kind::bad_input, file_, at_, std::move(what), std::move(to_do)};
+    return bad_input(file_, at_, std::move(what), std::move(to_do));
   }
   [[nodiscard]] Refusal truncated() const {
     return bad("the file ends within a dataset", "it is truncated; export it again");

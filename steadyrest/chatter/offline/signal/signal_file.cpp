@@ -7,11 +7,12 @@
 #include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/signal/signal_parts.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
@@ -40,7 +41,7 @@ OrFault<std::string> bytes_of(const std::string& path) {
 }
 
 Refusal refusal_of(SignalFault fault, const std::string& file) {
-  return {Kind::bad_input, file, fault.line, std::move(fault.what), std::move(fault.to_do)};
+  return bad_input(file, fault.line, std::move(fault.what), std::move(fault.to_do));
 }
 
 bool named_wav(const std::string& file) {

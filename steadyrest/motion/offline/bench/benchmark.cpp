@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/bench/benchmark.hpp>
 #include <steadyrest/motion/offline/calculus/physical_limits.hpp>
 #include <steadyrest/motion/offline/scene/encoder_peer.hpp>
@@ -20,8 +21,9 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using Clock = std::chrono::steady_clock;
 
@@ -274,9 +276,8 @@ Result<std::vector<std::string>> chosen_estimators(const BenchConfig& config) {
   }
   for (const std::string& name : config.estimators) {
     if (std::ranges::find(known, name) == known.end()) {
-      return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                     fmt::format("there is no estimator \"{}\"", name),
-                                     fmt::format("choose from {}", fmt::join(known, ","))});
+      return refuse(fmt::format("there is no estimator \"{}\"", name),
+                    fmt::format("choose from {}", fmt::join(known, ",")));
     }
   }
   return config.estimators;
@@ -295,10 +296,9 @@ Result<std::vector<SceneChoice>> chosen_scenes(const BenchConfig& config) {
           return scene.name == wanted || scene.family == wanted;
         })) {
       const bool folder = wanted.starts_with("recorded") && config.recorded_folder.empty();
-      return std::unexpected(
-          Refusal{Kind::bad_input, "", 0, fmt::format("there is no scene \"{}\"", wanted),
-                  folder ? "name the folder with the logs with --recorded"
-                         : fmt::format("choose from {}", fmt::join(names, ","))});
+      return refuse(fmt::format("there is no scene \"{}\"", wanted),
+                    folder ? "name the folder with the logs with --recorded"
+                           : fmt::format("choose from {}", fmt::join(names, ",")));
     }
   }
   std::vector<SceneChoice> out;
@@ -312,8 +312,7 @@ Result<std::vector<SceneChoice>> chosen_scenes(const BenchConfig& config) {
 
 std::optional<Refusal> unfit(const BenchConfig& config) {
   if (config.phases < 1 || config.repetitions < 1) {
-    return Refusal{Kind::bad_input, "", 0, "phases and repetitions are whole numbers from 1",
-                   "give such a number"};
+    return bad_input("phases and repetitions are whole numbers from 1", "give such a number");
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/bench/estimator_choice.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 #include <steadyrest/motion/online/bounded/ripple_estimator.hpp>
@@ -21,8 +22,9 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 
 template <class T>
 EstimatorResult made(const typename T::Config& config) {
@@ -87,26 +89,22 @@ constexpr std::array kChoices{
     Choice{"worst-case", worst_case, false, false, true},
 };
 
-std::optional<Refusal> refuse(std::string what, std::string to_do) {
-  return Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)};
-}
-
 /// A limit may be infinite (none is known), but not 0, negative or NaN.
 /// Positive includes infinity; the comparison itself fails for NaN.
 std::optional<Refusal> unfit_limit(std::string_view what, double value) {
   if (value > 0.0) {
     return std::nullopt;
   }
-  return refuse(fmt::format("{} = {:.10g}; allowed: a number above 0", what, value),
-                "give the limit of the axis, or leave it out");
+  return bad_input(fmt::format("{} = {:.10g}; allowed: a number above 0", what, value),
+                   "give the limit of the axis, or leave it out");
 }
 
 std::optional<Refusal> unfit_amount(std::string_view what, double value) {
   if (value >= 0.0 && std::isfinite(value)) {
     return std::nullopt;
   }
-  return refuse(fmt::format("{} = {:.10g}; allowed: a finite number from 0", what, value),
-                "give a value in that range");
+  return bad_input(fmt::format("{} = {:.10g}; allowed: a finite number from 0", what, value),
+                   "give a value in that range");
 }
 
 std::optional<Refusal> unfit(const EstimatorSetup& setup) {
@@ -143,26 +141,23 @@ std::vector<std::string_view> estimator_names() {
 EstimatorResult make_estimator(std::string_view name, const EstimatorSetup& setup) {
   const auto* choice = std::ranges::find(kChoices, name, &Choice::name);
   if (choice == kChoices.end()) {
-    return std::unexpected(
-        *refuse(fmt::format("there is no estimator \"{}\"", name),
-                fmt::format("give one of {}", fmt::join(estimator_names(), ", "))));
+    return refuse(fmt::format("there is no estimator \"{}\"", name),
+                  fmt::format("give one of {}", fmt::join(estimator_names(), ", ")));
   }
   if (auto refusal = unfit(setup)) {
     return std::unexpected(std::move(*refusal));
   }
   // An option without effect misleads, so it is refused rather than ignored.
   if (setup.lag_s > 0.0 && !choice->takes_lag) {
-    return std::unexpected(
-        *refuse(fmt::format("the estimator {} takes no lag", name), "leave out the lag"));
+    return refuse(fmt::format("the estimator {} takes no lag", name), "leave out the lag");
   }
   if (!setup.has_edges && choice->needs_edges) {
-    return std::unexpected(*refuse(fmt::format("the estimator {} needs edges", name),
-                                   "give a log of edges, or choose another estimator"));
+    return refuse(fmt::format("the estimator {} needs edges", name),
+                  "give a log of edges, or choose another estimator");
   }
   if (choice->needs_acceleration && !std::isfinite(setup.max_acceleration_mm_s2)) {
-    return std::unexpected(
-        *refuse(fmt::format("the estimator {} needs the largest acceleration of the axis", name),
-                "give --max-acceleration in mm/s²"));
+    return refuse(fmt::format("the estimator {} needs the largest acceleration of the axis", name),
+                  "give --max-acceleration in mm/s²");
   }
   return choice->make(setup);
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
 // Equations 1 … 8 of Kombarov et al. in both directions. Each is one division or product; what
@@ -14,8 +15,9 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 
 /// A value that goes into an equation, as the user knows it.
 struct Given {
@@ -26,10 +28,9 @@ struct Given {
 std::optional<Refusal> unfit(std::initializer_list<Given> values) {
   for (const Given& given : values) {
     if (!std::isfinite(given.value) || given.value <= 0.0) {
-      return Refusal{
-          Kind::bad_input, "", 0,
+      return bad_input(
           fmt::format("{} = {:.10g}; allowed: a finite number above 0", given.what, given.value),
-          "give a value above 0"};
+          "give a value above 0");
     }
   }
   return std::nullopt;
@@ -43,9 +44,8 @@ Number apply(std::initializer_list<Given> values, std::string_view result, Law l
   }
   const double value = law();
   if (!std::isfinite(value) || value <= 0.0) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   fmt::format("{} comes out as {:.10g}", result, value),
-                                   "give values for a real machine"});
+    return refuse(fmt::format("{} comes out as {:.10g}", result, value),
+                  "give values for a real machine");
   }
   return value;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 #include <steadyrest/motion/offline/calculus/unit_curves.hpp>
@@ -11,8 +12,7 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::units::mm_s_from_mm_min;
 
@@ -21,10 +21,8 @@ using kernel::units::mm_s_from_mm_min;
 Result<Curve> sampled(std::string name, double low, double high, std::size_t points,
                       const std::function<Number(double)>& law) {
   if (points < 2 || !(high > low)) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, "", 0,
-                fmt::format("a curve of {} points from {:.10g} to {:.10g}", points, low, high),
-                "give at least 2 points and a rising range"});
+    return refuse(fmt::format("a curve of {} points from {:.10g} to {:.10g}", points, low, high),
+                  "give at least 2 points and a rising range");
   }
   Curve curve{std::move(name), {}, {}};
   for (std::size_t i = low == 0.0 ? 1 : 0; i < points; ++i) {

@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/log/edge_log.hpp>
 #include <steadyrest/table/clock.hpp>
 #include <steadyrest/table/row_reader.hpp>
@@ -19,7 +20,7 @@ namespace steadyrest::motion::offline {
 // How a log is read: `table` finds lines, columns and numbers; the parser here judges how rows
 // follow one another. What makes all rows doubtful refuses the file; what makes one row doubtful
 // ends it there, with the rows before it kept; what may be so is reported.
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using table::Fault;
 using table::Row;
@@ -277,12 +278,12 @@ class EdgeLogReader::Parser final : public table::Sink {
   }
 
   void refuse(const Fault& fault) {
-    refused_ = Refusal{Kind::bad_input, log_.file, fault.line, fault.what, fault.to_do};
+    refused_ = bad_input(log_.file, fault.line, fault.what, fault.to_do);
   }
   void report(const Fault& fault) {
     ++log_.finding_count;
     if (log_.findings.size() < config_.max_findings) {
-      log_.findings.push_back({Kind::bad_input, log_.file, fault.line, fault.what, fault.to_do});
+      log_.findings.push_back(bad_input(log_.file, fault.line, fault.what, fault.to_do));
     }
   }
   /// A fault of the head refuses the file. One behind it ends the log; it is kept whatever
@@ -294,7 +295,7 @@ class EdgeLogReader::Parser final : public table::Sink {
       return false;
     }
     ++log_.finding_count;
-    log_.findings.push_back({Kind::bad_input, log_.file, fault.line, fault.what, fault.to_do});
+    log_.findings.push_back(bad_input(log_.file, fault.line, fault.what, fault.to_do));
     log_.stopped = true;
     return false;
   }

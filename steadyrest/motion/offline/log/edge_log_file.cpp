@@ -8,12 +8,13 @@
 #include <filesystem>
 #include <memory>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/log/edge_log.hpp>
 
 namespace steadyrest::motion::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 struct CloseFile {
@@ -26,8 +27,8 @@ struct CloseFile {
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
 Refusal unreadable(const std::string& path, const char* what) {
-  return {Kind::bad_input, path, 0, std::string(what) + ": " + std::strerror(errno),
-          "check the path and the permissions"};
+  return bad_input(path, std::string(what) + ": " + std::strerror(errno),
+                   "check the path and the permissions");
 }
 
 /// Bytes of a file; 0 where they are not known (a pipe).

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/log/log_kind.hpp>
 
 // A log given as the wrong kind makes estimates that look sensible and are wrong. Rows of cycles
@@ -16,7 +17,7 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 constexpr std::size_t kLeastRows = 20;
@@ -104,18 +105,19 @@ std::optional<Refusal> other_kind(const EdgeLog& log, LogInput input, double cyc
   if (input == LogInput::edges && steps.even > kMostRows && steps.other > kFewRows &&
       (steps.standing > kFewRows || steps.on_grid > kMostRows ||
        counts_are_rounded(log, steps.median_s))) {
-    return Refusal{Kind::bad_input, log.file, 0,
-                   fmt::format("is not a log of edges: its rows are {:.6g} ms apart, and {:.0f} % "
-                               "of them do not step by one count",
-                               1e3 * steps.median_s, 100.0 * (1.0 - steps.by_one)),
-                   "one row per cycle is --input ticks; calibration needs one row per edge"};
+    return bad_input(
+        log.file,
+        fmt::format("is not a log of edges: its rows are {:.6g} ms apart, and {:.0f} % "
+                    "of them do not step by one count",
+                    1e3 * steps.median_s, 100.0 * (1.0 - steps.by_one)),
+        "one row per cycle is --input ticks; calibration needs one row per edge");
   }
   if (input == LogInput::ticks && steps.by_one > kMostRows && steps.of_cycle < 0.5) {
-    return Refusal{Kind::bad_input, log.file, 0,
-                   fmt::format("is not a log of cycles: {:.0f} % of its rows step by one count, "
-                               "and they are not {:.6g} ms apart but {:.6g} ms (median)",
-                               100.0 * steps.by_one, 1e3 / cycle_hz, 1e3 * steps.median_s),
-                   "one row per edge is --input edges; for cycles give --cycle-hz as logged"};
+    return bad_input(log.file,
+                     fmt::format("is not a log of cycles: {:.0f} % of its rows step by one count, "
+                                 "and they are not {:.6g} ms apart but {:.6g} ms (median)",
+                                 100.0 * steps.by_one, 1e3 / cycle_hz, 1e3 * steps.median_s),
+                     "one row per edge is --input edges; for cycles give --cycle-hz as logged");
   }
   return std::nullopt;
 }

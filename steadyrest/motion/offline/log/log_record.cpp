@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/log/log_record.hpp>
 
 // A log has rows; an estimator wants edges and ticks. From edges the ticks are made, from ticks
@@ -11,7 +12,7 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 constexpr double kTickTolerance = 1e-6;  // of a cycle: the rounding of t·f
@@ -20,10 +21,9 @@ std::optional<Refusal> outside(const char* what, double value, bool zero_allowed
   if (std::isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0))) {
     return std::nullopt;
   }
-  return Refusal{Kind::bad_input, "", 0,
-                 fmt::format("{} = {:.10g}; allowed: a finite number {} 0", what, value,
-                             zero_allowed ? "from" : "above"),
-                 "give a value in that range"};
+  return bad_input(fmt::format("{} = {:.10g}; allowed: a finite number {} 0", what, value,
+                               zero_allowed ? "from" : "above"),
+                   "give a value in that range");
 }
 
 std::optional<Refusal> unfit(const LogRecordConfig& config) {
@@ -71,12 +71,13 @@ std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& con
   const double allowed = std::min(static_cast<double>(config.max_ticks),
                                   kFreeTicks + kTicksPerRow * static_cast<double>(log.rows.size()));
   if (!(last - first < allowed)) {
-    return Refusal{Kind::bad_input, log.file, log.longest_step_line,
-                   fmt::format("{} rows span {:.6g} s, or {:.3g} control cycles; allowed: {:.3g}. "
-                               "Time advances by {:.6g} s before this row",
-                               log.rows.size(), log.rows.back().t_s - log.rows.front().t_s,
-                               last - first, allowed, log.longest_step_s),
-                   "look for a wrong time stamp, or split the log"};
+    return bad_input(
+        log.file, log.longest_step_line,
+        fmt::format("{} rows span {:.6g} s, or {:.3g} control cycles; allowed: {:.3g}. "
+                    "Time advances by {:.6g} s before this row",
+                    log.rows.size(), log.rows.back().t_s - log.rows.front().t_s, last - first,
+                    allowed, log.longest_step_s),
+        "look for a wrong time stamp, or split the log");
   }
   if (last < first) {
     return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/scene/line_calibration.hpp>
 
 // Several passes over one record: the table forgets, so each pass sharpens what the one before has
@@ -11,16 +12,11 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using online::LineFit;
 using online::LineTable;
 
 constexpr std::uint32_t kMaxPasses = 1000;
-
-std::unexpected<Refusal> refuse(std::string what, std::string to_do) {
-  return std::unexpected(Refusal{Kind::bad_input, "", 0, std::move(what), std::move(to_do)});
-}
 
 // One revolution, the range that was asked for, or what the record has passed.
 kernel::outcome::Result<LineTable> table_for(const Record& record,

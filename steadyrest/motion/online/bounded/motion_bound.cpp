@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/online/bounded/motion_bound.hpp>
 
 // The order within a tick: what the last tick's intervals allow now (advance), then what this
@@ -12,8 +13,7 @@
 namespace steadyrest::motion::online {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 
 /// 120 m/min: taken as the speed's limit until something tighter is known.
 constexpr double kFastest = 2000.0;
@@ -39,9 +39,6 @@ double rough_cbrt(double x) noexcept {
 }  // namespace
 
 kernel::outcome::Result<MotionBound> MotionBound::make(const Config& config) {
-  const auto refuse = [](const char* what, const char* to_do) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0, what, to_do});
-  };
   if (!(config.cycle_s >= 1e-6 && config.cycle_s <= 1.0)) {
     return refuse("the cycle is outside 1e-6 … 1 s", "give the control's cycle time in s");
   }

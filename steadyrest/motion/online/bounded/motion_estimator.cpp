@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 // The frame of the estimator: checks, start and restart, what to do with an edge and with a tick,
@@ -9,6 +10,8 @@
 // motion_estimator_observe.cpp, what a tick does in motion_estimator_mix.cpp.
 namespace steadyrest::motion::online {
 namespace {
+
+using kernel::outcome::refuse;
 
 // What follows was chosen once, on the scenes of bench/motion and the recorded logs together,
 // counts of any length alike; nothing of it depends on the motion.
@@ -22,9 +25,6 @@ constexpr double kLineSigma = 8.6e-3;  ///< counts, at the start
 constexpr double kRestAtStart = 0.8;
 constexpr double kGapCycles = 50.0;  ///< a longer hole in the record restarts the filter
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
-
 bool in_range(double value, double low, double high) {
   return value >= low && value <= high;
 }
@@ -33,19 +33,16 @@ bool in_range(double value, double low, double high) {
 
 kernel::outcome::Result<MotionEstimator> MotionEstimator::make(const Config& config) {
   if (!in_range(config.count_mm, 1e-9, 1e3)) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0,
-                                   "the length of a count is outside 1e-9 … 1000 mm",
-                                   "give the length of one count after ×4 decoding in mm"});
+    return refuse("the length of a count is outside 1e-9 … 1000 mm",
+                  "give the length of one count after ×4 decoding in mm");
   }
   if (std::isnan(config.line_error_mm) || config.line_error_mm > config.count_mm) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, "", 0, "the line error is more than one count",
-                "give the bound on one line's position error in mm, below the count"});
+    return refuse("the line error is more than one count",
+                  "give the bound on one line's position error in mm, below the count");
   }
   if (!in_range(config.lag_s, 0.0,
                 static_cast<double>(LagSmoother::kMostTicks) * config.cycle_s * 1.001)) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0, "the lag is outside 0 … 32 cycles",
-                                   "give a lag of no more than 32 cycles"});
+    return refuse("the lag is outside 0 … 32 cycles", "give a lag of no more than 32 cycles");
   }
   const auto bound = MotionBound::make({config.cycle_s, config.clock_s, config.max_speed_mm_s,
                                         config.max_acceleration_mm_s2, config.max_jerk_mm_s3});

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/online/line/line_table.hpp>
 
 namespace steadyrest::motion::online {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 
 // Which test fails when one is moved: README, "What the constants do".
 constexpr double kPhaseLearn =
@@ -30,9 +30,6 @@ std::size_t phase_of(std::int64_t line) noexcept {
 }  // namespace
 
 kernel::outcome::Result<LineTable> LineTable::make(const Config& config) {
-  const auto refuse = [](const char* what, const char* to_do) {
-    return std::unexpected(Refusal{Kind::bad_input, "", 0, what, to_do});
-  };
   if (!(config.count_mm > 0.0) || !std::isfinite(config.count_mm)) {
     return refuse("the length of a count is not positive", "give the length of one count in mm");
   }

@@ -4,21 +4,16 @@
 #include <string>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/blocks/interpreter.hpp>
 #include <steadyrest/nc/interpret/decode/codes.hpp>
 
 namespace steadyrest::nc::interpret {
 
+using kernel::outcome::refuse;
 using read::Block;
 
 kernel::outcome::Result<std::unique_ptr<Interpreter>> Interpreter::make(Config config) {
-  const auto refuse = [](std::string what, std::string to_do) {
-    return std::unexpected(kernel::outcome::Refusal{.kind = kernel::outcome::Kind::bad_input,
-                                                    .file = {},
-                                                    .line = 0,
-                                                    .what = std::move(what),
-                                                    .to_do = std::move(to_do)});
-  };
   // All of the configuration is judged here, so that execution can rely on it.
   for (const char letter : config.axes) {
     if (kAxisLetters.find(letter) == std::string_view::npos) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/parameters/linuxcnc_files.hpp>
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/read/text/line_source.hpp>
@@ -12,22 +13,13 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using read::LineSource;
 
 constexpr std::size_t kAxes = 9;
 constexpr bool is_rotary(std::size_t axis) noexcept {
   return axis >= 3 && axis < 6;
-}
-
-std::unexpected<Refusal> refuse(const std::string& path, std::size_t line, std::string what,
-                                std::string to_do) {
-  return std::unexpected(Refusal{.kind = kernel::outcome::Kind::bad_input,
-                                 .file = path,
-                                 .line = line,
-                                 .what = std::move(what),
-                                 .to_do = std::move(to_do)});
 }
 
 std::string_view without_comment(std::string_view line) noexcept {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/state/spline_curve.hpp>
@@ -17,8 +18,7 @@ using interpret::MoveKind;
 using interpret::PathMode;
 using kernel::machine::kUnlimited;
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::bad_input;
 using kernel::outcome::Result;
 using kernel::signal::Geometry;
 using kernel::signal::Motion;
@@ -316,11 +316,8 @@ void PathStream::on_move(const Move& move) {
   }
   if (move.kind == MoveKind::spline) {
     if (move.spline_order < 2 || interpret::spline_spans(move.spline, move.spline_order) < 1) {
-      refusal_ = Refusal{Kind::bad_input,
-                         {},
-                         move.line,
-                         "a spline without its control points",
-                         "output lines or arcs from the CAM system"};
+      refusal_ = bad_input("", move.line, "a spline without its control points",
+                           "output lines or arcs from the CAM system");
       return;
     }
     spline_lines(move, kSplineTolerance_mm, [this](const Move& line) { on_move(line); });

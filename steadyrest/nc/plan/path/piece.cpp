@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
@@ -17,8 +18,6 @@ using interpret::FeedMode;
 using interpret::Move;
 using interpret::MoveKind;
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using kernel::signal::AxisValues;
 using kernel::signal::Geometry;
@@ -227,7 +226,7 @@ void PieceMaker::limit(Piece& out, const SpeedLimits& limits) const {
 
 Result<bool> PieceMaker::make(const Move& move, Piece& out) const {
   const auto refuse = [&move](const char* what, const char* to_do) {
-    return std::unexpected(Refusal{Kind::bad_input, {}, move.line, what, to_do});
+    return kernel::outcome::refuse("", move.line, what, to_do);
   };
   out = {};
   PathSegment& s = out.segment;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/plan/path/axes_at.hpp>
 #include <steadyrest/nc/plan/path/limits.hpp>
 #include <steadyrest/nc/plan/time/interpolator.hpp>
@@ -11,8 +12,7 @@
 namespace steadyrest::nc::plan {
 
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::signal::Motion;
 
@@ -34,25 +34,23 @@ double ratio_or_hold(double ratio, double most) noexcept {
 Result<Interpolator> Interpolator::make(const Machine& machine, const PathWindow& path) {
   const double period = machine.control.interpolator_period_s;
   if (!(period > 0.0) || !std::isfinite(period)) {
-    return std::unexpected(Refusal{
-        Kind::bad_input, machine.file, 0,
+    return refuse(
+        machine.file,
         "control.interpolator_period must be above 0, it is " + std::to_string(period) + " s",
-        "give the control's cycle time"});
+        "give the control's cycle time");
   }
   if (machine.control.look_ahead_blocks == 0) {
-    return std::unexpected(Refusal{Kind::bad_input, machine.file, 0,
-                                   "control.look_ahead_blocks must be at least 1",
-                                   "give 1 or more"});
+    return refuse(machine.file, "control.look_ahead_blocks must be at least 1", "give 1 or more");
   }
   // Rounded up: a longer averaging time only lowers the jerk. The 1e-9 keeps a quotient that is
   // whole but for rounding from costing a period.
   const PathLimits limits(machine.axes, machine.control);
   const double taps = std::max(1.0, std::ceil(limits.jerk_time_s() / period - 1e-9));
   if (!(taps <= 10000.0)) {
-    return std::unexpected(Refusal{Kind::bad_input, machine.file, 0,
-                                   "the jerk limits ask for an averaging time of " +
-                                       std::to_string(taps) + " periods; the most is 10000",
-                                   "raise max_jerk or lower max_acceleration"});
+    return refuse(machine.file,
+                  "the jerk limits ask for an averaging time of " + std::to_string(taps) +
+                      " periods; the most is 10000",
+                  "raise max_jerk or lower max_acceleration");
   }
   return Interpolator(machine, path, static_cast<std::size_t>(taps),
                       std::min<std::size_t>(machine.control.look_ahead_blocks, 1U << 16U));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/plan/time/interpolator.hpp>
 #include <steadyrest/nc/plan/time/program_timer.hpp>
@@ -12,8 +13,7 @@
 namespace steadyrest::nc::plan {
 
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::signal::Motion;
 using kernel::signal::PathSegment;
@@ -215,11 +215,8 @@ Result<ProgramTime> ProgramTimer::take() {
     return std::unexpected(*runner_->stream.refusal());
   }
   if (runner_->stuck()) {
-    return std::unexpected(Refusal{Kind::bad_input,
-                                   {},
-                                   0,
-                                   "the program takes longer than 30 days",
-                                   "look for a feed or a dwell in the wrong unit"});
+    return refuse("the program takes longer than 30 days",
+                  "look for a feed or a dwell in the wrong unit");
   }
   ProgramTime& time = runner_->time;
   // The program began with a tool change: nothing was done with the tool before it.

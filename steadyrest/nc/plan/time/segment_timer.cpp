@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/plan/path/limits.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/plan/time/interpolator.hpp>
@@ -16,8 +17,7 @@
 namespace steadyrest::nc::plan {
 
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::signal::PathSegment;
 
@@ -375,11 +375,8 @@ Result<SegmentTimer::Timed> SegmentTimer::take_cyclogram() {
     return std::unexpected(*runner_->stream.refusal());
   }
   if (!(runner_->time_s() <= ProgramTimer::kMost_s)) {
-    return std::unexpected(Refusal{Kind::bad_input,
-                                   {},
-                                   0,
-                                   "the program takes longer than 30 days",
-                                   "look for a feed or a dwell in the wrong unit"});
+    return refuse("the program takes longer than 30 days",
+                  "look for a feed or a dwell in the wrong unit");
   }
   return Timed{runner_->time_s(), runner_->cyclogram()};
 }

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/correct/compensate.hpp>
 #include <steadyrest/nc/rewrite/correct/placing.hpp>
 #include <steadyrest/nc/rewrite/text/place_of_head.hpp>
@@ -21,7 +22,6 @@ namespace steadyrest::nc::rewrite {
 namespace {
 
 using kernel::file::OutputFile;
-using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
@@ -67,8 +67,7 @@ class Rewriter {
 
  private:
   Result<void> refuse(std::uint32_t line, std::string what, std::string to_do) const {
-    return std::unexpected(
-        Refusal{Kind::bad_input, program_, line, std::move(what), std::move(to_do)});
+    return kernel::outcome::refuse(program_, line, std::move(what), std::move(to_do));
   }
 
   void progress(double share, std::string_view what) const {
@@ -265,10 +264,9 @@ class Rewriter {
     }
     // A device has no name under which it could be read again.
     if (writer->path().empty()) {
-      return std::unexpected(
-          Refusal{Kind::bad_input, output, 0,
-                  "is not a file: the changed program is read back for the proof",
-                  "name a file, not a device or a pipe"});
+      return kernel::outcome::refuse(
+          output, "is not a file: the changed program is read back for the proof",
+          "name a file, not a device or a pipe");
     }
     copy(*lines, *writer);
     if (auto whole = lines->whole(); !whole) {

@@ -4,17 +4,15 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/correct/placing.hpp>
 
 namespace steadyrest::nc::rewrite {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
 Result<void> Placing::refuse(std::uint32_t line, std::string what, std::string to_do) const {
-  return std::unexpected(
-      Refusal{Kind::bad_input, program_, line, std::move(what), std::move(to_do)});
+  return kernel::outcome::refuse(program_, line, std::move(what), std::move(to_do));
 }
 
 // Steps that share a place become one change of the offset. Each is recorded all the same, so the

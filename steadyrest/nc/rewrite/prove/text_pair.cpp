@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/prove/text_pair.hpp>
 #include <steadyrest/nc/rewrite/text/place_of_head.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
@@ -9,7 +10,7 @@
 
 namespace steadyrest::nc::rewrite {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
@@ -66,7 +67,7 @@ class TextPair {
   void refuse(const std::string& file, std::uint32_t line, std::string what,
               std::string_view to_do = "make the changed program again from this original") {
     if (!fault_) {
-      fault_ = Refusal{Kind::bad_input, file, line, std::move(what), std::string(to_do)};
+      fault_ = bad_input(file, line, std::move(what), std::string(to_do));
     }
   }
 
@@ -133,9 +134,8 @@ Result<Inserted> compare_text(const std::string& original, const std::string& ch
   TextPair pair(std::move(*before), std::move(*after), original, changed, settings);
   auto inserted = pair.compare(plain);
   if (inserted && inserted->head != whole_head(plan, settings)) {
-    return std::unexpected(Refusal{Kind::bad_input, changed, 0,
-                                   "the head does not match this plan, machine and method",
-                                   std::string(kAgainstOtherLines)});
+    return kernel::outcome::refuse(changed, "the head does not match this plan, machine and method",
+                                   std::string(kAgainstOtherLines));
   }
   return inserted;
 }

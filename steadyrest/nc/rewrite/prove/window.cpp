@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/prove/window.hpp>
 
 namespace steadyrest::nc::rewrite {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 Result<std::unique_ptr<Window>> Window::make(const KnownTimes* known,
@@ -43,9 +43,8 @@ Result<double> Window::finish() {
   }
   for (std::size_t axis = 0; axis < changes_.size(); ++axis) {
     if (auto fault = mismatch(plan_.axes[axis], settings_, changes_[axis])) {
-      return std::unexpected(
-          Refusal{Kind::bad_input, changed_, fault->line, std::move(fault->what),
-                  "make the changed program again, or allow a wider --window-s"});
+      return refuse(changed_, fault->line, std::move(fault->what),
+                    "make the changed program again, or allow a wider --window-s");
     }
   }
   return total;

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/text/mark.hpp>
 #include <steadyrest/nc/rewrite/text/settings.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
@@ -134,10 +135,9 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
   }
   // A program without inserted lines has no mark to miss.
   if (inserted && (sum.name != kSum || sum.value != sum_of(told))) {
-    return std::unexpected(
-        kernel::outcome::Refusal{kernel::outcome::Kind::bad_input, changed, 0,
-                                 "the record in its head of how it was made is missing or changed",
-                                 std::string(kAgainstOtherLines)});
+    return kernel::outcome::refuse(
+        changed, "the record in its head of how it was made is missing or changed",
+        std::string(kAgainstOtherLines));
   }
   return told;
 }

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/outcome/nearest.hpp>
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/rewrite/text/plan_file.hpp>
@@ -17,6 +18,7 @@ namespace steadyrest::nc::rewrite {
 namespace {
 
 using Json = nlohmann::json;
+using kernel::outcome::bad_input;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
@@ -52,7 +54,7 @@ class PlanReader {
 
  private:
   bool refuse(std::string what, std::string to_do, std::size_t line = 0) {
-    refusal_ = {Kind::bad_input, plan_.file, line, std::move(what), std::move(to_do)};
+    refusal_ = bad_input(plan_.file, line, std::move(what), std::move(to_do));
     return false;
   }
   bool refuse_key(const std::string& key, std::string what, std::string to_do) {

@@ -4,13 +4,12 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/text/linuxcnc_text.hpp>
 #include <steadyrest/nc/rewrite/text/settings.hpp>
 
 namespace steadyrest::nc::rewrite {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
 Result<void> check_plan(const Plan& plan, const Settings& settings,
@@ -18,8 +17,7 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
   // Each step holds six places in memory and costs inserted lines.
   constexpr std::size_t kMostSteps = 10'000;
   const auto refuse = [&](std::string what, std::string to_do) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, plan.file, 0, std::move(what), std::move(to_do)});
+    return kernel::outcome::refuse(plan.file, std::move(what), std::move(to_do));
   };
   for (const AxisPlan& axis : plan.axes) {
     if (config.axes.find(axis.letter) == std::string::npos) {
@@ -66,11 +64,11 @@ Result<void> check_total(const Plan& plan, double program_s) {
   if (std::abs(plan.total_s - program_s) <= std::max(kFit_s, kFitShare * program_s)) {
     return {};
   }
-  return std::unexpected(Refusal{Kind::bad_input, plan.file, 0,
+  return kernel::outcome::refuse(plan.file,
                                  fmt::format("the plan is for {:.1f} s, the program takes {:.1f} s "
                                              "on this machine; they may differ by 2 % or 30 s",
                                              plan.total_s, program_s),
-                                 "make the plan from this program and this machine file"});
+                                 "make the plan from this program and this machine file");
 }
 
 // Only axes that are corrected get a head, but on linuxcnc the head looks after every axis of the

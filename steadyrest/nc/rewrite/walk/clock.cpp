@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/walk/clock.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -76,12 +77,9 @@ void Clock::feed(Walk& walk) {
 
 Result<double> Clock::finish() {
   if (unknown_line_ != 0) {
-    return std::unexpected(
-        kernel::outcome::Refusal{kernel::outcome::Kind::bad_input,
-                                 {},
-                                 unknown_line_,
-                                 "the time of this line is needed but was not found before",
-                                 "verify the changed program separately"});
+    return kernel::outcome::refuse("", unknown_line_,
+                                   "the time of this line is needed but was not found before",
+                                   "verify the changed program separately");
   }
   if (known_ != nullptr) {
     return known_->program_s;

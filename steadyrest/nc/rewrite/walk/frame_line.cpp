@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/walk/frame_line.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -12,8 +13,7 @@ namespace steadyrest::nc::rewrite {
 std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char letter,
                                                  const std::string& program) {
   const auto refuse = [&](std::string what, std::string to_do) {
-    return kernel::outcome::Refusal{kernel::outcome::Kind::bad_input, program, frame.line,
-                                    std::move(what), std::move(to_do)};
+    return kernel::outcome::bad_input(program, frame.line, std::move(what), std::move(to_do));
   };
   const bool end = frame.ends;
   if (frame.frame == Frame::measured) {

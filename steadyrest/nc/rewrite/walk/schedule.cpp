@@ -5,12 +5,12 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/walk/schedule.hpp>
 
 namespace steadyrest::nc::rewrite {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 Schedule::Schedule(AxisPlan plan, double window_s)
@@ -70,14 +70,11 @@ Result<std::vector<Chosen>> Schedule::choose() const {
       place = chosen.back().place;
     }
     if (!place) {
-      return std::unexpected(Refusal{
-          Kind::bad_input,
-          {},
-          0,
+      return refuse(
           fmt::format(
               "no safe place for the correction of {} planned at {:.1f} s within {:g} s of it",
               plan_.letter, step.time_s, window_s_),
-          "widen --window-s, or add a retract with an absolute G0 there"});
+          "widen --window-s, or add a retract with an absolute G0 there");
     }
     chosen.push_back({*place, step});
   }

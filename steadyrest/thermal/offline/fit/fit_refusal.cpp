@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/fit/fit_refusal.hpp>
 #include <steadyrest/thermal/offline/log/level_table.hpp>
@@ -14,7 +15,7 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 constexpr double kHorizonPerRun = 2.0;
@@ -22,7 +23,7 @@ constexpr double kMostHorizonSd = 0.25;  ///< of the range
 constexpr double kRunPerTau = 1.5;       ///< a run shows a time constant when it is so much longer
 
 Refusal refuse(const Log& log, std::string what, std::string to_do) {
-  return {Kind::bad_input, log.file, 0, std::move(what), std::move(to_do)};
+  return bad_input(log.file, std::move(what), std::move(to_do));
 }
 // With fewer than three speeds a table is a straight line; a polynomial says as much with less.
 std::optional<Refusal> unfit_speeds(const Log& log, const std::vector<double>& table_rev_s) {

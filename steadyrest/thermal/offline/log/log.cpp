@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/offline/log/log_clock.hpp>
@@ -19,7 +20,6 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
@@ -67,8 +67,7 @@ class LogMaker {
   }
   [[nodiscard]] std::unexpected<Refusal> refuse(std::size_t line, std::string what,
                                                 std::string to_do) const {
-    return std::unexpected(
-        Refusal{Kind::bad_input, log_.file, line, std::move(what), std::move(to_do)});
+    return kernel::outcome::refuse(log_.file, line, std::move(what), std::move(to_do));
   }
   [[nodiscard]] const LogColumn& only(Quantity quantity) const {
     return *std::ranges::find(table_.column, quantity, &LogColumn::quantity);

@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 #include <zlib.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/table/clock.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 
@@ -244,7 +245,7 @@ Result<std::string> read_packed(const std::string& path) {
 Result<LogTable> parse_log_table(std::string_view text, const std::string& file,
                                  const table::Format& format) {
   const auto refuse = [&](const Fault& fault) {
-    return std::unexpected(Refusal{Kind::bad_input, file, fault.line, fault.what, fault.to_do});
+    return kernel::outcome::refuse(file, fault.line, fault.what, fault.to_do);
   };
   TableReader table(format);
   table::RowReader rows(format, table);

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 #include <steadyrest/thermal/offline/log/measured.hpp>
 
@@ -15,8 +16,7 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using table::Fault;
 using table::shown;
@@ -210,7 +210,7 @@ Result<std::vector<Measured>> parse_measured(std::string_view text, const std::s
                   "give a CSV with columns part, transition or time_min, deviation_um"};
   }
   if (fault) {
-    return std::unexpected(Refusal{Kind::bad_input, file, fault->line, fault->what, fault->to_do});
+    return refuse(file, fault->line, fault->what, fault->to_do);
   }
   return out;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/offline/plan/plan.hpp>
 
 // The system R of Marusich 2012 for one axis: follow the residual δ − corrections through each
@@ -14,8 +15,6 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
 /// A residual that is nearer to its border than that has reached it.
@@ -62,8 +61,7 @@ class Planner {
 
  private:
   Result<void> refuse(std::string what, std::string to_do) const {
-    return std::unexpected(
-        Refusal{Kind::bad_input, cyclogram_.file, 0, std::move(what), std::move(to_do)});
+    return kernel::outcome::refuse(cyclogram_.file, std::move(what), std::move(to_do));
   }
 
   [[nodiscard]] std::string place(std::size_t i, double at_s) const {
