@@ -8,27 +8,16 @@
 
 #include <steadyrest/chatter/online/modulator.hpp>
 #include <steadyrest/chatter/online/modulator_range.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // What the modulator works out once, from its settings.
 namespace steadyrest::chatter::online {
 namespace {
 
 namespace machine = kernel::machine;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::override::kRatioTolerance;
-
-// The machine file has its own list of laws; make() casts from one to the other.
-static_assert(static_cast<int>(machine::SpeedLaw::constant) == static_cast<int>(Law::constant));
-static_assert(static_cast<int>(machine::SpeedLaw::square) == static_cast<int>(Law::square));
-static_assert(static_cast<int>(machine::SpeedLaw::pulse) == static_cast<int>(Law::pulse));
-static_assert(static_cast<int>(machine::SpeedLaw::triangle) == static_cast<int>(Law::triangle));
-static_assert(static_cast<int>(machine::SpeedLaw::sine) == static_cast<int>(Law::sine));
-static_assert(static_cast<int>(machine::SpeedLaw::random) == static_cast<int>(Law::random));
-static_assert(static_cast<int>(machine::SpeedLaw::stop) == static_cast<int>(Law::stop));
-
-kernel::outcome::Refusal refuse(std::string what, std::string to_do) {
-  return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), std::move(to_do)};
-}
 
 struct Range {
   const char* name;
@@ -40,9 +29,8 @@ struct Range {
 Result<void> check(const Modulator::Config& c) {
   constexpr double kMost = 1e9;
   if (!fit(c.modulation)) {
-    return std::unexpected(
-        refuse("the law, amplitude, period or mean of the modulation is out of range",
-               "correct law, amplitude, period_s and mean_percent of [chatter]"));
+    return refuse("the law, amplitude, period or mean of the modulation is out of range",
+                  "correct law, amplitude, period_s and mean_percent of [chatter]");
   }
   for (const Range& r :
        {Range{"min_ratio", c.min_ratio, 1e-3, 10.0},
@@ -57,9 +45,9 @@ Result<void> check(const Modulator::Config& c) {
         Range{"hysteresis", c.hysteresis, 0.0, 0.5},
         Range{"max_step_s", c.max_step_s, 1e-6, 1e3}}) {
     if (!(r.value >= r.min && r.value <= r.max)) {
-      return std::unexpected(refuse(
+      return refuse(
           fmt::format("modulator: {} = {:g} is outside {:g} … {:g}", r.name, r.value, r.min, r.max),
-          "correct [chatter] or [envelope]"));
+          "correct [chatter] or [envelope]");
     }
   }
   return {};
@@ -86,12 +74,12 @@ Result<Modulator> Modulator::make(const Config& config) {
   const auto highest = spindle->floor_step(config.max_ratio);
   if (!lowest || !highest ||
       spindle->ratio(*highest) <= spindle->ratio(*lowest) + kRatioTolerance) {
-    return std::unexpected(
-        refuse(fmt::format("the spindle override has fewer than two steps within {:g} … {:g} %: "
-                           "there is nothing to modulate with",
-                           100.0 * config.min_ratio, 100.0 * config.max_ratio),
-               "give [override.spindle] and an [envelope] that contains some of its steps, or set "
-               "enabled = false in [chatter]"));
+    return refuse(
+        fmt::format("the spindle override has fewer than two steps within {:g} … {:g} %: "
+                    "there is nothing to modulate with",
+                    100.0 * config.min_ratio, 100.0 * config.max_ratio),
+        "give [override.spindle] and an [envelope] that contains some of its steps, or set "
+        "enabled = false in [chatter]");
   }
   std::optional<Table> feed;
   if (!config.feed_table.ratio.empty()) {
@@ -107,7 +95,7 @@ Result<Modulator> Modulator::make(const Config& config) {
 Result<Modulator> Modulator::make(const machine::Machine& m) {
   const machine::Chatter& c = m.chatter;
   return make(Config{
-      .modulation = {.law = static_cast<Law>(c.law),
+      .modulation = {.law = c.law,
                      .amplitude_ratio = c.amplitude_ratio,
                      .amplitude_rev_s = c.amplitude_rev_s,
                      .period_s = c.period_s,

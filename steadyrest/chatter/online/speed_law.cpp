@@ -4,12 +4,15 @@
 #include <numbers>
 
 #include <steadyrest/chatter/online/speed_law.hpp>
+#include <steadyrest/kernel/machine/speed_law.hpp>
 
 // Shapes S(u) over one period with mean 0, so that a law keeps the mean speed and the cut its time.
 // integral() is exact: the solver inverts angle = ∫speed, and a numerical sum would blunt the
 // corners.
 namespace steadyrest::chatter::online {
 namespace {
+
+using kernel::machine::kSpeedLawNames;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kPulseShare = 0.25;
@@ -36,19 +39,15 @@ double pulse_integral(double u, double share) noexcept {
   return u < share ? u : share * (1.0 - u) / (1.0 - share);
 }
 
-// In the order of Law.
-constexpr std::array<const char*, 7> kNames = {"constant", "square", "pulse", "triangle",
-                                               "sine",     "random", "stop"};
-
 }  // namespace
 
 const char* name(Law law) noexcept {
-  return kNames[static_cast<std::size_t>(law)];
+  return kSpeedLawNames[static_cast<std::size_t>(law)].data();
 }
 
 std::optional<Law> law_of(std::string_view word) noexcept {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (word == kNames[i]) {
+  for (std::size_t i = 0; i < kSpeedLawNames.size(); ++i) {
+    if (word == kSpeedLawNames[i]) {
       return static_cast<Law>(i);
     }
   }

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include <steadyrest/kernel/machine/chatter.hpp>
+
 /// Shapes of a spindle-speed modulation: speed = mean·(1 + RVA·S(u)), u the phase in periods.
 ///
 /// S has the mean 0 and lies within −1 … 1:
@@ -19,7 +21,7 @@
 /// Phases as in the literature's references: Seguy et al. 2010; Insperger, Stépán 2004.
 namespace steadyrest::chatter::online {
 
-enum class Law : std::uint8_t { constant, square, pulse, triangle, sine, random, stop };
+using Law = kernel::machine::SpeedLaw;
 
 class SpeedLaw {
  public:
@@ -51,6 +53,7 @@ class SpeedLaw {
 
 /// The law's word at the borders: constant, square, pulse, triangle, sine, random, stop.
 [[nodiscard]] const char* name(Law law) noexcept;
+/// The law of a word; nullopt for any other word.
 [[nodiscard]] std::optional<Law> law_of(std::string_view word) noexcept;
 
 }  // namespace steadyrest::chatter::online

@@ -5,7 +5,7 @@
 
 namespace steadyrest::kernel::machine {
 
-/// Shapes of the spindle's speed, in the order of chatter::online::Law.
+/// Shapes of the spindle's speed; chatter/online/speed_law.hpp has the formulas.
 enum class SpeedLaw : std::uint8_t { constant, square, pulse, triangle, sine, random, stop };
 
 /// What the chatter room may do on this machine.

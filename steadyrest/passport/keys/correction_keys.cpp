@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
+#include <steadyrest/kernel/machine/speed_law.hpp>
 #include <steadyrest/passport/keys/choice.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 
@@ -19,8 +20,6 @@ using std::string_view;
 
 constexpr std::array<string_view, 3> kStrategies = {"contour_priority", "feed_priority",
                                                     "combined"};
-constexpr std::array<string_view, 7> kLaws = {"constant", "square", "pulse", "triangle",
-                                              "sine",     "random", "stop"};
 
 }  // namespace
 
@@ -53,10 +52,11 @@ std::span<const Key<Contour>> contour_keys() noexcept {
 /// how much of it the feed can follow without rubbing or overloading the tooth.
 std::span<const Key<Chatter>> chatter_keys() noexcept {
   static const std::array kKeys = {
-      Key<Chatter>{"enabled", &Chatter::enabled, 0, 0, "Allows spindle-speed modulation."},
-      Key<Chatter>{"law", choice<Chatter, &Chatter::law>(kLaws), 0, 0,
-                   "Shape of the modulation: square wave, pulse (up for a quarter of the period), "
-                   "triangle, sine, random, a brief slow-down (`stop`), or `constant` for none."},
+      Key<Chatter>{"enabled", &Chatter::enabled, 0, 0,
+                   "Allows spindle-speed modulation."},
+      Key<Chatter>{
+          "law", choice<Chatter, &Chatter::law>(kernel::machine::kSpeedLawNames), 0, 0,
+          "Shape of the modulation: square wave, pulse (up for a quarter of the period), triangle, sine, random, a brief slow-down (`stop`), or `constant` for none."},
       Key<Chatter>{"amplitude_percent", &Chatter::amplitude_ratio, 0, 90,
                    "Swing to either side of the mean speed. Either this or `amplitude_rpm`."},
       Key<Chatter>{"amplitude_rpm", &Chatter::amplitude_rev_s, 0, 1e5,
@@ -112,7 +112,7 @@ string_view word(ContourStrategy strategy) noexcept {
   return pick(kStrategies, strategy);
 }
 string_view word(SpeedLaw law) noexcept {
-  return pick(kLaws, law);
+  return pick(kernel::machine::kSpeedLawNames, law);
 }
 
 }  // namespace steadyrest::passport

@@ -50,7 +50,7 @@ class LateWord {
 };
 
 Result<Modulator> modulator_of(Machine machine, double programmed_rev_s, const Modulation& m) {
-  machine.chatter.law = static_cast<kernel::machine::SpeedLaw>(m.law);
+  machine.chatter.law = m.law;
   machine.chatter.amplitude_ratio = m.rva;
   machine.chatter.amplitude_rev_s = 0.0;
   machine.chatter.period_s = 1.0 / (m.rvf * programmed_rev_s);
