@@ -13,14 +13,14 @@
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/rewrite_options.hpp>
 #include <steadyrest/apps/cli/shared/value_check.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 
 // What `program compensate` and `program verify` share: how corrections reach this control, and the
 // mark by which a changed program tells how it was made.
 namespace steadyrest::apps::cli {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::bad_input;
 using nc::rewrite::Method;
 using nc::rewrite::Way;
 
@@ -34,43 +34,25 @@ std::string machine_path(const RewriteOptions& options, const nc::rewrite::Plan&
   return (std::filesystem::path(options.plan).parent_path() / plan.machine).string();
 }
 
-using kernel::machine::CompensationMethod;
-
 std::expected<Way, Refusals> refuse(std::string what, std::string to_do) {
-  return std::unexpected(
-      Refusals{Refusal{Kind::bad_input, {}, 0, std::move(what), std::move(to_do)}});
+  return std::unexpected(Refusals{bad_input(std::move(what), std::move(to_do))});
 }
 
-/// The command line takes precedence over the machine file. --r-parameter names a method and its
-/// number in one.
-CompensationMethod method_of(const RewriteOptions& options,
-                             const kernel::machine::Compensation& compensation) {
+// The command line says more than the machine file.
+Method method_of(const RewriteOptions& options, const kernel::machine::Compensation& compensation) {
   if (options.r_parameter != kNoParameter) {
-    return CompensationMethod::r_parameter;
+    return Method::r_parameter;
   }
-  return options.control == "haas"    ? CompensationMethod::haas
-         : options.control == "fanuc" ? CompensationMethod::fanuc
+  return options.control == "haas"    ? Method::haas
+         : options.control == "fanuc" ? Method::fanuc
                                       : compensation.method;
 }
 
 /// LinuxCNC's G10 L20 and Fanuc's G10 L2 P0 are what "by dialect" means; a SINUMERIK has no
 /// default, and way_of() has refused it before.
-Method written(CompensationMethod method, kernel::machine::Dialect dialect) {
-  switch (method) {
-    case CompensationMethod::linuxcnc:
-      return Method::linuxcnc;
-    case CompensationMethod::fanuc:
-      return Method::fanuc;
-    case CompensationMethod::haas:
-      return Method::haas;
-    case CompensationMethod::r_parameter:
-      return Method::r_parameter;
-    case CompensationMethod::setting_data:
-      return Method::setting_data;
-    case CompensationMethod::frame_fine:
-      return Method::frame_fine;
-    case CompensationMethod::by_dialect:
-      break;
+Method written(Method method, kernel::machine::Dialect dialect) {
+  if (method != Method::by_dialect) {
+    return method;
   }
   return dialect == kernel::machine::Dialect::fanuc ? Method::fanuc : Method::linuxcnc;
 }
@@ -98,7 +80,7 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
                               nc::read::name(program)),
                   "leave it out, or choose --dialect fanuc");
   }
-  const CompensationMethod method = method_of(options, compensation);
+  const Method method = method_of(options, compensation);
   // The method of the machine file must exist on the control that the program is read for.
   const Dialect needed = passport::dialect_of(method, program);
   if (needed != program) {
@@ -109,7 +91,7 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
         "give the machine file of the control the program is for");
   }
   // No SINUMERIK method is safe without knowing the machine's PLC, so none is assumed.
-  if (program == Dialect::sinumerik && method == CompensationMethod::by_dialect) {
+  if (program == Dialect::sinumerik && method == Method::by_dialect) {
     return refuse("no method for corrections in dialect sinumerik",
                   "add [compensation] to the machine file (method = \"r_parameter\", "
                   "\"setting_data\" or \"frame_fine\"), or give --r-parameter N");
@@ -166,11 +148,8 @@ std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options
       told.push_back({.name = name, .value = std::move(value)});
       if (nc::rewrite::told_as_text(told.back()).size() > nc::rewrite::kLongestTold) {
         return std::unexpected(
-            Refusals{Refusal{Kind::bad_input,
-                             {},
-                             0,
-                             fmt::format("--{} is too long for a comment in the program", name),
-                             "give a shorter path"}});
+            Refusals{bad_input(fmt::format("--{} is too long for a comment in the program", name),
+                               "give a shorter path")});
       }
     }
   }
@@ -250,11 +229,11 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
         [&](const auto& value) { return comparable(name, value); });
     if (!now.empty() && !same) {
       return std::unexpected(Refusals{
-          Refusal{Kind::bad_input, changed, 0,
-                  made_with.empty() ? fmt::format("was made without --{}", name)
-                                    : fmt::format("was made with --{} {}, not {}", name,
-                                                  fmt::join(made_with, " "), fmt::join(now, " ")),
-                  fmt::format("leave --{} out, or compensate the program again", name)}});
+          bad_input(changed,
+                    made_with.empty() ? fmt::format("was made without --{}", name)
+                                      : fmt::format("was made with --{} {}, not {}", name,
+                                                    fmt::join(made_with, " "), fmt::join(now, " ")),
+                    fmt::format("leave --{} out, or compensate the program again", name))});
     }
     if (now.empty()) {
       for (const std::string& value : made_with) {
@@ -304,9 +283,9 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   // Klartext would parse as nothing and "prove" an empty program.
   const std::string extension = std::filesystem::path(options.program.file).extension().string();
   if (extension == ".h" || extension == ".H") {
-    return std::unexpected(Refusals{Refusal{
-        Kind::bad_input, options.program.file, 0, "HEIDENHAIN Klartext programs are not supported",
-        "post-process the part for linuxcnc, fanuc or sinumerik"}});
+    return std::unexpected(
+        Refusals{bad_input(options.program.file, "HEIDENHAIN Klartext programs are not supported",
+                           "post-process the part for linuxcnc, fanuc or sinumerik")});
   }
   auto plan = nc::rewrite::read_plan(options.plan);
   if (!plan) {
@@ -316,9 +295,8 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   task.plan = std::move(*plan);
   const std::string path = machine_path(options, task.plan);
   if (path.empty()) {
-    return std::unexpected(Refusals{Refusal{Kind::bad_input, options.plan, 0,
-                                            "neither the command nor the plan names a machine",
-                                            "give --machine FILE"}});
+    return std::unexpected(Refusals{bad_input(
+        options.plan, "neither the command nor the plan names a machine", "give --machine FILE")});
   }
   auto machine = read_machine(path);
   if (!machine) {

@@ -110,6 +110,7 @@ std::string change_text(const Way& way, const Change& change, std::string_view e
     case Method::setting_data:
       return beside_change(way, change, ending);
     case Method::frame_fine:
+    case Method::by_dialect:  // never in a Way
       break;
   }
   return fmt::format("{} ;STEADYREST {}{} mm{}", fine_offset(change.letter, change.to_mm),

@@ -5,19 +5,15 @@
 #include <string>
 #include <string_view>
 
+#include <steadyrest/kernel/machine/compensation.hpp>
+
 namespace steadyrest::nc::rewrite {
 
-/// How a control takes a correction from its program. README.md has the texts and the reasons.
-enum class Method : std::uint8_t {
-  linuxcnc,      ///< G10 L20 P0 in the active work offset
-  fanuc,         ///< G91 G10 L2 P0: the external work offset
-  haas,          ///< G91 G10 L2 P1 … P6: the active work offset; P0 would be G52 there
-  r_parameter,   ///< sinumerik: R<n>, which the PLC takes over
-  setting_data,  ///< sinumerik: $SA_TEMP_COMP_ABS_VALUE[axis]
-  frame_fine     ///< sinumerik: $P_IFRAME[axis,FI], beyond what is stored in $P_UIFR
-};
+/// How a control takes a correction from its program. README.md has the texts and the reasons: haas
+/// has no P0, which would be G52 there; frame_fine goes beyond what is stored in $P_UIFR.
+using Method = kernel::machine::CompensationMethod;
 
-/// The method, and what it must know of the machine.
+/// The method, never `by_dialect`, and what it must know of the machine.
 struct Way {
   Method method = Method::linuxcnc;
   std::uint32_t r_parameter = 0;  ///< its number
