@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/interpret/flow/flow_control.hpp>
 #include <steadyrest/nc/interpret/flow/program_files.hpp>
 #include <steadyrest/nc/interpret/parameters/macro_variables.hpp>
@@ -47,17 +48,19 @@ class ProgramRun::Run {
         interpreter_(std::move(interpreter)),
         flow_(files_, interpreter_->parameters(), reader_, config),
         macro_(interpreter_->state()),
-        dialect_(config.dialect),
+        rules_(rules_of(config.dialect)),
         block_delete_(config.block_delete),
         counter_(sink, report_) {
-    // Expressions are evaluated while a line is read, so the reader needs the variables of its
-    // dialect.
-    if (config.dialect == read::Dialect::linuxcnc) {
-      reader_.set_values(&interpreter_->parameters());
-    } else if (config.dialect == read::Dialect::fanuc) {
-      reader_.set_values(&macro_);
-    } else {
-      reader_.set_typed_values(&typed_);
+    switch (rules_.variables) {
+      case Variables::parameters:
+        reader_.set_values(&interpreter_->parameters());
+        break;
+      case Variables::macros:
+        reader_.set_values(&macro_);
+        break;
+      case Variables::typed:
+        reader_.set_typed_values(&typed_);
+        break;
     }
     reader_.set_block_delete(config.block_delete);
   }
@@ -98,19 +101,17 @@ class ProgramRun::Run {
         !reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
       return refuse(reader_.refused());
     }
-    if (dialect_ != read::Dialect::linuxcnc && !ends_in_order()) {
+    if (rules_.programs_in_a_row && !ends_in_order()) {
       return false;
     }
-    // sinumerik: calls and definitions are flow of their own, so they go another way.
-    const bool sinumerik = dialect_ == read::Dialect::sinumerik;
-    if (sinumerik && flow_.in_call() && typed_.values_left() &&
+    if (rules_.named_calls && flow_.in_call() && typed_.values_left() &&
         !(block_.words().empty() && block_.flow().kind == read::FlowKind::none)) {
       return refuse({.line = block_.line(),
                      .word = {},
                      .reason = "subprogram_call",
                      .text = "a call with more values than the subprogram takes (PROC)"});
     }
-    if (sinumerik && block_.flow().kind != read::FlowKind::none) {
+    if (rules_.named_calls && block_.flow().kind != read::FlowKind::none) {
       return call();
     }
     if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
@@ -121,7 +122,7 @@ class ProgramRun::Run {
       return refuse(interpreter_->refused());
     }
     report_.blocks += block_.words().empty() ? 0U : 1U;
-    if (sinumerik && interpreter_->finished() && flow_.in_call()) {
+    if (rules_.named_calls && interpreter_->finished() && flow_.in_call()) {
       return refuse({.line = block_.line(),
                      .word = {},
                      .reason = "subprogram_end",
@@ -132,7 +133,7 @@ class ProgramRun::Run {
       case Interpreter::ProgramCall::Kind::none:
         return true;
       case Interpreter::ProgramCall::Kind::call:
-        if (dialect_ == read::Dialect::fanuc) {
+        if (rules_.numbered_programs) {
           return follow(flow_.call_numbered(block_.line(), call.number, call.repeats));
         }
         return call.repeats < 0.5 ||
@@ -144,7 +145,8 @@ class ProgramRun::Run {
   }
 
   Asked& asked() noexcept {
-    return dialect_ == read::Dialect::fanuc ? macro_.asked() : interpreter_->parameters().asked();
+    return rules_.variables == Variables::macros ? macro_.asked()
+                                                 : interpreter_->parameters().asked();
   }
 
   // Two runs over nearly equal texts, side by side: a line that the other has just split into
@@ -155,7 +157,7 @@ class ProgramRun::Run {
            reader_.take(ahead_->reader_, ahead_->block_, source.number(), block_);
   }
 
-  /// sinumerik: a cycle or subprogram by its name.
+  /// A cycle or subprogram by its name.
   bool call() {
     if (block_.deleted() && block_delete_) {
       return true;
@@ -169,7 +171,7 @@ class ProgramRun::Run {
 
   // M99, M17 or RET: back to the caller, or to the head where the call repeats.
   bool end_of_subprogram() {
-    if (dialect_ == read::Dialect::sinumerik && !flow_.in_call()) {
+    if (rules_.named_calls && !flow_.in_call()) {
       return refuse({.line = block_.line(),
                      .word = {},
                      .reason = "subprogram_end",
@@ -307,7 +309,7 @@ class ProgramRun::Run {
   MacroVariables macro_;
   SinumerikVariables typed_;
   bool again_ = false;  ///< a subprogram begins again: neither entered nor left
-  read::Dialect dialect_;
+  const DialectRules& rules_;
   bool block_delete_;
   std::size_t calls_ = 0;
   Report report_;
@@ -376,12 +378,16 @@ std::vector<std::string> ProgramRun::subprogram_files() const {
 // What the control would keep when the program is over; rewrite compares it.
 ProgramRun::Kept ProgramRun::kept() const {
   Kept kept{.tools = run_->interpreter_->tools().value_or(std::vector<Tool>{}), .variables = {}};
-  if (run_->dialect_ == read::Dialect::linuxcnc) {
-    run_->interpreter_->parameters().list(kept.variables);
-  } else if (run_->dialect_ == read::Dialect::fanuc) {
-    run_->macro_.list(kept.variables);
-  } else {
-    run_->typed_.list(kept.variables);
+  switch (run_->rules_.variables) {
+    case Variables::parameters:
+      run_->interpreter_->parameters().list(kept.variables);
+      break;
+    case Variables::macros:
+      run_->macro_.list(kept.variables);
+      break;
+    case Variables::typed:
+      run_->typed_.list(kept.variables);
+      break;
   }
   return kept;
 }

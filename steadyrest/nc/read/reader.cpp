@@ -21,17 +21,21 @@ struct Rules {
   bool archive_name;             ///< its first line may be %_N_NAME, as the control writes it
 };
 
-template <class Line>
-bool read_with(Reading& reading, std::string_view line, std::uint32_t number, Block& block) {
-  return Line(reading, line, number, block).read();
+template <const LetterRules& kLetters>
+bool read_letters(Reading& reading, std::string_view line, std::uint32_t number, Block& block) {
+  return LetterLine(kLetters, reading, line, number, block).read();
+}
+
+bool read_sinumerik(Reading& reading, std::string_view line, std::uint32_t number, Block& block) {
+  return SinumerikLine(reading, line, number, block).read();
 }
 
 // The longest lines: LinuxCNC 2.9 takes 253 characters (measured: 252 and LF are read, one more is
 // "Command too long"); the others are ours, far above what the controls store.
 constexpr std::array<Rules, 3> kRules = {{
-    {read_with<LetterLine>, 253, true, false, false},    // linuxcnc
-    {read_with<LetterLine>, 1024, false, true, false},   // fanuc
-    {read_with<SinumerikLine>, 514, false, true, true},  // sinumerik
+    {read_letters<kLinuxcncLetters>, 253, true, false, false},  // linuxcnc
+    {read_letters<kFanucLetters>, 1024, false, true, false},    // fanuc
+    {read_sinumerik, 514, false, true, true},                   // sinumerik
 }};
 
 constexpr const Rules& rules_of(Dialect dialect) noexcept {

@@ -23,6 +23,13 @@ struct Decoding {
 /// refused.
 using Decoder = bool (*)(const Decoding& in, const read::Block& block, Step& step);
 
+/// Who keeps the variables of a program.
+enum class Variables : std::uint8_t {
+  parameters,  ///< `#5`, `#<name>` of linuxcnc
+  macros,      ///< `#5` of fanuc's custom macros
+  typed        ///< R-parameters and declared names of sinumerik
+};
+
 /// A dialect: its decoder, and how the same step is executed where dialects differ. Each dialect's
 /// folder has its own; `rules_of` is their table.
 struct DialectRules {
@@ -39,7 +46,11 @@ struct DialectRules {
   bool cycle_needs_dwell = true;  ///< P must be given where a cycle dwells
   bool cycle_lifts_first = true;  ///< to the R plane before it goes to the hole
   bool taps_in_xy_alone = false;
-  bool short_way = false;  ///< plain lines may go past the checks: see plain_block.hpp
+  Variables variables = Variables::parameters;
+  bool programs_in_a_row = true;   ///< in one file, each of which ends before the next begins
+  bool numbered_programs = false;  ///< M98 P looks for its number in the file first
+  bool named_calls = false;  ///< of cycles and subprograms, with values; M17 or RET ends these
+  bool short_way = false;    ///< plain lines may go past the checks: see plain_block.hpp
 };
 
 [[nodiscard]] const DialectRules& rules_of(read::Dialect dialect) noexcept;

@@ -14,39 +14,12 @@ namespace {
 constexpr double kEqual =
     1e-4;  // LinuxCNC: EQ, NE, and how far an index may be from a whole number
 
-constexpr char lower(char c) noexcept {
-  return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
-}
-
-// Expressions of LinuxCNC 2.9: priorities, tolerances and odd cases found with rs274, and
-// documented in "Parameters" and "Expressions". Operands here, precedence climbing in climber.hpp,
-// functions in expression_functions.cpp. Nothing is allocated; brackets nest 64 deep at most, so
-// the recursion is bounded.
-
 constexpr int kWeakest = 1;  // AND OR XOR
 
 }  // namespace
 
-enum class Expression::Operator : unsigned char {
-  power,
-  times,
-  over,
-  modulo,
-  plus,
-  minus,
-  eq,
-  ne,
-  gt,
-  ge,
-  lt,
-  le,
-  both,
-  either,
-  one
-};
-
 // LinuxCNC 2.9: five levels, all from left to right, so that 2 ** 3 ** 2 is 64.
-constexpr std::array<Sign<Expression::Operator>, 15> Expression::kSigns = {{
+constexpr std::array<Sign, 15> Expression::kSigns = {{
     {"**", Operator::power, 5},
     {"*", Operator::times, 4},
     {"/", Operator::over, 4},
@@ -81,12 +54,7 @@ bool Expression::read(double& out) {
 
 // A signed value: bracket, parameter, number or function.
 bool Expression::operand(double& out) {
-  bool negative = false;
-  // Any number of signs: `1--1` is 2, as rs274 reads it.
-  for (char c = peek(); c == '+' || c == '-'; c = peek()) {
-    negative ^= c == '-';
-    ++at_;
-  }
+  const bool negative = turned();
   const char c = peek();
   const bool read =
       c == '['                  ? bracket(out)
@@ -267,17 +235,21 @@ bool Expression::looked_up(Lookup lookup) {
   return fail("parameter_of_the_machine", "a parameter whose value only the running control knows");
 }
 
+bool Expression::parameter_name(Name& name) {
+  const char* const after = read_name(at_, end_, name);
+  if (after == nullptr) {
+    return fail("bad_parameter", "a parameter name that is empty, too long or not closed by >");
+  }
+  at_ = after;
+  return true;
+}
+
 // #5, #[…], ##5 or #<name>; the value is looked up while the line is read, as on the control.
 bool Expression::parameter(double& out) {
   ++at_;
   if (peek() == '<') {
     Name name;
-    const char* const after = read_name(at_, end_, name);
-    if (after == nullptr) {
-      return fail("bad_parameter", "a parameter name that is empty, too long or not closed by >");
-    }
-    at_ = after;
-    return looked_up(values_.name(name.view(), out));
+    return parameter_name(name) && looked_up(values_.name(name.view(), out));
   }
   int index = 0;
   return parameter_number(index) && looked_up(values_.number(index, out));

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <steadyrest/nc/read/text/climber.hpp>
+#include <steadyrest/nc/read/text/name.hpp>
 #include <steadyrest/nc/read/text/values.hpp>
 
 namespace steadyrest::nc::read {
@@ -34,8 +35,7 @@ class Expression : public Climber<Expression> {
 
  private:
   friend class Climber<Expression>;
-  enum class Operator : unsigned char;
-  static const std::array<Sign<Operator>, 15> kSigns;
+  static const std::array<Sign, 15> kSigns;
   static constexpr bool kBlanksWithin = true;
   static constexpr char kClosing = ']';
   bool operand(double& out);
@@ -47,6 +47,7 @@ class Expression : public Climber<Expression> {
   bool arc_tangent(double& out);
   bool exists(double& out);
   bool parameter(double& out);
+  bool parameter_name(Name& name);
   bool spaced_number(double& out);
   bool looked_up(Lookup lookup);
 };

@@ -122,11 +122,9 @@ bool Expression::exists(double& out) {
   double ignored = 0.0;
   if (peek() == '<') {
     Name name;
-    const char* const after = read_name(at_, end_, name);
-    if (after == nullptr) {
-      return fail("bad_parameter", "a parameter name that is empty, too long or not closed by >");
+    if (!parameter_name(name)) {
+      return false;
     }
-    at_ = after;
     // Asking is noted by values_ all the same: the answer depends on what the control holds.
     out = values_.name(name.view(), ignored) == Lookup::found ? 1.0 : 0.0;
   } else {

@@ -52,9 +52,9 @@ bool LetterLine::read() {
 bool LetterLine::one_item() {
   const char c = *at_;
   if (is_letter(c)) {
-    return (reading_.dialect != Dialect::fanuc || macro_keyword()) && word();
+    return (!rules_.macros || macro_keyword()) && word();
   }
-  if (c == ':' && reading_.dialect == Dialect::fanuc) {
+  if (c == ':' && rules_.colon_is_o) {
     return program_number(at_++);
   }
   if (c == '(') {
@@ -65,9 +65,9 @@ bool LetterLine::one_item() {
   }
   if (c == '#' && reading_.values != nullptr) {
     reading_.numbers_alone = false;
-    return reading_.dialect == Dialect::fanuc ? macro_statement() : assignment();
+    return rules_.macros ? macro_statement() : assignment();
   }
-  if ((c == '@' || c == '^') && reading_.dialect == Dialect::linuxcnc) {
+  if ((c == '@' || c == '^') && rules_.polar) {
     return word();
   }
   return refuse_character();
@@ -77,7 +77,7 @@ bool LetterLine::delete_mark() {
   const char* const mark = at_++;
   block_.set_deleted();
   skip_blanks();
-  if (reading_.dialect == Dialect::fanuc && at_ != end_ && is_digit(*at_)) {
+  if (rules_.numbered_delete && at_ != end_ && is_digit(*at_)) {
     ++at_;
     return refuse(since(mark), "block_delete_switch",
                   "a numbered block-delete switch; only the plain mark / is supported");
@@ -105,10 +105,11 @@ bool LetterLine::round_comment() {
                 "a comment that is not closed on its line; write ) at its end");
 }
 
+// `;` opens a comment or ends the block, behind which nothing may stand.
 // `;` opens a comment (linuxcnc) or ends the block (fanuc); nothing may follow the latter.
 bool LetterLine::rest_of_line() {
   const char* const mark = at_++;
-  if (reading_.dialect == Dialect::fanuc) {
+  if (rules_.semicolon_ends) {
     skip_blanks();
     if (at_ != end_) {
       at_ = end_;
@@ -223,16 +224,15 @@ bool LetterLine::expression(const char* word_begin, Word& word) {
       !(*look == '#' || *look == '[' || is_letter(*look))) {
     return refuse_value(word_begin);
   }
-  if (reading_.dialect == Dialect::fanuc) {
+  if (rules_.macros) {
     return macro_value(word_begin, word);
   }
-  Expression expression(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values);
+  Expression expression(line(), offset(), *reading_.values);
   if (!expression.read(word.value)) {
     if (is_letter(*look) && expression.reason() == "missing_value") {
       return refuse_value(word_begin);
     }
-    at_ += expression.length();
-    return refuse(since(word_begin), expression.reason(), expression.text());
+    return behind(word_begin, expression, false);
   }
   at_ += expression.length();
   word.decimal_point = true;  // a calculated value is in units, never in increments
@@ -262,11 +262,9 @@ bool LetterLine::assignment() {
     }
     at_ = after;
   } else {
-    Expression number(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values);
-    const bool read = number.parameter_number(index);
-    at_ += number.length();
-    if (!read) {
-      return refuse(since(from), number.reason(), number.text());
+    Expression number(line(), offset(), *reading_.values);
+    if (!behind(from, number, number.parameter_number(index))) {
+      return false;
     }
   }
   skip_blanks();
@@ -275,11 +273,9 @@ bool LetterLine::assignment() {
   }
   ++at_;
   double value = 0.0;
-  Expression right(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values);
-  const bool read = right.read(value);
-  at_ += right.length();
-  if (!read) {
-    return refuse(since(from), right.reason(), right.text());
+  Expression right(line(), offset(), *reading_.values);
+  if (!behind(from, right, right.read(value))) {
+    return false;
   }
   return refuse_assignment(from, named ? reading_.values->set_name(name.view(), value)
                                        : reading_.values->set_number(index, value));
@@ -287,17 +283,15 @@ bool LetterLine::assignment() {
 
 bool LetterLine::o_word(const char* word_begin) {
   reading_.numbers_alone = false;
-  if (reading_.values == nullptr || reading_.dialect != Dialect::linuxcnc) {
+  if (reading_.values == nullptr || rules_.macros) {
     return program_number(word_begin);
   }
   if (!block_.words().empty() || block_.flow().kind != FlowKind::none) {
     at_ = end_;
     return refuse(since(word_begin), "o_word", "an O-word after other words; it comes first");
   }
-  OWord word(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values);
-  const bool read = word.read(block_.flow(), true);
-  at_ += word.length();
-  return read || refuse(since(word_begin), word.reason(), word.text());
+  OWord word(line(), offset(), *reading_.values);
+  return behind(word_begin, word, word.read(block_.flow(), true));
 }
 
 bool LetterLine::program_number(const char* word_begin) {
@@ -359,40 +353,39 @@ bool LetterLine::refuse_value(const char* word_begin) {
 
 bool LetterLine::refuse_character() {
   const char c = *at_;
-  const std::string_view rest{at_, static_cast<std::size_t>(end_ - at_)};
   if (c == '#') {
-    return refuse(rest, "parameter", "a parameter (#); assignments are not supported");
+    return refuse(rest(), "parameter", "a parameter (#); assignments are not supported");
   }
   if (c == '[') {
-    return refuse(rest, "expression", "text in [ ] that belongs to no word");
+    return refuse(rest(), "expression", "text in [ ] that belongs to no word");
   }
   if (is_control(c)) {
-    return refuse(rest.substr(0, 1), "control_character", kControlText);
+    return refuse(rest().substr(0, 1), "control_character", kControlText);
   }
   if (c == '@' || c == '^') {
-    return refuse(rest, "polar_coordinates", "polar coordinates (@ ^) are not supported");
+    return refuse(rest(), "polar_coordinates", "polar coordinates (@ ^) are not supported");
   }
   if (c == '$') {
-    return refuse(rest, "spindle_selection", "choosing a spindle ($) is not supported");
+    return refuse(rest(), "spindle_selection", "choosing a spindle ($) is not supported");
   }
   if (c == '/') {
-    return refuse(rest, "misplaced_block_delete", "the block-delete mark / after other text");
+    return refuse(rest(), "misplaced_block_delete", "the block-delete mark / after other text");
   }
   if (c == '%') {
-    return refuse(rest, "misplaced_percent",
+    return refuse(rest(), "misplaced_percent",
                   "% must be alone on its line, as the first and last line of the program");
   }
   if (c == ')') {
-    return refuse(rest, "unopened_comment", "a ) without its (");
+    return refuse(rest(), "unopened_comment", "a ) without its (");
   }
-  if (rest.starts_with("\xef\xbb\xbf")) {
-    return refuse(rest.substr(0, 3), "byte_order_mark",
+  if (rest().starts_with("\xef\xbb\xbf")) {
+    return refuse(rest().substr(0, 3), "byte_order_mark",
                   "a byte order mark; save the program as plain text without one");
   }
   if (static_cast<unsigned char>(c) >= 0x80) {
-    return refuse(rest.substr(0, 1), "not_ascii", "a non-ASCII character outside a comment");
+    return refuse(rest().substr(0, 1), "not_ascii", "a non-ASCII character outside a comment");
   }
-  return refuse(rest, "bad_character", "a character that begins no word");
+  return refuse(rest(), "bad_character", "a character that begins no word");
 }
 
 }  // namespace steadyrest::nc::read

@@ -5,11 +5,23 @@
 #include <string_view>
 
 #include <steadyrest/nc/read/text/block.hpp>
-#include <steadyrest/nc/read/text/character.hpp>
-#include <steadyrest/nc/read/text/reading.hpp>
+#include <steadyrest/nc/read/text/line_cursor.hpp>
 #include <steadyrest/nc/read/text/values.hpp>
 
 namespace steadyrest::nc::read {
+
+/// Where the dialects of LetterLine differ.
+struct LetterRules {
+  bool macros = false;            ///< custom macros and O numbers; else expressions and O-words
+  bool colon_is_o = false;        ///< `:100` is O100
+  bool polar = false;             ///< `@` and `^` are letters
+  bool numbered_delete = false;   ///< a digit behind `/` belongs to it
+  bool semicolon_ends = false;    ///< `;` ends the block; else it opens a comment
+  bool plain_words_fast = false;  ///< plain_words() may read them
+};
+inline constexpr LetterRules kLinuxcncLetters{.polar = true, .plain_words_fast = true};
+inline constexpr LetterRules kFanucLetters{
+    .macros = true, .colon_is_o = true, .numbered_delete = true, .semicolon_ends = true};
 
 /// One line of the dialects whose words are a letter and a number (`linuxcnc`, `fanuc`).
 ///
@@ -17,15 +29,11 @@ namespace steadyrest::nc::read {
 /// expressions, parameters and
 /// assignments are read, of `linuxcnc` O-words too; else they are refused by name. In `fanuc` an
 /// assignment is a macro statement, which stands in a block of its own.
-class LetterLine {
+class LetterLine : private LineCursor {
  public:
-  LetterLine(Reading& reading, std::string_view line, std::uint32_t number, Block& block) noexcept
-      : reading_(reading),
-        begin_(line.data()),
-        at_(line.data()),
-        end_(line.data() + line.size()),
-        number_(number),
-        block_(block) {}
+  LetterLine(const LetterRules& rules, Reading& reading, std::string_view line,
+             std::uint32_t number, Block& block) noexcept
+      : LineCursor(reading, line, number, block), rules_(rules) {}
 
   bool read();
 
@@ -49,27 +57,8 @@ class LetterLine {
   bool refuse_assignment(const char* from, Lookup lookup);
   bool refuse_value(const char* word_begin);
   bool refuse_character();
-  void skip_blanks() noexcept {
-    while (at_ != end_ && is_blank(*at_)) {
-      ++at_;
-    }
-  }
-  [[nodiscard]] std::string_view line() const noexcept {
-    return {begin_, static_cast<std::size_t>(end_ - begin_)};
-  }
-  [[nodiscard]] std::string_view since(const char* from) const noexcept {
-    return {from, static_cast<std::size_t>(at_ - from)};
-  }
-  bool refuse(std::string_view word, std::string_view reason, std::string_view text) {
-    return reading_.refuse(number_, word, reason, text);
-  }
 
-  Reading& reading_;
-  const char* begin_;
-  const char* at_;
-  const char* end_;
-  std::uint32_t number_;
-  Block& block_;
+  const LetterRules& rules_;
   bool assigned_ = false;  ///< a macro statement has been read
 };
 

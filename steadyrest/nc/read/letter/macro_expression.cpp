@@ -60,20 +60,9 @@ LookupText macro_lookup_text(Lookup lookup) noexcept {
           "a variable the control does not have; #1-#33, #100-#199 and #500-#999 are supported"};
 }
 
-enum class MacroExpression::Operator : unsigned char {
-  times,
-  over,
-  modulo,
-  both,
-  plus,
-  minus,
-  either,
-  one
-};
-
 // Two levels, from left to right: * / MOD AND before + - OR XOR (manual, "Arithmetic and logic
 // operation").
-constexpr std::array<Sign<MacroExpression::Operator>, 8> MacroExpression::kSigns = {{
+constexpr std::array<Sign, 8> MacroExpression::kSigns = {{
     {"*", Operator::times, 2},
     {"/", Operator::over, 2},
     {"MOD", Operator::modulo, 2},
@@ -90,12 +79,7 @@ bool MacroExpression::read_sum(double& out) {
 
 // Brackets, variables, numbers and functions; an operand may have signs of its own.
 bool MacroExpression::operand(double& out) {
-  bool negative = false;
-  // `X-#5`, `[-[2+3]]`: signs bind to their operand.
-  for (char c = peek(); c == '+' || c == '-'; c = peek()) {
-    negative ^= c == '-';
-    ++at_;
-  }
+  const bool negative = turned();
   const char c = peek();
   bool read = false;
   if (c == '[') {
@@ -163,7 +147,7 @@ bool MacroExpression::apply(Operator op, double& left, double right) {
     case Operator::plus:
       left += right;
       break;
-    case Operator::minus:
+    default:  // minus
       left -= right;
       break;
   }

@@ -37,8 +37,7 @@ class MacroExpression : public Climber<MacroExpression> {
 
  private:
   friend class Climber<MacroExpression>;
-  enum class Operator : unsigned char;
-  static const std::array<Sign<Operator>, 8> kSigns;
+  static const std::array<Sign, 8> kSigns;
   static constexpr bool kBlanksWithin = true;
   static constexpr char kClosing = ']';
   bool operand(double& out);
@@ -54,10 +53,6 @@ class MacroExpression : public Climber<MacroExpression> {
 };
 
 /// Why a variable of a macro could not be read or set.
-struct LookupText {
-  std::string_view reason;
-  std::string_view text;
-};
 [[nodiscard]] LookupText macro_lookup_text(Lookup lookup) noexcept;
 
 }  // namespace steadyrest::nc::read

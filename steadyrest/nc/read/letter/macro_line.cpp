@@ -51,12 +51,9 @@ bool LetterLine::macro_value(const char* word_begin, Word& word) {
   // 0 for addresses whose increment depends on the control's settings: these are taken as
   // calculated.
   const double increment = reading_.values->increment(word.letter);
-  MacroExpression expression(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values,
-                             increment);
-  const bool read = expression.read(word.value);
-  at_ += expression.length();
-  if (!read) {
-    return refuse(since(word_begin), expression.reason(), expression.text());
+  MacroExpression expression(line(), offset(), *reading_.values, increment);
+  if (!behind(word_begin, expression, expression.read(word.value))) {
+    return false;
   }
   // IS-B: the control works in increments, so X12.3456 moves to 12.346.
   if (increment > 0.0) {
@@ -79,11 +76,9 @@ bool LetterLine::macro_statement() {
   }
   int index = 0;
   // Within a variable's own number or value ROUND rounds to whole numbers.
-  MacroExpression number(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values, 1.0);
-  const bool numbered = number.variable_number(index);
-  at_ += number.length();
-  if (!numbered) {
-    return refuse(since(from), number.reason(), number.text());
+  MacroExpression number(line(), offset(), *reading_.values, 1.0);
+  if (!behind(from, number, number.variable_number(index))) {
+    return false;
   }
   skip_blanks();
   if (at_ == end_ || *at_ != '=') {
@@ -99,11 +94,9 @@ bool LetterLine::macro_statement() {
     at_ += 2;
     value = std::numeric_limits<double>::quiet_NaN();
   } else {
-    MacroExpression right(line(), static_cast<std::size_t>(at_ - begin_), *reading_.values, 1.0);
-    const bool read = right.read_sum(value);
-    at_ += right.length();
-    if (!read) {
-      return refuse(since(from), right.reason(), right.text());
+    MacroExpression right(line(), offset(), *reading_.values, 1.0);
+    if (!behind(from, right, right.read_sum(value))) {
+      return false;
     }
   }
   assigned_ = true;

@@ -11,10 +11,6 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr char lower(char c) noexcept {
-  return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
-}
-
 /// How many values follow a keyword.
 /// `return` and `endsub` may give a value back; `sub` and `call` have up to 30.
 enum class Takes : unsigned char { nothing, one, perhaps_one, any };

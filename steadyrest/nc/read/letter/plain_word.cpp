@@ -30,7 +30,7 @@ constexpr std::array<char, kCharacters> kPlainLetter = plain_letters();
 /// Letters and their numbers, which nearly all text is: word() without its questions. Ends before
 /// anything else, which one_item() and word() look at.
 void LetterLine::plain_words() noexcept {
-  if (reading_.dialect != Dialect::linuxcnc || block_.flow().kind != FlowKind::none) {
+  if (!rules_.plain_words_fast || block_.flow().kind != FlowKind::none) {
     return;
   }
   const char* at = at_;

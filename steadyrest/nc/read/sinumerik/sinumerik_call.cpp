@@ -42,11 +42,8 @@ bool SinumerikLine::calculated(const char* word_begin, double& out) {
   if (next() == '\0') {
     return refuse(since(word_begin), "missing_value", "an address without its value");
   }
-  SinumerikExpression expression({begin_, static_cast<std::size_t>(end_ - begin_)},
-                                 static_cast<std::size_t>(at_ - begin_), *reading_.values);
-  const bool read = expression.read(out);
-  at_ += expression.length();
-  return read || refuse(since(word_begin), expression.reason(), expression.text());
+  SinumerikExpression expression(line(), offset(), *reading_.values);
+  return behind(word_begin, expression, expression.read(out));
 }
 
 /// What begins with this name, when it is a statement and no word; `done` then.
@@ -223,7 +220,7 @@ bool SinumerikLine::assign(const char* word_begin, Lookup lookup) {
                   "a variable assignment next to other words; write two blocks");
   }
   assigned_ = true;
-  const SinumerikLookup why = sinumerik_lookup_text(lookup);
+  const LookupText why = sinumerik_lookup_text(lookup);
   return lookup == Lookup::found || refuse(since(word_begin), why.reason, why.text);
 }
 

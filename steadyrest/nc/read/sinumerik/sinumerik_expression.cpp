@@ -30,34 +30,13 @@ bool whole(double x) noexcept {
 
 }  // namespace
 
-enum class SinumerikExpression::Operator : unsigned char {
-  times,
-  over,
-  div,
-  mod,
-  plus,
-  minus,
-  bit_and,
-  bit_xor,
-  bit_or,
-  both,
-  one,
-  either,
-  eq,
-  ne,
-  le,
-  ge,
-  lt,
-  gt
-};
-
 // Priorities of "Job Planning". Unlike in C, comparisons bind last, even after AND and OR.
 // Longer signs come before those that they begin with: <> and <= before <.
-constexpr std::array<Sign<SinumerikExpression::Operator>, 18> SinumerikExpression::kSigns = {{
+constexpr std::array<Sign, 18> SinumerikExpression::kSigns = {{
     {"*", Operator::times, 8},
     {"/", Operator::over, 8},
     {"DIV", Operator::div, 8},
-    {"MOD", Operator::mod, 8},
+    {"MOD", Operator::modulo, 8},
     {"+", Operator::plus, 7},
     {"-", Operator::minus, 7},
     {"B_AND", Operator::bit_and, 6},
@@ -77,13 +56,11 @@ constexpr std::array<Sign<SinumerikExpression::Operator>, 18> SinumerikExpressio
 // The control does not tell case apart in names.
 bool lower_name(std::string_view written, Name& name) noexcept {
   name.clear();
-  return std::ranges::all_of(written, [&](char c) {
-    return name.push(is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c);
-  });
+  return std::ranges::all_of(written, [&](char c) { return name.push(lower(c)); });
 }
 
 // Why a parameter or variable has no value, or takes none, in SINUMERIK's terms.
-SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept {
+LookupText sinumerik_lookup_text(Lookup lookup) noexcept {
   switch (lookup) {
     case Lookup::no_such_name:
       return {.reason = "unset_parameter",
@@ -106,7 +83,7 @@ SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept {
 }
 
 bool SinumerikExpression::looked_up(Lookup lookup) {
-  const SinumerikLookup why = sinumerik_lookup_text(lookup);
+  const LookupText why = sinumerik_lookup_text(lookup);
   return lookup == Lookup::found || fail(why.reason, why.text);
 }
 
@@ -168,23 +145,23 @@ bool SinumerikExpression::apply(Operator op, double& left, double right) {
 }
 
 bool SinumerikExpression::arithmetic(Operator op, double& left, double right) {
-  const bool divides = op == Operator::over || op == Operator::div || op == Operator::mod;
+  const bool divides = op == Operator::over || op == Operator::div || op == Operator::modulo;
   if (divides && right == 0.0) {
     return fail("division_by_zero", "a division by zero");
   }
   // What the control gives for negative numbers is not certain: refused.
-  if ((op == Operator::div || op == Operator::mod) && (left < 0.0 || right < 0.0)) {
+  if ((op == Operator::div || op == Operator::modulo) && (left < 0.0 || right < 0.0)) {
     return fail("out_of_domain", "DIV or MOD of a negative number");
   }
-  if (op == Operator::mod && !(whole(left) && whole(right))) {
+  if (op == Operator::modulo && !(whole(left) && whole(right))) {
     return fail("not_an_integer", "MOD works on whole numbers");
   }
-  left = op == Operator::times  ? left * right
-         : op == Operator::over ? left / right
-         : op == Operator::div  ? std::trunc(left / right)
-         : op == Operator::mod  ? std::fmod(left, right)
-         : op == Operator::plus ? left + right
-                                : left - right;
+  left = op == Operator::times    ? left * right
+         : op == Operator::over   ? left / right
+         : op == Operator::div    ? std::trunc(left / right)
+         : op == Operator::modulo ? std::fmod(left, right)
+         : op == Operator::plus   ? left + right
+                                  : left - right;
   return finite(left);
 }
 

@@ -31,8 +31,7 @@ class SinumerikExpression : public Climber<SinumerikExpression> {
 
  private:
   friend class Climber<SinumerikExpression>;
-  enum class Operator : unsigned char;
-  static const std::array<Sign<Operator>, 18> kSigns;
+  static const std::array<Sign, 18> kSigns;
   static constexpr bool kBlanksWithin = false;
   static constexpr char kClosing = ')';
   bool operand(double& out);
@@ -52,10 +51,6 @@ class SinumerikExpression : public Climber<SinumerikExpression> {
 bool lower_name(std::string_view written, Name& name) noexcept;
 
 /// Why a parameter or variable could not be read or set.
-struct SinumerikLookup {
-  std::string_view reason;
-  std::string_view text;
-};
-[[nodiscard]] SinumerikLookup sinumerik_lookup_text(Lookup lookup) noexcept;
+[[nodiscard]] LookupText sinumerik_lookup_text(Lookup lookup) noexcept;
 
 }  // namespace steadyrest::nc::read

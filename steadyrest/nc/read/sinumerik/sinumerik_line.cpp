@@ -38,12 +38,6 @@ bool SinumerikLine::read() {
   }
 }
 
-void SinumerikLine::skip_blanks() noexcept {
-  while (at_ != end_ && is_blank(*at_)) {
-    ++at_;
-  }
-}
-
 // Block-delete mark, then block number (N10, :10) and label (NAME:).
 bool SinumerikLine::header() {
   skip_blanks();

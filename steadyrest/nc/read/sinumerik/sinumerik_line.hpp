@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string_view>
 
 #include <steadyrest/nc/read/text/block.hpp>
+#include <steadyrest/nc/read/text/line_cursor.hpp>
 #include <steadyrest/nc/read/text/name.hpp>
-#include <steadyrest/nc/read/text/reading.hpp>
 
 namespace steadyrest::nc::read {
 
@@ -15,16 +15,9 @@ namespace steadyrest::nc::read {
 ///
 /// Variables, definitions and calls are read where the reader has values for them.
 /// Names that are not in the reader's table are refused by the group that they belong to.
-class SinumerikLine {
+class SinumerikLine : private LineCursor {
  public:
-  SinumerikLine(Reading& reading, std::string_view line, std::uint32_t number,
-                Block& block) noexcept
-      : reading_(reading),
-        begin_(line.data()),
-        at_(line.data()),
-        end_(line.data() + line.size()),
-        number_(number),
-        block_(block) {}
+  using LineCursor::LineCursor;
 
   bool read();
 
@@ -68,23 +61,7 @@ class SinumerikLine {
   bool refuse_value(const char* word_begin);
   bool refuse_character();
   bool push(const char* word_begin, Word& word);
-  void skip_blanks() noexcept;
-  [[nodiscard]] std::string_view rest() const noexcept {
-    return {at_, static_cast<std::size_t>(end_ - at_)};
-  }
-  [[nodiscard]] std::string_view since(const char* from) const noexcept {
-    return {from, static_cast<std::size_t>(at_ - from)};
-  }
-  bool refuse(std::string_view word, std::string_view reason, std::string_view text) {
-    return reading_.refuse(number_, word, reason, text);
-  }
 
-  Reading& reading_;
-  const char* begin_;
-  const char* at_;
-  const char* end_;
-  std::uint32_t number_;
-  Block& block_;
   bool assigned_ = false;  ///< a variable was set
 };
 

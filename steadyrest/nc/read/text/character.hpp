@@ -16,6 +16,9 @@ constexpr bool is_letter(char c) noexcept {
 constexpr char upper(char c) noexcept {
   return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) & 0xdfU) : c;
 }
+constexpr char lower(char c) noexcept {
+  return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
+}
 constexpr bool is_control(char c) noexcept {
   return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f;
 }

@@ -10,8 +10,30 @@
 
 namespace steadyrest::nc::read {
 
-/// An operator with two operands as a dialect writes it, in capitals; `rank` grows with strength.
-template <class Operator>
+/// What an operator with two operands does; each dialect has some of them.
+enum class Operator : unsigned char {
+  power,
+  times,
+  over,
+  div,
+  modulo,
+  plus,
+  minus,
+  eq,
+  ne,
+  gt,
+  ge,
+  lt,
+  le,
+  both,    ///< AND
+  either,  ///< OR
+  one,     ///< XOR
+  bit_and,
+  bit_or,
+  bit_xor
+};
+
+/// An operator as a dialect writes it, in capitals; `rank` grows with strength.
 struct Sign {
   std::string_view name;
   Operator op{};
@@ -56,6 +78,15 @@ class Climber {
     }
   }
 
+  /// Goes behind the signs that stand here; whether they turn the value round.
+  [[nodiscard]] bool turned() noexcept {
+    bool negative = false;
+    for (char c = peek(); c == '+' || c == '-'; c = peek()) {
+      negative ^= c == '-';
+      ++at_;
+    }
+    return negative;
+  }
   bool fail(std::string_view reason, std::string_view text) noexcept {
     reason_ = reason;
     text_ = text;

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/read/text/line_source.hpp>
 
 namespace steadyrest::nc::read {
@@ -19,11 +20,8 @@ constexpr std::size_t kLeast = std::size_t{1} << 12U;
 constexpr std::size_t kChunk = std::size_t{1} << 18U;
 
 kernel::outcome::Refusal cannot_open(const std::string& path, const std::string& why) {
-  return {.kind = kernel::outcome::Kind::bad_input,
-          .file = path,
-          .line = 0,
-          .what = "cannot be read: " + why,
-          .to_do = "name an NC program that exists and is readable"};
+  return kernel::outcome::bad_input(path, "cannot be read: " + why,
+                                    "name an NC program that exists and is readable");
 }
 
 }  // namespace

@@ -17,6 +17,12 @@ enum class Lookup : std::uint8_t {
   not_known_here           ///< exists on the control, but its value is known only there
 };
 
+/// The same as a refusal says it.
+struct LookupText {
+  std::string_view reason;
+  std::string_view text;
+};
+
 /// What expressions ask for and assignments write to.
 class Values {
  public:

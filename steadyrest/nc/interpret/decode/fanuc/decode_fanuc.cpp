@@ -307,7 +307,9 @@ const DialectRules& fanuc_rules() noexcept {
                                        .g10_adds = true,
                                        .cycle_words_stay = true,
                                        .cycle_needs_dwell = false,
-                                       .cycle_lifts_first = false};
+                                       .cycle_lifts_first = false,
+                                       .variables = Variables::macros,
+                                       .numbered_programs = true};
   return kRules;
 }
 

@@ -104,6 +104,7 @@ const DialectRules& linuxcnc_rules() noexcept {
                                        .feed_mode_clears_feed = true,
                                        .rotary_tool_in_machine_frame = true,
                                        .taps_in_xy_alone = true,
+                                       .programs_in_a_row = false,
                                        .short_way = true};
   return kRules;
 }

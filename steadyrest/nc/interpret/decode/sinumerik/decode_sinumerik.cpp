@@ -329,7 +329,9 @@ const DialectRules& sinumerik_rules() noexcept {
   static constexpr DialectRules kRules{.decode = decode,
                                        .machine_frame_alone = true,
                                        .tool_in_machine_frame = true,
-                                       .rounding_distance = true};
+                                       .rounding_distance = true,
+                                       .variables = Variables::typed,
+                                       .named_calls = true};
   return kRules;
 }
 
