@@ -22,25 +22,28 @@ bool only_rotary_moves(const Axes& from, const Axes& to) noexcept {
 
 }  // namespace
 
+void MoveOutput::put_modes(Move& move) const noexcept {
+  move.offset = state_.offset;
+  move.rotation_deg = state_.rotation_in_force_deg;
+  move.feed_mode = state_.feed_mode;
+  move.path_mode = state_.path_mode;
+  move.path_tolerance_mm = state_.path_tolerance_mm;
+  move.spindle_rev_s =
+      state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
+  move.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
+  move.spindle_limit_rev_s = state_.spindle_limit_rev_s;
+}
+
 Move& MoveOutput::fill(MoveKind kind, const Axes& end) noexcept {
   current_.kind = kind;
   current_.start = state_.position;
   current_.end = end;
-  current_.offset = state_.offset;
-  current_.rotation_deg = state_.rotation_in_force_deg;
+  put_modes(current_);
   // A rapid has no feed of the program's.
   const bool cutting = kind != MoveKind::rapid;
-  current_.feed_mode = state_.feed_mode;
   current_.feed_mm_s = !cutting                                  ? 0.0
                        : only_rotary_moves(state_.position, end) ? state_.feed_deg_s
                                                                  : state_.feed_mm_s;
-  current_.path_mode = state_.path_mode;
-  current_.path_tolerance_mm = state_.path_tolerance_mm;
-  // Under G96 the speed depends on X along the move: the planner works it out.
-  current_.spindle_rev_s =
-      state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
-  current_.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
-  current_.spindle_limit_rev_s = state_.spindle_limit_rev_s;
   current_.override_locked = state_.override_off || kind == MoveKind::thread;
   current_.dwell_s = 0.0;
   current_.speed_modulation = state_.speed_modulation;
@@ -67,15 +70,7 @@ void MoveOutput::dwell(double seconds) {
   out.line = current_.line;
   out.start = state_.position;
   out.end = state_.position;
-  out.offset = state_.offset;
-  out.rotation_deg = state_.rotation_in_force_deg;
-  out.feed_mode = state_.feed_mode;
-  out.path_mode = state_.path_mode;
-  out.path_tolerance_mm = state_.path_tolerance_mm;
-  out.spindle_rev_s =
-      state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
-  out.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
-  out.spindle_limit_rev_s = state_.spindle_limit_rev_s;
+  put_modes(out);
   out.override_locked = state_.override_off;
   out.dwell_s = seconds;
   for (std::size_t i = 0; beside_ && i < out.end.size(); ++i) {
@@ -83,6 +78,15 @@ void MoveOutput::dwell(double seconds) {
     out.end[i] = out.start[i];
   }
   sink_->on_move(out);
+}
+
+void MoveOutput::back_over(const Axes& above, std::size_t axis, double level,
+                           int spindle_direction) {
+  Axes end = above;
+  end[axis] = level;
+  move(MoveKind::rapid, end);
+  state_.spindle_direction = spindle_direction;
+  spindle();
 }
 
 // Cycles are made of moves along one axis.

@@ -28,6 +28,8 @@ class MoveOutput {
   void move(MoveKind kind, const Axes& end);
   /// Along one axis.
   void along(MoveKind kind, std::size_t axis, double value);
+  /// In rapid to where `above` is, but at `level` of the axis along the hole; then the spindle.
+  void back_over(const Axes& above, std::size_t axis, double level, int spindle_direction);
   /// A straight move with the modes of the one before, which were those in force now.
   void move_on(MoveKind kind, const Axes& end) {
     current_.kind = kind;
@@ -51,6 +53,9 @@ class MoveOutput {
   [[nodiscard]] Axes take_beside(Axes point) noexcept;
 
  private:
+  /// Frame, modes and spindle as the state has them.
+  void put_modes(Move& move) const noexcept;
+
   State& state_;
   Sink* sink_ = nullptr;
   Move current_;

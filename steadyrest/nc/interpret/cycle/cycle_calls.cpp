@@ -221,12 +221,7 @@ void CycleCalls::bore(const Flow& call, const Hole& hole) {
   aside[axes.normal] += value(call, 9) * unit;
   out_.move(MoveKind::rapid, aside);
   out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
-  // Back over the hole's axis at the same time as up to the retraction plane.
-  Axes out = above;
-  out[axes.normal] = hole.retract_mm;
-  out_.move(MoveKind::rapid, out);
-  state_.spindle_direction = direction;
-  out_.spindle();
+  out_.back_over(above, axes.normal, hole.retract_mm, direction);
 }
 
 // (RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1): the feed follows the spindle.

@@ -320,11 +320,7 @@ bool Drilling::back_bore(const Step& step, const Hole& hole) {
   state_.spindle_direction = 0;
   out_.spindle();
   out_.along(MoveKind::rapid, axes.normal, hole.bottom_mm);
-  Axes below = above;
-  below[axes.normal] = hole.bottom_mm;
-  out_.move(MoveKind::rapid, below);
-  state_.spindle_direction = direction;
-  out_.spindle();
+  out_.back_over(above, axes.normal, hole.bottom_mm, direction);
   // Up to cut, down again to let go of the shoulder; then aside and out the way it came.
   out_.along(MoveKind::linear, axes.normal, upper);
   out_.along(MoveKind::linear, axes.normal, hole.bottom_mm);
@@ -333,11 +329,7 @@ bool Drilling::back_bore(const Step& step, const Hole& hole) {
   beside[axes.normal] = hole.bottom_mm;
   out_.move(MoveKind::rapid, beside);
   out_.along(MoveKind::rapid, axes.normal, hole.clear_mm);
-  Axes end = above;
-  end[axes.normal] = hole.clear_mm;
-  out_.move(MoveKind::rapid, end);
-  state_.spindle_direction = direction;
-  out_.spindle();
+  out_.back_over(above, axes.normal, hole.clear_mm, direction);
   return true;
 }
 

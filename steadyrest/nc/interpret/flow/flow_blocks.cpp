@@ -90,11 +90,11 @@ bool FlowControl::head_of_while(const Block& block) {
   return open(block, files_.line_begin());
 }
 
-bool FlowControl::end_of_while(const Block& block) {
+/// The end of a `while` or `repeat`: back to its head.
+bool FlowControl::end_of_turn(const Block& block, FlowKind loop, std::string_view unmatched) {
   const Open* const found = find(block, false);
-  if (found == nullptr || found->kind != FlowKind::loop_while) {
-    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
-                  "endwhile without its while");
+  if (found == nullptr || found->kind != loop) {
+    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched", unmatched);
   }
   // The head evaluates its condition again, and opens the loop again if it holds.
   const Place head = found->head;
@@ -118,17 +118,6 @@ bool FlowControl::head_of_repeat(const Block& block) {
   }
   pass(Passing::to_endrepeat, block.flow().label.view());
   return true;
-}
-
-bool FlowControl::end_of_repeat(const Block& block) {
-  const Open* const found = find(block, false);
-  if (found == nullptr || found->kind != FlowKind::repeat) {
-    return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
-                  "endrepeat without its repeat");
-  }
-  const Place head = found->head;
-  drop_to(*found);
-  return go(block.line(), head);
 }
 
 // `break` passes over the rest of the loop; in a do loop that ends at its `while`. A repeat has

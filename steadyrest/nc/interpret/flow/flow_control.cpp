@@ -82,13 +82,13 @@ bool FlowControl::act(const Block& block) {
     case FlowKind::loop_while:
       return head_of_while(block);
     case FlowKind::endwhile:
-      return end_of_while(block);
+      return end_of_turn(block, FlowKind::loop_while, "endwhile without its while");
     case FlowKind::loop_do:
       return open(block, files_.line_end());
     case FlowKind::repeat:
       return head_of_repeat(block);
     case FlowKind::endrepeat:
-      return end_of_repeat(block);
+      return end_of_turn(block, FlowKind::repeat, "endrepeat without its repeat");
     case FlowKind::leave_loop:
       return leave_loop(block);
     case FlowKind::next_turn:

@@ -96,9 +96,8 @@ class FlowControl {
   bool otherwise(const read::Block& block);
   bool close(const read::Block& block, read::FlowKind head);
   bool head_of_while(const read::Block& block);
-  bool end_of_while(const read::Block& block);
+  bool end_of_turn(const read::Block& block, read::FlowKind loop, std::string_view unmatched);
   bool head_of_repeat(const read::Block& block);
-  bool end_of_repeat(const read::Block& block);
   bool leave_loop(const read::Block& block);
   bool next_turn(const read::Block& block);
   bool arrived(read::Block& block);

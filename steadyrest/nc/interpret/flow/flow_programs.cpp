@@ -130,9 +130,7 @@ bool FlowControl::call_named(const read::Block& block) {
   std::string big = name;
   std::string small = name;
   std::ranges::transform(name, big.begin(), read::upper);
-  std::ranges::transform(name, small.begin(), [](char c) {
-    return read::is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) | 0x20U) : c;
-  });
+  std::ranges::transform(name, small.begin(), read::lower);
   std::vector<std::string> names;
   for (const std::string& stem : {name, big, small}) {
     for (const std::string_view tail : {".SPF", ".spf", ".MPF", ".mpf"}) {
