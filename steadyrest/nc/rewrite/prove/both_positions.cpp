@@ -19,13 +19,14 @@ Result<Proof> verify(const std::string& original, const std::string& changed, co
     return std::unexpected(checked.error());
   }
   const auto prove = beside_program(settings.method) ? verify_beside : verify_moves;
-  auto proved = prove(original, changed, plan, config, machine, settings, known, true);
+  Claim claim{original, changed, plan, machine, settings, known};
+  auto proved = prove(claim, config, true);
   if (!proved) {
     return std::unexpected(proved.error());
   }
   if (proved->switchable) {
-    auto other =
-        prove(original, changed, plan, switched(config), machine, settings, nullptr, false);
+    claim.known = nullptr;
+    auto other = prove(claim, switched(config), false);
     if (!other) {
       return std::unexpected(of_other_position(std::move(other.error()), config));
     }

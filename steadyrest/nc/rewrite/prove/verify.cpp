@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/rewrite/prove/compare.hpp>
 #include <steadyrest/nc/rewrite/prove/group_text.hpp>
@@ -25,26 +26,24 @@ namespace {
 
 using interpret::Axes;
 using interpret::Move;
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
 /// Runs both programs, line beside line.
 class Prover {
  public:
-  Prover(const std::string& original, const std::string& changed, const Plan& plan,
-         const interpret::Config& config, const kernel::machine::Machine& machine,
-         const Settings& settings, const KnownTimes* known, bool timed)
-      : original_(original),
-        changed_(changed),
-        plan_(plan),
-        config_(with_unknown_offsets(config, settings)),
-        machine_(machine),
-        settings_(settings),
-        known_(known),
+  Prover(const Claim& claim, const interpret::Config& config, bool timed)
+      : original_(claim.original),
+        changed_(claim.changed),
+        plan_(claim.plan),
+        config_(with_unknown_offsets(config, claim.settings)),
+        machine_(claim.machine),
+        settings_(claim.settings),
+        known_(claim.known),
         timed_(timed),
-        shifts_(plan),
-        belongs_here_(plan, settings) {}
+        shifts_(plan_),
+        belongs_here_(plan_, settings_) {}
 
   Result<Proved> run() {
     PlainSurvey plain(config_.dialect);
@@ -71,7 +70,7 @@ class Prover {
                      std::move(to_do));
   }
   bool refuse_at(const std::string& file, std::uint32_t line, std::string what, std::string to_do) {
-    refusal_ = {Kind::bad_input, file, line, std::move(what), std::move(to_do)};
+    refusal_ = bad_input(file, line, std::move(what), std::move(to_do));
     return false;
   }
   bool refuse(Refusal refusal, const std::string& file) {
@@ -388,11 +387,8 @@ class Prover {
 
 }  // namespace
 
-Result<Proved> verify_moves(const std::string& original, const std::string& changed,
-                            const Plan& plan, const interpret::Config& config,
-                            const kernel::machine::Machine& machine, const Settings& settings,
-                            const KnownTimes* known, bool timed) {
-  return Prover(original, changed, plan, config, machine, settings, known, timed).run();
+Result<Proved> verify_moves(const Claim& claim, const interpret::Config& config, bool timed) {
+  return Prover(claim, config, timed).run();
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/prove/text_pair.hpp>
 #include <steadyrest/nc/rewrite/prove/travel.hpp>
@@ -17,7 +18,7 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-using kernel::outcome::Kind;
+using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
@@ -26,16 +27,16 @@ using kernel::outcome::Result;
 // the text of a planned step at a safe place, and off at the end.
 class Prover {
  public:
-  Prover(const std::string& original, const std::string& changed, const Plan& plan,
-         const kernel::machine::Machine& machine, const Settings& settings)
-      : original_(original),
-        changed_(changed),
-        plan_(plan),
-        axis_(plan.axes.front()),
-        machine_(machine),
-        settings_(settings) {}
+  explicit Prover(const Claim& claim)
+      : original_(claim.original),
+        changed_(claim.changed),
+        plan_(claim.plan),
+        axis_(claim.plan.axes.front()),
+        machine_(claim.machine),
+        settings_(claim.settings),
+        known_(claim.known) {}
 
-  Result<Proved> run(const interpret::Config& config, const KnownTimes* known, bool timed) {
+  Result<Proved> run(const interpret::Config& config, bool timed) {
     timed_ = timed;
     start_known_ = config.start_known;
     PlainSurvey plain(config.dialect);
@@ -50,7 +51,7 @@ class Prover {
       return std::unexpected(subprogram_may_use_it());
     }
     auto walk = Walk::make(original_, config, *surveyed, settings_);
-    auto window = Window::make(known, machine_, plan_, settings_, original_);
+    auto window = Window::make(known_, machine_, plan_, settings_, original_);
     if (!walk || !window) {
       return std::unexpected(walk ? window.error() : walk.error());
     }
@@ -90,20 +91,19 @@ class Prover {
  private:
   void refuse(std::uint32_t line, std::string what) {
     if (!refusal_) {
-      refusal_ = Refusal{Kind::bad_input, original_, line, std::move(what),
-                         "make the changed program again"};
+      refusal_ = bad_input(original_, line, std::move(what), "make the changed program again");
     }
   }
 
   /// A subprogram that is not looked into may use the parameter itself.
   [[nodiscard]] Refusal subprogram_may_use_it() const {
-    return {Kind::bad_input, original_, 0U,
-            fmt::format("a subprogram may use {} itself",
-                        settings_.method == Method::r_parameter
-                            ? fmt::format("R{}", settings_.r_parameter)
-                            : "the temperature compensation"),
-            fmt::format("{}, or use one file without external subprograms",
-                        against_own_use(settings_))};
+    return bad_input(original_,
+                     fmt::format("a subprogram may use {} itself",
+                                 settings_.method == Method::r_parameter
+                                     ? fmt::format("R{}", settings_.r_parameter)
+                                     : "the temperature compensation"),
+                     fmt::format("{}, or use one file without external subprograms",
+                                 against_own_use(settings_)));
   }
 
   // The text from what is in force to `to_mm`: what the file must have, character for character.
@@ -139,8 +139,7 @@ class Prover {
           over_travel(machine_.axes, axis_.letter, own,
                       {.low_mm = own.low_mm + stands_mm_, .high_mm = own.high_mm + stands_mm_});
       if (!fault.empty() && !refusal_) {
-        refusal_ = Refusal{Kind::bad_input, original_, walk.line(), std::move(fault),
-                           std::string(kAgainstTravel)};
+        refusal_ = bad_input(original_, walk.line(), std::move(fault), std::string(kAgainstTravel));
       }
     }
   }
@@ -208,6 +207,7 @@ class Prover {
   const AxisPlan& axis_;
   const kernel::machine::Machine& machine_;
   const Settings& settings_;
+  const KnownTimes* known_;
   bool timed_ = true;
   bool start_known_ = false;
   Inserted text_;
@@ -218,11 +218,8 @@ class Prover {
 
 }  // namespace
 
-Result<Proved> verify_beside(const std::string& original, const std::string& changed,
-                             const Plan& plan, const interpret::Config& config,
-                             const kernel::machine::Machine& machine, const Settings& settings,
-                             const KnownTimes* known, bool timed) {
-  return Prover(original, changed, plan, machine, settings).run(config, known, timed);
+Result<Proved> verify_beside(const Claim& claim, const interpret::Config& config, bool timed) {
+  return Prover(claim).run(config, timed);
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include <steadyrest/nc/rewrite/prove/verify_moves.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -13,9 +11,8 @@ namespace steadyrest::nc::rewrite {
 /// value is written and which one. Every group of inserted lines must be, character for character,
 /// what belongs to a planned step, at a rapid or a clearance of the original, in its window; the
 /// value is zero from the head to the first and from the end on.
-[[nodiscard]] kernel::outcome::Result<Proved> verify_beside(
-    const std::string& original, const std::string& changed, const Plan& plan,
-    const interpret::Config& config, const kernel::machine::Machine& machine,
-    const Settings& settings, const KnownTimes* known, bool timed);
+[[nodiscard]] kernel::outcome::Result<Proved> verify_beside(const Claim& claim,
+                                                            const interpret::Config& config,
+                                                            bool timed);
 
 }  // namespace steadyrest::nc::rewrite
