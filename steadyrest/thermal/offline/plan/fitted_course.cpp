@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/offline/log/log_inputs.hpp>
 #include <steadyrest/thermal/offline/plan/fitted_course.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
@@ -18,8 +19,7 @@ namespace steadyrest::thermal::offline {
 namespace {
 
 using kernel::machine::ThermalAxis;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kUsualState_mm = 0.03;
@@ -54,7 +54,7 @@ class Walk {
         begin(row);
       } else {
         const double elapsed_s = log_.time_s[row] - log_.time_s[row - 1];
-        const online::Drive drive = drive_of(row - 1);
+        const online::Drive drive = drive_at(log_, sensor_, row - 1);
         for (std::size_t i = 0; i < modes; ++i) {
           left(static_cast<Eigen::Index>(i)) *= model_.decay(i, elapsed_s, drive);
         }
@@ -76,19 +76,10 @@ class Walk {
   // Parameters are uncertain only by what has happened since: the state itself is fitted again.
   void begin(std::size_t row) {
     model_.reset();
-    model_.update(0.0, drive_of(row));  // the sensors' lagged temperatures begin with the first
+    model_.update(0.0, drive_at(log_, sensor_,
+                                row));  // the sensors' lagged temperatures begin with the first
     uncertainty_ = Uncertainty(model_);
     since_ = uncertainty_.answer();
-  }
-
-  [[nodiscard]] online::Drive drive_of(std::size_t row) const {
-    online::Drive drive;
-    drive.speed_rev_s = log_.speed_rev_s[row];
-    drive.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t j = 0; j < sensor_.size(); ++j) {
-      drive.ambient_c[j] = sensor_[j]->value[row];
-    }
-    return drive;
   }
 
   online::ThermalModel model_;
@@ -120,24 +111,16 @@ Eigen::VectorXd states_mm(const Walk& walk, const std::vector<FittedPoint>& poin
 
 Result<std::vector<FittedPoint>> fitted_course(const ThermalAxis& axis, const Log& log,
                                                std::size_t channel, double from_s, double to_s) {
-  const auto refuse = [&](std::string what, std::string to_do) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, log.file, 0, std::move(what), std::move(to_do)});
-  };
-  auto model = online::ThermalModel::make(axis);
-  if (!model) {
-    return std::unexpected(model.error());
-  }
-  auto sensor = inputs_of(axis, log);
-  if (!sensor) {
-    return std::unexpected(sensor.error());
+  auto on_log = model_on(axis, log);
+  if (!on_log) {
+    return std::unexpected(on_log.error());
   }
   const auto from =
       static_cast<std::size_t>(std::ranges::lower_bound(log.time_s, from_s) - log.time_s.begin());
   if (from >= log.rows()) {
-    return refuse("the window begins after the log's end", "choose an earlier window");
+    return refuse(log.file, "the window begins after the log's end", "choose an earlier window");
   }
-  Walk walk(std::move(*model), log, std::move(*sensor));
+  Walk walk(std::move(on_log->model), log, std::move(on_log->sensor));
   walk.run(from);
   std::vector<FittedPoint> out;
   out.reserve(log.rows() - from);
@@ -153,7 +136,8 @@ Result<std::vector<FittedPoint>> fitted_course(const ThermalAxis& axis, const Lo
   }
   if (std::ranges::none_of(
           out, [](const FittedPoint& p) { return p.fitted && std::isfinite(p.measured_mm); })) {
-    return refuse(fmt::format("{} has no reading in the window", log.displacement[channel].name),
+    return refuse(log.file,
+                  fmt::format("{} has no reading in the window", log.displacement[channel].name),
                   "choose a wider window");
   }
   const Eigen::VectorXd began =

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/log/log_inputs.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
@@ -19,8 +20,7 @@ namespace steadyrest::thermal::offline {
 namespace {
 
 using kernel::machine::ThermalAxis;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -101,20 +101,9 @@ class Replay {
     return request_.channel ? log_.displacement[*request_.channel].value[row] : kNan;
   }
 
-  /// The inputs of a row.
-  [[nodiscard]] online::Drive drive_at(std::size_t row) const {
-    online::Drive drive;
-    drive.speed_rev_s = log_.speed_rev_s[row];
-    drive.ambient_c.fill(kNan);
-    for (std::size_t j = 0; j < sensor_.size(); ++j) {
-      drive.ambient_c[j] = sensor_[j]->value[row];
-    }
-    return drive;
-  }
-
   /// The inputs of a row hold until the next; those of the first row also before it.
   void advance(double elapsed_s, std::size_t row) {
-    step(elapsed_s, drive_at(row == 0 ? 0 : row - 1));
+    step(elapsed_s, drive_at(log_, sensor_, row == 0 ? 0 : row - 1));
   }
 
   /// Through a gap of the log, which ends with `row`: the machine stands, as on line, but it may
@@ -122,7 +111,7 @@ class Replay {
   /// it or a reading says it. A lag shorter than the gap begins anew with the next temperature.
   void stand(double elapsed_s, std::size_t row) {
     const auto before_mm = model_.state().mode_mm;
-    online::Drive drive = drive_at(row == 0 ? 0 : row - 1);
+    online::Drive drive = drive_at(log_, sensor_, row == 0 ? 0 : row - 1);
     drive.speed_rev_s = 0.0;
     step(elapsed_s, drive);
     const ThermalAxis& axis = model_.config();
@@ -190,27 +179,20 @@ class Replay {
 
 Result<std::vector<ReplayPoint>> replay(const ThermalAxis& axis, const Log& log,
                                         const ReplayRequest& request) {
-  const auto refuse = [&](std::string what, std::string to_do) {
-    return std::unexpected(
-        Refusal{Kind::bad_input, log.file, 0, std::move(what), std::move(to_do)});
-  };
-  auto model = online::ThermalModel::make(axis);
-  if (!model) {
-    return std::unexpected(model.error());
-  }
-  auto sensor = inputs_of(axis, log);
-  if (!sensor) {
-    return std::unexpected(sensor.error());
+  auto on_log = model_on(axis, log);
+  if (!on_log) {
+    return std::unexpected(on_log.error());
   }
   const double fastest = std::ranges::max(log.speed_rev_s);
   if (axis.max_speed_rev_s > 0.0 && fastest > kBeyondFitted * axis.max_speed_rev_s) {
     return refuse(
+        log.file,
         fmt::format("the spindle runs at {:.0f} rpm; the passport of {} covers up to {:.0f} rpm",
                     kernel::units::rpm_from_rev_s(fastest), axis.name,
                     kernel::units::rpm_from_rev_s(axis.max_speed_rev_s)),
         "test the machine at that speed and fit again");
   }
-  return Replay(std::move(*model), log, std::move(*sensor), request).run();
+  return Replay(std::move(on_log->model), log, std::move(on_log->sensor), request).run();
 }
 
 // Rows with a forecast and a reading count; a row whose reading was taken would flatter the score.
