@@ -108,6 +108,31 @@ Reason without_channel(const Request& request, Reason unfit) noexcept {
   return wish ? Reason::port_cannot_write : request.reason;
 }
 
+/// Where one override stands in the command.
+struct Place {
+  double& ratio;
+  std::uint32_t& code;
+  bool& masks_panel;
+  Reason& reason;
+};
+
+/// One override through its channel into the command; true when it is the panel's again. Without a
+/// channel there is a reason alone.
+template <class Request>
+bool put(std::optional<Channel>& channel, const kernel::override::RatioEnvelope::Input& input,
+         const Request& wanted, const Place& place) noexcept {
+  if (!channel) {
+    place.reason = without_channel(wanted, input.unfit);
+    return true;
+  }
+  const auto out = channel->update(input);
+  place.ratio = out.ratio;
+  place.code = out.code;
+  place.masks_panel = out.masks_panel;
+  place.reason = out.reason;
+  return out.handed_back;
+}
+
 /// The frame as the rooms see it: all its times in good time. A frame of before has them already.
 void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
   // Edge stamps move with the frame's: their distance to the tick is what the estimators use.
@@ -282,29 +307,17 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
 // each slews back on its own.
 void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,
                        signal::Command& command) noexcept {
-  handed_back_ = true;
-  if (feed_) {
-    const auto feed = feed_->update(
-        channel_input(step_s, decisions.feed, decisions.unfit, decisions.hold, frame.feed));
-    command.feed_ratio = feed.ratio;
-    command.feed_code = feed.code;
-    command.feed_masks_panel = feed.masks_panel;
-    command.feed_reason = feed.reason;
-    handed_back_ = feed.handed_back;
-  } else {
-    command.feed_reason = without_channel(decisions.feed, decisions.unfit);
-  }
-  if (spindle_) {
-    const auto spindle = spindle_->update(
-        channel_input(step_s, decisions.spindle, decisions.unfit, decisions.hold, frame.spindle));
-    command.spindle_ratio = spindle.ratio;
-    command.spindle_code = spindle.code;
-    command.spindle_masks_panel = spindle.masks_panel;
-    command.spindle_reason = spindle.reason;
-    handed_back_ = handed_back_ && spindle.handed_back;
-  } else {
-    command.spindle_reason = without_channel(decisions.spindle, decisions.unfit);
-  }
+  const bool feed_back =
+      put(feed_, channel_input(step_s, decisions.feed, decisions.unfit, decisions.hold, frame.feed),
+          decisions.feed,
+          {command.feed_ratio, command.feed_code, command.feed_masks_panel, command.feed_reason});
+  const bool spindle_back =
+      put(spindle_,
+          channel_input(step_s, decisions.spindle, decisions.unfit, decisions.hold, frame.spindle),
+          decisions.spindle,
+          {command.spindle_ratio, command.spindle_code, command.spindle_masks_panel,
+           command.spindle_reason});
+  handed_back_ = feed_back && spindle_back;
   const auto offset = offset_.update({.step_s = step_s,
                                       .request = decisions.offset,
                                       .unfit = decisions.unfit,

@@ -41,6 +41,10 @@ void withdraw(Request& decision, const Request& request) noexcept {
   }
 }
 
+bool beats(const signal::FeedRequest& challenger, const signal::FeedRequest& holder) {
+  return challenger.ratio < holder.ratio;
+}
+
 bool beats(const signal::SpindleRequest& challenger, const signal::SpindleRequest& holder) {
   const bool chatter = challenger.room == signal::Room::chatter;
   // Stability hangs on the exact speed: a compromise with another room would serve neither.
@@ -59,26 +63,9 @@ Reason fault_of(double ratio) noexcept {
   return ratio < 0.0 || ratio > kMaxRequestRatio ? Reason::input_out_of_range : Reason::none;
 }
 
-void FeedArbiter::add(const signal::FeedRequest& request) noexcept {
-  const signal::FeedRequest fit = made_fit(request);
-  if (is_wish(fit.ratio, fit.reason)) {
-    if (wishes_ == 0 || fit.ratio < decision_.ratio) {
-      decision_ = fit;
-    }
-    ++wishes_;
-  } else if (wishes_ == 0) {
-    withdraw(decision_, fit);
-  }
-}
-
-void FeedArbiter::add(std::span<const signal::FeedRequest> requests) noexcept {
-  for (const auto& request : requests) {
-    add(request);
-  }
-}
-
-void SpindleArbiter::add(const signal::SpindleRequest& request) noexcept {
-  const signal::SpindleRequest fit = made_fit(request);
+template <class Request>
+void RatioArbiter<Request>::add(const Request& request) noexcept {
+  const Request fit = made_fit(request);
   if (is_wish(fit.ratio, fit.reason)) {
     if (wishes_ == 0 || beats(fit, decision_)) {
       decision_ = fit;
@@ -89,11 +76,8 @@ void SpindleArbiter::add(const signal::SpindleRequest& request) noexcept {
   }
 }
 
-void SpindleArbiter::add(std::span<const signal::SpindleRequest> requests) noexcept {
-  for (const auto& request : requests) {
-    add(request);
-  }
-}
+template class RatioArbiter<signal::FeedRequest>;
+template class RatioArbiter<signal::SpindleRequest>;
 
 // Of the slopes the slowest holds, axis by axis. One unfit summand makes the whole sum unknown:
 // half of a correction may be worse than none.

@@ -37,31 +37,27 @@ inline constexpr double kMaxRequestRatio = 10.0;  ///< five times what a control
 /// none, input_not_finite or input_out_of_range.
 [[nodiscard]] outcome::Reason fault_of(double ratio) noexcept;
 
-class FeedArbiter {
+/// Of the requests for one override: the lowest of the feed, see above for the spindle.
+template <class Request>
+class RatioArbiter {
  public:
-  void add(const signal::FeedRequest& request) noexcept;
-  void add(std::span<const signal::FeedRequest> requests) noexcept;
-  /// The lowest wish; else neutral with the reason of the withdrawal that matters most.
-  [[nodiscard]] const signal::FeedRequest& decision() const noexcept { return decision_; }
+  void add(const Request& request) noexcept;
+  void add(std::span<const Request> requests) noexcept {
+    for (const Request& request : requests) {
+      add(request);
+    }
+  }
+  /// The wish that wins; else neutral with the reason of the withdrawal that matters most.
+  [[nodiscard]] const Request& decision() const noexcept { return decision_; }
   /// How many wishes there were; all but one were outvoted or agreed.
   [[nodiscard]] unsigned wishes() const noexcept { return wishes_; }
 
  private:
-  signal::FeedRequest decision_;
+  Request decision_;
   unsigned wishes_ = 0;
 };
-
-class SpindleArbiter {
- public:
-  void add(const signal::SpindleRequest& request) noexcept;
-  void add(std::span<const signal::SpindleRequest> requests) noexcept;
-  [[nodiscard]] const signal::SpindleRequest& decision() const noexcept { return decision_; }
-  [[nodiscard]] unsigned wishes() const noexcept { return wishes_; }
-
- private:
-  signal::SpindleRequest decision_;
-  unsigned wishes_ = 0;
-};
+using FeedArbiter = RatioArbiter<signal::FeedRequest>;
+using SpindleArbiter = RatioArbiter<signal::SpindleRequest>;
 
 class OffsetArbiter {
  public:
