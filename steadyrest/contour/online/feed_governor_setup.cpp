@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <steadyrest/contour/online/feed_governor.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // What the governor works out once, from the machine file.
 namespace steadyrest::contour::online {
@@ -14,11 +15,8 @@ namespace {
 
 using kernel::machine::Axis;
 using kernel::machine::Machine;
+using kernel::outcome::refuse;
 using Axes = std::span<const Axis>;
-
-kernel::outcome::Refusal refuse(std::string what, std::string to_do) {
-  return {kernel::outcome::Kind::bad_input, {}, 0, std::move(what), std::move(to_do)};
-}
 
 /// What one step of a forecast is taken to cost: twice what a core of 3 GHz needs, so that slower
 /// ones keep the share too. A fixed figure, so that the same input decides alike everywhere.
@@ -30,38 +28,42 @@ constexpr double kStep = 0.12;
 constexpr double kSettle = 4.0;     // of the softest axis's 1/k: e⁻⁴ is left of an error, 2 %
 constexpr double kSettleLag = 3.0;  // of the longest τ: e⁻³, of what the velocity loop adds
 
+/// The axes that make the contour.
+Axes path_axes(Axes axes) noexcept {
+  return axes.first(std::min<std::size_t>(3, axes.size()));
+}
+
+double largest(Axes axes, double Axis::* value, double at_least) noexcept {
+  double largest = at_least;
+  for (const Axis& axis : path_axes(axes)) {
+    largest = std::max(largest, axis.*value);
+  }
+  return largest;
+}
+
 // The stiffest axis sets the forecast's step, the softest one how far back the foot lies and how
 // long a change takes to settle.
 double stiffest(Axes axes) noexcept {
-  double k = 1.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
-    k = std::max(k, axes[i].servo_gain_1_s);
-  }
-  return k;
+  return largest(axes, &Axis::servo_gain_1_s, 1.0);
 }
 
 double softest(Axes axes) noexcept {
   double k = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
-    k = std::min(k, axes[i].servo_gain_1_s);
+  for (const Axis& axis : path_axes(axes)) {
+    k = std::min(k, axis.servo_gain_1_s);
   }
   return std::clamp(k, 1.0, 1000.0);
 }
 
 double longest_lag(Axes axes) noexcept {
-  double lag = 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
-    lag = std::max(lag, axes[i].velocity_lag_s);
-  }
-  return lag;
+  return largest(axes, &Axis::velocity_lag_s, 0.0);
 }
 
 /// Time over which the control's jerk limit averages the acceleration, A/J; its mean delay is half
 /// of it.
 double jerk_time(Axes axes) noexcept {
   double time = 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
-    const auto& axis = axes[i];
+  for (const Axis& axis : path_axes(axes)) {
     if (std::isfinite(axis.max_jerk_mm_s3) && axis.max_jerk_mm_s3 > 0.0) {
       time = std::max(time, axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3);
     }
@@ -97,47 +99,44 @@ double walking_1_s(const kernel::machine::OverrideTable& table,
 /// What backlash puts between the encoders on the motors and the tool: half of it either way.
 double unseen_by_encoders_mm(Axes axes) noexcept {
   double backlash_mm = 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
-    backlash_mm = std::max(backlash_mm, axes[i].backlash_mm);
+  for (const Axis& axis : path_axes(axes)) {
+    backlash_mm = std::max(backlash_mm, axis.backlash_mm);
   }
   return 0.5 * backlash_mm;
 }
 
 kernel::outcome::Result<void> check(const FeedGovernor::Config& config) {
   if (config.axes.empty()) {
-    return std::unexpected(
-        refuse("the machine has no axis; allowed: one or more", "add an [[axis]] for each axis"));
+    return refuse("the machine has no axis; allowed: one or more", "add an [[axis]] for each axis");
   }
   if (!(config.contour.limit_mm > 0.0)) {
-    return std::unexpected(refuse(
+    return refuse(
         "the contour limit is " + std::to_string(config.contour.limit_mm) + " mm; allowed: above 0",
-        "correct limit_um in [contour]"));
+        "correct limit_um in [contour]");
   }
   if (!(config.contour.margin >= 0.0 && config.contour.margin < 1.0)) {
-    return std::unexpected(refuse(
+    return refuse(
         "the contour margin is " + std::to_string(config.contour.margin) + "; allowed: 0 … below 1",
-        "correct margin_percent in [contour]"));
+        "correct margin_percent in [contour]");
   }
   if (!(config.contour.min_ratio > 0.0 && config.contour.min_ratio <= config.contour.max_ratio)) {
-    return std::unexpected(
-        refuse("the feed ratios of [contour] are " + std::to_string(config.contour.min_ratio) +
-                   " … " + std::to_string(config.contour.max_ratio) + "; allowed: above 0, rising",
-               "correct min_percent and max_percent in [contour]"));
+    return refuse("the feed ratios of [contour] are " + std::to_string(config.contour.min_ratio) +
+                      " … " + std::to_string(config.contour.max_ratio) +
+                      "; allowed: above 0, rising",
+                  "correct min_percent and max_percent in [contour]");
   }
   if (!(config.envelope.feed_fall_1_s > 0.0 && config.envelope.feed_rise_1_s > 0.0)) {
-    return std::unexpected(
-        refuse("the feed's slew limits are " + std::to_string(config.envelope.feed_fall_1_s) +
-                   " 1/s down and " + std::to_string(config.envelope.feed_rise_1_s) +
-                   " 1/s up; allowed: above 0",
-               "correct the slew limits in [envelope]"));
+    return refuse("the feed's slew limits are " + std::to_string(config.envelope.feed_fall_1_s) +
+                      " 1/s down and " + std::to_string(config.envelope.feed_rise_1_s) +
+                      " 1/s up; allowed: above 0",
+                  "correct the slew limits in [envelope]");
   }
   if (!(config.work_share > 0.0 && config.work_share <= 1.0)) {
-    return std::unexpected(
-        refuse("work_share is " + std::to_string(config.work_share) + "; allowed: above 0 … 1",
-               "correct work_share"));
+    return refuse("work_share is " + std::to_string(config.work_share) + "; allowed: above 0 … 1",
+                  "correct work_share");
   }
   if (config.objective == nullptr) {
-    return std::unexpected(refuse("no objective is given", "give a function of a candidate"));
+    return refuse("no objective is given", "give a function of a candidate");
   }
   return {};
 }
@@ -181,9 +180,9 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
   }
   FeedGovernor governor(config, *contour, *servo);
   if (governor.candidate_.empty()) {
-    return std::unexpected(refuse(
+    return refuse(
         "no step of the override table lies between min_percent and max_percent of [contour]",
-        "widen that range until it holds a step"));
+        "widen that range until it holds a step");
   }
   return governor;
 }
