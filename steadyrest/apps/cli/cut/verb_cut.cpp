@@ -18,6 +18,7 @@
 #include <steadyrest/apps/cli/shared/report_option.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/cut/report.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/plan/check/idle_override.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
@@ -31,6 +32,7 @@ namespace {
 
 using kernel::machine::ContourStrategy;
 using kernel::machine::Machine;
+using kernel::outcome::bad_input;
 using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
@@ -58,9 +60,8 @@ const std::map<std::string, ContourStrategy> kStrategies = {
 std::optional<Refusal> apply(const Options& options, Machine& machine) {
   if (options.limit_um) {
     if (!(*options.limit_um >= 0.1 && *options.limit_um <= 10'000.0)) {
-      return Refusal{Kind::bad_input, "", 0,
-                     fmt::format("--limit-um {} is outside 0.1 … 10000", *options.limit_um),
-                     "give the largest contour error the part may have"};
+      return bad_input(fmt::format("--limit-um {} is outside 0.1 … 10000", *options.limit_um),
+                       "give the largest contour error the part may have");
     }
     machine.contour.limit_mm = kernel::units::mm_from_um(*options.limit_um);
   }
@@ -110,8 +111,8 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
     return std::unexpected(std::move(answer));
   }
   if (path->segments.empty()) {
-    answer.refusals.push_back({Kind::bad_input, options.file, 0, "the program moves no axis",
-                               "give a program with at least one motion"});
+    answer.refusals.push_back(bad_input(options.file, "the program moves no axis",
+                                        "give a program with at least one motion"));
     answer.exit_code = kRefused;
     return std::unexpected(std::move(answer));
   }
@@ -144,13 +145,7 @@ Json json_of(const Figures& figures) {
 Json json_of(const std::vector<trial::cut::MotionFigures>& motion) {
   Json axes = Json::array();
   for (const trial::cut::MotionFigures& m : motion) {
-    axes.push_back({{"axis", m.axis},
-                    {"velocity_rms_mm_s", m.velocity_rms_mm_s},
-                    {"acceleration_rms_mm_s2", m.acceleration_rms_mm_s2},
-                    {"difference_velocity_rms_mm_s", m.difference_velocity_rms_mm_s},
-                    {"difference_acceleration_rms_mm_s2", m.difference_acceleration_rms_mm_s2},
-                    {"velocity_coverage_ratio", m.velocity_coverage_ratio},
-                    {"acceleration_coverage_ratio", m.acceleration_coverage_ratio}});
+    axes.push_back(page::to_object(m));
   }
   return axes;
 }

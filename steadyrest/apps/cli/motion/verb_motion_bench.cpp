@@ -87,35 +87,23 @@ std::string people_table(const offline::Benchmark& benchmark) {
   return out;
 }
 
-/// Figures that do not exist are NaN here; nlohmann-json writes null.
-Json figures(const offline::ErrorFigures& e, double gain, double efficiency) {
-  return {{"rms", e.rms},
-          {"max", e.max},
-          {"own_lag_s", e.own_lag_s},
-          {"rms_at_own_lag", e.rms_at_own_lag},
-          {"gain", gain},
-          {"coverage", e.coverage},
-          {"bound_ratio", e.bound_rms_at_speed / e.rms_at_speed},
-          {"efficiency", efficiency}};
-}
-
 /// All figures of all rows, unrounded.
 Json rows_json(const offline::Benchmark& benchmark) {
   Json out = Json::array();
   for (const BenchRow& row : benchmark.rows) {
-    out.push_back(
-        {{"scene", row.scene},
-         {"estimator", row.estimator},
-         {"limits", row.limits},
-         {"ticks", row.ticks},
-         {"velocity_mm_s", figures(row.velocity, row.velocity_gain, row.velocity_efficiency)},
-         {"acceleration_mm_s2",
-          figures(row.acceleration, row.acceleration_gain, row.acceleration_efficiency)},
-         {"contradictions", row.contradictions},
-         {"ns_per_tick", row.ns_per_tick},
-         {"ns_per_edge", row.ns_per_edge},
-         {"target_velocity_mm_s", row.target_velocity_mm_s},
-         {"target_acceleration_mm_s2", row.target_acceleration_mm_s2}});
+    out.push_back({{"scene", row.scene},
+                   {"estimator", row.estimator},
+                   {"limits", row.limits},
+                   {"ticks", row.ticks},
+                   {"velocity_mm_s",
+                    page::to_figures(row.velocity, row.velocity_gain, row.velocity_efficiency)},
+                   {"acceleration_mm_s2", page::to_figures(row.acceleration, row.acceleration_gain,
+                                                           row.acceleration_efficiency)},
+                   {"contradictions", row.contradictions},
+                   {"ns_per_tick", row.ns_per_tick},
+                   {"ns_per_edge", row.ns_per_edge},
+                   {"target_velocity_mm_s", row.target_velocity_mm_s},
+                   {"target_acceleration_mm_s2", row.target_acceleration_mm_s2}});
   }
   return out;
 }

@@ -147,17 +147,6 @@ Json to_object(const Run& run) {
   return out;
 }
 
-/// Estimates against differences of counts, on the true motion of the simulated axis.
-Json to_object(const MotionFigures& m) {
-  return {{"axis", m.axis},
-          {"velocity_rms_mm_s", m.velocity_rms_mm_s},
-          {"acceleration_rms_mm_s2", m.acceleration_rms_mm_s2},
-          {"difference_velocity_rms_mm_s", m.difference_velocity_rms_mm_s},
-          {"difference_acceleration_rms_mm_s2", m.difference_acceleration_rms_mm_s2},
-          {"velocity_coverage_ratio", m.velocity_coverage_ratio},
-          {"acceleration_coverage_ratio", m.acceleration_coverage_ratio}};
-}
-
 /// A reading of the probe and what became of it, with the sentence of its reason.
 Json to_object(const ProbeFigures& p) {
   return {{"time_s", p.time_s},
@@ -187,6 +176,16 @@ Json to_object(const WorstLine& w) {
 }
 
 }  // namespace
+
+Json to_object(const MotionFigures& m) {
+  return {{"axis", m.axis},
+          {"velocity_rms_mm_s", m.velocity_rms_mm_s},
+          {"acceleration_rms_mm_s2", m.acceleration_rms_mm_s2},
+          {"difference_velocity_rms_mm_s", m.difference_velocity_rms_mm_s},
+          {"difference_acceleration_rms_mm_s2", m.difference_acceleration_rms_mm_s2},
+          {"velocity_coverage_ratio", m.velocity_coverage_ratio},
+          {"acceleration_coverage_ratio", m.acceleration_coverage_ratio}};
+}
 
 /// The same figures for --json, so that page and script cannot differ.
 std::string to_json(const VibrationFigures& vibration) {

@@ -12,6 +12,7 @@ namespace steadyrest::apps::page {
 /// Its page: keys in a fixed order, traces as columns, values rounded to what a person can use
 /// (1e-4 s, 1e-4 mm, 0.01 µm). Schema: web/src/cut/data.ts.
 [[nodiscard]] Json to_page(const trial::cut::ReportData& data);
+[[nodiscard]] Json to_object(const trial::cut::MotionFigures& figures);
 /// One object in text; null where there is no number.
 [[nodiscard]] std::string to_json(const trial::cut::VibrationFigures& vibration);
 

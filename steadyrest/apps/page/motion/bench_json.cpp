@@ -6,13 +6,12 @@
 
 // The benchmark's page: every row, every trace and the source's figures as columns.
 namespace steadyrest::apps::page {
-namespace {
 
 namespace offline = motion::offline;
 
 /// bound_ratio is how far the proved bound lies above the real error at the same speed: the price
 /// of a guarantee.
-Json to_object(const offline::ErrorFigures& e, double gain, double efficiency, double target) {
+Json to_figures(const offline::ErrorFigures& e, double gain, double efficiency) {
   return {{"rms", e.rms},
           {"max", e.max},
           {"own_lag_s", e.own_lag_s},
@@ -20,9 +19,16 @@ Json to_object(const offline::ErrorFigures& e, double gain, double efficiency, d
           {"gain", gain},
           {"coverage", e.coverage},
           {"bound_ratio", e.bound_rms_at_speed / e.rms_at_speed},
-          {"efficiency", efficiency},
-          {"target", target},
-          {"rms_at_lag", short_numbers(e.rms_at_lag)}};
+          {"efficiency", efficiency}};
+}
+
+namespace {
+
+Json to_object(const offline::ErrorFigures& e, double gain, double efficiency, double target) {
+  Json out = to_figures(e, gain, efficiency);
+  out["target"] = target;
+  out["rms_at_lag"] = short_numbers(e.rms_at_lag);
+  return out;
 }
 
 Json to_object(const offline::BenchRow& row) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <steadyrest/apps/page/motion/bench_page.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/scene/score.hpp>
 
 // Data of the benchmark's page: the table, two traces that show what the figures mean, and the
@@ -10,8 +11,7 @@
 namespace steadyrest::apps::page {
 
 namespace offline = motion::offline;
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 namespace {
@@ -33,8 +33,7 @@ Result<offline::BenchScene> scene_named(const std::string& name) {
       return choice.make();
     }
   }
-  return std::unexpected(
-      Refusal{Kind::bad_input, "", 0, "there is no scene \"" + name + "\"", "choose another"});
+  return refuse("there is no scene \"" + name + "\"", "choose another");
 }
 
 }  // namespace

@@ -45,6 +45,11 @@ struct PageData {
 [[nodiscard]] kernel::outcome::Result<PageData> page_data(
     motion::offline::Benchmark benchmark, std::vector<motion::offline::RequirementRow> requirement);
 
+/// An estimator's figures as the page and `motion bench --json` have them. What JSON has no number
+/// for is null.
+[[nodiscard]] Json to_figures(const motion::offline::ErrorFigures& figures, double gain,
+                              double efficiency);
+
 /// Schema: web/src/motion/data.ts.
 [[nodiscard]] Json to_page(const PageData& data);
 
