@@ -3,7 +3,7 @@
 #include <utility>
 
 #include <steadyrest/chatter/online/better_speed.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/chatter/online/detector_refusal.hpp>
 
 namespace steadyrest::chatter::online {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kSameSpeed = 0.01;  // rounding of S words; override steps are 
 
 kernel::outcome::Result<BetterSpeed> BetterSpeed::make(Config config) {
   if (!(config.again_s > 0.0)) {
-    return kernel::outcome::refuse("again_s is not above 0", "correct the detector's setup");
+    return refuse_detector("again_s is not above 0");
   }
   auto detector = Detector::make(config.detector);
   if (!detector) {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include <steadyrest/chatter/online/detector.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/chatter/online/detector_refusal.hpp>
 
 // A sample passes the order filter, the once-a-revolution witness and the energies; what the filter
 // leaves goes to the spectrum, which speaks every eighth of a window. Each spectrum starts a
@@ -51,23 +51,19 @@ constexpr double kFloorFallS = 2.0;
 constexpr double kHop = 1.0 / 8.0;  // of the window, between spectra
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-kernel::outcome::Refusal refuse(const char* what) {
-  return kernel::outcome::bad_input(what, "correct the detector's setup");
-}
-
 }  // namespace
 
 kernel::outcome::Result<Detector> Detector::make(const Config& config) {
   if (!(config.off_ratio >= 0.0 && config.on_ratio >= config.off_ratio &&
         config.sure_ratio >= config.on_ratio && config.sure_ratio <= 1.0 &&
         config.free_ratio >= 0.0 && config.free_ratio <= 1.0)) {
-    return std::unexpected(refuse("energy ratios do not rise from off over on to sure, 0…1"));
+    return refuse_detector("energy ratios do not rise from off over on to sure, 0…1");
   }
   if (!(config.line_ratio >= 10.0 && config.margin >= 1.0 && config.confirm >= 1)) {
-    return std::unexpected(refuse("line ratio below 10, margin or confirmations below 1"));
+    return refuse_detector("line ratio below 10, margin or confirmations below 1");
   }
   if (!(config.least_energy >= 0.0 && config.learn_s >= 0.0 && config.settle_rev >= 0.0)) {
-    return std::unexpected(refuse("an energy or a time is negative"));
+    return refuse_detector("an energy or a time is negative");
   }
   auto filter = OrderFilter::make({.sample_rate_hz = config.sample_rate_hz,
                                    .teeth = config.teeth,

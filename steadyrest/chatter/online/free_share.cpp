@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/chatter/online/free_share.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // shift() moves the line to 0 Hz and thins signal and orders to 625 rows a second; rate() projects
 // the tooth orders out and finds the mode's pole from what is left; mode() fits ring-down, orders
@@ -34,9 +34,7 @@ Complex times(Complex a, Complex b) noexcept {  // without the operator's test f
 kernel::outcome::Result<FreeShare> FreeShare::make(const Config& config) {
   const bool rate = config.sample_rate_hz >= 1e3 && config.sample_rate_hz <= 50e3;
   if (!rate || config.teeth < 1 || config.teeth > 64) {
-    return kernel::outcome::refuse(
-        "sample rate is not within 1000…50000 Hz or teeth are not within 1…64",
-        "correct the detector's setup");
+    return refuse_detector("sample rate is not within 1000…50000 Hz or teeth are not within 1…64");
   }
   return FreeShare(config,
                    static_cast<std::size_t>(std::lround(config.sample_rate_hz / kBlockRate)));

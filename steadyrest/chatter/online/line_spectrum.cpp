@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/chatter/online/line_spectrum.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // Copy, butterflies, power, noise floor and sum of the lines are steps of a state machine: each
 // call does a portion, so that a transform of a thousand points never falls into one cycle.
@@ -22,21 +22,17 @@ constexpr double kClipBias = 1.36;
 constexpr double kHannEnergy = 0.375;  // mean of the squared window, sin⁴
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-kernel::outcome::Refusal refuse(const char* what) {
-  return kernel::outcome::bad_input(what, "correct the detector's setup");
-}
-
 }  // namespace
 
 kernel::outcome::Result<LineSpectrum> LineSpectrum::make(const Config& config) {
   if (!(config.sample_rate_hz >= 1e3 && config.sample_rate_hz <= 50e3)) {
-    return std::unexpected(refuse("sample rate is not within 1000…50000 Hz"));
+    return refuse_detector("sample rate is not within 1000…50000 Hz");
   }
   if (!(config.window_s >= 0.02 && config.window_s <= 1.0)) {
-    return std::unexpected(refuse("window is not within 0.02…1 s"));
+    return refuse_detector("window is not within 0.02…1 s");
   }
   if (!(config.lowest_hz >= 0.0 && config.lowest_hz <= 0.25 * config.sample_rate_hz)) {
-    return std::unexpected(refuse("lowest frequency is not within 0…¼ of the sample rate"));
+    return refuse_detector("lowest frequency is not within 0…¼ of the sample rate");
   }
   // A power of 2 for the butterflies; the window comes out within a factor √2 of what was asked.
   const double wanted = std::log2(config.window_s * config.sample_rate_hz);

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <string>
 
+#include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/chatter/online/order_filter.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // A Kalman filter whose states are cosine and sine of each order. Between samples they turn with
 // the spindle, so a modulated speed needs no resampling. Each order keeps one scalar variance
@@ -19,10 +19,6 @@ constexpr double kSlowStart = 0.01;  // the same of runout, as if 100 samples ha
 constexpr double kHighest = 0.45;    // of the sample rate; 0.5 is the last that can be told
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-kernel::outcome::Refusal refuse(std::string what) {
-  return kernel::outcome::bad_input(std::move(what), "correct the detector's setup");
-}
-
 bool is_memory(double revolutions) {
   return revolutions >= 0.1 && revolutions <= 1000.0;
 }
@@ -31,18 +27,18 @@ bool is_memory(double revolutions) {
 
 kernel::outcome::Result<OrderFilter> OrderFilter::make(const Config& config) {
   if (!(config.sample_rate_hz >= 1e3 && config.sample_rate_hz <= 50e3)) {
-    return std::unexpected(refuse("sample rate " + std::to_string(config.sample_rate_hz) +
-                                  " Hz is not within 1000…50000 Hz"));
+    return refuse_detector("sample rate " + std::to_string(config.sample_rate_hz) +
+                           " Hz is not within 1000…50000 Hz");
   }
   if (config.teeth < 1 || config.teeth > 64) {
-    return std::unexpected(refuse(std::to_string(config.teeth) + " teeth are not within 1…64"));
+    return refuse_detector(std::to_string(config.teeth) + " teeth are not within 1…64");
   }
   if (config.tooth_harmonics < 1 || config.tooth_harmonics > 64 || config.spindle_harmonics > 64) {
-    return std::unexpected(refuse("number of harmonics is not within 1…64"));
+    return refuse_detector("number of harmonics is not within 1…64");
   }
   if (!is_memory(config.tooth_memory_rev) || !is_memory(config.moving_memory_rev) ||
       !is_memory(config.runout_memory_rev) || !is_memory(config.half_memory_rev)) {
-    return std::unexpected(refuse("a memory is not within 0.1…1000 revolutions"));
+    return refuse_detector("a memory is not within 0.1…1000 revolutions");
   }
   std::vector<Order> orders;
   const std::size_t last_tooth = config.teeth * config.tooth_harmonics;
