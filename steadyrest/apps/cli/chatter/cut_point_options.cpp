@@ -6,14 +6,9 @@
 
 #include <steadyrest/apps/cli/chatter/cut_point_options.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
-
-using kernel::outcome::bad_input;
-using kernel::outcome::Refusal;
-using kernel::outcome::Result;
 
 void add_cut_point_options(Verb& verb, CutPointOptions& options) {
   verb.reads("process", options.process, "Process file (TOML): tool, cut and modes")->required();

@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/chatter/law_options.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -14,8 +13,6 @@ namespace {
 using chatter::offline::Modulation;
 using chatter::offline::Process;
 using chatter::online::Law;
-using kernel::outcome::refuse;
-using kernel::outcome::Result;
 
 /// The map of one principal period is a product of pass maps. The pass count is bounded, and so is
 /// the number of law periods that may make up one principal period.

@@ -22,7 +22,6 @@
 #include <steadyrest/chatter/offline/signal/signal_file.hpp>
 #include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/chatter/online/speed_table.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -34,9 +33,6 @@ namespace {
 namespace offline = chatter::offline;
 namespace online = chatter::online;
 using kernel::machine::Machine;
-using kernel::outcome::bad_input;
-using kernel::outcome::Refusal;
-using kernel::outcome::Result;
 using kernel::units::rpm_from_rev_s;
 
 constexpr double kMostDepthMm = 10.0;  // of the table, where the cut's depth is not given

@@ -24,7 +24,6 @@
 #include <steadyrest/chatter/offline/depth/lobe_map.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -32,10 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace offline = chatter::offline;
-using kernel::outcome::bad_input;
-using kernel::outcome::Refusal;
-using kernel::outcome::refuse;
-using kernel::outcome::Result;
 using kernel::units::rpm_from_rev_s;
 
 /// Far below any spindle. It keeps 0 and negative speeds out of the grid, with the option's name in
@@ -235,25 +230,23 @@ struct Task {
 };
 
 std::expected<Task, Refusals> task_of(const Options& options) {
-  // Everything that may be refused is read and checked here, before minutes of work on the map.
-  const auto no = [](Refusal refusal) { return std::unexpected(Refusals{std::move(refusal)}); };
   if (auto refusal = unfit(options)) {
-    return no(std::move(*refusal));
+    return refused(std::move(*refusal));
   }
   Task out;
   auto process = offline::read_process(options.process);
   if (!process) {
-    return no(process.error());
+    return refused(process.error());
   }
   out.process = std::move(*process);
   const auto speeds = grid("--speeds-rpm", options.speeds_rpm, kLeastSpeed_rpm);
   auto depths = grid("--depths-mm", options.depths_mm, 0.0);
   if (!speeds || !depths) {
-    return no(speeds ? depths.error() : speeds.error());
+    return refused(speeds ? depths.error() : speeds.error());
   }
   auto law = law_of(options, out.process, *speeds);
   if (!law) {
-    return no(law.error());
+    return refused(law.error());
   }
   out.law = *law;
   if (!options.machine.empty()) {

@@ -16,7 +16,6 @@
 #include <steadyrest/chatter/offline/depth/best_speeds.hpp>
 #include <steadyrest/chatter/offline/plan/planner.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -25,7 +24,6 @@ namespace {
 namespace offline = chatter::offline;
 namespace units = kernel::units;
 using chatter::online::Law;
-using kernel::outcome::bad_input;
 using offline::Alternative;
 using offline::PlanDecision;
 

@@ -24,7 +24,6 @@ namespace {
 
 namespace offline = chatter::offline;
 using kernel::file::OutputFile;
-using kernel::outcome::Result;
 
 constexpr const char* kHead =
     "t_s,angle_rad,speed_rpm,x_mm,y_mm,fx_N,fy_N,torque_Nm,power_W,chip_mm\n";

@@ -25,7 +25,6 @@ namespace steadyrest::apps::cli {
 namespace {
 
 using kernel::machine::Machine;
-using kernel::outcome::Result;
 using kernel::units::um_from_mm;
 using nc::rewrite::Method;
 using trial::batch::Batch;

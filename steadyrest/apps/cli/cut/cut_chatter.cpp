@@ -9,7 +9,6 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/cut/report.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
@@ -21,17 +20,11 @@ using chatter::offline::PlanDecision;
 using chatter::online::Law;
 using chatter::online::Modulation;
 using kernel::machine::Machine;
-using kernel::outcome::bad_input;
-using kernel::outcome::Refusal;
 using trial::cut::ChatterChoice;
 
 constexpr const char* kPlan = "plan";
 constexpr const char* kDetect = "detect";
 constexpr const char* kMachine = "machine";
-
-std::unexpected<Refusals> one(Refusal refusal) {
-  return std::unexpected(Refusals{std::move(refusal)});
-}
 
 /// Lowest programmed speed of a cut, G96 included; 0 when the spindle is stopped. It sets the time
 /// grid of the simulated cut: the slower the spindle, the more steps a tooth pass needs.
@@ -152,10 +145,10 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     return out;
   }
   if (!options.depth_mm || !(*options.depth_mm > 0.0)) {
-    return one(bad_input(options.depth_mm
-                             ? fmt::format("--depth-mm {} is not above 0", *options.depth_mm)
-                             : "--process without --depth-mm",
-                         "give a depth of cut above 0, as in --depth-mm 1.5"));
+    return refused(bad_input(options.depth_mm
+                                 ? fmt::format("--depth-mm {} is not above 0", *options.depth_mm)
+                                 : "--process without --depth-mm",
+                             "give a depth of cut above 0, as in --depth-mm 1.5"));
   }
   const auto process = chatter::offline::read_process_all_faults(options.process);
   if (!process) {
@@ -164,15 +157,15 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
   // A tooth that does not turn cuts nothing; the model divides by the speed.
   const double slowest = slowest_cut_rev_s(path);
   if (!(slowest > 0.0)) {
-    return one(bad_input("the program cuts with the spindle stopped",
-                         "program S and M3 before the first G1, or leave out --process"));
+    return refused(bad_input("the program cuts with the spindle stopped",
+                             "program S and M3 before the first G1, or leave out --process"));
   }
   if (options.source == kPlan) {
     auto choices = trial::cut::choose(
         *process, machine, trial::cut::cutting_speeds(path), *options.depth_mm,
         [&](double share, std::string_view what) { progress.update(share, what); });
     if (!choices) {
-      return one(choices.error());
+      return refused(choices.error());
     }
     out.choices = std::move(*choices);
     out.by_plan = true;
@@ -194,7 +187,7 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     auto listener = trial::cut::listener_for(*process, machine, trial::cut::cutting_speeds(path),
                                              *options.depth_mm, sensor.sensor_rate_hz);
     if (!listener) {
-      return one(listener.error());
+      return refused(listener.error());
     }
     out.listener = std::move(*listener);
     machine = trial::cut::with_modulator(std::move(machine));

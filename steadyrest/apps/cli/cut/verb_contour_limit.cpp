@@ -9,7 +9,6 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/cli/shared/value_check.hpp>
 #include <steadyrest/contour/offline/closed_form.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 // Steady state on an arc: the axes with gain k lag by v/k, which pulls the tool inside the circle
@@ -20,8 +19,6 @@ namespace {
 using contour::offline::CircleErrors;
 using contour::offline::CircleLimit;
 using contour::offline::Servo;
-using kernel::outcome::bad_input;
-using kernel::outcome::Result;
 
 struct Options {
   double radius_mm = 0.0;

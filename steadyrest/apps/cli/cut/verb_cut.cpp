@@ -18,7 +18,6 @@
 #include <steadyrest/apps/cli/shared/report_option.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/cut/report.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/plan/check/idle_override.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
@@ -32,10 +31,7 @@ namespace {
 
 using kernel::machine::ContourStrategy;
 using kernel::machine::Machine;
-using kernel::outcome::bad_input;
 using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
-using kernel::outcome::Result;
 using nc::plan::PlannedPath;
 using trial::cut::Figures;
 using trial::cut::Recorder;

@@ -23,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace offline = motion::offline;
-using kernel::outcome::Result;
 using offline::BenchRow;
 
 struct Options {

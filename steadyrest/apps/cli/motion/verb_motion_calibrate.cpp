@@ -10,7 +10,6 @@
 #include <steadyrest/apps/cli/shared/log_options.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/log/edge_log.hpp>
 #include <steadyrest/motion/offline/log/log_record.hpp>
@@ -27,9 +26,6 @@ namespace {
 
 namespace offline = motion::offline;
 using kernel::machine::Encoder;
-using kernel::outcome::bad_input;
-using kernel::outcome::refuse;
-using kernel::outcome::Result;
 
 struct Options {
   std::string log;

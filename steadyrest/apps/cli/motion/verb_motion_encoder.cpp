@@ -7,7 +7,6 @@
 
 #include <steadyrest/apps/cli/motion/verb_motion_encoder.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
@@ -17,8 +16,6 @@ namespace steadyrest::apps::cli {
 namespace {
 
 namespace offline = motion::offline;
-using kernel::outcome::bad_input;
-using kernel::outcome::Refusal;
 using kernel::units::mm_min_from_mm_s;
 using kernel::units::mm_s_from_mm_min;
 using kernel::units::rev_s_from_rpm;

@@ -12,7 +12,6 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/motion/estimate_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/bench/estimator_choice.hpp>
 #include <steadyrest/motion/offline/log/edge_log.hpp>
@@ -32,9 +31,6 @@ namespace {
 namespace offline = motion::offline;
 namespace online = motion::online;
 using kernel::file::OutputFile;
-using kernel::outcome::bad_input;
-using kernel::outcome::Refusal;
-using kernel::outcome::Result;
 using CycleReport = online::CycleMonitor::Report;
 using offline::EdgeLog;
 using offline::LogInput;
@@ -72,7 +68,7 @@ offline::EdgeLogConfig log_config(const Options& options) {
 }
 
 /// The log as an estimator takes it: edges with lines and directions, or ticks.
-kernel::outcome::Result<Record> record_of(const Options& options, const EdgeLog& log) {
+Result<Record> record_of(const Options& options, const EdgeLog& log) {
   offline::LogRecordConfig config;
   config.input = options.edges() ? LogInput::edges : LogInput::ticks;
   config.count_mm = options.setup.count_mm;
@@ -195,7 +191,7 @@ Answer answer_of(const Options& options, const EdgeLog& log, const Record& recor
 }
 
 /// The calibration of the encoder's lines, where one is given. It must be of the same count.
-kernel::outcome::Result<std::optional<online::LineTable>> lines_of(const Options& options) {
+Result<std::optional<online::LineTable>> lines_of(const Options& options) {
   if (options.calibration.empty()) {
     return std::nullopt;
   }

@@ -6,7 +6,6 @@
 
 #include <steadyrest/apps/cli/motion/verb_motion_units.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
@@ -16,8 +15,6 @@ namespace steadyrest::apps::cli {
 namespace {
 
 namespace offline = motion::offline;
-using kernel::outcome::bad_input;
-using kernel::outcome::Refusal;
 using offline::Number;
 
 struct Options {

@@ -12,7 +12,6 @@
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/apps/cli/shared/program_warnings.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -37,10 +36,9 @@ std::string text_of(const nc::interpret::Report& report) {
 }
 
 /// Runs the program to its end and reports progress by the position in the file.
-kernel::outcome::Result<nc::interpret::Report> read_program(const std::string& path,
-                                                            const nc::interpret::Config& config,
-                                                            nc::interpret::Sink& sink,
-                                                            Progress& progress) {
+Result<nc::interpret::Report> read_program(const std::string& path,
+                                           const nc::interpret::Config& config,
+                                           nc::interpret::Sink& sink, Progress& progress) {
   // Every 16384 lines, a few times a second.
   constexpr std::uint32_t kEvery = 1U << 14U;
   auto source = nc::read::LineSource::open(path);
@@ -99,9 +97,8 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
 /// different controls.
 Outcome run(const Options& options, Progress& progress) {
   if (options.machine.empty() && options.program.dialect.empty()) {
-    return refused(kernel::outcome::bad_input(
-        "--dialect is required",
-        "give --dialect, or --machine with the machine the program is for"));
+    return refused(bad_input("--dialect is required",
+                             "give --dialect, or --machine with the machine the program is for"));
   }
   if (options.machine.empty()) {
     return run_on(options, nullptr, progress);

@@ -22,7 +22,6 @@
 namespace steadyrest::apps::cli {
 namespace {
 
-using kernel::outcome::Result;
 using kernel::units::mm_min_from_mm_s;
 using kernel::units::rpm_from_rev_s;
 using nc::plan::ProgramTime;

@@ -8,7 +8,6 @@
 
 namespace steadyrest::apps::cli {
 
-using kernel::outcome::Result;
 using nc::interpret::Config;
 
 namespace {

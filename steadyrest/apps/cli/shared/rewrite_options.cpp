@@ -13,14 +13,12 @@
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/rewrite_options.hpp>
 #include <steadyrest/apps/cli/shared/value_check.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 
 // What `program compensate` and `program verify` share: how corrections reach this control, and the
 // mark by which a changed program tells how it was made.
 namespace steadyrest::apps::cli {
 
-using kernel::outcome::bad_input;
 using nc::rewrite::Method;
 using nc::rewrite::Way;
 
@@ -32,10 +30,6 @@ std::string machine_path(const RewriteOptions& options, const nc::rewrite::Plan&
     return options.machine;
   }
   return (std::filesystem::path(options.plan).parent_path() / plan.machine).string();
-}
-
-std::expected<Way, Refusals> refuse(std::string what, std::string to_do) {
-  return std::unexpected(Refusals{bad_input(std::move(what), std::move(to_do))});
 }
 
 // The command line says more than the machine file.
@@ -69,32 +63,32 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
   const kernel::machine::Compensation& compensation = machine.compensation;
   // An option of another control is a misunderstanding, so it is refused and not ignored.
   if (options.r_parameter != kNoParameter && program != nc::read::Dialect::sinumerik) {
-    return refuse(
+    return refused(bad_input(
         fmt::format("--r-parameter with a program of dialect {}", nc::read::name(program)),
-        "leave it out; only SINUMERIK controls have R-parameters");
+        "leave it out; only SINUMERIK controls have R-parameters"));
   }
   if (!options.control.empty() && program != nc::read::Dialect::fanuc) {
     // --control tells Haas from Fanuc: both read the same dialect, but G10 L2 P0 is an external
     // offset on the one and G52 on the other.
-    return refuse(fmt::format("--control {} with a program of dialect {}", options.control,
-                              nc::read::name(program)),
-                  "leave it out, or choose --dialect fanuc");
+    return refused(bad_input(fmt::format("--control {} with a program of dialect {}",
+                                         options.control, nc::read::name(program)),
+                             "leave it out, or choose --dialect fanuc"));
   }
   const Method method = method_of(options, compensation);
   // The method of the machine file must exist on the control that the program is read for.
   const Dialect needed = passport::dialect_of(method, program);
   if (needed != program) {
-    return refuse(
+    return refused(bad_input(
         fmt::format("{} writes corrections by \"{}\", which is for {}; the program is read as {}",
                     machine.file, passport::word(method), passport::word(needed),
                     nc::read::name(program)),
-        "give the machine file of the control the program is for");
+        "give the machine file of the control the program is for"));
   }
   // No SINUMERIK method is safe without knowing the machine's PLC, so none is assumed.
   if (program == Dialect::sinumerik && method == Method::by_dialect) {
-    return refuse("no method for corrections in dialect sinumerik",
-                  "add [compensation] to the machine file (method = \"r_parameter\", "
-                  "\"setting_data\" or \"frame_fine\"), or give --r-parameter N");
+    return refused(bad_input("no method for corrections in dialect sinumerik",
+                             "add [compensation] to the machine file (method = \"r_parameter\", "
+                             "\"setting_data\" or \"frame_fine\"), or give --r-parameter N"));
   }
   const auto r_parameter = options.r_parameter == kNoParameter
                                ? compensation.r_parameter
@@ -147,9 +141,8 @@ std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options
     for (std::string& value : values) {
       told.push_back({.name = name, .value = std::move(value)});
       if (nc::rewrite::told_as_text(told.back()).size() > nc::rewrite::kLongestTold) {
-        return std::unexpected(
-            Refusals{bad_input(fmt::format("--{} is too long for a comment in the program", name),
-                               "give a shorter path")});
+        return refused(bad_input(fmt::format("--{} is too long for a comment in the program", name),
+                                 "give a shorter path"));
       }
     }
   }
@@ -206,7 +199,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
                                                        Progress& progress) {
   const auto mark = nc::rewrite::read_mark(changed);
   if (!mark) {
-    return std::unexpected(Refusals{mark.error()});
+    return refused(mark.error());
   }
   if (mark->empty()) {  // nothing is inserted
     auto task = read_rewrite_task(options, progress);
@@ -228,12 +221,12 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
         now, made_with, {}, [&](const auto& value) { return comparable(name, value); },
         [&](const auto& value) { return comparable(name, value); });
     if (!now.empty() && !same) {
-      return std::unexpected(Refusals{
+      return refused(
           bad_input(changed,
                     made_with.empty() ? fmt::format("was made without --{}", name)
                                       : fmt::format("was made with --{} {}, not {}", name,
                                                     fmt::join(made_with, " "), fmt::join(now, " ")),
-                    fmt::format("leave --{} out, or compensate the program again", name))});
+                    fmt::format("leave --{} out, or compensate the program again", name)));
     }
     if (now.empty()) {
       for (const std::string& value : made_with) {
@@ -283,20 +276,19 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   // Klartext would parse as nothing and "prove" an empty program.
   const std::string extension = std::filesystem::path(options.program.file).extension().string();
   if (extension == ".h" || extension == ".H") {
-    return std::unexpected(
-        Refusals{bad_input(options.program.file, "HEIDENHAIN Klartext programs are not supported",
-                           "post-process the part for linuxcnc, fanuc or sinumerik")});
+    return refused(bad_input(options.program.file, "HEIDENHAIN Klartext programs are not supported",
+                             "post-process the part for linuxcnc, fanuc or sinumerik"));
   }
   auto plan = nc::rewrite::read_plan(options.plan);
   if (!plan) {
-    return std::unexpected(Refusals{plan.error()});
+    return refused(plan.error());
   }
   // Plan, then machine, then program settings, then the way: each needs the one before.
   task.plan = std::move(*plan);
   const std::string path = machine_path(options, task.plan);
   if (path.empty()) {
-    return std::unexpected(Refusals{bad_input(
-        options.plan, "neither the command nor the plan names a machine", "give --machine FILE")});
+    return refused(bad_input(options.plan, "neither the command nor the plan names a machine",
+                             "give --machine FILE"));
   }
   auto machine = read_machine(path);
   if (!machine) {
@@ -305,7 +297,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   task.machine = std::move(*machine);
   auto config = program_config(options.program, task.machine);
   if (!config) {
-    return std::unexpected(Refusals{config.error()});
+    return refused(config.error());
   }
   task.config = std::move(*config);
   const auto way = way_of(options, task.machine, task.config.dialect);

@@ -17,8 +17,6 @@ namespace steadyrest::apps::cli {
 namespace {
 
 using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
-using kernel::outcome::Result;
 
 constexpr std::string_view kName = "steadyrest";
 
@@ -72,7 +70,7 @@ int unwritten() {
 }  // namespace
 
 /// One refusal as the list that an Outcome carries.
-Outcome refused(Refusal refusal) {
+std::unexpected<Refusals> refused(Refusal refusal) {
   Refusals list;
   list.push_back(std::move(refusal));
   return std::unexpected(std::move(list));

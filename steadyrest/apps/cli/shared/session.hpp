@@ -12,13 +12,17 @@
 #include <steadyrest/apps/cli/shared/progress.hpp>
 #include <steadyrest/apps/cli/shared/verb.hpp>
 #include <steadyrest/apps/page/shared/page.hpp>
-#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 /// What all verbs of the command line have in common: options, printing, exit codes.
 namespace steadyrest::apps::cli {
 
+using kernel::outcome::bad_input;
+using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
 using Json = nlohmann::ordered_json;  // keys in the order in which the verb wrote them
-using Refusals = std::vector<kernel::outcome::Refusal>;
+using Refusals = std::vector<Refusal>;
 
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;   ///< anything that is not the user's mistake
@@ -45,8 +49,8 @@ using Outcome = std::expected<Answer, Refusals>;
 /// The verb's work. Progress goes through `progress`; nothing else may print.
 using Run = std::function<Outcome(Progress& progress)>;
 
-/// An Outcome that is one refusal.
-[[nodiscard]] Outcome refused(kernel::outcome::Refusal refusal);
+/// One refusal as the error of an Outcome, or of whatever else may have several.
+[[nodiscard]] std::unexpected<Refusals> refused(Refusal refusal);
 
 /// Holds the verb tree, parses the command line, runs the chosen verb and prints its answer.
 class Session {
@@ -71,8 +75,8 @@ class Session {
   int parse_and_run(int argc, const char* const* argv);
   int run_verb();
   [[nodiscard]] Outcome work() const;
-  [[nodiscard]] kernel::outcome::Result<void> write_pages(const std::vector<Page>& pages,
-                                                          const page::Provenance& provenance) const;
+  [[nodiscard]] Result<void> write_pages(const std::vector<Page>& pages,
+                                         const page::Provenance& provenance) const;
   int usage(const CLI::ParseError& error) const;
 
   CLI::App app_;

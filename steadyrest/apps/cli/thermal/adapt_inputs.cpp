@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/thermal/adapt_inputs.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
 
@@ -13,8 +12,6 @@ namespace steadyrest::apps::cli {
 namespace {
 
 using kernel::machine::Thermal;
-using kernel::outcome::refuse;
-using kernel::outcome::Result;
 using kernel::units::mm_from_um;
 
 /// The level in the plan, by default the passport's.

@@ -10,7 +10,6 @@
 
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/thermal/thermal_options.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/plan/time/segment_timer.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
@@ -18,9 +17,6 @@
 namespace steadyrest::apps::cli {
 
 using kernel::machine::ThermalAxis;
-using kernel::outcome::Refusal;
-using kernel::outcome::refuse;
-using kernel::outcome::Result;
 using thermal::offline::Cyclogram;
 using thermal::online::ThermalModel;
 

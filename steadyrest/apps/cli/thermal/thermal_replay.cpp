@@ -12,7 +12,6 @@
 #include <steadyrest/apps/cli/thermal/thermal_replay.hpp>
 #include <steadyrest/apps/page/thermal/fit_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
@@ -26,8 +25,6 @@ namespace {
 namespace offline = thermal::offline;
 using kernel::machine::Thermal;
 using kernel::machine::ThermalAxis;
-using kernel::outcome::refuse;
-using kernel::outcome::Result;
 using kernel::units::um_from_mm;
 
 struct AxisReplay {

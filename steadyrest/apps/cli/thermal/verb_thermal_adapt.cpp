@@ -26,7 +26,6 @@ namespace {
 
 using kernel::machine::Thermal;
 using kernel::outcome::Reason;
-using kernel::outcome::Result;
 using kernel::units::mm_from_um;
 using kernel::units::um_from_mm;
 using thermal::offline::Gains;

@@ -17,7 +17,6 @@
 #include <steadyrest/apps/cli/thermal/verb_thermal_fit.hpp>
 #include <steadyrest/apps/page/thermal/fit_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/edit/thermal_text.hpp>
 #include <steadyrest/passport/file/thermal_passport.hpp>
@@ -32,9 +31,6 @@ namespace {
 namespace offline = thermal::offline;
 using kernel::machine::Thermal;
 using kernel::machine::ThermalAxis;
-using kernel::outcome::bad_input;
-using kernel::outcome::refuse;
-using kernel::outcome::Result;
 using kernel::units::um_from_mm;
 
 struct Options {

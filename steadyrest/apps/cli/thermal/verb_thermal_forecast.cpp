@@ -14,7 +14,6 @@
 #include <steadyrest/apps/cli/thermal/verb_thermal_forecast.hpp>
 #include <steadyrest/apps/page/thermal/thermal_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/plan/curve.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
@@ -98,8 +97,8 @@ Outcome run_log(const Options& options) {
   // A log has its own speeds and temperatures; a second source would contradict it.
   if (!options.thermal.cyclogram.empty() || !options.thermal.program.file.empty() ||
       !options.thermal.after.empty() || !options.thermal.ambient.empty()) {
-    return refused(kernel::outcome::bad_input(
-        "--log already has the inputs", "leave out --cyclogram, --program, --after and --ambient"));
+    return refused(bad_input("--log already has the inputs",
+                             "leave out --cyclogram, --program, --after and --ambient"));
   }
   ThermalReplayOptions replay = options.replay;
   replay.machine = options.thermal.machine;
@@ -121,7 +120,7 @@ Outcome run(const Options& options) {
   }
   const double rows = job->cyclogram.total_s() / options.step_s;
   if (rows > kMostRows) {
-    return refused(kernel::outcome::bad_input(
+    return refused(bad_input(
         job->cyclogram.file,
         fmt::format("{:.3g} minutes in steps of {:.3g} s make {:.3g} rows, more than {:.0f}",
                     job->cyclogram.total_s() / 60.0, options.step_s, rows, kMostRows),

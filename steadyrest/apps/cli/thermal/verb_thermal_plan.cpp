@@ -16,7 +16,6 @@
 #include <steadyrest/apps/cli/thermal/verb_thermal_plan.hpp>
 #include <steadyrest/apps/page/thermal/thermal_page.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 #include <steadyrest/thermal/offline/plan/plan.hpp>
@@ -26,8 +25,6 @@
 namespace steadyrest::apps::cli {
 namespace {
 
-using kernel::outcome::bad_input;
-using kernel::outcome::Result;
 using kernel::units::mm_from_um;
 using kernel::units::um_from_mm;
 using thermal::offline::AxisCorrections;
