@@ -139,10 +139,12 @@ void measure(const Point& actual_mm, const Nearest& foot, const geometry::Statio
 
 kernel::outcome::Result<ContourError> ContourError::make(const Config& config) {
   if (!(config.servo_gain_1_s >= 1.0 && config.servo_gain_1_s <= 1000.0)) {
-    return refuse("the lowest servo gain is out of range; allowed: 1 … 1000 1/s", "correct the axes' servo gain");
+    return refuse("the lowest servo gain is out of range; allowed: 1 … 1000 1/s",
+                  "correct the axes' servo gain");
   }
   if (!(config.reserve_mm > 0.0 && config.reserve_mm <= 10.0)) {
-    return refuse("the window's reserve is out of range; allowed: above 0 … 10 mm", "correct the reserve");
+    return refuse("the window's reserve is out of range; allowed: above 0 … 10 mm",
+                  "correct the reserve");
   }
   if (!(std::abs(geometry::norm(config.plane_normal) - 1.0) < 1e-6)) {
     return refuse("the plane's normal has another length; allowed: 1", "give a unit vector");

@@ -52,11 +52,10 @@ std::span<const Key<Contour>> contour_keys() noexcept {
 /// how much of it the feed can follow without rubbing or overloading the tooth.
 std::span<const Key<Chatter>> chatter_keys() noexcept {
   static const std::array kKeys = {
-      Key<Chatter>{"enabled", &Chatter::enabled, 0, 0,
-                   "Allows spindle-speed modulation."},
-      Key<Chatter>{
-          "law", choice<Chatter, &Chatter::law>(kernel::machine::kSpeedLawNames), 0, 0,
-          "Shape of the modulation: square wave, pulse (up for a quarter of the period), triangle, sine, random, a brief slow-down (`stop`), or `constant` for none."},
+      Key<Chatter>{"enabled", &Chatter::enabled, 0, 0, "Allows spindle-speed modulation."},
+      Key<Chatter>{"law", choice<Chatter, &Chatter::law>(kernel::machine::kSpeedLawNames), 0, 0,
+                   "Shape of the modulation: square wave, pulse (up for a quarter of the period), "
+                   "triangle, sine, random, a brief slow-down (`stop`), or `constant` for none."},
       Key<Chatter>{"amplitude_percent", &Chatter::amplitude_ratio, 0, 90,
                    "Swing to either side of the mean speed. Either this or `amplitude_rpm`."},
       Key<Chatter>{"amplitude_rpm", &Chatter::amplitude_rev_s, 0, 1e5,

@@ -124,7 +124,7 @@ Outcome run(const Options& options) {
         job->cyclogram.file,
         fmt::format("{:.3g} minutes in steps of {:.3g} s make {:.3g} rows, more than {:.0f}",
                     job->cyclogram.total_s() / 60.0, options.step_s, rows, kMostRows),
-         // The smallest step that fits.
+        // The smallest step that fits.
         fmt::format("give --step-s {:.0f} or more",
                     std::ceil(job->cyclogram.total_s() / kMostRows))));
   }

@@ -233,10 +233,10 @@ Outcome run(const Options& options) {
   const std::uint32_t level =
       options.level < 0 ? passport.level : static_cast<std::uint32_t>(options.level);
   if (level >= passport.share.size()) {
-    return refused(bad_input(
-        options.thermal.machine,
-        fmt::format("level {} has no share; [thermal] shares has {} entries", level, passport.share.size()),
-        fmt::format("choose a level, 0 … {}", passport.share.size() - 1)));
+    return refused(bad_input(options.thermal.machine,
+                             fmt::format("level {} has no share; [thermal] shares has {} entries",
+                                         level, passport.share.size()),
+                             fmt::format("choose a level, 0 … {}", passport.share.size() - 1)));
   }
   thermal::offline::PlanRequest request;
   request.tolerance_mm = mm_from_um(options.tolerance_um);
