@@ -50,6 +50,11 @@ outcome::Result<Channel> Channel::make(const Config& config) {
 }
 
 Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
+  // Without a mask the operator's switch acts at once. Where he has turned it since the last cycle,
+  // the layer's way begins at what it is now: from the old panel the first word would undo him.
+  if (handover_.available()) {
+    see_panel(input.panel);
+  }
   const auto wanted = envelope_.update(input);
   const auto word = handover_.update(input.step_s, wanted, input.hold);
   if (word.masks_panel) {

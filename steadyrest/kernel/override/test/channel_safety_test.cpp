@@ -158,14 +158,17 @@ RC_GTEST_PROP(Safety, PanelZeroAlwaysStops, (bool may_exceed)) {
 
 RC_GTEST_PROP(Safety, TheLayerNeverRaisesTheFeedByAJump, (bool may_exceed)) {
   // Bound: from every instant on, what is in force rises by no more than rise·t and one step of the
-  // table, unless it is the operator who turns his switch up while no mask is on.
+  // table, unless it is the operator who turns his switch up while no mask is on. Up to a panel
+  // beyond the table's last step the mask can only come off at that step.
   const Scene scene = random_scene(may_exceed);
   double bound = std::numeric_limits<double>::infinity();
   play(scene, [&](auto& channel, auto& input, auto&, auto&, auto&, double before, double now,
-                  double) {
+                  double panel) {
     const double passed_s =
         std::isfinite(input.step_s) ? std::clamp(input.step_s, 0.0, scene.config.max_step_s) : 0.0;
-    const double step = widest_step(channel.table()) + kTolerance;
+    const double step = std::max(widest_step(channel.table()),
+                                 panel - channel.table().ratio(channel.table().steps() - 1)) +
+                        kTolerance;
     // `before` has the last word with this cycle's panel: a rise up to there is the
     // operator's.
     bound = std::max(bound, before + step) + scene.config.rise_1_s * passed_s;

@@ -97,5 +97,25 @@ TEST(ChannelInForce, IsThePanelsWhileNothingIsWritten) {
   EXPECT_EQ(asked.channel.in_force().word_ratio, 0.7);
 }
 
+// The layer wishes while the panel is at 0, a thread holds it, and as the thread ends the operator
+// turns down: no time has passed for the wish, so what he has turned to stays in force.
+TEST(ChannelInForce, BeginsAtThePanelAsTheOperatorHasTurnedItWhileNoMaskWasOn) {
+  auto table = test::feed_840d();
+  table.layer_may_exceed_panel = true;
+  auto channel = Channel::make({.table = table, .latched = true}).value();
+  RatioEnvelope::Input input;
+  input.ratio = 0.0;
+  input.reason = Reason::contour_limit;
+  input.panel = {.panel_ratio = 0.0, .panel_code_known = true};
+  channel.update(input);
+  input.panel.panel_ratio = 1.0;
+  input.hold = true;
+  channel.update(input);
+  input.panel.panel_ratio = 0.5;
+  input.hold = false;
+  input.unfit = Reason::input_stale;
+  EXPECT_EQ(channel.update(input).ratio, 0.5);
+}
+
 }  // namespace
 }  // namespace steadyrest::kernel::override
