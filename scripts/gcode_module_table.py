@@ -143,14 +143,16 @@ def main():
     parser.add_argument("--steadyrest", default="build/release/bin/steadyrest")
     parser.add_argument("--data", default=os.path.join(os.environ.get("STEADYREST_SHARED_DATA", "../shared/data"), "nc"))
     parser.add_argument("--linuxcnc", nargs="*", default=["/usr/share/linuxcnc", "/usr/share/doc/linuxcnc/examples"])
+    parser.add_argument("--most", type=int, help="only so many short programs")
     parser.add_argument("files", nargs="*")
     arguments = parser.parse_args()
     probe = subprocess.run([LINUXCNC_PYTHON, "-c", "import gcode"], capture_output=True) if os.path.exists(LINUXCNC_PYTHON) else None
     if probe is None or probe.returncode != 0:
         print("LinuxCNC's Python module gcode is not installed (Debian: linuxcnc-uspace)")
         return 77
-    found = arguments.files or [p for p in list(rs274_table.programs([arguments.data])) + list(rs274_table.programs(arguments.linuxcnc))
-                                if rs274_table.dialect_of(p) == "linuxcnc"]
+    found = arguments.files or rs274_table.sample(
+        [p for p in list(rs274_table.programs([arguments.data])) + list(rs274_table.programs(arguments.linuxcnc))
+         if rs274_table.dialect_of(p) == "linuxcnc"], arguments.most)
     seen, compared, moves, worst, bad, alone = set(), 0, 0, 0.0, 0, 0
     with tempfile.TemporaryDirectory() as folder:
         for program in map(os.path.abspath, found):

@@ -20,7 +20,7 @@ import re
 import subprocess
 import sys
 
-from rs274_table import CALL, MM_PER_INCH, Oracle, dialect_of, numbers, programs, short
+from rs274_table import CALL, MM_PER_INCH, Oracle, dialect_of, numbers, programs, sample, short
 
 STEPS_UM = (50.0, 50.0, -30.0)
 MOVES = ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED", "STRAIGHT_PROBE", "RIGID_TAP")
@@ -199,6 +199,7 @@ def main():
     parser.add_argument("--data", default=os.path.join(data, "nc") if data else os.path.join(root, "../shared/data/nc"))
     parser.add_argument("--linuxcnc", nargs="*", default=["/usr/share/linuxcnc", "/usr/share/doc/linuxcnc"])
     parser.add_argument("--machine", default=os.path.join(root, "examples/machines/linuxcnc-mill.toml"))
+    parser.add_argument("--most", type=int, help="only so many short programs")
     parser.add_argument("--table", action="store_true", help="print every program, not only those that disagree")
     arguments = parser.parse_args()
     try:
@@ -210,10 +211,8 @@ def main():
                                      os.path.join(root, "tests/accepted/nc"), *arguments.linuxcnc) if os.path.isdir(folder)]
     oracle = Oracle(arguments.rs274)
     counts, reasons = collections.Counter(), collections.Counter()
-    for program in programs(folders):
-        program = os.path.abspath(program)
-        if dialect_of(program) != "linuxcnc":
-            continue
+    found = [program for program in map(os.path.abspath, programs(folders)) if dialect_of(program) == "linuxcnc"]
+    for program in sample(found, arguments.most):
         kind, text = judge(arguments.steadyrest, oracle, program, arguments.machine)
         counts[kind] += 1
         if kind.startswith("not"):

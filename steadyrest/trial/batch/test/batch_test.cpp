@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/testing/cases.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/time/program_timer.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -56,7 +58,7 @@ class BatchOfSeed : public ::testing::TestWithParam<std::uint64_t> {};
 TEST_P(BatchOfSeed, ErrorFallsFourTimesAndOnNoPartRisesWithAModelWrongByTwentyPercent) {
   double least_text = 1e9;
   double least_online = 1e9;
-  for (unsigned corner = 0; corner < 64; ++corner) {
+  for (const unsigned corner : kernel::testing::cases(std::views::iota(0U, 64U))) {
     Job job = example();
     job.machine.simulation.seed = GetParam();
     const auto sign = [corner](unsigned bit) { return (corner >> bit & 1U) != 0U ? 0.2 : -0.2; };

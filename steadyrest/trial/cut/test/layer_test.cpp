@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/testing/cases.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -113,7 +114,7 @@ TEST(LayerOnTheCircle, ThreeStrategiesGiveThreeRows) {
 
 // Ribs, pockets and corners: the hard program. A thousandth is a few samples at the entries.
 TEST(LayerOnThePocket, KeepsTheLimitInAllButOneSampleInAThousand) {
-  for (const double limit_mm : {0.010, 0.020}) {
+  for (const double limit_mm : kernel::testing::cases({0.010, 0.020})) {
     Machine machine = machine_of("vmc-840d.toml");
     machine.contour.limit_mm = limit_mm;
     const Figures figures = cut_with_layer("rib-pocket.mpf", machine);

@@ -7,9 +7,12 @@
 #include <steadyrest/chatter/offline/cycle/stability.hpp>
 #include <steadyrest/chatter/offline/test/cuts.hpp>
 #include <steadyrest/chatter/offline/test/semi_discretization.hpp>
+#include <steadyrest/kernel/testing/cases.hpp>
 
 namespace steadyrest::chatter::offline::test {
 namespace {
+
+using kernel::testing::cases;
 
 /// The method's own figures at 40, 80 and 200 steps, slot, 5000 rpm.
 TEST(SemiDiscretization, HasItsPublishedConvergence) {
@@ -19,8 +22,8 @@ TEST(SemiDiscretization, HasItsPublishedConvergence) {
     std::vector<double> radius;  ///< at 0.2, 0.5 and 1 mm
   };
   for (const Row& row :
-       {Row{40, {.808747, 1.043681, 1.350262}}, Row{80, {.816912, 1.066223, 1.392144}},
-        Row{200, {.819286, 1.072727, 1.404168}}}) {
+       cases({Row{40, {.808747, 1.043681, 1.350262}}, Row{80, {.816912, 1.066223, 1.392144}},
+              Row{200, {.819286, 1.072727, 1.404168}}})) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double depth = std::vector{0.2, 0.5, 1.0}[i];
       EXPECT_NEAR(radius_by_semi_discretization(slot, 5000.0 / 60.0, depth, row.m), row.radius[i],
@@ -32,9 +35,9 @@ TEST(SemiDiscretization, HasItsPublishedConvergence) {
 
 /// Two methods that share nothing but the forces: of second order, it meets the collocation.
 TEST(SemiDiscretization, ExtrapolatesToTheCollocation) {
-  for (const auto& [immersion, rpm] : {std::pair{1.0, 5000.0}, std::pair{1.0, 15000.0}}) {
+  for (const auto& [immersion, rpm] : cases({std::pair{1.0, 5000.0}, std::pair{1.0, 15000.0}})) {
     const Process cut = benchmark_cut(immersion, Direction::up);
-    for (const double depth : {0.3, 1.3}) {
+    for (const double depth : cases({0.3, 1.3})) {
       DelayCycle::Config config;
       config.speed_rev_s = rpm / 60.0;
       config.most_depth_mm = depth;

@@ -10,10 +10,13 @@
 #include <steadyrest/chatter/offline/depth/border_line.hpp>
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 #include <steadyrest/chatter/offline/test/cuts.hpp>
+#include <steadyrest/kernel/testing/cases.hpp>
 
 namespace steadyrest::chatter::offline::test {
 namespace {
 
+using kernel::testing::cases;
+using kernel::testing::kSanitized;
 using online::Law;
 
 BorderLineConfig of_rpm(std::vector<double> rpm, double most_depth_mm) {
@@ -39,6 +42,7 @@ double at(const BorderLine& line, double speed_rev_s, double most_depth_mm) {
 /// How many of the speeds, drawn at random, are off by more than is promised.
 int off_by_more(const Process& process, const BorderLineConfig& config, const BorderLine& line,
                 int draws) {
+  draws = kSanitized ? std::min(draws, 5) : draws;
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> speeds(config.speed_rev_s.front(),
                                                 config.speed_rev_s.back());
@@ -64,7 +68,7 @@ int off_by_more(const Process& process, const BorderLineConfig& config, const Bo
 }
 
 TEST(BorderLine, OfTwoSpeedsIsTheWholeBorder) {
-  for (const double immersion : {1.0, 0.5, 0.05}) {
+  for (const double immersion : cases({1.0, 0.5, 0.05})) {
     const Process cut = benchmark_cut(immersion, Direction::down);
     const auto config = of_rpm({5000.0, 25000.0}, 10.0);
     const auto line = border_line(cut, config);
@@ -114,7 +118,7 @@ TEST(BorderLine, FindsTheCuspsOfTurning) {
     highest = std::max(highest, depth.value_or(60.0));
   }
   double true_highest = 0.0;
-  for (double rpm = 3000.0; rpm <= 8000.0; rpm += 1.0) {
+  for (double rpm = 3000.0; rpm <= 8000.0; rpm += kSanitized ? 200.0 : 1.0) {
     true_highest =
         std::max(true_highest, limit_depth_mm(p, rpm / 60.0, {}, 60.0).value().value_or(60.0));
   }

@@ -8,10 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/chatter/offline/response/mode_fit.hpp>
+#include <steadyrest/kernel/testing/cases.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
+using kernel::testing::cases;
 using Complex = std::complex<double>;
 
 enum class Noise { proportional, even };
@@ -67,9 +69,9 @@ TEST(ModeFit, FindsOneTwoAndThreeModesUnderNoise) {
       {{600.0, 0.03, 0.4, 0.0}, {660.0, 0.03, 0.35, 0.0}},
       {{450.0, 0.02, 1.2, 0.0}, {900.0, 0.01, 0.5, 0.0}, {1450.0, 0.03, 0.3, 0.0}}};
   for (const auto& modes : machines) {
-    for (const double noise : {0.01, 0.05}) {
-      for (const Noise kind : {Noise::proportional, Noise::even}) {
-        for (unsigned seed = 1; seed <= 2; ++seed) {
+    for (const double noise : cases({0.01, 0.05})) {
+      for (const Noise kind : cases({Noise::proportional, Noise::even})) {
+        for (const unsigned seed : cases({1U, 2U})) {
           expect_found(modes, noise, kind, seed);
         }
       }
@@ -79,7 +81,7 @@ TEST(ModeFit, FindsOneTwoAndThreeModesUnderNoise) {
 
 /// 12 Hz apart, half-power bands of 20 Hz: at 5 % of noise their masses are known to 13 % alone.
 TEST(ModeFit, TellsCloseModesApart) {
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (const unsigned seed : cases({1U, 2U, 3U, 4U})) {
     expect_found({{500.0, 0.02, 1.0, 0.0}, {512.0, 0.02, 1.5, 0.0}}, 0.01, Noise::proportional,
                  seed);
   }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/file/testing/recorded.hpp>
+#include <steadyrest/kernel/testing/cases.hpp>
 #include <steadyrest/thermal/offline/fit/identify.hpp>
 #include <steadyrest/thermal/offline/fit/structure_fit.hpp>
 #include <steadyrest/thermal/offline/plan/replay.hpp>
@@ -18,6 +19,7 @@ namespace steadyrest::thermal::offline {
 namespace {
 
 namespace fs = std::filesystem;
+using kernel::testing::cases;
 
 const std::vector<std::pair<int, double>> kDays = {{240, 3000}, {240, 0}, {240, 1500}, {240, 0},
                                                    {240, 4500}, {240, 0}, {240, 2250}, {240, 0}};
@@ -118,7 +120,7 @@ TEST(DenseFit, RecordedHoursThatChoseNothingAreForecast) {
     double fourth_hour_um;
   };
   for (const Target target :
-       {Target{0, 3.2, 0.9, 1.6}, Target{2, 6.5, 2.8, 5.0}, Target{4, 4.0, 1.4, 8.0}}) {
+       cases({Target{0, 3.2, 0.9, 1.6}, Target{2, 6.5, 2.8, 5.0}, Target{4, 4.0, 1.4, 8.0}})) {
     SCOPED_TRACE(target.channel);
     FitRequest request;
     constexpr double kLastPair_s = 1927.75 * 60.0;

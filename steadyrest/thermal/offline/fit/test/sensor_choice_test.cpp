@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/testing/cases.hpp>
 #include <steadyrest/thermal/offline/fit/identify.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 #include <steadyrest/thermal/offline/plan/replay.hpp>
@@ -15,6 +15,7 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
+using kernel::testing::cases;
 using test::kShopDays_rpm;
 using test::kShopRun_s;
 using test::shop;
@@ -49,8 +50,8 @@ double measure_um(const AxisFit& fit) {
 // More sensors on offer must not make the forecast much worse, as they do when the choice fits
 // noise.
 TEST(SensorChoice, IsAsGoodAsTheBestOfTheSensorsAlone) {
-  for (const unsigned seed : {1U, 2U}) {
-    for (const std::size_t runs : {4U, 5U}) {
+  for (const unsigned seed : cases({1U, 2U})) {
+    for (const std::size_t runs : cases({4U, 5U})) {
       const Log log =
           shop(seed, {kShopDays_rpm.begin(), kShopDays_rpm.begin() + static_cast<int>(runs)});
       const AxisFit all = fitted(log, 1e300);
@@ -66,16 +67,16 @@ TEST(SensorChoice, IsAsGoodAsTheBestOfTheSensorsAlone) {
 
 // Over three machines, as one alone may be lucky; 0.9, since a few runs bound a band only so well.
 TEST(SensorChoice, TheBandHoldsOnHoursKeptBack) {
-  for (const std::size_t runs : {4U, 6U}) {
+  for (const std::size_t runs : cases({4U, 6U})) {
     double free = 0.0;
     double probed = 0.0;
-    constexpr std::array kSeeds = {1U, 2U, 3U};
-    for (const unsigned seed : kSeeds) {
+    const auto seeds = cases({1U, 2U, 3U});
+    for (const unsigned seed : seeds) {
       const Log log = shop(seed, kShopDays_rpm);
       const double to_s = kShopRun_s * static_cast<double>(runs);
       const AxisFit fit = fitted(log, to_s);
-      free += kept_back(log, fit, to_s, 0.0).coverage / kSeeds.size();
-      probed += kept_back(log, fit, to_s, 3600.0).coverage / kSeeds.size();
+      free += kept_back(log, fit, to_s, 0.0).coverage / static_cast<double>(seeds.size());
+      probed += kept_back(log, fit, to_s, 3600.0).coverage / static_cast<double>(seeds.size());
     }
     EXPECT_GT(free, 0.9) << runs;
     EXPECT_GT(probed, 0.9) << runs;
