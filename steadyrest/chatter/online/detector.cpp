@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/chatter/online/detector_refusal.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // A sample passes the order filter, the once-a-revolution witness and the energies; what the filter
 // leaves goes to the spectrum, which speaks every eighth of a window. Each spectrum starts a
@@ -15,6 +15,8 @@ namespace steadyrest::chatter::online {
 using kernel::outcome::Reason;
 
 namespace {
+
+using kernel::units::kTurn;
 
 // What halving and doubling does to the tests: README, "What the constants do". The rates that
 // they give together: bench/chatter/detector_hunt.
@@ -49,7 +51,6 @@ constexpr double kLongestHoldS = 2.0;
 constexpr double kFloorRiseS = 0.5;
 constexpr double kFloorFallS = 2.0;
 constexpr double kHop = 1.0 / 8.0;  // of the window, between spectra
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 }  // namespace
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/chatter/online/free_share.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // shift() moves the line to 0 Hz and thins signal and orders to 625 rows a second; rate() projects
 // the tooth orders out and finds the mode's pole from what is left; mode() fits ring-down, orders
@@ -13,6 +13,8 @@
 // is free. The work goes in portions, one column or a few samples for each call.
 namespace steadyrest::chatter::online {
 namespace {
+
+using kernel::units::kTurn;
 
 using Complex = std::complex<double>;
 
@@ -23,7 +25,6 @@ constexpr std::size_t kSpare = 4;     // rows more than columns
 constexpr std::size_t kLeastRows = 20;
 constexpr double kLeastBand = 100.0;     // Hz, either side of the line
 constexpr double kFastestDecay = 400.0;  // 1/s
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 Complex times(Complex a, Complex b) noexcept {  // without the operator's test for not a number
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};

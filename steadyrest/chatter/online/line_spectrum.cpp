@@ -3,15 +3,17 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // Copy, butterflies, power, noise floor and sum of the lines are steps of a state machine: each
 // call does a portion, so that a transform of a thousand points never falls into one cycle.
 namespace steadyrest::chatter::online {
 namespace {
+
+using kernel::units::kTurn;
 
 // Of a line: this many times the noise, which a bin of white noise passes with e⁻¹⁰ = 5·10⁻⁵.
 constexpr double kPart = 10.0;
@@ -20,7 +22,6 @@ constexpr double kClip = 3.0;  // bins above are no noise; of white noise e⁻³
 // 1 − c·e⁻ᶜ/(1 − e⁻ᶜ): 0.843, 0.781, 0.751, 0.735 after kNoisePasses, of which this is the inverse.
 constexpr double kClipBias = 1.36;
 constexpr double kHannEnergy = 0.375;  // mean of the squared window, sin⁴
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 }  // namespace
 

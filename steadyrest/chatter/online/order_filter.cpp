@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/chatter/online/order_filter.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // A Kalman filter whose states are cosine and sine of each order. Between samples they turn with
 // the spindle, so a modulated speed needs no resampling. Each order keeps one scalar variance
@@ -14,10 +14,11 @@
 namespace steadyrest::chatter::online {
 namespace {
 
+using kernel::units::kTurn;
+
 constexpr double kUnknown = 10.0;    // p at the start, as in the source
 constexpr double kSlowStart = 0.01;  // the same of runout, as if 100 samples had been heard
 constexpr double kHighest = 0.45;    // of the sample rate; 0.5 is the last that can be told
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 bool is_memory(double revolutions) {
   return revolutions >= 0.1 && revolutions <= 1000.0;

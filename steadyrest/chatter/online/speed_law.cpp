@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <steadyrest/chatter/online/speed_law.hpp>
 #include <steadyrest/kernel/machine/speed_law.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // Shapes S(u) over one period with mean 0, so that a law keeps the mean speed and the cut its time.
 // integral() is exact: the solver inverts angle = ∫speed, and a numerical sum would blunt the
@@ -14,7 +14,7 @@ namespace {
 
 using kernel::machine::kSpeedLawNames;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using kernel::units::kTurn;
 constexpr double kPulseShare = 0.25;
 constexpr double kStopShare = 0.1;
 constexpr double kKnots = static_cast<double>(SpeedLaw::kRandomKnots);

@@ -22,7 +22,7 @@ constexpr double kRuleReach = 0.025;
 // And of a wave, where many lie between two teeth. README, "What the constants do".
 constexpr double kRuleWaves = 0.1;
 
-kernel::outcome::Refusal refuse(const char* what) {
+kernel::outcome::Refusal refuse_table(const char* what) {
   return kernel::outcome::bad_input(what, "correct the table of speeds");
 }
 
@@ -48,27 +48,27 @@ SpeedTable::Advice found(double ratio, double speed_rev_s, Reason reason) noexce
 
 kernel::outcome::Result<SpeedTable> SpeedTable::make(Config config) {
   if (config.speed_rev_s.size() != config.limit_depth_mm.size()) {
-    return std::unexpected(refuse("the numbers of depths and speeds differ"));
+    return std::unexpected(refuse_table("the numbers of depths and speeds differ"));
   }
   if (!within(config.speed_rev_s, std::numeric_limits<double>::min()) ||
       std::ranges::adjacent_find(config.speed_rev_s, std::greater_equal<>{}) !=
           config.speed_rev_s.end()) {
-    return std::unexpected(refuse("speeds are not positive and rising"));
+    return std::unexpected(refuse_table("speeds are not positive and rising"));
   }
   if (!within(config.limit_depth_mm, 0.0)) {
-    return std::unexpected(refuse("a limiting depth is negative or not finite"));
+    return std::unexpected(refuse_table("a limiting depth is negative or not finite"));
   }
   if (config.step_ratio.empty() || config.step_ratio.size() > 256 ||
       !within(config.step_ratio, 0.0) || !std::ranges::is_sorted(config.step_ratio)) {
-    return std::unexpected(refuse("override steps are not 1…256 ratios that do not fall"));
+    return std::unexpected(refuse_table("override steps are not 1…256 ratios that do not fall"));
   }
   if (config.teeth < 1 || config.teeth > 64) {
-    return std::unexpected(refuse("teeth are not within 1…64"));
+    return std::unexpected(refuse_table("teeth are not within 1…64"));
   }
   if (!(config.min_ratio >= 0.0 && config.max_ratio >= config.min_ratio &&
         config.min_rev_s >= 0.0 && config.max_rev_s > config.min_rev_s &&
         std::isfinite(config.max_ratio) && config.reserve >= 1.0)) {
-    return std::unexpected(refuse("limits of ratio, speed or reserve are not in order"));
+    return std::unexpected(refuse_table("limits of ratio, speed or reserve are not in order"));
   }
   return SpeedTable(std::move(config));
 }

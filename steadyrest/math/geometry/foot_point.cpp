@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/foot_point.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
@@ -17,8 +18,8 @@ namespace {
 
 using kernel::signal::Geometry;
 using kernel::signal::PathSegment;
+using kernel::units::kTurn;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kMaxSamples = 25;  // π/6 apart: two turns
 // Newton doubles its digits each step; bisection steps in between are few.
 constexpr int kMaxSteps = 12;

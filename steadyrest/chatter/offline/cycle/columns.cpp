@@ -11,10 +11,9 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
-constexpr std::size_t kLanes = kRowsAtOnce;
 // AVX2 has 16 registers: six for the column, six in flight, the rest for factors.
 constexpr std::size_t kMostWides = 6;  ///< rows over four that registers hold beside the rest
-using Wide = double __attribute__((vector_size(kLanes * sizeof(double))));
+using Wide = double __attribute__((vector_size(kRowsAtOnce * sizeof(double))));
 
 // always_inline: the bodies must be compiled inside the function that has the AVX2 target; on their
 // own they would be built for the baseline.
@@ -32,16 +31,16 @@ template <std::size_t Count>
                                                  const double* factor) {
   std::array<Wide, Count> c{};
   for (std::size_t w = 0; w < Count; ++w) {
-    load(what + w * kLanes, c[w]);
+    load(what + w * kRowsAtOnce, c[w]);
   }
   for (std::size_t j = 0; j < columns; ++j) {
     double* const to = matrix + j * stride;
     const double f = factor[j];
     for (std::size_t w = 0; w < Count; ++w) {
       Wide rows;
-      load(to + w * kLanes, rows);
+      load(to + w * kRowsAtOnce, rows);
       rows -= c[w] * f;
-      store(rows, to + w * kLanes);
+      store(rows, to + w * kRowsAtOnce);
     }
   }
 }
@@ -56,12 +55,12 @@ template <std::size_t Count>
     const double f = in[j];
     for (std::size_t w = 0; w < Count; ++w) {
       Wide rows;
-      load(from + w * kLanes, rows);
+      load(from + w * kRowsAtOnce, rows);
       sum[w] += rows * f;
     }
   }
   for (std::size_t w = 0; w < Count; ++w) {
-    store(sum[w], out + w * kLanes);
+    store(sum[w], out + w * kRowsAtOnce);
   }
 }
 
@@ -70,11 +69,11 @@ template <std::size_t Count>
                                                   std::size_t columns, const double* what,
                                                   const double* factor) {
   std::size_t row = 0;
-  for (; row + kMostWides * kLanes <= stride; row += kMostWides * kLanes) {
+  for (; row + kMostWides * kRowsAtOnce <= stride; row += kMostWides * kRowsAtOnce) {
     subtract_rows<kMostWides>(matrix + row, stride, columns, what + row, factor);
   }
   // What six do not divide: pairs, then at most one single.
-  for (; row + 2 * kLanes <= stride; row += 2 * kLanes) {
+  for (; row + 2 * kRowsAtOnce <= stride; row += 2 * kRowsAtOnce) {
     subtract_rows<2>(matrix + row, stride, columns, what + row, factor);
   }
   if (row < stride) {
@@ -85,10 +84,10 @@ template <std::size_t Count>
 [[gnu::always_inline]] inline void sum_lanes(const double* matrix, std::size_t stride,
                                              std::size_t columns, const double* in, double* out) {
   std::size_t row = 0;
-  for (; row + kMostWides * kLanes <= stride; row += kMostWides * kLanes) {
+  for (; row + kMostWides * kRowsAtOnce <= stride; row += kMostWides * kRowsAtOnce) {
     sum_rows<kMostWides>(matrix + row, stride, columns, in, out + row);
   }
-  for (; row + 2 * kLanes <= stride; row += 2 * kLanes) {
+  for (; row + 2 * kRowsAtOnce <= stride; row += 2 * kRowsAtOnce) {
     sum_rows<2>(matrix + row, stride, columns, in, out + row);
   }
   if (row < stride) {
@@ -106,7 +105,7 @@ __attribute__((target("avx2"))) void sum_avx2(const double* matrix, std::size_t 
                                               std::size_t columns, const double* in, double* out) {
   sum_lanes(matrix, stride, columns, in, out);
 }
-const bool kWide = __builtin_cpu_supports("avx2") != 0;
+const bool kAvx2 = __builtin_cpu_supports("avx2") != 0;
 #endif
 
 }  // namespace
@@ -114,7 +113,7 @@ const bool kWide = __builtin_cpu_supports("avx2") != 0;
 void subtract_from_columns(double* matrix, std::size_t stride, std::size_t columns,
                            const double* what, const double* factor) noexcept {
 #if defined(__x86_64__)
-  if (kWide) {
+  if (kAvx2) {
     subtract_avx2(matrix, stride, columns, what, factor);
     return;
   }
@@ -125,7 +124,7 @@ void subtract_from_columns(double* matrix, std::size_t stride, std::size_t colum
 void sum_columns(const double* matrix, std::size_t stride, std::size_t columns,
                  const double* factor, double* out) noexcept {
 #if defined(__x86_64__)
-  if (kWide) {
+  if (kAvx2) {
     sum_avx2(matrix, stride, columns, factor, out);
     return;
   }

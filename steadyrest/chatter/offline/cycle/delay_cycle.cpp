@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/core.h>
@@ -9,6 +8,7 @@
 #include <steadyrest/chatter/offline/cycle/delay_cycle.hpp>
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // make() settles the length of the period, plan() in delay_cycle_plan.cpp makes the matrices, and
 // set_depth() the inverses. advance() then walks the pieces of one pass: right side from the modes'
@@ -20,8 +20,8 @@ namespace {
 
 using Eigen::Index;
 using kernel::outcome::refuse;
+using kernel::units::kTurn;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // A period of q passes costs q matrix products and keeps q sets of matrices, so both are bounded:
 // beyond them an RVF has no principal period worth the memory.
 constexpr std::size_t kMostPasses = 4096;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <steadyrest/chatter/offline/cycle/delay_cycle.hpp>
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // The period in pieces, and the matrices of each.
 namespace steadyrest::chatter::offline {
 namespace {
 
 using Eigen::Index;
+using kernel::units::kTurn;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 /// Angle of the fastest oscillation in one piece, and nodes for it: 1e-9 in the multipliers.
-constexpr double kPiecePhase = 14.0;
+constexpr double kCyclePiecePhase = 14.0;
 // A polynomial at Gauss nodes converges once it has more than π nodes for each wave (Gottlieb and
 // Orszag 1977). 0.75 per radian are 4.7 a wave; the constant buys the digits. Longer pieces would
 // need fewer nodes in all, but each inverse costs the cube of its nodes.
@@ -47,7 +47,7 @@ std::vector<DelayCycle::Piece> DelayCycle::pieces_of_pass(const SpeedProfile& sp
     const bool cuts = cuts_at(coefficients, pass_rad_, 0.5 * (corners[i] + corners[i + 1]));
     const double length = corners[i + 1] - corners[i];
     const double phase = length / (kTurn * slowest_rev_s) * fastest;
-    const double parts = std::max(1.0, std::ceil(phase / kPiecePhase));
+    const double parts = std::max(1.0, std::ceil(phase / kCyclePiecePhase));
     const double nodes = config.fineness * (kNodesAtLeast + kNodesPerRadian * phase / parts);
     for (double k = 0.0; k < parts; k += 1.0) {
       Piece piece;

@@ -19,8 +19,8 @@ using Eigen::Index;
 using kernel::outcome::refuse;
 
 // 24 nodes for 8 rad are 3 per radian, twice DelayCycle's 1.5: good to 1e-10.
-constexpr double kPiecePhase = 8.0;  ///< of the oscillation in one piece, rad
-constexpr double kNodes = 24.0;
+constexpr double kLawPiecePhase = 8.0;  ///< of the oscillation in one piece, rad
+constexpr double kLawPieceNodes = 24.0;
 constexpr int kSamples = 2000;        ///< of a delay over T, for its extremes
 constexpr double kMargin = 0.95;      ///< piece over the least delay
 constexpr double kLeastDelay = 1e-4;  ///< of T
@@ -53,10 +53,11 @@ kernel::outcome::Result<DelayLaw> DelayLaw::make(const Config& config) {
   DelayLaw out;
   // A piece shorter than the least delay never reads itself, so each follows from earlier ones
   // without a solve.
-  const double pieces = std::ceil(std::max(config.period_s * std::sqrt(square) / kPiecePhase,
+  const double pieces = std::ceil(std::max(config.period_s * std::sqrt(square) / kLawPiecePhase,
                                            config.period_s / (kMargin * least)));
   const double length = config.period_s / pieces;
-  out.nodes_ = std::min(static_cast<Index>(std::ceil(kNodes * config.fineness)), GaussNodes::kMost);
+  out.nodes_ =
+      std::min(static_cast<Index>(std::ceil(kLawPieceNodes * config.fineness)), GaussNodes::kMost);
   // A delay may exceed the period; its extremes are only sampled, hence the margin.
   out.history_ = static_cast<Index>(std::ceil(1.001 * most / length)) + 1;
   out.terms_ = config.terms.size();

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <steadyrest/chatter/offline/cycle/growth_course.hpp>
+#include <steadyrest/chatter/offline/cycle/multipliers.hpp>
 
 // ‖Φ‖_∞ is the largest row sum of moduli: the growth of the one vibration, bounded by 1 everywhere
 // at the start, that drives this row hardest. Constant speed needs the rows of powers of one map
@@ -22,7 +23,6 @@ using Eigen::Index;
 constexpr std::size_t kMostStarts = 16;
 constexpr std::size_t kLeastWindow = 20;  ///< passes
 constexpr Index kMostRows = 200;          ///< that are followed one by one
-constexpr double kBeyondLog = 700.0;      ///< as far as peak() tells
 constexpr double kDied = 1e-4;            ///< of its peak, then it is followed no longer
 
 /// Ends the course where it has died.
@@ -146,7 +146,7 @@ double GrowthCourse::log_peak() const noexcept {
 
 double GrowthCourse::peak() const noexcept {
   // e^710 overflows.
-  return std::exp(std::min(700.0, log_peak()));
+  return std::exp(std::min(kBeyondLog, log_peak()));
 }
 
 std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {

@@ -5,6 +5,7 @@
 
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/small_inverse.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // One piece at a time: mode by mode the equation of motion is turned into an integral equation and
 // solved at the Gauss nodes for unit start values and unit forces. The columns of the solution are
@@ -13,8 +14,8 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 using Eigen::Index;
+using kernel::units::kTurn;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // Corners closer than this are one corner and its rounding.
 constexpr double kSameAngle = 1e-10;  ///< rad
 

@@ -31,8 +31,6 @@ constexpr Index kBasis = 6;  ///< vectors of the QR method
 /// rounding of 2e-16, grown by e^14 ≈ 1.2e6, leaves 3e-10.
 constexpr double kSafeLogGrowth = 14.0;
 constexpr int kMostPeriods = 16;
-/// ln|μ| that is told where a vibration grows beyond a double's range within the period.
-constexpr double kBeyondLog = 700.0;
 
 // A fixed seed: the same cut gives the same digits in every run. Gaussian entries leave no
 // direction out.

@@ -15,6 +15,9 @@
 /// orthonormal anew each time (discrete QR).
 namespace steadyrest::chatter::offline {
 
+/// ln of what is told where a vibration grows beyond a double's range.
+inline constexpr double kBeyondLog = 700.0;
+
 struct Multipliers {
   /// Of the principal period, the largest first; at least one. From discrete QR: over the modulus
   /// of the first, which may be beyond a double's range.

@@ -18,11 +18,11 @@ using Lanes = PassMatrix::Lanes;
 
 constexpr std::size_t kLanes = PassMatrix::kLanes;
 constexpr std::size_t kStep = 2 * kLanes;  ///< of the terms: each point of the rim gives two
-constexpr std::size_t kMostTerms = 64;
-constexpr std::size_t kTail = 3;      ///< terms that must have died away
-constexpr double kLeastTerm = 1e-13;  ///< over 1, or over the rim's largest by …
-constexpr double kRounding = 3e-16;   ///< … this
-constexpr double kMostOnRim = 3e4;    ///< beyond, its rounding shows within
+constexpr std::size_t kMostRimTerms = 64;
+constexpr std::size_t kTail = 3;         ///< terms that must have died away
+constexpr double kLeastRimTerm = 1e-13;  ///< over 1, or over the rim's largest by …
+constexpr double kRimRounding = 3e-16;   ///< … this
+constexpr double kMostOnRim = 3e4;       ///< beyond, its rounding shows within
 
 /// Four points in one register; four registers keep its units busy through their latency.
 using Wide = double __attribute__((vector_size(kLanes * sizeof(double))));
@@ -88,7 +88,7 @@ std::optional<PassDisc> PassDisc::make(const PassMatrix& pass, double center_mm,
   PassDisc out(pass, center_mm, radius_mm);
   // Half as many terms more each time: a guess that is short costs little, and growing faster would
   // overshoot where the last few would have done.
-  for (std::size_t n = (terms / kStep + 1) * kStep; n <= kMostTerms;
+  for (std::size_t n = (terms / kStep + 1) * kStep; n <= kMostRimTerms;
        n += std::max(n / 2, kStep) / kStep * kStep) {
     if (out.sample(n)) {
       return out;
@@ -191,7 +191,7 @@ bool PassDisc::sample(std::size_t terms) {
     return false;
   }
   transform(on_rim, terms);
-  return cut_tail(std::max(kLeastTerm, kRounding * on_rim.largest));
+  return cut_tail(std::max(kLeastRimTerm, kRimRounding * on_rim.largest));
 }
 
 void PassDisc::g(std::span<const Complex> xi, double depth_mm, std::span<Complex> out) const {

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/LU>
 
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/pass_matrix.hpp>
 #include <steadyrest/chatter/offline/cycle/piece_terms.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // The constructor cuts the pass into pieces and stores each as a power series in z; values() sums
 // the series and multiplies the pieces at four z at a time; g_of() makes det(I − ξ·M) of the
@@ -17,14 +17,14 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
+using kernel::units::kTurn;
+
 using Complex = std::complex<double>;
 using Eigen::Index;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // Short pieces need few terms, long ones few products; the terms fall as phase^(2k)/(2k)!.
 constexpr double kPiecePhase = 5.0;  ///< of the fastest oscillation
-constexpr double kLeastTerm = 1e-14;
 
 /// N×N matrices by rows, one in each lane.
 using Wide = double __attribute__((vector_size(PassMatrix::kLanes * sizeof(double))));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <steadyrest/chatter/offline/cycle/columns.hpp>
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/piece_terms.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // All pieces of a stretch have the same length and speed, so Φ, K, E and R are the same; only H
 // differs. Their columns lie side by side in one wide matrix, and each step of the recursion
@@ -14,13 +14,13 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 using Eigen::Index;
+using kernel::units::kTurn;
+
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // A piece turns by at most 5 rad (kPiecePhase in pass_matrix.cpp), which 14 nodes carry to 1e-12.
 constexpr Index kNodes = 14;
 constexpr std::size_t kMostTerms = 32;
-constexpr double kLeastTerm = 1e-14;
 
 /// One number for each node and direction, column and piece: rows of `stride`.
 using Rows = std::vector<double>;

@@ -14,6 +14,8 @@
 /// at the end is E·s + R·F.
 namespace steadyrest::chatter::offline {
 
+inline constexpr double kLeastTerm = 1e-14;  ///< of a series in z: the first to be left out
+
 /// Where nothing but the forces changes, cut into even pieces.
 struct Stretch {
   const Process& process;

@@ -9,17 +9,18 @@
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // The work grows with the waves in the period: nodes go with waves, matrices with their square.
 // Each bound below turns a cost or a loss of digits into a limit that a machinist can check, and
-// the refusal says which speed and depth would be accepted.
+// the out_of_reach says which speed and depth would be accepted.
 namespace steadyrest::chatter::offline {
 namespace {
 
 using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
+using kernel::units::kTurn;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // These catch a figure in the process file that is a million times off before it costs minutes and
 // gigabytes. Real cuts are far inside.
 constexpr double kMostWaves = 300.0;    ///< between two teeth

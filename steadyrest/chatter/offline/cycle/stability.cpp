@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kReal = 1e-6;  ///< |Im μ| of a real multiplier, relative
+constexpr double kRealMultiplier = 1e-6;  ///< |Im μ| of a real multiplier, relative
 constexpr std::size_t kMostLinePasses = 400;
 constexpr double kMostLogModulus = 300.0;
 constexpr double kMostLines = 4000.0;
@@ -45,7 +45,7 @@ std::optional<double> strongest_line_hz(DelayCycle& cycle, const Multipliers& fo
   const auto first = samples_of(cycle, state);
   state *= std::exp(-found.log_modulus[0]);
   const auto second = samples_of(cycle, state);
-  const bool real = std::abs(mu.imag()) < kReal;
+  const bool real = std::abs(mu.imag()) < kRealMultiplier;
   const double growth = found.log_modulus[0] / period;
   const double turn = std::arg(mu) / period;
   const double base = 2.0 * std::numbers::pi / period;
@@ -84,7 +84,7 @@ std::optional<double> strongest_line_hz(DelayCycle& cycle, const Multipliers& fo
 }
 
 ChatterType type_of(const Complex& mu) {
-  if (std::abs(mu.imag()) > kReal * std::abs(mu)) {
+  if (std::abs(mu.imag()) > kRealMultiplier * std::abs(mu)) {
     return ChatterType::hopf;
   }
   return mu.real() < 0.0 ? ChatterType::flip : ChatterType::fold;

@@ -17,11 +17,11 @@ namespace {
 using kernel::outcome::Result;
 
 // At 25 waves a lobe is 4 % of the speed wide; with frequencies known to 1 % nobody can aim at it.
-constexpr double kMostWaves = 25.0;
+constexpr double kMostUsefulWaves = 25.0;
 constexpr double kLeastRange = 0.8;  ///< of the greatest speed, where all lobes are narrow
 constexpr double kNextSpeed = 1.2;
 constexpr double kFall = 0.98;  ///< between two maxima
-constexpr double kSame = 1e-6;
+constexpr double kSameDepth = 1e-6;
 
 /// Border over speed, its greatest depth where there is none.
 class Curve {
@@ -60,8 +60,8 @@ class Curve {
 
 /// The slowest speed that is worth a look; empty: the solver reaches none.
 std::optional<double> slowest(const Process& process, const BestSpeedsConfig& config) {
-  // Waves go with 1/n: at this speed there are kMostWaves between two teeth.
-  const double lobes = free_waves(process, config.max_rev_s) / kMostWaves * config.max_rev_s;
+  // Waves go with 1/n: at this speed there are kMostUsefulWaves between two teeth.
+  const double lobes = free_waves(process, config.max_rev_s) / kMostUsefulWaves * config.max_rev_s;
   double out = std::max(config.min_rev_s, std::min(lobes, kLeastRange * config.max_rev_s));
   while (out < config.max_rev_s &&
          beyond_reach(process, (1.0 - config.tolerance_ratio) * out, config.most_depth_mm)) {
@@ -93,7 +93,7 @@ std::optional<Peak> take_peak(const std::vector<double>& worth, std::vector<bool
     bool flat = true;
     for (std::size_t i = next(*top); i < worth.size() && left[i] && worth[i] * kFall <= lowest;
          i = next(i)) {
-      flat = flat && worth[i] >= worth[*top] * (1.0 - kSame);
+      flat = flat && worth[i] >= worth[*top] * (1.0 - kSameDepth);
       flat_end = flat ? i : flat_end;
       lowest = std::min(lowest, worth[i]);
       left[i] = false;
@@ -135,7 +135,8 @@ Result<std::vector<BestSpeed>> best_speeds(const Process& process, const BestSpe
   }
   // The curve shows "no border" as the greatest depth; a caller must not take that for a border.
   const auto below_most = [&](double depth_mm) {
-    return depth_mm < config.most_depth_mm * (1.0 - kSame) ? std::optional(depth_mm) : std::nullopt;
+    return depth_mm < config.most_depth_mm * (1.0 - kSameDepth) ? std::optional(depth_mm)
+                                                                : std::nullopt;
   };
   std::vector<BestSpeed> out;
   std::vector<bool> left(speed.size(), true);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -12,14 +11,15 @@
 #include <steadyrest/chatter/offline/depth/crossing.hpp>
 #include <steadyrest/chatter/offline/depth/depth_line.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
+using kernel::units::kTurn;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kTolerance = 1e-10;  ///< of the multipliers
 
 /// The free vibration that dies most slowly.

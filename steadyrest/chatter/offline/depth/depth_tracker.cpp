@@ -20,12 +20,12 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kFollowed = 1.35;  ///< zeros farther out over the nearest are left
-constexpr double kSame = 1e-7;      ///< two zeros are one, relative
+constexpr double kSameZero = 1e-7;  ///< two zeros are one, relative
 constexpr double kLastStep = 1e-5;  ///< relative; the error left is far smaller
 constexpr double kNudge = 1e-3;     ///< for derivatives, relative
 constexpr double kLeastNudge = 1e-5;
-constexpr double kReal = 1e-7;  ///< |Im ξ| of a real zero, relative
-constexpr int kMostSteps = 9;
+constexpr double kRealZero = 1e-7;  ///< |Im ξ| of a real zero, relative
+constexpr int kMostHalleySteps = 9;
 constexpr std::size_t kMostRoots = 5;
 constexpr std::size_t kSeeds = 6;
 constexpr std::size_t kStarts = 9;
@@ -36,9 +36,9 @@ constexpr int kMostHalvings = 7;
 
 /// One of a conjugate pair; a real zero exactly real.
 Complex upper(Complex xi) {
-  return std::abs(xi.imag()) < kReal * std::abs(xi) ? Complex(xi.real())
-         : xi.imag() < 0.0                          ? std::conj(xi)
-                                                    : xi;
+  return std::abs(xi.imag()) < kRealZero * std::abs(xi) ? Complex(xi.real())
+         : xi.imag() < 0.0                              ? std::conj(xi)
+                                                        : xi;
 }
 
 int quadrant(Complex g) {
@@ -72,7 +72,7 @@ void DepthTracker::sort() {
   // Two that were followed separately may have landed on one zero; counted twice, it would spoil
   // the count in verified().
   const auto same = [](const Root& a, const Root& b) {
-    return std::abs(a.xi - b.xi) < kSame * std::abs(a.xi);
+    return std::abs(a.xi - b.xi) < kSameZero * std::abs(a.xi);
   };
   roots_.erase(std::unique(roots_.begin(), roots_.end(), same), roots_.end());
   // Zeros far outside cannot become dominant within the next step and only cost evaluations;
@@ -90,7 +90,7 @@ std::optional<Complex> DepthTracker::refine(Complex start, double depth_mm,
                                             std::span<const Complex> but) {
   Complex x = start;
   double h = kNudge * std::abs(start);
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostHalleySteps; ++i) {
     PassMatrix::Lanes at;
     // The fourth lane is idle; four cost little more than three.
     const PassMatrix::Lanes xi{x, x + h, x - h, x};
@@ -265,7 +265,7 @@ bool DepthTracker::search(double depth_mm) {
     // Once more on g itself: dividing known zeros out shifts what is found by their errors.
     const auto xi = near ? refine(*near, depth_mm) : std::nullopt;
     const bool is_known = !xi || std::ranges::any_of(known, [&](const Complex& other) {
-      return std::abs(other - upper(*xi)) < kSame * std::abs(other);
+      return std::abs(other - upper(*xi)) < kSameZero * std::abs(other);
     });
     if (is_known) {
       continue;

@@ -19,16 +19,16 @@ using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-constexpr std::size_t kMostPoints = 10'000'000;
+constexpr std::size_t kMostMapPoints = 10'000'000;
 
 std::optional<Refusal> fault(const LobeMapConfig& config) {
   if (config.speed_rev_s.empty()) {
     return bad_input("no speed", "give at least one speed");
   }
   const std::vector<double>& depth = config.depth_mm;
-  if (config.speed_rev_s.size() > kMostPoints / std::max<std::size_t>(depth.size(), 1)) {
+  if (config.speed_rev_s.size() > kMostMapPoints / std::max<std::size_t>(depth.size(), 1)) {
     return bad_input(fmt::format("a map of {} speeds × {} depths; allowed: {} points",
-                                 config.speed_rev_s.size(), depth.size(), kMostPoints),
+                               config.speed_rev_s.size(), depth.size(), kMostMapPoints),
                      "give fewer steps; the border is refined between them");
   }
   if (depth.empty() || !(depth.front() >= 0.0) || !(depth.back() > 0.0)) {

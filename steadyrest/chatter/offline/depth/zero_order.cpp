@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <steadyrest/chatter/offline/depth/zero_order.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // Two uses of one eigenvalue: zero_order_lobes() goes along the chatter frequency and gives depth
 // and speeds of every lobe in closed form; zero_order_limit_mm() is asked for one speed, where the
@@ -11,10 +12,11 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
+using kernel::units::kTurn;
+
 using Complex = std::complex<double>;
 using Pair = std::array<Complex, 2>;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kScanHz = 0.25;  ///< step over the half-width of the sharpest mode
 constexpr double kMostOver = 4.0;
 constexpr double kReach = 1e6;  ///< a border beyond this, mm, is a pole

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
@@ -12,6 +11,7 @@
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 #include <steadyrest/chatter/offline/plan/alternative_check.hpp>
 #include <steadyrest/chatter/offline/plan/override_course.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // The cheapest question comes first: drive and override, then stability of the given cut, growth of
 // one vibration, the share of possible cuts, growth of the worst vibration, and last the law as the
@@ -19,7 +19,8 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using kernel::units::kInfinity;
+
 constexpr std::size_t kMostLimitPasses = 128;   ///< of a law whose limit depth is sought
 constexpr std::size_t kMostLimitWork = 12'000;  ///< likewise, of one that is rejected anyway
 

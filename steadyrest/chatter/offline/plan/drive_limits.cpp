@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/plan/drive_limits.hpp>
+#include <steadyrest/chatter/offline/plan/same.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // Each check adds its own violations and none stops at the first: the report shows everything that
 // a law asks too much of. most_rvf() then searches by bisection, since every demand grows with the
@@ -13,16 +15,15 @@
 namespace steadyrest::chatter::offline {
 namespace {
 
+using kernel::units::kTurn;
 using online::Law;
 using online::SpeedLaw;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr std::size_t kPhases = 1024;  ///< a multiple of the random law's knots
 // Fewer than eight scans a period leave little of a sine or triangle but a square.
 constexpr double kLeastScans = 8.0;
 constexpr double kMostRampShare = 0.2;
 constexpr double kMostLevelError = 0.25;  ///< of the amplitude
-constexpr double kSame = 1e-9;
 
 bool jumps(Law law) {
   return law == Law::square || law == Law::pulse || law == Law::stop;

@@ -23,7 +23,7 @@ using online::Modulator;
 
 constexpr double kCycle_s = 0.002;
 constexpr double kSettle_s = 2.0;  ///< fade and slew
-constexpr double kSame = 1e-9;
+constexpr double kAtOnce = 1e-9;   ///< of a cycle: the ramp of a drive without a limit
 
 /// One override as the control sees it: scanned, then late.
 class LateWord {
@@ -155,7 +155,7 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
     if (i >= settle * cycles) {
       // The drive reaches its goal within the cycle and holds it for the rest: two ramps.
       const double ramp_s = std::min(
-          dt_s, std::isfinite(reach) ? dt_s * std::abs(next - speed) / reach : kSame * dt_s);
+          dt_s, std::isfinite(reach) ? dt_s * std::abs(next - speed) / reach : kAtOnce * dt_s);
       add(course, {ramp_s, speed, next});
       add(course, {dt_s - ramp_s, next, next});
     }

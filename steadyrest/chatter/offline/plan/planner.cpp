@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
@@ -10,6 +9,8 @@
 #include <steadyrest/chatter/offline/plan/alternative_check.hpp>
 #include <steadyrest/chatter/offline/plan/plan_request.hpp>
 #include <steadyrest/chatter/offline/plan/planner.hpp>
+#include <steadyrest/chatter/offline/plan/same.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // Constant steps before laws: on the slot benchmark 110 % carries 2.77 mm where 100 % carries 0.41
 // mm, and the best laws of ±20 % about as much. A constant step also leaves the drive alone. Laws
@@ -19,10 +20,9 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 using kernel::machine::Machine;
+using kernel::units::kInfinity;
 using online::Law;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSame = 1e-9;
 constexpr std::size_t kMostAmplitudes = 12;
 constexpr std::size_t kMostJudged = 3;  ///< frequencies of one law and amplitude
 constexpr double kNextFrequency = 1.45;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
+#include <steadyrest/chatter/offline/plan/same.hpp>
 #include <steadyrest/chatter/offline/plan/speed_table_of.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -21,7 +22,6 @@ online::SpeedTable::Config steps_of(const kernel::machine::Machine& machine) {
 kernel::outcome::Result<void> add_depths(const Process& process,
                                          const std::vector<double>& programmed_rev_s,
                                          double most_depth_mm, online::SpeedTable::Config& config) {
-  constexpr double kSame = 1e-9;
   std::vector<double> speeds;
   // The border only at speeds that the override can make: the table on line picks steps, so depths
   // between them would never be read.

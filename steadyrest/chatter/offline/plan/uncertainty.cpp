@@ -15,7 +15,7 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 constexpr double kLeastFrequencyFactor = 0.1;
-constexpr double kMostDamping = 0.99;
+constexpr double kMostDrawnDamping = 0.99;
 
 /// splitmix64: the same numbers on every machine.
 std::uint64_t draw(std::uint64_t& state) {
@@ -58,7 +58,7 @@ std::vector<Process> possible_cuts(const Process& process, const Uncertainty& of
       mode.frequency_hz *= factor;
       mode.mass_kg /= factor * factor;
       mode.damping_ratio =
-          std::min(kMostDamping, mode.damping_ratio * std::exp(of.damping * damping[i]));
+          std::min(kMostDrawnDamping, mode.damping_ratio * std::exp(of.damping * damping[i]));
     }
   }
   const std::vector<double> tangential = column(of.samples, state);

@@ -4,11 +4,12 @@
 #include <numbers>
 
 #include <steadyrest/chatter/offline/process/cutting_coefficients.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using kernel::units::kTurn;
 
 double within_turn(double angle) noexcept {
   const double turns = std::floor(angle / kTurn);

@@ -4,11 +4,14 @@
 #include <numbers>
 
 #include <steadyrest/chatter/offline/process/process.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::offline {
 
 namespace {
-constexpr double kTurn = 2.0 * std::numbers::pi;
+
+using kernel::units::kTurn;
+
 }
 
 double Process::entry_rad() const noexcept {

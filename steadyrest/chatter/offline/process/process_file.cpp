@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include <steadyrest/chatter/offline/process/process_keys.hpp>
 #include <steadyrest/chatter/offline/response/frf.hpp>
 #include <steadyrest/chatter/offline/response/mode_fit.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/passport/keys/section_reader.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
@@ -21,13 +21,13 @@ namespace {
 
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
+using kernel::units::kTurn;
 using passport::Faults;
 using passport::Given;
 using passport::Key;
 using passport::line_of;
 using passport::SectionReader;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 /// People write 51.429 for 360/7; the rest is shared out.
 constexpr double kPitchSumDeg = 0.01;
 constexpr std::size_t kMostModes = 64;

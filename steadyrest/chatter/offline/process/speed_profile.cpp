@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <steadyrest/chatter/offline/process/speed_profile.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // The solver wants the speed over the angle, a law gives it over time. With u the phase of the law,
 // θ(u) = P·(u + RVA·∫S), P the angle of one period; phase() inverts it. A course of ramps needs no
@@ -11,9 +12,11 @@
 namespace steadyrest::chatter::offline {
 
 namespace {
-constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr int kMostSteps = 80;
-constexpr double kRounding = 4e-16;  ///< of a phase: closer than this the steps only wander
+
+using kernel::units::kTurn;
+
+constexpr int kMostNewtonSteps = 80;
+constexpr double kPhaseRounding = 4e-16;  ///< of a phase: closer than this the steps only wander
 constexpr std::size_t kMostCorners = 64;
 }  // namespace
 
@@ -84,7 +87,7 @@ double SpeedProfile::phase(double angle_rad) const noexcept {
   double low = 0.0;
   double high = 1.0;
   double u = want;
-  for (int i = 0; i < kMostSteps && high - low > kRounding; ++i) {
+  for (int i = 0; i < kMostNewtonSteps && high - low > kPhaseRounding; ++i) {
     const double off = u + rva_ * law_.integral(u) - want;
     (off > 0.0 ? high : low) = u;
     double next = u - off / (1.0 + rva_ * law_.at(u));
@@ -94,7 +97,7 @@ double SpeedProfile::phase(double angle_rad) const noexcept {
     }
     const double step = std::abs(next - u);
     u = next;
-    if (step < kRounding) {
+    if (step < kPhaseRounding) {
       break;
     }
   }

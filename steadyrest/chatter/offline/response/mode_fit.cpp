@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -11,12 +10,15 @@
 
 #include <steadyrest/chatter/offline/response/mode_fit.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // Orders rise one by one: with_one_more() adds a mode where the residual stands out, refine() moves
 // all modes by Levenberg–Marquardt with the linear parameters solved inside, estimate_noise()
 // renews the weights, and the criterion decides whether the mode was worth its three parameters.
 namespace steadyrest::chatter::offline {
 namespace {
+
+using kernel::units::kTurn;
 
 using Complex = std::complex<double>;
 using Eigen::ArrayXd;
@@ -26,9 +28,8 @@ using Eigen::VectorXd;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kLeastDamping = 1e-5;
-constexpr double kMostDamping = 0.5;
+constexpr double kLeastFittedDamping = 1e-5;
+constexpr double kMostFittedDamping = 0.5;
 constexpr Index kBackground = 2;  ///< c and d
 // Logarithms keep ω and ζ above 0 and give steps of equal relative size whatever the mode.
 constexpr Index kPerMode = 3;  ///< ln ω, ln ζ, gain
@@ -145,7 +146,7 @@ void refine(const Data& data, Model& model, int most_steps) {
         next.w[at] *= std::exp(std::clamp(move[k], -0.1, 0.1));
         next.damping[at] =
             std::clamp(next.damping[at] * std::exp(std::clamp(move[n + k], -1.0, 1.0)),
-                       kLeastDamping, kMostDamping);
+                       kLeastFittedDamping, kMostFittedDamping);
       }
       solve_linear(data, next);
       const double now = misfit(data, next);
@@ -248,8 +249,8 @@ bool sound(const Data& data, const Model& model) {
   for (Index k = 0; k < model.modes(); ++k) {
     const auto at = static_cast<std::size_t>(k);
     // A mode at a bound, or outside the band, stands for the background or for noise.
-    if (!(model.linear[k] > 0.0) || model.damping[at] >= kMostDamping ||
-        model.damping[at] <= kLeastDamping || model.w[at] < 0.9 * data.w.minCoeff() ||
+    if (!(model.linear[k] > 0.0) || model.damping[at] >= kMostFittedDamping ||
+        model.damping[at] <= kLeastFittedDamping || model.w[at] < 0.9 * data.w.minCoeff() ||
         model.w[at] > 1.1 * data.w.maxCoeff()) {
       return false;
     }

@@ -32,7 +32,7 @@ constexpr int kAcceleration = 12;
 constexpr int kForce = 13;
 constexpr int kComplexSingle = 5;
 constexpr int kComplexDouble = 6;
-constexpr std::size_t kMostPoints = 10'000'000;
+constexpr std::size_t kMostValues = 10'000'000;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \r");
@@ -216,8 +216,8 @@ class UffReader {
       return bad(fmt::format("ordinate data type {}; complex is 5 (single) or 6 (double)", head[0]),
                  "export real and imaginary part");
     }
-    if (head[1] < 1 || static_cast<std::size_t>(head[1]) > kMostPoints) {
-      return bad(fmt::format("{} values; allowed: 1 … {}", head[1], kMostPoints),
+    if (head[1] < 1 || static_cast<std::size_t>(head[1]) > kMostValues) {
+      return bad(fmt::format("{} values; allowed: 1 … {}", head[1], kMostValues),
                  "export the response again");
     }
     count_ = static_cast<std::size_t>(head[1]);

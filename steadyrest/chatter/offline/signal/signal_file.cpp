@@ -26,11 +26,11 @@ OrFault<std::string> bytes_of(const std::string& path) {
   }
   std::ifstream in(path, std::ios::binary);
   std::string out;
-  constexpr std::size_t kBlock = 1U << 16U;
+  constexpr std::size_t kChunk = 1U << 16U;
   while (in && out.size() <= kMaxBytes) {
     const std::size_t before = out.size();
-    out.resize(before + kBlock);
-    in.read(out.data() + before, static_cast<std::streamsize>(kBlock));
+    out.resize(before + kChunk);
+    in.read(out.data() + before, static_cast<std::streamsize>(kChunk));
     out.resize(before + static_cast<std::size_t>(in.gcount()));
   }
   if (in.bad() || (!in.eof() && out.size() <= kMaxBytes)) {

@@ -15,7 +15,7 @@ using kernel::outcome::Reason;
 constexpr double kProgrammed = 5000.0 / 60.0;
 
 /// The slot of the reference: 0.4086 mm at 5000 rpm, 2.765 mm at 5500.
-CutSignal slot(double depth_mm) {
+CutSignal slot_signal(double depth_mm) {
   CutModel m;
   m.depth_mm = depth_mm;
   m.frequency_hz = {922.0, 922.0};
@@ -35,7 +35,7 @@ BetterSpeed::Config config(double max_ratio) {
                     .max_ratio = max_ratio}};
 }
 
-BetterSpeed::Output listen(BetterSpeed& better, const CutSignal& signal, double programmed) {
+BetterSpeed::Output last_output(BetterSpeed& better, const CutSignal& signal, double programmed) {
   BetterSpeed::Output out;
   const kernel::rt::testing::AllocationGuard guard;
   for (std::size_t i = 0; i < signal.value.size(); ++i) {
@@ -56,7 +56,7 @@ BetterSpeed::Output listen(BetterSpeed& better, const CutSignal& signal, double 
 TEST(BetterSpeed, AsksForTheTablesStepOnceTheCutChatters) {
   auto better = BetterSpeed::make(config(1.2));
   ASSERT_TRUE(better);
-  const auto out = listen(*better, slot(0.6), kProgrammed);
+  const auto out = last_output(*better, slot_signal(0.6), kProgrammed);
   EXPECT_TRUE(out.chatter);
   EXPECT_EQ(out.reason, Reason::chatter_better_speed);
   EXPECT_EQ(out.request.reason, Reason::chatter_better_speed);
@@ -68,7 +68,7 @@ TEST(BetterSpeed, AsksForTheTablesStepOnceTheCutChatters) {
 TEST(BetterSpeed, IsNeutralInAStableCut) {
   auto better = BetterSpeed::make(config(1.2));
   ASSERT_TRUE(better);
-  const auto out = listen(*better, slot(0.25), kProgrammed);
+  const auto out = last_output(*better, slot_signal(0.25), kProgrammed);
   EXPECT_FALSE(out.chatter);
   EXPECT_EQ(out.request.ratio, 1.0);
   EXPECT_EQ(out.request.reason, Reason::none);
@@ -80,7 +80,7 @@ TEST(BetterSpeed, SaysWhenNoStepIsBetter) {
   none.table.min_ratio = 0.98;
   auto better = BetterSpeed::make(none);
   ASSERT_TRUE(better);
-  const auto out = listen(*better, slot(0.6), kProgrammed);
+  const auto out = last_output(*better, slot_signal(0.6), kProgrammed);
   EXPECT_TRUE(out.chatter);
   EXPECT_EQ(out.reason, Reason::chatter_no_better_speed);
   EXPECT_EQ(out.request.ratio, 1.0);
@@ -90,7 +90,7 @@ TEST(BetterSpeed, SaysWhenNoStepIsBetter) {
 TEST(BetterSpeed, DropsTheAnswerWithTheNextProgrammedSpeed) {
   auto better = BetterSpeed::make(config(1.2));
   ASSERT_TRUE(better);
-  ASSERT_NE(listen(*better, slot(0.6), kProgrammed).request.ratio, 1.0);
+  ASSERT_NE(last_output(*better, slot_signal(0.6), kProgrammed).request.ratio, 1.0);
   const auto& out = better->update(
       {.value = 0.0, .speed_rev_s = kProgrammed, .programmed_rev_s = 1.05 * kProgrammed});
   EXPECT_EQ(out.request.ratio, 1.0);

@@ -249,8 +249,8 @@ inline CutModel random_cut(std::mt19937_64& rng, bool modulated) {
   m.depth_mm = soft / 200.0 * std::exp(draw(-1.5, 2.5));
   m.accelerometer = draw(0.0, 1.0) < 0.5;
   if (modulated) {
-    constexpr std::array kLaws{Law::sine, Law::triangle, Law::square};
-    m.law = kLaws[static_cast<std::size_t>(draw(0.0, 3.0))];
+    constexpr std::array kModulated{Law::sine, Law::triangle, Law::square};
+    m.law = kModulated[static_cast<std::size_t>(draw(0.0, 3.0))];
     m.rva = draw(0.05, 0.2);
     m.rvf = draw(0.02, 0.2);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -9,11 +8,13 @@
 
 #include <steadyrest/chatter/online/free_share.hpp>
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::online {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using kernel::units::kTurn;
+
 constexpr double kRate = 10e3;
 constexpr double kModeHz = 900.0;
 constexpr double kDecay = 90.0;  // 1/s

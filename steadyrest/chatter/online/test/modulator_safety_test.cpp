@@ -17,8 +17,8 @@ struct Minute {
 /// Of a law: both overrides are scanned and act a dead time later, the spindle's later than the
 /// feed's.
 Minute minute_of(const Modulation& modulation) {
-  constexpr double kCycle_s = 0.002;
-  constexpr double kSpeed_rev_s = 50.0;
+  constexpr double kFrame_s = 0.002;
+  constexpr double kProgrammed_rev_s = 50.0;
   Modulator::Config c;
   c.modulation = modulation;
   c.spindle_table = kernel::override::test::spindle_840d();
@@ -37,12 +37,12 @@ Minute minute_of(const Modulation& modulation) {
   frame.motion = kernel::signal::Motion::feed;
   frame.speed_modulation = true;
   frame.programmed_feed_mm_s = 10.0;
-  frame.spindle_programmed_rev_s = kSpeed_rev_s;
+  frame.spindle_programmed_rev_s = kProgrammed_rev_s;
   Minute out;
-  for (double t = kCycle_s; t < 60.0; t += kCycle_s) {
+  for (double t = kFrame_s; t < 60.0; t += kFrame_s) {
     frame.time_s = t;
     frame.spindle.effective_ratio = spindle.in_force(t);
-    frame.spindle_actual_rev_s = kSpeed_rev_s * frame.spindle.effective_ratio;
+    frame.spindle_actual_rev_s = kProgrammed_rev_s * frame.spindle.effective_ratio;
     frame.feed.effective_ratio = feed.in_force(t);
     frame.path_speed_mm_s = 10.0 * frame.feed.effective_ratio;
     out.greatest_feed_per_tooth = std::max(

@@ -9,25 +9,27 @@
 #include <steadyrest/chatter/online/line_spectrum.hpp>
 #include <steadyrest/chatter/online/order_filter.hpp>
 #include <steadyrest/chatter/online/revolution_spread.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::online {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kRate = 10e3;
+using kernel::units::kTurn;
+
+constexpr double kDefaultRate = 10e3;  // Hz
 
 /// RMS of the residual over the last half of 2 s, 80 rev/s ± 10 % at 5 Hz when modulated.
 double residual_of(OrderFilter& filter, bool modulated, double order, double hz) {
   double angle = 0.0;
   double squares = 0.0;
   for (int i = 0; i < 20000; ++i) {
-    const double t = i / kRate;
+    const double t = i / kDefaultRate;
     const double speed = 80.0 * (1.0 + (modulated ? 0.1 * std::sin(kTurn * 5.0 * t) : 0.0));
     const double value =
         hz > 0.0 ? std::cos(kTurn * hz * t) : std::cos(kTurn * order * angle + 0.4) + 0.3;
     const double e = filter.update(value, angle, speed, modulated, false).residual;
     squares += i >= 10000 ? e * e : 0.0;
-    angle += speed / kRate;
+    angle += speed / kDefaultRate;
   }
   return std::sqrt(squares / 10000.0);
 }
@@ -65,7 +67,7 @@ TEST(LineSpectrum, NamesALineWithinAFiftiethOfABin) {
     ASSERT_TRUE(spectrum);
     LineSpectrum::Output last;
     for (int i = 0; i < 3000; ++i) {
-      last = spectrum->update(2.0 * std::cos(kTurn * hz * i / kRate), 0.0, 0.0);
+      last = spectrum->update(2.0 * std::cos(kTurn * hz * i / kDefaultRate), 0.0, 0.0);
     }
     EXPECT_NEAR(last.frequency_hz, hz, 0.02 * spectrum->resolution_hz()) << hz;
     EXPECT_NEAR(last.line_energy, 2.0, 0.02) << hz;
@@ -101,7 +103,7 @@ TEST(LineSpectrum, DoesNotLookWhereItIsTold) {
   ASSERT_TRUE(spectrum);
   LineSpectrum::Output last;
   for (int i = 0; i < 3000; ++i) {
-    const double t = i / kRate;
+    const double t = i / kDefaultRate;
     last = spectrum->update(std::cos(kTurn * 500.0 * t) + 0.01 * std::cos(kTurn * 777.0 * t), 250.0,
                             30.0);
   }
@@ -120,7 +122,7 @@ TEST(RevolutionSpread, IsZeroForARepeatingCutAndOneLessCosineForALine) {
       last = spread.update(std::cos(kTurn * order * angle), angle);
       changed += last.known ? last.changed_energy : 0.0;
       energy += last.known ? last.energy : 0.0;
-      angle += 25.0 / kRate * (1.0 + 0.1 * std::sin(kTurn * 5.0 * i / kRate));
+      angle += 25.0 / kDefaultRate * (1.0 + 0.1 * std::sin(kTurn * 5.0 * i / kDefaultRate));
     }
     ASSERT_TRUE(last.known);
     EXPECT_NEAR(changed / energy, 1.0 - std::cos(kTurn * order), 0.02) << order;

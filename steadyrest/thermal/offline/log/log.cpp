@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/offline/log/log_clock.hpp>
@@ -22,6 +23,7 @@ namespace {
 
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
+using kernel::units::kNan;
 
 constexpr double kMostSpeed_rpm = 200'000.0;
 constexpr double kMostDisplacement_mm = 2.0;
@@ -31,7 +33,6 @@ constexpr double kLeastRange_mm = 0.5e-3;
 constexpr double kAbsentShare = 0.5;  ///< a sensor that is silent for more than this is absent
 constexpr double kWild_share = 0.01;  ///< single readings that cannot be are left out up to this
 constexpr double kLively = 0.1;       ///< of the rows in which a living sensor changes
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class LogMaker {
  public:

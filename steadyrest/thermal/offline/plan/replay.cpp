@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/log/log_inputs.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
@@ -22,8 +23,8 @@ namespace {
 using kernel::machine::ThermalAxis;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
+using kernel::units::kNan;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBeyondFitted = 1.2;
 constexpr double kSlack_s = 1.0;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/thermal/online/test/governed.hpp>
 
 // Readings of the probe that come in with the frames.
@@ -12,11 +12,10 @@ namespace {
 
 using kernel::outcome::Reason;
 using kernel::signal::ProbeReading;
+using kernel::units::kNan;
 using test::Governed;
 using test::kX;
 using test::kZ;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 ProbeReading reading(std::uint64_t number, double displacement_mm) {
   return {.number = number, .axis = kZ, .displacement_mm = displacement_mm, .sd_mm = 0.0005};
@@ -83,7 +82,7 @@ TEST(FrameProbe, SaysWhyItWasNotTaken) {
   Governed on;
   on.seconds(10.0);
   const double before = on.governor.output().displacement_mm[kZ];
-  on.frame.probe = reading(1, kNaN);
+  on.frame.probe = reading(1, kNan);
   EXPECT_EQ(on.look().probed.verdict.reason, Reason::input_not_finite);
   on.frame.probe = reading(2, 0.002);
   on.frame.probe.sd_mm = -1.0;

@@ -7,6 +7,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/thermal/online/test/governed.hpp>
 
 namespace steadyrest::thermal::online {
@@ -16,18 +17,17 @@ using kernel::outcome::Reason;
 using kernel::signal::AxisValues;
 using kernel::signal::Frame;
 using kernel::signal::Motion;
+using kernel::units::kNan;
 using test::kX;
 using test::kZ;
 using test::mill;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Mostly plausible values, or the governor would do nothing but refuse; infinity and 1e300 now and
 // then.
 double any_double() {
   return *rc::gen::weightedOneOf<double>(
       {{6, rc::gen::map(rc::gen::inRange(-2000, 2000), [](int n) { return n / 10.0; })},
-       {1, rc::gen::elementOf(std::vector<double>{kNaN, 1e300, -1e300, 0.0,
+       {1, rc::gen::elementOf(std::vector<double>{kNan, 1e300, -1e300, 0.0,
                                                   std::numeric_limits<double>::infinity()})}});
 }
 
@@ -131,7 +131,7 @@ TEST(OffsetGovernorSafety, ARestoredWishBeyondTheClampIsCutToIt) {
   OffsetGovernor governor = OffsetGovernor::make(mill()).value();
   auto state = governor.state();
   state.last.request.offset_mm[kZ] = -5.0;
-  state.last.request.offset_mm[kX] = kNaN;
+  state.last.request.offset_mm[kX] = kNan;
   governor.restore(state);
   EXPECT_EQ(governor.output().request.offset_mm[kZ], -0.030);
   EXPECT_EQ(governor.output().request.offset_mm[kX], 0.0);

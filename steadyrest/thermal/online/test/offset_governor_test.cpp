@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/thermal/online/test/governed.hpp>
 
 namespace steadyrest::thermal::online {
@@ -12,14 +12,13 @@ namespace {
 
 using kernel::outcome::Reason;
 using kernel::signal::Motion;
+using kernel::units::kNan;
 using test::Governed;
 using test::kLevel_mm;
 using test::kTau_s;
 using test::kX;
 using test::kZ;
 using test::mill;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(OffsetGovernor, StandsAgainstWhatTheSpindleHasDone) {
   Governed on;
@@ -72,7 +71,7 @@ TEST(OffsetGovernor, ALostSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
   Governed on;
   on.frame.temperature_c[0] = 23.0;
   on.seconds(60.0);
-  on.frame.temperature_c[0] = kNaN;
+  on.frame.temperature_c[0] = kNan;
   EXPECT_EQ(on.seconds(300.0).request.reason, Reason::thermal_sensor_lost);
   EXPECT_NEAR(on.offset_mm()[kX], -0.006, 1e-12);
   EXPECT_LT(on.offset_mm()[kZ], -0.006) << "the other axis goes on";
@@ -125,7 +124,7 @@ TEST(OffsetGovernor, UnfitFramesMoveNothing) {
   EXPECT_EQ(on.seconds(10.0).request.reason, Reason::input_stale);
   EXPECT_EQ(on.offset_mm(), before);
   on.unfit = Reason::none;
-  on.frame.time_s = kNaN;
+  on.frame.time_s = kNan;
   EXPECT_EQ(on.cycle().request.reason, Reason::input_not_finite);
   EXPECT_EQ(on.offset_mm(), before);
 }
@@ -206,7 +205,7 @@ TEST(OffsetGovernor, ASensorThatFailsForASecondOutOfTheCutDoesNotTakeTheOffsetAw
   on.seconds(60.0);
   on.tool_in_cut = false;
   on.frame.motion = Motion::rapid;
-  on.frame.temperature_c[0] = kNaN;
+  on.frame.temperature_c[0] = kNan;
   EXPECT_NEAR(on.seconds(1.0).offset_mm[kX], -0.006, 2e-4);
   on.frame.temperature_c[0] = 23.0;
   EXPECT_NEAR(on.seconds(0.2).offset_mm[kX], -0.006, 1e-12);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 #include <steadyrest/thermal/online/test/governed.hpp>
 
@@ -16,8 +16,8 @@ namespace {
 using kernel::outcome::Reason;
 using kernel::signal::Motion;
 using kernel::signal::Temperatures;
+using kernel::units::kNan;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHour = 3600.0;
 
 /// A machine whose sensor 1 warms and cools by 8 K in 3 h with noise; sensor 0 is `first`, both by
@@ -28,7 +28,7 @@ class Watched {
 
   /// The first hour at which sensor 0 is not believed; NaN: it is throughout.
   double doubted_at_h(double until_h, Reason reason) {
-    double at_h = kNaN;
+    double at_h = kNan;
     for (; hours_ < until_h; hours_ += 10.0 / kHour) {
       step();
       const Reason fault = watch_.fault(0);
@@ -206,7 +206,7 @@ TEST(SensorWatch, WhatMachinesDoIsBelieved) {
   EXPECT_TRUE(std::isnan(noise.doubted_at_h(3.0, Reason::none)));
   Watched spindle([](double hours) { return 20.0 + std::min(30.0, 300.0 * hours); });
   EXPECT_TRUE(std::isnan(spindle.doubted_at_h(3.0, Reason::none)));
-  Watched gap([](double hours) { return hours > 1.0 && hours < 2.0 ? kNaN : 20.0 + 5.0 * hours; });
+  Watched gap([](double hours) { return hours > 1.0 && hours < 2.0 ? kNan : 20.0 + 5.0 * hours; });
   EXPECT_TRUE(std::isnan(gap.doubted_at_h(3.0, Reason::none)));
 }
 
@@ -230,7 +230,7 @@ TEST(SensorWatch, ItsStateGoesOnAfterARestart) {
   EXPECT_EQ(first.fault(0), Reason::thermal_sensor_stuck);
   EXPECT_EQ(second.fault(0), Reason::thermal_sensor_stuck);
   auto state = second.state();
-  state.sensor[0].follower_c = kNaN;
+  state.sensor[0].follower_c = kNan;
   second.restore(state);
   EXPECT_EQ(second.fault(0), Reason::none) << "anew";
 }

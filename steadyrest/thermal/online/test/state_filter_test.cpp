@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include <Eigen/Dense>
@@ -8,6 +7,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/thermal/online/state_filter.hpp>
 
 namespace steadyrest::thermal::online {
@@ -16,8 +16,7 @@ namespace {
 using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
 using kernel::outcome::Reason;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using kernel::units::kNan;
 
 ThermalMode mode(double tau_s, double level_mm) {
   ThermalMode mode;
@@ -304,12 +303,12 @@ TEST(StateFilter, UnfitInputChangesNothing) {
   const double before = filter.update(600.0, turning(50.0));
   const double sd = filter.sd_mm();
   EXPECT_EQ(filter.update(-1.0, turning(50.0)), before);
-  EXPECT_EQ(filter.update(kNaN, turning(50.0)), before);
-  EXPECT_EQ(filter.update(1.0, turning(kNaN)), before);
-  EXPECT_EQ(filter.measure({.displacement_mm = kNaN}).reason, Reason::input_not_finite);
+  EXPECT_EQ(filter.update(kNan, turning(50.0)), before);
+  EXPECT_EQ(filter.update(1.0, turning(kNan)), before);
+  EXPECT_EQ(filter.measure({.displacement_mm = kNan}).reason, Reason::input_not_finite);
   EXPECT_EQ(filter.measure({.displacement_mm = 0.0, .sd_mm = -1.0}).reason,
             Reason::input_not_finite);
-  filter.rezero({.displacement_mm = kNaN});
+  filter.rezero({.displacement_mm = kNan});
   EXPECT_EQ(filter.displacement_mm(), before);
   EXPECT_EQ(filter.sd_mm(), sd);
 }
@@ -324,7 +323,7 @@ TEST(StateFilter, GoesOnFromARestoredStateAndStartsAnewFromABadOne) {
   EXPECT_EQ(other.measure({.displacement_mm = 0.02}).innovation_sd_mm,
             filter.measure({.displacement_mm = 0.02}).innovation_sd_mm);
   StateFilter::State bad = filter.state();
-  bad.covariance[1][2] = kNaN;
+  bad.covariance[1][2] = kNan;
   other.restore(bad);
   EXPECT_EQ(other.displacement_mm(), 0.0);
   ThermalModel::State warm;
@@ -337,7 +336,7 @@ TEST(StateFilter, RefusesASetUpThatIsNone) {
   EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .gain_sd_ratio = -0.1}));
   EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .gate_sd = 0.0}));
   EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .min_gain = 1.5}));
-  EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .start_sd_mm = kNaN}));
+  EXPECT_FALSE(StateFilter::make({.axis = two_modes(), .start_sd_mm = kNan}));
 }
 
 TEST(StateFilter, DoesNotAllocateInTheCycle) {

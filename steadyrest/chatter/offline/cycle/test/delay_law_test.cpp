@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include <steadyrest/chatter/offline/cycle/delay_law.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::offline::test {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using kernel::units::kTurn;
 
 /// x'' + z·x' + (1 + kw)·x = kw·x(t − τ), τ = (2π/Ω)·(1 + A·sin(2πt/T)), T = revolutions·2π/Ω.
 DelayLaw::Config turning(double kw, double z, double omega, double a, double revolutions) {

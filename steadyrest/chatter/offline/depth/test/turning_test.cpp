@@ -7,11 +7,12 @@
 
 #include <steadyrest/chatter/offline/cycle/stability.hpp>
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::offline::test {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using kernel::units::kTurn;
 
 Process turning() {
   Process p;

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// When two speeds or ratios of a plan are one.
+namespace steadyrest::chatter::offline {
+
+inline constexpr double kSame = 1e-9;  ///< relative
+
+}  // namespace steadyrest::chatter::offline
