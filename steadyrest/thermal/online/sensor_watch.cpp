@@ -32,7 +32,7 @@ std::uint8_t steps_of(double temperature_c) noexcept {
   return steps;
 }
 
-bool usable(const SensorWatch::Sensor& s) noexcept {
+bool usable_sensor(const SensorWatch::Sensor& s) noexcept {
   return std::isfinite(s.value_c) && std::isfinite(s.follower_c) && std::isfinite(s.same_s) &&
          std::isfinite(s.longest_s) && std::isfinite(s.anchor_c) && std::isfinite(s.away_s);
 }
@@ -133,7 +133,7 @@ void SensorWatch::live(Sensor& sensor, double elapsed_s, double temperature_c) n
 void SensorWatch::restore(const State& state) noexcept {
   state_ = state;
   for (Sensor& sensor : state_.sensor) {
-    if (!usable(sensor)) {
+    if (!usable_sensor(sensor)) {
       sensor = {};
     }
   }

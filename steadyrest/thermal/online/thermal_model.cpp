@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kReference_rev_s = 1000.0 / 60.0;  ///< of a polynomial's n
 
-bool usable(const ThermalMode& mode) {
+bool usable_mode(const ThermalMode& mode) {
   // Either a table or a polynomial, never both; a lag or rest τ of 0 means none.
   return mode.tau_s > 0.0 && mode.rest_tau_s >= 0.0 &&
          mode.speed_rev_s.size() == mode.level_mm.size() &&
@@ -59,7 +59,7 @@ double by_polynomial(const ThermalMode& mode, double speed_rev_s) noexcept {
 Result<ThermalModel> ThermalModel::make(const Config& config) {
   const bool fits =
       config.mode.size() <= kMaxThermalModes && config.ambient.size() <= kMaxThermalAmbients &&
-      std::ranges::all_of(config.mode, usable) &&
+      std::ranges::all_of(config.mode, usable_mode) &&
       std::ranges::all_of(config.ambient, [](const auto& a) { return a.tau_s >= 0.0; });
   if (!fits) {
     return refuse("the thermal passport of " + config.name + " is incomplete",

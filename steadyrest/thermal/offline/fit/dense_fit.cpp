@@ -9,6 +9,7 @@
 #include <steadyrest/kernel/machine/thermal.hpp>
 #include <steadyrest/thermal/offline/fit/column_grid.hpp>
 #include <steadyrest/thermal/offline/fit/dense_fit.hpp>
+#include <steadyrest/thermal/offline/fit/structure.hpp>
 
 // Evidence instead of choice: with gains N(0, s²) the readings are one normal vector, and its
 // density integrates out whatever the gains are. With many alike sensors that is a fairer judge
@@ -20,10 +21,9 @@ constexpr std::array<std::size_t, 3> kLag = {0, 2, 4};  ///< of the grid's
 constexpr std::array kGain_um_k = {0.3, 1.0, 3.0, 10.0};
 constexpr std::array kLevel_um = {10.0, 30.0, 100.0};
 constexpr std::array kPower = {1, 2};
-constexpr double kFree = 1e5;
-constexpr int kRounds = 2;  ///< the error model and the rest, each given the other
+constexpr int kAlternations = 2;  ///< the error model and the rest, each given the other
 
-struct Choice {
+struct DenseCandidate {
   std::vector<std::size_t> tau;
   Structure::Usual usual;
 };
@@ -48,7 +48,7 @@ class Evidence {
   }
 
   /// To a constant of the readings.
-  [[nodiscard]] double of(const Choice& c) const {
+  [[nodiscard]] double of(const DenseCandidate& c) const {
     std::vector<Eigen::Index> column = inputs_;
     std::vector<double> sd(inputs_.size(), c.usual.gain_um_k);
     sd.front() = kFree;
@@ -93,9 +93,9 @@ class Evidence {
 };
 
 // All combinations of modes, levels and gains: each costs one Cholesky factorisation.
-Choice best(const Evidence& evidence, const std::vector<std::vector<std::size_t>>& modes,
-            std::size_t rows) {
-  Choice out;
+DenseCandidate best(const Evidence& evidence, const std::vector<std::vector<std::size_t>>& modes,
+                    std::size_t rows) {
+  DenseCandidate out;
   double most = -std::numeric_limits<double>::infinity();
   for (const auto& tau : modes) {
     // A time constant that was chosen counts as Bayes' criterion counts a parameter.
@@ -103,7 +103,7 @@ Choice best(const Evidence& evidence, const std::vector<std::vector<std::size_t>
         0.5 * static_cast<double>(tau.size()) * std::log(static_cast<double>(rows));
     for (const double level : kLevel_um) {
       for (const double gain : kGain_um_k) {
-        Choice c{tau, {level, gain, Structure::Usual{}.state_um}};
+        DenseCandidate c{tau, {level, gain, Structure::Usual{}.state_um}};
         const double here = evidence.of(c) - chosen;
         if (here > most) {
           most = here;
@@ -115,7 +115,7 @@ Choice best(const Evidence& evidence, const std::vector<std::vector<std::size_t>
   return out;
 }
 
-Structure structure_of(const Choice& choice, const std::vector<std::size_t>& sensors) {
+Structure structure_of(const DenseCandidate& choice, const std::vector<std::size_t>& sensors) {
   Structure out;
   out.dense = true;
   out.usual = choice.usual;
@@ -145,7 +145,7 @@ std::optional<Dense> dense_fit(const FitData& data, const ErrorModel& guess,
   const auto modes = grid_modes(least_modes, limits.most_modes);
   // Two rounds settle it: the choice hardly moves once the drift is about right.
   Dense out{{}, guess};
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kAlternations; ++round) {
     const Evidence evidence(data, out.error, grid, sensors.size());
     out.structure = structure_of(best(evidence, modes, data.rows()), sensors);
     out.error = likely_error(columns_of(out.structure, *data.log, data.row), data,

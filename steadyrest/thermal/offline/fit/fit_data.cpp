@@ -7,6 +7,7 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/fit/error_model.hpp>
 #include <steadyrest/thermal/offline/fit/fit_data.hpp>
+#include <steadyrest/thermal/offline/plan/forecast.hpp>
 
 // Readings are thinned, the inputs are not: a column walks every row of the log and is then taken
 // at the chosen rows. Thinning costs little, since successive readings carry the same drift.
@@ -18,7 +19,6 @@ constexpr double kLeastBlock_s = 2.0 * 3600.0;
 constexpr double kLeastOwn_s = 30.0 * 60.0;  // less is no block of its own
 constexpr std::size_t kEqualBlocks = 5;
 constexpr double kSame_um = 1e-6;
-constexpr double kBeyondFitted = 1.2;  // no forecast is made for faster ones
 
 /// Rows of the log at which the spindle starts after a rest.
 std::vector<std::size_t> starts(const Log& log) {

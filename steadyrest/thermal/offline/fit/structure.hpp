@@ -11,6 +11,8 @@
 
 namespace steadyrest::thermal::offline {
 
+inline constexpr double kFree = 1e5;  ///< µm: wide enough to be no prior at all
+
 /// What a fitted model is made of: everything but its linear parameters.
 struct Structure {
   struct Mode {

@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 #include <steadyrest/thermal/offline/fit/structure_fit.hpp>
+#include <steadyrest/thermal/offline/log/lagged.hpp>
 
 // Variable projection (Golub and Pereyra 1973): for given time constants all else is linear and
 // solved by QR, so only ln τ is searched, by damped Gauss–Newton on the projected residuals. Two or
@@ -14,10 +15,7 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-// µm: wide enough to be no prior at all.
-constexpr double kFree = 1e5;
 constexpr double kNoises = 3.0;
-constexpr double kPer_rev_s = 60.0 / 1000.0;
 
 /// Rows that are fitted, their times and where a stretch begins.
 struct Subset {

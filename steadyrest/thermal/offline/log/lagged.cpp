@@ -12,8 +12,6 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-constexpr double kPer_rev_s = 60.0 / 1000.0;  ///< a speed in 1000 rpm
-
 /// Steps of a log come at one period: the exponential is kept.
 class Decay {
  public:

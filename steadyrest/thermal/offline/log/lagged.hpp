@@ -13,6 +13,8 @@
 /// exact steps of online::ThermalModel (the inputs of a row hold until the next).
 namespace steadyrest::thermal::offline {
 
+inline constexpr double kPer_rev_s = 60.0 / 1000.0;  ///< a speed in 1000 rpm
+
 /// x' = ((n/1000 rpm)^power − x)/τ; x = 0 at the first row and after each gap. `rest_tau_s` is in
 /// force while the spindle stands; 0 = `tau_s`.
 [[nodiscard]] Eigen::VectorXd lagged_power(const Log& log, std::span<const std::size_t> rows,

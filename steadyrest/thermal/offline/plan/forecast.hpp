@@ -10,6 +10,9 @@
 
 namespace steadyrest::thermal::offline {
 
+/// Times the fastest speed of the fit: no forecast is made for faster ones.
+inline constexpr double kBeyondFitted = 1.2;
+
 /// Of the linear parameters, in the passport's order and units (µm, µm/K); 0 where it states none.
 [[nodiscard]] Eigen::MatrixXd covariance_um2(const kernel::machine::ThermalAxis& axis);
 

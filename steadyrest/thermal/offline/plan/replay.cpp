@@ -25,7 +25,6 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::units::kNan;
 
-constexpr double kBeyondFitted = 1.2;
 constexpr double kSlack_s = 1.0;
 
 class Replay {

@@ -11,6 +11,10 @@
 /// Logs of a machine that is known, by a recursion of their own.
 namespace steadyrest::thermal::offline::test {
 
+/// (minutes, rpm): four runs of 4 h, each with a rest as long.
+inline const std::vector<std::pair<int, double>> kDays = {
+    {240, 3000}, {240, 0}, {240, 1500}, {240, 0}, {240, 4500}, {240, 0}, {240, 2250}, {240, 0}};
+
 struct KnownMode {
   double tau_min = 0.0;
   double um_per_krpm = 0.0;

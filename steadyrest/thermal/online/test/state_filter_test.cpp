@@ -9,6 +9,7 @@
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/thermal/online/state_filter.hpp>
+#include <steadyrest/thermal/online/test/turning.hpp>
 
 namespace steadyrest::thermal::online {
 namespace {
@@ -17,6 +18,7 @@ using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
 using kernel::outcome::Reason;
 using kernel::units::kNan;
+using test::turning;
 
 ThermalMode mode(double tau_s, double level_mm) {
   ThermalMode mode;
@@ -40,12 +42,6 @@ StateFilter made(const StateFilter::Config& config) {
   auto filter = StateFilter::make(config);
   EXPECT_TRUE(filter);
   return std::move(*filter);
-}
-
-Drive turning(double speed_rev_s) {
-  Drive drive;
-  drive.speed_rev_s = speed_rev_s;
-  return drive;
 }
 
 /// The textbook's filter on the continuous system: transition by matrix exponential, noise by Van

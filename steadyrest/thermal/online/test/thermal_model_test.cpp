@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/thermal/online/test/turning.hpp>
 #include <steadyrest/thermal/online/thermal_model.hpp>
 
 namespace steadyrest::thermal::online {
@@ -12,6 +13,7 @@ namespace {
 
 using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
+using test::turning;
 
 // The reference's one-mode curve of the paper's example: crossings of 10, 20, 30 and 40 µm.
 ThermalAxis paper() {
@@ -28,12 +30,6 @@ ThermalModel made(const ThermalAxis& axis) {
   auto model = ThermalModel::make(axis);
   EXPECT_TRUE(model);
   return std::move(*model);
-}
-
-Drive turning(double speed_rev_s) {
-  Drive drive;
-  drive.speed_rev_s = speed_rev_s;
-  return drive;
 }
 
 // Times from the closed form t = −τ·ln((δ − G)/(x₀ − G)), worked out by hand for each stage.

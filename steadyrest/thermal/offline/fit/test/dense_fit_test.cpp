@@ -21,8 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using kernel::testing::cases;
 
-const std::vector<std::pair<int, double>> kDays = {{240, 3000}, {240, 0}, {240, 1500}, {240, 0},
-                                                   {240, 4500}, {240, 0}, {240, 2250}, {240, 0}};
+using test::kDays;
 
 /// A machine of one mode whose six temperatures, all wandering, displace it with lags of 50 min.
 Log six_sensors() {

@@ -18,6 +18,7 @@ namespace {
 
 using kernel::testing::cases;
 using kernel::testing::kSanitized;
+using test::kDays;
 using test::KnownMachine;
 using test::log_of;
 using testing::HasSubstr;
@@ -26,8 +27,6 @@ using testing::HasSubstr;
 KnownMachine table_machine() {
   return {{{15.0, 5.0}, {90.0, 35.0 / 3.0}}};
 }
-const std::vector<std::pair<int, double>> kDays = {{240, 3000}, {240, 0}, {240, 1500}, {240, 0},
-                                                   {240, 4500}, {240, 0}, {240, 2250}, {240, 0}};
 
 AxisFit fitted(const Log& log, const FitRequest& request = {}, std::size_t channel = 0) {
   auto fit = identify(log, channel, "Z", request);

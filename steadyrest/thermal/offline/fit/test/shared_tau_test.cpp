@@ -12,8 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 
-const std::vector<std::pair<int, double>> kDays = {{240, 3000}, {240, 0}, {240, 1500}, {240, 0},
-                                                   {240, 4500}, {240, 0}, {240, 2250}, {240, 0}};
+using test::kDays;
 
 /// X and Z are moved by one body, Y by another one.
 Log three_axes() {

@@ -24,7 +24,7 @@ const std::vector<std::pair<int, double>> kDay = {{120, 3000}, {90, 0},     {120
                                                   {90, 0},     {120, 2250}, {90, 0}};
 const KnownMachine kMachine{{{20.0, 4.0}, {120.0, 9.0}}, 0.0, 0.0, 0.0};
 
-ThermalAxis its_passport() {
+ThermalAxis spindle_passport() {
   ThermalAxis axis;
   for (const auto& known : kMachine.mode) {
     ThermalMode mode;
@@ -69,7 +69,7 @@ double largest_um(const std::vector<FittedPoint>& points) {
 TEST(FittedCourse, OfTheTruePassportIsTheLogThoughItBeganHot) {
   const Log log = without_the_first(log_of(kMachine, kDay), 100);
   EXPECT_GT(log.displacement[0].value.front(), 0.015);
-  EXPECT_LT(largest_um(course(its_passport(), log)), 0.01);
+  EXPECT_LT(largest_um(course(spindle_passport(), log)), 0.01);
 }
 
 // What the slow mode gained in the gap dies away with its own 120 min; only a new state explains
@@ -80,19 +80,19 @@ TEST(FittedCourse, BeginsAnewAfterAGap) {
     log.displacement[0].value[row] +=
         0.012 * std::exp(-60.0 * (static_cast<double>(row) - 200.0) / 7200.0);
   }
-  EXPECT_GT(largest_um(course(its_passport(), log)), 1.0);
+  EXPECT_GT(largest_um(course(spindle_passport(), log)), 1.0);
   log.gap = {200};
-  EXPECT_LT(largest_um(course(its_passport(), log)), 0.01);
+  EXPECT_LT(largest_um(course(spindle_passport(), log)), 0.01);
 }
 
 // A millimetre on each later reading: the smallest leak would show in the course.
 TEST(FittedCourse, UsesNoReadingBeyondTheWindow) {
   Log log = log_of(kMachine, kDay);
-  const auto as_it_was = course(its_passport(), log, 3600.0, 6.0 * 3600.0);
+  const auto as_it_was = course(spindle_passport(), log, 3600.0, 6.0 * 3600.0);
   for (std::size_t row = 361; row < log.rows(); ++row) {
     log.displacement[0].value[row] += 1.0;
   }
-  const auto points = course(its_passport(), log, 3600.0, 6.0 * 3600.0);
+  const auto points = course(spindle_passport(), log, 3600.0, 6.0 * 3600.0);
   ASSERT_EQ(points.size(), log.rows() - 60);
   EXPECT_DOUBLE_EQ(points.front().time_s, 3600.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -123,7 +123,7 @@ TEST(FittedCourse, LeavesWhatTheFitSaysAndHoldsItsBand) {
 }
 
 TEST(FittedCourse, RefusesALogWithoutTheSensor) {
-  ThermalAxis axis = its_passport();
+  ThermalAxis axis = spindle_passport();
   axis.ambient.emplace_back().sensor = "room_c";
   const auto points = fitted_course(axis, log_of(kMachine, kDay), 0);
   ASSERT_FALSE(points);
