@@ -8,6 +8,7 @@
 namespace steadyrest::kernel::units {
 
 inline constexpr double kTurn = 2.0 * std::numbers::pi;                       ///< rad in a turn
+inline constexpr double kDegree = std::numbers::pi / 180.0;                   ///< rad in a degree
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();      ///< a value not known
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< no limit
 

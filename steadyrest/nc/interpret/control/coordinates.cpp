@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
 #include <cmath>
-#include <numbers>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/state/frame.hpp>
 
@@ -92,7 +92,7 @@ bool tool_stays(const DialectRules& rules, std::size_t axis) noexcept {
 }
 
 void polar_point(const Step& step, const State& state, Axes& point) noexcept {
-  constexpr double kDegree = std::numbers::pi / 180.0;
+  using kernel::units::kDegree;
   // A polar word that is left out keeps its present value; in G91 the words add to the present
   // ones. Zero is the angle of +X.
   double radius = std::hypot(point[0], point[1]);

@@ -9,10 +9,6 @@
 
 namespace steadyrest::nc::interpret {
 
-[[nodiscard]] constexpr bool is_rotary(std::size_t axis) noexcept {
-  return axis >= 3 && axis < 6;
-}
-
 /// The word of an axis in mm or degrees.
 [[nodiscard]] double component(const Step& step, std::size_t axis, const State& state) noexcept;
 

@@ -16,7 +16,7 @@ struct Known {
   int number;
   std::size_t values;  ///< what it takes; newer versions have more, which must be left out or zero
 };
-constexpr std::array kKnown = {
+constexpr std::array kKnownCycles = {
     Known{"CYCLE81", 81, 5}, Known{"CYCLE82", 82, 6},  Known{"CYCLE84", 84, 12},
     Known{"CYCLE85", 85, 8}, Known{"CYCLE86", 86, 11},
 };
@@ -88,9 +88,9 @@ bool CycleCalls::after_move() {
 // The planes that all cycles share: retraction, reference and safety clearance, depth.
 bool CycleCalls::planes(const Flow& call, Hole& hole) {
   const std::string_view name = call.label.view();
-  const auto* const known =
-      std::ranges::find_if(kKnown, [&](const Known& one) { return read::equal(name, one.name); });
-  if (known == kKnown.end()) {
+  const auto* const known = std::ranges::find_if(
+      kKnownCycles, [&](const Known& one) { return read::equal(name, one.name); });
+  if (known == kKnownCycles.end()) {
     return refuse(call, "cycle_not_interpreted",
                   "a cycle that is not interpreted; CYCLE81, 82, 84, 85 and 86 are");
   }

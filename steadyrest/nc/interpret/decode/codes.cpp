@@ -91,7 +91,7 @@ constexpr auto kGroupOfG = [] {
   return table;
 }();
 
-struct Note {
+struct RefusedRange {
   int first;
   int last;
   std::string_view text;
@@ -100,21 +100,23 @@ struct Note {
 // Words whose meaning is known but not interpreted get a text of their own: the user should not
 // look for a typing error.
 constexpr std::array kRefusedG = {
-    Note{g::kCutterLeft, g::kCutterLeftBy,
-         "cutter radius compensation (G41) is not interpreted; let the CAM system "
-         "compensate"},
-    Note{g::kCutterRight, g::kCutterRightBy,
-         "cutter radius compensation (G42) is not interpreted; let the CAM system "
-         "compensate"},
-    Note{700, 722, "a lathe cycle is not interpreted"},
+    RefusedRange{g::kCutterLeft, g::kCutterLeftBy,
+                 "cutter radius compensation (G41) is not interpreted; let the CAM system "
+                 "compensate"},
+    RefusedRange{g::kCutterRight, g::kCutterRightBy,
+                 "cutter radius compensation (G42) is not interpreted; let the CAM system "
+                 "compensate"},
+    RefusedRange{700, 722, "a lathe cycle is not interpreted"},
 };
 
 constexpr std::array kRefusedM = {
-    Note{m::kOrient, m::kOrient, "spindle orientation (M19) is not interpreted in this dialect"},
-    Note{m::kOutputOnWithMove, m::kKeepModesForCall, "M62-M73 are not interpreted in this dialect"},
-    Note{m::kCall, m::kReturn,
-         "a subprogram call or return (M98, M99) is not interpreted in this dialect"},
-    Note{100, 199, "user-defined M words (M100-M199) depend on the machine"},
+    RefusedRange{m::kOrient, m::kOrient,
+                 "spindle orientation (M19) is not interpreted in this dialect"},
+    RefusedRange{m::kOutputOnWithMove, m::kKeepModesForCall,
+                 "M62-M73 are not interpreted in this dialect"},
+    RefusedRange{m::kCall, m::kReturn,
+                 "a subprogram call or return (M98, M99) is not interpreted in this dialect"},
+    RefusedRange{100, 199, "user-defined M words (M100-M199) depend on the machine"},
 };
 
 }  // namespace
@@ -180,7 +182,7 @@ GroupOfM group_of_m(int code) noexcept {
 
 // Empty for a code that is not known at all. Only refusals come here, so a search will do.
 std::string_view known_but_refused_g(int code) noexcept {
-  for (const Note& note : kRefusedG) {
+  for (const RefusedRange& note : kRefusedG) {
     if (code >= note.first && code <= note.last) {
       return note.text;
     }
@@ -189,7 +191,7 @@ std::string_view known_but_refused_g(int code) noexcept {
 }
 
 std::string_view known_but_refused_m(int code) noexcept {
-  for (const Note& note : kRefusedM) {
+  for (const RefusedRange& note : kRefusedM) {
     if (code >= note.first && code <= note.last) {
       return note.text;
     }

@@ -17,10 +17,6 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using read::LineSource;
 
-constexpr std::size_t kAxes = 9;
-constexpr bool is_rotary(std::size_t axis) noexcept {
-  return axis >= 3 && axis < 6;
-}
 
 std::string_view without_comment(std::string_view line) noexcept {
   return line.substr(0, line.find(';'));
@@ -133,9 +129,9 @@ bool put_variable(Config& config, int number, double value, double unit_mm) {
   } else if (number >= 5221 && number < 5221 + 9 * 20) {
     const auto set = slot(5221) / 20;
     const auto axis = slot(5221) % 20;
-    if (axis < kAxes) {
+    if (axis < kAxisLetters.size()) {
       config.work_offset[set][axis] = scaled(axis);
-    } else if (axis == kAxes) {
+    } else if (axis == kAxisLetters.size()) {
       config.rotation_deg[set] = value;
     }
   } else {

@@ -5,6 +5,7 @@
 #include <steadyrest/nc/interpret/parameters/parameter_answers.hpp>
 #include <steadyrest/nc/interpret/parameters/parameters.hpp>
 #include <steadyrest/nc/interpret/state/frame.hpp>
+#include <steadyrest/nc/interpret/state/step.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {
@@ -33,9 +34,6 @@ constexpr int kChangerFault = 5600;  // and 5601: the tool changer's, nothing ca
 
 constexpr bool within(int index, int first) noexcept {
   return index >= first && index < first + kAxes;
-}
-constexpr bool is_rotary(int axis) noexcept {
-  return axis >= 3 && axis < 6;
 }
 constexpr bool reads_only(int index) noexcept {
   return (index >= kTool && index < kToolDiameter + 4) || within(index, kPosition) ||
@@ -115,8 +113,9 @@ void Parameters::ask(std::string_view name) const {
 // Numbers that a program may write although they show the state.
 double* Parameters::stored(int index, bool& rotary) const noexcept {
   const auto axis_of = [&](int first, Axes& axes) {
-    rotary = is_rotary(index - first);
-    return &axes[static_cast<std::size_t>(index - first)];
+    const auto axis = static_cast<std::size_t>(index - first);
+    rotary = is_rotary(axis);
+    return &axes[axis];
   };
   if (within(index, kHome)) {
     return axis_of(kHome, state_->home[0]);
@@ -145,8 +144,8 @@ bool Parameters::of_state(int index, double& value) const {
   const auto in_force = [&](const Axes& axes, int first, double unit_mm) {
     // Offsets, reference points and tool data in the units of the machine's files, positions in
     // those of the program; angles are degrees in both.
-    value =
-        axes[static_cast<std::size_t>(index - first)] / (is_rotary(index - first) ? 1.0 : unit_mm);
+    const auto axis = static_cast<std::size_t>(index - first);
+    value = axes[axis] / (is_rotary(axis) ? 1.0 : unit_mm);
     return true;
   };
   if (within(index, kPosition)) {
@@ -205,8 +204,7 @@ bool Parameters::of_state(std::string_view name, double& value) const {
     constexpr std::string_view kLetters = "xyzabc";
     if (const auto axis = kLetters.find(name[5]); axis != std::string_view::npos) {
       const Axes machine = turned(state_->position, state_->rotation_in_force_deg);
-      value = (machine[axis] + state_->offset[axis]) /
-              (is_rotary(static_cast<int>(axis)) ? 1.0 : state_->unit_mm);
+      value = (machine[axis] + state_->offset[axis]) / (is_rotary(axis) ? 1.0 : state_->unit_mm);
       return true;
     }
   }
@@ -348,10 +346,9 @@ void Parameters::drop() noexcept {
 void Parameters::record_probe(const Axes& end) {
   // LinuxCNC would record where the probe touched. Here it is taken to touch at the end, but the
   // numbers count as unset: a program that uses them is told so.
-  for (int axis = 0; axis < kAxes; ++axis) {
-    const auto number = static_cast<std::size_t>(kProbe) + static_cast<std::size_t>(axis);
-    numbers_[number] =
-        end[static_cast<std::size_t>(axis)] / (is_rotary(axis) ? 1.0 : state_->unit_mm);
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    const auto number = static_cast<std::size_t>(kProbe) + axis;
+    numbers_[number] = end[axis] / (is_rotary(axis) ? 1.0 : state_->unit_mm);
     set_[number] = false;  // where it touches is not known
   }
   set_[kProbe + kAxes] = false;

@@ -3,8 +3,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/interpret/state/move_table.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -26,7 +26,7 @@ double arc_length(const Move& move) noexcept {
   const auto angle = [&](const Axes& point) {
     return std::atan2(point[second] - move.centre_mm[second], point[first] - move.centre_mm[first]);
   };
-  constexpr double kTurn = 2.0 * std::numbers::pi;
+  using kernel::units::kTurn;
   constexpr double kSame_rad = 1e-12;
   const double sign = move.turns < 0 ? -1.0 : 1.0;
   double sweep = std::fmod(sign * (angle(move.end) - angle(move.start)), kTurn);

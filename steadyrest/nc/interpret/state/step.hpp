@@ -131,6 +131,11 @@ inline constexpr std::array<char, 9> kAxisLetterArray = {'X', 'Y', 'Z', 'A', 'B'
                                                          'C', 'U', 'V', 'W'};
 inline constexpr std::string_view kAxisLetters{kAxisLetterArray.data(), kAxisLetterArray.size()};
 
+/// A, B and C, by their place in `Axes`.
+[[nodiscard]] constexpr bool is_rotary(std::size_t axis) noexcept {
+  return axis >= 3 && axis < 6;
+}
+
 /// By letter − 'A': the place of an axis letter in `Axes`.
 inline constexpr auto kAxisOfLetter = [] {
   std::array<std::uint8_t, 26> table{};

@@ -16,12 +16,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<double> x_of(std::string_view text, Config config = {}) {
-  std::vector<double> out;
-  for (const Move& move : moves_of(text, std::move(config))) {
-    out.push_back(move.end[0]);
-  }
-  return out;
+std::vector<double> x_of(std::string_view text, const Config& config = {}) {
+  return ends_along(0, text, config);
 }
 
 TEST(Flow, WhileRunsUntilItsConditionIsFalse) {

@@ -30,6 +30,16 @@ inline std::vector<Move> moves_of(std::string_view text, const Config& config = 
   return kept.moves;
 }
 
+/// Where each of the moves ends on one axis.
+inline std::vector<double> ends_along(std::size_t axis, std::string_view text,
+                                      const Config& config) {
+  std::vector<double> out;
+  for (const Move& move : moves_of(text, config)) {
+    out.push_back(move.end[axis]);
+  }
+  return out;
+}
+
 /// Identifier of the first refusal; empty when the text is accepted.
 inline std::string reason_of(std::string_view text, const Config& config = {}) {
   Kept kept;

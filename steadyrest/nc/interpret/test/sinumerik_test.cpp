@@ -22,18 +22,15 @@ Config sinumerik() {
   return config;
 }
 
-std::vector<double> along(std::size_t axis, const std::string& text, Config config = sinumerik()) {
-  std::vector<double> out;
-  for (const Move& move : moves_of(text, std::move(config))) {
-    out.push_back(move.end[axis]);
-  }
-  return out;
+std::vector<double> along(std::size_t axis, const std::string& text,
+                          const Config& config = sinumerik()) {
+  return ends_along(axis, text, config);
 }
-std::vector<double> x_of(const std::string& text, Config config = sinumerik()) {
-  return along(0, text, std::move(config));
+std::vector<double> sinumerik_x_of(const std::string& text, const Config& config = sinumerik()) {
+  return ends_along(0, text, config);
 }
-double value_of(const std::string& expression) {
-  return x_of("R1=" + expression + "\nG0 X=R1\nM30\n").at(0);
+double r_value_of(const std::string& expression) {
+  return sinumerik_x_of("R1=" + expression + "\nG0 X=R1\nM30\n").at(0);
 }
 std::string reason_of_block(const std::string& text) {
   return reason_of(text + "\nM30\n", sinumerik());
@@ -62,41 +59,41 @@ class Folder {
 
 // SINUMERIK 840D sl "Job planning", "Priority of the operations".
 TEST(SinumerikValues, HaveThePrioritiesOfTheManual) {
-  EXPECT_EQ(value_of("1+2*3"), 7.0);
-  EXPECT_EQ(value_of("(1+2)*3"), 9.0);
-  EXPECT_EQ(value_of("7 DIV 2*2"), 6.0);
-  EXPECT_EQ(value_of("8-2-1"), 5.0);
-  EXPECT_EQ(value_of("1+2==3"), 1.0);            // comparisons are the weakest
-  EXPECT_EQ(value_of("1 B_OR 2 B_AND 2"), 3.0);  // B_AND before B_OR
-  EXPECT_EQ(value_of("4 B_OR 1+2"), 7.0);        // + before the bits
-  EXPECT_EQ(value_of("1 OR 0 AND 0"), 1.0);
-  EXPECT_EQ(value_of("NOT 0 AND 0"), 0.0);
-  EXPECT_EQ(value_of("-2+5"), 3.0);
-  EXPECT_EQ(value_of("-(2+5)"), -7.0);
+  EXPECT_EQ(r_value_of("1+2*3"), 7.0);
+  EXPECT_EQ(r_value_of("(1+2)*3"), 9.0);
+  EXPECT_EQ(r_value_of("7 DIV 2*2"), 6.0);
+  EXPECT_EQ(r_value_of("8-2-1"), 5.0);
+  EXPECT_EQ(r_value_of("1+2==3"), 1.0);            // comparisons are the weakest
+  EXPECT_EQ(r_value_of("1 B_OR 2 B_AND 2"), 3.0);  // B_AND before B_OR
+  EXPECT_EQ(r_value_of("4 B_OR 1+2"), 7.0);        // + before the bits
+  EXPECT_EQ(r_value_of("1 OR 0 AND 0"), 1.0);
+  EXPECT_EQ(r_value_of("NOT 0 AND 0"), 0.0);
+  EXPECT_EQ(r_value_of("-2+5"), 3.0);
+  EXPECT_EQ(r_value_of("-(2+5)"), -7.0);
 }
 
 // The same manual, "Arithmetic operations": 3/4=0.75, 3 DIV 4=0, 3 MOD 4=3;
 // ATAN2(30.5,80.1)=20.8455.
 TEST(SinumerikValues, AreThoseThatTheManualPrints) {
-  EXPECT_EQ(value_of("3/4"), 0.75);
-  EXPECT_EQ(value_of("3 DIV 4"), 0.0);
-  EXPECT_EQ(value_of("3 MOD 4"), 3.0);
-  EXPECT_NEAR(value_of("ATAN2(30.5,80.1)"), 20.8455, 5e-5);
-  EXPECT_EQ(value_of("POT(5)"), 25.0);
-  EXPECT_EQ(value_of("TRUNC(-2.7)+ROUND(2.5)"), 1.0);
-  EXPECT_EQ(value_of("SQRT(POT(3)+POT(4))"), 5.0);
-  EXPECT_EQ(value_of("-0.1EX-5*1EX6"), -1.0);
-  EXPECT_EQ(value_of("BOUND(1,5,9)+MINVAL(1,2)+MAXVAL(1,2)"), 8.0);
-  EXPECT_NEAR(value_of("ACOS(0.5)"), 60.0, 1e-12);
+  EXPECT_EQ(r_value_of("3/4"), 0.75);
+  EXPECT_EQ(r_value_of("3 DIV 4"), 0.0);
+  EXPECT_EQ(r_value_of("3 MOD 4"), 3.0);
+  EXPECT_NEAR(r_value_of("ATAN2(30.5,80.1)"), 20.8455, 5e-5);
+  EXPECT_EQ(r_value_of("POT(5)"), 25.0);
+  EXPECT_EQ(r_value_of("TRUNC(-2.7)+ROUND(2.5)"), 1.0);
+  EXPECT_EQ(r_value_of("SQRT(POT(3)+POT(4))"), 5.0);
+  EXPECT_EQ(r_value_of("-0.1EX-5*1EX6"), -1.0);
+  EXPECT_EQ(r_value_of("BOUND(1,5,9)+MINVAL(1,2)+MAXVAL(1,2)"), 8.0);
+  EXPECT_NEAR(r_value_of("ACOS(0.5)"), 60.0, 1e-12);
 }
 
 // The manual's example of TRUNC: R1=61.01 R2=61.02 R3=0.01, its comparison is not fulfilled.
 TEST(SinumerikValues, CompareWithARelativeTolerance) {
-  EXPECT_EQ(x_of("R1=61.01 R2=61.02 R3=0.01\nR4=ABS((R2-R1)/R3-1)>10EX-5\n"
-                 "G0 X=R4\nM30\n")
+  EXPECT_EQ(sinumerik_x_of("R1=61.01 R2=61.02 R3=0.01\nR4=ABS((R2-R1)/R3-1)>10EX-5\n"
+                           "G0 X=R4\nM30\n")
                 .at(0),
             0.0);
-  EXPECT_EQ(x_of("R1=0.1+0.2\nR2=R1==0.3\nG0 X=R2\nM30\n").at(0), 1.0);
+  EXPECT_EQ(sinumerik_x_of("R1=0.1+0.2\nR2=R1==0.3\nG0 X=R2\nM30\n").at(0), 1.0);
 }
 
 TEST(SinumerikValues, StandInEveryAddress) {
@@ -133,7 +130,7 @@ TEST(SinumerikValues, AreRefusedWhereTheyAreNotKnown) {
 TEST(SinumerikValues, AreNotSetInBlocksThatAreLeftOut) {
   Config config = sinumerik();
   config.block_delete = true;
-  EXPECT_THAT(x_of("R1=1\n/R1=2\nG0 X=R1\nM30\n", config), ElementsAre(1));
+  EXPECT_THAT(sinumerik_x_of("R1=1\n/R1=2\nG0 X=R1\nM30\n", config), ElementsAre(1));
 }
 
 // "Job planning", "Parameter transfer": a value left out is 0; its example has three parameters.
@@ -156,10 +153,11 @@ TEST(SinumerikCalls, RepeatASubprogramWithVariablesOfItsOwn) {
   folder.write("L0100.SPF", "G91 G0 X100\nM17\n");
   // Leading zeros of L count: L0100 is another program.
   folder.write("inner.spf", "%_N_INNER_SPF\nR1=R1+1\nL100\nG90 X=R1 M17\n");
-  EXPECT_THAT(x_of("DEF REAL STEP=50\nL100 P3\nG90 X=STEP\nM30\n", folder.config()),
+  EXPECT_THAT(sinumerik_x_of("DEF REAL STEP=50\nL100 P3\nG90 X=STEP\nM30\n", folder.config()),
               ElementsAre(2, 4, 6, 50));
-  EXPECT_THAT(x_of("R1=1\nINNER\nM30\n", folder.config()), ElementsAre(2, 2));
-  EXPECT_THAT(x_of("R1=2\nL100 P=R1\nL0100\nM30\n", folder.config()), ElementsAre(2, 4, 104));
+  EXPECT_THAT(sinumerik_x_of("R1=1\nINNER\nM30\n", folder.config()), ElementsAre(2, 2));
+  EXPECT_THAT(sinumerik_x_of("R1=2\nL100 P=R1\nL0100\nM30\n", folder.config()),
+              ElementsAre(2, 4, 104));
 }
 
 TEST(SinumerikCalls, AreRefusedWhereAControlWouldStop) {

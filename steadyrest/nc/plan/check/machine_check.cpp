@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/plan/check/machine_check.hpp>
 #include <steadyrest/nc/plan/check/reach.hpp>
 #include <steadyrest/nc/plan/path/spline_lines.hpp>
@@ -16,14 +17,14 @@ namespace {
 
 using interpret::Event;
 using interpret::EventKind;
+using interpret::kAxisLetters;
 using interpret::Move;
 using interpret::MoveKind;
 using kernel::units::mm_min_from_mm_s;
 using kernel::units::rpm_from_rev_s;
 
-constexpr std::string_view kLetters = "XYZABCUVW";
 constexpr double kRounding_mm = 1e-6;
-constexpr double kRounding = 1e-6;  ///< of a speed
+constexpr double kSpeedRounding = 1e-6;  ///< of a speed
 constexpr std::size_t kMostSeen = 100'000;
 
 bool feeds(const Move& move) {
@@ -61,7 +62,8 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
   // always_mm_s_: what every linear axis and the control can do. At such a feed no direction
   // overloads any of them, since |t_i| ≤ 1.
   for (const kernel::machine::Axis& axis : machine.axes) {
-    const std::size_t at = axis.name.size() == 1 ? kLetters.find(axis.name[0]) : kLetters.size();
+    const std::size_t at =
+        axis.name.size() == 1 ? kAxisLetters.find(axis.name[0]) : kAxisLetters.size();
     if (at < axis_.size() && !axis.rotary && axis.present) {
       axis_[at] = &axis;
     }
@@ -157,7 +159,7 @@ void MachineCheck::check_feed(const Move& move) {
                                ? pieces_.limits().plane(piece_.segment.axis).speed_mm_s
                                : pieces_.limits().line(piece_.end_direction).speed_mm_s;
   const double most_mm_s = std::min(axes_mm_s, machine_.control.max_feed_mm_s);
-  if (feed_mm_s <= most_mm_s * (1.0 + kRounding) || feed_mm_s == feed_warned_mm_s_) {
+  if (feed_mm_s <= most_mm_s * (1.0 + kSpeedRounding) || feed_mm_s == feed_warned_mm_s_) {
     return;
   }
   // Once for each feed, not for each block.
@@ -189,8 +191,8 @@ void MachineCheck::on_event(const Event& event) {
   }
   const double speed_rev_s = std::abs(event.value);
   const auto& spindle = machine_.spindle;
-  if (speed_rev_s > spindle.max_rev_s * (1.0 + kRounding) ||
-      speed_rev_s < spindle.min_rev_s * (1.0 - kRounding)) {
+  if (speed_rev_s > spindle.max_rev_s * (1.0 + kSpeedRounding) ||
+      speed_rev_s < spindle.min_rev_s * (1.0 - kSpeedRounding)) {
     warn(event.line, What::spindle, 0,
          fmt::format("S{:.6g} is outside the spindle's {:.6g} … {:.6g} rev/min",
                      rpm_from_rev_s(speed_rev_s), rpm_from_rev_s(spindle.min_rev_s),

@@ -8,6 +8,7 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/state/frame.hpp>
+#include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/plan/path/axes_at.hpp>
 #include <steadyrest/nc/plan/path/piece.hpp>
 
@@ -123,11 +124,11 @@ void set_arc(PathSegment& s, const Move& move) {
 // of the program's axes one is. A B C turn: rad inside, degrees in the program.
 PieceMaker::PieceMaker(const Machine& machine)
     : machine_(machine), limits_(machine.axes, machine.control) {
-  constexpr const char* kLetters = "XYZABCUVW";
   axis_of_ = {0, 1, 2, kNoAxis, kNoAxis, kNoAxis, kNoAxis, kNoAxis, kNoAxis};
   for (std::size_t i = 3; i < std::min(machine.axes.size(), kMaxAxes); ++i) {
     for (std::size_t letter = 3; letter < axis_of_.size(); ++letter) {
-      if (!machine.axes[i].name.empty() && machine.axes[i].name[0] == kLetters[letter]) {
+      if (!machine.axes[i].name.empty() &&
+          machine.axes[i].name[0] == interpret::kAxisLetters[letter]) {
         axis_of_[letter] = i;
         rotary_[i] = letter < 6;
         others_ = true;

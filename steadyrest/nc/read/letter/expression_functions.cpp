@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/read/letter/expression.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 #include <steadyrest/nc/read/text/name.hpp>
@@ -12,7 +12,7 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+using kernel::units::kDegree;
 
 }  // namespace
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/read/letter/macro_expression.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 #include <steadyrest/nc/read/text/number.hpp>
@@ -12,7 +12,8 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+using kernel::units::kDegree;
+
 // FANUC stores decimal numbers; 1e-9 takes up what a double leaves of 0.1·10.
 constexpr double kWhole = 1e-9;  // how far a number may be from the whole one that is meant
 

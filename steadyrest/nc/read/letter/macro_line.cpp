@@ -15,7 +15,7 @@ namespace {
 
 // Statements of custom macros that begin with a word instead of an address.
 // The first six steer the flow, the others write to files and printers.
-constexpr std::array<std::string_view, 11> kKeywords = {
+constexpr std::array<std::string_view, 11> kStatements = {
     "IF", "THEN", "GOTO", "WHILE", "DO", "END", "SETVN", "POPEN", "PCLOS", "DPRNT", "BPRNT"};
 
 }  // namespace
@@ -34,13 +34,13 @@ bool LetterLine::macro_keyword() {
   const auto same = [&](std::string_view keyword) {
     return std::ranges::equal(letters, keyword, {}, upper);
   };
-  const auto* const found = std::ranges::find_if(kKeywords, same);
-  if (found == kKeywords.end()) {
+  const auto* const found = std::ranges::find_if(kStatements, same);
+  if (found == kStatements.end()) {
     return true;
   }
   at_ = end_;
   constexpr std::size_t kFlow = 6;  // the keywords before are of flow control
-  return found - kKeywords.begin() < static_cast<std::ptrdiff_t>(kFlow)
+  return found - kStatements.begin() < static_cast<std::ptrdiff_t>(kFlow)
              ? refuse(letters, "flow_control",
                       "a jump, condition or loop of a custom macro is not interpreted")
              : refuse(letters, "macro_output", "the output of a custom macro is not interpreted");

@@ -21,7 +21,7 @@ struct Keyword {
   Takes takes;
 };
 // LinuxCNC 2.9's O-words and how many values each takes.
-constexpr std::array kKeywords = {
+constexpr std::array kOWords = {
     Keyword{"sub", FlowKind::sub, Takes::any},
     Keyword{"endsub", FlowKind::endsub, Takes::perhaps_one},
     Keyword{"return", FlowKind::back, Takes::perhaps_one},
@@ -41,7 +41,7 @@ constexpr std::array kKeywords = {
 
 // By kind, since a label alone has no keyword that could be looked up.
 constexpr Takes takes(FlowKind kind) noexcept {
-  for (const Keyword& keyword : kKeywords) {
+  for (const Keyword& keyword : kOWords) {
     if (keyword.kind == kind) {
       return keyword.takes;
     }
@@ -156,7 +156,7 @@ bool OWord::keyword(Flow& flow) {
     flow.kind = FlowKind::label;
     return true;
   }
-  for (const Keyword& keyword : kKeywords) {
+  for (const Keyword& keyword : kOWords) {
     if (keyword.name == std::string_view{name.data(), length}) {
       flow.kind = keyword.kind;
       return true;

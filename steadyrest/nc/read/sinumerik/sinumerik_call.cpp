@@ -12,9 +12,6 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr bool in_name(char c) noexcept {
-  return is_letter(c) || is_digit(c) || c == '_';
-}
 constexpr std::string_view kOwnBlock = "a call or definition needs a separate block";
 
 }  // namespace

@@ -16,14 +16,11 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr double kEqual = 1e-12;  // the manual: relative equality of the comparisons
+constexpr double kRelativelyEqual = 1e-12;  // the manual: relative equality of the comparisons
 // Ranks as in kSigns: comparisons are the weakest, signs and NOT the strongest.
 constexpr int kComparison = 0;
 constexpr int kStrongest = 9;
 
-constexpr bool in_name(char c) noexcept {
-  return is_letter(c) || is_digit(c) || c == '_';
-}
 bool whole(double x) noexcept {
   return x == std::floor(x);
 }
@@ -108,8 +105,8 @@ bool SinumerikExpression::read(double& out) {
 bool SinumerikExpression::apply(Operator op, double& left, double right) {
   const double a = left;
   // Relative: 0.1 + 0.2 == 0.3 holds on the control.
-  const bool equals =
-      a == right || std::abs(a - right) <= kEqual * std::max(std::abs(a), std::abs(right));
+  const bool equals = a == right || std::abs(a - right) <=
+                                        kRelativelyEqual * std::max(std::abs(a), std::abs(right));
   const auto truth = [&](bool yes) {
     left = yes ? 1.0 : 0.0;
     return true;

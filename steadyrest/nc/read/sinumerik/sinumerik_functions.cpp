@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_expression.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
 
@@ -12,7 +12,7 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+using kernel::units::kDegree;
 
 }  // namespace
 

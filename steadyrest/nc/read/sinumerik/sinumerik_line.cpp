@@ -14,9 +14,6 @@ namespace {
 
 // A line is a header (mark, number, label), then words, statements or a call, then a comment.
 // Statements are in sinumerik_call.cpp.
-constexpr bool in_name(char c) noexcept {
-  return is_letter(c) || is_digit(c) || c == '_';
-}
 
 }  // namespace
 

@@ -13,6 +13,10 @@ constexpr bool is_digit(char c) noexcept {
 constexpr bool is_letter(char c) noexcept {
   return static_cast<unsigned char>((static_cast<unsigned char>(c) | 0x20U) - 'a') < 26;
 }
+/// What a name of the dialect `sinumerik` is made of.
+constexpr bool in_name(char c) noexcept {
+  return is_letter(c) || is_digit(c) || c == '_';
+}
 constexpr char upper(char c) noexcept {
   return is_letter(c) ? static_cast<char>(static_cast<unsigned char>(c) & 0xdfU) : c;
 }

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <steadyrest/nc/rewrite/prove/group_text.hpp>
+#include <steadyrest/nc/rewrite/prove/shifts.hpp>
 
 namespace steadyrest::nc::rewrite {
-namespace {
-
-constexpr std::uint32_t bit(std::size_t axis) noexcept {
-  return std::uint32_t{1} << axis;
-}
-
-}  // namespace
 
 // Puts together the lines that the plan wants before the line in hand, from the original alone. The
 // proof compares them with those that are there, character for character.
@@ -25,14 +19,14 @@ Change GroupText::change(std::size_t axis, double from_mm, double to_mm) const {
 // What the line before left open: the correction to put on again behind a change of the frame, a
 // note to write again behind a change of the offset.
 void GroupText::behind_the_line_before(std::size_t axis, double stands_mm) {
-  if ((off_ & bit(axis)) != 0) {
+  if ((off_ & axis_bit(axis)) != 0) {
     text_ += change_text(settings_, change(axis, 0.0, stands_mm), "\n");
   }
-  if ((noted_ & bit(axis)) != 0) {
+  if ((noted_ & axis_bit(axis)) != 0) {
     text_ += renote_text(settings_, plan_.axes[axis].letter, "\n");
   }
-  off_ &= ~bit(axis);
-  noted_ &= ~bit(axis);
+  off_ &= ~axis_bit(axis);
+  noted_ &= ~axis_bit(axis);
 }
 
 void GroupText::stays(std::size_t axis, double stands_mm) {
@@ -41,7 +35,7 @@ void GroupText::stays(std::size_t axis, double stands_mm) {
   if (stands_mm != 0.0 && walk_->sets_offset(letter) && !walk_->ends() &&
       walk_->frame(letter) == Frame::kept) {
     text_ += check_text(settings_, letter, "\n");
-    noted_ |= bit(axis);
+    noted_ |= axis_bit(axis);
   }
 }
 
@@ -49,7 +43,7 @@ void GroupText::goes_off(std::size_t axis, double stands_mm) {
   behind_the_line_before(axis, stands_mm);
   text_ += change_text(settings_, change(axis, stands_mm, 0.0), "\n");
   // At the program's end nothing follows that could put it on again.
-  off_ |= walk_->ends() ? 0U : bit(axis);
+  off_ |= walk_->ends() ? 0U : axis_bit(axis);
 }
 
 void GroupText::changes(std::size_t axis, double from_mm, double to_mm, Site site) {

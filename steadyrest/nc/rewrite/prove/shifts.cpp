@@ -15,10 +15,6 @@ using interpret::MoveKind;
 
 namespace {
 
-std::uint32_t bit(std::size_t axis) noexcept {
-  return std::uint32_t{1} << axis;
-}
-
 // The centre as a point of all axes, so that machine_of() can turn it.
 Axes centre_of(const Move& move) {
   Axes centre = move.start;
@@ -36,7 +32,7 @@ bool same_points(const interpret::SplinePoint& a, const interpret::SplinePoint& 
 
 Shifts::Shifts(const Plan& plan) {
   for (const AxisPlan& axis : plan.axes) {
-    planned_ |= bit(axis.index);
+    planned_ |= axis_bit(axis.index);
   }
 }
 
@@ -49,7 +45,7 @@ std::string Shifts::add(const Move& move, double most_mm) {
     // Twice the largest correction is the most that a change can move an axis: from one end to the
     // other.
     if (distance_mm != 0.0 &&
-        ((planned_ & bit(i)) == 0 || std::abs(distance_mm) > most_mm + kSame_mm)) {
+        ((planned_ & axis_bit(i)) == 0 || std::abs(distance_mm) > most_mm + kSame_mm)) {
       return "an inserted line moves more than a correction";
     }
     // An added rapid moves the changed program's axis ahead of the original's.
@@ -125,7 +121,7 @@ std::string Shifts::one_axis(std::size_t axis, const Move& before, const Differe
     return "a move begins where the one before it did not end";
   }
   // An axis that is not programmed, or by an increment, keeps what it had.
-  const bool may_keep = (frames.acts_at_once & bit(axis)) == 0 &&
+  const bool may_keep = (frames.acts_at_once & axis_bit(axis)) == 0 &&
                         (frames.incremental || same(before.start[axis], before.end[axis]));
   double error_mm = std::abs(end_mm - wanted[axis]);
   if (may_keep) {

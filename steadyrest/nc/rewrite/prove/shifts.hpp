@@ -13,6 +13,11 @@
 
 namespace steadyrest::nc::rewrite {
 
+/// In a mask of axes.
+[[nodiscard]] constexpr std::uint32_t axis_bit(std::size_t axis) noexcept {
+  return std::uint32_t{1} << axis;
+}
+
 /// What a line says about how its positions are meant.
 struct Frames {
   bool incremental = false;        ///< G91

@@ -286,7 +286,7 @@ class Prover {
     if (site == Site::clearance && !(restated_ && same(shifts_.now(axis.index), stands_mm))) {
       return refuse(fmt::format("a correction has no effect: {} is not programmed", axis.letter));
     }
-    acts_at_once_ |= site == Site::clearance ? 0U : std::uint32_t{1} << axis.index;
+    acts_at_once_ |= site == Site::clearance ? 0U : axis_bit(axis.index);
     belongs_here_.changes(index, wanted_mm, stands_mm, site);
     if (window_ != nullptr) {
       window_->ask(index, {.line = changed_run_->line(),

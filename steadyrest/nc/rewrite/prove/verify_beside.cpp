@@ -25,9 +25,9 @@ using kernel::outcome::Result;
 // For corrections that bypass the program's coordinates (R-parameter, setting data): the original's
 // blocks and moves stay, so both programs need not be run side by side. Each group of lines must be
 // the text of a planned step at a safe place, and off at the end.
-class Prover {
+class BesideProver {
  public:
-  explicit Prover(const Claim& claim)
+  explicit BesideProver(const Claim& claim)
       : original_(claim.original),
         changed_(claim.changed),
         plan_(claim.plan),
@@ -219,7 +219,7 @@ class Prover {
 }  // namespace
 
 Result<Proved> verify_beside(const Claim& claim, const interpret::Config& config, bool timed) {
-  return Prover(claim).run(config, timed);
+  return BesideProver(claim).run(config, timed);
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -20,9 +20,9 @@ namespace {
 constexpr std::string_view kServed = "ZYXWVU";
 constexpr std::string_view kNotes = "WVUCBA";
 // LinuxCNC's numbered parameters: #5221 … for G54 (n = 1).
-constexpr int kWorkOffset = 5201;  // + 20 · n + axis
-constexpr int kRotation = 5210;    // + 20 · n
-constexpr int kG92 = 5211;         // + axis
+constexpr int kWorkOffset = 5201;      // + 20 · n + axis
+constexpr int kRotationNumber = 5210;  // + 20 · n
+constexpr int kG92 = 5211;             // + axis
 constexpr int kWorkOffsets = 9;
 // The variable file keeps six digits; mm or inches, as the machine has them.
 constexpr std::string_view kSame = "0.000002";
@@ -44,7 +44,7 @@ std::string in_force(int base) {
 /// Not 0 where G10 L20 would set more or less than this axis: in a work offset that is turned about
 /// Z, and where X is a diameter (LinuxCNC's #<_x> is a radius all the same). Empty for other axes.
 std::string when_crooked(char letter) {
-  const std::string turned = fmt::format("ABS[{}]", in_force(kRotation));
+  const std::string turned = fmt::format("ABS[{}]", in_force(kRotationNumber));
   return letter == 'X' ? turned + "+#<_lathe_diameter_mode>" : letter == 'Y' ? turned : "";
 }
 // G92 counts as well, as it shifts the same axis; #5210 is 1 while it is in force.

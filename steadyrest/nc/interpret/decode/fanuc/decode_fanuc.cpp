@@ -293,7 +293,7 @@ bool FanucDecoder::finish() {
   return true;
 }
 
-bool decode(const Decoding& in, const Block& block, Step& step) {
+bool decode_fanuc(const Decoding& in, const Block& block, Step& step) {
   return FanucDecoder(in, step).block(block);
 }
 
@@ -302,7 +302,7 @@ bool decode(const Decoding& in, const Block& block, Step& step) {
 const DialectRules& fanuc_rules() noexcept {
   // Differences from LinuxCNC: G98 at the start, G10 adds in G91, cycle words stay until G80, P may
   // be left out, no lift before going across.
-  static constexpr DialectRules kRules{.decode = decode,
+  static constexpr DialectRules kRules{.decode = decode_fanuc,
                                        .starts_with_g98 = true,
                                        .g10_adds = true,
                                        .cycle_words_stay = true,

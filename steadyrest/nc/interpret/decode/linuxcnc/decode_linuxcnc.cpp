@@ -72,7 +72,7 @@ class LinuxcncDecoder final : public StepWriter {
   }
 };
 
-bool decode(const Decoding& in, const Block& block, Step& step) {
+bool decode_linuxcnc(const Decoding& in, const Block& block, Step& step) {
   LinuxcncDecoder decoder(in, step);
   const std::uint32_t plain = in.axes | Step::bit('F');
   std::int16_t& motion = step.g[static_cast<std::size_t>(GGroup::motion)];
@@ -99,7 +99,7 @@ bool decode(const Decoding& in, const Block& block, Step& step) {
 const DialectRules& linuxcnc_rules() noexcept {
   // LinuxCNC switches units after F has been read, clears the feed at every G94 and G95, and taps
   // only in G17 as its 2.9 swaps the axes elsewhere.
-  static constexpr DialectRules kRules{.decode = decode,
+  static constexpr DialectRules kRules{.decode = decode_linuxcnc,
                                        .units_first = false,
                                        .feed_mode_clears_feed = true,
                                        .rotary_tool_in_machine_frame = true,

@@ -44,29 +44,29 @@ constexpr std::array kTranslations = {
 };
 
 // Known codes that are not interpreted: named for what they do, as a user would look for them.
-struct Note {
+struct NotInterpreted {
   int code;
   std::string_view text;
 };
 
-constexpr std::array kNotes = {
-    Note{5, "G5 (inclined-axis grinding) is not interpreted"},
-    Note{7, "G7 (inclined-axis grinding) is not interpreted"},
-    Note{25, "a working-area or spindle limit (G25) is not interpreted"},
-    Note{26, "a working-area or spindle limit (G26) is not interpreted"},
-    Note{33, "threading (G33) is not interpreted in this dialect"},
-    Note{41, "cutter radius compensation (G41) is not interpreted"},
-    Note{42, "cutter radius compensation (G42) is not interpreted"},
-    Note{63, "tapping with compensating chuck (G63) is not interpreted"},
-    Note{74, "the reference-point approach (G74) is not interpreted"},
-    Note{75, "the fixed-point approach (G75) is not interpreted"},
-    Note{110, "polar coordinates (G110-G112) are not interpreted"},
-    Note{111, "polar coordinates (G110-G112) are not interpreted"},
-    Note{112, "polar coordinates (G110-G112) are not interpreted"},
-    Note{331, "rigid tapping (G331) is not interpreted"},
-    Note{332, "rigid tapping (G332) is not interpreted"},
-    Note{961, "G961 (constant cutting speed with another feed type) is not interpreted"},
-    Note{971, "G971 is not interpreted"},
+constexpr std::array kNotInterpreted = {
+    NotInterpreted{5, "G5 (inclined-axis grinding) is not interpreted"},
+    NotInterpreted{7, "G7 (inclined-axis grinding) is not interpreted"},
+    NotInterpreted{25, "a working-area or spindle limit (G25) is not interpreted"},
+    NotInterpreted{26, "a working-area or spindle limit (G26) is not interpreted"},
+    NotInterpreted{33, "threading (G33) is not interpreted in this dialect"},
+    NotInterpreted{41, "cutter radius compensation (G41) is not interpreted"},
+    NotInterpreted{42, "cutter radius compensation (G42) is not interpreted"},
+    NotInterpreted{63, "tapping with compensating chuck (G63) is not interpreted"},
+    NotInterpreted{74, "the reference-point approach (G74) is not interpreted"},
+    NotInterpreted{75, "the fixed-point approach (G75) is not interpreted"},
+    NotInterpreted{110, "polar coordinates (G110-G112) are not interpreted"},
+    NotInterpreted{111, "polar coordinates (G110-G112) are not interpreted"},
+    NotInterpreted{112, "polar coordinates (G110-G112) are not interpreted"},
+    NotInterpreted{331, "rigid tapping (G331) is not interpreted"},
+    NotInterpreted{332, "rigid tapping (G332) is not interpreted"},
+    NotInterpreted{961, "G961 (constant cutting speed with another feed type) is not interpreted"},
+    NotInterpreted{971, "G971 is not interpreted"},
 };
 
 // The names of the control are the same in small letters.
@@ -133,7 +133,7 @@ bool SinumerikDecoder::g_word(const Word& word) {
   if (value == 601.0 || value == 602.0 || value == 603.0) {
     return true;  // when an exact stop counts as reached
   }
-  for (const Note& note : kNotes) {
+  for (const NotInterpreted& note : kNotInterpreted) {
     if (value == note.code) {
       return refuse(word, "g_code_not_interpreted", note.text);
     }
@@ -317,7 +317,7 @@ bool SinumerikDecoder::finish() {
   return true;
 }
 
-bool decode(const Decoding& in, const Block& block, Step& step) {
+bool decode_sinumerik(const Decoding& in, const Block& block, Step& step) {
   return SinumerikDecoder(in, step).block(block);
 }
 
@@ -326,7 +326,7 @@ bool decode(const Decoding& in, const Block& block, Step& step) {
 const DialectRules& sinumerik_rules() noexcept {
   // SUPA may be alone in a block and keeps the tool's length; the rounding distance (ADIS) stays in
   // force from block to block.
-  static constexpr DialectRules kRules{.decode = decode,
+  static constexpr DialectRules kRules{.decode = decode_sinumerik,
                                        .machine_frame_alone = true,
                                        .tool_in_machine_frame = true,
                                        .rounding_distance = true,

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Travel X 0 … 600, Y 0 … 400, Z −300 … 0; X and Y 12 m/min, Z 6; spindle 100 … 8000 rev/min.
-kernel::machine::Machine mill() {
+kernel::machine::Machine limited_mill() {
   kernel::machine::Machine out;
   const auto axis = [](const char* name, double min_mm, double max_mm, double speed_mm_min) {
     kernel::machine::Axis one;
@@ -46,7 +46,7 @@ void run(const std::string& text, interpret::Sink& sink, const interpret::Config
 
 /// `LINE: text` of each warning; work offset 0 where it is known.
 std::vector<std::string> warned(const std::string& text, const Known& known = {}) {
-  const auto machine = mill();
+  const auto machine = limited_mill();
   MachineCheck check(machine, known);
   run(text, check);
   std::vector<std::string> out;
@@ -173,7 +173,7 @@ TEST(MachineCheck, CountsWhatItDoesNotKeep) {
   for (int i = 0; i < 1500; ++i) {
     text += fmt::format("G1 X{}\n", 700 + i);
   }
-  const auto machine = mill();
+  const auto machine = limited_mill();
   MachineCheck check(machine, kAll);
   run(text + "M2\n", check);
   // What is shown is bounded, what is counted is not.
@@ -182,7 +182,7 @@ TEST(MachineCheck, CountsWhatItDoesNotKeep) {
 }
 
 std::optional<Warning> idle(const std::string& text) {
-  const auto machine = mill();
+  const auto machine = limited_mill();
   PathBuilder builder(machine);
   run(text, builder);
   const auto path = builder.take();
