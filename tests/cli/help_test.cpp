@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/testing/cases.hpp>
+
 namespace steadyrest::test {
 namespace {
 
@@ -58,7 +60,7 @@ TEST(Help, EveryVerbEndsWithAnExampleThatWorks) {
   for (const Words& verb : verbs()) {
     const Words commands = examples(help_of(verb));
     EXPECT_FALSE(commands.empty()) << verb.back();
-    for (const std::string& command : commands) {
+    for (const std::string& command : kernel::testing::cases(commands)) {
       const Finished finished = run_line(command);
       EXPECT_EQ(finished.code, 0) << command << "\n" << finished.err;
       EXPECT_FALSE(finished.out.empty()) << command;
