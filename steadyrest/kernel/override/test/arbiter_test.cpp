@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -8,6 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <steadyrest/kernel/override/arbiter.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::kernel::override {
 namespace {
@@ -17,9 +17,8 @@ using signal::FeedRequest;
 using signal::OffsetRequest;
 using signal::Room;
 using signal::SpindleRequest;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
+using units::kInfinity;
+using units::kNan;
 
 FeedRequest feed_decision(const std::vector<FeedRequest>& requests) {
   FeedArbiter arbiter;
@@ -60,7 +59,7 @@ TEST(FeedArbiter, ARatioBelowOneCountsWhateverItsReasonSays) {
 
 // 11 is beyond the largest request of 10: a ratio in percent, most likely.
 TEST(FeedArbiter, AnUnfitRatioIsNeutralAndSaysWhy) {
-  for (const double ratio : {kNan, kInf, -kInf}) {
+  for (const double ratio : {kNan, kInfinity, -kInfinity}) {
     const auto decision = feed_decision({{Room::contour, ratio, Reason::contour_limit}});
     EXPECT_EQ(decision.ratio, 1.0);
     EXPECT_EQ(decision.reason, Reason::input_not_finite);
@@ -84,7 +83,7 @@ TEST(FeedArbiter, TheGraverReasonOfTwoWithdrawalsIsShown) {
 // Whatever else is wished, the lowest wish is what comes out.
 RC_GTEST_PROP(FeedArbiter, NoWishIsEverOverruledUpwards, (const std::vector<int>& percent)) {
   std::vector<FeedRequest> requests;
-  double lowest = kInf;
+  double lowest = kInfinity;
   for (const int p : percent) {
     const double ratio = (((p % 300) + 300) % 300) / 100.0;
     requests.push_back({Room::contour, ratio, Reason::contour_limit});
@@ -143,7 +142,7 @@ TEST(OffsetArbiter, OfTheSlopesThatAreAskedForTheSlowestHoldsOnEachAxis) {
   arbiter.add(fast);
   arbiter.add(OffsetRequest{.slope_mm_s = {}});
   EXPECT_EQ(arbiter.decision().slope_mm_s[0], 0.001);
-  EXPECT_EQ(arbiter.decision().slope_mm_s[1], kInf) << "who asks for nothing holds nothing";
+  EXPECT_EQ(arbiter.decision().slope_mm_s[1], kInfinity) << "who asks for nothing holds nothing";
   EXPECT_EQ(arbiter.decision().slope_mm_s[2], 0.0);
 }
 

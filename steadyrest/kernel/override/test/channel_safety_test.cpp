@@ -3,7 +3,6 @@
 // random histories of wishes, panel, faults and cycle times through envelope and hand-over.
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -13,11 +12,14 @@
 
 #include <steadyrest/kernel/override/channel.hpp>
 #include <steadyrest/kernel/override/test/published_tables.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::kernel::override {
 namespace {
 
 using outcome::Reason;
+using units::kInfinity;
+using units::kNan;
 
 constexpr double kTolerance = 1e-8;
 
@@ -28,10 +30,8 @@ struct Scene {
 
 // One wish in eight is no ratio at all.
 double random_wish() {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInf = std::numeric_limits<double>::infinity();
   if (*rc::gen::inRange(0, 8) == 0) {
-    return *rc::gen::element(kNan, kInf, -kInf, -1.0, 1e300);
+    return *rc::gen::element(kNan, kInfinity, -kInfinity, -1.0, 1e300);
   }
   return *rc::gen::inRange(0, 1500) / 1000.0;
 }
@@ -84,9 +84,7 @@ Scene random_scene(bool may_exceed = false) {
       scene.inputs.push_back(input);
     }
     if (*rc::gen::inRange(0, 6) == 0) {
-      scene.inputs.back().step_s =
-          *rc::gen::element(5.0, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
-                            std::numeric_limits<double>::infinity());
+      scene.inputs.back().step_s = *rc::gen::element(5.0, 0.0, -1.0, kNan, kInfinity);
     }
   }
   return scene;
@@ -161,7 +159,7 @@ RC_GTEST_PROP(Safety, TheLayerNeverRaisesTheFeedByAJump, (bool may_exceed)) {
   // table, unless it is the operator who turns his switch up while no mask is on. Up to a panel
   // beyond the table's last step the mask can only come off at that step.
   const Scene scene = random_scene(may_exceed);
-  double bound = std::numeric_limits<double>::infinity();
+  double bound = kInfinity;
   play(scene, [&](auto& channel, auto& input, auto&, auto&, auto&, double before, double now,
                   double panel) {
     const double passed_s =

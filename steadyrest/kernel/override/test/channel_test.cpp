@@ -2,14 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/override/channel.hpp>
+#include <steadyrest/kernel/override/test/cycle.hpp>
 #include <steadyrest/kernel/override/test/published_tables.hpp>
 
 namespace steadyrest::kernel::override {
 namespace {
 
 using outcome::Reason;
-
-constexpr double kCycle_s = 0.001;
+using test::kCycle_s;
 
 /// A channel at 100 % on the panel that is asked for 50 %; it falls by 10 1/s.
 class Asked {

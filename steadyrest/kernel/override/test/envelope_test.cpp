@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/override/envelope.hpp>
+#include <steadyrest/kernel/override/test/cycle.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::kernel::override {
 namespace {
 
 using outcome::Reason;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kCycle_s = 0.001;
+using test::kCycle_s;
+using units::kInfinity;
+using units::kNan;
 
 /// One envelope; each call is one cycle of 1 ms.
 class RatioBench {
@@ -123,7 +123,7 @@ TEST(RatioEnvelope, UnfitInputIsNeutralThroughTheSlewWithItsReason) {
     EXPECT_TRUE(bench.cycle().hand_back);
   };
   spoilt([](auto& input) { input.ratio = kNan; }, Reason::input_not_finite);
-  spoilt([](auto& input) { input.ratio = -kInf; }, Reason::input_not_finite);
+  spoilt([](auto& input) { input.ratio = -kInfinity; }, Reason::input_not_finite);
   spoilt([](auto& input) { input.ratio = -0.1; }, Reason::input_out_of_range);
   spoilt([](auto& input) { input.unfit = Reason::input_stale; }, Reason::input_stale);
   spoilt([](auto& input) { input.panel.panel_code_known = false; }, Reason::unknown_override_code);
@@ -138,7 +138,7 @@ TEST(RatioEnvelope, TimeThatIsNotFiniteMovesNothing) {
   bench.wish(0.4);
   bench.cycles(100);
   auto input = bench.input;
-  for (const double no_time_s : {kNan, kInf, -kInf}) {
+  for (const double no_time_s : {kNan, kInfinity, -kInfinity}) {
     input.step_s = no_time_s;
     const auto output = bench.envelope().update(input);
     EXPECT_EQ(output.ratio, 0.4);
@@ -201,12 +201,12 @@ TEST(RatioEnvelope, RefusesAConfigThatWouldSwitchItOff) {
   EXPECT_FALSE(RatioEnvelope::make({.min_ratio = -0.1}));
   EXPECT_FALSE(RatioEnvelope::make({.min_ratio = kNan}));
   EXPECT_FALSE(RatioEnvelope::make({.min_ratio = 1.3}));
-  EXPECT_FALSE(RatioEnvelope::make({.max_ratio = kInf}));
+  EXPECT_FALSE(RatioEnvelope::make({.max_ratio = kInfinity}));
   EXPECT_FALSE(RatioEnvelope::make({.fall_1_s = 0.0}));
-  EXPECT_FALSE(RatioEnvelope::make({.fall_1_s = kInf}));
-  EXPECT_FALSE(RatioEnvelope::make({.rise_1_s = kInf}));
+  EXPECT_FALSE(RatioEnvelope::make({.fall_1_s = kInfinity}));
+  EXPECT_FALSE(RatioEnvelope::make({.rise_1_s = kInfinity}));
   EXPECT_FALSE(RatioEnvelope::make({.rise_1_s = kNan}));
-  EXPECT_FALSE(RatioEnvelope::make({.max_step_s = kInf}));
+  EXPECT_FALSE(RatioEnvelope::make({.max_step_s = kInfinity}));
   const auto refused = RatioEnvelope::make({.rise_1_s = -2.0});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().what, "envelope: rise_1_s is -2; allowed: finite and > 0");
@@ -280,7 +280,7 @@ TEST(OffsetEnvelope, KeepsTheSlowerOfItsSlewAndOfTheSlopeThatIsAskedFor) {
 }
 
 TEST(OffsetEnvelope, ASlopeThatIsNoneMovesNothing) {
-  for (const double slope_mm_s : {kNan, -1.0, -kInf}) {
+  for (const double slope_mm_s : {kNan, -1.0, -kInfinity}) {
     OffsetBench bench;
     bench.input.request.offset_mm[0] = 0.1;
     bench.input.request.slope_mm_s[0] = slope_mm_s;
@@ -347,7 +347,7 @@ TEST(OffsetEnvelope, ARestoredOffsetIsCutToTheLimitAndNoNumberIsNotTaken) {
 
 TEST(OffsetEnvelope, RefusesLimitsThatAreNone) {
   auto config = OffsetBench::config();
-  config.max_mm[3] = kInf;
+  config.max_mm[3] = kInfinity;
   EXPECT_FALSE(OffsetEnvelope::make(config));
   config = OffsetBench::config();
   config.slew_mm_s = 0.0;

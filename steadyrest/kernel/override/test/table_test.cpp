@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -12,11 +11,13 @@
 #include <steadyrest/kernel/override/gray.hpp>
 #include <steadyrest/kernel/override/table.hpp>
 #include <steadyrest/kernel/override/test/published_tables.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::kernel::override {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using units::kInfinity;
+using units::kNan;
 
 // Oracle: Siemens' list of switch settings, not our formula.
 TEST(Gray, PublishedSwitchPositions) {
@@ -99,7 +100,7 @@ TEST(OverrideTable, FloorNearestAndBounds) {
   EXPECT_EQ(table->floor_step(7 * 0.1), 12U);
   EXPECT_EQ(table->floor_step(1.0 - 0.3), 12U);  // 0.7 less a rounding error
   EXPECT_EQ(table->floor_step(99.0), 22U);
-  EXPECT_EQ(table->floor_step(std::numeric_limits<double>::infinity()), 22U);
+  EXPECT_EQ(table->floor_step(kInfinity), 22U);
   EXPECT_FALSE(table->floor_step(-0.01));
   EXPECT_FALSE(table->floor_step(kNan));
   EXPECT_EQ(table->ceil_step(0.701), 13U);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
-#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 
 #include <steadyrest/kernel/override/test/published_tables.hpp>
 #include <steadyrest/kernel/override/transition.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::kernel::override {
 namespace {
@@ -86,8 +86,7 @@ TEST(Transition, RefusesAScanPeriodThatIsNone) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
   EXPECT_FALSE(Stepper::make(*table, {.latched = false, .scan_period_s = -1.0}));
-  EXPECT_FALSE(Stepper::make(
-      *table, {.latched = true, .scan_period_s = std::numeric_limits<double>::quiet_NaN()}));
+  EXPECT_FALSE(Stepper::make(*table, {.latched = true, .scan_period_s = units::kNan}));
 }
 
 // Scans of 10 ms; the first word, too, must have settled before the walk starts.
@@ -128,8 +127,8 @@ TEST(Stepper, TimeThatIsNoneNeitherHurriesNorDelays) {
   };
   EXPECT_EQ(cycle(9.99), 0U) << "before the first word nothing has stood";
   EXPECT_EQ(cycle(0.010), 1U);
-  EXPECT_EQ(cycle(std::numeric_limits<double>::quiet_NaN()), 1U);
-  EXPECT_EQ(cycle(std::numeric_limits<double>::infinity()), 1U);
+  EXPECT_EQ(cycle(units::kNan), 1U);
+  EXPECT_EQ(cycle(units::kInfinity), 1U);
   EXPECT_EQ(cycle(0.009), 1U);
   EXPECT_EQ(cycle(-7.0), 1U);
   EXPECT_EQ(cycle(0.0), 1U);
