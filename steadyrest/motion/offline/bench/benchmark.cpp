@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/motion/offline/bench/benchmark.hpp>
 #include <steadyrest/motion/offline/calculus/physical_limits.hpp>
 #include <steadyrest/motion/offline/scene/encoder_peer.hpp>
@@ -25,9 +25,8 @@ using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
+using kernel::units::kNan;
 using Clock = std::chrono::steady_clock;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// An estimator with or without the limits of the axis.
 struct Contender {
@@ -58,8 +57,8 @@ double clock_ns() {
 }
 
 struct Cost {
-  double ns_per_tick = kNaN;
-  double ns_per_edge = kNaN;
+  double ns_per_tick = kNan;
+  double ns_per_edge = kNan;
 };
 
 /// One run over the record, edges of a cycle and its tick timed apart.
@@ -89,7 +88,7 @@ Cost cost_of(online::Estimator& estimator, const Record& record, double reading_
     return of >= 100 && std::isfinite(sink)
                ? std::max(0.0, ns - reading_ns * static_cast<double>(reads)) /
                      static_cast<double>(of)
-               : kNaN;
+               : kNan;
   };
   return {per(ticks_ns, record.ticks.size(), record.ticks.size()),
           per(edges_ns, batches, record.edges.size())};
@@ -128,8 +127,8 @@ class SceneRun {
 
   void peer() {
     BenchRow row = start(std::string(kPeerName), false);
-    row.ns_per_tick = kNaN;
-    row.ns_per_edge = kNaN;
+    row.ns_per_tick = kNan;
+    row.ns_per_edge = kNan;
     Sums sums;
     for (std::size_t i = 0; i < scene_.records.size(); ++i) {
       const auto estimates = run_encoder_peer(config_.peer, scene_.records[i]);
@@ -194,7 +193,7 @@ class SceneRun {
     const bool fair = row.limits && scene_.ideal_edges;
     const auto efficiency = [&](double least, const ErrorFigures& figures) {
       const bool bounded = std::isfinite(figures.bound_rms_at_speed);
-      return fair && bounded ? least / figures.bound_rms_at_speed : kNaN;
+      return fair && bounded ? least / figures.bound_rms_at_speed : kNan;
     };
     row.velocity_efficiency = efficiency(landau.velocity_mm_s, row.velocity);
     row.acceleration_efficiency = efficiency(landau.acceleration_mm_s2, row.acceleration);
@@ -242,8 +241,8 @@ void compare(const BenchScene& scene, std::vector<BenchRow>& rows, std::size_t f
   const BenchRow* mt = of("mt");
   for (std::size_t i = from; i < rows.size(); ++i) {
     BenchRow& row = rows[i];
-    row.velocity_gain = difference ? difference->velocity.rms / row.velocity.rms : kNaN;
-    row.acceleration_gain = difference ? difference->acceleration.rms / row.acceleration.rms : kNaN;
+    row.velocity_gain = difference ? difference->velocity.rms / row.velocity.rms : kNan;
+    row.acceleration_gain = difference ? difference->acceleration.rms / row.acceleration.rms : kNan;
     if (!scene.limits_known && row.estimator == estimator_names().front() && difference && mt) {
       row.target_velocity_mm_s = std::min(mt->velocity.rms / 2.2, difference->velocity.rms / 9.0);
       row.target_acceleration_mm_s2 = difference->acceleration.rms / 8.0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/motion/offline/scene/error_curve.hpp>
 
 // The error against the truth of now and of up to 20 ms ago: an estimator that is late has its
@@ -10,10 +10,10 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using kernel::units::kNan;
 
 double root_mean(double sum2, std::size_t count) {
-  return count > 0 ? std::sqrt(sum2 / static_cast<double>(count)) : kNaN;
+  return count > 0 ? std::sqrt(sum2 / static_cast<double>(count)) : kNan;
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ double ErrorCurve::truth_at(const Record& record, std::size_t tick, double t_s) 
     --tick;
   }
   if (tick == 0) {
-    return kNaN;
+    return kNan;
   }
   const double from_s = record.ticks[tick - 1].t_s;
   const double width_s = std::max(record.ticks[tick].t_s - from_s, 1e-12);
@@ -101,7 +101,7 @@ ErrorFigures ErrorCurve::figures() const {
     out.rms_at_lag.push_back(root_mean(sum2_[i], count_[i]));
   }
   out.rms = out.rms_at_lag.front();
-  out.max = count_.front() > 0 ? max_ : kNaN;
+  out.max = count_.front() > 0 ? max_ : kNan;
   // The lag at which the estimate fits best: an estimator's own delay, found and not assumed.
   std::size_t best = 0;
   for (std::size_t i = 1; i < lags_s_.size(); ++i) {
@@ -109,7 +109,7 @@ ErrorFigures ErrorCurve::figures() const {
   }
   out.own_lag_s = lags_s_[best];
   out.rms_at_own_lag = out.rms_at_lag[best];
-  out.coverage = bounded_ > 0 ? static_cast<double>(covered_) / static_cast<double>(ticks_) : kNaN;
+  out.coverage = bounded_ > 0 ? static_cast<double>(covered_) / static_cast<double>(ticks_) : kNan;
   out.bound_rms_at_speed = root_mean(bound2_, at_speed_);
   out.rms_at_speed = root_mean(speed2_, at_speed_);
   return out;

@@ -224,11 +224,11 @@ std::vector<JerkPiece> speed_change(double change_mm_s, double max_acceleration_
 // Rest, 20 mm/s, stop, back at 2 mm/s, stop: fast and slow motion, starts, stops and a reversal in
 // one.
 Profile s_curve() {
-  constexpr double kAcceleration = 200.0;
-  constexpr double kJerk = 5000.0;
+  constexpr double kAcceleration_mm_s2 = 200.0;
+  constexpr double kJerk_mm_s3 = 5000.0;
   std::vector<JerkPiece> pieces{{0.1, 0.0}};
   const auto add = [&](double change, double hold_s) {
-    const std::vector<JerkPiece> ramp = speed_change(change, kAcceleration, kJerk);
+    const std::vector<JerkPiece> ramp = speed_change(change, kAcceleration_mm_s2, kJerk_mm_s3);
     pieces.insert(pieces.end(), ramp.begin(), ramp.end());
     pieces.push_back({hold_s, 0.0});
   };

@@ -11,7 +11,6 @@ namespace {
 
 using online::BackwardDifference;
 
-constexpr double kCount = 0.001;
 constexpr double kCycle = 0.001;
 
 Score at_constant_speed(double counts_per_tick, std::size_t ticks) {

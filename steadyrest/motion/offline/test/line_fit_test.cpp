@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/motion/offline/test/scenes.hpp>
 #include <steadyrest/motion/online/line/line_fit.hpp>
 
 namespace steadyrest::motion::offline::test {
 namespace {
 
 using online::LineFit;
-constexpr double kCount = 0.001;
 
 /// When x(t) = 10·t + 3·t² + 2·t³ passes `x_mm`, by Newton.
 double time_of(double x_mm) {

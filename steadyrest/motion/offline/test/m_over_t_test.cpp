@@ -12,8 +12,6 @@ namespace {
 
 using online::MOverT;
 
-constexpr double kCount = 0.001;
-
 Edge edge_at(double t_s, std::int64_t line, std::int8_t direction) {
   return {t_s, static_cast<double>(line) * kCount, line, direction, 0};
 }

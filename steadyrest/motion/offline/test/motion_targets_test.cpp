@@ -27,8 +27,8 @@ MotionEstimator::Config with_limits(const Record& record, double line_error_mm) 
   return config;
 }
 
-Score scored(const MotionEstimator::Config& config, const Record& record,
-             double min_speed_mm_s = 0.0) {
+Score score_above(const MotionEstimator::Config& config, const Record& record,
+                  double min_speed_mm_s = 0.0) {
   MotionEstimator e = MotionEstimator::make(config).value();
   return score(run(e, record), record, 0.0, kFrom, min_speed_mm_s);
 }
@@ -36,8 +36,8 @@ Score scored(const MotionEstimator::Config& config, const Record& record,
 // The lower bounds lie below what was measured: an improvement beyond them must be noticed.
 TEST(MotionTargets, SineWithIdealEdges) {
   for (const bool limits : {false, true}) {
-    const Score s =
-        scored(limits ? with_limits(sine_ideal(), 0.0) : MotionEstimator::Config{}, sine_ideal());
+    const Score s = score_above(limits ? with_limits(sine_ideal(), 0.0) : MotionEstimator::Config{},
+                                sine_ideal());
     EXPECT_LT(s.velocity_rms_mm_s, 0.0015);
     EXPECT_GT(s.velocity_rms_mm_s, 0.0005);
     EXPECT_LT(s.acceleration_rms_mm_s2, 2.0);
@@ -48,8 +48,8 @@ TEST(MotionTargets, SineWithIdealEdges) {
 TEST(MotionTargets, SineWithLineErrors) {
   for (const bool limits : {false, true}) {
     const Score s =
-        scored(limits ? with_limits(sine_line_errors(), 0.14e-3) : MotionEstimator::Config{},
-               sine_line_errors());
+        score_above(limits ? with_limits(sine_line_errors(), 0.14e-3) : MotionEstimator::Config{},
+                    sine_line_errors());
     EXPECT_LT(s.velocity_rms_mm_s, 0.010);
     EXPECT_GT(s.velocity_rms_mm_s, 0.006);
     EXPECT_LT(s.acceleration_rms_mm_s2, 4.6);
@@ -96,8 +96,8 @@ Curves s_curves(bool limits) {
     const Record record = offline::record(profile, {});
     const MotionEstimator::Config config =
         limits ? with_limits(record, 0.0) : MotionEstimator::Config{};
-    const Score all = scored(config, record);
-    const Score fast = scored(config, record, 1.0);
+    const Score all = score_above(config, record);
+    const Score fast = score_above(config, record, 1.0);
     EXPECT_EQ(all.velocity_coverage, 1.0);
     EXPECT_EQ(all.acceleration_coverage, 1.0);
     v2 += all.velocity_rms_mm_s * all.velocity_rms_mm_s / kPhases;
@@ -153,10 +153,10 @@ TEST(MotionTargets, SCurveWithoutLimits) {
 
 // A bound that is true but a hundred times the error would pass any test of coverage.
 TEST(MotionTargets, BoundsHoldAndAreAtMostFourTimesTheErrorAtSpeed) {
-  const Score s = scored(with_limits(sine_ideal(), 0.0), sine_ideal());
+  const Score s = score_above(with_limits(sine_ideal(), 0.0), sine_ideal());
   EXPECT_EQ(s.velocity_coverage, 1.0);
   EXPECT_EQ(s.acceleration_coverage, 1.0);
-  const Score fast = scored(with_limits(sine_ideal(), 0.0), sine_ideal(), 1.0);
+  const Score fast = score_above(with_limits(sine_ideal(), 0.0), sine_ideal(), 1.0);
   EXPECT_LT(fast.velocity_bound_mm_s, 4.0 * fast.velocity_rms_mm_s);
   EXPECT_LT(fast.acceleration_bound_mm_s2, 4.0 * fast.acceleration_rms_mm_s2);
 }

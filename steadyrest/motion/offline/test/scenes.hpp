@@ -14,6 +14,8 @@ using online::Estimate;
 using online::Estimator;
 using online::Tick;
 
+inline constexpr double kCount = 0.001;  ///< mm
+
 /// 5 % phase and 2 % random error of the lines.
 inline Recording line_errors() {
   Recording how;

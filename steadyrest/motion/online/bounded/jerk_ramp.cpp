@@ -15,7 +15,7 @@ namespace {
 // Which test fails when one is moved: README, "What the constants do".
 constexpr double kOdds = 0.01;       ///< of a stop at any constant jerk, beforehand
 constexpr double kOddsKnown = 0.5;   ///< … when it is the known one
-constexpr double kSame = 0.03;       ///< to this it is the known one
+constexpr double kSameJerk = 0.03;   ///< to this it is the known one
 constexpr double kAtRest = 0.9;      ///< probability of standstill from which a line is a start
 constexpr double kLeastWay = 2.0;    ///< counts that a start goes on with its jerk, at least
 constexpr double kBeyond = 1.1;      ///< of the limit: what lines that are off may feign
@@ -270,7 +270,7 @@ void JerkRamp::fit() noexcept {
   }
   // The unknown jerk needs all six passages: three unknowns through four leave one residual to
   // judge by.
-  const bool same = std::abs(6.0 * curve.c - jerk_) < kSame * jerk_;
+  const bool same = std::abs(6.0 * curve.c - jerk_) < kSameJerk * jerk_;
   if (!same && count_ < kPassages) {
     return;
   }

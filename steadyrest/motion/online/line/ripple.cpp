@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/motion/online/line/ripple.hpp>
 
 namespace steadyrest::motion::online {
 namespace {
+
+using kernel::units::kTurn;
 
 // Which test fails when one is moved: README, "What the constants do".
 constexpr double kLongest = 0.08;       ///< s; a window that took longer is no smooth motion
@@ -21,13 +23,12 @@ constexpr std::int64_t kLeastLines =
     150;  ///< travelled before waves are told from random errors of the lines
 constexpr double kLeastAmplitude = 0.004;  ///< counts
 constexpr double kApart = 0.008;           ///< 1/count, least distance of two waves
-constexpr double kSame = 0.004;            ///< 1/count, a wave is followed so far
-constexpr double kLeastWeight = 32.0;      ///< residuals before the first choice
+constexpr double kSameWave = 0.004;        ///< 1/count, a wave is followed so far
+constexpr double kFirstChoice = 32.0;      ///< residuals before the first choice
 constexpr std::uint32_t kEvery = 16;       ///< residuals from choice to choice
 constexpr double kFollow = 0.005;          ///< share of a residual in the mean squares
 constexpr std::uint32_t kMostFresh = 2;
 constexpr double kMostSlope = 0.3;
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// First column of the inverse of a symmetric positive 4×4 matrix of moments m[i + k]; false where
 /// it is singular.
@@ -100,7 +101,7 @@ void Ripple::learn() noexcept {
   }
   teach();
   search();
-  if (++since_choice_ >= kEvery && weight_sum_ >= kLeastWeight &&
+  if (++since_choice_ >= kEvery && weight_sum_ >= kFirstChoice &&
       highest_ - lowest_ >= kLeastLines) {
     choose();
     since_choice_ = 0;
@@ -263,7 +264,7 @@ void Ripple::choose() noexcept {
     Peak* nearest = nullptr;
     for (Peak& peak : found) {
       const double off = std::abs(peak.frequency - wave_[j].frequency);
-      if (peak.power > 0.0 && off < kSame &&
+      if (peak.power > 0.0 && off < kSameWave &&
           (nearest == nullptr || off < std::abs(nearest->frequency - wave_[j].frequency))) {
         nearest = &peak;
       }

@@ -68,7 +68,7 @@ double largest(const std::vector<double>& values) {
   return out;
 }
 
-Score scored(const Record& record, double max_jerk_mm_s3 = online::kNoBound) {
+Score kalman_score(const Record& record, double max_jerk_mm_s3 = online::kNoBound) {
   return test::scored<MotionEstimator>({.max_jerk_mm_s3 = max_jerk_mm_s3}, record);
 }
 
@@ -286,10 +286,10 @@ TEST(LineCalibration, BringsTheEstimatorBelowTheTarget) {
   Record calibrated = long_sine();
   apply_lines(calibration->table, calibrated);
   for (const double jerk : {online::kNoBound, long_sine().max_jerk_mm_s3}) {
-    const Score before = scored(long_sine(), jerk);
+    const Score before = kalman_score(long_sine(), jerk);
     EXPECT_GT(before.velocity_rms_mm_s, 0.008);
     EXPECT_GT(before.acceleration_rms_mm_s2, 4.0);
-    const Score after = scored(calibrated, jerk);
+    const Score after = kalman_score(calibrated, jerk);
     EXPECT_LT(after.velocity_rms_mm_s, 0.0040);
     EXPECT_LT(after.acceleration_rms_mm_s2, 2.4);
   }
@@ -302,8 +302,10 @@ TEST(LineCalibration, HoldsForAMotionThatItDidNotSee) {
   const Record other = offline::record(sine(1.0, 1.0, 4.0), line_errors());
   Record calibrated = other;
   apply_lines(calibration->table, calibrated);
-  EXPECT_LT(scored(calibrated).velocity_rms_mm_s, 0.6 * scored(other).velocity_rms_mm_s);
-  EXPECT_LT(scored(calibrated).acceleration_rms_mm_s2, 0.6 * scored(other).acceleration_rms_mm_s2);
+  EXPECT_LT(kalman_score(calibrated).velocity_rms_mm_s,
+            0.6 * kalman_score(other).velocity_rms_mm_s);
+  EXPECT_LT(kalman_score(calibrated).acceleration_rms_mm_s2,
+            0.6 * kalman_score(other).acceleration_rms_mm_s2);
 }
 
 // To the last digit: a calibration without effect must not change the estimate.
@@ -312,8 +314,8 @@ TEST(LineCalibration, WithIdealLinesTheEstimatorIsAsGoodAsBefore) {
   ASSERT_TRUE(calibration);
   Record calibrated = long_sine_ideal();
   apply_lines(calibration->table, calibrated);
-  const Score before = scored(long_sine_ideal());
-  const Score after = scored(calibrated);
+  const Score before = kalman_score(long_sine_ideal());
+  const Score after = kalman_score(calibrated);
   EXPECT_DOUBLE_EQ(after.velocity_rms_mm_s, before.velocity_rms_mm_s);
   EXPECT_DOUBLE_EQ(after.acceleration_rms_mm_s2, before.acceleration_rms_mm_s2);
 }
