@@ -10,7 +10,7 @@
 namespace steadyrest::passport {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string as_code(std::string_view text) {
   return fmt::format("`\"{}\"`", text);
 }
 
@@ -47,7 +47,7 @@ struct Describe {
   void operator()(std::string S::* field) {
     range = key.min == key.max ? fmt::format("{} character", shown(key.max))
                                : fmt::format("{} … {} characters", shown(key.min), shown(key.max));
-    standard_value = quoted(standard.*field);
+    standard_value = as_code(standard.*field);
   }
   void operator()(std::vector<double> S::* /*field*/) { between("list of "); }
   void operator()(std::vector<std::uint32_t> S::* /*field*/) { between("list of whole numbers "); }
@@ -55,9 +55,9 @@ struct Describe {
   void operator()(const Choice<S>& field) {
     for (const std::string_view word : field.words) {
       range += range.empty() ? "" : ", ";
-      range += quoted(word);
+      range += as_code(word);
     }
-    standard_value = quoted(field.words[field.get(standard)]);
+    standard_value = as_code(field.words[field.get(standard)]);
   }
 };
 

@@ -42,13 +42,13 @@ Promise promise_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string first;
   std::getline(in, first);
-  constexpr std::string_view kHead = "# refuse ";
+  constexpr std::string_view kRefuse = "# refuse ";
   const std::size_t colon = first.find(": ");
-  if (!first.starts_with(kHead) || colon == std::string::npos || first.size() == colon + 2) {
+  if (!first.starts_with(kRefuse) || colon == std::string::npos || first.size() == colon + 2) {
     ADD_FAILURE() << path << " does not begin with `# refuse LINE: message`";
     return {};
   }
-  return {std::stoul(first.substr(kHead.size())), first.substr(colon + 2)};
+  return {std::stoul(first.substr(kRefuse.size())), first.substr(colon + 2)};
 }
 
 class RefusedMachineFile : public testing::TestWithParam<std::string> {};
