@@ -8,7 +8,7 @@
 namespace steadyrest::sim {
 namespace {
 
-constexpr int kMostSteps = 60;
+constexpr int kMostRounds = 60;
 constexpr int kSecants = 10;
 constexpr double kPrecision = 1e-8;  ///< counts
 
@@ -40,7 +40,7 @@ class Cubic {
     double low = 0.0;
     double high = 1.0;
     const bool rises = slope_mm_ > 0.0;
-    for (int i = 0; i < kMostSteps && high - low > 1e-12; ++i) {
+    for (int i = 0; i < kMostRounds && high - low > 1e-12; ++i) {
       const double middle = 0.5 * (low + high);
       ((slope(middle) > 0.0) == rises ? low : high) = middle;
     }
@@ -62,7 +62,7 @@ double crossing(const Encoder& encoder, const Cubic& x, double late, double earl
   double w = late;
   double f = encoder.reading(x.at(w)) - border_mm;
   double slope = -x.slope(w);
-  for (int i = 0; i < kMostSteps && std::abs(f) > tolerance_mm; ++i) {
+  for (int i = 0; i < kMostRounds && std::abs(f) > tolerance_mm; ++i) {
     ((f > 0.0) == up ? late : early) = w;
     const double last = w;
     w -= f / slope;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/sim/base/portable.hpp>
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/cut/cutting_edges.hpp>
@@ -13,7 +13,8 @@
 namespace steadyrest::sim {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using kernel::units::kTurn;
+
 // A helical edge is cut into slices that lag by at most this angle.
 constexpr double kSliceLag_rad = 0.05;
 constexpr std::size_t kMostSlices = 64;

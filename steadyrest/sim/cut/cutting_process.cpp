@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/cut/cutting_process.hpp>
 
@@ -13,7 +14,8 @@
 namespace steadyrest::sim {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using kernel::units::kTurn;
+
 constexpr double kLeastPerPass = 40.0;  ///< steps from tooth to tooth
 constexpr double kLeastPerArc = 12.0;   ///< steps from entry to exit
 constexpr double kMostSteps = 1 << 20;

@@ -13,6 +13,7 @@
 #include <steadyrest/kernel/override/gray.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/sim/base/test/switch_code.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
 namespace steadyrest::sim {
@@ -24,12 +25,9 @@ using kernel::signal::Motion;
 using nc::interpret::Move;
 using nc::interpret::MoveKind;
 using nc::plan::PlannedPath;
+using test::code_of;
 
 constexpr double kF4000_mm_s = 4000.0 / 60.0;
-
-std::uint32_t code_of(int percent) {
-  return kernel::override::gray_code(static_cast<std::uint32_t>(percent) / 10U + 1U);
-}
 
 Machine mill() {
   Machine machine;

@@ -94,10 +94,10 @@ kernel::machine::Machine follower(double clock_s) {
   return machine;
 }
 
-using Motion = std::function<std::pair<double, double>(double t_s)>;
+using MotionLaw = std::function<std::pair<double, double>(double t_s)>;
 
 /// The body's axis sample in each cycle of the motion.
-void follow(const kernel::machine::Machine& machine, const Motion& motion, int cycles,
+void follow(const kernel::machine::Machine& machine, const MotionLaw& motion, int cycles,
             const std::function<void(const kernel::signal::Frame&)>& look) {
   auto body = MachineBody::make({.machine = machine}).value();
   nc::plan::Setpoint setpoint;

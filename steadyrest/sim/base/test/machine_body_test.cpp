@@ -12,6 +12,7 @@
 
 #include <steadyrest/kernel/override/gray.hpp>
 #include <steadyrest/sim/base/portable.hpp>
+#include <steadyrest/sim/base/test/switch_code.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 
 namespace steadyrest::sim {
@@ -20,10 +21,7 @@ namespace {
 using kernel::machine::Machine;
 using kernel::signal::Command;
 using nc::plan::Setpoint;
-
-std::uint32_t code_of(int percent) {
-  return kernel::override::gray_code(static_cast<std::uint32_t>(percent) / 10U + 1U);
-}
+using test::code_of;
 
 Machine ideal_machine() {
   Machine machine;

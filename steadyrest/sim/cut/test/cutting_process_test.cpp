@@ -13,10 +13,10 @@
 namespace steadyrest::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 CuttingMode mode(double stiffness_n_mm, double frequency_hz, double damping, bool along_x = true) {
-  const double w = 2.0 * kPi * frequency_hz;
+  const double w = 2.0 * pi * frequency_hz;
   return {.shape = {along_x ? 1.0 : 0.0, along_x ? 0.0 : 1.0},
           .frequency_hz = frequency_hz,
           .damping_ratio = damping,
@@ -119,7 +119,7 @@ TEST(CuttingProcess, RigidToolHasTheForcesOfTheChip) {
   }
   EXPECT_NEAR(fx, -2.0 * 0.05 * 200.0 / 4.0, 0.2);
   EXPECT_NEAR(fy, 2.0 * 0.05 * 600.0 / 4.0, 0.2);
-  EXPECT_NEAR(torque, 2.0 / (2.0 * kPi) * 2.0 * 600.0 * 0.05 * 5e-3, 2e-3);
+  EXPECT_NEAR(torque, 2.0 / (2.0 * pi) * 2.0 * 600.0 * 0.05 * 5e-3, 2e-3);
 }
 
 // Runout r and −r: chips of f − 2r and f + 2r in turn. From 2r > f on one tooth cuts nothing, the
@@ -207,7 +207,7 @@ TEST(CuttingProcess, WhatWasMissedIsCutByALaterPass) {
 TEST(CuttingProcess, TheWallShowsTheToolsDeflection) {
   Cutting cut;
   cut.modes = {mode(2e4, 3000.0, 0.1, false)};
-  cut.exit_rad = kPi / 3.0;
+  cut.exit_rad = pi / 3.0;
   CuttingProcess process = made({.cut = cut, .slowest_rev_s = 10.0});
   int walls = 0;
   const auto out = turns(process, {.speed_rev_s = 10.0, .feed_per_tooth_mm = 0.05}, 10);
@@ -236,7 +236,7 @@ TEST(CuttingProcess, HelixAndUnevenPitchKeepTheMeanForce) {
   cut.helix_rad = 0.6;
   cut.depth_mm = 6.0;
   EXPECT_NEAR(mean() / 6.0, straight, 1e-3 * straight);
-  cut.pitch_rad = {2.8, 2.0 * kPi - 2.8};
+  cut.pitch_rad = {2.8, 2.0 * pi - 2.8};
   EXPECT_NEAR(mean() / 6.0, straight, 2e-3 * straight);
 }
 

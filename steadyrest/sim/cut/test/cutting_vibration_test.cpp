@@ -15,7 +15,7 @@ constexpr double kPeriod_s = 0.002;
 
 /// Two teeth, slot, 922 Hz: at 5000 rpm its border lies at 0.4086 mm (Insperger and
 /// Stépán's benchmark; the chatter room's reference has the digits).
-CuttingVibration::Config benchmark(double depth_mm) {
+CuttingVibration::Config benchmark_config(double depth_mm) {
   CuttingVibration::Config config;
   config.cut.modes = {
       CuttingMode{.frequency_hz = 922.0, .damping_ratio = 0.011, .mass_kg = 0.03993}};
@@ -47,7 +47,7 @@ double unforced_um(const CuttingVibration::Cycle& c) {
 // Steps are even in angle, cycles in time: over half a second neither time nor samples may be
 // lost.
 TEST(CuttingVibration, KeepsTheMachinesTime) {
-  auto vibration = CuttingVibration::make(benchmark(0.1)).value();
+  auto vibration = CuttingVibration::make(benchmark_config(0.1)).value();
   const auto cycle = cut(vibration, cutting(), 0.5);
   EXPECT_NEAR(cycle.cutting_s, 0.5, 1e-4);
   EXPECT_NEAR(static_cast<double>(vibration.samples().size()), 0.5 * 10'000.0, 2.0);
@@ -58,8 +58,8 @@ TEST(CuttingVibration, KeepsTheMachinesTime) {
 // 0.1 mm lies below the border of 0.4086 mm, 1.0 mm above it: only regenerative vibration survives
 // the difference over a tooth pass.
 TEST(CuttingVibration, RepeatsFromToothToToothBelowTheBorderAndNotAbove) {
-  auto stable = CuttingVibration::make(benchmark(0.1)).value();
-  auto unstable = CuttingVibration::make(benchmark(1.0)).value();
+  auto stable = CuttingVibration::make(benchmark_config(0.1)).value();
+  auto unstable = CuttingVibration::make(benchmark_config(1.0)).value();
   cut(stable, cutting(), 0.5);
   cut(unstable, cutting(), 0.5);
   const auto below = cut(stable, cutting(), 0.2);
@@ -71,7 +71,7 @@ TEST(CuttingVibration, RepeatsFromToothToToothBelowTheBorderAndNotAbove) {
 
 // Turning the feed by 90° must be the same as turning the mode by −90°.
 TEST(CuttingVibration, AModeAcrossTheFeedIsAModeAlongAFeedThatIsTurned) {
-  auto along_x = benchmark(0.1);
+  auto along_x = benchmark_config(0.1);
   auto along_y = along_x;
   along_y.cut.modes[0].shape = {0.0, 1.0};
   auto turned = CuttingVibration::make(along_x).value();
@@ -87,7 +87,7 @@ TEST(CuttingVibration, AModeAcrossTheFeedIsAModeAlongAFeedThatIsTurned) {
 }
 
 TEST(CuttingVibration, TheSensorHearsTheToothPassing) {
-  auto vibration = CuttingVibration::make(benchmark(0.1)).value();
+  auto vibration = CuttingVibration::make(benchmark_config(0.1)).value();
   cut(vibration, cutting(), 0.5);
   cut(vibration, cutting(), 0.3);
   // Goertzel's sums at the tooth's frequency and halfway to the next of its multiples.
@@ -109,7 +109,7 @@ TEST(CuttingVibration, TheSensorHearsTheToothPassing) {
 
 // After 0.5 s in the air e^−ζωt = e^−32 is left of 922 Hz.
 TEST(CuttingVibration, OutOfTheCutTheToolRingsDownAndNothingIsCounted) {
-  auto vibration = CuttingVibration::make(benchmark(1.0)).value();
+  auto vibration = CuttingVibration::make(benchmark_config(1.0)).value();
   cut(vibration, cutting(), 0.5);
   auto air = cutting();
   air.in_cut = false;
@@ -124,13 +124,13 @@ TEST(CuttingVibration, OutOfTheCutTheToolRingsDownAndNothingIsCounted) {
 }
 
 TEST(CuttingVibration, TakesNoMemoryInTheCycle) {
-  auto vibration = CuttingVibration::make(benchmark(1.0)).value();
+  auto vibration = CuttingVibration::make(benchmark_config(1.0)).value();
   const kernel::rt::testing::AllocationGuard guard;
   cut(vibration, cutting(), 0.1);
 }
 
 TEST(CuttingVibration, RefusesASensorThatIsNone) {
-  auto config = benchmark(1.0);
+  auto config = benchmark_config(1.0);
   config.sensor_rate_hz = 10.0;
   EXPECT_FALSE(CuttingVibration::make(config));
 }

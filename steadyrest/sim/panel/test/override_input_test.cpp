@@ -7,12 +7,14 @@
 #include <rapidcheck.h>
 
 #include <steadyrest/kernel/override/gray.hpp>
+#include <steadyrest/sim/base/test/switch_code.hpp>
 #include <steadyrest/sim/panel/override_input.hpp>
 
 namespace steadyrest::sim {
 namespace {
 
 using kernel::machine::OverrideTable;
+using test::code_of;
 
 /// 0, 10 … 120 %, Gray.
 OverrideTable switch_table() {
@@ -24,10 +26,6 @@ OverrideTable switch_table() {
   table.scan_period_s = 0.010;
   table.dead_time_s = 0.025;
   return table;
-}
-
-std::uint32_t code_of(int percent) {
-  return kernel::override::gray_code(static_cast<std::uint32_t>(percent) / 10U + 1U);
 }
 
 /// Drives one input in time.

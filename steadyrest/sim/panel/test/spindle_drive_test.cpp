@@ -11,7 +11,7 @@
 namespace steadyrest::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 SpindleDrive drive(const kernel::machine::Spindle& spindle) {
   auto made = SpindleDrive::make({.spindle = spindle});
@@ -47,7 +47,7 @@ TEST(SpindleDrive, TorqueThenPowerLimitTheRunUpAsTheClosedFormSays) {
   const double power = 5000.0;
   // t = J·ω_b/M + J·(ω² − ω_b²)/(2P), ω_b = P/M
   const double base = power / torque;
-  const double omega = 2.0 * kPi * 100.0;
+  const double omega = 2.0 * pi * 100.0;
   const double truth =
       inertia * base / torque + inertia * (omega * omega - base * base) / (2.0 * power);
   for (const double period_s : {0.0005, 0.004}) {
@@ -115,9 +115,9 @@ TEST(SpindleDrive, NeverPassesTorquePowerOrRamp) {
         const double now = spindle.update({.command_rev_s = command, .period_s = h}).actual_rev_s;
         const double rate = std::abs(now - before) / h;
         const double energy =
-            2.0 * kPi * kPi * s.inertia_kg_m2 * std::abs(now * now - before * before) / h;
+            2.0 * pi * pi * s.inertia_kg_m2 * std::abs(now * now - before * before) / h;
         RC_ASSERT(rate <= s.acceleration_rev_s2 * (1.0 + 1e-9));
-        RC_ASSERT(2.0 * kPi * s.inertia_kg_m2 * rate <= s.max_torque_n_m * (1.0 + 1e-9));
+        RC_ASSERT(2.0 * pi * s.inertia_kg_m2 * rate <= s.max_torque_n_m * (1.0 + 1e-9));
         RC_ASSERT(energy <= s.rated_power_w * (1.0 + 1e-9));
         before = now;
       }
