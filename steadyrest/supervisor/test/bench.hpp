@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include <steadyrest/kernel/override/test/published_tables.hpp>
@@ -15,8 +14,6 @@ namespace signal = kernel::signal;
 using kernel::outcome::Reason;
 using machine::Mode;
 
-inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-inline constexpr double kInf = std::numeric_limits<double>::infinity();
 inline constexpr double kCycle_s = 0.001;
 inline constexpr kernel::port::Capability kAll{
     .feed_override = true, .spindle_override = true, .axis_offset = true, .latched_word = true};

@@ -11,6 +11,8 @@
 #include <steadyrest/motion/online/line/line_table.hpp>
 #include <steadyrest/motion/online/line/stored_lines.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
+#include <steadyrest/supervisor/test/bench.hpp>
+#include <steadyrest/supervisor/test/encoder.hpp>
 
 namespace steadyrest::supervisor {
 namespace {
@@ -18,13 +20,13 @@ namespace {
 namespace machine = kernel::machine;
 namespace signal = kernel::signal;
 using motion::online::LineTable;
+using test::kClock_s;
+using test::kCount_mm;
+using test::kCycle_s;
+using test::kRate_1_s;
 
-constexpr double kCount_mm = 0.001;
-constexpr double kCycle_s = 0.001;
-constexpr double kClock_s = 1e-7;
 constexpr double kMean_mm_s = 20.0;
 constexpr double kSwing_mm = 1.0;
-constexpr double kRate_1_s = 2.0 * std::numbers::pi * 2.0;
 constexpr std::int64_t kRevolution = 4000;
 
 /// An axis that turns on and on, x = 20·t + 1 − cos(4π·t), on an encoder whose lines stand off by
@@ -162,7 +164,7 @@ struct Seen {
 };
 
 /// 3 s, the first 0.2 s not scored.
-Seen run(const machine::Machine& machine) {
+Seen watch(const machine::Machine& machine) {
   auto stage = MotionStage::make(machine).value();
   Counter counter;
   Seen seen;
@@ -191,8 +193,8 @@ Seen run(const machine::Machine& machine) {
 
 // Measured: 0.0214 → 0.0036 mm/s, 7.0 → 2.7 mm/s², bound 0.38 → 0.19 mm/s.
 TEST(CalibratedAxis, IsSeenFiveTimesFinerThanWithoutItsCalibration) {
-  const Seen before = run(with_encoder());
-  const Seen after = run(calibrated());
+  const Seen before = watch(with_encoder());
+  const Seen after = watch(calibrated());
   EXPECT_LT(after.velocity_rms_mm_s, before.velocity_rms_mm_s / 5.0);
   EXPECT_LT(after.acceleration_rms_mm_s2, before.acceleration_rms_mm_s2 / 2.2);
   EXPECT_LT(after.bound_rms_mm_s, before.bound_rms_mm_s / 1.9);
@@ -205,8 +207,8 @@ TEST(CalibratedAxis, IsSeenFiveTimesFinerThanWithoutItsCalibration) {
 TEST(CalibratedAxis, BoundsRestOnTheUncalibratedErrorWhereALineWasNotLearnt) {
   auto machine = calibrated();
   machine.axes[0].encoder.line_table_mm[5] = 0.0;
-  const Seen seen = run(machine);
-  const Seen without = run(with_encoder());
+  const Seen seen = watch(machine);
+  const Seen without = watch(with_encoder());
   EXPECT_GT(seen.bound_rms_mm_s, without.bound_rms_mm_s);
   EXPECT_LT(seen.velocity_rms_mm_s, without.velocity_rms_mm_s / 4.0);
   EXPECT_EQ(seen.outside, 0);

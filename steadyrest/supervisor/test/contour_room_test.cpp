@@ -8,6 +8,7 @@
 #include <steadyrest/kernel/override/test/published_tables.hpp>
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/supervisor/test/bench.hpp>
 
 namespace steadyrest::supervisor {
 namespace {
@@ -16,15 +17,15 @@ namespace machine = kernel::machine;
 namespace signal = kernel::signal;
 using kernel::outcome::Reason;
 using machine::Mode;
+using test::kCycle_s;
 
 constexpr double kRadius_mm = 10.0;
 constexpr double kFeed_mm_s = 4000.0 / 60.0;
 constexpr double kGain_1_s = 50.0;
-constexpr double kCycle_s = 0.001;
 constexpr double kTurns = 20.0;
 
 // Codes of the 840D's feed switch: Gray code of the step's number, i xor i/2.
-machine::Machine mill(Mode mode, bool contour) {
+machine::Machine lagging_mill(Mode mode, bool contour) {
   machine::Machine machine;
   machine.mode = mode;
   machine.axes.resize(3);
@@ -110,7 +111,7 @@ class Circle {
 
 TEST(ContourRoom, WithoutTheLayerTheCircleIsSmallerByTheClosedForm) {
   // ε = R·(1 − 1/√(1 + q²)), q = v/(R·k): 0.0877 mm.
-  Circle circle(mill(Mode::observe, true));
+  Circle circle(lagging_mill(Mode::observe, true));
   circle.run(3.0);
   EXPECT_NEAR(circle.true_error_mm(), 0.0877, 0.0877 * 0.01);
   ASSERT_TRUE(circle.supervisor.estimates().contour);
@@ -122,7 +123,7 @@ TEST(ContourRoom, WithoutTheLayerTheCircleIsSmallerByTheClosedForm) {
 // mm.
 TEST(ContourRoom, ActHoldsTheLimitOnTheLargestStepThatTheClosedFormAllows) {
   // v_max for 10 µm is 1343 mm/min = 33 % of F4000: the step is 30 %.
-  Circle circle(mill(Mode::act, true));
+  Circle circle(lagging_mill(Mode::act, true));
   const auto command = circle.run(5.0);
   EXPECT_EQ(command.feed_ratio, 0.30);
   EXPECT_TRUE(command.feed_masks_panel);
@@ -133,7 +134,7 @@ TEST(ContourRoom, ActHoldsTheLimitOnTheLargestStepThatTheClosedFormAllows) {
 }
 
 TEST(ContourRoom, AdviseNamesAStepAndLeavesTheMachineAlone) {
-  Circle circle(mill(Mode::advise, true));
+  Circle circle(lagging_mill(Mode::advise, true));
   const auto command = circle.run(5.0);
   EXPECT_FALSE(command.write);
   EXPECT_LT(command.feed_ratio, 1.0);
@@ -141,7 +142,7 @@ TEST(ContourRoom, AdviseNamesAStepAndLeavesTheMachineAlone) {
 }
 
 TEST(ContourRoom, SwitchedOffInTheMachineFileItAsksForNothing) {
-  Circle circle(mill(Mode::act, false));
+  Circle circle(lagging_mill(Mode::act, false));
   const auto command = circle.run(2.0);
   EXPECT_FALSE(circle.supervisor.estimates().contour);
   EXPECT_FALSE(command.feed_masks_panel);
@@ -150,14 +151,14 @@ TEST(ContourRoom, SwitchedOffInTheMachineFileItAsksForNothing) {
 }
 
 TEST(ContourRoom, ACycleWithTheRoomAllocatesNothing) {
-  Circle circle(mill(Mode::act, true));
+  Circle circle(lagging_mill(Mode::act, true));
   circle.run(0.1);
   const kernel::rt::testing::AllocationGuard guard;
   circle.run(0.5);
 }
 
 TEST(ContourRoom, SettingsThatTheRoomRefusesAreTheSupervisorsRefusal) {
-  auto machine = mill(Mode::act, true);
+  auto machine = lagging_mill(Mode::act, true);
   machine.contour.min_ratio = 0.96;
   machine.contour.max_ratio = 0.97;
   EXPECT_FALSE(Supervisor::make(machine, {.feed_override = true}));

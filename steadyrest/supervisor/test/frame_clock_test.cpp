@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <limits>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/frame_clock.hpp>
 
 namespace steadyrest::supervisor {
 namespace {
 
 using kernel::outcome::Reason;
+using kernel::units::kInfinity;
+using kernel::units::kNan;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kCycle_s = 0.004;
+constexpr double kUsual_s = 0.004;
 
 FrameClock fresh() {
-  return FrameClock::make({.usual_s = kCycle_s}).value();
+  return FrameClock::make({.usual_s = kUsual_s}).value();
 }
 
 FrameClock running() {
   FrameClock clock = fresh();
   for (int i = 1; i <= 100; ++i) {
-    clock.update(kCycle_s * i);
+    clock.update(kUsual_s * i);
   }
   return clock;
 }
@@ -31,27 +31,28 @@ FrameClock running() {
 TEST(FrameClock, WhereAllStampsAreGoodItIsTheStamp) {
   FrameClock clock = fresh();
   for (int i = 1; i < 100'000; ++i) {
-    const double stamp_s = kCycle_s * i;
+    const double stamp_s = kUsual_s * i;
     const auto tick = clock.update(stamp_s);
     ASSERT_TRUE(tick.good);
     ASSERT_EQ(tick.time_s, stamp_s);
-    ASSERT_NEAR(tick.step_s, i == 1 ? 0.0 : kCycle_s, 1e-9);
+    ASSERT_NEAR(tick.step_s, i == 1 ? 0.0 : kUsual_s, 1e-9);
   }
 }
 
 // 0.4 s is the last good stamp. Wrong ones lie behind, far behind, just too far ahead, out of a
 // double's resolution, and at no number; the cycle after must have credit for one step, not two.
 TEST(FrameClock, OneWrongStampGivesNoCreditAndMovesNothing) {
-  for (const double wrong_s : {-1.0, -1e9, 0.3, 0.4 + 0.15, 5.0, 1e300, kNan, kInf, -kInf}) {
+  for (const double wrong_s :
+       {-1.0, -1e9, 0.3, 0.4 + 0.15, 5.0, 1e300, kNan, kInfinity, -kInfinity}) {
     FrameClock clock = running();
     const auto doubted = clock.update(wrong_s);
     EXPECT_FALSE(doubted.good) << wrong_s;
     EXPECT_EQ(doubted.step_s, 0.0) << wrong_s;
     EXPECT_EQ(doubted.time_s, 0.4) << wrong_s;
-    const auto again = clock.update(0.4 + 2 * kCycle_s);
+    const auto again = clock.update(0.4 + 2 * kUsual_s);
     EXPECT_TRUE(again.good) << wrong_s;
-    EXPECT_NEAR(again.step_s, kCycle_s, 1e-12) << wrong_s;
-    EXPECT_EQ(again.time_s, 0.4 + 2 * kCycle_s) << wrong_s;
+    EXPECT_NEAR(again.step_s, kUsual_s, 1e-12) << wrong_s;
+    EXPECT_EQ(again.time_s, 0.4 + 2 * kUsual_s) << wrong_s;
   }
 }
 
@@ -74,18 +75,18 @@ TEST(FrameClock, TimeThatStandsGivesNoCredit) {
   for (int i = 0; i < 1000; ++i) {
     EXPECT_EQ(clock.update(0.4).step_s, 0.0);
   }
-  EXPECT_NEAR(clock.update(0.4 + kCycle_s).step_s, kCycle_s, 1e-12);
+  EXPECT_NEAR(clock.update(0.4 + kUsual_s).step_s, kUsual_s, 1e-12);
 }
 
 TEST(FrameClock, AClockThatWasSetBackGoesOnFromItsSecondStamp) {
   FrameClock clock = running();
   EXPECT_EQ(clock.update(0.1).fault, Reason::input_out_of_range);
-  const auto tick = clock.update(0.1 + kCycle_s);
+  const auto tick = clock.update(0.1 + kUsual_s);
   EXPECT_TRUE(tick.good);
   EXPECT_TRUE(tick.set);
   EXPECT_EQ(tick.fault, Reason::none);
-  EXPECT_NEAR(tick.step_s, kCycle_s, 1e-12);
-  EXPECT_NEAR(tick.time_s, 0.4 + kCycle_s, 1e-12) << "good time never runs backwards";
+  EXPECT_NEAR(tick.step_s, kUsual_s, 1e-12);
+  EXPECT_NEAR(tick.time_s, 0.4 + kUsual_s, 1e-12) << "good time never runs backwards";
 }
 
 TEST(FrameClock, AGapPassesButGivesNoCredit) {
@@ -93,10 +94,10 @@ TEST(FrameClock, AGapPassesButGivesNoCredit) {
   const auto first = clock.update(60.0);
   EXPECT_FALSE(first.good);
   EXPECT_EQ(first.fault, Reason::none) << "what the frame shows may be acted on";
-  const auto tick = clock.update(60.0 + kCycle_s);
+  const auto tick = clock.update(60.0 + kUsual_s);
   EXPECT_TRUE(tick.good);
-  EXPECT_NEAR(tick.step_s, kCycle_s, 1e-12);
-  EXPECT_EQ(tick.time_s, 60.0 + kCycle_s);
+  EXPECT_NEAR(tick.step_s, kUsual_s, 1e-12);
+  EXPECT_EQ(tick.time_s, 60.0 + kUsual_s);
 }
 
 // Cycle 4 ms, stamps 75 ms apart. Frame 0 begins, 1 … 17 are in doubt (sixteen steps in a row),
@@ -117,11 +118,11 @@ TEST(FrameClock, LostFramesOfARegularSourceCostTheirTime) {
   double counted_s = 0.0;
   for (int i = 0; i < 10'000; ++i) {
     if (i % 10 != 3) {
-      counted_s += clock.update(kCycle_s * i + (i % 3) * 0.0002).step_s;
+      counted_s += clock.update(kUsual_s * i + (i % 3) * 0.0002).step_s;
     }
   }
-  EXPECT_GT(counted_s, 0.89 * 10'000 * kCycle_s);
-  EXPECT_LE(counted_s, 0.93 * 10'000 * kCycle_s);
+  EXPECT_GT(counted_s, 0.89 * 10'000 * kUsual_s);
+  EXPECT_LE(counted_s, 0.93 * 10'000 * kUsual_s);
 }
 
 // At 1e300 neighbouring doubles lie 1e284 s apart: no cycle could ever be told from it.
@@ -129,7 +130,7 @@ TEST(FrameClock, AStampWithoutResolutionIsNoBeginning) {
   FrameClock clock = fresh();
   EXPECT_EQ(clock.update(1e300).fault, Reason::input_out_of_range);
   EXPECT_TRUE(clock.update(5.0).set);
-  EXPECT_NEAR(clock.update(5.0 + kCycle_s).step_s, kCycle_s, 1e-12);
+  EXPECT_NEAR(clock.update(5.0 + kUsual_s).step_s, kUsual_s, 1e-12);
 }
 
 TEST(FrameClock, ARestoredStateGoesOnAsItWouldHave) {
@@ -138,7 +139,7 @@ TEST(FrameClock, ARestoredStateGoesOnAsItWouldHave) {
   FrameClock restored = fresh();
   restored.restore(clock.state());
   for (int i = 102; i <= 400; ++i) {
-    const double stamp_s = i % 7 == 0 ? 9.0 + kCycle_s * i : kCycle_s * i;
+    const double stamp_s = i % 7 == 0 ? 9.0 + kUsual_s * i : kUsual_s * i;
     const FrameClock::Tick a = clock.update(stamp_s);
     const FrameClock::Tick b = restored.update(stamp_s);
     ASSERT_EQ(a.time_s, b.time_s);
@@ -159,7 +160,7 @@ TEST(FrameClock, AStateThatIsNotFiniteIsNotRestored) {
   state.stamp_s = kNan;
   clock.restore(state);
   EXPECT_TRUE(clock.update(7.0).set);
-  EXPECT_TRUE(clock.update(7.0 + kCycle_s).good);
+  EXPECT_TRUE(clock.update(7.0 + kUsual_s).good);
 }
 
 // The law that all slews rest on. Real time is known here, the clock sees stamps only.
@@ -173,21 +174,21 @@ RC_GTEST_PROP(FrameClock, CreditNeverPassesTheRealTimeWhateverTheStamps, ()) {
   const int wrong_of_20 = *rc::gen::inRange(0, 20);
   double offset_s = 0.0;
   for (int i = 0; i < cycles; ++i) {
-    real_s += kCycle_s;
+    real_s += kUsual_s;
     if (*rc::gen::inRange(0, 60) == 0) {
       offset_s = *rc::gen::inRange(-1000, 1000) * 0.1;  // set, for good
     }
     double stamp_s = real_s + offset_s;
     if (*rc::gen::inRange(0, 20) < wrong_of_20) {
-      stamp_s = *rc::gen::element(kNan, kInf, -kInf, 0.0, -1e300, 1e300, last_s, stamp_s - 1.0,
-                                  stamp_s - 0.05, stamp_s + 0.15, stamp_s + 30.0);
+      stamp_s = *rc::gen::element(kNan, kInfinity, -kInfinity, 0.0, -1e300, 1e300, last_s,
+                                  stamp_s - 1.0, stamp_s - 0.05, stamp_s + 0.15, stamp_s + 30.0);
     }
     last_s = stamp_s;
     const double before_s = clock.time_s();
     const auto tick = clock.update(stamp_s);
     credit_s += tick.step_s;
     RC_ASSERT(tick.step_s >= 0.0);
-    RC_ASSERT(tick.step_s <= 1.3 * kCycle_s);
+    RC_ASSERT(tick.step_s <= 1.3 * kUsual_s);
     RC_ASSERT(tick.time_s >= before_s);
     RC_ASSERT(credit_s <= real_s - 0.4 + 1e-9);
   }

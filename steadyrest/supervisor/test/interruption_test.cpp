@@ -2,6 +2,7 @@
 // Faults of time, modes, threads, aborts and links: what a review found, as tests.
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/supervisor/test/bench.hpp>
 
@@ -11,12 +12,12 @@ namespace {
 namespace signal = kernel::signal;
 using kernel::machine::Mode;
 using kernel::outcome::Reason;
+using kernel::units::kInfinity;
+using kernel::units::kNan;
 using test::Bench;
 using test::FakePort;
 using test::kAll;
 using test::kCycle_s;
-using test::kInf;
-using test::kNan;
 using test::mill;
 
 /// Words go over separate wires and are read every 20 ms.
@@ -33,7 +34,8 @@ kernel::machine::Machine wired(Mode mode, bool may_exceed = false) {
 // Twenty wrong stamps among good ones. By cycle k real time allows a rise of 2·T·k and an offset
 // of 0.05·T·k, whatever the stamps claim.
 TEST(Interruption, AWrongTimeStampGivesNoCreditToAnySlew) {
-  for (const double wrong_s : {-1.0, -1e6, -0.05, 0.05, 0.15, 5.0, 1e9, kNan, kInf, -kInf}) {
+  for (const double wrong_s :
+       {-1.0, -1e6, -0.05, 0.05, 0.15, 5.0, 1e9, kNan, kInfinity, -kInfinity}) {
     Bench bench;
     bench.wish_feed(0.4);
     bench.wish_offset(0.0);
@@ -82,7 +84,7 @@ TEST(Interruption, AFrameWithoutTimeSettlesNoWord) {
   bench.frame.feed.panel_ratio = 0.0;
   bench.cycles(100);
   bench.frame.feed.panel_ratio = 0.95;
-  for (const double time_s : {kInf, kNan, -kInf, 0.0}) {
+  for (const double time_s : {kInfinity, kNan, -kInfinity, 0.0}) {
     auto glitch = bench.frame;
     glitch.time_s = time_s;
     const auto command =

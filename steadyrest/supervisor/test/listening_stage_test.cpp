@@ -18,7 +18,7 @@ using kernel::signal::Frame;
 using kernel::signal::Motion;
 
 constexpr double kRate_hz = 10e3;
-constexpr double kCycle_s = 0.002;
+constexpr double kFrame_s = 0.002;
 constexpr double kSpeed_rev_s = 80.0;
 constexpr std::size_t kTeeth = 2;
 
@@ -39,7 +39,7 @@ class Cut {
  public:
   Frame frame() {
     samples_.clear();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(kCycle_s * kRate_hz + 0.5); ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kFrame_s * kRate_hz + 0.5); ++i) {
       time_s_ += 1.0 / kRate_hz;
       const auto wave = [this](double hz) {
         return std::sin(2.0 * std::numbers::pi * hz * time_s_);

@@ -9,24 +9,27 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/supervisor/test/bench.hpp>
+#include <steadyrest/supervisor/test/encoder.hpp>
 
 namespace steadyrest::supervisor {
 namespace {
 
 namespace machine = kernel::machine;
 namespace signal = kernel::signal;
+using kernel::units::kNan;
+using test::kClock_s;
+using test::kCount_mm;
+using test::kCycle_s;
+using test::kRate_1_s;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCount_mm = 0.001;
-constexpr double kCycle_s = 0.001;
-constexpr double kClock_s = 1e-7;
 constexpr double kAmplitude_mm = 1.0;
-constexpr double kRate_1_s = 2.0 * std::numbers::pi * 2.0;
 
 /// Two axes; the limits are those of the sine below.
-machine::Machine mill() {
+machine::Machine two_axes() {
   machine::Machine machine;
   machine.axes.resize(2);
   for (auto& axis : machine.axes) {
@@ -120,7 +123,7 @@ Rms run(const machine::Machine& machine, const Change& change = [](signal::Frame
 
 // What the difference of the counts gives on this sine: 0.43 mm/s, 707 mm/s² (q/(√6·T), q/(√2·T²)).
 TEST(MotionStage, SeesASineAHundredTimesFinerThanTheDifferenceOfItsCounts) {
-  const Rms rms = run(mill());
+  const Rms rms = run(two_axes());
   EXPECT_LT(rms.velocity_mm_s, 0.0043);
   EXPECT_LT(rms.acceleration_mm_s2, 7.07);
   EXPECT_EQ(rms.outside, 0);
@@ -131,7 +134,7 @@ TEST(MotionStage, SeesASineAHundredTimesFinerThanTheDifferenceOfItsCounts) {
 
 // Twice the errors at most: at a turn the sign of the counts says nothing for a cycle.
 TEST(MotionStage, TakesTheDirectionFromTheCountsWhereTheControlDoesNotShowIt) {
-  const Rms rms = run(mill(), [](signal::Frame& frame) { frame.axis[0].edge_direction = 0; });
+  const Rms rms = run(two_axes(), [](signal::Frame& frame) { frame.axis[0].edge_direction = 0; });
   EXPECT_LT(rms.velocity_mm_s, 0.0086);
   EXPECT_LT(rms.acceleration_mm_s2, 14.0);
 }
@@ -139,7 +142,7 @@ TEST(MotionStage, TakesTheDirectionFromTheCountsWhereTheControlDoesNotShowIt) {
 // Two ways to have no stamps: the machine file says that there is no clock, with the port showing
 // stamps all the same (they must not be used) or not.
 TEST(MotionStage, WithoutTimeStampsTheCountsAloneAreStillBetterThanTheirDifference) {
-  auto machine = mill();
+  auto machine = two_axes();
   machine.axes[0].encoder.clock_s = 0.0;
   for (const bool shown : {false, true}) {
     const Rms rms = run(machine, [&](signal::Frame& frame) {
@@ -160,9 +163,9 @@ void expect_none(const signal::AxisSample& axis) {
 }
 
 TEST(MotionStage, GivesNoEstimateWithoutAnEncoder) {
-  auto ideal = mill();
+  auto ideal = two_axes();
   ideal.axes[0].encoder.count_mm = 0.0;
-  auto absent = mill();
+  auto absent = two_axes();
   absent.axes[0].present = false;
   for (const auto& machine : {ideal, absent}) {
     auto stage = MotionStage::make(machine).value();
@@ -174,7 +177,7 @@ TEST(MotionStage, GivesNoEstimateWithoutAnEncoder) {
       expect_none(frame.axis[0]);
     }
   }
-  auto stage = MotionStage::make(mill()).value();
+  auto stage = MotionStage::make(two_axes()).value();
   Sine sine;
   for (int i = 0; i < 50; ++i) {
     auto frame = sine.next();
@@ -187,8 +190,8 @@ TEST(MotionStage, GivesNoEstimateWithoutAnEncoder) {
 }
 
 TEST(MotionStage, ARestoredStateGoesOnAsItWouldHave) {
-  auto first = MotionStage::make(mill()).value();
-  auto second = MotionStage::make(mill()).value();
+  auto first = MotionStage::make(two_axes()).value();
+  auto second = MotionStage::make(two_axes()).value();
   Sine sine;
   for (int i = 0; i < 2000; ++i) {
     auto frame = sine.next();
@@ -207,7 +210,7 @@ TEST(MotionStage, ARestoredStateGoesOnAsItWouldHave) {
 }
 
 TEST(MotionStage, GivesNoneForAFrameThatIsUnfitAndGoesOnAfterIt) {
-  auto stage = MotionStage::make(mill()).value();
+  auto stage = MotionStage::make(two_axes()).value();
   Sine sine;
   for (int i = 0; i < 1000; ++i) {
     auto frame = sine.next();
@@ -247,7 +250,7 @@ TEST(MotionStage, StartsAnewWhereTheCounterWasSetOrTheRecordHasAHole) {
       [](signal::Frame& frame) { frame.axis[0].encoder_shown = frame.cycle != 500; },
   };
   for (const auto& fault : faults) {
-    auto stage = MotionStage::make(mill()).value();
+    auto stage = MotionStage::make(two_axes()).value();
     Sine sine;
     for (int i = 0; i < 800; ++i) {
       auto frame = sine.next();
@@ -265,8 +268,8 @@ TEST(MotionStage, StartsAnewWhereTheCounterWasSetOrTheRecordHasAHole) {
 // The same count and stamp again are no news; taken as a measurement they would narrow the
 // estimate and shift it.
 TEST(MotionStage, ASampleThatIsShownTwiceIsNotTwiceTheEvidence) {
-  auto stage = MotionStage::make(mill()).value();
-  auto twice = MotionStage::make(mill()).value();
+  auto stage = MotionStage::make(two_axes()).value();
+  auto twice = MotionStage::make(two_axes()).value();
   Sine sine;
   for (int i = 0; i < 300; ++i) {
     auto frame = sine.next();
@@ -282,7 +285,7 @@ TEST(MotionStage, ASampleThatIsShownTwiceIsNotTwiceTheEvidence) {
 // Stamps at infinity, in the future and before all time, every 50th cycle: each is dropped, so
 // accuracy suffers for a cycle and the bound not at all.
 TEST(MotionStage, GarbageFromTheCounterGivesNeitherNanNorABoundThatLies) {
-  const Rms rms = run(mill(), [](signal::Frame& frame) {
+  const Rms rms = run(two_axes(), [](signal::Frame& frame) {
     auto& axis = frame.axis[0];
     switch (frame.cycle % 50) {
       case 10:
@@ -300,7 +303,7 @@ TEST(MotionStage, GarbageFromTheCounterGivesNeitherNanNorABoundThatLies) {
   });
   EXPECT_LT(rms.velocity_mm_s, 0.1);
   EXPECT_EQ(rms.outside, 0);
-  auto stage = MotionStage::make(mill()).value();
+  auto stage = MotionStage::make(two_axes()).value();
   signal::Frame frame;
   for (const auto count : {std::numeric_limits<std::int64_t>::max(),
                            std::numeric_limits<std::int64_t>::min(), std::int64_t{0}}) {
@@ -313,7 +316,7 @@ TEST(MotionStage, GarbageFromTheCounterGivesNeitherNanNorABoundThatLies) {
 
 // Two counts of line error: each line could be its neighbour, nothing is provable.
 TEST(MotionStage, LinesThatErrByMoreThanACountLeaveNoBound) {
-  auto machine = mill();
+  auto machine = two_axes();
   machine.axes[0].encoder.line_error_mm = 2.0 * kCount_mm;
   auto stage = MotionStage::make(machine).value();
   Sine sine;
@@ -326,7 +329,7 @@ TEST(MotionStage, LinesThatErrByMoreThanACountLeaveNoBound) {
 }
 
 TEST(MotionStage, ACycleAllocatesNothing) {
-  auto stage = MotionStage::make(mill()).value();
+  auto stage = MotionStage::make(two_axes()).value();
   Sine sine;
   const kernel::rt::testing::AllocationGuard guard;
   for (int i = 0; i < 500; ++i) {
@@ -338,7 +341,7 @@ TEST(MotionStage, ACycleAllocatesNothing) {
 
 // Half a cycle later without a frame: the old count must not pass for a new one.
 TEST(MotionStage, TheSupervisorHasTheEstimatesInTheFrameThatItDecidesBy) {
-  auto supervisor = Supervisor::make(mill(), {}).value();
+  auto supervisor = Supervisor::make(two_axes(), {}).value();
   Sine sine;
   for (int i = 0; i < 500; ++i) {
     const auto frame = sine.next();

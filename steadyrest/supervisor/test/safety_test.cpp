@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/supervisor/test/bench.hpp>
 
@@ -15,12 +16,12 @@ namespace machine = kernel::machine;
 namespace signal = kernel::signal;
 using kernel::machine::Mode;
 using kernel::outcome::Reason;
+using kernel::units::kInfinity;
+using kernel::units::kNan;
 using test::Bench;
 using test::FakePort;
 using test::kAll;
 using test::kCycle_s;
-using test::kInf;
-using test::kNan;
 using test::mill;
 
 // The default of the machine's values, not of a file: whoever forgets the mode must get observe.
@@ -136,9 +137,10 @@ const Spoil kSpoils[] = {
     {"age NaN", Reason::input_not_finite, [](signal::Frame& f) { f.age_s = kNan; }},
     {"age from the future", Reason::input_out_of_range, [](signal::Frame& f) { f.age_s = -5.0; }},
     {"command", Reason::input_not_finite, [](signal::Frame& f) { f.axis[1].command_mm = kNan; }},
-    {"actual", Reason::input_not_finite, [](signal::Frame& f) { f.axis[2].actual_mm = -kInf; }},
+    {"actual", Reason::input_not_finite,
+     [](signal::Frame& f) { f.axis[2].actual_mm = -kInfinity; }},
     {"following error", Reason::input_not_finite,
-     [](signal::Frame& f) { f.axis[0].following_error_mm = kInf; }},
+     [](signal::Frame& f) { f.axis[0].following_error_mm = kInfinity; }},
     {"feed", Reason::input_not_finite, [](signal::Frame& f) { f.programmed_feed_mm_s = kNan; }},
     {"negative feed", Reason::input_out_of_range,
      [](signal::Frame& f) { f.programmed_feed_mm_s = -1.0; }},
@@ -297,13 +299,13 @@ TEST(Safety, ClampAndSlewCannotBeSwitchedOffByTheMachineFile) {
     spoil(machine.envelope);
     return !Supervisor::make(machine, kAll);
   };
-  EXPECT_TRUE(refused([](auto& e) { e.feed_rise_1_s = kInf; }));
+  EXPECT_TRUE(refused([](auto& e) { e.feed_rise_1_s = kInfinity; }));
   EXPECT_TRUE(refused([](auto& e) { e.feed_fall_1_s = 0.0; }));
-  EXPECT_TRUE(refused([](auto& e) { e.max_feed_ratio = kInf; }));
+  EXPECT_TRUE(refused([](auto& e) { e.max_feed_ratio = kInfinity; }));
   EXPECT_TRUE(refused([](auto& e) { e.spindle_slew_1_s = kNan; }));
-  EXPECT_TRUE(refused([](auto& e) { e.max_offset_mm = kInf; }));
-  EXPECT_TRUE(refused([](auto& e) { e.offset_slew_mm_s = kInf; }));
-  EXPECT_TRUE(refused([](auto& e) { e.stale_after_s = kInf; }));
+  EXPECT_TRUE(refused([](auto& e) { e.max_offset_mm = kInfinity; }));
+  EXPECT_TRUE(refused([](auto& e) { e.offset_slew_mm_s = kInfinity; }));
+  EXPECT_TRUE(refused([](auto& e) { e.stale_after_s = kInfinity; }));
 }
 
 // Read between two writes, a binary word can show any code in between: half of a change from 0111
@@ -326,8 +328,8 @@ RC_GTEST_PROP(Safety, WhateverComesInForceStaysUnderThePanelAndOnlyActWrites, ()
   Bench bench(mode);
   const int acts = *rc::gen::inRange(1, 20);
   for (int act = 0; act < acts; ++act) {
-    bench.wish_feed(*rc::gen::element(0.0, 0.3, 0.77, 1.0, 1.2, kNan, -1.0, kInf, 7.0));
-    bench.wish_spindle(*rc::gen::element(0.0, 0.5, 0.8, 1.1, kNan, kInf));
+    bench.wish_feed(*rc::gen::element(0.0, 0.3, 0.77, 1.0, 1.2, kNan, -1.0, kInfinity, 7.0));
+    bench.wish_spindle(*rc::gen::element(0.0, 0.5, 0.8, 1.1, kNan, kInfinity));
     bench.frame.feed.panel_ratio = *rc::gen::element(0.0, 0.5, 0.95, 1.0, 1.2);
     bench.frame.spindle.panel_ratio = *rc::gen::element(0.5, 0.9, 1.0, 1.2);
     bench.frame.motion = static_cast<signal::Motion>(*rc::gen::inRange(0, 9));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/supervisor/test/bench.hpp>
 
@@ -11,10 +12,10 @@ namespace {
 namespace signal = kernel::signal;
 using kernel::machine::Mode;
 using kernel::outcome::Reason;
+using kernel::units::kNan;
 using test::Bench;
 using test::FakePort;
 using test::kAll;
-using test::kNan;
 using test::mill;
 
 // 500 cycles of 1 ms: long enough for every slew to have arrived, had anything moved. A port

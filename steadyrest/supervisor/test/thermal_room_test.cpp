@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/test/bench.hpp>
 
 namespace steadyrest::supervisor {
@@ -167,7 +168,8 @@ TEST(ThermalRoom, AReadingOfThePortIsOfWhatStandsInEveryMode) {
 TEST(ThermalRoom, AReadingThatIsNoneDoesNotMakeTheFrameUnfit) {
   Warm bench;
   bench.cycles(10);
-  bench.frame.probe = {.number = 1, .axis = kZ, .displacement_mm = test::kNan, .sd_mm = 0.0};
+  bench.frame.probe = {
+      .number = 1, .axis = kZ, .displacement_mm = kernel::units::kNan, .sd_mm = 0.0};
   const auto command = bench.cycle();
   EXPECT_EQ(command.feed_reason, Reason::none);
   EXPECT_EQ(bench.supervisor.estimates().thermal->probed.verdict.reason, Reason::input_not_finite);
@@ -192,7 +194,7 @@ RC_GTEST_PROP(ThermalRoomSafety, NoHistoryLeavesClampSlopeOrFreeze, ()) {
     bench.frame.motion = static_cast<Motion>(*rc::gen::inRange(0, 9));
     bench.frame.spindle_actual_rev_s = *rc::gen::inRange(0, 120);
     bench.frame.temperature_c[0] =
-        *rc::gen::weightedElement<double>({{5, 20.0}, {2, 25.0}, {1, test::kNan}});
+        *rc::gen::weightedElement<double>({{5, 20.0}, {2, 25.0}, {1, kernel::units::kNan}});
     bench.frame.age_s = *rc::gen::weightedElement<double>({{4, 0.0}, {1, 5.0}});
     const bool unfit = bench.frame.age_s > 0.0;
     const int cycles = *rc::gen::inRange(1, 60);
