@@ -13,22 +13,18 @@
 #include <steadyrest/kernel/testing/cases.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
-#include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/trial/cut/cut_job.hpp>
+#include <steadyrest/trial/test/examples.hpp>
 
 namespace steadyrest::trial::cut {
 namespace {
 
 using kernel::machine::ContourStrategy;
 using kernel::machine::Machine;
+using test::kExamples;
+using test::machine_of;
 
-const std::string kExamples = STEADYREST_SOURCE_DIR "/examples/";
-
-Machine machine_of(const std::string& name) {
-  return passport::read(kExamples + "machines/" + name).value();
-}
-
-Job job_of(const std::string& program, const Machine& machine, nc::read::Dialect dialect) {
+Job example_job(const std::string& program, const Machine& machine, nc::read::Dialect dialect) {
   nc::interpret::Config config;
   config.dialect = dialect;
   nc::plan::PathBuilder builder(machine);
@@ -42,7 +38,7 @@ Job job_of(const std::string& program, const Machine& machine, nc::read::Dialect
 
 Figures cut_with_layer(const std::string& program, const Machine& machine,
                        nc::read::Dialect dialect = nc::read::Dialect::sinumerik) {
-  return run(job_of(program, machine, dialect)).value().figures();
+  return run(example_job(program, machine, dialect)).value().figures();
 }
 
 // By samples, not by time: all cycles are alike.
@@ -54,7 +50,7 @@ double share_over(const Figures& figures) {
 std::vector<Sample> settled(const Machine& machine) {
   constexpr double kEntry_mm = 12.0 + 2 * 62.9;  // straight, two turns
   constexpr double kExit_mm = 12.0 + 5 * 62.8 - 1.0;
-  const auto record = run(job_of("circle-r10.mpf", machine, nc::read::Dialect::sinumerik));
+  const auto record = run(example_job("circle-r10.mpf", machine, nc::read::Dialect::sinumerik));
   std::vector<Sample> samples;
   double offset_mm = -1.0;
   for (const Sample& sample : record.value().trace()) {
@@ -127,7 +123,7 @@ TEST(LayerOnThePocket, KeepsTheLimitInAllButOneSampleInAThousand) {
 TEST(LayerOnThePocket, TakesTheTimeOverTheLimitDownFivefoldOnASlowServoWithTwoHundredSteps) {
   const Machine machine = machine_of("linuxcnc-mill.toml");
   ASSERT_GT(machine.feed_override.ratio.size(), 64U);
-  Job job = job_of("rib-pocket.ngc", machine, nc::read::Dialect::linuxcnc);
+  Job job = example_job("rib-pocket.ngc", machine, nc::read::Dialect::linuxcnc);
   const Figures with = run(job).value().figures();
   job.with_layer = false;
   const Figures without = run(job).value().figures();
@@ -139,7 +135,7 @@ TEST(LayerOnThePocket, TakesTheTimeOverTheLimitDownFivefoldOnASlowServoWithTwoHu
 TEST(LayerOnThePocket, FallsInTimeWhereTheWordWalksFromNeighbourToNeighbour) {
   const Machine machine = machine_of("mill-802d.toml");
   ASSERT_FALSE(machine.feed_override.latched_word);
-  Job job = job_of("rib-pocket.mpf", machine, nc::read::Dialect::sinumerik);
+  Job job = example_job("rib-pocket.mpf", machine, nc::read::Dialect::sinumerik);
   const Figures with = run(job).value().figures();
   job.with_layer = false;
   const Figures without = run(job).value().figures();

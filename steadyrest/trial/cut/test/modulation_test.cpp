@@ -57,15 +57,15 @@ std::string slot(const std::string& before = "M38", const std::string& after = "
          "\nG1 X300\nM2\n";
 }
 
-struct Sample {
+struct Moment {
   kernel::signal::Frame frame;
   kernel::signal::Command command;
   chatter::online::Modulator::Output modulator;
   double true_rev_s = 0.0;
 };
 
-std::vector<Sample> run(const machine::Machine& m, const std::string& program,
-                        std::vector<sim::OperatorAction> actions = {}, double most_s = 30.0) {
+std::vector<Moment> play(const machine::Machine& m, const std::string& program,
+                         std::vector<sim::OperatorAction> actions = {}, double most_s = 30.0) {
   nc::plan::PathBuilder builder(m);
   nc::interpret::Config control;
   control.axes = "XYZ";
@@ -78,9 +78,9 @@ std::vector<Sample> run(const machine::Machine& m, const std::string& program,
                   {.machine = m, .path = path, .operator_actions = std::move(actions)})
                   .value();
   auto layer = supervisor::Supervisor::make(m, port->capability()).value();
-  std::vector<Sample> samples;
+  std::vector<Moment> samples;
   while (!port->finished()) {
-    Sample sample;
+    Moment sample;
     sample.frame = port->read().value();
     if (sample.frame.time_s > most_s) {
       break;
@@ -97,8 +97,8 @@ std::vector<Sample> run(const machine::Machine& m, const std::string& program,
 }
 
 /// In the slot and after the fade and the first scans.
-std::vector<Sample> in_slot(const std::vector<Sample>& all) {
-  std::vector<Sample> out;
+std::vector<Moment> in_slot(const std::vector<Moment>& all) {
+  std::vector<Moment> out;
   for (const auto& s : all) {
     if (s.frame.motion == Motion::feed && s.frame.path_position_mm > 30.0 &&
         s.frame.path_position_mm < kSlot_mm - 1.0) {
@@ -117,7 +117,7 @@ struct Band {
   }
 };
 
-Band speeds(const std::vector<Sample>& samples) {
+Band speeds(const std::vector<Moment>& samples) {
   Band band;
   for (const auto& s : samples) {
     band.take(s.true_rev_s / kSpeed_rev_s);
@@ -128,7 +128,7 @@ Band speeds(const std::vector<Sample>& samples) {
 // ± 5 of 50 rev/s are 90 … 110 %. The word moves in steps of 5 %, the drive rounds them off by its
 // ramp.
 TEST(Modulation, TheSpindleFollowsTheTriangleWithinWhatItsDriveCan) {
-  const auto samples = in_slot(run(mill(), slot()));
+  const auto samples = in_slot(play(mill(), slot()));
   ASSERT_GT(samples.size(), 5000U);
   const Band band = speeds(samples);
   EXPECT_NEAR(band.low, 0.90, 0.002);
@@ -150,7 +150,7 @@ TEST(Modulation, TheSpindleFollowsTheTriangleWithinWhatItsDriveCan) {
 TEST(Modulation, TheFeedPerToothStaysInItsBand) {
   Band band;
   double lowest_feed = 1.0;
-  for (const auto& s : in_slot(run(mill(), slot()))) {
+  for (const auto& s : in_slot(play(mill(), slot()))) {
     const double feed = s.frame.path_speed_mm_s / s.frame.programmed_feed_mm_s;
     band.take(feed / (s.true_rev_s / kSpeed_rev_s));
     lowest_feed = std::min(lowest_feed, feed);
@@ -162,11 +162,11 @@ TEST(Modulation, TheFeedPerToothStaysInItsBand) {
 
 // Modal like M3: from M38 to M39 and nowhere else.
 TEST(Modulation, WithoutItsMWordAndAfterM39TheSpindleStandsStill) {
-  for (const auto& s : in_slot(run(mill(), slot("", "")))) {
+  for (const auto& s : in_slot(play(mill(), slot("", "")))) {
     ASSERT_FALSE(s.command.spindle_masks_panel);
     ASSERT_NEAR(s.true_rev_s, kSpeed_rev_s, 1e-6);
   }
-  const auto all = run(mill(), slot());
+  const auto all = play(mill(), slot());
   const auto& last = all[all.size() - 200];
   ASSERT_EQ(last.frame.motion, Motion::feed);
   EXPECT_FALSE(last.frame.speed_modulation);
@@ -178,11 +178,11 @@ TEST(Modulation, WithoutItsMWordAndAfterM39TheSpindleStandsStill) {
 TEST(Modulation, WithoutAnMWordInTheMachineFileItIsAlwaysOn) {
   auto m = mill();
   m.chatter.m_code_on = m.chatter.m_code_off = 0;
-  EXPECT_NEAR(speeds(in_slot(run(m, slot("", "")))).high, 1.10, 0.002);
+  EXPECT_NEAR(speeds(in_slot(play(m, slot("", "")))).high, 1.10, 0.002);
 }
 
 TEST(Modulation, OnlyTheCutIsModulated) {
-  for (const auto& s : run(mill(), slot())) {
+  for (const auto& s : play(mill(), slot())) {
     if (s.frame.motion != Motion::feed && s.frame.path_position_mm == 0.0) {
       ASSERT_FALSE(s.command.spindle_masks_panel);
       ASSERT_FALSE(kernel::override::is_wish(s.modulator.spindle.reason));
@@ -193,7 +193,7 @@ TEST(Modulation, OnlyTheCutIsModulated) {
 // The operator's 0 is for the feed; the spindle must not stop in the cut.
 TEST(Modulation, ThePanelAtZeroStopsTheFeedAndTheSpindleGoesOnWithinItsSwitch) {
   // Feed switch to 0 % at 6 s: code of the table's first step.
-  const auto samples = run(
+  const auto samples = play(
       mill(), slot(), {{.time_s = 6.0, .act = sim::OperatorAct::turn_feed, .code = 0b00001}}, 9.0);
   for (const auto& s : samples) {
     if (s.frame.time_s > 6.5) {
@@ -208,7 +208,7 @@ TEST(Modulation, AnOperatorsLowerSwitchWins) {
   auto m = mill();
   m.spindle_override.layer_may_exceed_panel = false;
   // 80 % on the spindle's switch: step 6, Gray code of 7.
-  const auto samples = run(
+  const auto samples = play(
       m, slot(), {{.time_s = 4.0, .act = sim::OperatorAct::turn_spindle, .code = 0b00100}}, 12.0);
   Band band;
   for (const auto& s : samples) {
@@ -228,7 +228,7 @@ TEST(Modulation, TappingAndThreadingWithdrawIt) {
       "G21 G90 G94 S3000 M3\nG0 X0 Y0 Z0\nG1 X60 F1000\nG95\nG33 X100 K1\nG94\nG1 X150 F1000\nM2\n";
   std::size_t threading = 0;
   double first_rev_s = 0.0;
-  for (const auto& s : run(m, program)) {
+  for (const auto& s : play(m, program)) {
     if (s.frame.motion != Motion::thread) {
       continue;
     }
@@ -245,7 +245,7 @@ TEST(Modulation, TappingAndThreadingWithdrawIt) {
 // In G95 the control itself keeps the feed per tooth; a second hand would correct twice.
 TEST(Modulation, FeedPerRevolutionFollowsTheSpindleByItself) {
   const auto samples =
-      in_slot(run(mill(), "G21 G90 G95 S3000 M3\nG0 X0 Y0 Z0\nM38\nG1 X300 F0.333\nM2\n"));
+      in_slot(play(mill(), "G21 G90 G95 S3000 M3\nG0 X0 Y0 Z0\nM38\nG1 X300 F0.333\nM2\n"));
   for (const auto& s : samples) {
     ASSERT_FALSE(s.command.feed_masks_panel);
   }

@@ -10,20 +10,16 @@
 
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
-#include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/trial/cut/cut_job.hpp>
 #include <steadyrest/trial/cut/motion_score.hpp>
+#include <steadyrest/trial/test/examples.hpp>
 
 namespace steadyrest::trial::cut {
 namespace {
 
 using kernel::machine::Machine;
-
-const std::string kExamples = STEADYREST_SOURCE_DIR "/examples/";
-
-Machine machine_of(const std::string& name) {
-  return passport::read(kExamples + "machines/" + name).value();
-}
+using test::kExamples;
+using test::machine_of;
 
 std::vector<MotionFigures> cut(const Machine& machine, const std::string& program,
                                nc::read::Dialect dialect) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +9,7 @@
 namespace steadyrest::trial::cut {
 namespace {
 
-kernel::machine::Machine machine_of(double gain_x_1_s, double gain_y_1_s) {
+kernel::machine::Machine with_gains(double gain_x_1_s, double gain_y_1_s) {
   kernel::machine::Machine machine;
   machine.contour.limit_mm = 0.010;
   machine.axes.resize(2);
@@ -34,11 +33,11 @@ TEST(HeldFeed, OfALongArcIsTheClosedForm) {
                       .path_speed_mm_s = 66.7,
                       .arc_radius_mm = 10.0,
                       .arc_length_mm = 62.8};
-  const HeldFeed held = held_feed(arc, machine_of(50.0, 50.0));
+  const HeldFeed held = held_feed(arc, with_gains(50.0, 50.0));
   EXPECT_EQ(held.by, HeldBy::closed_form);
   EXPECT_NEAR(held.feed_mm_s, 500.0 * std::sqrt(std::pow(10.0 / 9.99, 2) - 1.0), 1e-9);
   // The axis that bears least counts.
-  EXPECT_NEAR(held_feed(arc, machine_of(50.0, 25.0)).feed_mm_s, 0.5 * held.feed_mm_s, 1e-9);
+  EXPECT_NEAR(held_feed(arc, with_gains(50.0, 25.0)).feed_mm_s, 0.5 * held.feed_mm_s, 1e-9);
 }
 
 TEST(HeldFeed, OfAnArcSmallerThanTheLimitIsAny) {
@@ -46,7 +45,7 @@ TEST(HeldFeed, OfAnArcSmallerThanTheLimitIsAny) {
                       .path_speed_mm_s = 0.01,
                       .arc_radius_mm = 0.005,
                       .arc_length_mm = 0.03};
-  const HeldFeed held = held_feed(arc, machine_of(50.0, 50.0));
+  const HeldFeed held = held_feed(arc, with_gains(50.0, 50.0));
   EXPECT_EQ(held.by, HeldBy::closed_form);
   EXPECT_TRUE(std::isnan(held.feed_mm_s));
 }
@@ -56,7 +55,7 @@ TEST(HeldFeed, OfAnArcTooShortForTheSteadyStateIsFromTheRecord) {
                          .path_speed_mm_s = 30.0,
                          .arc_radius_mm = 0.5,
                          .arc_length_mm = 0.8};
-  const HeldFeed held = held_feed(corner, machine_of(50.0, 50.0));
+  const HeldFeed held = held_feed(corner, with_gains(50.0, 50.0));
   EXPECT_EQ(held.by, HeldBy::record);
   EXPECT_DOUBLE_EQ(held.feed_mm_s, 15.0);  // a quarter of the error: half the feed
 }
@@ -67,18 +66,18 @@ TEST(HeldFeed, OfAnArcThatLeftTheLimitAtAFeedThatItsRadiusBearsIsFromTheRecord) 
                         .path_speed_mm_s = 4.0,
                         .arc_radius_mm = 6.0,
                         .arc_length_mm = 37.7};
-  const HeldFeed held = held_feed(entry, machine_of(50.0, 50.0));
+  const HeldFeed held = held_feed(entry, with_gains(50.0, 50.0));
   EXPECT_EQ(held.by, HeldBy::record);
   EXPECT_NEAR(held.feed_mm_s, 4.0 * std::sqrt(0.010 / 0.0296), 1e-12);
   // Within the limit the radius says more than what was driven.
   LineError kept = entry;
   kept.contour_error_mm = 0.002;
-  EXPECT_EQ(held_feed(kept, machine_of(50.0, 50.0)).by, HeldBy::closed_form);
+  EXPECT_EQ(held_feed(kept, with_gains(50.0, 50.0)).by, HeldBy::closed_form);
 }
 
 TEST(HeldFeed, OfALineThatKeptTheLimitIsWhatWasDriven) {
   const HeldFeed held =
-      held_feed({.contour_error_mm = 0.0099, .path_speed_mm_s = 30.0}, machine_of(50.0, 50.0));
+      held_feed({.contour_error_mm = 0.0099, .path_speed_mm_s = 30.0}, with_gains(50.0, 50.0));
   EXPECT_EQ(held.by, HeldBy::driven);
   EXPECT_DOUBLE_EQ(held.feed_mm_s, 30.0);
 }
@@ -90,7 +89,7 @@ TEST(WorstLines, AreTheWorstOfBothRunsByWhatTheLayerLeft) {
     without.add(sample(line, 0.001 * line, 50.0));
     with.add(sample(line, line == 2 ? -0.020 : 0.0001 * line, 25.0));
   }
-  const auto lines = worst_lines("no-such-file", machine_of(50.0, 50.0), without, with);
+  const auto lines = worst_lines("no-such-file", with_gains(50.0, 50.0), without, with);
   ASSERT_GE(lines.size(), 20U);
   EXPECT_EQ(lines[0].line, 2U);  // small without the layer, the largest with it
   EXPECT_DOUBLE_EQ(lines[0].with_um, -20.0);
@@ -108,7 +107,7 @@ TEST(WorstLines, WhatOnlyOneRunCutHasNoFigureOfTheOther) {
   Recorder with({});
   without.add(sample(3, 0.004, 50.0));
   with.add(sample(4, 0.002, 40.0));
-  const auto lines = worst_lines("no-such-file", machine_of(50.0, 50.0), without, with);
+  const auto lines = worst_lines("no-such-file", with_gains(50.0, 50.0), without, with);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].line, 4U);
   EXPECT_TRUE(std::isnan(lines[0].without_um));
@@ -122,7 +121,7 @@ TEST(WorstLines, ThatKeptTheLimitFasterWithoutTheLayerHoldAtThatFeed) {
   Recorder with({});
   without.add(sample(1, 0.009, 50.0));
   with.add(sample(1, 0.003, 20.0));
-  const auto lines = worst_lines("no-such-file", machine_of(50.0, 50.0), without, with);
+  const auto lines = worst_lines("no-such-file", with_gains(50.0, 50.0), without, with);
   EXPECT_EQ(lines.at(0).held_by, HeldBy::driven);
   EXPECT_DOUBLE_EQ(lines.at(0).hold_feed_mm_min, 3000.0);
 }

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/trial/test/examples.hpp>
 #include <steadyrest/trial/timing/demanding_path.hpp>
 
 namespace steadyrest::trial::timing {
@@ -16,10 +16,7 @@ using kernel::machine::Machine;
 using kernel::signal::Geometry;
 using kernel::signal::Motion;
 using kernel::signal::PathSegment;
-
-Machine machine_of(const std::string& name) {
-  return passport::read(std::string(STEADYREST_SOURCE_DIR) + "/examples/machines/" + name).value();
-}
+using test::machine_of;
 
 double seconds_of(const nc::plan::PlannedPath& path) {
   double seconds = 0.0;

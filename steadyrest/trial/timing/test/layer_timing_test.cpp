@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/trial/test/examples.hpp>
 #include <steadyrest/trial/timing/judgement.hpp>
 #include <steadyrest/trial/timing/layer_timing.hpp>
 
@@ -14,10 +14,7 @@ namespace steadyrest::trial::timing {
 namespace {
 
 using kernel::machine::Machine;
-
-Machine machine_of(const std::string& name) {
-  return passport::read(std::string(STEADYREST_SOURCE_DIR) + "/examples/machines/" + name).value();
-}
+using test::machine_of;
 
 void expect_ordered(const Quantiles& of) {
   EXPECT_GT(of.p50, 0.0);
