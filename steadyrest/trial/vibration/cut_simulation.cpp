@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
 // The process file's cut in time. Shares nothing with the chatter room's solver but the file, so
@@ -16,9 +17,9 @@ using chatter::offline::Direction;
 using chatter::offline::Operation;
 using chatter::offline::Process;
 using chatter::offline::SpeedProfile;
+using kernel::units::kTurn;
 using sim::CuttingProcess;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDisturbance_mm = 1e-3;
 constexpr double kLeastBlock = 8.0;   ///< pitches in one mean
 constexpr double kLeastBlocks = 8.0;  ///< half of them are measured

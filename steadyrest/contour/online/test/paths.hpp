@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
@@ -74,8 +74,7 @@ class PathMaker {
       const Point out = math::geometry::station_at(segment, 1.0).tangent;
       const Point in = math::geometry::station_at(path_[i + 1], 0.0).tangent;
       const bool corner = math::geometry::dot(out, in) < 0.98;
-      segment.exit_speed_limit_mm_s =
-          corner ? corner_mm_s : std::numeric_limits<double>::infinity();
+      segment.exit_speed_limit_mm_s = corner ? corner_mm_s : kernel::units::kInfinity;
     }
     return path_;
   }
@@ -88,7 +87,7 @@ class PathMaker {
     segment.position_mm = path_.empty() ? 0.0 : path_.back().position_mm + path_.back().length_mm;
     segment.feed_mm_s = feed_mm_s_;
     segment.motion = motion_;
-    segment.exit_speed_limit_mm_s = std::numeric_limits<double>::infinity();
+    segment.exit_speed_limit_mm_s = kernel::units::kInfinity;
     path_.push_back(segment);
     at_ = segment.end_mm;
     return *this;
@@ -100,7 +99,7 @@ class PathMaker {
   kernel::signal::Motion motion_ = kernel::signal::Motion::feed;
 };
 
-inline constexpr double kTurn = 2.0 * std::numbers::pi;
+using kernel::units::kTurn;
 
 /// Rounded rectangles with fillets of 2–12 mm, a spiral, and a rib of alternating arcs of 2–40 mm.
 inline std::vector<PathSegment> pocket(double feed_mm_s) {

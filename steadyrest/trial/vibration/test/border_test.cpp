@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <random>
 
@@ -10,6 +9,7 @@
 
 #include <steadyrest/chatter/offline/cycle/stability.hpp>
 #include <steadyrest/kernel/testing/cases.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
 namespace steadyrest::trial::vibration {
@@ -20,8 +20,8 @@ using chatter::offline::Direction;
 using chatter::offline::Mode;
 using chatter::offline::Operation;
 using chatter::offline::Process;
+using kernel::units::kTurn;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kMost_mm = 50.0;
 
 /// Draws from a seed that RapidCheck gives.
