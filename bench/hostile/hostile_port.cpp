@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <limits>
 
 #include <bench/hostile/hostile_port.hpp>
+
+#include <steadyrest/kernel/units/constants.hpp>
 
 // Faults are drawn once per act and then strike one frame in so many: a control that fails in one
 // way for a while is what happens in practice, and what finds more than single wild frames.
@@ -10,10 +11,9 @@ namespace steadyrest::bench::hostile {
 namespace {
 
 namespace signal = kernel::signal;
+using kernel::units::kInfinity;
+using kernel::units::kNan;
 using signal::Motion;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 kernel::outcome::Result<void> link_lost() {
   return std::unexpected(kernel::outcome::Refusal{
@@ -78,7 +78,7 @@ double HostilePort::stamp() noexcept {
   }
   switch (dice_.below(7)) {
     case 0:
-      return dice_.of({kNan, kInf, -kInf});
+      return dice_.of({kNan, kInfinity, -kInfinity});
     case 1:
       return truth_s - std::pow(10.0, dice_.within(-3.0, 6.0));
     case 2:
@@ -127,16 +127,16 @@ void HostilePort::spoil() noexcept {
   unfit = fault != 4 && fault != 5;  // a bad panel is its own channel's affair
   switch (fault) {
     case 0:
-      frame.age_s = dice_.of({1.0, kNan, kInf, -5.0});
+      frame.age_s = dice_.of({1.0, kNan, kInfinity, -5.0});
       break;
     case 1:
-      frame.axis[0].following_error_mm = dice_.of({kNan, kInf});
+      frame.axis[0].following_error_mm = dice_.of({kNan, kInfinity});
       break;
     case 2:
       frame.axis_count = 200;
       break;
     case 3:
-      frame.axis[0].actual_mm = dice_.of({-kInf, kNan});
+      frame.axis[0].actual_mm = dice_.of({-kInfinity, kNan});
       break;
     case 4:
       frame.feed.panel_code_known = frame.spindle.panel_code_known = false;
@@ -145,7 +145,7 @@ void HostilePort::spoil() noexcept {
       frame.feed.panel_ratio = frame.spindle.panel_ratio = dice_.of({kNan, -1.0, 1e300});
       break;
     default:
-      frame.path_speed_mm_s = dice_.of({kNan, -kInf});
+      frame.path_speed_mm_s = dice_.of({kNan, -kInfinity});
   }
 }
 

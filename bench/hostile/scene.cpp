@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <bench/hostile/scene.hpp>
 #include <fmt/format.h>
+
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::bench::hostile {
 namespace {
@@ -12,11 +13,11 @@ namespace {
 namespace machine = kernel::machine;
 namespace signal = kernel::signal;
 using kernel::outcome::Reason;
+using kernel::units::kInfinity;
+using kernel::units::kNan;
 using machine::Mode;
 using signal::Motion;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 /// A stamp may be late by half a cycle, so real time and stamped time differ by that.
 constexpr double kLateSteps = 0.5;  // a stamp may be late by so much of a cycle
 /// The layer holds an offset through short standstills between two blocks; the watch must too.
@@ -111,7 +112,7 @@ void Scene::wish() {
                      Reason::none, Reason::not_cutting, Reason::input_stale});
   };
   const auto ratio = [this] {
-    return dice_.one_in(8) ? dice_.of({kNan, kInf, -kInf, -1.0, 1e300, 0.0, 9.9})
+    return dice_.one_in(8) ? dice_.of({kNan, kInfinity, -kInfinity, -1.0, 1e300, 0.0, 9.9})
                            : dice_.within(0.0, 1.4);
   };
   feed_wish_.clear();
@@ -127,7 +128,7 @@ void Scene::wish() {
   for (std::size_t n = dice_.below(3); n > 0; --n) {
     signal::OffsetRequest wished{.reason = reason()};
     for (double& mm : wished.offset_mm) {
-      mm = dice_.one_in(20) ? dice_.of({kNan, kInf, 1e9}) : dice_.within(-0.3, 0.3);
+      mm = dice_.one_in(20) ? dice_.of({kNan, kInfinity, 1e9}) : dice_.within(-0.3, 0.3);
     }
     offset_wish_.push_back(wished);
   }
