@@ -46,10 +46,12 @@ Near near_on_cell(const Cell& cell, const Point& query) noexcept {
   return {geometry::norm_squared(offset), delta, offset};
 }
 
+}  // namespace
+
 /// The foot point as it moves along the cells. Inside of a corner the foot never reaches the end of
 /// the first leg; so the first cell behind the next corner is followed as well, and wins once it is
 /// nearer.
-class FootTracker {
+class Forecast::FootTracker {
  public:
   FootTracker(const LookAhead& path, std::size_t cell) noexcept
       : path_(path), cell_(cell), scanned_(cell) {}
@@ -99,8 +101,6 @@ class FootTracker {
   std::size_t beyond_ = kNone;
   std::size_t scanned_;
 };
-
-}  // namespace
 
 AxisStep AxisStep::of(const AxisModel& model, double h_s) noexcept {
   AxisStep step;

@@ -111,6 +111,7 @@ class Forecast {
   [[nodiscard]] const AxisStep& axis_step(std::size_t i) const noexcept { return step_[i]; }
 
  private:
+  class FootTracker;
   struct Walk;
   [[nodiscard]] double planned(const RatioPlan& plan, double t_s) const noexcept;
 

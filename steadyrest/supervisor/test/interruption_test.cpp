@@ -175,8 +175,8 @@ TEST(Interruption, AWordHoldsInTheMiddleOfItsWalkInATap) {
 // A thousand cycles are five times what a hand-over takes. Unfit input, other modes, other wishes,
 // no link: nothing but a fit frame that shows another motion ends the hold.
 TEST(Interruption, ATapHoldsWhateverTheInputDoesUntilAFitFrameShowsItsEnd) {
-  using Spoil = void (*)(Bench&);
-  const Spoil spoils[] = {
+  using SpoilBench = void (*)(Bench&);
+  const SpoilBench spoils[] = {
       [](Bench& b) { b.frame.axis[0].following_error_mm = kNan; },
       [](Bench& b) { b.frame.age_s = 9.0; }, [](Bench& b) { b.frame.axis_count = 200; },
       [](Bench& b) { b.frame.feed.panel_code_known = b.frame.spindle.panel_code_known = false; },
@@ -186,7 +186,7 @@ TEST(Interruption, ATapHoldsWhateverTheInputDoesUntilAFitFrameShowsItsEnd) {
       [](Bench& b) { b.wish_feed(kNan), b.wish_spindle(kNan); },
       // An unfit frame that shows a cut does not say that the tap is over.
       [](Bench& b) { b.frame.motion = signal::Motion::feed, b.frame.age_s = 9.0; }};
-  for (const Spoil spoil : spoils) {
+  for (const SpoilBench spoil : spoils) {
     Bench bench;
     bench.wish_feed(0.6);
     bench.wish_spindle(0.8);

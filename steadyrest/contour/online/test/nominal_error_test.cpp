@@ -23,12 +23,13 @@ Point following_error(double r, double speed, double gain) {
 }
 
 TEST(NominalError, ArcIdentityGivesTheTableOfThePaper) {
-  struct Row {
+  struct PaperRow {
     double feed_mm_min, gain_1_s, error_mm, nominal_mm;
   };
-  for (const Row& row : {Row{4000, 1000.0 / 60, 0.7152, 3.7139},
-                         Row{4000, 2000.0 / 60, 0.1942, 1.9612}, Row{4000, 50, 0.0877, 1.3216},
-                         Row{4000, 5000.0 / 60, 0.0319, 0.7975}, Row{2000, 50, 0.0222, 0.6652}}) {
+  for (const PaperRow& row :
+       {PaperRow{4000, 1000.0 / 60, 0.7152, 3.7139}, PaperRow{4000, 2000.0 / 60, 0.1942, 1.9612},
+        PaperRow{4000, 50, 0.0877, 1.3216}, PaperRow{4000, 5000.0 / 60, 0.0319, 0.7975},
+        PaperRow{2000, 50, 0.0222, 0.6652}}) {
     const Point e = following_error(10.0, row.feed_mm_min / 60.0, row.gain_1_s);
     EXPECT_NEAR(geometry::norm(e), row.nominal_mm, 6e-5);
     EXPECT_NEAR(arc_identity_mm(geometry::norm(e), 10.0), row.error_mm, 6e-5);
