@@ -28,7 +28,7 @@ std::optional<Refusal> fault(const LobeMapConfig& config) {
   const std::vector<double>& depth = config.depth_mm;
   if (config.speed_rev_s.size() > kMostMapPoints / std::max<std::size_t>(depth.size(), 1)) {
     return bad_input(fmt::format("a map of {} speeds × {} depths; allowed: {} points",
-                               config.speed_rev_s.size(), depth.size(), kMostMapPoints),
+                                 config.speed_rev_s.size(), depth.size(), kMostMapPoints),
                      "give fewer steps; the border is refined between them");
   }
   if (depth.empty() || !(depth.front() >= 0.0) || !(depth.back() > 0.0)) {

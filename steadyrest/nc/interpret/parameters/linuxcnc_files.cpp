@@ -17,7 +17,6 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using read::LineSource;
 
-
 std::string_view without_comment(std::string_view line) noexcept {
   return line.substr(0, line.find(';'));
 }
