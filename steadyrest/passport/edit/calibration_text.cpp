@@ -227,7 +227,7 @@ kernel::outcome::Result<std::string> edited(std::string_view text, const std::st
   }
   std::string out = applied(text, edits_for(text, *section, old, key_values(encoder, rotary)));
   if (!says(out, root, axis, calibration_text(encoder, rotary))) {
-    return refuse(file, 0, "inserting the calibration would change something else",
+    return refuse(file, "inserting the calibration would change something else",
                   "write the calibration to a separate file and paste it in by hand");
   }
   // It must also be a good machine file, ranges and all.
@@ -244,11 +244,11 @@ kernel::outcome::Result<const Axis*> axis_in(const Machine& machine, const std::
   const auto found = std::ranges::find_if(
       machine.axes, [&](const Axis& axis) { return axis.present && axis.name == name; });
   if (found == machine.axes.end()) {
-    return refuse(file, 0, fmt::format("has no axis {}", cut(name)),
+    return refuse(file, fmt::format("has no axis {}", cut(name)),
                   "give --axis with the name of one of its axes");
   }
   if (!(std::abs(found->encoder.count_mm - count_mm) <= kSameCount * count_mm)) {
-    return refuse(file, 0,
+    return refuse(file,
                   fmt::format("axis {} has a count of {} mm (rad), not of {}", found->name,
                               shown(found->encoder.count_mm), shown(count_mm)),
                   "give the count from the machine file");
@@ -279,7 +279,7 @@ kernel::outcome::Result<Encoder> fragment(std::string_view text, const std::stri
     return std::unexpected(std::move(faults.list.front()));
   }
   if (std::abs(out.count_mm - count_mm) > kSameCount * count_mm) {
-    return refuse(file, 0, "is for another count", "give the count it was learnt with");
+    return refuse(file, "is for another count", "give the count it was learnt with");
   }
   return out;
 }
@@ -315,7 +315,7 @@ kernel::outcome::Result<std::string> with_calibration(std::string_view text,
   try {
     return edited(text, file, axis, encoder, (*found)->rotary);
   } catch (const std::exception& error) {
-    return refuse(file, 0, fmt::format("not editable: {}", error.what()),
+    return refuse(file, fmt::format("not editable: {}", error.what()),
                   "write the calibration to a separate file and paste it in by hand");
   }
 }

@@ -30,7 +30,7 @@ Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passpo
   // k is part of what the parts were made with. Measured against another k they would move the
   // level for the wrong reason.
   if (plan.share && std::abs(*plan.share - out.share) > 1e-9) {
-    return refuse(plan.plan.file, 0,
+    return refuse(plan.plan.file,
                   fmt::format("the plan's k = {} differs from the machine file's {} for level {}",
                               *plan.share, out.share, out.number),
                   "make the plan again with this machine file");
@@ -61,7 +61,7 @@ Result<std::optional<ThermalJob>> work_of(const AdaptOptions& options,
   const double total_s = job->cyclogram.total_s();
   // The same work has the same length. The slack covers minutes that were rounded in the plan.
   if (std::abs(total_s - plan.plan.total_s) > 1.0 + 1e-4 * total_s) {
-    return refuse(plan.plan.file, 0,
+    return refuse(plan.plan.file,
                   fmt::format("the plan lasts {:.2f} min, but {} lasts {:.2f} min",
                               plan.plan.total_s / 60.0, job->cyclogram.file, total_s / 60.0),
                   "give the cyclogram or the program that the plan was made for");
@@ -73,7 +73,7 @@ Result<std::optional<ThermalJob>> work_of(const AdaptOptions& options,
 Result<void> read_machine_and_rows(const AdaptOptions& options, AdaptInputs& in) {
   in.machine = options.thermal.machine.empty() ? in.plan.machine : options.thermal.machine;
   if (in.machine.empty()) {
-    return refuse(options.plan, 0, "the plan names no machine file", "give --machine FILE");
+    return refuse(options.plan, "the plan names no machine file", "give --machine FILE");
   }
   auto passport = passport::read_thermal_passport(in.machine);
   if (!passport) {

@@ -14,7 +14,7 @@ TEST(BadInput, SaysWhereWhatAndWhatToDo) {
 }
 
 TEST(BadInput, RefusesAsTheErrorOfAResult) {
-  const Result<int> result = refuse("m.toml", 7, "a = 0", "write 1");
+  const Result<int> result = refuse("m.toml", std::size_t{7}, "a = 0", "write 1");
   ASSERT_FALSE(result);
   EXPECT_EQ(text(result.error()), "m.toml:7: a = 0; write 1");
 }
