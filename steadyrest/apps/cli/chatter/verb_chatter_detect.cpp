@@ -28,6 +28,7 @@ namespace steadyrest::apps::cli {
 // From a recording to advice. The detector lists the stretches of chatter, then each stretch gets a
 // better speed from the best source at hand: the planner (process and depth known), the deepest
 // override step (process known), or the rule n = 60·fc/(N·k) (nothing but the frequency known).
+namespace chatter_detect {
 namespace {
 
 namespace offline = chatter::offline;
@@ -343,9 +344,10 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace chatter_detect
 
 void add_verb_chatter_detect(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<chatter_detect::Options>();
   verb.reads("signal", options->signal, "CSV (t_s, value, optional speed_rpm) or WAV, 1 … 50 kHz")
       ->required();
   add_machine_option(verb, options->machine);
@@ -357,7 +359,7 @@ void add_verb_chatter_detect(Session& session, Verb& verb) {
              "without it, it is the deepest override step. With no process file it follows the "
              "rule of thumb: whole waves between two teeth")
       ->excludes(teeth);
-  verb.also_reads([options] { return offline::response_files(options->process); });
+  verb.also_reads([options] { return chatter::offline::response_files(options->process); });
   verb.add_option("--speed-rpm", options->speed_rpm,
                   "Spindle speed in rev/min, for a signal without a speed_rpm column");
   verb.add_option("--programmed-rpm", options->programmed_rpm,
@@ -365,7 +367,8 @@ void add_verb_chatter_detect(Session& session, Verb& verb) {
   verb.add_option("--depth-mm", options->depth_mm,
                   "Axial depth of cut, for --process; without it the deepest step is advised");
   verb.reports(options->report);
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb,
+             [options](Progress& progress) { return chatter_detect::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

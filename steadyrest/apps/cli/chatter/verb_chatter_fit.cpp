@@ -20,6 +20,7 @@
 #include <steadyrest/kernel/file/output_file.hpp>
 
 namespace steadyrest::apps::cli {
+namespace chatter_fit {
 namespace {
 
 // A tap test gives H(f) at the tool tip. The fit turns it into the [[mode]] sections that a process
@@ -160,9 +161,10 @@ Outcome run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace chatter_fit
 
 void add_verb_chatter_fit(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<chatter_fit::Options>();
   verb.reads("frf", options->files,
              "Responses at one point in one direction: CSV (frequency_hz, real and imag or "
              "magnitude and phase, coherence if recorded; displacement, velocity or acceleration "
@@ -183,7 +185,7 @@ void add_verb_chatter_fit(Session& session, Verb& verb) {
               "Write the modes to this file (TOML: [[mode]] sections for a process file)",
               toml_content("a file with nothing but modes (TOML: [[mode]])", {"mode"}));
   verb.reports(options->report);
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return chatter_fit::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -27,6 +27,7 @@
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
+namespace chatter_lobes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -332,11 +333,12 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace chatter_lobes
 
 void add_verb_chatter_lobes(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<chatter_lobes::Options>();
   verb.reads("process", options->process, "Process file (TOML): tool, cut and modes")->required();
-  verb.also_reads([options] { return offline::response_files(options->process); });
+  verb.also_reads([options] { return chatter::offline::response_files(options->process); });
   verb.add_option("--speeds-rpm", options->speeds_rpm,
                   "Mean spindle speeds in rev/min as FROM:TO:STEPS")
       ->required();
@@ -353,10 +355,11 @@ void add_verb_chatter_lobes(Session& session, Verb& verb) {
               "Write the map here (CSV: speed_rpm,depth_mm,spectral_radius). The border, refined "
               "between these speeds until it is smooth, goes to OUT.border.csv "
               "(speed_rpm,depth_mm; no row where every depth in the map is stable)",
-              map_files)
+              chatter_lobes::map_files)
       ->required();
   verb.reports(options->report);
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb,
+             [options](Progress& progress) { return chatter_lobes::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

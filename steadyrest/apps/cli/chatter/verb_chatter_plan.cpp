@@ -19,6 +19,7 @@
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
+namespace chatter_plan {
 namespace {
 
 namespace offline = chatter::offline;
@@ -336,11 +337,12 @@ void add_options(Verb& verb, Options& o) {
 }
 
 }  // namespace
+}  // namespace chatter_plan
 
 void add_verb_chatter_plan(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
-  add_options(verb, *options);
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  auto options = std::make_shared<chatter_plan::Options>();
+  chatter_plan::add_options(verb, *options);
+  session.on(verb, [options](Progress& progress) { return chatter_plan::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -14,6 +14,7 @@
 #include <steadyrest/chatter/offline/cycle/stability.hpp>
 
 namespace steadyrest::apps::cli {
+namespace chatter_radius {
 namespace {
 
 namespace offline = chatter::offline;
@@ -92,12 +93,14 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace chatter_radius
 
 void add_verb_chatter_radius(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<chatter_radius::Options>();
   add_cut_point_options(verb, options->cut);
   verb.reports(options->report);
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb,
+             [options](Progress& progress) { return chatter_radius::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -20,6 +20,7 @@
 // linear theory says when a vibration grows; only the simulation says how large it gets, and what
 // force, power and wall error come with it.
 namespace steadyrest::apps::cli {
+namespace chatter_simulate {
 namespace {
 
 namespace offline = chatter::offline;
@@ -212,9 +213,10 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace chatter_simulate
 
 void add_verb_chatter_simulate(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<chatter_simulate::Options>();
   add_cut_point_options(verb, options->cut);
   verb.add_option("--seconds", options->seconds, "Length of the cut")->capture_default_str();
   verb.add_option("--every", options->every, "Write only every Nth step")
@@ -223,9 +225,10 @@ void add_verb_chatter_simulate(Session& session, Verb& verb) {
   verb.writes("-o,--output", options->output,
               "Write t_s, angle_rad, speed_rpm, x_mm, y_mm, fx_N, fy_N, torque_Nm, power_W and "
               "chip_mm for each step to this file",
-              csv_content("the steps of a cut (CSV)", {kHead}));
+              csv_content("the steps of a cut (CSV)", {chatter_simulate::kHead}));
   verb.reports(options->report);
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb,
+             [options](Progress& progress) { return chatter_simulate::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

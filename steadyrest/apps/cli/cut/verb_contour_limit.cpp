@@ -14,6 +14,7 @@
 // Steady state on an arc: the axes with gain k lag by v/k, which pulls the tool inside the circle
 // by ε ≈ v²/(2Rk²). The law is in contour/offline/closed_form.hpp.
 namespace steadyrest::apps::cli {
+namespace contour_limit {
 namespace {
 
 using contour::offline::CircleErrors;
@@ -109,9 +110,10 @@ Outcome run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace contour_limit
 
 void add_verb_contour_limit(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<contour_limit::Options>();
   verb.add_option("--radius-mm", options->radius_mm, "Radius of the arc")
       ->required()
       ->check(within(1e-6, 1e9));
@@ -129,7 +131,7 @@ void add_verb_contour_limit(Session& session, Verb& verb) {
   verb.add_option("--velocity-lag-ms", options->velocity_lag_ms,
                   "First-order lag of the velocity loop in ms")
       ->check(within(0.0, 1e4));
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return contour_limit::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -27,6 +27,7 @@
 namespace steadyrest::apps::cli {
 // The main job. One path is planned once, cut twice on the same simulated machine with the same
 // noise, and only the layer differs; so every difference in the figures comes from the layer.
+namespace cut {
 namespace {
 
 using kernel::machine::ContourStrategy;
@@ -293,9 +294,10 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace cut
 
 void add_verb_cut(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<cut::Options>();
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);
   verb.reports(options->report, [options](const std::string& folder) {
@@ -311,10 +313,10 @@ void add_verb_cut(Session& session, Verb& verb) {
   verb.add_option("--limit-um", options->limit_um,
                   "Contour error limit, overriding the machine file");
   verb.add_option("--strategy", options->strategy, "Strategy, overriding the machine file")
-      ->check(CLI::IsMember(kStrategies));
+      ->check(CLI::IsMember(cut::kStrategies));
   add_cut_chatter_options(verb, options->chatter);
   add_cut_batch_options(verb, options->batch);
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb, [options](Progress& progress) { return cut::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

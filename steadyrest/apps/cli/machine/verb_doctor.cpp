@@ -21,6 +21,7 @@
 // (passport/file/consistency.cpp), then the clock, then the layer is run on a path full of
 // decisions and timed cycle by cycle.
 namespace steadyrest::apps::cli {
+namespace doctor {
 namespace {
 
 using kernel::machine::Machine;
@@ -163,19 +164,22 @@ Answer report_refused(Refusals refusals) {
   return answer;
 }
 
+Outcome run(const std::string& path, Progress& progress) {
+  auto machine = read_machine(path);
+  if (!machine) {
+    return report_refused(std::move(machine.error()));
+  }
+  const Measured measured = measure(*machine, progress);
+  return report(*machine, measured, examine(*machine, measured.findings));
+}
+
 }  // namespace
+}  // namespace doctor
 
 void add_verb_doctor(Session& session, Verb& verb) {
   auto path = std::make_shared<std::string>();
   add_machine_option(verb, *path);
-  session.on(verb, [path](Progress& progress) -> Outcome {
-    auto machine = read_machine(*path);
-    if (!machine) {
-      return report_refused(std::move(machine.error()));
-    }
-    const Measured measured = measure(*machine, progress);
-    return report(*machine, measured, examine(*machine, measured.findings));
-  });
+  session.on(verb, [path](Progress& progress) { return doctor::run(*path, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

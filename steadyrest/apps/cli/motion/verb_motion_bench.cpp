@@ -19,6 +19,7 @@
 // encoder component, and against what physics permits. The same table is what the project's own
 // figures come from.
 namespace steadyrest::apps::cli {
+namespace motion_bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,17 +167,18 @@ Outcome run(Options options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace motion_bench
 
 void add_verb_motion_bench(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<motion_bench::Options>();
   verb.add_option("--scenes", options->bench.scenes,
                   "Scenes or families of scenes, separated by commas: sine, sine-line, "
                   "sine-line-calibrated, s-curve, flywheel, dither, reversal, constant, jitter, "
                   "lost, clock, recorded; default: all")
       ->delimiter(',');
-  verb.add_option(
-          "--estimators", options->bench.estimators,
-          fmt::format("Any of {}; default: all", fmt::join(offline::estimator_names(), ",")))
+  verb.add_option("--estimators", options->bench.estimators,
+                  fmt::format("Any of {}; default: all",
+                              fmt::join(motion::offline::estimator_names(), ",")))
       ->delimiter(',');
   verb.reads("--recorded", options->recorded,
              "Folder with the recorded logs (k50m.csv or k50m.csv.gz, …)");
@@ -186,9 +188,10 @@ void add_verb_motion_bench(Session& session, Verb& verb) {
                   "Number of start positions within a count for the S-curve")
       ->capture_default_str();
   verb.writes("-o,--output", options->csv,
-              "Write the table to this CSV, with the requirement next to it", table_files);
+              "Write the table to this CSV, with the requirement next to it",
+              motion_bench::table_files);
   verb.writes_page("--page", options->page, "Write everything to this HTML page");
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb, [options](Progress& progress) { return motion_bench::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -22,6 +22,7 @@
 // Lines of a scale or disc are not where they should be. On smooth motion the neighbours of a line
 // tell when it should have passed; what comes back at the same line on every pass is its own error.
 namespace steadyrest::apps::cli {
+namespace motion_calibrate {
 namespace {
 
 namespace offline = motion::offline;
@@ -181,9 +182,10 @@ Outcome run(Options options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace motion_calibrate
 
 void add_verb_motion_calibrate(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<motion_calibrate::Options>();
   verb.reads("log", options->log, "Log of edges with columns t_s and count; - is stdin")
       ->required();
   auto* const count_mm =
@@ -207,7 +209,8 @@ void add_verb_motion_calibrate(Session& session, Verb& verb) {
                                    "line_table_periodic", "line_table_um", "line_table_deg"}),
                      machine_content()))
       ->required();
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb,
+             [options](Progress& progress) { return motion_calibrate::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -13,6 +13,7 @@
 // The encoder calculus of Kombarov 2011 (KhAI), eqs. 5 to 8: lines per revolution, signal
 // frequency, speed and count, from whichever are known. Four counts a line (quadrature).
 namespace steadyrest::apps::cli {
+namespace motion_encoder {
 namespace {
 
 namespace offline = motion::offline;
@@ -150,9 +151,10 @@ Outcome run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace motion_encoder
 
 void add_verb_motion_encoder(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<motion_encoder::Options>();
   verb.add_option("--max-frequency-hz", options->max_frequency_hz,
                   "Largest frequency of one channel of the encoder");
   verb.add_option("--lead-mm", options->lead_mm, "Travel of the axis per turn of the encoder");
@@ -164,7 +166,7 @@ void add_verb_motion_encoder(Session& session, Verb& verb) {
   verb.add_option("--count-mm", options->count_mm, "Count you want; gives the lines")
       ->excludes(lines);
   check_size(verb);
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return motion_encoder::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -26,6 +26,7 @@
 // With time-stamped edges the accuracy is that of the clock; with ticks alone it is that of a count
 // per cycle.
 namespace steadyrest::apps::cli {
+namespace motion_estimate {
 namespace {
 
 namespace offline = motion::offline;
@@ -292,9 +293,10 @@ void add_axis_options(Verb& verb, Options& options) {
 }
 
 }  // namespace
+}  // namespace motion_estimate
 
 void add_verb_motion_estimate(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<motion_estimate::Options>();
   verb.reads("log", options->log, "Log with columns t_s and count; - is stdin")->required();
   verb.add_option("--input", options->input,
                   "edges: one row per edge, with the count after it; ticks: one row per cycle")
@@ -306,7 +308,7 @@ void add_verb_motion_estimate(Session& session, Verb& verb) {
              "Encoder lines as written by `motion calibrate`, or a machine file");
   verb.add_option("--axis", options->axis, "Axis of the machine file the log belongs to");
   verb.add_option("--estimator", options->estimator,
-                  fmt::format("One of {}", fmt::join(offline::estimator_names(), ", ")))
+                  fmt::format("One of {}", fmt::join(motion::offline::estimator_names(), ", ")))
       ->capture_default_str();
   verb.add_option("--lag-ms", options->lag_ms,
                   "Estimate this long after the fact: finer, if the estimator supports it");
@@ -315,7 +317,7 @@ void add_verb_motion_estimate(Session& session, Verb& verb) {
                           {"t_s,position_mm,velocity_mm_s,acceleration_mm_s2,"}));
   verb.reports(options->report);
   session.on(verb, [options, &session](Progress& progress) {
-    return run(*options, session.json(), progress);
+    return motion_estimate::run(*options, session.json(), progress);
   });
 }
 

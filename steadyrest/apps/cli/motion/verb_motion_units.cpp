@@ -12,6 +12,7 @@
 // Eqs. 3 and 4 of Kombarov 2011: v·T/q counts per tick and a·T²/q counts per tick², T = 1/cycle
 // rate, q = count.
 namespace steadyrest::apps::cli {
+namespace motion_units {
 namespace {
 
 namespace offline = motion::offline;
@@ -107,9 +108,10 @@ Outcome run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace motion_units
 
 void add_verb_motion_units(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<motion_units::Options>();
   verb.add_option("--cycle-hz", options->sampling.cycle_hz, "Control cycles per second")
       ->required();
   verb.add_option("--count-mm", options->sampling.count_mm, "One count in mm")
@@ -128,7 +130,7 @@ void add_verb_motion_units(Session& session, Verb& verb) {
       ->excludes(overload)
       ->excludes(acceleration);
   check_size(verb);
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return motion_units::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli

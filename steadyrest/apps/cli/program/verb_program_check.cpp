@@ -14,6 +14,7 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 
 namespace steadyrest::apps::cli {
+namespace program_check {
 namespace {
 
 /// The check of the machine is a sink; without a machine nothing listens to the moves.
@@ -108,16 +109,18 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace program_check
 
 void add_verb_program_check(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<program_check::Options>();
   add_program_options(verb, options->program);
   verb.get_option("--dialect")->required(false);
   verb.add_option("--machine", options->machine,
                   "Machine file: sets dialect and axes, and checks the program against travel, "
                   "feeds and spindle; add --variables and --tools for the full check")
       ->option_text("FILE");
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb,
+             [options](Progress& progress) { return program_check::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -12,6 +12,7 @@
 // window around its planned time; where there is none, the program is refused and not half
 // corrected.
 namespace steadyrest::apps::cli {
+namespace program_compensate {
 namespace {
 
 struct Options {
@@ -62,9 +63,10 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace program_compensate
 
 void add_verb_program_compensate(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<program_compensate::Options>();
   add_machine_program_options(verb, options->rewrite.program);
   add_rewrite_options(verb, options->rewrite);
   verb.writes("-o,--output", options->output,
@@ -72,7 +74,8 @@ void add_verb_program_compensate(Session& session, Verb& verb) {
               program_content())
       ->required();
   verb.also_reads([options] { return files_of(options->rewrite); });
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb,
+             [options](Progress& progress) { return program_compensate::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -7,6 +7,7 @@
 #include <steadyrest/nc/interpret/state/move_table.hpp>
 
 namespace steadyrest::apps::cli {
+namespace program_moves {
 namespace {
 
 using nc::interpret::MoveTable;
@@ -45,14 +46,17 @@ Outcome run(const Options& options, bool json) {
 }
 
 }  // namespace
+}  // namespace program_moves
 
 void add_verb_program_moves(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<program_moves::Options>();
   add_program_options(verb, options->program);
-  verb.writes("-o,--output", options->output, "Write the table to this file instead of stdout",
-              csv_content("a table of moves (CSV)", {std::string(MoveTable::kHead)}));
-  session.on(verb,
-             [options, &session](Progress& /*progress*/) { return run(*options, session.json()); });
+  verb.writes(
+      "-o,--output", options->output, "Write the table to this file instead of stdout",
+      csv_content("a table of moves (CSV)", {std::string(program_moves::MoveTable::kHead)}));
+  session.on(verb, [options, &session](Progress& /*progress*/) {
+    return program_moves::run(*options, session.json());
+  });
 }
 
 }  // namespace steadyrest::apps::cli

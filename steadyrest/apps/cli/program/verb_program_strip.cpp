@@ -7,6 +7,7 @@
 #include <steadyrest/nc/rewrite/text/tag.hpp>
 
 namespace steadyrest::apps::cli {
+namespace program_strip {
 namespace {
 
 struct Options {
@@ -28,14 +29,15 @@ Outcome run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace program_strip
 
 void add_verb_program_strip(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<program_strip::Options>();
   verb.reads("FILE", options->file, "The changed program")->required();
   verb.writes("-o,--output", options->output,
               "The restored original; with --force it may be FILE itself", program_content())
       ->required();
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return program_strip::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -20,6 +20,7 @@
 // look-ahead, corner rules, dwells, tool changes and the spindle's run-up. Path over feed alone is
 // several times too short where moves are short.
 namespace steadyrest::apps::cli {
+namespace program_time {
 namespace {
 
 using kernel::units::mm_min_from_mm_s;
@@ -173,9 +174,10 @@ Outcome run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace program_time
 
 void add_verb_program_time(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<program_time::Options>();
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);
   verb.add_flag("--lines", options->lines, "With --json: also list the seconds for each line");
@@ -188,7 +190,7 @@ void add_verb_program_time(Session& session, Verb& verb) {
   verb.writes("--cyclogram", options->cyclogram,
               "Write the transitions (tool, spindle speed, feed, load, time) to this TOML file",
               toml_content("a cyclogram (TOML: [[transition]])", {"transition", "resolution_min"}));
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return program_time::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -10,6 +10,7 @@
 // The proof that a changed program is the original plus the planned corrections: both are
 // interpreted and compared move by move.
 namespace steadyrest::apps::cli {
+namespace program_verify {
 namespace {
 
 struct Options {
@@ -44,13 +45,15 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace program_verify
 
 void add_verb_program_verify(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<program_verify::Options>();
   add_machine_program_options(verb, options->rewrite.program);
   verb.reads("CHANGED", options->changed, "The changed program")->required();
   add_rewrite_options(verb, options->rewrite);
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb,
+             [options](Progress& progress) { return program_verify::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

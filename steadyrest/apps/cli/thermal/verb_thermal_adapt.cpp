@@ -22,6 +22,7 @@
 // Block 7 and loop D of Marusich's algorithm: the parts of a job are measured, the share k moves by
 // one level, and the gains of the thermal modes are learnt where the model explains the deviations.
 namespace steadyrest::apps::cli {
+namespace thermal_adapt {
 namespace {
 
 using kernel::machine::Thermal;
@@ -271,6 +272,7 @@ Outcome run(const AdaptOptions& options) {
 }
 
 }  // namespace
+}  // namespace thermal_adapt
 
 void add_verb_thermal_adapt(Session& session, Verb& verb) {
   auto options = std::make_shared<AdaptOptions>();
@@ -306,7 +308,7 @@ void add_verb_thermal_adapt(Session& session, Verb& verb) {
               "Write the machine file (or passport) with the new level and gains",
               machine_content());
   verb.also_reads([options] { return files_of(options->plan); });
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return thermal_adapt::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli

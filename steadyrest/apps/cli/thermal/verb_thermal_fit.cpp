@@ -26,6 +26,7 @@
 // A test log in, a passport out: the modes of each axis, the temperatures that move it, and how far
 // to trust them on hours that the fit has not seen.
 namespace steadyrest::apps::cli {
+namespace thermal_fit {
 namespace {
 
 namespace offline = thermal::offline;
@@ -341,9 +342,10 @@ Outcome run(const Options& options, Progress& progress) {
 }
 
 }  // namespace
+}  // namespace thermal_fit
 
 void add_verb_thermal_fit(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<thermal_fit::Options>();
   verb.reads("log", options->log,
              "Test log: CSV, or CSV packed with gzip, with time_s, spindle_rpm, displacements "
              "(…_um) and temperatures (…_c); docs/thermal-test.md describes the test")
@@ -378,7 +380,7 @@ void add_verb_thermal_fit(Session& session, Verb& verb) {
       "Ignore rows before this minute; in a log with time stamps, minutes since its first row");
   verb.add_option("--to-min", options->to_min,
                   "Ignore rows after this minute, counted the same way");
-  session.on(verb, [options](Progress& progress) { return run(*options, progress); });
+  session.on(verb, [options](Progress& progress) { return thermal_fit::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

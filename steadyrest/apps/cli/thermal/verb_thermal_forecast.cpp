@@ -21,6 +21,7 @@
 // A passport and a cyclogram in, a displacement with its band out. With --log the recorded inputs
 // replace the cyclogram.
 namespace steadyrest::apps::cli {
+namespace thermal_forecast {
 namespace {
 
 using kernel::units::rpm_from_rev_s;
@@ -166,11 +167,13 @@ Outcome run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace thermal_forecast
 
 void add_verb_thermal_forecast(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<thermal_forecast::Options>();
   add_thermal_options(verb, options->thermal);
-  verb.writes("-o,--output", options->output, "Write the curve to this CSV", curve_content());
+  verb.writes("-o,--output", options->output, "Write the curve to this CSV",
+              thermal_forecast::curve_content());
   verb.reports(options->report);
   verb.add_option("--step-s", options->step_s, "Seconds between rows")->check(within(0.1, 86400.0));
   CLI::Option* log = verb.reads("--log", options->replay.log,
@@ -188,7 +191,7 @@ void add_verb_thermal_forecast(Session& session, Verb& verb) {
   verb.add_option("--channel", options->replay.channels,
                   "Log column that measures an axis, as z_um=Z; repeatable")
       ->needs(log);
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return thermal_forecast::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli

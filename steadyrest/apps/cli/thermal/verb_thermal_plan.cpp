@@ -23,6 +23,7 @@
 // The paper's system R = {n; {t}; {δ}} for each transition (Marusich 2012): the interval durations
 // t_j and the corrections δ_j at the start of each interval.
 namespace steadyrest::apps::cli {
+namespace thermal_plan {
 namespace {
 
 using kernel::units::mm_from_um;
@@ -275,9 +276,10 @@ Outcome run(const Options& options) {
 }
 
 }  // namespace
+}  // namespace thermal_plan
 
 void add_verb_thermal_plan(Session& session, Verb& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<thermal_plan::Options>();
   add_thermal_options(verb, options->thermal);
   verb.add_option("--tolerance-um", options->tolerance_um,
                   "Tolerance Δ, µm, for transitions without one")
@@ -292,7 +294,7 @@ void add_verb_thermal_plan(Session& session, Verb& verb) {
   verb.reports(options->report);
   verb.writes("-o,--output", options->output, "Write PLAN.json, for `program compensate`",
               plan_content());
-  session.on(verb, [options](Progress& /*progress*/) { return run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return thermal_plan::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli
