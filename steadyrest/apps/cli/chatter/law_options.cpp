@@ -10,7 +10,6 @@
 namespace steadyrest::apps::cli {
 namespace {
 
-using chatter::offline::Modulation;
 using chatter::offline::Process;
 using chatter::online::Law;
 
@@ -134,7 +133,7 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
 
 /// The law in the ratios of the literature and, at one speed, in the words of the shop.
 void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm) {
-  const Modulation& m = chosen.modulation;
+  const chatter::offline::Modulation& m = chosen.modulation;
   json["law"] = chatter::online::name(m.law);
   if (m.law == Law::constant) {
     return;
@@ -156,7 +155,7 @@ void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm) {
 
 /// The same in one line; a moved RVF is mentioned, for the answer is about that one.
 std::string law_text(const ChosenLaw& chosen, double speed_rpm) {
-  const Modulation& m = chosen.modulation;
+  const chatter::offline::Modulation& m = chosen.modulation;
   const std::string_view name = chatter::online::name(m.law);
   if (m.law == Law::constant) {
     return std::string(name);

@@ -18,7 +18,6 @@ namespace {
 namespace units = kernel::units;
 using chatter::offline::PlanDecision;
 using chatter::online::Law;
-using chatter::online::Modulation;
 using kernel::machine::Machine;
 using trial::cut::ChatterChoice;
 
@@ -41,7 +40,7 @@ double slowest_cut_rev_s(const nc::plan::PlannedPath& path) {
 }
 
 /// The slowest instant of a law is its lower turning point.
-double lowest_ratio(const Modulation& m) {
+double lowest_ratio(const chatter::online::Modulation& m) {
   return m.law == Law::constant ? m.mean_ratio : m.mean_ratio * (1.0 - m.amplitude_ratio);
 }
 
@@ -64,7 +63,7 @@ double lowest_ratio(const CutChatter& chatter, const Machine& machine) {
 }
 
 std::string choice_words(const ChatterChoice& choice) {
-  const Modulation& m = choice.modulation;
+  const chatter::online::Modulation& m = choice.modulation;
   switch (choice.decision) {
     case PlanDecision::keep:
       return "the programmed speed is stable";
@@ -90,7 +89,7 @@ std::string switch_words(const ChatterChoice& choice) {
 
 /// One choice, in per cent of the programmed speed.
 Json json_of(const ChatterChoice& choice) {
-  const Modulation& m = choice.modulation;
+  const chatter::online::Modulation& m = choice.modulation;
   const bool law = m.law != Law::constant;
   return {{"speed_rpm", units::rpm_from_rev_s(choice.speed_rev_s)},
           {"decision", chatter::offline::name(choice.decision)},

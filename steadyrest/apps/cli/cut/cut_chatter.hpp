@@ -37,9 +37,10 @@ struct CutChatter {
 
 /// Reads the process, asks the planner for the program's spindle speeds, and switches the machine's
 /// modulator on where the plan decides.
-[[nodiscard]] std::expected<CutChatter, std::vector<kernel::outcome::Refusal>> cut_chatter(
-    const CutChatterOptions& options, const nc::plan::PlannedPath& path,
-    kernel::machine::Machine& machine, Progress& progress);
+[[nodiscard]] std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options,
+                                                              const nc::plan::PlannedPath& path,
+                                                              kernel::machine::Machine& machine,
+                                                              Progress& progress);
 
 /// `vibration` of both cuts, as keys beside their figures, and `chatter`: what was chosen.
 void put_vibration(Answer& answer, const CutChatter& chatter, const trial::cut::Recorder& without,

@@ -20,7 +20,6 @@
 namespace steadyrest::apps::cli {
 
 using nc::rewrite::Method;
-using nc::rewrite::Way;
 
 namespace {
 
@@ -56,9 +55,9 @@ Method written(Method method, kernel::machine::Dialect dialect) {
 /// The way in which a correction reaches the control: method, store, sign, increment. Every
 /// combination that a control does not have is refused here, because in the program it would look
 /// right and do nothing.
-std::expected<Way, Refusals> way_of(const RewriteOptions& options,
-                                    const kernel::machine::Machine& machine,
-                                    nc::read::Dialect program) {
+std::expected<nc::rewrite::Way, Refusals> way_of(const RewriteOptions& options,
+                                                 const kernel::machine::Machine& machine,
+                                                 nc::read::Dialect program) {
   using Dialect = kernel::machine::Dialect;
   const kernel::machine::Compensation& compensation = machine.compensation;
   // An option of another control is a misunderstanding, so it is refused and not ignored.
@@ -96,13 +95,13 @@ std::expected<Way, Refusals> way_of(const RewriteOptions& options,
   // cleared_after_abort is a promise about one method and one R-parameter. It does not hold for
   // another chosen on the command line.
   const bool as_in_file = method == compensation.method && r_parameter == compensation.r_parameter;
-  return Way{.method = written(method, program),
-             .r_parameter = r_parameter,
-             .sign = compensation.sign < 0 ? -1 : 1,
-             .external_offset_free =
-                 compensation.external_offset_free && written(method, program) == Method::fanuc,
-             .cleared_after_abort = compensation.cleared_after_abort && as_in_file,
-             .increment_mm = compensation.least_increment_mm};
+  return nc::rewrite::Way{.method = written(method, program),
+                          .r_parameter = r_parameter,
+                          .sign = compensation.sign < 0 ? -1 : 1,
+                          .external_offset_free = compensation.external_offset_free &&
+                                                  written(method, program) == Method::fanuc,
+                          .cleared_after_abort = compensation.cleared_after_abort && as_in_file,
+                          .increment_mm = compensation.least_increment_mm};
 }
 
 namespace {
@@ -304,7 +303,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   if (!way) {
     return std::unexpected(way.error());
   }
-  static_cast<Way&>(task.settings) = *way;
+  static_cast<nc::rewrite::Way&>(task.settings) = *way;
   task.settings.axes = task.config.axes;
   // On a Haas, P0 must be read as G52, or the interpreter would prove another machine.
   task.config.external_offset = way->method != Method::haas;

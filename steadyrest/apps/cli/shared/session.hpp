@@ -22,7 +22,6 @@ using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using Json = nlohmann::ordered_json;  // keys in the order in which the verb wrote them
-using Refusals = std::vector<Refusal>;
 
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;   ///< anything that is not the user's mistake

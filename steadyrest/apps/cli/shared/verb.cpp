@@ -21,7 +21,6 @@ namespace {
 using kernel::file::Place;
 using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
-using Refusals = std::vector<Refusal>;
 
 constexpr std::string_view kNoDate = "none";
 
@@ -196,7 +195,7 @@ page::Provenance Verb::provenance(const std::string& command) const {
 }
 
 /// An empty name is nearly always an unset shell variable, and "" would mean the current folder.
-std::vector<Refusal> Verb::empty_names() const {
+Refusals Verb::empty_names() const {
   Refusals out;
   const auto look = [&out](const CLI::Option& option, const char* to_do) {
     if (std::ranges::find(option.results(), "") != option.results().end()) {

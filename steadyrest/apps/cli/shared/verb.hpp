@@ -17,6 +17,8 @@
 
 namespace steadyrest::apps::cli {
 
+using Refusals = std::vector<kernel::outcome::Refusal>;
+
 /// A file that will be written.
 struct PlannedFile {
   std::string file;
@@ -83,7 +85,7 @@ class Verb : public CLI::App {
   [[nodiscard]] page::Provenance provenance(const std::string& command) const;
 
   [[nodiscard]] bool has_outputs() const noexcept { return !outputs_.empty(); }
-  [[nodiscard]] std::expected<Ready, std::vector<kernel::outcome::Refusal>> ready(bool json) const;
+  [[nodiscard]] std::expected<Ready, Refusals> ready(bool json) const;
 
  private:
   struct Output {
@@ -95,11 +97,10 @@ class Verb : public CLI::App {
   CLI::Option* add_output(const std::string& flags, std::string& path,
                           const std::string& description, Files files, bool folder);
   void dates_last_output();
-  [[nodiscard]] std::vector<kernel::outcome::Refusal> empty_names() const;
+  [[nodiscard]] Refusals empty_names() const;
   [[nodiscard]] std::vector<Input> inputs() const;
   /// What is to be written; makes the folders of reports.
-  [[nodiscard]] std::expected<std::vector<PlannedFile>, std::vector<kernel::outcome::Refusal>> plan(
-      Ready& ready) const;
+  [[nodiscard]] std::expected<std::vector<PlannedFile>, Refusals> plan(Ready& ready) const;
 
   std::vector<CLI::Option*> inputs_;
   std::vector<std::function<std::vector<std::string>()>> named_;
