@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <steadyrest/apps/page/chatter/cut_recorder.hpp>
 #include <steadyrest/apps/page/shared/json_numbers.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 // A cut of hours in a page of a megabyte: extremes per stretch for the long view, one point per
@@ -12,12 +12,12 @@
 namespace steadyrest::apps::page {
 namespace {
 
+using kernel::units::kTurn;
 using trial::vibration::Moment;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kUm = 1000.0;
 /// As many stretches as a wide screen has pixels.
-constexpr double kStretches = 3000.0;
+constexpr double kEnvelopeStretches = 3000.0;
 constexpr double kWhole = 1e-6;  ///< short of a whole number counts as one
 constexpr double kMostTurns = 4000.0;
 constexpr double kLastTurns = 6.0;
@@ -58,7 +58,7 @@ Json columns_of(const std::vector<Moment>& moments) {
 
 /// The last stretch takes the rest of the time, and rounding must not open another one.
 CutRecorder::CutRecorder(double seconds, double mean_rev_s)
-    : stretch_s_(seconds / kStretches),
+    : stretch_s_(seconds / kEnvelopeStretches),
       last_stretch_(std::max(0.0, std::floor(seconds / stretch_s_ + kWhole) - 1.0)),
       // Every nth turn, so that the points stay below 4000.
       stride_(

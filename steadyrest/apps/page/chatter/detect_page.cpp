@@ -14,7 +14,7 @@ namespace {
 using chatter::offline::RecordedSignal;
 using kernel::units::rpm_from_rev_s;
 
-constexpr std::size_t kStretches = 1500;
+constexpr std::size_t kCourseStretches = 1500;
 /// The tooth orders that a machinist looks for, the chatter with its first multiple, and never less
 /// than 1 kHz.
 constexpr double kTeethShown = 12.0;   ///< orders of the teeth in the picture …
@@ -35,7 +35,7 @@ Json course_json(const RecordedSignal& signal) {
   std::vector<double> high;
   std::vector<double> speed_rpm;
   const std::size_t samples = signal.value.size();
-  const std::size_t stretch = std::max<std::size_t>(1, samples / kStretches);
+  const std::size_t stretch = std::max<std::size_t>(1, samples / kCourseStretches);
   for (std::size_t begin = 0; begin < samples; begin += stretch) {
     const std::size_t end = std::min(begin + stretch, samples);
     const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };

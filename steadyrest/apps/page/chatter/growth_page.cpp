@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <steadyrest/apps/page/chatter/growth_page.hpp>
 #include <steadyrest/apps/page/shared/json_numbers.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 // How far a vibration grows on its way through the law's period.
@@ -12,11 +12,11 @@ namespace steadyrest::apps::page {
 namespace {
 
 namespace offline = chatter::offline;
+using kernel::units::kTurn;
 using offline::DelayCycle;
 using offline::GrowthCourse;
 using offline::SpeedProfile;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr std::size_t kSpeedPoints = 1200;
 constexpr double kBesideJump = 1e-9;  ///< of the law's period
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -11,17 +10,18 @@
 #include <steadyrest/apps/page/chatter/cut_recorder.hpp>
 #include <steadyrest/apps/page/chatter/lobes_page.hpp>
 #include <steadyrest/apps/page/chatter/spectrogram.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 // Signals that are known exactly: tones, and circles of one vibration a turn.
 namespace steadyrest::apps::page {
 namespace {
 
+using kernel::units::kTurn;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kRate_hz = 8000.0;
 
 /// A tone of 1000 Hz; from half of the time on also one of 2000 Hz at a tenth of its amplitude, 20
