@@ -18,7 +18,7 @@ using testing::IsEmpty;
 using testing::MatchesRegex;
 using testing::StartsWith;
 
-const std::string kCircle = "contour limit --radius-mm 10 --kv-1-s 50 ";
+const std::string kLimit = "contour limit --radius-mm 10 --kv-1-s 50 ";
 
 // stdout belongs to answers; nothing else may go there.
 TEST(Cli, VersionOnStdout) {
@@ -37,7 +37,7 @@ TEST(Cli, WithoutAVerbIsRefused) {
 
 TEST(Cli, UnknownVerbAndUnknownFlagAreRefused) {
   EXPECT_EQ(run({"cuts"}).code, 2);
-  const Finished finished = run_line(kCircle + "--max-error-mm 0.01 --colour red");
+  const Finished finished = run_line(kLimit + "--max-error-mm 0.01 --colour red");
   EXPECT_EQ(finished.code, 2);
   EXPECT_THAT(finished.out, IsEmpty());
   EXPECT_THAT(finished.err, HasSubstr("--colour"));
@@ -106,7 +106,7 @@ TEST(Cli, SaysSoWhenStdoutTakesNothing) {
 
 // R = 10 mm, Kv = 3 (m/min)/mm = 50 1/s, 10 µm: v = k·R·√((R/(R−ε))² − 1) = 1343 mm/min.
 TEST(ContourLimit, GivesTheFeedForAnError) {
-  const Finished finished = run_line(kCircle + "--max-error-mm 0.010 --json");
+  const Finished finished = run_line(kLimit + "--max-error-mm 0.010 --json");
   ASSERT_EQ(finished.code, 0) << finished.err;
   EXPECT_THAT(finished.err, IsEmpty());
   const json answer = json::parse(finished.out);
@@ -117,7 +117,7 @@ TEST(ContourLimit, GivesTheFeedForAnError) {
 
 // ε = R(1 − 1/√(1 + q²)) and Ed = R·q/√(1 + q²) with q = v/(R·k) = 0.1333.
 TEST(ContourLimit, GivesTheErrorsAtAFeed) {
-  const Finished finished = run_line(kCircle + "--feed-mm-min 4000 --json");
+  const Finished finished = run_line(kLimit + "--feed-mm-min 4000 --json");
   ASSERT_EQ(finished.code, 0) << finished.err;
   const json answer = json::parse(finished.out);
   EXPECT_NEAR(answer["contour_error_mm"], 0.0877, 6e-5);
@@ -126,7 +126,7 @@ TEST(ContourLimit, GivesTheErrorsAtAFeed) {
 }
 
 TEST(ContourLimit, JudgesAFeedByALimit) {
-  const Finished finished = run_line(kCircle + "--feed-mm-min 4000 --max-error-mm 0.01 --json");
+  const Finished finished = run_line(kLimit + "--feed-mm-min 4000 --max-error-mm 0.01 --json");
   const json answer = json::parse(finished.out);
   EXPECT_EQ(answer["within_limit"], false);
   EXPECT_NEAR(answer["limit_feed_mm_min"], 1343.0, 0.6);
@@ -135,21 +135,21 @@ TEST(ContourLimit, JudgesAFeedByALimit) {
 // a = 0.5 gives about (1 − a²), τ = 5 ms about (1 − 2kτ) of the error without; the figures are
 // simulated ones.
 TEST(ContourLimit, TakesFeedForwardAndLag) {
-  const Finished forward = run_line(kCircle + "--feed-mm-min 4000 --feed-forward 0.5 --json");
+  const Finished forward = run_line(kLimit + "--feed-mm-min 4000 --feed-forward 0.5 --json");
   EXPECT_NEAR(json::parse(forward.out)["contour_error_mm"], 0.0656, 1.5e-4);
-  const Finished lag = run_line(kCircle + "--feed-mm-min 4000 --velocity-lag-ms 5 --json");
+  const Finished lag = run_line(kLimit + "--feed-mm-min 4000 --velocity-lag-ms 5 --json");
   EXPECT_NEAR(json::parse(lag.out)["contour_error_mm"], 0.0443, 1.5e-4);
 }
 
 // Full feed-forward without lag: no feed reaches the limit.
 TEST(ContourLimit, HasNoFeedWhereNothingLimitsIt) {
-  const Finished finished = run_line(kCircle + "--max-error-mm 0.01 --feed-forward 1 --json");
+  const Finished finished = run_line(kLimit + "--max-error-mm 0.01 --feed-forward 1 --json");
   EXPECT_EQ(finished.code, 0);
   EXPECT_TRUE(json::parse(finished.out)["feed_mm_min"].is_null());
 }
 
 TEST(ContourLimit, ShowsAShortTableToPeople) {
-  const Finished finished = run_line(kCircle + "--feed-mm-min 4000");
+  const Finished finished = run_line(kLimit + "--feed-mm-min 4000");
   EXPECT_THAT(finished.out, HasSubstr("contour error       0.0877 mm\n"));
 }
 
@@ -179,7 +179,7 @@ TEST(Cli, NoOptionTakesANumberThatIsNotFinite) {
                     "examples/paper-thermal/measured.csv --noise-um nan"),
         std::string("cut examples/programs/circle-r10.ngc --machine "
                     "examples/thermal-batch/machine.toml --batch 2 --pause-min nan"),
-        kCircle + "--max-error-mm nan",
+        kLimit + "--max-error-mm nan",
         std::string(
             "chatter radius examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm nan")}) {
     expect_refused(line, " is not a finite number; see steadyrest ");
@@ -226,7 +226,7 @@ TEST(Cli, AnOutputIsNotCalledMinus) {
 }
 
 TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
-  expect_refused(kCircle + "--feed-mm-min -1", "--feed-mm-min -1 is outside 0 to 1e+09;");
+  expect_refused(kLimit + "--feed-mm-min -1", "--feed-mm-min -1 is outside 0 to 1e+09;");
   expect_refused("contour limit --radius-mm 10 --kv-1-s 1e-300 --max-error-mm 0.01",
                  "--kv-1-s 1e-300 is outside 0.001 to");
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -21,10 +22,8 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::Not;
 
-const std::string kSlot = "examples/processes/slot-922hz.toml";
 const std::string kTapped = "examples/processes/slot-tapped.toml";
 const std::string kRadius = " --speed-rpm 5000 --depth-mm 0.2 --report ";
-const std::string kTap = "examples/processes/tap-922hz.csv";
 
 /// As another program has it: coreutils' sha256sum.
 std::string sha256sum(const std::string& file) {
@@ -42,14 +41,14 @@ json made_by(const std::string& line, const std::string& folder) {
 
 TEST(ReportMade, SaysDateCommandAndHashesOfItsInputs) {
   const Scratch scratch;
-  const json made = made_by("chatter radius " + kSlot + kRadius, scratch.at("out"));
+  const json made = made_by("chatter radius " + kSlotProcess + kRadius, scratch.at("out"));
   EXPECT_THAT(made["date"].get<std::string>(),
               MatchesRegex("20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z"));
   EXPECT_THAT(made["command"].get<std::string>(),
-              HasSubstr("steadyrest chatter radius " + kSlot + kRadius + scratch.at("out")));
+              HasSubstr("steadyrest chatter radius " + kSlotProcess + kRadius + scratch.at("out")));
   ASSERT_EQ(made["inputs"].size(), 1U);
-  EXPECT_EQ(made["inputs"][0]["file"], kSlot);
-  EXPECT_EQ(made["inputs"][0]["sha256"], sha256sum(kSlot));
+  EXPECT_EQ(made["inputs"][0]["file"], kSlotProcess);
+  EXPECT_EQ(made["inputs"][0]["sha256"], sha256sum(kSlotProcess));
   EXPECT_THAT(made["command"].get<std::string>(), Not(HasSubstr("bin/")));
 }
 
@@ -58,13 +57,13 @@ TEST(ReportMade, NamesWhatAnInputNames) {
   const Scratch scratch;
   const json made = made_by("chatter radius " + kTapped + kRadius, scratch.at("out"));
   ASSERT_EQ(made["inputs"].size(), 2U);
-  EXPECT_EQ(made["inputs"][1]["file"], kTap);
-  EXPECT_EQ(made["inputs"][1]["sha256"], sha256sum(kTap));
+  EXPECT_EQ(made["inputs"][1]["file"], kTapTest);
+  EXPECT_EQ(made["inputs"][1]["sha256"], sha256sum(kTapTest));
 }
 
 TEST(ReportMade, TakesTheDateThatIsGiven) {
   const Scratch scratch;
-  const std::string fit = "chatter fit " + kTap + " --axis x --report-date ";
+  const std::string fit = "chatter fit " + kTapTest + " --axis x --report-date ";
   EXPECT_EQ(made_by(fit + "2026-01-02 --report ", scratch.at("a"))["date"], "2026-01-02");
   EXPECT_TRUE(made_by(fit + "none --report ", scratch.at("b"))["date"].is_null());
   expect_refused(fit + "tomorrow --report " + scratch.at("c"), "tomorrow is neither a date");
@@ -72,8 +71,8 @@ TEST(ReportMade, TakesTheDateThatIsGiven) {
 
 TEST(ReportMade, IsInTheReportOfEachNewPage) {
   const Scratch scratch;
-  const json fit = made_by("chatter fit " + kTap + " --axis x --report ", scratch.at("fit"));
-  EXPECT_EQ(fit["inputs"][0]["sha256"], sha256sum(kTap));
+  const json fit = made_by("chatter fit " + kTapTest + " --axis x --report ", scratch.at("fit"));
+  EXPECT_EQ(fit["inputs"][0]["sha256"], sha256sum(kTapTest));
   const std::string log = "examples/logs/sine-edges.csv";
   const json estimate =
       made_by("motion estimate " + log + " --input edges --count-mm 0.001 --cycle-hz 1000 -o " +
@@ -105,7 +104,7 @@ TEST(MotionEstimateReport, HoldsWhatTheTableHolds) {
 
 TEST(ChatterFitReport, HoldsTheMeasurementAndTheFit) {
   const Scratch scratch;
-  const json fit = answer_of("chatter fit " + kTap + " --axis x --report " + scratch.at("out"));
+  const json fit = answer_of("chatter fit " + kTapTest + " --axis x --report " + scratch.at("out"));
   const json page = json::parse(text_of_file(scratch.at("out/report.json")));
   EXPECT_EQ(page["kind"], "fit");
   EXPECT_EQ(page["measured"][0]["name"], "tap-922hz.csv");

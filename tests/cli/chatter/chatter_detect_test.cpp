@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -24,8 +25,7 @@ using testing::HasSubstr;
 constexpr double kRateHz = 8000.0;
 constexpr double kSpeedRpm = 5000.0;
 constexpr double kChatterHz = 943.0;
-const std::string kMachine = " --machine examples/machines/vmc-840d.toml";
-const std::string kExample = "chatter detect examples/logs/slot-chatter.csv" + kMachine;
+const std::string kDetect = "chatter detect examples/logs/slot-chatter.csv" + kOnVmc;
 
 /// 1.2 s of a cut with two teeth: the forced vibration has the tooth order and its double, 1 %
 /// noise. With `chatter` a tone at 943 Hz joins at 0.5 s with a rise of 20 ms; no tooth order is
@@ -95,17 +95,17 @@ TEST(ChatterDetect, FindsChatterAndItsFrequency) {
   const Scratch scratch;
   const auto values = cut(true);
   expect_the_chatter(answer_of("chatter detect " + scratch.file("a.csv", csv(values, true)) +
-                               kMachine + " --teeth 2"));
+                               kOnVmc + " --teeth 2"));
   expect_the_chatter(answer_of("chatter detect " + scratch.file("b.csv", csv(values, false)) +
-                               kMachine + " --teeth 2 --speed-rpm 5000"));
-  expect_the_chatter(answer_of("chatter detect " + scratch.file("a.wav", wav(values)) + kMachine +
+                               kOnVmc + " --teeth 2 --speed-rpm 5000"));
+  expect_the_chatter(answer_of("chatter detect " + scratch.file("a.wav", wav(values)) + kOnVmc +
                                " --teeth 2 --speed-rpm 5000"));
 }
 
 TEST(ChatterDetect, IsSilentInAStableCut) {
   const Scratch scratch;
   const std::string line =
-      "chatter detect " + scratch.file("a.csv", csv(cut(false), true)) + kMachine + " --teeth 2";
+      "chatter detect " + scratch.file("a.csv", csv(cut(false), true)) + kOnVmc + " --teeth 2";
   const json answer = answer_of(line);
   EXPECT_TRUE(answer["events"].is_array());
   EXPECT_TRUE(answer["events"].empty());
@@ -115,16 +115,16 @@ TEST(ChatterDetect, IsSilentInAStableCut) {
 
 // The rule n = 60·fc/(N·k): 6 whole waves between two teeth.
 TEST(ChatterDetect, AdvisesWholeWavesBetweenTwoTeeth) {
-  const json event = answer_of(kExample + " --teeth 2")["events"].at(0);
+  const json event = answer_of(kDetect + " --teeth 2")["events"].at(0);
   EXPECT_GT(event["start_s"], 0.6);
   EXPECT_LT(event["start_s"], 0.75);
   EXPECT_NEAR(event["frequency_hz"], 940.0, 9.4);
   // 60·940/(2·6) = 4700; the step of 5 % that is nearest.
   EXPECT_NEAR(event["advised_speed_rpm"], 4750.0, 1e-6);
   EXPECT_NEAR(event["advised_override_percent"], 95.0, 1e-9);
-  EXPECT_THAT(run_line(kExample + " --teeth 2").out, HasSubstr("4750 rpm (95 %)"));
+  EXPECT_THAT(run_line(kDetect + " --teeth 2").out, HasSubstr("4750 rpm (95 %)"));
   const json of_programmed =
-      answer_of(kExample + " --teeth 2 --programmed-rpm 4750")["events"].at(0);
+      answer_of(kDetect + " --teeth 2 --programmed-rpm 4750")["events"].at(0);
   EXPECT_NEAR(of_programmed["advised_override_percent"], 100.0, 1e-9);
 }
 
@@ -132,7 +132,7 @@ TEST(ChatterDetect, AdvisesWholeWavesBetweenTwoTeeth) {
 // at the advised speed.
 TEST(ChatterDetect, AdvisesTheDeepestStepOfTheProcess) {
   const std::string process = "examples/processes/slot-922hz.toml";
-  const json event = answer_of(kExample + " --process " + process)["events"].at(0);
+  const json event = answer_of(kDetect + " --process " + process)["events"].at(0);
   const double advised_rpm = event["advised_speed_rpm"];
   EXPECT_NEAR(advised_rpm, 50.0 * event["advised_override_percent"].get<double>(), 1e-6);
   const auto radius = [&](double speed_rpm) {
@@ -159,10 +159,10 @@ TEST(ChatterDetect, WithProcessAndDepthSaysWhatThePlannerSays) {
   EXPECT_NEAR(event["advised_override_percent"], plan["override_percent"][0], 1e-9);
   EXPECT_NEAR(event["advised_speed_rpm"], plan["speed_rpm"], 1e-9);
   EXPECT_THAT(run_line(line).out, HasSubstr("better speed, by the planner"));
-  const json rule = answer_of(kExample + " --teeth 2");
+  const json rule = answer_of(kDetect + " --teeth 2");
   EXPECT_EQ(rule["advice_by"], "rule of thumb");
   EXPECT_TRUE(rule["events"].at(0)["decision"].is_null());
-  EXPECT_THAT(run_line(kExample + " --teeth 2").out,
+  EXPECT_THAT(run_line(kDetect + " --teeth 2").out,
               HasSubstr("better speed, by the rule of thumb"));
 }
 
@@ -188,19 +188,19 @@ TEST(ChatterDetect, AdvisesNothingBeyondTheSpindle) {
 TEST(ChatterDetect, Refuses) {
   const Scratch scratch;
   const auto detect = [](const std::string& signal, const std::string& rest = " --teeth 2") {
-    return "chatter detect " + signal + kMachine + rest;
+    return "chatter detect " + signal + kOnVmc + rest;
   };
   const std::string silent = scratch.file("silent.csv", csv(cut(false), false));
   expect_refused(detect(silent), "silent.csv: has no spindle speed");
   expect_refused(detect(silent, " --teeth 2 --speed-rpm 0"), "--speed-rpm 0 is not above 0");
   expect_refused(detect(silent, " --teeth 2 --speed-rpm nan"), "--speed-rpm nan");
   expect_refused(detect(silent, " --teeth 2 --speed-rpm 9000"), "above the spindle's 8000");
-  expect_refused(kExample + " --teeth 2 --speed-rpm 5000", "has a speed_rpm column");
-  expect_refused(kExample, "the number of teeth is unknown");
-  expect_refused(kExample + " --teeth 0", "--teeth 0");
-  expect_refused(kExample + " --teeth 65", "--teeth 65");
-  expect_refused(kExample + " --teeth 2 --depth-mm 1", "--depth-mm without --process");
-  expect_refused(kExample + " --teeth 2 --process examples/processes/slot-922hz.toml");
+  expect_refused(kDetect + " --teeth 2 --speed-rpm 5000", "has a speed_rpm column");
+  expect_refused(kDetect, "the number of teeth is unknown");
+  expect_refused(kDetect + " --teeth 0", "--teeth 0");
+  expect_refused(kDetect + " --teeth 65", "--teeth 65");
+  expect_refused(kDetect + " --teeth 2 --depth-mm 1", "--depth-mm without --process");
+  expect_refused(kDetect + " --teeth 2 --process examples/processes/slot-922hz.toml");
   expect_refused("chatter detect examples/logs/slot-chatter.csv --teeth 2");
   const std::string whole = wav(cut(false));
   expect_refused(detect(scratch.file("cut.wav", whole.substr(0, whole.size() / 2)),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -14,8 +15,6 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::string kTap = "examples/processes/tap-922hz.csv";
-
 const std::string kTool =
     "[tool]\nteeth = 2\n[cut]\nradial_immersion = 1.0\n"
     "tangential_N_mm2 = 600.0\nradial_N_mm2 = 200.0\n";
@@ -23,7 +22,7 @@ const std::string kTool =
 // The tap test of the example was made of 922 Hz, 1.1 % and 0.03993 kg, with noise; so the truth is
 // known.
 TEST(ChatterFit, FindsTheModeThatTheTapTestWasMadeOf) {
-  const json fit = answer_of("chatter fit " + kTap + " --axis x");
+  const json fit = answer_of("chatter fit " + kTapTest + " --axis x");
   ASSERT_EQ(fit["order"], 1);
   const json mode = fit["modes"][0];
   EXPECT_EQ(mode["axis"], "x");
@@ -32,7 +31,7 @@ TEST(ChatterFit, FindsTheModeThatTheTapTestWasMadeOf) {
   EXPECT_NEAR(mode["mass_kg"], 0.03993, 1e-3);
   EXPECT_GT(fit["residual"], 0.0);
   EXPECT_LT(fit["residual"], 0.1);
-  EXPECT_EQ(answer_of("chatter fit " + kTap + " --axis y")["modes"][0]["axis"], "y");
+  EXPECT_EQ(answer_of("chatter fit " + kTapTest + " --axis y")["modes"][0]["axis"], "y");
 }
 
 // Round trip: fitted modes in a process file give the published radius of the slot (0.81974278) as
@@ -40,7 +39,7 @@ TEST(ChatterFit, FindsTheModeThatTheTapTestWasMadeOf) {
 TEST(ChatterFit, WritesSectionsThatAProcessFileTakes) {
   const Scratch scratch;
   const std::string out = scratch.at("modes.toml");
-  EXPECT_EQ(run_line("chatter fit " + kTap + " --axis x -o " + out).code, 0);
+  EXPECT_EQ(run_line("chatter fit " + kTapTest + " --axis x -o " + out).code, 0);
   const std::string modes = text_of_file(out);
   EXPECT_THAT(modes, HasSubstr("chatter fit: 1 mode, residual"));
   const std::string process = scratch.file("fitted.toml", kTool + modes);
@@ -58,13 +57,13 @@ TEST(ChatterFit, AProcessTakesTheResponseItself) {
 TEST(ChatterFit, RefusesBadUsage) {
   const Scratch scratch;
   expect_refused("chatter fit");
-  expect_refused("chatter fit " + kTap);
-  expect_refused("chatter fit " + kTap + " --axis z");
+  expect_refused("chatter fit " + kTapTest);
+  expect_refused("chatter fit " + kTapTest + " --axis z");
   expect_refused("chatter fit no/such.uff --axis x", "no/such.uff");
-  expect_refused("chatter fit " + kTap + " --axis x --modes 0");
-  expect_refused("chatter fit " + kTap + " --axis x --modes 17");
-  expect_refused("chatter fit " + kTap + " --axis x --from-hz 5000", "points in the band");
-  EXPECT_EQ(run_line("chatter fit " + kTap + " --axis x -o no/such/modes.toml").code, 1);
+  expect_refused("chatter fit " + kTapTest + " --axis x --modes 0");
+  expect_refused("chatter fit " + kTapTest + " --axis x --modes 17");
+  expect_refused("chatter fit " + kTapTest + " --axis x --from-hz 5000", "points in the band");
+  EXPECT_EQ(run_line("chatter fit " + kTapTest + " --axis x -o no/such/modes.toml").code, 1);
 }
 
 // Line numbers in the corpus's files, of both formats.

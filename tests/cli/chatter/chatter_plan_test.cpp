@@ -15,13 +15,13 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::string kPlan = "chatter plan examples/processes/slot-922hz.toml ";
-const std::string kMill = "--machine examples/machines/vmc-840d.toml ";
+const std::string kChatterPlan = "chatter plan examples/processes/slot-922hz.toml ";
+const std::string kWithVmc = "--machine examples/machines/vmc-840d.toml ";
 
 // Borders from the table of converged values: 5000 rpm is stable to 0.4086 mm, 110 % of it, 5500
 // rpm, to 2.7653 mm. The machine has 15 spindle steps; 100 % is index 10.
 TEST(ChatterPlan, TakesTheOverrideStepIntoTheStablePocket) {
-  const json plan = answer_of(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1");
+  const json plan = answer_of(kChatterPlan + kWithVmc + "--speed-rpm 5000 --depth-mm 1");
   EXPECT_EQ(plan["decision"], "constant");
   EXPECT_EQ(plan["override_percent"], json::array({110.0}));
   EXPECT_EQ(plan["law"], "constant");
@@ -37,7 +37,7 @@ TEST(ChatterPlan, TakesTheOverrideStepIntoTheStablePocket) {
 // Ranked, within the spindle's limits, and stable by `chatter radius` at 95 % of the depth that
 // they promise.
 TEST(ChatterPlan, NamesTheBestSpeedsOfTheSpindle) {
-  const json plan = answer_of(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1");
+  const json plan = answer_of(kChatterPlan + kWithVmc + "--speed-rpm 5000 --depth-mm 1");
   const json& best = plan["best_speeds"];
   ASSERT_GE(best.size(), 2U);
   double last = 1e9;
@@ -53,12 +53,12 @@ TEST(ChatterPlan, NamesTheBestSpeedsOfTheSpindle) {
                   std::to_string(rpm) + " --depth-mm " + std::to_string(0.95 * sure));
     EXPECT_EQ(radius["stable"], true) << rpm;
   }
-  EXPECT_THAT(run_line(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1").out,
+  EXPECT_THAT(run_line(kChatterPlan + kWithVmc + "--speed-rpm 5000 --depth-mm 1").out,
               HasSubstr("best spindle speeds"));
 }
 
 TEST(ChatterPlan, KeepsWhatIsStable) {
-  const json plan = answer_of(kPlan + kMill + "--speed-rpm 5500 --depth-mm 1");
+  const json plan = answer_of(kChatterPlan + kWithVmc + "--speed-rpm 5500 --depth-mm 1");
   EXPECT_EQ(plan["decision"], "keep");
   EXPECT_EQ(plan["override_percent"], json::array({100.0}));
 }
@@ -66,8 +66,8 @@ TEST(ChatterPlan, KeepsWhatIsStable) {
 // A triangle needs RVA·RVF·n²/15 = 0.2·0.1·5000²/15 = 33 333 rpm/s; the example's drive makes 4000
 // rpm/s.
 TEST(ChatterPlan, SaysWhyALawCannotBe) {
-  const std::string line =
-      kPlan + kMill + "--speed-rpm 5000 --depth-mm 1 --laws-only --laws triangle --rva 0.2 ";
+  const std::string line = kChatterPlan + kWithVmc +
+                           "--speed-rpm 5000 --depth-mm 1 --laws-only --laws triangle --rva 0.2 ";
   const json plan = answer_of(line + "--rvf 0.1");
   EXPECT_EQ(plan["decision"], "nothing");
   const json law = plan["alternatives"].back();
@@ -79,7 +79,7 @@ TEST(ChatterPlan, SaysWhyALawCannotBe) {
 
 TEST(ChatterPlan, LawsAloneThatDoNotHelpNameTheStepThatDoes) {
   const std::string line =
-      kPlan + kMill +
+      kChatterPlan + kWithVmc +
       "--speed-rpm 5000 --depth-mm 1 --laws-only --laws triangle --rva 0.2 --rvf 0.1";
   EXPECT_EQ(answer_of(line)["helping_override_percent"], 110.0);
   EXPECT_THAT(run_line(line).out,
@@ -87,14 +87,14 @@ TEST(ChatterPlan, LawsAloneThatDoNotHelpNameTheStepThatDoes) {
 }
 
 TEST(ChatterPlan, SpeaksToPeople) {
-  const std::string text = run_line(kPlan + kMill + "--speed-rpm 5000 --depth-mm 1").out;
+  const std::string text = run_line(kChatterPlan + kWithVmc + "--speed-rpm 5000 --depth-mm 1").out;
   EXPECT_THAT(text, HasSubstr("Set the spindle override to 110 % = 5500 rpm\n"));
   EXPECT_THAT(text, HasSubstr("100 % = 5000 rpm: unstable from 0.4086 mm on\n"));
   EXPECT_THAT(text, HasSubstr("the spindle override on the panel must be 110 % or more"));
 }
 
 TEST(ChatterPlan, RefusesBadUsage) {
-  const std::string line = kPlan + kMill;
+  const std::string line = kChatterPlan + kWithVmc;
   expect_all_refused({line, line + "--speed-rpm 5000", line + "--speed-rpm 0 --depth-mm 1",
                       line + "--speed-rpm 5000 --depth-mm -1",
                       line + "--speed-rpm nan --depth-mm 1",
@@ -104,8 +104,8 @@ TEST(ChatterPlan, RefusesBadUsage) {
                       line + "--speed-rpm 5000 --depth-mm 1 --samples 0",
                       line + "--speed-rpm 5000 --depth-mm 1 --most-depth-mm 0.5",
                       line + "--speed-rpm 5000 --depth-mm 1 --probability-percent 101"});
-  expect_refused(kPlan + "--machine nowhere.toml --speed-rpm 5000 --depth-mm 1");
-  expect_refused("chatter plan nowhere.toml " + kMill + "--speed-rpm 5000 --depth-mm 1");
+  expect_refused(kChatterPlan + "--machine nowhere.toml --speed-rpm 5000 --depth-mm 1");
+  expect_refused("chatter plan nowhere.toml " + kWithVmc + "--speed-rpm 5000 --depth-mm 1");
 }
 
 }  // namespace

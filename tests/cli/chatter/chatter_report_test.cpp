@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -24,11 +25,9 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string kSlot = "examples/processes/slot-922hz.toml";
-const std::string kMill = " --machine examples/machines/vmc-840d.toml";
 const std::string kWanted = " --speed-rpm 5000 --depth-mm 1";
-const std::string kLobes =
-    "chatter lobes " + kSlot + " --speeds-rpm 5000:10000:11 --depths-mm 0:2:9";
+const std::string kLobesMap =
+    "chatter lobes " + kSlotProcess + " --speeds-rpm 5000:10000:11 --depths-mm 0:2:9";
 
 struct Report {
   json answer;
@@ -68,7 +67,7 @@ std::vector<std::pair<double, double>> border_of(const std::string& path) {
 // must be near the true border, not on it.
 TEST(ChatterReport, LobesHaveTheBorderOfTheCsv) {
   const Scratch scratch;
-  const json page = report_of(kLobes + " -o " + scratch.at("map.csv"), scratch).page;
+  const json page = report_of(kLobesMap + " -o " + scratch.at("map.csv"), scratch).page;
   EXPECT_EQ(page["kind"], "lobes");
   const auto csv = border_of(scratch.at("map.border.csv"));
   ASSERT_GE(csv.size(), 5U);
@@ -93,12 +92,13 @@ TEST(ChatterReport, LobesHaveTheBorderOfTheCsv) {
 // One cut, three verbs, one answer.
 TEST(ChatterReport, TheWantedCutIsWhatRadiusAndPlanSayOfIt) {
   const Scratch scratch;
-  const auto made = report_of(kLobes + kWanted + kMill + " -o " + scratch.at("map.csv"), scratch);
-  const json radius = answer_of("chatter radius " + kSlot + kWanted);
+  const auto made =
+      report_of(kLobesMap + kWanted + kOnVmc + " -o " + scratch.at("map.csv"), scratch);
+  const json radius = answer_of("chatter radius " + kSlotProcess + kWanted);
   for (const char* key : {"spectral_radius", "log_radius", "stable", "type", "frequency_hz"}) {
     EXPECT_EQ(made.answer["point"][key], radius[key]) << key;
   }
-  const json plan = answer_of("chatter plan " + kSlot + kMill + kWanted);
+  const json plan = answer_of("chatter plan " + kSlotProcess + kOnVmc + kWanted);
   ASSERT_EQ(made.page["steps"].size(), plan["alternatives"].size());
   for (std::size_t i = 0; i < plan["alternatives"].size(); ++i) {
     const json& step = made.page["steps"][i];
@@ -118,7 +118,7 @@ TEST(ChatterReport, LobesUnderALawShowConstantSpeedBesideThem) {
   const Scratch scratch;
   // One speed has no border line between them to refine.
   const std::string speeds = kSanitized ? "10000:10000:1" : "5000:10000:2";
-  const json page = report_of("chatter lobes " + kSlot + " --speeds-rpm " + speeds +
+  const json page = report_of("chatter lobes " + kSlotProcess + " --speeds-rpm " + speeds +
                                   " --depths-mm 0:4:9 --law sine --rva 0.2 --rvf 0.1 "
                                   "-o " +
                                   scratch.at("map.csv"),
@@ -134,8 +134,8 @@ TEST(ChatterReport, LobesUnderALawShowConstantSpeedBesideThem) {
 // are left out. The plotted peak is the answer's.
 TEST(ChatterReport, GrowthHasThePeakOfTheAnswerAndTheSpeedOfTheLaw) {
   const Scratch scratch;
-  const auto made =
-      report_of("chatter radius " + kSlot + kWanted + " --law square --rva 0.2 --rvf 0.1", scratch);
+  const auto made = report_of(
+      "chatter radius " + kSlotProcess + kWanted + " --law square --rva 0.2 --rvf 0.1", scratch);
   const json& worst = made.page["courses"][made.page["worst"].get<std::size_t>()];
   double peak = 0.0;
   for (const json& value : worst["log_growth"]) {
@@ -156,7 +156,8 @@ TEST(ChatterReport, GrowthHasThePeakOfTheAnswerAndTheSpeedOfTheLaw) {
 // 5000 rpm make a turn in 12 ms: 25 in 0.3 s.
 TEST(ChatterReport, SimulationHasItsPeakAndOnePointForEachRevolution) {
   const Scratch scratch;
-  const auto made = report_of("chatter simulate " + kSlot + kWanted + " --seconds 0.3", scratch);
+  const auto made =
+      report_of("chatter simulate " + kSlotProcess + kWanted + " --seconds 0.3", scratch);
   const json& envelope = made.page["envelope"];
   double most = 0.0;
   for (const char* column : {"x_low_um", "x_high_um"}) {
@@ -175,7 +176,7 @@ TEST(ChatterReport, SimulationHasItsPeakAndOnePointForEachRevolution) {
 TEST(ChatterReport, DetectionHasTheRecordingWithItsLoudestLine) {
   const Scratch scratch;
   const auto made =
-      report_of("chatter detect examples/logs/slot-chatter.csv" + kMill + " --teeth 2", scratch);
+      report_of("chatter detect examples/logs/slot-chatter.csv" + kOnVmc + " --teeth 2", scratch);
   const json& s = made.page["spectrogram"];
   const auto rows = s["rows"].get<std::size_t>();
   const auto levels = s["level_db"].get<std::vector<int>>();
@@ -191,7 +192,7 @@ TEST(ChatterReport, DetectionHasTheRecordingWithItsLoudestLine) {
 // All 15 steps, and a map that reaches beyond the lowest and the highest.
 TEST(ChatterReport, PlanShowsTheLobesOverTheSteps) {
   const Scratch scratch;
-  const auto made = report_of("chatter plan " + kSlot + kMill + kWanted, scratch);
+  const auto made = report_of("chatter plan " + kSlotProcess + kOnVmc + kWanted, scratch);
   EXPECT_EQ(made.page["kind"], "plan");
   EXPECT_EQ(made.page["steps"].size(), 15U);
   EXPECT_NEAR(made.page["steps"][10]["limit_depth_mm"], 0.4086, 1e-4);
@@ -202,7 +203,7 @@ TEST(ChatterReport, PlanShowsTheLobesOverTheSteps) {
 TEST(ChatterReport, SaysToPeopleWhereItIs) {
   const Scratch scratch;
   const Finished finished =
-      run_line("chatter radius " + kSlot + kWanted + " --report " + scratch.at("a/b"));
+      run_line("chatter radius " + kSlotProcess + kWanted + " --report " + scratch.at("a/b"));
   EXPECT_EQ(finished.code, 0);
   EXPECT_THAT(finished.out, HasSubstr("report: " + scratch.at("a/b/report.html")));
 }
@@ -211,20 +212,22 @@ TEST(ChatterReport, SaysToPeopleWhereItIs) {
 TEST(ChatterReport, RefusesWhatItCannotWriteOrPlace) {
   const Scratch scratch;
   const std::string file = scratch.file("file", "");
-  const std::string lobes = kLobes + " -o " + scratch.at("map.csv");
-  expect_refused("chatter radius " + kSlot + kWanted + " --report " + file, "Not a directory");
-  expect_refused("chatter simulate " + kSlot + kWanted + " --report " + file, "Not a directory");
-  expect_refused("chatter plan " + kSlot + kMill + kWanted + " --report " + file,
+  const std::string lobes = kLobesMap + " -o " + scratch.at("map.csv");
+  expect_refused("chatter radius " + kSlotProcess + kWanted + " --report " + file,
+                 "Not a directory");
+  expect_refused("chatter simulate " + kSlotProcess + kWanted + " --report " + file,
+                 "Not a directory");
+  expect_refused("chatter plan " + kSlotProcess + kOnVmc + kWanted + " --report " + file,
                  "Not a directory");
   expect_refused(
-      "chatter detect examples/logs/slot-chatter.csv --teeth 2" + kMill + " --report " + file,
+      "chatter detect examples/logs/slot-chatter.csv --teeth 2" + kOnVmc + " --report " + file,
       "Not a directory");
   expect_refused(lobes + " --report " + file, "Not a directory");
   expect_refused(lobes + " --speed-rpm 5000", "belong together");
   expect_refused(lobes + " --depth-mm 1", "belong together");
   expect_refused(lobes + " --speed-rpm 0 --depth-mm 1", "--speed-rpm 0 is not above 0");
   expect_refused(lobes + " --speed-rpm 5000 --depth-mm nan", "--depth-mm nan");
-  expect_refused(lobes + kMill, "--machine without");
+  expect_refused(lobes + kOnVmc, "--machine without");
   expect_refused(lobes + kWanted + " --machine no.toml", "no.toml");
 }
 

@@ -21,13 +21,13 @@ using kernel::testing::kSanitized;
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::string kSlot = "chatter radius examples/processes/slot-922hz.toml";
-const std::string kPoint = kSlot + " --speed-rpm 5000 --depth-mm 1";
+const std::string kSlotRadius = "chatter radius examples/processes/slot-922hz.toml";
+const std::string kPoint = kSlotRadius + " --speed-rpm 5000 --depth-mm 1";
 
 // Converged values of reference tables (spectral collocation, 8 digits), not the literature's
 // three.
 TEST(ChatterRadius, GivesTheConvergedRadiusOfTheSlot) {
-  const json stable = answer_of(kSlot + " --speed-rpm 5000 --depth-mm 0.2");
+  const json stable = answer_of(kSlotRadius + " --speed-rpm 5000 --depth-mm 0.2");
   EXPECT_NEAR(stable["spectral_radius"], 0.81974278, 1e-7);
   EXPECT_EQ(stable["stable"], true);
   EXPECT_EQ(stable["type"], "none");
@@ -116,10 +116,10 @@ TEST(ChatterRadius, ReadsTurningAndHelix) {
 // One line per way to get amplitude, period, law or file wrong.
 TEST(ChatterRadius, RefusesBadUsage) {
   const std::string sine = kPoint + " --law sine";
-  expect_refused(kSlot + " --speed-rpm 5000");
-  expect_refused(kSlot + " --speed-rpm 0 --depth-mm 1", "--speed-rpm 0 is not above 0");
-  expect_refused(kSlot + " --speed-rpm nan --depth-mm 1", "--speed-rpm nan");
-  expect_refused(kSlot + " --speed-rpm 5000 --depth-mm -1", "--depth-mm -1 is not above 0");
+  expect_refused(kSlotRadius + " --speed-rpm 5000");
+  expect_refused(kSlotRadius + " --speed-rpm 0 --depth-mm 1", "--speed-rpm 0 is not above 0");
+  expect_refused(kSlotRadius + " --speed-rpm nan --depth-mm 1", "--speed-rpm nan");
+  expect_refused(kSlotRadius + " --speed-rpm 5000 --depth-mm -1", "--depth-mm -1 is not above 0");
   expect_refused(kPoint + " --law saw --rva 0.1 --rvf 0.1", "saw");
   expect_refused(kPoint + " --rva 0.1 --rvf 0.1", "without a law");
   expect_refused(sine + " --rvf 0.1", "needs an amplitude");

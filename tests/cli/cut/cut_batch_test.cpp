@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -19,9 +20,6 @@ using testing::StartsWith;
 // A short program, so that the cut itself takes no time; the batch has the machine of the example.
 const std::string kShort =
     "cut examples/programs/circle-r10.ngc --machine examples/thermal-batch/machine.toml";
-const std::string kPaper =
-    " --machine examples/paper-thermal/machine.toml --cyclogram "
-    "examples/paper-thermal/cyclogram.toml";
 
 // The batch adds its keys and changes none of the cut's; the band is k3 times the tolerance,
 // 0.35·10 µm.
@@ -82,7 +80,7 @@ TEST(CutBatch, WritesItsPageBesideThatOfTheCut) {
 TEST(ThermalReport, OfAPlanHasTheCorrectionsOfThePaper) {
   const Scratch scratch;
   const json answer =
-      answer_of("thermal plan" + kPaper + " --tolerance-um 10 --report " + scratch.at("out"));
+      answer_of("thermal plan" + kPaperWork + " --tolerance-um 10 --report " + scratch.at("out"));
   EXPECT_EQ(answer["report"], scratch.at("out/report.html"));
   const json page = page_of(scratch.at("out"));
   EXPECT_EQ(page["kind"], "plan");
@@ -95,12 +93,12 @@ TEST(ThermalReport, OfAPlanHasTheCorrectionsOfThePaper) {
 
 TEST(ThermalReport, OfAForecastHasItsCurveAndItsBand) {
   const Scratch scratch;
-  answer_of("thermal forecast" + kPaper + " --report " + scratch.at("out"));
+  answer_of("thermal forecast" + kPaperWork + " --report " + scratch.at("out"));
   const json page = page_of(scratch.at("out"));
   EXPECT_EQ(page["kind"], "forecast");
   EXPECT_EQ(page["transitions"].size(), 5U);
   EXPECT_EQ(page["courses"][0]["t_min"].size(), page["courses"][0]["sd_um"].size());
-  expect_refused("thermal forecast" + kPaper + " --report /dev/null/out", "/dev/null/out");
+  expect_refused("thermal forecast" + kPaperWork + " --report /dev/null/out", "/dev/null/out");
 }
 
 }  // namespace

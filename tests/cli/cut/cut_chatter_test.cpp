@@ -21,12 +21,12 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::string kSlot =
+const std::string kCutSlot =
     "cut examples/programs/slot.mpf --machine examples/machines/vmc-840d.toml";
 const std::string kProcess = " --process examples/processes/slot-922hz.toml";
 
 std::string at_depth(double depth_mm, const std::string& more = "") {
-  return kSlot + kProcess + fmt::format(" --depth-mm {}", depth_mm) + more;
+  return kCutSlot + kProcess + fmt::format(" --depth-mm {}", depth_mm) + more;
 }
 
 // 5000 rpm, 1 mm: far in the unstable region; 110 % is stable. The margins (1 % of the chatter,
@@ -143,7 +143,7 @@ TEST(CutChatter, ByTheMachineFileNothingIsPlanned) {
 }
 
 TEST(CutChatter, WithoutAProcessItCutsAir) {
-  const json answer = answer_of(kSlot);
+  const json answer = answer_of(kCutSlot);
   EXPECT_FALSE(answer["without"].contains("vibration_rms_um"));
   EXPECT_FALSE(answer.contains("chatter"));
 }
@@ -171,10 +171,10 @@ TEST(CutChatter, RefusesWhatCannotBeCut) {
     EXPECT_EQ(finished.code, 2) << line;
     EXPECT_THAT(finished.err, HasSubstr(what)) << line;
   };
-  refuses(kSlot + kProcess, "--process without --depth-mm");
+  refuses(kCutSlot + kProcess, "--process without --depth-mm");
   refuses(at_depth(0.0), "--depth-mm 0 is not above 0");
-  refuses(kSlot + " --depth-mm 1", "--process");
-  refuses(kSlot + " --process none.toml --depth-mm 1", "none.toml");
+  refuses(kCutSlot + " --depth-mm 1", "--process");
+  refuses(kCutSlot + " --process none.toml --depth-mm 1", "none.toml");
   refuses(at_depth(1.0, " --chatter perhaps"), "--chatter");
   const Scratch scratch;
   const std::string still =

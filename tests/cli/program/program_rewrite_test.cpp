@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kProgram = "examples/programs/rib-pocket.ngc";
-const std::string kPlan =
+const std::string kWithPlan =
     " --plan examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml";
 
 // The example's compensated program is stored; compensate must reproduce it, verify prove it, strip
@@ -23,7 +23,7 @@ const std::string kPlan =
 TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.ngc");
-  const auto answer = answer_of("program compensate " + kProgram + kPlan + " -o " + changed);
+  const auto answer = answer_of("program compensate " + kProgram + kWithPlan + " -o " + changed);
   ASSERT_EQ(answer["insertions"].size(), 3U);
   for (const auto& one : answer["insertions"]) {
     EXPECT_NEAR(one["time_s"].get<double>(), one["planned_s"].get<double>(), 60.0);
@@ -32,7 +32,7 @@ TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
   EXPECT_NEAR(answer["insertions"][0]["delta_um"].get<double>(), -10.0, 1e-9);
   EXPECT_EQ(text_of_file(changed),
             text_of_file(project_file("examples/plans/rib-pocket-compensated.ngc")));
-  const auto proof = answer_of("program verify " + kProgram + " " + changed + kPlan);
+  const auto proof = answer_of("program verify " + kProgram + " " + changed + kWithPlan);
   EXPECT_TRUE(proof["proved"].get<bool>());
   EXPECT_EQ(proof["inserted_lines"], answer["inserted_lines"]);
   expect_refused("program strip " + changed + " -o " + changed, "is the FILE itself");
@@ -46,18 +46,18 @@ TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
 TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
   const Scratch scratch;
   const std::string to = " -o " + scratch.at("changed.ngc");
-  expect_refused("program compensate " + kProgram + kPlan + to + " --window-s 0.5",
+  expect_refused("program compensate " + kProgram + kWithPlan + to + " --window-s 0.5",
                  "no safe place");
   const auto unwritten =
-      run_line("program compensate " + kProgram + kPlan + " -o " + scratch.at("none/x.ngc"));
+      run_line("program compensate " + kProgram + kWithPlan + " -o " + scratch.at("none/x.ngc"));
   EXPECT_EQ(unwritten.code, 1);
   EXPECT_THAT(unwritten.err, HasSubstr("not writable"));
   expect_refused(
-      "program compensate examples/programs/rib-pocket.mpf --dialect sinumerik" + kPlan + to,
+      "program compensate examples/programs/rib-pocket.mpf --dialect sinumerik" + kWithPlan + to,
       "--r-parameter");
-  expect_refused("program compensate examples/plans/rib-pocket-compensated.ngc" + kPlan + to,
+  expect_refused("program compensate examples/plans/rib-pocket-compensated.ngc" + kWithPlan + to,
                  "program strip");
-  expect_refused("program verify " + kProgram + " " + kProgram + kPlan, "head");
+  expect_refused("program verify " + kProgram + " " + kProgram + kWithPlan, "head");
   EXPECT_FALSE(std::filesystem::exists(scratch.at("changed.ngc")));
 }
 
@@ -65,8 +65,8 @@ TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
 TEST(ProgramVerify, KnowsFromTheMarkWhatTheProgramWasMadeWith) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.ngc");
-  const std::string files = kProgram + " " + changed + kPlan;
-  answer_of("program compensate " + kProgram + kPlan + " -o " + changed +
+  const std::string files = kProgram + " " + changed + kWithPlan;
+  answer_of("program compensate " + kProgram + kWithPlan + " -o " + changed +
             " --window-s 45 --data-units mm");
   EXPECT_THAT(
       text_of_file(changed),

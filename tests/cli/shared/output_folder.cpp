@@ -3,8 +3,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <sstream>
 
 #include "program.hpp"
 
@@ -12,11 +10,6 @@ namespace steadyrest::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> words(const std::string& line) {
-  std::istringstream in(line);
-  return {std::istream_iterator<std::string>(in), std::istream_iterator<std::string>()};
-}
 
 Texts texts_of(const fs::path& folder, bool examples) {
   Texts out;

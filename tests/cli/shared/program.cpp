@@ -55,11 +55,6 @@ bool redirect_stdin(const std::string& path) {
   return file >= 0 && dup2(file, STDIN_FILENO) >= 0;
 }
 
-std::vector<std::string> words(const std::string& line) {
-  std::istringstream in(line);
-  return {std::istream_iterator<std::string>(in), std::istream_iterator<std::string>()};
-}
-
 Finished run_in(const std::vector<std::string>& arguments, const std::string& out_path,
                 const std::string& in_path = "") {
   const Folder folder;
@@ -94,6 +89,11 @@ Finished run_in(const std::vector<std::string>& arguments, const std::string& ou
 
 Finished run(const std::vector<std::string>& arguments) {
   return run_in(arguments, "");
+}
+
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), std::istream_iterator<std::string>()};
 }
 
 Finished run_line(const std::string& line) {

@@ -15,7 +15,10 @@ struct Finished {
 /// Runs the built `steadyrest` in a fresh folder that has the project's `examples` in it.
 Finished run(const std::vector<std::string>& arguments);
 
-/// The same, arguments as in a shell without quotes.
+/// Arguments as in a shell without quotes.
+std::vector<std::string> words(const std::string& line);
+
+/// The same, by a line of such words.
 Finished run_line(const std::string& line);
 
 /// The same, with this file on stdin.

@@ -10,12 +10,12 @@
 namespace steadyrest::test {
 namespace {
 
-const std::string kPlan = "examples/paper-thermal/plan.json";
-const std::string kExample =
-    "thermal adapt " + kPlan + " --measured examples/paper-thermal/measured.csv";
+const std::string kPaperPlan = "examples/paper-thermal/plan.json";
+const std::string kAdapt =
+    "thermal adapt " + kPaperPlan + " --measured examples/paper-thermal/measured.csv";
 
 std::string adapt(const Scratch& scratch, const std::string& csv, const std::string& more = "") {
-  return "thermal adapt " + kPlan + " --measured " + scratch.file("measured.csv", csv) + more;
+  return "thermal adapt " + kPaperPlan + " --measured " + scratch.file("measured.csv", csv) + more;
 }
 
 // The stored plan is what the verb writes today: the other tests rest on it.
@@ -26,7 +26,7 @@ TEST(ThermalAdapt, ItsExampleIsThePlanOfThePapersExample) {
       "examples/paper-thermal/cyclogram.toml --tolerance-um 10 --level 0 -o " +
       scratch.at("plan.json"));
   const auto written = nlohmann::json::parse(text_of_file(scratch.at("plan.json")));
-  const auto stored = nlohmann::json::parse(text_of_file(project_file(kPlan)));
+  const auto stored = nlohmann::json::parse(text_of_file(project_file(kPaperPlan)));
   EXPECT_EQ(written["transitions"], stored["transitions"]);
   EXPECT_EQ(written["k"], stored["k"]);
 }
@@ -34,7 +34,7 @@ TEST(ThermalAdapt, ItsExampleIsThePlanOfThePapersExample) {
 // The parts were measured on a machine that grows 1.1 times as far as its passport says; 1.3 times
 // k·Δ at the end asks for the next level.
 TEST(ThermalAdapt, FindsTheGainOfTheExamplesMachineAndTheNextLevel) {
-  const auto answer = answer_of(kExample);
+  const auto answer = answer_of(kAdapt);
   EXPECT_EQ(answer["level_before"], 0);
   EXPECT_EQ(answer["level"], 1) << "the last parts are 13 µm off, their share is 10";
   EXPECT_EQ(answer["k"], 0.7);
@@ -51,7 +51,7 @@ TEST(ThermalAdapt, FindsTheGainOfTheExamplesMachineAndTheNextLevel) {
 TEST(ThermalAdapt, WritesTheMachineFileByWhichTheNextPlanIsRight) {
   const Scratch scratch;
   const std::string machine = scratch.at("new.toml");
-  const auto answer = answer_of(kExample + " -o " + machine);
+  const auto answer = answer_of(kAdapt + " -o " + machine);
   const std::string text = text_of_file(machine);
   EXPECT_NE(text.find("level = 1\n"), std::string::npos) << text;
   EXPECT_NE(text.find("[spindle]\nmax_rpm = 4000"), std::string::npos) << "the rest stays";
@@ -182,11 +182,11 @@ TEST(ThermalAdapt, RefusesWhatDoesNotFitThePlan) {
   expect_refused(adapt(scratch, "part,axis,transition,deviation_um\n1,X,1,3\n"), "no axis X");
   expect_refused(adapt(scratch, "part,time_min,deviation\n1,30,3\n"), "deviation is unknown");
   expect_refused(adapt(scratch, "part,time_min,deviation_mm\n1,30,3\n"), "check the unit");
-  expect_refused("thermal adapt " + kPlan, "--measured");
+  expect_refused("thermal adapt " + kPaperPlan, "--measured");
   expect_refused("thermal adapt nosuch.json --measured x.csv", "give the path of a plan (JSON)");
   expect_refused("thermal adapt examples --measured x.csv", "is a folder; give the path of a plan");
-  expect_refused("thermal adapt " + kPlan + " --measured nosuch.csv", "CSV of measured parts");
-  expect_refused("thermal adapt " + kPlan + " --measured examples", "CSV of measured parts");
+  expect_refused("thermal adapt " + kPaperPlan + " --measured nosuch.csv", "CSV of measured parts");
+  expect_refused("thermal adapt " + kPaperPlan + " --measured examples", "CSV of measured parts");
   for (const char* verb : {"forecast", "plan --tolerance-um 10"}) {
     const std::string work = std::string("thermal ") + verb +
                              " --machine examples/paper-thermal/machine.toml --cyclogram ";

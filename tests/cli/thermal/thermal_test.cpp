@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -17,13 +18,9 @@ namespace {
 
 using List = std::vector<double>;
 
-const std::string kPaper =
-    " --machine examples/paper-thermal/machine.toml --cyclogram "
-    "examples/paper-thermal/cyclogram.toml";
-
 // Marusich 2012, eq. (1): R = {3;{18,27,15};{0,10,10}}, {3;{15,40,5};{0,10,10}}, 3 × {1;{60};{0}}.
 TEST(ThermalPlan, IsThePapersExample) {
-  const auto answer = answer_of("thermal plan" + kPaper + " --tolerance-um 10 --level 0");
+  const auto answer = answer_of("thermal plan" + kPaperWork + " --tolerance-um 10 --level 0");
   const auto rows = nlohmann::json::parse(R"([
     {"name": "stage 1", "n": 3, "t_min": [18.0, 27.0, 15.0], "delta_um": [0.0, 10.0, 10.0]},
     {"name": "stage 2", "n": 3, "t_min": [15.0, 40.0, 5.0], "delta_um": [0.0, 10.0, 10.0]},
@@ -38,7 +35,8 @@ TEST(ThermalPlan, IsThePapersExample) {
 // The shares are 1, 0.7, …, 0.35 of 10 µm; without rounding the residual is the band itself.
 TEST(ThermalPlan, AHigherLevelIsStricter) {
   const auto at = [](int level) {
-    return answer_of("thermal plan" + kPaper + " --tolerance-um 10 --resolution-min 0 --level " +
+    return answer_of("thermal plan" + kPaperWork +
+                     " --tolerance-um 10 --resolution-min 0 --level " +
                      std::to_string(level))["axes"][0];
   };
   double before = 1e9;
@@ -48,7 +46,7 @@ TEST(ThermalPlan, AHigherLevelIsStricter) {
     before = residual;
   }
   EXPECT_NEAR(before, 3.5, 1e-6);
-  expect_refused("thermal plan" + kPaper + " --tolerance-um 10 --level 4", "0 … 3");
+  expect_refused("thermal plan" + kPaperWork + " --tolerance-um 10 --level 4", "0 … 3");
 }
 
 // From forecast to proven program: as many insertions as the plan has corrections.
@@ -155,7 +153,7 @@ TEST(ThermalForecast, OnlyFeedMovesHeatLikeCutting) {
 // Two exponentials with the example's A1, A2 and τ, at the end of the fifth stage.
 TEST(ThermalForecast, WritesTheCurve) {
   const Scratch scratch;
-  const auto answer = answer_of("thermal forecast" + kPaper + " -o " + scratch.at("curve.csv"));
+  const auto answer = answer_of("thermal forecast" + kPaperWork + " -o " + scratch.at("curve.csv"));
   const double end_um =
       49.0785 + (35.2245 * (1.0 - std::exp(-60.0 / 53.475)) - 49.0785) * std::exp(-240.0 / 53.475);
   EXPECT_NEAR(answer["max_um"].get<double>(), end_um, 1e-6);
@@ -224,7 +222,7 @@ TEST(ThermalPlan, TakesTheDataThatTheProgramNeeds) {
             2U);
   EXPECT_GT(answer_of("thermal forecast" + work + data)["max_um"].get<double>(), 10.0);
   expect_refused("thermal plan" + work + " --tolerance-um 4");
-  expect_refused("thermal plan" + kPaper + " --tolerance-um 10 --tools " + tools, "--program");
+  expect_refused("thermal plan" + kPaperWork + " --tolerance-um 10 --tools " + tools, "--program");
 }
 
 // 40 000 min in steps of 0.1 s would be 24 million rows.
@@ -239,9 +237,9 @@ TEST(ThermalForecast, RefusesMoreRowsThanMemoryHolds) {
 }
 
 TEST(ThermalForecast, OptionsOfALogNeedOne) {
-  expect_refused("thermal forecast" + kPaper + " --rezero-min 60", "--log");
-  expect_refused("thermal forecast" + kPaper + " --from-min 60", "--log");
-  expect_refused("thermal forecast" + kPaper + " --channel z_um=Z", "--log");
+  expect_refused("thermal forecast" + kPaperWork + " --rezero-min 60", "--log");
+  expect_refused("thermal forecast" + kPaperWork + " --from-min 60", "--log");
+  expect_refused("thermal forecast" + kPaperWork + " --channel z_um=Z", "--log");
 }
 
 // Beyond 1.2 times the fitted 2000 rpm, unknown axes and sensors, no tolerance.
@@ -252,15 +250,15 @@ TEST(Thermal, RefusesWhatItCannotForecast) {
       scratch.file("fast.toml", "[[transition]]\nminutes = 10\nspeed_rpm = 2500\n");
   expect_refused("thermal forecast" + machine + " --cyclogram " + fast, "covers up to 2000 rpm");
   expect_refused("thermal forecast" + machine, "--cyclogram");
-  expect_refused("thermal forecast" + kPaper + " --axis X", "no [[thermal.axis]] X");
-  expect_refused("thermal forecast" + kPaper + " --ambient t1=20",
+  expect_refused("thermal forecast" + kPaperWork + " --axis X", "no [[thermal.axis]] X");
+  expect_refused("thermal forecast" + kPaperWork + " --ambient t1=20",
                  "no thermal axis has a sensor t1");
-  expect_refused("thermal forecast" + kPaper + " --ambient t1", "SENSOR=");
+  expect_refused("thermal forecast" + kPaperWork + " --ambient t1", "SENSOR=");
   expect_refused(
       "thermal plan --machine examples/machines/vmc-840d.toml --cyclogram "
       "examples/paper-thermal/cyclogram.toml --tolerance-um 5",
       "[[thermal.axis]]");
-  expect_refused("thermal plan" + kPaper, "no tolerance");
+  expect_refused("thermal plan" + kPaperWork, "no tolerance");
 }
 
 }  // namespace
