@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
 #include <Eigen/Cholesky>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/thermal/offline/fit/band.hpp>
 #include <steadyrest/thermal/offline/fit/dense_fit.hpp>
@@ -26,6 +26,7 @@ namespace {
 
 using kernel::machine::ThermalAxis;
 using kernel::outcome::Result;
+using kernel::units::kNan;
 
 constexpr double kDriftGuess = 0.07;     ///< of the range, before anything is known
 constexpr double kStrongEvidence = 6.0;  ///< in Bayes' criterion
@@ -168,8 +169,6 @@ class Identification {
   [[nodiscard]] const std::vector<double>& table_rev_s() const noexcept { return table_rev_s_; }
 
  private:
-  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
   [[nodiscard]] bool has_blocks() const { return data_.block.size() >= kLeastBlocks; }
   [[nodiscard]] Eigen::MatrixXd columns(const Structure& s) const {
     return columns_of(s, log_, data_.row);
