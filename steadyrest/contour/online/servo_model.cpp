@@ -27,8 +27,8 @@ constexpr double kMaxGapRatio = 1.9;
 // show. Test LearnsBelowFourFifths….
 constexpr double kSaturationShare = 0.8;
 
-kernel::outcome::Refusal refuse(std::string what) {
-  return kernel::outcome::bad_input(std::move(what), "correct the axis in the machine file");
+std::unexpected<kernel::outcome::Refusal> refuse_axis(std::string what) {
+  return kernel::outcome::refuse(std::move(what), "correct the axis in the machine file");
 }
 
 bool is_finite(const Frame& frame, std::size_t axes) noexcept {
@@ -43,30 +43,30 @@ bool is_finite(const Frame& frame, std::size_t axes) noexcept {
 
 kernel::outcome::Result<ServoModel> ServoModel::make(const Config& config) {
   if (config.axes < 1 || config.axes > kernel::signal::kMaxAxes) {
-    return std::unexpected(
-        refuse("the servo model has " + std::to_string(config.axes) + " axes; allowed: 1 … 8"));
+    return refuse_axis("the servo model has " + std::to_string(config.axes) +
+                       " axes; allowed: 1 … 8");
   }
   for (std::size_t i = 0; i < config.axes; ++i) {
     const AxisModel& p = config.prior[i];
     if (!(p.gain_1_s >= 1.0 && p.gain_1_s <= 1000.0)) {
-      return std::unexpected(
-          refuse("the servo gain is " + std::to_string(p.gain_1_s) + " 1/s; allowed: 1 … 1000"));
+      return refuse_axis("the servo gain is " + std::to_string(p.gain_1_s) +
+                         " 1/s; allowed: 1 … 1000");
     }
     if (!(p.feed_forward >= 0.0 && p.feed_forward <= 1.0)) {
-      return std::unexpected(
-          refuse("the feed-forward is " + std::to_string(p.feed_forward) + "; allowed: 0 … 1"));
+      return refuse_axis("the feed-forward is " + std::to_string(p.feed_forward) +
+                         "; allowed: 0 … 1");
     }
     if (!(p.velocity_lag_s >= 0.0 && p.velocity_lag_s <= 0.1)) {
-      return std::unexpected(refuse("the velocity lag is " + std::to_string(p.velocity_lag_s) +
-                                    " s; allowed: 0 … 0.1"));
+      return refuse_axis("the velocity lag is " + std::to_string(p.velocity_lag_s) +
+                         " s; allowed: 0 … 0.1");
     }
   }
   if (!(config.window_s >= 0.01 && config.window_s <= 0.5 && config.memory_s > config.window_s &&
         config.prior_gain_ratio > 0.0 && config.prior_feed_forward > 0.0 &&
         config.row_noise_ratio > 0.0)) {
-    return std::unexpected(
-        refuse("a time or spread of the servo model is out of range; allowed: window 0.01 … 0.5 s, "
-               "memory longer than the window, spreads above 0"));
+    return refuse_axis(
+        "a time or spread of the servo model is out of range; allowed: window 0.01 … 0.5 s, "
+        "memory longer than the window, spreads above 0");
   }
   return ServoModel(config);
 }
