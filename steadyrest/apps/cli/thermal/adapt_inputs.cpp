@@ -20,7 +20,7 @@ Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passpo
   if (number != std::floor(number) || !(number >= 0.0) ||
       number >= static_cast<double>(passport.share.size())) {
     return refuse(
-        plan.plan.file, 0,
+        plan.plan.file,
         fmt::format("level {} has no share; [thermal] shares in the machine file has {} entries",
                     number, passport.share.size()),
         "give the machine file that the plan was made with");
