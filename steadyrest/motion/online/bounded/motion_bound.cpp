@@ -254,8 +254,7 @@ void MotionBound::triples(double t_s, const Node& first, Hints& hints) noexcept 
     a_radius[k] = 2.0 * (c1 * e1 + c2 * e2[k] + c3 * e3[k] + jerk_6 * (h1 + s23));
   }
   for (std::size_t k = 0; k < kSpans; ++k) {
-    // Nodes that coincide give infinities above; they are left out only here, so that the loop has
-    // no branch.
+    // Nodes that coincide give infinities above, left out only here: the loop has no branch.
     if (h2[k] > h1 && h3[k] > h2[k]) {
       fresh_.velocity.cut(v[k], v_radius[k]);
       fresh_.acceleration.cut(a[k], a_radius[k]);

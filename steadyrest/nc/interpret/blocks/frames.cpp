@@ -16,8 +16,7 @@ bool Frames::set(const Step& step) {
   const auto refuse_frame = [&](std::string_view reason, std::string_view text) {
     return refusals_.block(step, reason, text);
   };
-  // The order in which a frame and other words of its block would act is not certain, so it has a
-  // block to itself.
+  // In which order a frame and other words of its block would act is not certain.
   const bool codes = std::ranges::any_of(step.g, [](int code) { return code != kNoCode; }) ||
                      std::ranges::any_of(step.m, [](int code) { return code != kNoCode; });
   if (codes || (step.mask & ~kAxisMask) != 0 || step.absolute != 0 || step.incremental != 0 ||

@@ -167,8 +167,7 @@ bool FanucDecoder::letter_word(const Word& word) {
   const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
   char letter = word.letter;
   double value = word.value;
-  // On a mill U V W are increments at a reference point only; on a lathe they would be increments
-  // everywhere, so elsewhere the program is one for a lathe.
+  // On a mill U V W are increments at a reference point only; elsewhere it is a lathe's program.
   if (letter == 'U' || letter == 'V' || letter == 'W') {
     if (step_.code(GGroup::non_modal) != g::kHome &&
         step_.code(GGroup::non_modal) != g::kSecondHome) {
