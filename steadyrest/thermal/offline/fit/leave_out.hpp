@@ -20,7 +20,7 @@ struct LeftOut {
   /// Of the blocks within reach: no forecast is made for the others.
   double free_rms_um = 0.0;
   double probed_rms_um = 0.0;
-  /// Of each block ½ ln(free²·probed²): both uses count alike.
+  /// Of each block ½ ln(free·probed): both uses count alike.
   std::vector<double> loss;
   double mean_loss = 0.0;
   /// Reading less forecast, for each row of the data that a block holds; else NaN. The first block
