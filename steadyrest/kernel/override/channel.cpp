@@ -51,8 +51,9 @@ outcome::Result<Channel> Channel::make(const Config& config) {
 
 Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
   // Without a mask the operator's switch acts at once. Where he has turned it since the last cycle,
-  // the layer's way begins at what it is now: from the old panel the first word would undo him.
-  if (handover_.available()) {
+  // the layer's way begins at what it is now: from the old panel the first word would undo him. The
+  // first look at the panel is the envelope's, which gives no time before it.
+  if (handover_.available() && envelope_.state().panel_seen) {
     see_panel(input.panel);
   }
   const auto wanted = envelope_.update(input);

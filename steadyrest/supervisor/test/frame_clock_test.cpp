@@ -58,15 +58,15 @@ TEST(FrameClock, OneWrongStampGivesNoCreditAndMovesNothing) {
 
 TEST(FrameClock, AStampMayBeLateByOneAndAHalfSteps) {
   FrameClock late = running();
-  EXPECT_TRUE(late.update(0.4 + 2.4 * kCycle_s).good);
+  EXPECT_TRUE(late.update(0.4 + 2.4 * kUsual_s).good);
   FrameClock too_late = running();
-  EXPECT_FALSE(too_late.update(0.4 + 2.6 * kCycle_s).good);
+  EXPECT_FALSE(too_late.update(0.4 + 2.6 * kUsual_s).good);
 }
 
 TEST(FrameClock, TheUsualStepFollowsByASixteenth) {
   FrameClock clock = running();
-  clock.update(0.4 + 1.08 * kCycle_s);
-  EXPECT_NEAR(clock.state().usual_s, kCycle_s * (1.0 + 0.08 / 16.0), 1e-9);
+  clock.update(0.4 + 1.08 * kUsual_s);
+  EXPECT_NEAR(clock.state().usual_s, kUsual_s * (1.0 + 0.08 / 16.0), 1e-9);
 }
 
 // A frozen sender: a thousand calls of the same stamp are no time.

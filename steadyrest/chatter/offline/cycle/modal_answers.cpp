@@ -88,6 +88,10 @@ bool cuts_at(const CuttingCoefficients& coefficients, double pass_rad, double an
   return false;
 }
 
+// Of each mode v = v₀ − 2ζω·∫v − ω²·∫q + (1000/m)·∫f with q = q₀ + ∫v; 1000: N/kg to mm/s².
+// Collocated for the velocity, not the displacement: integrating twice is well conditioned,
+// differentiating is not. A force along b excites the mode by shape_b, and the mode moves the tool
+// along c by shape_c.
 ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
                            const Eigen::VectorXd& sigma_s, Index directions, bool rates) {
   const Index n = sigma_s.size();
@@ -108,9 +112,6 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
     const Mode& mode = process.modes[static_cast<std::size_t>(m)];
     const double w = kTurn * mode.frequency_hz;
     const double d = 2.0 * mode.damping_ratio * w;
-    // v = v₀ − 2ζω·∫v − ω²·∫q + (1000/m)·∫f with q = q₀ + ∫v; 1000: N/kg to mm/s².
-    // Collocated for the velocity, not the displacement: integrating twice is well conditioned,
-    // differentiating is not.
     inverse.make(d * s + w * w * s2, 1.0);
     // Columns: from q₀, from v₀/ω, from the force.
     Eigen::MatrixXd right(n, n + 2);
@@ -133,8 +134,6 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
     out.e(2 * m, 2 * m) += 1.0;
     out.e(2 * m + 1, 2 * m + 1) += 1.0;
     for (Index c = 0; c < directions; ++c) {
-      // A force along b excites the mode by shape_b, and the mode moves the tool along c by
-      // shape_c.
       const double shape = mode.shape[static_cast<std::size_t>(c)];
       out.phi.block(c * n, 2 * m, n, 2) = shape * q.leftCols(2);
       out.r.block(2 * m, c * n, 1, n) = shape * q_end.tail(n);

@@ -16,7 +16,7 @@ Result<void> Placing::refuse(std::uint32_t line, std::string what, std::string t
 }
 
 // Steps that share a place become one change of the offset. Each is recorded all the same, so the
-// plan can be followed.
+// plan can be followed. The sum is rounded, not the change (README): whole increments, no drift.
 Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Chosen>& chosen,
                                      std::size_t& next, double& stands_mm) {
   const std::size_t first = next;
@@ -29,8 +29,7 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
                   "a fine offset in an inch program: its unit depends on a setting of the control",
                   "write the program in mm, or choose another method for the corrections");
   }
-  // Where the text depends on the unit (G10 in the program's unit), a change of units between two
-  // corrections would leave a rounding behind.
+  // In the program's unit (G10) a change of units between two corrections leaves a rounding behind.
   if (!unit_free(settings_.method) && place.unit_mm != chosen.front().place.unit_mm) {
     return refuse_units(place.line);
   }
@@ -40,7 +39,6 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
                       ? "write G71 (or G710) in its first block"
                       : "write G21, or G20 for inches, in its first block");
   }
-  // The sum is rounded, not the change (README): whole increments, without drift.
   const double before_mm = stands_mm;
   stands_mm = correction_mm(settings_, place.unit_mm, chosen[next - 1].step.displacement_um);
   if (stands_mm == before_mm) {
