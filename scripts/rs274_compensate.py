@@ -199,7 +199,7 @@ def main():
     parser.add_argument("--data", default=os.path.join(data, "nc") if data else os.path.join(root, "../shared/data/nc"))
     parser.add_argument("--linuxcnc", nargs="*", default=["/usr/share/linuxcnc", "/usr/share/doc/linuxcnc"])
     parser.add_argument("--machine", default=os.path.join(root, "examples/machines/linuxcnc-mill.toml"))
-    parser.add_argument("--most", type=int, help="only so many short programs")
+    parser.add_argument("--most", type=int, help="only short programs, and until so many are right")
     parser.add_argument("--table", action="store_true", help="print every program, not only those that disagree")
     arguments = parser.parse_args()
     try:
@@ -212,7 +212,9 @@ def main():
     oracle = Oracle(arguments.rs274)
     counts, reasons = collections.Counter(), collections.Counter()
     found = [program for program in map(os.path.abspath, programs(folders)) if dialect_of(program) == "linuxcnc"]
-    for program in sample(found, arguments.most):
+    for program in sample(found, arguments.most and len(found)):
+        if counts["right"] == arguments.most:
+            break
         kind, text = judge(arguments.steadyrest, oracle, program, arguments.machine)
         counts[kind] += 1
         if kind.startswith("not"):
