@@ -177,14 +177,14 @@ Json to_object(const WorstLine& w) {
 
 }  // namespace
 
-Json to_object(const MotionFigures& m) {
-  return {{"axis", m.axis},
-          {"velocity_rms_mm_s", m.velocity_rms_mm_s},
-          {"acceleration_rms_mm_s2", m.acceleration_rms_mm_s2},
-          {"difference_velocity_rms_mm_s", m.difference_velocity_rms_mm_s},
-          {"difference_acceleration_rms_mm_s2", m.difference_acceleration_rms_mm_s2},
-          {"velocity_coverage_ratio", m.velocity_coverage_ratio},
-          {"acceleration_coverage_ratio", m.acceleration_coverage_ratio}};
+Json to_object(const MotionFigures& figures) {
+  return {{"axis", figures.axis},
+          {"velocity_rms_mm_s", figures.velocity_rms_mm_s},
+          {"acceleration_rms_mm_s2", figures.acceleration_rms_mm_s2},
+          {"difference_velocity_rms_mm_s", figures.difference_velocity_rms_mm_s},
+          {"difference_acceleration_rms_mm_s2", figures.difference_acceleration_rms_mm_s2},
+          {"velocity_coverage_ratio", figures.velocity_coverage_ratio},
+          {"acceleration_coverage_ratio", figures.acceleration_coverage_ratio}};
 }
 
 /// The same figures for --json, so that page and script cannot differ.

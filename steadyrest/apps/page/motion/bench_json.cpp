@@ -11,14 +11,14 @@ namespace offline = motion::offline;
 
 /// bound_ratio is how far the proved bound lies above the real error at the same speed: the price
 /// of a guarantee.
-Json to_figures(const offline::ErrorFigures& e, double gain, double efficiency) {
-  return {{"rms", e.rms},
-          {"max", e.max},
-          {"own_lag_s", e.own_lag_s},
-          {"rms_at_own_lag", e.rms_at_own_lag},
+Json to_figures(const offline::ErrorFigures& figures, double gain, double efficiency) {
+  return {{"rms", figures.rms},
+          {"max", figures.max},
+          {"own_lag_s", figures.own_lag_s},
+          {"rms_at_own_lag", figures.rms_at_own_lag},
           {"gain", gain},
-          {"coverage", e.coverage},
-          {"bound_ratio", e.bound_rms_at_speed / e.rms_at_speed},
+          {"coverage", figures.coverage},
+          {"bound_ratio", figures.bound_rms_at_speed / figures.rms_at_speed},
           {"efficiency", efficiency}};
 }
 
