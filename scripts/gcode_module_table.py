@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-import rs274_table
+from nc_programs import dialect_of, programs, sample
 
 TOLERANCE = 1e-6  # mm, degrees
 LINUXCNC_PYTHON = "/usr/bin/python3"
@@ -150,9 +150,9 @@ def main():
     if probe is None or probe.returncode != 0:
         print("LinuxCNC's Python module gcode is not installed (Debian: linuxcnc-uspace)")
         return 77
-    found = arguments.files or rs274_table.sample(
-        [p for p in list(rs274_table.programs([arguments.data])) + list(rs274_table.programs(arguments.linuxcnc))
-         if rs274_table.dialect_of(p) == "linuxcnc"], arguments.most)
+    found = arguments.files or sample(
+        [p for p in list(programs([arguments.data])) + list(programs(arguments.linuxcnc))
+         if dialect_of(p) == "linuxcnc"], arguments.most)
     seen, compared, moves, worst, bad, alone = set(), 0, 0, 0.0, 0, 0
     with tempfile.TemporaryDirectory() as folder:
         for program in map(os.path.abspath, found):

@@ -21,7 +21,7 @@ import random
 import subprocess
 import sys
 
-from rs274_table import CALL, MM_PER_INCH, Oracle, numbers
+from rs274_oracle import CALL, MM_PER_INCH, Oracle, numbers
 
 MOTION = ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED")
 NEAR_MM = 0.008  # rs274 prints four digits, in inches 2.5 um; corrections are 40 um and more

@@ -20,7 +20,8 @@ import re
 import subprocess
 import sys
 
-from rs274_table import CALL, MM_PER_INCH, Oracle, dialect_of, numbers, programs, sample, short
+from nc_programs import dialect_of, programs, sample, short
+from rs274_oracle import CALL, MM_PER_INCH, Oracle, numbers
 
 STEPS_UM = (50.0, 50.0, -30.0)
 MOVES = ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED", "STRAIGHT_PROBE", "RIGID_TAP")

@@ -15,7 +15,7 @@ import re
 import shutil
 import sys
 
-import rs274_table
+import rs274_oracle
 
 OFFSETS = {5161: 1, 5162: 0.5, 5163: 2, 5181: -1, 5210: 1, 5212: 0.2, 5220: 1, 5221: 0.1, 5243: -0.3}  # inches
 REFUSED_BY_US_ALONE = {"tapping_off_xy", "g10_form", "cutter_comp_stop", "cutter_comp_shift"}
@@ -241,7 +241,7 @@ def main():
     if shutil.which("rs274") is None:
         print("rs274 is not installed (Debian: linuxcnc-uspace)")
         return 77
-    oracle = rs274_table.Oracle(variables=variables())
+    oracle = rs274_oracle.Oracle(variables=variables())
     offsets, program = oracle.path("offsets.var"), oracle.path("random.ngc")
     with open(offsets, "w") as out:
         out.write(variables())
@@ -262,7 +262,7 @@ def main():
             text = spaced(r, text)
         with open(program, "w") as out:
             out.write(text)
-        result = rs274_table.judge(os.path.abspath(arguments.steadyrest), oracle, program,
+        result = rs274_oracle.judge(os.path.abspath(arguments.steadyrest), oracle, program,
                                    extra=("--variables", offsets))
         accepted += result["accepted"]
         verdict = result["verdict"]

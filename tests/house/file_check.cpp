@@ -39,7 +39,7 @@ void check_length(FileCheck& check) {
   const std::string& path = check.file.path;
   const std::size_t lines = lines_in(check.file.text);
   const std::size_t most = check.rules.most_lines;
-  if (lines > most && (is_cpp(path) || path.ends_with(".ts"))) {
+  if (lines > most && (is_cpp(path) || path.ends_with(".ts") || path.ends_with(".py"))) {
     check.report("long-file", most + 1,
                  std::to_string(lines) + " lines, at most " + std::to_string(most) +
                      ": split it by what it does");

@@ -221,7 +221,8 @@ TEST(LongFile, IsFoundAtItsFirstLineTooMany) {
     }
     return found({path, text});
   };
-  for (const std::string path : {"steadyrest/nc/x.cpp", "steadyrest/nc/x.hpp", "web/src/x.ts"}) {
+  for (const std::string path :
+       {"steadyrest/nc/x.cpp", "steadyrest/nc/x.hpp", "web/src/x.ts", "scripts/x.py"}) {
     EXPECT_THAT(of_lines(path, 400), IsEmpty()) << path;
     EXPECT_THAT(of_lines(path, 401), ElementsAre("long-file:401")) << path;
   }
