@@ -144,7 +144,7 @@ void measure(const std::string& name, const std::string& from, const std::string
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::atoi(argv[1]) : 10;
   const std::string data = steadyrest::kernel::file::testing::shared_data();
-  // A folder of its own, since two runs at once would share the changed file.
+  // Two runs at once must not share the changed file: each makes its own folder.
   std::string folder = std::filesystem::temp_directory_path() / "compensate-XXXXXX";
   if (::mkdtemp(folder.data()) == nullptr) {
     return 1;

@@ -19,10 +19,11 @@
 #include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/chatter/online/test/cut_signal.hpp>
 
+namespace steadyrest::chatter::online {
 namespace {
 
-using namespace steadyrest::chatter::online;        // NOLINT(google-build-using-namespace)
-using namespace steadyrest::chatter::online::test;  // NOLINT(google-build-using-namespace)
+using test::CutModel;
+using test::CutSignal;
 
 /// A microphone in a shop hears the cut at 5 … 20 % of noise; 100 % is a hall at full work.
 constexpr std::array kNoise{0.01, 0.05, 0.2, 0.5, 1.0};
@@ -113,9 +114,7 @@ void print(bool modulated, const std::array<Level, kNoise.size()>& levels, int u
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int hunt(int argc, char** argv) {
   const int cases = argc > 1 ? std::atoi(argv[1]) : 60;
   const auto seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 7ULL;
   const double stable_s = argc > 3 ? std::atof(argv[3]) : 0.0;
@@ -127,10 +126,10 @@ int main(int argc, char** argv) {
     int chattering = 0;
     int stable = 0;
     while (chattering < cases || stable < cases || levels.front().stable_s < stable_s) {
-      CutModel model = random_cut(rng, modulated);
+      CutModel model = test::random_cut(rng, modulated);
       model.air_s = 0.2;
-      CutSignal signal = simulate(model, 1.7);
-      const Truth truth = truth_of(model, signal);
+      CutSignal signal = test::simulate(model, 1.7);
+      const test::Truth truth = test::truth_of(model, signal);
       // An onset after 1.2 s leaves too little of the 1.7 s for a detector to show what it can.
       const bool too_late = truth.chatters && truth.onset_s > 1.2;
       if ((!truth.chatters && !truth.stable) || too_late) {
@@ -145,7 +144,7 @@ int main(int argc, char** argv) {
       // Longer stable cuts for the false alarm rate: in 1.7 s pieces most of the time would be
       // entry.
       if (truth.stable && stable >= cases) {
-        signal = simulate(model, 60.0);
+        signal = test::simulate(model, 60.0);
       }
       (truth.chatters ? chattering : stable) += 1;
       for (std::size_t k = 0; k < kNoise.size(); ++k) {
@@ -162,4 +161,11 @@ int main(int argc, char** argv) {
   }
   fmt::print("{:.3f} µs of processor time a sample\n", 1e6 * cost.seconds / cost.samples);
   return 0;
+}
+
+}  // namespace
+}  // namespace steadyrest::chatter::online
+
+int main(int argc, char** argv) {
+  return steadyrest::chatter::online::hunt(argc, argv);
 }

@@ -9,9 +9,9 @@
 #include <steadyrest/chatter/offline/test/semi_discretization.hpp>
 
 // The map of the literature's benchmark: the 1-DOF slot of Insperger and Stépán, 922 Hz, two teeth.
+namespace steadyrest::chatter {
 namespace {
 
-using namespace steadyrest::chatter;  // NOLINT(google-build-using-namespace)
 using offline::LobeMapConfig;
 using offline::Process;
 
@@ -135,3 +135,4 @@ void radius_of_passes(benchmark::State& state) {
 BENCHMARK(radius_of_passes)->RangeMultiplier(2)->Range(8, 256)->Unit(benchmark::kMillisecond);
 
 }  // namespace
+}  // namespace steadyrest::chatter

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
       return 2;
     }
     Tally all;
-    // Parts of half a million cycles, each with seeds of its own.
+    // Parts of half a million cycles, each with its own seeds.
     for (std::uint64_t part = 0; all.cycles < cycles; ++part) {
       const Tally more = steadyrest::bench::hostile::hunt(*machine, seed + 1'000'000 * part,
                                                           std::min(kPart, cycles - all.cycles));

@@ -14,7 +14,7 @@ OverrideWatch::OverrideWatch(const Rules& rules) : rules_(rules) {
   const auto& table = rules_.table;
   for (std::size_t i = 0; i < table.ratio.size(); ++i) {
     const auto position = static_cast<std::uint32_t>(i) + 1U;
-    // A switch without codes of its own counts its positions from 1 in Gray code.
+    // A switch whose table gives no codes counts its positions from 1 in Gray code.
     const std::uint32_t code = table.code.empty() ? position ^ (position >> 1U) : table.code[i];
     if (by_code_.size() <= code) {
       by_code_.resize(code + 1U, std::numeric_limits<double>::quiet_NaN());

@@ -10,9 +10,9 @@
 // width of the band (µm), and the readings it holds (mean, and the worst split), free and with an
 // hourly probe.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -31,10 +31,8 @@
 // A band is honest if it holds about 95 % of readings that the fit never saw. Whole runs are kept
 // back, not single readings: neighbours in time are alike, and a fit that has seen them would look
 // better than it is.
+namespace steadyrest::thermal::offline {
 namespace {
-
-namespace bench = steadyrest::bench;
-using namespace steadyrest::thermal::offline;  // NOLINT(google-build-using-namespace)
 
 constexpr unsigned kFirstSeed = 101;
 constexpr double kHour_s = 3600.0;
@@ -268,12 +266,12 @@ void run(Coverage& coverage, const Log& log) {
   coverage.run(log, all, "all sensors");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int cover(int argc, char** argv) {
   const std::string of = argc > 1 ? argv[1] : "20";
   Coverage coverage(argc > 2 ? argv[2] : nullptr);
-  if (const int machines = std::atoi(of.c_str()); machines > 0) {  // NOLINT(cert-err34-c)
+  int machines = 0;
+  std::from_chars(of.data(), of.data() + of.size(), machines);
+  if (machines > 0) {
     for (int i = 0; i < machines; ++i) {
       const auto seed = kFirstSeed + static_cast<unsigned>(i);
       Log machine = bench::random_machine(seed);
@@ -297,4 +295,11 @@ int main(int argc, char** argv) {
   }
   coverage.print();
   return 0;
+}
+
+}  // namespace
+}  // namespace steadyrest::thermal::offline
+
+int main(int argc, char** argv) {
+  return steadyrest::thermal::offline::cover(argc, argv);
 }

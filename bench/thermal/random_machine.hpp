@@ -86,7 +86,7 @@ class RandomMachine {
   double draught_um_ = from(0.2, 1.5);
   double draught_min_ = from(30.0, 400.0);
   double noise_um_ = from(0.1, 0.5);
-  // What stands at t_min_.
+  // The state at t_min_.
   double t_min_ = 0.0;
   double fast_ = 0.0;
   double slow_ = 0.0;

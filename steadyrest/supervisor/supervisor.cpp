@@ -108,7 +108,7 @@ Reason without_channel(const Request& request, Reason unfit) noexcept {
   return wish ? Reason::port_cannot_write : request.reason;
 }
 
-/// Where one override stands in the command.
+/// The fields of one override in the command.
 struct Place {
   double& ratio;
   std::uint32_t& code;

@@ -232,7 +232,7 @@ TEST_F(EncoderPeer, OurMOverTGivesLinuxCncsVelocityOnTheSameEdges) {
   }
 }
 
-// LinuxCNC has a rule of its own at a reversal, which M/T's default lacks. Without that rule the
+// At a reversal LinuxCNC has a special rule, which M/T's default lacks. Without that rule the
 // two differ by far more than rounding.
 TEST_F(EncoderPeer, TheReversalRuleIsWhatSetsTheDefaultApart) {
   const Record record = exact_edges(motion::offline::dither(0.0012, 7.0, 1.0));

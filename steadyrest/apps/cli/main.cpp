@@ -40,7 +40,8 @@ struct Entry {
   std::array<const char*, 3> examples{};
 };
 
-/// The command line: every verb that works, in the order in which --help has them.
+/// The command line: every verb that works, in the order in which --help has them: the main job
+/// first, then the verbs that people try next.
 constexpr Entry kVerbs[] = {
     {"cut",
      "Cut a part twice on the simulated machine, without and with the layer, and compare",
@@ -165,14 +166,7 @@ constexpr Entry kVerbs[] = {
       "examples/machines/linuxcnc-mill.toml"}},
 };
 
-}  // namespace
-}  // namespace steadyrest::apps::cli
-
-/// The command line: every verb that works is registered here, in the order in which --help has
-/// them.
-/// The order here is the order in --help: the main job first, then the verbs that people try next.
-int main(int argc, char** argv) {
-  using namespace steadyrest::apps::cli;  // NOLINT(google-build-using-namespace): the verbs
+int run(int argc, char** argv) {
   Session session;
   for (const Entry& entry : kVerbs) {
     if (entry.add == nullptr) {
@@ -188,4 +182,11 @@ int main(int argc, char** argv) {
     entry.add(session, session.verb(entry.path, entry.does, examples));
   }
   return session.main(argc, argv);
+}
+
+}  // namespace
+}  // namespace steadyrest::apps::cli
+
+int main(int argc, char** argv) {
+  return steadyrest::apps::cli::run(argc, argv);
 }

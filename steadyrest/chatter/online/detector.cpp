@@ -301,7 +301,7 @@ bool Detector::suspect_steady(const LineSpectrum::Output& lines,
 
 /// What the cut has shown so far counts as its own.
 double Detector::free_bound() const noexcept {
-  // A stable cut has a free ratio of its own, by noise or by a slow ring; only more than that is
+  // Even a stable cut has some free ratio, by noise or by a slow ring; only more than that is
   // news.
   const double least = state_.speed_spread < kSteady ? kFreeSure : config_.free_ratio;
   return std::max(later() ? kLaterBound * least : least, kFreeMargin * state_.floor_free);

@@ -165,7 +165,7 @@ class FeedGovernor {
   [[nodiscard]] const Course& course() const noexcept { return state_; }
   [[nodiscard]] State state() const;
   /// Of one that was made from the same config. The path's storage must be the same, or the path
-  /// ahead is made anew.
+  /// ahead is made again.
   void restore(const State& state) noexcept;
   /// No decision takes more: what the share allows, the look in hand (two forecasts), the fall and
   /// one look along it; with an objective its share and the look in hand there.

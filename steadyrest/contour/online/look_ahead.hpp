@@ -84,7 +84,7 @@ class LookAhead {
   [[nodiscard]] bool complete() const noexcept { return complete_; }
 
   [[nodiscard]] State state() const;
-  /// More cells than there are places start anew.
+  /// More cells than there are places start over.
   void restore(const State& state) noexcept;
 
   /// One cell added by hand (for paths that are extrapolated and not read).

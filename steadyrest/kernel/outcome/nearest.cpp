@@ -11,9 +11,9 @@ namespace {
 // Words of files and of the command line are short; longer ones are no misspelling of any key.
 constexpr std::size_t kLongestWord = 64;
 
-// Insertions, deletions, replacements and swapped neighbours, each one step: the errors of typing.
-// Three rows of the table are enough, since a swap looks two rows back.
-/// Optimal string alignment distance.
+/// Optimal string alignment distance: insertions, deletions, replacements and swapped neighbours,
+/// each one step, which are the errors of typing. Three rows of the table are enough, since a swap
+/// looks two rows back.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> above(b.size() + 1);

@@ -6,8 +6,8 @@
 #include <steadyrest/math/geometry/vector.hpp>
 
 // An arc of any kind is r(u) = r₀ + u·ρ, angle u·ω, height u·z, u from 0 to 1: circle, helix,
-// spiral and both together. Length is proportional to u except on spirals, which have an integral
-// of their own.
+// spiral and both together. Length is proportional to u except on spirals, which need an
+// integral.
 namespace steadyrest::math::geometry {
 namespace {
 

@@ -131,7 +131,7 @@ void contradictions(const Friction& friction, const Given& given, Faults& faults
   }
 }
 
-/// The rated torque has no default of its own; without it the largest torque counts, and there is
+/// The rated torque has no default; without it the largest torque counts, and there is
 /// nothing to compare.
 void contradictions(const Spindle& spindle, const Given& given, Faults& faults) {
   ordered(given, faults, "min_rpm", spindle.min_rev_s, "max_rpm", spindle.max_rev_s);

@@ -200,7 +200,7 @@ bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
   return true;
 }
 
-/// Without a table of its own the rapid override follows the feed switch up to 100 %: no control
+/// Without its own table the rapid override follows the feed switch up to 100 %: no control
 /// runs rapids faster than their setting.
 OverrideTable rapid_from_feed(const OverrideTable& feed) {
   OverrideTable rapid = feed;

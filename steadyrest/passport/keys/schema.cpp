@@ -170,7 +170,7 @@ std::span<const Key<Encoder>> encoder_keys() noexcept {
                    kMay, kRotary},
       Key<Encoder>{"clock_ns", &Encoder::clock_s, 0, 1e6,
                    "Period of the clock that time-stamps the edges; 0 = no time stamps."},
-      // A line of the encoder has four edges, and each kind of edge is off by an amount of its own,
+      // A line of the encoder has four edges, and each kind of edge is off by its own amount,
       // the same on every line: the phase errors. What is left differs from line to line: the line
       // table.
       Key<Encoder>{"phase_error_um", &Encoder::phase_error_mm, -1000, 1000,

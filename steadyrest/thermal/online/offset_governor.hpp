@@ -40,7 +40,7 @@ namespace steadyrest::thermal::online {
 ///
 /// A probe reading that a frame brings is taken once, by its number. What stood there in the first
 /// frame after make(), reset() or restore() is not: nobody knows with which offset it was made. A
-/// reading says how far the axis is off with the offset that stands on the machine.
+/// reading says how far the axis is off with the offset that is in force.
 ///
 /// After a gap of more than a minute between frames the machine counts as having stood meanwhile.
 /// Online code: bounded, noexcept, no allocation after make().
@@ -120,7 +120,7 @@ class OffsetGovernor {
 
   [[nodiscard]] const Output& output() const noexcept { return state_.last; }
   [[nodiscard]] State state() const noexcept;
-  /// What is not finite in it starts anew; a wish beyond the clamp is cut to it.
+  /// Whatever is not finite starts over; a wish beyond the clamp is cut to it.
   void restore(const State& state) noexcept;
   /// Cold.
   void reset() noexcept;

@@ -56,7 +56,7 @@ class Tracer final : public nc::interpret::Sink {
     nc::interpret::Move numbered = move;
     numbered.line = ++sequence_;  // stands in for the line, so that each move is told of
     timer_.on_move(numbered);
-    // Inserted blocks may contain moves of their own, which the original lacks.
+    // Inserted blocks may contain moves, which the original lacks.
     if (move.line < inserted_.size() && inserted_[move.line]) {
       return;
     }

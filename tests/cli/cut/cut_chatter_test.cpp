@@ -78,7 +78,7 @@ TEST(CutChatter, DiesAndGrowsOnEitherSideOfThePublishedBorder) {
   EXPECT_GT(at_time(above, 5.0), 10.0 * at_time(above, 2.0));
 }
 
-// Two speeds in one program, each unstable as programmed: each gets a step of its own, which the
+// Two speeds in one program, each unstable as programmed: each gets its own step, which the
 // solver then confirms.
 TEST(CutChatter, EachSpindleSpeedOfTheProgramGetsItsOwnChoice) {
   const Scratch scratch;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Each run has a folder of its own with the examples in it, so that paths in commands are short
+/// Each run has its own folder with the examples in it, so that paths in commands are short
 /// and tests run side by side.
 class Folder {
  public:

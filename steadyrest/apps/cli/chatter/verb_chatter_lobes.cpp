@@ -58,7 +58,7 @@ struct Made {
   double seconds = 0.0;
 };
 
-/// The border gets a file of its own, since its speeds are not those of the map.
+/// The border gets its own file, since its speeds are not those of the map.
 fs::path border_path(const fs::path& csv) {
   return csv.extension() == ".csv" ? fs::path(csv).replace_extension(".border.csv")
                                    : fs::path(csv.string() + ".border.csv");

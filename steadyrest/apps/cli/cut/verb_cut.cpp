@@ -263,7 +263,7 @@ Outcome run(const Options& options, Progress& progress) {
   if (!with) {
     return refused(with.error());
   }
-  // The batch draws a bar of its own.
+  // The batch draws its own bar.
   progress.clear();
   Answer answer;
   answer.json["program"] = options.program.file;
@@ -302,7 +302,7 @@ void add_verb_cut(Session& session, Verb& verb) {
   add_machine_option(verb, options->machine);
   verb.reports(options->report, [options](const std::string& folder) {
     std::vector<PlannedFile> files = report_files(folder);
-    // A batch has a report of its own in a folder below, which must be declared before the work.
+    // A batch has its own report in a folder below, which must be declared before the work.
     if (options->batch.parts > 0) {
       for (PlannedFile& file : report_files(batch_folder(folder))) {
         files.push_back(std::move(file));

@@ -59,7 +59,7 @@ class Session {
   /// A word that only leads to verbs: `steadyrest contour …`. Before its verbs.
   void group(const std::string& name, const std::string& description);
   /// A verb by its path: `cut`, or `contour limit`. --help ends with the path and each of the
-  /// `examples`; they must work as they stand in the project's folder.
+  /// `examples`; they must work as written in the project's folder.
   Verb& verb(const std::string& path, const std::string& description,
              const std::vector<std::string>& examples);
   void on(Verb& verb, Run run);

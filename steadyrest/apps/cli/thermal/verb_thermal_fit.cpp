@@ -76,7 +76,7 @@ Json modes_of(const std::vector<offline::AxisFit>& fits) {
       out.push_back(
           {{"axis", fit.axis.name},
            {"tau_min", mode.tau_s / 60.0},
-           // A mode without a time constant of its own at rest cools as it heats.
+           // A mode without a separate time constant at rest cools as it heats.
            {"rest_tau_min", (mode.rest_tau_s > 0.0 ? mode.rest_tau_s : mode.tau_s) / 60.0},
            {"tau_sd_percent", 100.0 * fit.ln_tau_sd[m]},
            {"polynomial_um", converted(mode.polynomial_mm, um_from_mm)},

@@ -45,7 +45,7 @@ double as_it_is(double value) {
   return value;
 }
 
-/// Regimes (heating at one speed, cooling) are drawn in colours of their own: the loop that they
+/// Regimes (heating at one speed, cooling) are drawn in different colours: the loop that they
 /// make is the hysteresis.
 Json regimes_json(const Log& log, const std::vector<Regime>& regimes) {
   Json out = Json::array();

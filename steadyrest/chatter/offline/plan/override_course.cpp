@@ -9,7 +9,7 @@
 #include <steadyrest/chatter/online/modulator.hpp>
 #include <steadyrest/kernel/override/channel.hpp>
 
-// A small machine of its own: modulator, hand-over, scan and dead time of both overrides, and a
+// A small simulated machine: modulator, hand-over, scan and dead time of both overrides, and a
 // drive with constant acceleration. Once it has settled, one period of its speed is the course.
 namespace steadyrest::chatter::offline {
 namespace {

@@ -121,7 +121,7 @@ bool BlockCheck::check_non_modal(const Step& step) const {
   }
   if (step.machine_frame) {
     const bool straight = step.moves_by == g::kRapid || step.moves_by == g::kLinear;
-    // SINUMERIK's SUPA may stand alone in its block; it then does nothing.
+    // SINUMERIK's SUPA may be alone in its block; it then does nothing.
     const bool lone = rules_.machine_frame_alone && (step.mask & kAxisMask) == 0 &&
                       step.code(GGroup::motion) == kNoCode;
     if (!straight && !lone) {

@@ -63,7 +63,7 @@ void MoveOutput::move(MoveKind kind, const Axes& end) {
   current_.machine_axes = 0;
 }
 
-// A move of its own: the one in hand may be half made, with an arc's centre or machine axes set.
+// A new move: the one in hand may be half made, with an arc's centre or machine axes set.
 void MoveOutput::dwell(double seconds) {
   Move out;
   out.kind = MoveKind::dwell;

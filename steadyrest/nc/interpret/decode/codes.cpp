@@ -97,7 +97,7 @@ struct RefusedRange {
   std::string_view text;
 };
 
-// Words whose meaning is known but not interpreted get a text of their own: the user should not
+// Words whose meaning is known but not interpreted get their own text: the user should not
 // look for a typing error.
 constexpr std::array kRefusedG = {
     RefusedRange{g::kCutterLeft, g::kCutterLeftBy,

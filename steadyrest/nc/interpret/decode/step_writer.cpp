@@ -34,7 +34,7 @@ bool StepWriter::put_g(const Word& word, int code) {
   return true;
 }
 
-// The words of [chatter] in the machine file; 0 stands for none.
+// The words of [chatter] in the machine file; 0 means none.
 bool StepWriter::is_modulation(const Word& word) const noexcept {
   const bool on = in_.config.modulation_on != 0 && word.value == in_.config.modulation_on;
   return on || (in_.config.modulation_off != 0 && word.value == in_.config.modulation_off);

@@ -22,7 +22,7 @@ bool CutterStage::set(const Step& step) {
   if (code == kNoCode) {
     return true;
   }
-  // G40 comes before the moves of its own block.
+  // G40 acts before the moves of its block.
   if (code == g::kCutterOff) {
     return end(step);
   }

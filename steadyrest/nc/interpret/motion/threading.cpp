@@ -170,8 +170,8 @@ bool Threading::cycle(const Step& step) {
   return true;
 }
 
-// X positions of one pass. The drive line is where X stands, the peak I away from it. The compound
-// slide feeds in at its angle: a shallow pass begins and ends earlier by depth·tan.
+// X positions of one pass. The drive line is where X is at the start, the peak I away from it. The
+// compound slide feeds in at its angle: a shallow pass begins and ends earlier by depth·tan.
 void Threading::pass(const Cycle& cycle, double depth_mm) {
   const double side = cycle.peak_mm > 0.0 ? 1.0 : -1.0;  // inside: the tool goes outwards
   const double along = cycle.end_mm > cycle.start_mm ? 1.0 : -1.0;

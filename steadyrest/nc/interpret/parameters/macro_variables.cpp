@@ -49,7 +49,7 @@ constexpr ModeMask mode_of(int index) noexcept {
 }  // namespace
 
 MacroVariables::MacroVariables(const State& state) : state_(state) {
-  // Not a number stands for vacant: FANUC's #0, which differs from 0.
+  // NaN means vacant: FANUC's #0, which differs from 0.
   numbers_.fill(std::numeric_limits<double>::quiet_NaN());
 }
 

@@ -23,7 +23,7 @@ double converted(ValueType type, double value) noexcept {
 
 }  // namespace
 
-// Not a number stands for an R-parameter that this program has not set.
+// NaN means an R-parameter that this program has not set.
 SinumerikVariables::SinumerikVariables()
     : numbers_(kParameters, std::numeric_limits<double>::quiet_NaN()), frames_(1) {}
 

@@ -151,7 +151,7 @@ TEST(Program, OfTwoHundredMegabytesIsStreamedInBoundedMemory) {
     }
     ::close(ends[1]);
   });
-  const long before = peak_kib();  // a sanitizer has memory of its own
+  const long before = peak_kib();  // a sanitizer needs its own memory
   Count sink;
   const auto report = run_file("/proc/self/fd/" + std::to_string(ends[0]), {}, sink);
   ::close(ends[0]);

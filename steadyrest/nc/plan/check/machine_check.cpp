@@ -201,7 +201,7 @@ void MachineCheck::on_event(const Event& event) {
 }
 
 // Loops and subprograms repeat their lines: one warning for each line, kind and axis. count() goes
-// on beyond the kMost that are kept, up to a bound of its own, so memory stays small.
+// on beyond the kMost that are kept, up to a second bound, so memory stays small.
 void MachineCheck::warn(std::uint32_t line, What what, std::size_t axis, std::string text) {
   if (seen_.size() < kMostSeen && seen_.emplace(line, what, axis).second &&
       warnings_.size() < kMost) {

@@ -16,7 +16,7 @@ using kernel::units::kDegree;
 
 }  // namespace
 
-// The name up to its bracket. EXISTS and ATAN have forms of their own; all others take one value.
+// The name up to its bracket. EXISTS and ATAN have special forms; all others take one value.
 bool Expression::function(double& out) {
   std::array<char, 8> name{};
   std::size_t length = 0;

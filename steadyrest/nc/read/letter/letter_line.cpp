@@ -105,7 +105,7 @@ bool LetterLine::round_comment() {
                 "a comment that is not closed on its line; write ) at its end");
 }
 
-// `;` opens a comment or ends the block, behind which nothing may stand.
+// `;` opens a comment or ends the block, and nothing may follow it.
 // `;` opens a comment (linuxcnc) or ends the block (fanuc); nothing may follow the latter.
 bool LetterLine::rest_of_line() {
   const char* const mark = at_++;

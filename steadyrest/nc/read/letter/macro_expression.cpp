@@ -78,7 +78,7 @@ bool MacroExpression::read_sum(double& out) {
   return climb(out, 1);
 }
 
-// Brackets, variables, numbers and functions; an operand may have signs of its own.
+// Brackets, variables, numbers and functions; an operand may carry signs.
 bool MacroExpression::operand(double& out) {
   const bool negative = turned();
   const char c = peek();

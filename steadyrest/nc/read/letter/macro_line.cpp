@@ -67,7 +67,7 @@ bool LetterLine::macro_value(const char* word_begin, Word& word) {
 // `#5 = …`; `#5 = #0` makes #5 vacant.
 bool LetterLine::macro_statement() {
   const char* const from = at_++;
-  // On the control an assignment is a block of its own, executed as it is read, ahead of the
+  // On the control an assignment is a separate block, executed as it is read, ahead of the
   // motion.
   if (assigned_ || !block_.words().empty() || block_.flow().kind != FlowKind::none) {
     at_ = end_;

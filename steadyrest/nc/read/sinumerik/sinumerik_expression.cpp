@@ -177,7 +177,7 @@ bool SinumerikExpression::bits(Operator op, double& left, double right) {
 // A signed operand, a bracket, a number, or a word: parameter, variable, function or constant.
 bool SinumerikExpression::operand(double& out) {
   const char c = peek();
-  // A sign is an operand of its own level, so signs count for the depth as well.
+  // A sign opens another level, so signs count for the depth as well.
   if (++depth_ > kDeepest) {
     return fail("expression_too_deep", "brackets or signs nested more than 64 deep");
   }

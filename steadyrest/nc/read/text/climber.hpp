@@ -78,7 +78,7 @@ class Climber {
     }
   }
 
-  /// Goes behind the signs that stand here; whether they turn the value round.
+  /// Goes past the signs found here; whether they turn the value round.
   [[nodiscard]] bool turned() noexcept {
     bool negative = false;
     for (char c = peek(); c == '+' || c == '-'; c = peek()) {

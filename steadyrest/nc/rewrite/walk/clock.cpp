@@ -32,7 +32,7 @@ std::unique_ptr<Clock> Clock::of(const KnownTimes& known, Told told) {
 }
 
 void Clock::arrived(std::uint32_t sequence, double time_s) {
-  // What has no time of its own is reached with the move behind it.
+  // A block that takes no time is reached with the move behind it.
   while (!asked_.empty() && asked_.front().sequence <= sequence) {
     told_(asked_.front().ticket, time_s);
     asked_.pop_front();

@@ -36,7 +36,7 @@ Machine full() {
 
 constexpr double kPi = std::numbers::pi;
 
-// The full machine gives each key a value of its own (1001, 1002, …), so two keys that were swapped
+// The full machine gives each key a different value (1001, 1002, …), so two keys that were swapped
 // show. Values are in the inner units: ms to s, mm/min to mm/s, ° to rad.
 TEST(EveryKey, TopAndControl) {
   const Machine m = full();

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-/// A machine file with every key of the schema, each at a value of its own.
+/// A machine file with every key of the schema, each at a different value.
 namespace steadyrest::passport::test {
 
 inline constexpr std::string_view kFullMachine = R"(name = "Full"

@@ -356,7 +356,7 @@ TEST(MachineBody, AtItsEndAProbingMoveReadsWhatHeatAndOffsetHaveLeft) {
   EXPECT_EQ(go(Motion::rapid, 7, 1.0, 4.0).number, 3U) << "X does not grow";
 }
 
-// Two sensors with noise of their own; a third one that the machine lacks reads NaN.
+// Two sensors with independent noise; a third one that the machine lacks reads NaN.
 TEST(MachineBody, ItsSensorsHangInTheRoom) {
   kernel::machine::Machine machine = growing_machine();
   EXPECT_TRUE(std::isnan(MachineBody::make({.machine = machine})->frame().temperature_c[0]));

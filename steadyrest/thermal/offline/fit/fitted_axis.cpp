@@ -40,8 +40,8 @@ void put_levels(const Structure& structure, const Eigen::VectorXd& level_um, The
   }
 }
 
-/// Where the passport's levels and gains stand among the fit's; −1: a polynomial without its first
-/// term, and a table's level at 0 rpm, have their places too, and are known to be nought.
+/// The places of the passport's levels and gains among the fit's; −1: a polynomial without its
+/// first term, and a table's level at 0 rpm, have their places too, and are known to be nought.
 std::vector<Eigen::Index> places(const Structure& structure, const ThermalMode& mode) {
   const auto levels = static_cast<Eigen::Index>(structure.levels());
   const auto gains = static_cast<Eigen::Index>(structure.ambient.size());
@@ -138,7 +138,7 @@ Structure structure_of(const ThermalAxis& axis, const Log& log) {
       }
     }
   }
-  // Modes may have tables of their own; the fit works with the union of their speeds.
+  // Modes may have different tables; the fit works with the union of their speeds.
   std::ranges::sort(out.table_rev_s);
   const auto twice = std::ranges::unique(out.table_rev_s);
   out.table_rev_s.erase(twice.begin(), twice.end());

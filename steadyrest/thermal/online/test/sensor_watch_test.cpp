@@ -107,7 +107,7 @@ TEST(SensorWatch, ACoarseSensorThatMovedAndStopsIsStuckAfterEightHours) {
 }
 
 TEST(SensorWatch, IsStuckAfterThreeTimesTheLongestStandThatItHasShown) {
-  // It stands from 2 h to 3.5 h and moves again; at 5 h it stops.
+  // It is stuck from 2 h to 3.5 h and moves again; at 5 h it stops.
   Watched watched(
       [](double hours) { return fine(hours > 2.0 && hours < 3.5 ? 2.0 : std::min(hours, 5.0)); });
   EXPECT_NEAR(watched.doubted_at_h(15.0, Reason::thermal_sensor_stuck), 5.0 + 3.0 * 1.5, 0.1);

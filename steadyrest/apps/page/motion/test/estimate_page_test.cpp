@@ -22,7 +22,7 @@ Json page_of(const EstimateCourse& course) {
       estimate_page({{"ticks", 1}}, {.log = "axis </script>.csv", .count_mm = 0.001}, course)));
 }
 
-// Up to the limit each tick has a stretch of its own. NaN bounds become null.
+// Up to the limit each tick has its own stretch. NaN bounds become null.
 TEST(EstimatePage, OfAShortLogHasEveryTick) {
   EstimateCourse course(4);
   for (int i = 0; i < 4; ++i) {

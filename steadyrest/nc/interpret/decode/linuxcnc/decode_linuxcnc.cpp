@@ -49,7 +49,7 @@ class LinuxcncDecoder final : public StepWriter {
   }
 
  private:
-  // @ is the radius, ^ the angle; not a number stands for a word that is left out.
+  // @ is the radius, ^ the angle; NaN means that the word is left out.
   bool take_polar(const Word& word) {
     double& place = word.letter == '@' ? step_.polar_radius : step_.polar_angle_deg;
     if (!std::isnan(place)) {

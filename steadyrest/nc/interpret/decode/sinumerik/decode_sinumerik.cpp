@@ -121,7 +121,7 @@ bool SinumerikDecoder::g_word(const Word& word) {
     step_.exact_stop = true;
     return true;
   }
-  // G500 switches the settable offset off: no offset of its own that could be looked up.
+  // G500 switches the settable offset off: there is no offset to look up.
   if (value == 500.0) {
     if (step_.code(GGroup::work_offset) != kNoCode || step_.zero_offset) {
       return refuse(word, "same_modal_group",
@@ -224,7 +224,7 @@ bool SinumerikDecoder::letter_word(const Word& word) {
 }
 
 // Words of two or more letters. Frames and SUPA change how the axis words of the block are meant;
-// the others stand for a letter of the common vocabulary or have no effect.
+// the others mean a letter of the common vocabulary or have no effect.
 bool SinumerikDecoder::name_word(const Word& word) {
   const auto without_effect = [&](std::string_view known) { return equal(word.name, known); };
   if (equal(word.name, "RET")) {

@@ -93,7 +93,7 @@ TEST(ProgramTimer, TheCyclogramHasATransitionForEachSpeedAndTool) {
   EXPECT_EQ(t.cyclogram[0].load(), Load::cutting);
   EXPECT_NEAR(t.cyclogram[0].seconds, 4.0, 0.1);
   EXPECT_NEAR(t.cyclogram[0].feed_mm_s(), 25.0, 0.2);
-  // The tool change with the spindle stopped is a transition of its own.
+  // The tool change with the spindle stopped is a separate transition.
   EXPECT_EQ(t.cyclogram[1].load(), Load::standing);
   EXPECT_NEAR(t.cyclogram[1].seconds, 2.0, 0.02);
   EXPECT_EQ(t.cyclogram[2].load(), Load::running);
