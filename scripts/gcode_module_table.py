@@ -10,7 +10,6 @@ table: every tool has length and diameter 0 on both sides. A program that change
 runs beside it; those are left to `rs274_table.py`. Exit code 1 when a coordinate differs by more than 1e-6 mm
 or 1e-6 degrees, 77 where the module is absent.
 """
-import argparse
 import csv
 import json
 import os
@@ -18,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-from nc_programs import dialect_of, programs, sample
+from nc_programs import add_folders, dialect_of, programs, sample, script_parser
 
 TOLERANCE = 1e-6  # mm, degrees
 LINUXCNC_PYTHON = "/usr/bin/python3"
@@ -139,10 +138,8 @@ def difference(moves, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--steadyrest", default="build/release/bin/steadyrest")
-    parser.add_argument("--data", default=os.path.join(os.environ.get("STEADYREST_SHARED_DATA", "../shared/data"), "nc"))
-    parser.add_argument("--linuxcnc", nargs="*", default=["/usr/share/linuxcnc", "/usr/share/doc/linuxcnc/examples"])
+    parser = script_parser(__doc__)
+    add_folders(parser)
     parser.add_argument("--most", type=int, help="only so many short programs")
     parser.add_argument("files", nargs="*")
     arguments = parser.parse_args()

@@ -1,6 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The NC programs below some folders, their dialects, and a sample of the short ones."""
+"""The NC programs below some folders, their dialects, and a sample of the short ones; the options of every script that compares."""
+import argparse
 import os
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def script_parser(doc):
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--steadyrest", default=os.path.join(ROOT, "build/release/bin/steadyrest"))
+    return parser
+
+
+def add_folders(parser):
+    shared = os.environ.get("STEADYREST_SHARED_DATA", os.path.join(ROOT, "../shared/data"))
+    parser.add_argument("--data", default=os.path.join(shared, "nc"))
+    parser.add_argument("--linuxcnc", nargs="*", default=["/usr/share/linuxcnc", "/usr/share/doc/linuxcnc/examples"])
 
 
 def programs(folders):

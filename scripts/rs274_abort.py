@@ -13,7 +13,6 @@ message before it. Behind the end of a run it is the operator's own in every wor
 The operator's own: what he has set by a touch-off or by a number, plus what he has shifted it by. Exit code 1 when one day
 breaks it, 77 where rs274 is absent.
 """
-import argparse
 import collections
 import json
 import os
@@ -21,7 +20,8 @@ import random
 import subprocess
 import sys
 
-from rs274_oracle import CALL, MM_PER_INCH, Oracle, numbers
+from nc_programs import ROOT
+from rs274_oracle import CALL, MM_PER_INCH, Oracle, installed, numbers, oracle_parser
 
 MOTION = ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED")
 NEAR_MM = 0.008  # rs274 prints four digits, in inches 2.5 um; corrections are 40 um and more
@@ -299,19 +299,13 @@ def operator(shop, r, kind, folder, count_of):
 
 
 def main():
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--steadyrest", default=os.path.join(root, "build/release/bin/steadyrest"))
-    parser.add_argument("--rs274", default="rs274")
-    parser.add_argument("--machine", default=os.path.join(root, "examples/machines/linuxcnc-mill.toml"))
+    parser = oracle_parser(__doc__)
+    parser.add_argument("--machine", default=os.path.join(ROOT, "examples/machines/linuxcnc-mill.toml"))
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--verbose", action="store_true")
     arguments = parser.parse_args()
-    try:
-        subprocess.run([arguments.rs274, "--help"], capture_output=True, timeout=20)
-    except FileNotFoundError:
-        print("rs274 is not installed: skipped")
+    if not installed(arguments.rs274):
         return 77
     count_of, wrong = collections.Counter(), 0
     for number in range(arguments.count):

@@ -11,7 +11,6 @@ positions are put together from what rs274 prints: coordinates, work offset, G92
 correction that stands, on Z alone; the variable file after the run must be that of the original. Needs `rs274`
 (Debian: linuxcnc-uspace). Exit code 1 when one program disagrees.
 """
-import argparse
 import collections
 import json
 import math
@@ -20,8 +19,8 @@ import re
 import subprocess
 import sys
 
-from nc_programs import dialect_of, programs, sample, short
-from rs274_oracle import CALL, MM_PER_INCH, Oracle, numbers
+from nc_programs import ROOT, add_folders, dialect_of, programs, sample, short
+from rs274_oracle import CALL, MM_PER_INCH, Oracle, installed, numbers, oracle_parser
 
 STEPS_UM = (50.0, 50.0, -30.0)
 MOVES = ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED", "STRAIGHT_PROBE", "RIGID_TAP")
@@ -192,24 +191,16 @@ def judge(steadyrest, oracle, program, machine):
 
 
 def main():
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--steadyrest", default=os.path.join(root, "build/release/bin/steadyrest"))
-    parser.add_argument("--rs274", default="rs274")
-    data = os.environ.get("STEADYREST_SHARED_DATA")
-    parser.add_argument("--data", default=os.path.join(data, "nc") if data else os.path.join(root, "../shared/data/nc"))
-    parser.add_argument("--linuxcnc", nargs="*", default=["/usr/share/linuxcnc", "/usr/share/doc/linuxcnc"])
-    parser.add_argument("--machine", default=os.path.join(root, "examples/machines/linuxcnc-mill.toml"))
+    parser = oracle_parser(__doc__)
+    add_folders(parser)
+    parser.add_argument("--machine", default=os.path.join(ROOT, "examples/machines/linuxcnc-mill.toml"))
     parser.add_argument("--most", type=int, help="only short programs, and until so many are right")
     parser.add_argument("--table", action="store_true", help="print every program, not only those that disagree")
     arguments = parser.parse_args()
-    try:
-        subprocess.run([arguments.rs274, "--help"], capture_output=True, timeout=20)
-    except FileNotFoundError:
-        print("rs274 is not installed: skipped")
+    if not installed(arguments.rs274):
         return 77
-    folders = [folder for folder in (arguments.data, os.path.join(root, "examples/programs"),
-                                     os.path.join(root, "tests/accepted/nc"), *arguments.linuxcnc) if os.path.isdir(folder)]
+    folders = [folder for folder in (arguments.data, os.path.join(ROOT, "examples/programs"),
+                                     os.path.join(ROOT, "tests/accepted/nc"), *arguments.linuxcnc) if os.path.isdir(folder)]
     oracle = Oracle(arguments.rs274)
     counts, reasons = collections.Counter(), collections.Counter()
     found = [program for program in map(os.path.abspath, programs(folders)) if dialect_of(program) == "linuxcnc"]

@@ -10,7 +10,6 @@ program run through LinuxCNC's interpreter `rs274` with and without block delete
 G92, reference points and parameters that the compensation knows (--variables) or does not, and with tool lengths that it never knows. Machine positions, move by move, the
 whole variable file and the tool table afterwards are compared. Exit code 1 when a program deviates, 77 without rs274.
 """
-import argparse
 import collections
 import concurrent.futures
 import json
@@ -21,14 +20,14 @@ import shutil
 import subprocess
 import sys
 
+from nc_programs import ROOT
 from rs274_compensate import calls, disagreement, machine_moves, run, totals_of, trace
-from rs274_oracle import Oracle
+from rs274_oracle import Oracle, installed, oracle_parser
 
 WINDOWS_S = (2.0, 6.0, 60.0, 60.0)
 LEFT_OVER = ("G43.1 Z.4", "T4 M6\nG43", "G18", "G8", "G61", "G99", "G95", "M73", "G90.1")  # tells no file
 SHIFTED = ("G92 Z.3", "G92 X1 Y2 Z-.2", "G52 Z.1", "G92 Z1\nG92.2")
 PLAN_S = 35.0  # programs of 5 to 65 s fit it
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEVER_SWITCHED = re.compile(r"(?i)o\d+ (?!call)")  # an O-word that is skipped leaves its pair alone
 
 
@@ -216,9 +215,7 @@ def judge(arguments, r, oracle, text, axes):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--steadyrest", default=os.path.join(ROOT, "build/release/bin/steadyrest"))
-    parser.add_argument("--rs274", default="rs274")
+    parser = oracle_parser(__doc__)
     parser.add_argument("--machine", default=os.path.join(ROOT, "examples/machines/linuxcnc-mill.toml"))
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=200)
@@ -226,8 +223,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--reasons", action="store_true", help="print why programs were refused")
     arguments = parser.parse_args()
-    if shutil.which(arguments.rs274) is None:
-        print("rs274 is not installed (Debian: linuxcnc-uspace)")
+    if not installed(arguments.rs274):
         return 77
     counts, reasons = collections.Counter(), collections.Counter()
     tasks = [(arguments, index) for index in range(arguments.first, arguments.first + arguments.count)]

@@ -9,6 +9,8 @@ import subprocess
 import tempfile
 import threading
 
+from nc_programs import script_parser
+
 MM_PER_INCH = 25.4
 HALF_DIGIT = 0.00005  # rs274 prints four decimals
 TOOLS = "".join(f"T{n} P{n} Z{n * 0.5:g} D{n * 0.05:g}\n" for n in range(1, 100))  # inches: rs274's own unit
@@ -19,6 +21,19 @@ KINDS = {"STRAIGHT_TRAVERSE": "rapid", "STRAIGHT_FEED": "linear", "ARC_FEED": "a
 
 def numbers(text):
     return [float(part) for part in re.split(r"[,\s]+", text) if re.fullmatch(r"-?[\d.]+", part)]
+
+
+def oracle_parser(doc):
+    parser = script_parser(doc)
+    parser.add_argument("--rs274", default="rs274")
+    return parser
+
+
+def installed(rs274):
+    if shutil.which(rs274) is None:
+        print("rs274 is not installed (Debian: linuxcnc-uspace)")
+        return False
+    return True
 
 
 class Oracle:

@@ -7,15 +7,14 @@
 Prints the first programs that disagree; exit code 1 then, 77 where rs274 is absent. What only ours refuses counts as well,
 but for the words that README.md of steadyrest/nc names.
 """
-import argparse
 import math
 import os
 import random
 import re
-import shutil
 import sys
 
 import rs274_oracle
+from rs274_oracle import installed, oracle_parser
 
 OFFSETS = {5161: 1, 5162: 0.5, 5163: 2, 5181: -1, 5210: 1, 5212: 0.2, 5220: 1, 5221: 0.1, 5243: -0.3}  # inches
 REFUSED_BY_US_ALONE = {"tapping_off_xy", "g10_form", "cutter_comp_stop", "cutter_comp_shift"}
@@ -232,16 +231,14 @@ def variables():
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--steadyrest", default="build/release/bin/steadyrest")
+    parser = oracle_parser(__doc__)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--kind", type=int, help="only these: 0 single lines, 1 O-words, 2 compensated contours")
     arguments = parser.parse_args()
-    if shutil.which("rs274") is None:
-        print("rs274 is not installed (Debian: linuxcnc-uspace)")
+    if not installed(arguments.rs274):
         return 77
-    oracle = rs274_oracle.Oracle(variables=variables())
+    oracle = rs274_oracle.Oracle(arguments.rs274, variables())
     offsets, program = oracle.path("offsets.var"), oracle.path("random.ngc")
     with open(offsets, "w") as out:
         out.write(variables())

@@ -9,29 +9,24 @@ accepted and what is refused.
 Needs `rs274` (Debian: linuxcnc-uspace). Every number that rs274 prints is compared to its last digit.
 Exit code 1 when one file disagrees.
 """
-import argparse
 import os
 import re
-import shutil
 import subprocess
 import sys
 
 from nc_in_linuxcnc_words import equivalent_of
-from nc_programs import dialect_of, programs, sample, short
-from rs274_oracle import TOOLS, Oracle, judge, tool_length_in_change
+from nc_programs import add_folders, dialect_of, programs, sample, short
+from rs274_oracle import TOOLS, Oracle, installed, judge, oracle_parser, tool_length_in_change
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--steadyrest", default="build/release/bin/steadyrest")
-    parser.add_argument("--data", default=os.path.join(os.environ.get("STEADYREST_SHARED_DATA", "../shared/data"), "nc"))
-    parser.add_argument("--linuxcnc", nargs="*", default=["/usr/share/linuxcnc", "/usr/share/doc/linuxcnc/examples"])
+    parser = oracle_parser(__doc__)
+    add_folders(parser)
     parser.add_argument("--most", type=int, help="only so many short programs of each dialect, and our own")
     parser.add_argument("-o", "--output", help="write the table to this file")
     parser.add_argument("files", nargs="*", help="only these programs")
     arguments = parser.parse_args()
-    if shutil.which("rs274") is None:
-        print("rs274 is not installed (Debian: linuxcnc-uspace)")
+    if not installed(arguments.rs274):
         return 77
     own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "accepted", "nc")
     found = list(programs([own])) + sample(list(programs([arguments.data])) + list(programs(arguments.linuxcnc)), arguments.most)
@@ -39,7 +34,7 @@ def main():
         print("no programs in", arguments.data)
         return 77
     seen, rows, bad = set(), [], 0
-    oracle = Oracle()
+    oracle = Oracle(arguments.rs274)
     for program in arguments.files or found:
         content = open(program, "rb").read()
         if content in seen:
