@@ -91,4 +91,15 @@ class FakePort final : public kernel::port::Port {
   std::vector<signal::Command> written;
 };
 
+/// Words go over separate wires and are read every 20 ms.
+inline kernel::machine::Machine wired(Mode mode, bool may_exceed = false) {
+  auto machine = mill(mode);
+  for (auto* table : {&machine.feed_override, &machine.spindle_override}) {
+    table->latched_word = false;
+    table->scan_period_s = 0.02;
+    table->layer_may_exceed_panel = may_exceed;
+  }
+  return machine;
+}
+
 }  // namespace steadyrest::supervisor::test

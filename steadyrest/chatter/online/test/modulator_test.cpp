@@ -8,73 +8,15 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/chatter/online/modulator.hpp>
+#include <steadyrest/chatter/online/test/modulator_bench.hpp>
 #include <steadyrest/kernel/override/arbiter.hpp>
-#include <steadyrest/kernel/override/test/published_tables.hpp>
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 
 namespace steadyrest::chatter::online::test {
 namespace {
 
-namespace tables = kernel::override::test;
 using kernel::outcome::Reason;
 using kernel::signal::Motion;
-
-constexpr double kCycle_s = 0.002;
-constexpr double kSpeed_rev_s = 50.0;
-
-Modulator::Config config() {
-  Modulator::Config c;
-  c.modulation = {.law = Law::sine, .amplitude_ratio = 0.1, .period_s = 1.0};
-  c.spindle_table = tables::spindle_840d();
-  c.spindle_table.layer_may_exceed_panel = true;
-  c.feed_table = tables::feed_840d();
-  c.fade_s = 0.2;
-  return c;
-}
-
-/// A modulator, its frame and what came of its requests; the spindle and the feed follow at once.
-class Bench {
- public:
-  explicit Bench(const Modulator::Config& c = config()) : modulator(Modulator::make(c).value()) {
-    frame.motion = Motion::feed;
-    frame.speed_modulation = true;
-    frame.programmed_feed_mm_s = 10.0;
-    frame.path_speed_mm_s = 10.0;
-    frame.spindle_programmed_rev_s = kSpeed_rev_s;
-    frame.spindle_actual_rev_s = kSpeed_rev_s;
-  }
-
-  Modulator::Output cycle() {
-    frame.time_s += kCycle_s;
-    const auto out = modulator.update(frame, in_force);
-    frame.spindle.effective_ratio = out.spindle.ratio;
-    frame.spindle_actual_rev_s = out.spindle.ratio * frame.spindle_programmed_rev_s;
-    frame.feed.effective_ratio = std::min(frame.feed.panel_ratio, out.feed.ratio);
-    frame.path_speed_mm_s = frame.feed.effective_ratio * frame.programmed_feed_mm_s;
-    in_force.feed = {frame.feed.effective_ratio, frame.feed.effective_ratio};
-    in_force.spindle = {out.spindle.ratio, out.spindle.ratio};
-    return out;
-  }
-  std::vector<Modulator::Output> run(double time_s) {
-    std::vector<Modulator::Output> all;
-    for (double t = 0.0; t < time_s; t += kCycle_s) {
-      all.push_back(cycle());
-    }
-    return all;
-  }
-
-  Modulator modulator;
-  kernel::signal::Frame frame;
-  kernel::signal::InForce in_force{.written = true};
-};
-
-std::vector<double> ratios(const std::vector<Modulator::Output>& outputs) {
-  std::vector<double> all;
-  for (const auto& out : outputs) {
-    all.push_back(out.spindle.ratio);
-  }
-  return all;
-}
 
 std::size_t changes(const std::vector<double>& values) {
   std::size_t count = 0;
@@ -195,18 +137,6 @@ TEST(Modulator, AChangeThatIsNotFitIsNotTaken) {
   EXPECT_EQ(bench.modulator.state().modulation.law, Law::sine);
 }
 
-// Cut off at 100 % the sine would dwell there for half its period, and chatter grows in a dwell.
-TEST(Modulator, BelowTheOperatorsSwitchTheWholeSwingMovesDown) {
-  auto c = config();
-  c.spindle_table.layer_may_exceed_panel = false;
-  Bench bench(c);
-  bench.run(1.0);
-  const auto all = ratios(bench.run(1.0));
-  EXPECT_DOUBLE_EQ(*std::ranges::max_element(all), 1.0);
-  EXPECT_DOUBLE_EQ(*std::ranges::min_element(all), 0.80);
-  EXPECT_EQ(bench.cycle().spindle.reason, Reason::chatter_swing_narrowed);
-}
-
 TEST(Modulator, FadesInAndOutAtTheRateOfTheFade) {
   Bench bench;
   double fade = 0.0;
@@ -252,100 +182,12 @@ TEST(Modulator, WithdrawsWhereNothingIsCutAndWhereTheOverrideMustNotMove) {
   expect(rapid.run(0.3).back(), Reason::not_cutting);
 }
 
-// At 90 % speed a feed of 95 % would be 1.056 of the programmed chip, so the feed goes to 90 %.
-TEST(Modulator, TheFeedFollowsTheSpindleDown) {
-  auto c = config();
-  c.max_feed_per_tooth_ratio = 1.05;
-  Bench bench(c);
-  bench.run(1.0);
-  double lowest_feed = 1.0;
-  double lowest = 1.0;
-  for (const auto& o : bench.run(1.0)) {
-    EXPECT_LE(o.feed.ratio / o.spindle.ratio, 1.05 + 1e-9);
-    lowest_feed = std::min(lowest_feed, o.feed.ratio);
-    lowest = std::min(lowest, o.spindle.ratio);
-  }
-  EXPECT_DOUBLE_EQ(lowest, 0.90);
-  EXPECT_DOUBLE_EQ(lowest_feed, 0.90);
-}
-
-TEST(Modulator, WhereTheFeedCannotFollowTheSwingEndsAtTheBand) {
-  auto c = config();
-  c.max_feed_per_tooth_ratio = 1.05;
-  c.feed_table = {};
-  Bench bench(c);
-  bench.run(1.0);
-  double lowest = 1.0;
-  for (const auto& o : bench.run(1.0)) {
-    lowest = std::min(lowest, o.spindle.ratio);
-    EXPECT_EQ(o.feed.ratio, 1.0);
-  }
-  EXPECT_DOUBLE_EQ(lowest, 1.0) << "0.95 would be 1.0526 of the programmed feed per tooth";
-}
-
-// The spindle is asked for 100 %, but something holds its override at 90 %.
-TEST(Modulator, TheFeedKeepsToTheSpeedThatTheControlWasToldNotToTheOneAsked) {
-  auto c = config();
-  c.modulation.law = Law::constant;
-  c.max_feed_per_tooth_ratio = 1.0;
-  Bench bench(c);
-  EXPECT_EQ(bench.run(0.5).back().feed.ratio, 1.0);
-  bench.in_force.spindle = {.ratio = 0.9, .word_ratio = 0.9};
-  bench.frame.time_s += kCycle_s;
-  EXPECT_EQ(bench.modulator.update(bench.frame, bench.in_force).spindle.ratio, 1.0);
-  EXPECT_EQ(bench.modulator.update(bench.frame, bench.in_force).feed.ratio, 0.9);
-}
-
-// The feed is asked down to 90 %, but its word is still at 100 %.
-TEST(Modulator, TheSpindleWaitsForTheFeedThatTheControlWasToldNotForTheOneAsked) {
-  auto c = config();
-  c.modulation.law = Law::constant;
-  c.modulation.mean_ratio = 0.9;
-  c.max_feed_per_tooth_ratio = 1.0;
-  for (const double word_ratio : {0.9, 1.0}) {
-    Bench bench(c);
-    Modulator::Output out;
-    for (int i = 0; i < 500; ++i) {
-      out = bench.cycle();
-      bench.in_force.feed = {.ratio = word_ratio, .word_ratio = word_ratio};
-    }
-    EXPECT_EQ(out.feed.ratio, 0.9);
-    EXPECT_EQ(out.spindle.ratio, word_ratio);
-  }
-}
-
 TEST(Modulator, BeginsAtWhatIsInForce) {
   auto c = config();
   c.acceleration_rev_s2 = 0.5 * kSpeed_rev_s;
   Bench bench(c);
   bench.in_force.spindle = {.ratio = 0.82, .word_ratio = 0.80};
   EXPECT_NEAR(bench.cycle().ratio, 0.82, 0.5 * kCycle_s + 1e-12);
-}
-
-TEST(Modulator, FeedPerRevolutionIsLeftAlone) {
-  auto c = config();
-  c.max_feed_per_tooth_ratio = 1.0;
-  Bench bench(c);
-  bench.frame.feed_per_revolution = true;
-  bench.run(1.0);
-  double lowest = 1.0;
-  for (const auto& o : bench.run(1.0)) {
-    EXPECT_EQ(o.feed.ratio, 1.0);
-    lowest = std::min(lowest, o.spindle.ratio);
-  }
-  EXPECT_DOUBLE_EQ(lowest, 0.90);
-}
-
-// The feed cannot exceed 100 %, so 1/0.95 = 1.053 is the fastest spindle with enough chip.
-TEST(Modulator, TheBandsLowerEndBoundsTheSwingUpwards) {
-  auto c = config();
-  c.modulation.amplitude_ratio = 0.2;
-  c.min_feed_per_tooth_ratio = 0.95;
-  Bench bench(c);
-  bench.run(1.0);
-  for (const auto& o : bench.run(1.0)) {
-    EXPECT_LE(o.spindle.ratio, 1.05 + 1e-9);
-  }
 }
 
 TEST(Modulator, ARestoredStateGoesOnWhereItWas) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include <steadyrest/kernel/signal/in_force.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
@@ -121,6 +122,15 @@ inline std::vector<PathSegment> pocket(double feed_mm_s) {
     path.arc({path.at()[0], path.at()[1] + r, 0}, kTurn / 2, {0, 0, 1});
   }
   return path.limited(2000.0, 3.0);
+}
+
+/// Nothing of the layer is in force.
+inline constexpr kernel::signal::InForce kAtPanel{};
+
+inline std::vector<PathSegment> circle(double radius, double feed_mm_min, double turns) {
+  return PathMaker({radius, 0, 0}, feed_mm_min / 60.0)
+      .arc({0, 0, 0}, turns * kTurn)
+      .limited(2000.0, 1.0);
 }
 
 }  // namespace steadyrest::contour::online::test

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/override/envelope.hpp>
+#include <steadyrest/kernel/override/test/cycle.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+using outcome::Reason;
+using test::kCycle_s;
+using units::kInfinity;
+using units::kNan;
+
+class OffsetBench {
+ public:
+  OffsetBench() : envelope_(OffsetEnvelope::make(config()).value()) {
+    input.request.tool_in_cut = true;
+    input.request.reason = Reason::contour_limit;
+  }
+  static OffsetEnvelope::Config config() {
+    OffsetEnvelope::Config config{.slew_mm_s = 0.05};
+    config.max_mm[0] = config.max_mm[2] = 0.2;
+    return config;
+  }
+
+  OffsetEnvelope::Input input{.step_s = kCycle_s};
+
+  OffsetEnvelope::Output cycles(int count) {
+    OffsetEnvelope::Output output;
+    for (int i = 0; i < count; ++i) {
+      output = envelope_.update(input);
+    }
+    return output;
+  }
+
+ private:
+  OffsetEnvelope envelope_;
+};
+
+// 0.05 mm/s · 0.1 s = 0.005 mm on both axes, whatever they want; then the limit of 0.2 mm.
+TEST(OffsetEnvelope, SlewsAndClampsEachAxis) {
+  OffsetBench bench;
+  bench.input.request.offset_mm[0] = 0.01;
+  bench.input.request.offset_mm[2] = -5.0;
+  auto output = bench.cycles(100);
+  EXPECT_NEAR(output.offset_mm[0], 0.005, 1e-12);
+  EXPECT_NEAR(output.offset_mm[2], -0.005, 1e-12);
+  EXPECT_EQ(output.reason, Reason::slew_limited);
+  output = bench.cycles(10'000);
+  EXPECT_EQ(output.offset_mm[0], 0.01);
+  EXPECT_EQ(output.offset_mm[2], -0.2);
+  EXPECT_EQ(output.reason, Reason::clamped);
+}
+
+// X asks for 0.01 mm/s (slower than the slew of 0.05), Z for 1 mm/s (faster): 0.001 and 0.005 mm
+// after 0.1 s.
+TEST(OffsetEnvelope, KeepsTheSlowerOfItsSlewAndOfTheSlopeThatIsAskedFor) {
+  OffsetBench bench;
+  bench.input.request.offset_mm[0] = bench.input.request.offset_mm[2] = 0.1;
+  bench.input.request.slope_mm_s[0] = 0.01;
+  bench.input.request.slope_mm_s[2] = 1.0;
+  auto output = bench.cycles(100);
+  EXPECT_NEAR(output.offset_mm[0], 0.001, 1e-12);
+  EXPECT_NEAR(output.offset_mm[2], 0.005, 1e-12);
+  EXPECT_EQ(output.reason, Reason::slew_limited);
+  output = bench.cycles(2000);
+  EXPECT_LT(output.offset_mm[0], 0.1);
+  EXPECT_EQ(output.reason, Reason::contour_limit) << "only the room's own slope holds it";
+  bench.input.request.slope_mm_s[0] = 0.0;
+  EXPECT_EQ(bench.cycles(100).offset_mm[0], output.offset_mm[0]) << "held";
+}
+
+TEST(OffsetEnvelope, ASlopeThatIsNoneMovesNothing) {
+  for (const double slope_mm_s : {kNan, -1.0, -kInfinity}) {
+    OffsetBench bench;
+    bench.input.request.offset_mm[0] = 0.1;
+    bench.input.request.slope_mm_s[0] = slope_mm_s;
+    EXPECT_EQ(bench.cycles(100).offset_mm[0], 0.0);
+  }
+}
+
+// The room that asked for slope 0 has withdrawn; its slope must not hold the offset for ever.
+TEST(OffsetEnvelope, RampsOutByItsOwnSlewWhateverSlopeWasAskedFor) {
+  OffsetBench bench;
+  bench.input.request.offset_mm[0] = 0.1;
+  bench.cycles(3000);
+  bench.input.request.slope_mm_s[0] = 0.0;
+  bench.input.request.reason = Reason::none;
+  bench.input.request.tool_in_cut = bench.input.tool_in_cut = false;
+  EXPECT_NEAR(bench.cycles(100).offset_mm[0], 0.095, 1e-9);
+}
+
+TEST(OffsetEnvelope, AnAxisWithoutALimitTakesNoOffset) {
+  OffsetBench bench;
+  bench.input.request.offset_mm[1] = 0.1;
+  EXPECT_EQ(bench.cycles(1000).offset_mm[1], 0.0);
+}
+
+// Two say whether the tool is in the cut, the room and the machine; both must say no.
+TEST(OffsetEnvelope, FreezesInTheCutThenRampsOut) {
+  const auto spoilt = [](auto&& spoil, Reason reason) {
+    OffsetBench bench;
+    bench.input.request.offset_mm[0] = 0.1;
+    EXPECT_EQ(bench.cycles(3000).offset_mm[0], 0.1);
+    spoil(bench.input);
+    auto output = bench.cycles(5000);
+    EXPECT_EQ(output.offset_mm[0], 0.1) << "frozen";
+    EXPECT_EQ(output.reason, reason);
+    bench.input.request.tool_in_cut = false;
+    EXPECT_EQ(bench.cycles(5000).offset_mm[0], 0.1) << "the machine still says: in the cut";
+    bench.input.tool_in_cut = false;
+    EXPECT_NEAR(bench.cycles(100).offset_mm[0], 0.095, 1e-9) << "ramps out by the slew";
+    output = bench.cycles(3000);
+    EXPECT_EQ(output.offset_mm[0], 0.0);
+    EXPECT_TRUE(output.at_zero);
+  };
+  spoilt([](auto& input) { input.request.offset_mm[2] = kNan; }, Reason::input_not_finite);
+  spoilt([](auto& input) { input.unfit = Reason::input_stale; }, Reason::input_stale);
+  spoilt([](auto& input) { input.request.reason = Reason::input_out_of_range; },
+         Reason::input_out_of_range);
+  spoilt([](auto& input) { input.request.reason = Reason::none; }, Reason::none);
+}
+
+// 5 mm were never allowed; the axis without a limit must come back to 0.
+TEST(OffsetEnvelope, ARestoredOffsetIsCutToTheLimitAndNoNumberIsNotTaken) {
+  auto envelope = OffsetEnvelope::make(OffsetBench::config());
+  ASSERT_TRUE(envelope);
+  OffsetEnvelope::State state;
+  state.offset_mm[0] = 5.0;
+  state.offset_mm[1] = 0.1;
+  envelope->restore(state);
+  EXPECT_EQ(envelope->update({}).offset_mm[0], 0.2);
+  EXPECT_EQ(envelope->update({}).offset_mm[1], 0.0) << "this axis takes none";
+  state.offset_mm[2] = kNan;
+  envelope->restore(state);
+  EXPECT_TRUE(envelope->update({}).at_zero);
+}
+
+TEST(OffsetEnvelope, RefusesLimitsThatAreNone) {
+  auto config = OffsetBench::config();
+  config.max_mm[3] = kInfinity;
+  EXPECT_FALSE(OffsetEnvelope::make(config));
+  config = OffsetBench::config();
+  config.slew_mm_s = 0.0;
+  EXPECT_FALSE(OffsetEnvelope::make(config));
+}
+
+}  // namespace
+}  // namespace steadyrest::kernel::override

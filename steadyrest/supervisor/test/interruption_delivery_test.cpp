@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words that the port did not take or the watchdog dropped: what a review found, as tests.
+#include <gtest/gtest.h>
+
+#include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/supervisor/test/bench.hpp>
+
+namespace steadyrest::supervisor {
+namespace {
+
+namespace signal = kernel::signal;
+using kernel::machine::Mode;
+using kernel::outcome::Reason;
+using test::Bench;
+using test::kAll;
+using test::kCycle_s;
+using test::mill;
+using test::wired;
+
+// Away for longer than the watchdog (100 ms), or for an unknown time: the first frame gives no
+// known gap and is not written, the second begins at the panel and at offset 0.
+TEST(Interruption, WhatTheWatchdogHasDroppedIsNotWrittenAfterARestore) {
+  for (const double away_s : {60.0, 0.5, -100.0, -1e9}) {
+    Bench first(wired(Mode::act));
+    first.wish_feed(0.5);
+    first.wish_offset(0.02);
+    first.cycles(2000);
+    Bench second(wired(Mode::act));
+    second.wish_feed(0.5);
+    second.wish_offset(0.02);
+    second.frame = first.frame;
+    second.frame.time_s += away_s;
+    second.supervisor.restore(first.supervisor.state());
+    EXPECT_FALSE(second.cycle().write) << away_s << ": nobody knows yet how long it was";
+    auto command = second.cycle();
+    EXPECT_TRUE(command.write) << away_s;
+    EXPECT_FALSE(command.feed_masks_panel) << away_s;
+    EXPECT_LE(command.offset_mm[2], 0.05 * kCycle_s + 1e-8) << away_s;
+    command = second.cycles(1000);
+    EXPECT_EQ(command.feed_ratio, 0.5) << away_s;
+    EXPECT_EQ(command.offset_mm[2], 0.02) << away_s;
+  }
+}
+
+/// A port that refuses to write for a while.
+class DeafPort final : public kernel::port::Port {
+ public:
+  [[nodiscard]] kernel::port::Capability capability() const noexcept override { return kAll; }
+  kernel::outcome::Result<signal::Frame> read() noexcept override {
+    frame.time_s += kCycle_s;
+    if (blind) {
+      return std::unexpected(kernel::outcome::Refusal{});
+    }
+    return frame;
+  }
+  kernel::outcome::Result<void> write(const signal::Command& command) noexcept override {
+    if (deaf) {
+      return std::unexpected(kernel::outcome::Refusal{});
+    }
+    written.push_back(command);
+    return {};
+  }
+
+  bool deaf = false;
+  bool blind = false;
+  signal::Frame frame;
+  std::vector<signal::Command> written;
+};
+
+// A walk goes step by step, each on the wires for one scan. Sixty deaf cycles cover three scans; a
+// supervisor that believed its own writes would come out three steps further down.
+TEST(Interruption, AWordThatThePortDidNotTakeWasNotWritten) {
+  auto supervisor = Supervisor::make(wired(Mode::act), kAll);
+  ASSERT_TRUE(supervisor);
+  DeafPort port;
+  port.frame.motion = signal::Motion::feed;
+  const std::vector<signal::FeedRequest> wish = {{.ratio = 0.2, .reason = Reason::contour_limit}};
+  const auto cycles = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      static_cast<void>(supervisor->cycle(port, {.feed = wish, .spindle = {}, .offset = {}}));
+    }
+  };
+  cycles(100);
+  const double before = port.written.back().feed_ratio;
+  port.deaf = true;
+  cycles(60);
+  port.deaf = false;
+  cycles(1);
+  EXPECT_GE(port.written.back().feed_ratio, before - 0.05 - 1e-9)
+      << "three scans long no step was written: now comes the next one, not the fourth";
+  EXPECT_TRUE(port.written.back().feed_masks_panel);
+}
+
+// The write failed, the reading did not: the operator's 0 came in with the same frame. With the
+// panel's code unknown from then on, the last known value, 0, must hold.
+TEST(Interruption, ThePanelThatAnUndeliveredCycleSawIsKnown) {
+  auto supervisor = Supervisor::make(mill(Mode::act), kAll);
+  ASSERT_TRUE(supervisor);
+  DeafPort port;
+  port.frame.motion = signal::Motion::feed;
+  const std::vector<signal::FeedRequest> wish = {{.ratio = 0.5, .reason = Reason::contour_limit}};
+  const auto cycles = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      static_cast<void>(supervisor->cycle(port, {.feed = wish, .spindle = {}, .offset = {}}));
+    }
+  };
+  cycles(1000);
+  ASSERT_TRUE(port.written.back().feed_masks_panel);
+  port.deaf = true;
+  port.frame.feed.panel_ratio = 0.0;  // the operator stops the machine
+  cycles(3);
+  port.deaf = false;
+  port.frame.feed.panel_code_known = false;
+  cycles(1);
+  EXPECT_FALSE(port.written.back().feed_masks_panel);
+}
+
+// The clock stood for 40 ms, twice the watchdog's time, while frames and writes went on. A
+// supervisor that measured the gap from the last good time would take its own word for dropped.
+TEST(Interruption, AfterAClockThatStoodNothingIsTakenForDropped) {
+  auto machine = mill(Mode::act);
+  machine.envelope.stale_after_s = 0.02;
+  Bench first(machine);
+  first.wish_feed(0.5);
+  ASSERT_TRUE(first.cycles(1000).feed_masks_panel);
+  for (int i = 0; i < 40; ++i) {
+    first.supervisor.update(first.frame, {.feed = first.feed, .spindle = {}, .offset = {}});
+  }
+  first.frame.time_s += 40.0 * kCycle_s;  // the clock goes on where it would be
+  ASSERT_TRUE(first.cycle().feed_masks_panel);
+  Bench second(machine);
+  second.wish_feed(0.5);
+  second.frame = first.frame;
+  second.supervisor.restore(first.supervisor.state());
+  const auto command = second.cycle();
+  EXPECT_TRUE(command.write);
+  EXPECT_TRUE(command.feed_masks_panel) << "the last word is a cycle old";
+  EXPECT_EQ(command.feed_ratio, 0.5);
+}
+
+// 500 cycles without a read or a write are five times the watchdog's 100 ms.
+TEST(Interruption, AfterALostLinkLongerThanTheWatchdogItBeginsAtThePanel) {
+  for (const bool blind : {false, true}) {
+    auto supervisor = Supervisor::make(wired(Mode::act), kAll);
+    ASSERT_TRUE(supervisor);
+    DeafPort port;
+    port.frame.motion = signal::Motion::feed;
+    const std::vector<signal::FeedRequest> wish = {{.ratio = 0.2, .reason = Reason::contour_limit}};
+    std::vector<signal::OffsetRequest> offset = {{.reason = Reason::contour_limit}};
+    offset[0].offset_mm[2] = 0.02;
+    const auto cycles = [&](int count) {
+      for (int i = 0; i < count; ++i) {
+        static_cast<void>(supervisor->cycle(port, {.feed = wish, .spindle = {}, .offset = offset}));
+      }
+    };
+    cycles(1000);
+    EXPECT_EQ(port.written.back().offset_mm[2], 0.02);
+    (blind ? port.blind : port.deaf) = true;
+    cycles(500);
+    port.blind = port.deaf = false;
+    const std::size_t so_far = port.written.size();
+    cycles(3);
+    ASSERT_GT(port.written.size(), so_far);
+    EXPECT_FALSE(port.written[so_far].feed_masks_panel);
+    EXPECT_LE(port.written[so_far].offset_mm[2], 0.05 * kCycle_s + 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::supervisor
