@@ -115,4 +115,10 @@ inline const std::string kGrowth =
     R"({"transitions": [{"n": 2, "t_min": [1, 1], "delta_um": [0, 10]},)"
     R"( {"n": 2, "t_min": [1, 1.2], "delta_um": [10, -5]}]})";
 
+/// One correction, of Z, at the second transition.
+inline std::string one_step(double minutes, double rest_min, double delta_um) {
+  return R"({"transitions": [{"n": 2, "t_min": [)" + std::to_string(minutes) + ", " +
+         std::to_string(rest_min) + R"(], "delta_um": [0, )" + std::to_string(delta_um) + "]}]}";
+}
+
 }  // namespace steadyrest::nc::rewrite::test

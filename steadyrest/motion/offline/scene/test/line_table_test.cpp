@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
-#include <steadyrest/motion/offline/scene/line_calibration.hpp>
+#include <steadyrest/motion/offline/scene/test/learnt_lines.hpp>
 #include <steadyrest/motion/offline/test/scenes.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 #include <steadyrest/motion/online/line/line_table.hpp>
@@ -20,30 +18,6 @@ namespace {
 
 using online::LineTable;
 using online::MotionEstimator;
-
-// 5 % of a count in four phases and 2 % RMS at random; 8 s at 2 Hz pass each line 32 times.
-const Record& long_sine() {
-  static const Record record = offline::record(sine(1.0, 2.0, 8.0), line_errors());
-  return record;
-}
-const Record& long_sine_ideal() {
-  static const Record record = offline::record(sine(1.0, 2.0, 8.0), {});
-  return record;
-}
-
-LineTable table_of(std::int64_t first, std::size_t lines, bool periodic = false) {
-  return LineTable::make({.first_line = first, .lines = lines, .periodic = periodic}).value();
-}
-
-void learn(LineTable& table, const Record& record, int passes) {
-  for (int i = 0; i < passes; ++i) {
-    bool first = true;
-    for (const Edge& edge : record.edges) {
-      table.learn(edge.t_s, edge.line, edge.direction, first || edge.lost != 0);
-      first = false;
-    }
-  }
-}
 
 /// RMS over lines from … to of table − truth, in counts, what they have in common taken off.
 double table_error(const LineTable& table, const Record& record, int from = 100, int to = 600) {
@@ -58,18 +32,6 @@ double table_error(const LineTable& table, const Record& record, int from = 100,
   }
   const double n = to - from + 1;
   return std::sqrt(sum2 / n - sum * sum / n / n);
-}
-
-double largest(const std::vector<double>& values) {
-  double out = 0.0;
-  for (const double v : values) {
-    out = std::max(out, std::abs(v));
-  }
-  return out;
-}
-
-Score kalman_score(const Record& record, double max_jerk_mm_s3 = online::kNoBound) {
-  return test::scored<MotionEstimator>({.max_jerk_mm_s3 = max_jerk_mm_s3}, record);
 }
 
 // 5 % phase and 2 % random are 0.04 counts RMS at the start; one pass leaves an eighth.
@@ -193,35 +155,6 @@ TEST(LineTable, ALineThatIsLearntToStandRightIsNotStoredAsUnknown) {
   EXPECT_EQ(encoder.line_table_mm, (std::vector<double>{2e-5, 1e-8, 0.0, -2e-5}));
 }
 
-// A hundred passes over ideal lines: what is learnt is the fits' own error and must not be
-// applied.
-TEST(LineTable, AnIdealScaleStaysAsItIs) {
-  LineTable table = table_of(-10, 2100);
-  learn(table, long_sine_ideal(), 100);
-  EXPECT_LT(largest(table.error_mm()), 0.01 * 0.001);
-  for (int line = -20; line < 2100; ++line) {
-    EXPECT_DOUBLE_EQ(table.position_mm(line), line * 0.001);
-    EXPECT_LT(table.sigma_mm(line), 0.0);
-  }
-}
-
-TEST(LineTable, ASmoothErrorOfScaleIsNotInvented) {
-  // A scale that stretches by 20 µm/m and a bend of ±2 counts over 2000 lines: smooth over the
-  // window, so the lines look ideal.
-  Profile bent = sine(1.0, 2.0, 4.0);
-  const auto truth = bent.at;
-  bent.at = [truth](double t) {
-    MotionState s = truth(t);
-    s.position_mm += 20e-6 * s.position_mm + 0.002 * std::sin(3.14159 * s.position_mm);
-    return s;
-  };
-  const Record record = offline::record(bent, {});
-  LineTable table = table_of(-10, 2100);
-  learn(table, record, 50);
-  EXPECT_LT(largest(table.error_mm()), 0.02 * 0.001);
-  EXPECT_DOUBLE_EQ(table.position_mm(700), 0.7);
-}
-
 // A lost edge breaks the window; a table that fitted across it would learn a step.
 TEST(LineTable, LearnsThroughLostEdges) {
   Recording how = line_errors();
@@ -230,31 +163,6 @@ TEST(LineTable, LearnsThroughLostEdges) {
   LineTable table = table_of(-10, 2100);
   learn(table, record, 2);
   EXPECT_LT(table_error(table, record), 0.007);
-}
-
-// The fit's RMS must stop it, not the test's patience.
-TEST(LineTable, RoughMotionTeachesNothing) {
-  // Stamps with a noise of 2 counts of way: no fit is good enough.
-  LineTable table = table_of(0, 1000);
-  for (int line = 0; line < 900; ++line) {
-    table.learn(line * 1e-4 + (line * 7919 % 13) * 1.5e-5, line, 1, false);
-  }
-  EXPECT_EQ(table.fits(), 0U);
-  EXPECT_EQ(largest(table.error_mm()), 0.0);
-}
-
-TEST(LineTable, UnfitInputTeachesNothing) {
-  LineTable table = table_of(0, 200);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int line = 0; line < 200; ++line) {
-    table.learn(line % 10 == 3 ? nan : line * 1e-4, line, 1, false);
-    table.learn(std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max(),
-                0, false);
-  }
-  EXPECT_EQ(table.fits(), 0U);
-  for (int line = 0; line < 200; ++line) {
-    EXPECT_DOUBLE_EQ(table.position_mm(line), line * 0.001);
-  }
 }
 
 TEST(LineTable, DoesNotAllocateWhileItLearns) {
@@ -274,61 +182,6 @@ TEST(LineTable, RefusesWhatCannotWork) {
   EXPECT_FALSE(LineTable::make({.learn = 1.5}).has_value());
   EXPECT_FALSE(LineTable::make({.max_span_s = 0.0}).has_value());
   EXPECT_TRUE(LineTable::make({}).has_value());
-}
-
-// The target of the requirement: half of what the errors cost before, with and without limits.
-TEST(LineCalibration, BringsTheEstimatorBelowTheTarget) {
-  const auto calibration = calibrate_lines(long_sine(), {});
-  ASSERT_TRUE(calibration);
-  EXPECT_EQ(calibration->edges, long_sine().edges.size());
-  EXPECT_GT(calibration->lines_learnt, 1900U);
-  EXPECT_LT(calibration->residual_after_mm, 0.12 * calibration->residual_before_mm);
-  Record calibrated = long_sine();
-  apply_lines(calibration->table, calibrated);
-  for (const double jerk : {online::kNoBound, long_sine().max_jerk_mm_s3}) {
-    const Score before = kalman_score(long_sine(), jerk);
-    EXPECT_GT(before.velocity_rms_mm_s, 0.008);
-    EXPECT_GT(before.acceleration_rms_mm_s2, 4.0);
-    const Score after = kalman_score(calibrated, jerk);
-    EXPECT_LT(after.velocity_rms_mm_s, 0.0040);
-    EXPECT_LT(after.acceleration_rms_mm_s2, 2.4);
-  }
-}
-
-TEST(LineCalibration, HoldsForAMotionThatItDidNotSee) {
-  // Learnt on 2 Hz, used at 1 Hz: the same encoder (seed), other speeds.
-  const auto calibration = calibrate_lines(long_sine(), {});
-  ASSERT_TRUE(calibration);
-  const Record other = offline::record(sine(1.0, 1.0, 4.0), line_errors());
-  Record calibrated = other;
-  apply_lines(calibration->table, calibrated);
-  EXPECT_LT(kalman_score(calibrated).velocity_rms_mm_s,
-            0.6 * kalman_score(other).velocity_rms_mm_s);
-  EXPECT_LT(kalman_score(calibrated).acceleration_rms_mm_s2,
-            0.6 * kalman_score(other).acceleration_rms_mm_s2);
-}
-
-// To the last digit: a calibration without effect must not change the estimate.
-TEST(LineCalibration, WithIdealLinesTheEstimatorIsAsGoodAsBefore) {
-  const auto calibration = calibrate_lines(long_sine_ideal(), {});
-  ASSERT_TRUE(calibration);
-  Record calibrated = long_sine_ideal();
-  apply_lines(calibration->table, calibrated);
-  const Score before = kalman_score(long_sine_ideal());
-  const Score after = kalman_score(calibrated);
-  EXPECT_DOUBLE_EQ(after.velocity_rms_mm_s, before.velocity_rms_mm_s);
-  EXPECT_DOUBLE_EQ(after.acceleration_rms_mm_s2, before.acceleration_rms_mm_s2);
-}
-
-TEST(LineCalibration, RefusesWhatCannotWork) {
-  EXPECT_FALSE(calibrate_lines(Record{}, {}));
-  EXPECT_FALSE(calibrate_lines(sine_line_errors(), {.passes = 0}));
-  EXPECT_FALSE(calibrate_lines(sine_line_errors(), {.counts_per_rev = 1001}));
-  EXPECT_FALSE(calibrate_lines(sine_line_errors(), {.range = LineRange{10, 9}}));
-  EXPECT_FALSE(calibrate_lines(sine_line_errors(), {.range = LineRange{0, 1 << 20}}));
-  EXPECT_FALSE(calibrate_lines(sine_line_errors(),
-                               {.range = LineRange{std::numeric_limits<std::int64_t>::min(),
-                                                   std::numeric_limits<std::int64_t>::max()}}));
 }
 
 /// What a control does: the table learns from every edge before the estimator takes it.

@@ -1,73 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <cstdlib>
 #include <random>
-#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <steadyrest/motion/online/edges/edge_inputs.hpp>
+#include <steadyrest/motion/online/edges/test/latched_input.hpp>
 
 namespace steadyrest::motion::online {
 namespace {
 
-/// An encoder input with a latch, and what truly happened: the brute-force reference.
-/// Keeps every edge, the decoder sees one read a cycle: whatever it says can be checked.
-class Input {
- public:
-  Input(unsigned count_bits, unsigned clock_bits, std::int64_t cell, std::uint64_t now)
-      : count_bits_(count_bits), clock_bits_(clock_bits), cell_(cell), now_(now), edge_at_(now) {}
-
-  void wait(std::uint64_t ticks) { now_ += ticks; }
-  void pass(int direction) {
-    // As counters do it: the count wraps, also at the ends of 64 bits.
-    const auto cell = static_cast<std::uint64_t>(cell_);
-    cell_ = static_cast<std::int64_t>(direction > 0 ? cell + 1U : cell - 1U);
-    line_ = static_cast<std::int64_t>(direction > 0 ? cell + 1U : cell);
-    direction_ = static_cast<std::int8_t>(direction);
-    edge_at_ = now_;
-    ++edges_;
-  }
-  [[nodiscard]] LatchedRead read(std::uint64_t cycle, bool tells_direction) const {
-    return {.count = static_cast<std::uint64_t>(cell_) & detail::mask(count_bits_),
-            .stamp = edge_at_ & detail::mask(clock_bits_),
-            .clock = now_ & detail::mask(clock_bits_),
-            .cycle = cycle,
-            .direction = tells_direction ? direction_ : std::int8_t{0}};
-  }
-  [[nodiscard]] std::int64_t cell() const { return cell_; }
-  [[nodiscard]] std::int64_t line() const { return line_; }
-  [[nodiscard]] std::int8_t direction() const { return direction_; }
-  [[nodiscard]] std::uint64_t edge_at() const { return edge_at_; }
-  [[nodiscard]] std::uint64_t now() const { return now_; }
-  [[nodiscard]] std::uint64_t edges() const { return edges_; }
-
- private:
-  unsigned count_bits_;
-  unsigned clock_bits_;
-  std::int64_t cell_;
-  std::int64_t line_ = 0;
-  std::int8_t direction_ = 0;
-  std::uint64_t now_;
-  std::uint64_t edge_at_;
-  std::uint64_t edges_ = 0;
-};
-
-constexpr std::uint64_t kCycle = 2000;
-
-/// One cycle of a random walk: 0…4 edges at random instants.
-/// Cycles jitter by ± 2.5 %, edges keep apart.
-void random_cycle(Input& input, std::mt19937_64& random) {
-  std::uint64_t left = kCycle + random() % 101 - 50;
-  for (std::uint64_t n = random() % 5; n > 0; --n) {
-    const std::uint64_t step = 1 + random() % (left / 6);
-    input.wait(step);
-    left -= step;
-    input.pass((random() & 1U) != 0 ? 1 : -1);
-  }
-  input.wait(left);
-}
+using test::Input;
+using test::kCycle;
+using test::random_cycle;
 
 // Counts and clocks of 16 to 64 bits, both about to wrap. `certain_from` of 1000 makes every sign
 // a guess where the hardware gives no direction, so the test asks for the mark there.
@@ -212,175 +158,6 @@ TEST(LatchedDecoder, AMillionCyclesOfDitherDoNotMoveTheCount) {
     ASSERT_EQ(decoder.count() - zero, input.cell());
   }
   EXPECT_EQ(decoder.state().gaps, 0U);
-}
-
-// After more than half of the clock's range nobody can tell how often the stamp wrapped: no time
-// then, rather than a wrong one.
-RC_GTEST_PROP(LatchedDecoder, DroppedCyclesNeverGiveAFalseTime, ()) {
-  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
-  Input input(16, 16, 0, random() % 65'536);
-  const std::uint64_t start = input.now();
-  LatchedDecoder decoder(hostmot2_config(kCycle));
-  EdgeEvent event;
-  decoder.update(input.read(0, true), event);
-  std::uint64_t cycle = 0;
-  std::uint32_t gaps = 0;
-  for (int i = 0; i < 100; ++i) {
-    // Up to 200 cycles are missed: 16 bits at 2 ticks/µs wrap after 32.8.
-    const std::uint64_t missed = random() % 4 != 0 ? 1 : 1 + random() % 200;
-    const std::uint64_t before = input.now();
-    const std::uint64_t edges = input.edges();
-    for (std::uint64_t k = 0; k < missed; ++k, ++cycle) {
-      random_cycle(input, random);
-    }
-    const bool late = input.now() - before > 32'767;
-    gaps += late ? 1U : 0U;
-    const bool seen = decoder.update(input.read(cycle, true), event);
-    RC_ASSERT(decoder.ticks() == input.now());
-    RC_ASSERT(decoder.count() == input.cell());
-    if (seen) {
-      RC_ASSERT(input.edges() > edges);
-      RC_ASSERT(((event.uncertain & kTimeUnknown) != 0) == late);
-      RC_ASSERT(late || event.ticks == input.edge_at());
-      RC_ASSERT(event.ticks >= input.edge_at());
-      RC_ASSERT(event.line == input.line());
-    }
-  }
-  RC_ASSERT(decoder.state().gaps == gaps);
-  RC_ASSERT(start < 65'536U);
-}
-
-// 500 counts a cycle wrap 16 bits after 131 cycles; 65 are still safe for half of the range.
-TEST(LatchedDecoder, ACountThatMayHaveWrappedUnseenSaysSo) {
-  LatchedDecoder decoder({.count_bits = 16, .clock_bits = 64, .counts_per_cycle = 500});
-  EdgeEvent event;
-  decoder.update({}, event);
-  ASSERT_TRUE(decoder.update({.count = 400, .stamp = 90, .clock = 100, .cycle = 65}, event));
-  EXPECT_EQ(event.uncertain, 0);
-  EXPECT_EQ(event.lost, 399U);
-  ASSERT_TRUE(decoder.update({.count = 500, .stamp = 190, .clock = 200, .cycle = 131}, event));
-  EXPECT_EQ(event.uncertain, kCountUncertain);
-}
-
-// A stamp before the last read belongs to an edge that was there already: the registers disagree.
-TEST(LatchedDecoder, AStampOlderThanTheLastReadIsNoTime) {
-  LatchedDecoder decoder(hostmot2_config(kCycle, 0));
-  EdgeEvent event;
-  decoder.update({.count = 0, .stamp = 1000, .clock = 5000, .cycle = 0}, event);
-  // The count moved, the stamp lies before the last read.
-  ASSERT_TRUE(decoder.update({.count = 1, .stamp = 4000, .clock = 7000, .cycle = 1}, event));
-  EXPECT_EQ(event.uncertain, kTimeUnknown);
-  EXPECT_EQ(event.line, 1);
-  EXPECT_EQ(event.ticks, 7000U);
-  EXPECT_EQ(decoder.state().impossible, 1U);
-  // A stamp that jumps without an edge is none.
-  EXPECT_FALSE(decoder.update({.count = 1, .stamp = 300, .clock = 9000, .cycle = 2}, event));
-}
-
-TEST(Hostmot2, AnEdgeBetweenTheTwoRegistersStillComesBeforeItsTick) {
-  LatchedDecoder decoder(hostmot2_config(kCycle, 500));
-  EdgeEvent event;
-  decoder.update(hostmot2_read(0x0000'0000U, 0xFFF0U, 0), event);
-  // Clock read at 0x07C0 (2000 later), the edge 32 ticks after that, then the counter.
-  ASSERT_TRUE(decoder.update(hostmot2_read(0x07E0'0001U, 0x07C0U, 1), event));
-  EXPECT_EQ(event.ticks, 0xFFF0U + 2032U);
-  EXPECT_EQ(event.uncertain, 0);
-  EXPECT_EQ(decoder.ticks(), event.ticks);
-  // The same edge is not seen again.
-  EXPECT_FALSE(decoder.update(hostmot2_read(0x07E0'0001U, 0x07C0U + 2000U, 2), event));
-  EXPECT_EQ(decoder.ticks(), 0xFFF0U + 4000U);
-}
-
-/// Capture ticks of 1.28 µs (100 MHz / 128), cycle 1 ms = 781.25 of them: the timer is full after
-/// 84 ms.
-/// At 200 the timer is full and stays so, at 350 it has run over; both times the next edge must
-/// have its true instant.
-TEST(Eqep, AFullOrOverrunTimerGivesNoEdgeAndTheNextOneItsRightTime) {
-  LatchedDecoder decoder(eqep_config());
-  EdgeEvent event;
-  constexpr double kTicks = 781.25;
-  std::uint64_t edge = 100;  // in capture ticks
-  std::uint32_t position = 5;
-  for (int k = 0; k <= 400; ++k) {
-    const auto clock = static_cast<std::uint64_t>(std::floor(k * kTicks)) + 1000;
-    const bool moves = k == 200 || k == 350;
-    if (moves) {
-      edge = clock - 50;
-      ++position;
-    }
-    const std::uint64_t age = clock - edge;
-    // k < 300: the timer stops when full; after that it runs over and tells by COEF.
-    const bool runs_over = k >= 300;
-    const auto timer = static_cast<std::uint16_t>(
-        runs_over ? age & 0xFFFFU : std::min<std::uint64_t>(age, 0xFFFFU));
-    const bool overflow = runs_over && (moves || (age >> 16U) != ((age - 781) >> 16U));
-    const bool seen = decoder.update(eqep_read({.position = position,
-                                                .timer = timer,
-                                                .overflow = overflow,
-                                                .direction_error = false,
-                                                .direction = 0,
-                                                .clock = clock}),
-                                     event);
-    ASSERT_EQ(seen, moves) << k;
-    if (moves) {
-      EXPECT_EQ(event.ticks, edge);
-      EXPECT_EQ(event.uncertain, 0);
-    }
-  }
-  EXPECT_EQ(decoder.count(), 7);
-}
-
-// COEF and CDEF as the manual has them: after a turn the sign of three counts is no direction.
-TEST(Eqep, TheFlagOfATurnMakesTheLineAGuessUnlessTheDirectionIsKnown) {
-  for (const int direction : {0, -1}) {
-    LatchedDecoder decoder(eqep_config());
-    EdgeEvent event;
-    decoder.update(eqep_read({.position = 10, .timer = 900, .clock = 5000}), event);
-    ASSERT_TRUE(decoder.update(eqep_read({.position = 13,
-                                          .timer = 80,
-                                          .direction_error = true,
-                                          .direction = static_cast<std::int8_t>(direction),
-                                          .clock = 5781}),
-                               event));
-    EXPECT_EQ(event.uncertain, direction == 0 ? kLineGuessed : 0);
-    EXPECT_EQ(event.line, direction == 0 ? 13 : 14);
-    EXPECT_EQ(event.lost, direction == 0 ? 2U : 4U);
-  }
-}
-
-// Nanoseconds since the epoch need all 64 bits.
-TEST(LinuxCounter, EveryEventIsAnEdgeWithItsOwnStamp) {
-  LatchedDecoder decoder(linux_counter_config(24));
-  EdgeEvent event;
-  constexpr std::uint64_t kNow = 1'760'000'000'000'000'000;  // ns since the epoch
-  EXPECT_FALSE(decoder.update(linux_counter_read(0xFFFFFE, kNow), event));
-  ASSERT_TRUE(decoder.update(linux_counter_read(0xFFFFFF, kNow + 700), event));
-  EXPECT_EQ(event.line, -1);
-  ASSERT_TRUE(decoder.update(linux_counter_read(0x000000, kNow + 1500), event));
-  EXPECT_EQ(event.line, 0);
-  ASSERT_TRUE(decoder.update(linux_counter_read(0xFFFFFF, kNow + 2900), event));
-  EXPECT_EQ(event.line, 0);
-  EXPECT_EQ(event.direction, -1);
-  EXPECT_EQ(event.ticks, kNow + 2900);
-  EXPECT_EQ(event.uncertain, 0);
-  // An event whose time runs back is an edge without a time.
-  ASSERT_TRUE(decoder.update(linux_counter_read(0xFFFFFE, kNow + 100), event));
-  EXPECT_EQ(event.uncertain, kTimeUnknown);
-}
-
-// Halfway into cell −1 is cell −1: an arithmetic shift, not a division.
-TEST(EtherCat, MicroIncrementsAreCutOffAndAMissingStampIsNotInvented) {
-  LatchedDecoder decoder(ethercat_config(32, 8, 1'000'000));
-  EdgeEvent event;
-  decoder.update(ethercat_read(0xFFFF'FF80U, 5, 10, 0, true), event);  // cell −1, halfway
-  EXPECT_EQ(decoder.count(), -1);
-  EXPECT_FALSE(decoder.update(ethercat_read(0xFFFF'FFF0U, 5, 1'000'010, 1, true), event));
-  ASSERT_TRUE(decoder.update(ethercat_read(0x0000'0010U, 1'900'000, 2'000'010, 2, true), event));
-  EXPECT_EQ(event.line, 0);
-  EXPECT_EQ(event.ticks, 1'900'000U);
-  ASSERT_TRUE(decoder.update(ethercat_read(0x0000'0110U, 0, 3'000'010, 3, false), event));
-  EXPECT_EQ(event.line, 1);
-  EXPECT_EQ(event.uncertain, kTimeUnknown);
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@ namespace {
 
 using test::kGrowth;
 using test::kPasses;
+using test::one_step;
 using test::read_file;
 using test::replaced;
 using test::Workshop;
@@ -20,11 +19,6 @@ struct Case {
   const char* unsafe;
   const char* program;
 };
-
-std::string one_step(double minutes, double rest_min, double delta_um) {
-  return R"({"transitions": [{"n": 2, "t_min": [)" + std::to_string(minutes) + ", " +
-         std::to_string(rest_min) + R"(], "delta_um": [0, )" + std::to_string(delta_um) + "]}]}";
-}
 
 TEST(Compensate, PutsEveryCorrectionBeforeAnAbsoluteRapidOfItsAxis) {
   const Workshop shop;
@@ -120,15 +114,6 @@ TEST(Compensate, TurnsTheCorrectionOverWhenTheWorkOffsetChanges) {
   EXPECT_THAT(text, HasSubstr("(STEADYREST Z0.0000 mm)\nG55\n" + test::change_to(-0.02)));
 }
 
-TEST(Compensate, RefusesAWorkOffsetThatChangesWithTheAxis) {
-  Workshop shop;
-  const std::string program = replaced(kPasses, "G0 X0 Y30\n", "G55 G0 X0 Y30 Z6\n");
-  const auto refused = shop.compensate(program, kGrowth);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().line, 19U);
-  EXPECT_THAT(refused.error().what, HasSubstr("moves Z"));
-}
-
 // Each of these makes the only place near the instant unsafe.
 TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
   const Case kCases[] = {
@@ -161,42 +146,6 @@ TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
   }
 }
 
-TEST(Compensate, RefusesAPlanForAnotherProgramWithBothFigures) {
-  const Workshop shop;
-  // The plan is for 11 minutes, the program takes about four.
-  const auto refused = shop.compensate(kPasses, one_step(1.0, 10.0, 10));
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().what, HasSubstr("660.0 s"));
-  EXPECT_THAT(refused.error().what, HasSubstr("s on this machine"));
-}
-
-TEST(Compensate, RefusesACorrectionBeyondTheClamp) {
-  Workshop shop;
-  shop.settings.clamp_mm = 0.015;
-  const auto refused = shop.compensate(kPasses, kGrowth);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().what, HasSubstr("-20 um"));
-  EXPECT_THAT(refused.error().what, HasSubstr("allows 15 um"));
-}
-
-TEST(Compensate, RefusesAProgramThatIsCompensatedAlready) {
-  const Workshop shop;
-  ASSERT_TRUE(shop.compensate(kPasses, kGrowth));
-  const auto refused = shop.compensate(read_file(shop.changed()), kGrowth);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().to_do, HasSubstr("program strip"));
-}
-
-TEST(Compensate, LeavesTheOldFileWhenItRefuses) {
-  const Workshop shop;
-  test::write_file(shop.changed(), "old");
-  ASSERT_FALSE(shop.compensate(kPasses, one_step(1.0, 10.0, 10)));
-  EXPECT_EQ(read_file(shop.changed()), "old");
-  // The folder holds the program and the old output, and no third file.
-  const auto files = std::filesystem::directory_iterator(shop.folder());
-  EXPECT_EQ(std::distance(begin(files), end(files)), 2) << "nothing half-written lies about";
-}
-
 TEST(Compensate, MayReplaceTheProgramItself) {
   const Workshop shop;
   test::write_file(shop.original(), kPasses);
@@ -216,26 +165,6 @@ TEST(Compensate, APlanThatCorrectsNothingCopiesTheProgram) {
   EXPECT_EQ(read_file(shop.changed()), kPasses);
 }
 
-TEST(Compensate, WritesMillimetresIntoAProgramInInches) {
-  const Workshop shop;
-  const std::string program =
-      "G20 G90 G94 G54\nG0 Z1\nG1 X4 F4\nG0 Z1\nG0 X0\nG0 Z.5\nG1 X4 F4\nG0 Z1\nM2\n";
-  // 0.01 mm whatever the unit: the text converts at run time.
-  ASSERT_TRUE(shop.compensate(program, one_step(1.0, 1.05, 10)));
-  EXPECT_THAT(read_file(shop.changed()), HasSubstr(test::change_to(-0.01)));
-}
-
-TEST(Compensate, StepsThatCancelAtOnePlaceLeaveNoText) {
-  const Workshop shop;
-  // +10 and −10 um within 0.6 s fall on one place; only the 7 um that follow show.
-  const auto done = shop.compensate(
-      kPasses,
-      R"({"transitions": [{"n": 4, "t_min": [1, 0.01, 1, 2.19], "delta_um": [0, 10, -10, 7]}]})");
-  ASSERT_TRUE(done) << done.error().what;
-  ASSERT_EQ(done->insertions.size(), 1U);
-  EXPECT_NEAR(done->insertions[0].total_um, -7.0, 1e-9);
-}
-
 TEST(Compensate, FollowsAnOffsetThatTheProgramSetsItself) {
   Workshop shop;
   for (const std::string line : {"G92 Z4", "G10 L20 P0 Z4", "G52 Z1"}) {
@@ -250,35 +179,6 @@ TEST(Compensate, FollowsAnOffsetThatTheProgramSetsItself) {
   EXPECT_FALSE(shop.compensate(replaced(kPasses, "G0 X0 Y20\n", "G0 X0 Y20\n" + in_loop), kGrowth));
 }
 
-// The lines hold whatever unit the control is in when the program does not say it.
-TEST(Compensate, WritesForEitherUnitWhereTheProgramSaysNone) {
-  for (const bool inch : {false, true}) {
-    Workshop shop;
-    shop.config.inch = inch;
-    shop.settings.window_s = 20.0;
-    const std::string feed = inch ? "F4" : "F100";
-    const std::string far = inch ? "X4" : "X100";
-    const std::string program = "G90 G94 G54\nG0 Z5\nG1 " + far + " " + feed +
-                                "\nG0 Y10\nG0 X0\nG1 " + far + "\nG0 Z20\nM2\n";
-    const auto done = shop.compensate(program, one_step(1.0, 1.05, 10));
-    ASSERT_TRUE(done) << done.error().what;
-    const std::string text = read_file(shop.changed());
-    EXPECT_THAT(text, HasSubstr(test::change_to(-0.01) +
-                                "G0 Z[#<_z>-0.0100*[#<_metric>+#<_imperial>/25.4]] "
-                                "(STEADYREST restated)\n"));
-    EXPECT_EQ(done->proof.added, 1U);
-  }
-}
-
-TEST(Compensate, RefusesAnAxisOfWhichTheMachineHasNoRoomForANote) {
-  Workshop shop;
-  shop.settings.axes = shop.config.axes = "XYZAC";  // B U V W are left: Z and Y
-  EXPECT_TRUE(shop.compensate(kPasses, kGrowth));
-  const auto refused = shop.compensate(kPasses, replaced(kGrowth, "{", R"({"axis": "X", )"));
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().what, HasSubstr("XYZAC"));
-}
-
 // The control's offsets leave a rounding in the correction that is found.
 TEST(Compensate, ProvesCorrectionsThatCancelWhateverTheOffsetsAre) {
   Workshop shop;
@@ -290,16 +190,6 @@ TEST(Compensate, ProvesCorrectionsThatCancelWhateverTheOffsetsAre) {
   const auto done = shop.compensate(kPasses, plan);
   ASSERT_TRUE(done) << done.error().what;
   EXPECT_EQ(done->proof.changes, 4U);
-}
-
-TEST(Compensate, APlanWithoutCorrectionsLeavesItsMark) {
-  Workshop shop;
-  shop.settings.told = {{.name = "window-s", .value = "60"}};
-  const std::string plan = R"({"transitions": [{"n": 2, "t_min": [2, 2.2], "delta_um": [0, 0]}]})";
-  ASSERT_TRUE(shop.compensate(kPasses, plan));
-  EXPECT_EQ(read_file(shop.changed()),
-            replaced(kPasses, "%\n", "%\n" + mark_text(Way{}, shop.settings.told, "\n")));
-  EXPECT_TRUE(shop.verify(plan));
 }
 
 TEST(Compensate, SparesTheSubprogramsThatItCalls) {
@@ -319,20 +209,6 @@ TEST(Compensate, SparesTheSubprogramsThatItCalls) {
   std::filesystem::remove(shop.changed());
   const auto done = shop.compensate(program, kGrowth);
   EXPECT_TRUE(done) << done.error().what;
-}
-
-TEST(Compensate, EveryLineForLinuxcncIsShortEnough) {
-  constexpr std::size_t kMost = 250;  // LinuxCNC reads 255
-  Workshop shop;
-  shop.settings.axes = shop.config.axes = "XYZ";
-  std::string text = whole_head(parse_plan(kGrowth, "plan.json").value(), shop.settings);
-  text +=
-      change_text(shop.settings, {.letter = 'Z', .from_mm = -0.123456, .to_mm = -0.654321}, "\n");
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = text.find('\n', at);
-    EXPECT_LE(end - at, kMost) << text.substr(at, end - at);
-    at = end + 1;
-  }
 }
 
 }  // namespace
