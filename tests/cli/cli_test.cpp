@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
+#include "contour_line.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -16,9 +15,6 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
-using testing::StartsWith;
-
-const std::string kLimit = "contour limit --radius-mm 10 --kv-1-s 50 ";
 
 // stdout belongs to answers; nothing else may go there.
 TEST(Cli, VersionOnStdout) {
@@ -104,65 +100,6 @@ TEST(Cli, SaysSoWhenStdoutTakesNothing) {
   EXPECT_THAT(finished.err, HasSubstr("failed to write the answer to stdout"));
 }
 
-// R = 10 mm, Kv = 3 (m/min)/mm = 50 1/s, 10 µm: v = k·R·√((R/(R−ε))² − 1) = 1343 mm/min.
-TEST(ContourLimit, GivesTheFeedForAnError) {
-  const Finished finished = run_line(kLimit + "--max-error-mm 0.010 --json");
-  ASSERT_EQ(finished.code, 0) << finished.err;
-  EXPECT_THAT(finished.err, IsEmpty());
-  const json answer = json::parse(finished.out);
-  EXPECT_NEAR(answer["feed_mm_min"], 1343.0, 0.6);  // published to four digits
-  EXPECT_NEAR(answer["contour_error_mm"], 0.010, 1e-9);
-  EXPECT_TRUE(answer.contains("tracking_error_mm"));
-}
-
-// ε = R(1 − 1/√(1 + q²)) and Ed = R·q/√(1 + q²) with q = v/(R·k) = 0.1333.
-TEST(ContourLimit, GivesTheErrorsAtAFeed) {
-  const Finished finished = run_line(kLimit + "--feed-mm-min 4000 --json");
-  ASSERT_EQ(finished.code, 0) << finished.err;
-  const json answer = json::parse(finished.out);
-  EXPECT_NEAR(answer["contour_error_mm"], 0.0877, 6e-5);
-  EXPECT_NEAR(answer["tracking_error_mm"], 1.3216, 6e-5);
-  EXPECT_EQ(answer["feed_mm_min"], 4000.0);
-}
-
-TEST(ContourLimit, JudgesAFeedByALimit) {
-  const Finished finished = run_line(kLimit + "--feed-mm-min 4000 --max-error-mm 0.01 --json");
-  const json answer = json::parse(finished.out);
-  EXPECT_EQ(answer["within_limit"], false);
-  EXPECT_NEAR(answer["limit_feed_mm_min"], 1343.0, 0.6);
-}
-
-// a = 0.5 gives about (1 − a²), τ = 5 ms about (1 − 2kτ) of the error without; the figures are
-// simulated ones.
-TEST(ContourLimit, TakesFeedForwardAndLag) {
-  const Finished forward = run_line(kLimit + "--feed-mm-min 4000 --feed-forward 0.5 --json");
-  EXPECT_NEAR(json::parse(forward.out)["contour_error_mm"], 0.0656, 1.5e-4);
-  const Finished lag = run_line(kLimit + "--feed-mm-min 4000 --velocity-lag-ms 5 --json");
-  EXPECT_NEAR(json::parse(lag.out)["contour_error_mm"], 0.0443, 1.5e-4);
-}
-
-// Full feed-forward without lag: no feed reaches the limit.
-TEST(ContourLimit, HasNoFeedWhereNothingLimitsIt) {
-  const Finished finished = run_line(kLimit + "--max-error-mm 0.01 --feed-forward 1 --json");
-  EXPECT_EQ(finished.code, 0);
-  EXPECT_TRUE(json::parse(finished.out)["feed_mm_min"].is_null());
-}
-
-TEST(ContourLimit, ShowsAShortTableToPeople) {
-  const Finished finished = run_line(kLimit + "--feed-mm-min 4000");
-  EXPECT_THAT(finished.out, HasSubstr("contour error       0.0877 mm\n"));
-}
-
-TEST(ContourLimit, RefusesWhatIsNoCircle) {
-  expect_all_refused({"contour limit --radius-mm -1 --kv-1-s 50 --max-error-mm 0.01",
-                      "contour limit --radius-mm nan --kv-1-s 50 --max-error-mm 0.01",
-                      "contour limit --radius-mm 10 --kv-1-s 0 --max-error-mm 0.01",
-                      "contour limit --radius-mm 10 --kv-1-s inf --max-error-mm 0.01",
-                      "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 10",
-                      "contour limit --radius-mm 10 --kv-1-s 50 --feed-mm-min -5",
-                      "contour limit --radius-mm 10 --kv-1-s 50"});
-}
-
 // A range lets NaN pass; without one infinity passes too.
 TEST(Cli, NoOptionTakesANumberThatIsNotFinite) {
   const std::string paper =
@@ -223,69 +160,6 @@ TEST(Cli, RangesTakeDecimalNumbers) {
 
 TEST(Cli, AnOutputIsNotCalledMinus) {
   expect_refused("thermal fit examples/thermal/spindle-test.csv -o -", "write /dev/stdout");
-}
-
-TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
-  expect_refused(kLimit + "--feed-mm-min -1", "--feed-mm-min -1 is outside 0 to 1e+09;");
-  expect_refused("contour limit --radius-mm 10 --kv-1-s 1e-300 --max-error-mm 0.01",
-                 "--kv-1-s 1e-300 is outside 0.001 to");
-}
-
-// The 840D's interpolator has 4 ms. Times depend on the computer, so only their order is checked.
-TEST(Doctor, FindsAGoodMachineWell) {
-  const Finished finished = run_line("doctor --machine examples/machines/vmc-840d.toml --json");
-  ASSERT_EQ(finished.code, 0) << finished.err;
-  const json answer = json::parse(finished.out);
-  EXPECT_EQ(answer["ok"], true);
-  EXPECT_EQ(answer["port"], "sim");
-  EXPECT_TRUE(answer["findings"].is_array());
-  const json& timing = answer["timing"];
-  EXPECT_EQ(timing["cycle_us"], 4000.0);
-  EXPECT_EQ(timing["most_share"], 0.5);
-  EXPECT_EQ(timing["decisions"], 2000);
-  EXPECT_GE(timing["cycles"], timing["decisions"]);
-  EXPECT_GT(timing["work_p50_us"], 0.0);
-  EXPECT_LE(timing["decision_p50_us"], timing["decision_p999_us"]);
-  EXPECT_LE(timing["decision_p999_us"], timing["decision_worst_us"]);
-  EXPECT_LE(timing["decision_p999_us"], timing["cycle_us"]);
-}
-
-// A feed range that no step of the switch lies in: the layer refuses it, and doctor says so as a
-// finding.
-TEST(Doctor, FindsThatTheLayerRefusesAMachine) {
-  const Scratch scratch;
-  std::string text = text_of_file(project_file("examples/machines/linuxcnc-mill.toml"));
-  const std::string range = "min_percent = 5\nmax_percent = 100\n";
-  text.replace(text.find(range), range.size(), "min_percent = 99.11\nmax_percent = 99.15\n");
-  const Finished finished =
-      run({"doctor", "--machine", scratch.file("machine.toml", text), "--json"});
-  EXPECT_EQ(finished.code, 1);
-  const json answer = json::parse(finished.out);
-  EXPECT_EQ(answer["ok"], false);
-  EXPECT_TRUE(answer["timing"].is_null());
-  const auto refused = std::ranges::find_if(
-      answer["findings"], [](const json& finding) { return finding["check"] == "layer"; });
-  ASSERT_NE(refused, answer["findings"].end());
-  EXPECT_EQ((*refused)["severity"], "error");
-}
-
-TEST(Doctor, RefusesAFaultyFileByFileAndLine) {
-  const std::string path = project_file("tests/refused/machine/gain-negative.toml");
-  const Finished finished = run({"doctor", "--machine", path});
-  EXPECT_EQ(finished.code, 2);
-  EXPECT_THAT(finished.out, IsEmpty());
-  EXPECT_THAT(finished.err,
-              StartsWith("steadyrest: " + path + ":12: servo_gain_1_s = -3 is out of range; "));
-  const json answer = json::parse(run({"doctor", "--machine", path, "--json"}).out);
-  EXPECT_EQ(answer["ok"], false);
-  EXPECT_EQ(answer["findings"][0]["line"], 12);
-}
-
-TEST(Doctor, RefusesAMissingFile) {
-  const Finished finished = run_line("doctor --machine none.toml");
-  EXPECT_EQ(finished.code, 2);
-  EXPECT_THAT(finished.err, HasSubstr("steadyrest: none.toml: cannot be opened"));
-  EXPECT_EQ(run_line("doctor").code, 2);
 }
 
 }  // namespace

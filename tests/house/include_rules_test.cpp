@@ -6,8 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-// Each rule by the smallest tree that breaks it and the nearest one that does not. Violations are
-// compared as rule:line, so a rule that fires in the wrong place fails as well.
 namespace house {
 namespace {
 

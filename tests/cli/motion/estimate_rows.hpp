@@ -21,7 +21,7 @@ inline const std::string kColumns =
 
 using Row = std::array<double, 6>;
 
-inline std::vector<Row> rows_of(const std::string& table) {
+inline std::vector<Row> estimated_rows(const std::string& table) {
   std::istringstream in(table);
   std::string line;
   std::getline(in, line);

@@ -47,7 +47,7 @@ std::vector<Row> sine_by(const std::string& estimator) {
   const Finished finished =
       run_line("motion estimate " + kSine + kEdges + " --estimator " + estimator);
   EXPECT_EQ(finished.code, 0) << finished.err;
-  return rows_of(finished.out);
+  return estimated_rows(finished.out);
 }
 
 TEST(MotionEstimate, WritesATickForEveryCycleOfALogOfEdges) {
@@ -67,7 +67,7 @@ TEST(MotionEstimate, WritesATickForEveryCycleOfALogOfEdges) {
   EXPECT_DOUBLE_EQ(answer["clock_s"], 1e-7);
   const std::string table = text_of_file(out);
   EXPECT_THAT(table, HasSubstr("\n0.007000000,"));
-  const std::vector<Row> rows = rows_of(table);
+  const std::vector<Row> rows = estimated_rows(table);
   ASSERT_EQ(rows.size(), 501U);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_NEAR(rows[i][0], 0.001 * static_cast<double>(i), 1e-10);
@@ -90,7 +90,7 @@ TEST(MotionEstimate, TheDefaultIsAHundredTimesFinerThanDifferencesAndKeepsItsBou
       run_line("motion estimate " + kSine + kEdges +
                " --max-speed 1.9 --max-acceleration 24 --max-jerk 300 --line-error-um 0");
   ASSERT_EQ(finished.code, 0) << finished.err;
-  const std::vector<Row> rows = rows_of(finished.out);
+  const std::vector<Row> rows = estimated_rows(finished.out);
   EXPECT_LT(sine_error_mm_s(rows), 0.00408);
   const double w = 2.0 * std::numbers::pi * 2.0;
   for (const Row& row : rows) {
@@ -120,7 +120,7 @@ TEST(MotionEstimate, EveryEstimatorOfItsHelpGivesFiniteNumbers) {
         run_line("motion estimate " + kSine + kEdges +
                  " --max-speed 2 --max-acceleration 25 --max-jerk 300 --estimator " + name);
     ASSERT_EQ(finished.code, 0) << name << finished.err;
-    const std::vector<Row> rows = rows_of(finished.out);
+    const std::vector<Row> rows = estimated_rows(finished.out);
     EXPECT_EQ(rows.size(), 501U) << name;
     for (const Row& row : rows) {
       ASSERT_TRUE(std::isfinite(row[1]) && std::isfinite(row[2]) && std::isfinite(row[3])) << name;
@@ -154,7 +154,7 @@ TEST(MotionEstimate, KeepsWhatWasGoodBeforeABadRow) {
   EXPECT_EQ(answer["complete"], false);
   EXPECT_EQ(answer["reports"], 1);
   EXPECT_EQ(answer["findings"][0]["line"], 6);
-  const std::vector<Row> rows = rows_of(text_of_file(out));
+  const std::vector<Row> rows = estimated_rows(text_of_file(out));
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_NEAR(rows[3][2], 1.0, 1e-9);
 }

@@ -55,7 +55,7 @@ TEST_P(RecordedAxis, TicksComeBackRowByRowAsDifferences) {
   const Finished finished =
       run_line("motion estimate " + log_ + kTicks + " --estimator difference");
   ASSERT_EQ(finished.code, 0) << finished.err;
-  const std::vector<Row> rows = rows_of(finished.out);
+  const std::vector<Row> rows = estimated_rows(finished.out);
   ASSERT_EQ(rows.size(), counts_.size());
   for (std::size_t i = 1; i < rows.size(); ++i) {
     ASSERT_NEAR(rows[i][0], t_s_[i], 1e-9);
@@ -110,7 +110,7 @@ TEST_P(RecordedAxis, CoarseEdgesKeepThePositionWithinTheirCount) {
                                      out);
   ASSERT_EQ(finished.code, 0) << finished.err;
   EXPECT_EQ(json::parse(finished.out)["edges"], edges);
-  const std::vector<Row> rows = rows_of(text_of_file(out));
+  const std::vector<Row> rows = estimated_rows(text_of_file(out));
   EXPECT_EQ(rows.size(), static_cast<std::size_t>(std::floor(t_s_.back() * 1000.0)) + 1);
   std::size_t at = 0;
   for (const Row& row : rows) {

@@ -16,7 +16,7 @@ using kernel::signal::Motion;
 inline constexpr double kCycle_s = 0.002;
 inline constexpr double kSpeed_rev_s = 50.0;
 
-inline Modulator::Config config() {
+inline Modulator::Config sine_config() {
   Modulator::Config c;
   c.modulation = {.law = Law::sine, .amplitude_ratio = 0.1, .period_s = 1.0};
   c.spindle_table = tables::spindle_840d();
@@ -29,7 +29,7 @@ inline Modulator::Config config() {
 /// A modulator, its frame and what came of its requests; the spindle and the feed follow at once.
 class Bench {
  public:
-  explicit Bench(const Modulator::Config& c = config()) : modulator(Modulator::make(c).value()) {
+  explicit Bench(const Modulator::Config& c = sine_config()) : modulator(Modulator::make(c).value()) {
     frame.motion = Motion::feed;
     frame.speed_modulation = true;
     frame.programmed_feed_mm_s = 10.0;

@@ -13,7 +13,7 @@ using kernel::outcome::Reason;
 
 // Cut off at 100 % the sine would dwell there for half its period, and chatter grows in a dwell.
 TEST(Modulator, BelowTheOperatorsSwitchTheWholeSwingMovesDown) {
-  auto c = config();
+  auto c = sine_config();
   c.spindle_table.layer_may_exceed_panel = false;
   Bench bench(c);
   bench.run(1.0);
@@ -25,7 +25,7 @@ TEST(Modulator, BelowTheOperatorsSwitchTheWholeSwingMovesDown) {
 
 // At 90 % speed a feed of 95 % would be 1.056 of the programmed chip, so the feed goes to 90 %.
 TEST(Modulator, TheFeedFollowsTheSpindleDown) {
-  auto c = config();
+  auto c = sine_config();
   c.max_feed_per_tooth_ratio = 1.05;
   Bench bench(c);
   bench.run(1.0);
@@ -41,7 +41,7 @@ TEST(Modulator, TheFeedFollowsTheSpindleDown) {
 }
 
 TEST(Modulator, WhereTheFeedCannotFollowTheSwingEndsAtTheBand) {
-  auto c = config();
+  auto c = sine_config();
   c.max_feed_per_tooth_ratio = 1.05;
   c.feed_table = {};
   Bench bench(c);
@@ -56,7 +56,7 @@ TEST(Modulator, WhereTheFeedCannotFollowTheSwingEndsAtTheBand) {
 
 // The spindle is asked for 100 %, but something holds its override at 90 %.
 TEST(Modulator, TheFeedKeepsToTheSpeedThatTheControlWasToldNotToTheOneAsked) {
-  auto c = config();
+  auto c = sine_config();
   c.modulation.law = Law::constant;
   c.max_feed_per_tooth_ratio = 1.0;
   Bench bench(c);
@@ -69,7 +69,7 @@ TEST(Modulator, TheFeedKeepsToTheSpeedThatTheControlWasToldNotToTheOneAsked) {
 
 // The feed is asked down to 90 %, but its word is still at 100 %.
 TEST(Modulator, TheSpindleWaitsForTheFeedThatTheControlWasToldNotForTheOneAsked) {
-  auto c = config();
+  auto c = sine_config();
   c.modulation.law = Law::constant;
   c.modulation.mean_ratio = 0.9;
   c.max_feed_per_tooth_ratio = 1.0;
@@ -86,7 +86,7 @@ TEST(Modulator, TheSpindleWaitsForTheFeedThatTheControlWasToldNotForTheOneAsked)
 }
 
 TEST(Modulator, FeedPerRevolutionIsLeftAlone) {
-  auto c = config();
+  auto c = sine_config();
   c.max_feed_per_tooth_ratio = 1.0;
   Bench bench(c);
   bench.frame.feed_per_revolution = true;
@@ -101,7 +101,7 @@ TEST(Modulator, FeedPerRevolutionIsLeftAlone) {
 
 // The feed cannot exceed 100 %, so 1/0.95 = 1.053 is the fastest spindle with enough chip.
 TEST(Modulator, TheBandsLowerEndBoundsTheSwingUpwards) {
-  auto c = config();
+  auto c = sine_config();
   c.modulation.amplitude_ratio = 0.2;
   c.min_feed_per_tooth_ratio = 0.95;
   Bench bench(c);

@@ -46,7 +46,7 @@ TEST(Modulator, ASineGoesThroughTheStepsOfTheTableAndBack) {
 TEST(Modulator, EachLawHasItsShareOfHighAndLow) {
   for (const Law law :
        {Law::square, Law::pulse, Law::triangle, Law::sine, Law::random, Law::stop}) {
-    auto c = config();
+    auto c = sine_config();
     c.modulation.law = law;
     c.modulation.period_s = 4.0;
     Bench bench(c);
@@ -63,7 +63,7 @@ TEST(Modulator, EachLawHasItsShareOfHighAndLow) {
 }
 
 TEST(Modulator, ConstantStandsOnTheStepOfTheMean) {
-  auto c = config();
+  auto c = sine_config();
   c.modulation.law = Law::constant;
   c.modulation.mean_ratio = 0.9;
   Bench bench(c);
@@ -74,7 +74,7 @@ TEST(Modulator, ConstantStandsOnTheStepOfTheMean) {
 }
 
 TEST(Modulator, AnAmplitudeInRevolutionsIsThatOfTheSpeed) {
-  auto c = config();
+  auto c = sine_config();
   c.modulation.amplitude_rev_s = 5.0;
   Bench bench(c);
   EXPECT_DOUBLE_EQ(bench.cycle().amplitude_ratio, 0.1);
@@ -85,7 +85,7 @@ TEST(Modulator, AnAmplitudeInRevolutionsIsThatOfTheSpeed) {
 // 102.5 % is the middle between two steps: without hysteresis the word would flutter in every
 // cycle.
 TEST(Modulator, NoiseAtTheBorderOfTwoStepsDoesNotMoveIt) {
-  auto c = config();
+  auto c = sine_config();
   c.modulation.law = Law::constant;
   c.modulation.mean_ratio = 1.025;
   Bench bench(c);
@@ -101,7 +101,7 @@ TEST(Modulator, NoiseAtTheBorderOfTwoStepsDoesNotMoveIt) {
 }
 
 TEST(Modulator, AChangeWhileItRunsMakesNeitherPhaseNorSpeedJump) {
-  auto c = config();
+  auto c = sine_config();
   c.acceleration_rev_s2 = 2.0 * kSpeed_rev_s;
   Bench bench(c);
   bench.run(1.3);
@@ -183,7 +183,7 @@ TEST(Modulator, WithdrawsWhereNothingIsCutAndWhereTheOverrideMustNotMove) {
 }
 
 TEST(Modulator, BeginsAtWhatIsInForce) {
-  auto c = config();
+  auto c = sine_config();
   c.acceleration_rev_s2 = 0.5 * kSpeed_rev_s;
   Bench bench(c);
   bench.in_force.spindle = {.ratio = 0.82, .word_ratio = 0.80};
@@ -211,7 +211,7 @@ TEST(Modulator, ARestoredStateGoesOnWhereItWas) {
 
 TEST(Modulator, RefusesWhatItCannotWorkWith) {
   const auto refused = [](auto&& spoil) {
-    auto c = config();
+    auto c = sine_config();
     spoil(c);
     return !Modulator::make(c).has_value();
   };

@@ -1,67 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <fcntl.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/file/test/output_scene.hpp>
 
 namespace steadyrest::kernel::file {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Output : public testing::Test {
- public:
-  Output() {
-    std::string pattern = (fs::temp_directory_path() / "steadyrest-file-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~Output() override { fs::remove_all(folder_); }
-
- protected:
-  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
-  [[nodiscard]] std::string old(const std::string& name) const {
-    std::ofstream(at(name)) << "old\n";
-    return at(name);
-  }
-  static std::string text_of(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
-  [[nodiscard]] std::ptrdiff_t entries() const {
-    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator{});
-  }
-
-  fs::path folder_;
-};
-
-/// Runs `work` in a child, so that limits and signals are its own; gives the status.
-template <class Work>
-int in_child(Work work) {
-  std::fflush(stdout);  // or both would write what is held back
-  const pid_t child = fork();
-  if (child == 0) {
-    remove_temporaries_on_signals();
-    work();
-    _exit(0);
-  }
-  int status = -1;
-  waitpid(child, &status, 0);
-  return status;
-}
+using test::in_child;
+using test::Output;
 
 // Flushed is not committed: the target must be the old file until the end.
 TEST_F(Output, ReplacesAtTheEndAndNotBefore) {
@@ -192,19 +150,6 @@ TEST_F(Output, IsTakenBackWhereAnotherCannotTakeItsPlace) {
   EXPECT_EQ(entries(), 2);
 }
 
-// The signal comes before the write, the end after the rename.
-TEST_F(Output, SignalsWaitUntilAllHaveTheirPlaces) {
-  const int status = in_child([&] {
-    const SignalsHeldBack wait;
-    raise(SIGINT);
-    static_cast<void>(write_file(at("out.csv"), "new\n"));
-  });
-  EXPECT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(WTERMSIG(status), SIGINT);
-  EXPECT_EQ(text_of(at("out.csv")), "new\n");
-  EXPECT_EQ(entries(), 1);
-}
-
 TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
   const std::string first = old("a.csv");
   const std::vector<FileText> files = {{first, "new\n"}, {at("missing/b.csv"), "new\n"}};
@@ -231,56 +176,6 @@ TEST_F(Output, AFullDiskLeavesTheOldFile) {
   });
   EXPECT_EQ(WEXITSTATUS(status), 7);
   EXPECT_EQ(text_of(file), "old\n");
-}
-
-// Nested folders are removed from the inside out.
-TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
-    const std::string file = old("out.csv");
-    const int status = in_child([&] {
-      const Temporary folder((folder_ / "new").string(), Temporary::Kind::folder);
-      fs::create_directory(at("new"));
-      const Temporary deeper((folder_ / "new" / "er").string(), Temporary::Kind::folder);
-      fs::create_directory(at("new/er"));
-      auto out = OutputFile::open(file);
-      out->write("new\n");
-      static_cast<void>(out->flush());
-      raise(signal);
-    });
-    EXPECT_TRUE(WIFSIGNALED(status));
-    EXPECT_EQ(WTERMSIG(status), signal);
-    EXPECT_EQ(text_of(file), "old\n");
-    EXPECT_EQ(entries(), 1);
-  }
-}
-
-// SIGKILL runs no handler: only a file without a name leaves nothing.
-TEST_F(Output, SigkillLeavesNothingWhereAFileMayHaveNoName) {
-  const int probe = open(folder_.c_str(), O_TMPFILE | O_RDWR, 0600);
-  if (probe < 0) {
-    GTEST_SKIP() << "this file system has no files without a name";
-  }
-  close(probe);
-  const std::string file = old("out.csv");
-  const int status = in_child([&] {
-    auto out = OutputFile::open(file);
-    out->write("new\n");
-    static_cast<void>(out->flush());
-    raise(SIGKILL);
-  });
-  EXPECT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(text_of(file), "old\n");
-  EXPECT_EQ(entries(), 1);
-}
-
-// As nohup starts its children.
-TEST_F(Output, AnIgnoredSignalStaysIgnored) {
-  const int status = in_child([] {
-    signal(SIGHUP, SIG_IGN);
-    remove_temporaries_on_signals();
-    raise(SIGHUP);
-  });
-  EXPECT_TRUE(WIFEXITED(status));
 }
 
 TEST_F(Output, AClosedPipeIsARefusal) {

@@ -4,37 +4,21 @@
 #include <fstream>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <steadyrest/nc/interpret/test/moves.hpp>
+#include <steadyrest/nc/interpret/test/sinumerik.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {
 
+using test::along;
+using test::reason_of_block;
+using test::sinumerik;
+using test::sinumerik_x_of;
 using testing::ElementsAre;
-
-Config sinumerik() {
-  Config config;
-  config.dialect = read::Dialect::sinumerik;
-  return config;
-}
-
-std::vector<double> along(std::size_t axis, const std::string& text,
-                          const Config& config = sinumerik()) {
-  return ends_along(axis, text, config);
-}
-std::vector<double> sinumerik_x_of(const std::string& text, const Config& config = sinumerik()) {
-  return ends_along(0, text, config);
-}
-double r_value_of(const std::string& expression) {
-  return sinumerik_x_of("R1=" + expression + "\nG0 X=R1\nM30\n").at(0);
-}
-std::string reason_of_block(const std::string& text) {
-  return reason_of(text + "\nM30\n", sinumerik());
-}
 
 /// A folder with subprograms, gone at the end.
 class Folder {
@@ -56,82 +40,6 @@ class Folder {
   std::filesystem::path path_ =
       std::filesystem::temp_directory_path() / ("nc-sinumerik-" + std::to_string(::getpid()));
 };
-
-// SINUMERIK 840D sl "Job planning", "Priority of the operations".
-TEST(SinumerikValues, HaveThePrioritiesOfTheManual) {
-  EXPECT_EQ(r_value_of("1+2*3"), 7.0);
-  EXPECT_EQ(r_value_of("(1+2)*3"), 9.0);
-  EXPECT_EQ(r_value_of("7 DIV 2*2"), 6.0);
-  EXPECT_EQ(r_value_of("8-2-1"), 5.0);
-  EXPECT_EQ(r_value_of("1+2==3"), 1.0);            // comparisons are the weakest
-  EXPECT_EQ(r_value_of("1 B_OR 2 B_AND 2"), 3.0);  // B_AND before B_OR
-  EXPECT_EQ(r_value_of("4 B_OR 1+2"), 7.0);        // + before the bits
-  EXPECT_EQ(r_value_of("1 OR 0 AND 0"), 1.0);
-  EXPECT_EQ(r_value_of("NOT 0 AND 0"), 0.0);
-  EXPECT_EQ(r_value_of("-2+5"), 3.0);
-  EXPECT_EQ(r_value_of("-(2+5)"), -7.0);
-}
-
-// The same manual, "Arithmetic operations": 3/4=0.75, 3 DIV 4=0, 3 MOD 4=3;
-// ATAN2(30.5,80.1)=20.8455.
-TEST(SinumerikValues, AreThoseThatTheManualPrints) {
-  EXPECT_EQ(r_value_of("3/4"), 0.75);
-  EXPECT_EQ(r_value_of("3 DIV 4"), 0.0);
-  EXPECT_EQ(r_value_of("3 MOD 4"), 3.0);
-  EXPECT_NEAR(r_value_of("ATAN2(30.5,80.1)"), 20.8455, 5e-5);
-  EXPECT_EQ(r_value_of("POT(5)"), 25.0);
-  EXPECT_EQ(r_value_of("TRUNC(-2.7)+ROUND(2.5)"), 1.0);
-  EXPECT_EQ(r_value_of("SQRT(POT(3)+POT(4))"), 5.0);
-  EXPECT_EQ(r_value_of("-0.1EX-5*1EX6"), -1.0);
-  EXPECT_EQ(r_value_of("BOUND(1,5,9)+MINVAL(1,2)+MAXVAL(1,2)"), 8.0);
-  EXPECT_NEAR(r_value_of("ACOS(0.5)"), 60.0, 1e-12);
-}
-
-// The manual's example of TRUNC: R1=61.01 R2=61.02 R3=0.01, its comparison is not fulfilled.
-TEST(SinumerikValues, CompareWithARelativeTolerance) {
-  EXPECT_EQ(sinumerik_x_of("R1=61.01 R2=61.02 R3=0.01\nR4=ABS((R2-R1)/R3-1)>10EX-5\n"
-                           "G0 X=R4\nM30\n")
-                .at(0),
-            0.0);
-  EXPECT_EQ(sinumerik_x_of("R1=0.1+0.2\nR2=R1==0.3\nG0 X=R2\nM30\n").at(0), 1.0);
-}
-
-TEST(SinumerikValues, StandInEveryAddress) {
-  const auto moves = moves_of(
-      "DEF REAL WIDTH=20, FEED\nDEF INT COUNT=2.6\nDEF BOOL _ON=7\nFEED=WIDTH*10\nR[1+1]=COUNT\n"
-      "G1 X=WIDTH/2 Y=AC(R2) Z=IC(-_ON) F=FEED\nG2 X=WIDTH CR=WIDTH/4\nG4 F=R2/2\n"
-      "G3 X=IC(-10) I=AC(WIDTH-5) J=0 TURN=COUNT\nM30\n",
-      sinumerik());
-  ASSERT_EQ(moves.size(), 4U);
-  // 20/2; INT rounds 2.6 to 3; BOOL 7 is 1; 20·10 mm/min; TURN=3 is four turns in all.
-  EXPECT_EQ(moves[0].end[0], 10.0);
-  EXPECT_EQ(moves[0].end[1], 3.0);
-  EXPECT_EQ(moves[0].end[2], -1.0);
-  EXPECT_DOUBLE_EQ(moves[0].feed_mm_s, 200.0 / 60.0);
-  EXPECT_EQ(moves[1].centre_mm[0], 15.0);
-  EXPECT_EQ(moves[2].dwell_s, 1.5);
-  EXPECT_EQ(moves[3].turns, 4);
-}
-
-TEST(SinumerikValues, AreRefusedWhereTheyAreNotKnown) {
-  EXPECT_EQ(reason_of_block("G0 X=R1"), "unset_parameter");
-  EXPECT_EQ(reason_of_block("G0 X=WIDTH"), "variable");
-  EXPECT_EQ(reason_of_block("WIDTH=5"), "variable");
-  EXPECT_EQ(reason_of_block("R1000=5"), "no_such_parameter");
-  EXPECT_EQ(reason_of_block("R1=5 R2=R1"), "order_of_assignments");
-  EXPECT_EQ(reason_of_block("R1=5 X1"), "assignment_and_words");
-  EXPECT_EQ(reason_of_block("G0 X1 R1=5"), "assignment_and_words");
-  EXPECT_EQ(reason_of_block("DEF REAL AREA[3]"), "array");
-  EXPECT_EQ(reason_of_block("DEF STRING[5] NOTE"), "definition");
-  EXPECT_EQ(reason_of_block("DEF REAL WIDTH\nDEF INT WIDTH"), "definition");
-  EXPECT_EQ(reason_of_block("R1=-3 MOD 2"), "out_of_domain");
-}
-
-TEST(SinumerikValues, AreNotSetInBlocksThatAreLeftOut) {
-  Config config = sinumerik();
-  config.block_delete = true;
-  EXPECT_THAT(sinumerik_x_of("R1=1\n/R1=2\nG0 X=R1\nM30\n", config), ElementsAre(1));
-}
 
 // "Job planning", "Parameter transfer": a value left out is 0; its example has three parameters.
 TEST(SinumerikCalls, TakeValuesByTheirPlace) {
@@ -174,74 +82,6 @@ TEST(SinumerikCalls, AreRefusedWhereAControlWouldStop) {
   EXPECT_EQ(reason_of("NOWHERE\nM30\n", folder.config()), "no_such_program");
   EXPECT_EQ(reason_of("G0 X1 OPEN\nM30\n", folder.config()), "unknown_word");
   EXPECT_EQ(reason_of("RET\n", folder.config()), "subprogram_end");
-}
-
-// Manual "Cycles", CYCLE81: G0 to reference plane and safety clearance, G1 to the depth, G0 out.
-TEST(SinumerikCycles, DrillAsTheManualOrdersIt) {
-  const std::string head = "G17 G90 G0 X40 Y120 Z150 F200 S300 M3\n";
-  EXPECT_THAT(along(2, head + "CYCLE81(110,100,2,35)\nM30\n"), ElementsAre(150, 102, 35, 110));
-  // The depth by DPR: 102 − 65 = 37.
-  EXPECT_THAT(along(2, head + "CYCLE81(110,102,,,65)\nM30\n"), ElementsAre(150, 102, 37, 110));
-  const auto moves = moves_of(head + "CYCLE82(110,102,4,75,,2)\nX50\nM30\n", sinumerik());
-  ASSERT_EQ(moves.size(), 6U);
-  EXPECT_EQ(moves[3].dwell_s, 2.0);
-  EXPECT_EQ(moves[5].kind, MoveKind::rapid);  // the modal words are those before the cycle
-}
-
-TEST(SinumerikCycles, FollowEachMoveWhileMcallIsOn) {
-  EXPECT_THAT(
-      along(2, "G0 X0 Y0 Z50 F100\nMCALL CYCLE81(10,0,2,-5)\nX1\nF50\nY1\nMCALL\nX5\nM30\n"),
-      // MCALL drills after X1 and after Y1, but not after F50; X5 comes behind its end.
-      ElementsAre(50, 50, 2, -5, 10, 10, 2, -5, 10, 10));
-}
-
-// CYCLE85: out at its own feed to the safety clearance; CYCLE86: aside with the spindle stopped.
-TEST(SinumerikCycles, ReamAndBore) {
-  const std::string head = "G18 G0 Z70 X50 Y105 F100\n";
-  const auto ream = moves_of(head + "CYCLE85(105,102,2,,25,,300,450)\nM30\n", sinumerik());
-  ASSERT_EQ(ream.size(), 5U);
-  // 102 − 25 = 77 and 102 + 2 = 104; 300 and 450 mm/min are 5 and 7.5 mm/s.
-  EXPECT_EQ(ream[2].end[1], 77.0);
-  EXPECT_DOUBLE_EQ(ream[2].feed_mm_s, 5.0);
-  EXPECT_EQ(ream[3].end[1], 104.0);
-  EXPECT_DOUBLE_EQ(ream[3].feed_mm_s, 7.5);
-  EXPECT_EQ(ream[4].end[1], 105.0);
-  const auto bore = moves_of(
-      "G17 G0 X70 Y50 Z112 F200 S300\nCYCLE86(112,110,,77,0,2,3,-1,-1,1,45)\nM30\n", sinumerik());
-  ASSERT_EQ(bore.size(), 7U);
-  EXPECT_EQ(bore[2].end[2], 77.0);
-  EXPECT_DOUBLE_EQ(bore[2].spindle_rev_s, 5.0);
-  EXPECT_EQ(bore[4].end[0], 69.0);
-  EXPECT_EQ(bore[4].end[2], 78.0);
-  EXPECT_EQ(bore[4].spindle_rev_s, 0.0);
-  EXPECT_EQ(bore[6].end[0], 70.0);
-  EXPECT_EQ(bore[6].end[2], 112.0);
-}
-
-// CYCLE84 with the manual's values: M5 (pitch 0.8 by ISO 261), 200 rpm in, 500 rpm out.
-TEST(SinumerikCycles, TapWithTheSpindlesPitch) {
-  const auto moves =
-      moves_of("G0 G90 X30 Y35 Z40\nCYCLE84(40,36,2,,30,,3,5,,90,200,500)\nM30\n", sinumerik());
-  ASSERT_EQ(moves.size(), 5U);
-  EXPECT_EQ(moves[2].kind, MoveKind::thread);
-  // 36 − 30 = 6 and 36 + 2 = 38; the sign of the speed turns on the way out.
-  EXPECT_EQ(moves[2].end[2], 6.0);
-  EXPECT_DOUBLE_EQ(moves[2].feed_mm_s, 0.8);
-  EXPECT_DOUBLE_EQ(moves[2].spindle_rev_s, 200.0 / 60.0);
-  EXPECT_EQ(moves[3].end[2], 38.0);
-  EXPECT_DOUBLE_EQ(moves[3].spindle_rev_s, -500.0 / 60.0);
-}
-
-TEST(SinumerikCycles, AreRefusedByName) {
-  EXPECT_EQ(reason_of_block("F100\nCYCLE81(10,0,2,-5,4)"), "cycle_depth");
-  EXPECT_EQ(reason_of_block("F100\nCYCLE81(1,0,2,-5)"), "cycle_planes");
-  EXPECT_EQ(reason_of_block("CYCLE81(10,0,2,-5)"), "feed_missing");
-  EXPECT_EQ(reason_of_block("F100\nCYCLE81(10,0,2,-5,,0,10,1,11)"), "cycle_value");
-  EXPECT_EQ(reason_of_block("F100\nCYCLE81(10,0,2)"), "cycle_word_missing");
-  EXPECT_EQ(reason_of_block("CYCLE832(0.01,1)"), "cycle_not_interpreted");
-  EXPECT_EQ(reason_of_block("CYCLE800(1)"), "transformation");
-  EXPECT_EQ(reason_of_block("MCALL L10"), "modal_call");
-  EXPECT_EQ(reason_of_block("SETMS(2)"), "spindle_selection");
 }
 
 TEST(SinumerikSpindle, OfNumberOneIsTheMaster) {

@@ -5,8 +5,7 @@
 #include <steadyrest/nc/rewrite/test/pockets.hpp>
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
-// What a changed program must hold for: both positions of block delete, a start that the program
-// does not say, and everything that the control keeps when the program is over.
+// A changed program must hold for a start that the program does not say.
 namespace steadyrest::nc::rewrite {
 namespace {
 

@@ -5,13 +5,11 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/kernel/override/gray.hpp>
-#include <steadyrest/sim/base/portable.hpp>
+#include <steadyrest/sim/base/test/circle_body.hpp>
 #include <steadyrest/sim/base/test/switch_code.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 
@@ -20,25 +18,12 @@ namespace {
 
 using kernel::machine::Machine;
 using kernel::signal::Command;
-using nc::plan::Setpoint;
+using test::body_of;
+using test::CircleSource;
 using test::code_of;
-
-Machine ideal_machine() {
-  Machine machine;
-  for (const char* name : {"X", "Y", "Z"}) {
-    kernel::machine::Axis axis;
-    axis.name = name;
-    axis.encoder.count_mm = 0.0;
-    machine.axes.push_back(axis);
-  }
-  for (std::uint32_t i = 0; i <= 12; ++i) {
-    machine.feed_override.ratio.push_back(0.1 * i);
-    machine.feed_override.code.push_back(kernel::override::gray_code(i + 1));
-  }
-  machine.spindle_override = machine.feed_override;
-  machine.rapid_override = machine.feed_override;
-  return machine;
-}
+using test::ideal_machine;
+using test::radius;
+using test::run;
 
 Machine real_machine() {
   Machine machine = ideal_machine();
@@ -54,58 +39,6 @@ Machine real_machine() {
   }
   machine.simulation.position_noise_mm = 0.0005;
   return machine;
-}
-
-MachineBody body_of(const Machine& machine, const std::vector<OperatorAction>& actions = {}) {
-  auto made = MachineBody::make({.machine = machine, .operator_actions = actions});
-  EXPECT_TRUE(made) << (made ? "" : made.error().what);
-  return *std::move(made);
-}
-
-/// R = 10 mm at F4000 on the override in force, from portable functions.
-/// Takes the interpolator's place: the body is tested without the planner.
-class CircleSource {
- public:
-  explicit CircleSource(double period_s) : period_s_(period_s) {}
-  Setpoint next(double ratio) {
-    const double rate = 4000.0 / 60.0 / 10.0 * ratio;
-    turns_ += rate * period_s_ / (2.0 * std::numbers::pi);
-    Setpoint s;
-    const double c = portable::sin_turn(turns_ + 0.25);
-    const double n = portable::sin_turn(turns_);
-    s.position = {10.0 * c, 10.0 * n, 0.0};
-    s.velocity = {-10.0 * rate * n, 10.0 * rate * c, 0.0};
-    s.motion = kernel::signal::Motion::feed;
-    s.path_speed_mm_s = 10.0 * rate;
-    s.programmed_feed_mm_s = 4000.0 / 60.0;
-    s.spindle_rev_s = 50.0;
-    return s;
-  }
-
- private:
-  double period_s_;
-  double turns_ = 0.0;
-};
-
-/// Runs cycles; `layer` may change the command before each.
-void run(MachineBody& body, CircleSource& source, int cycles,
-         const std::function<void(int, Command&)>& layer = {},
-         const std::function<void(int)>& look = {}) {
-  Command command;
-  for (int i = 1; i <= cycles; ++i) {
-    if (layer) {
-      layer(i, command);
-    }
-    const auto overrides = body.begin(command);
-    body.end(source.next(overrides.feed_ratio));
-    if (look) {
-      look(i);
-    }
-  }
-}
-
-double radius(const MachineBody& body) {
-  return std::hypot(body.truth().tool_mm[0], body.truth().tool_mm[1]);
 }
 
 // The circle's closed form knows no sampling. With too coarse a fine interpolation the error would
@@ -125,77 +58,6 @@ TEST(MachineBody, FineInterpolationKeepsTheClosedFormAtEveryPeriod) {
           << interpolator_s << " / " << ratio;
     }
   }
-}
-
-// 30 % of F4000: q = 0.04, ε = 10·(1 − 1/√1.0016) = 0.0080 mm.
-TEST(MachineBody, TheLayersWordSlowsTheFeedAndTheErrorFollows) {
-  MachineBody body = body_of(ideal_machine());
-  body.reset({10.0, 0.0, 0.0});
-  CircleSource source(0.001);
-  run(body, source, 3000, [](int i, Command& c) {
-    c.heartbeat = static_cast<std::uint64_t>(i);
-    c.feed_code = code_of(30);
-    c.feed_masks_panel = true;
-  });
-  EXPECT_NEAR(body.frame().path_speed_mm_s, 0.3 * 4000.0 / 60.0, 1e-9);
-  EXPECT_NEAR(10.0 - radius(body), 0.0080, 0.0001);  // reference table, 30 %
-}
-
-// The heartbeat stops at 1 s. Afterwards the panel's 100 % comes back, by no more than one scan's
-// share of the rise (2 1/s · 10 ms = 0.02).
-TEST(MachineBody, DeadLayerLeavesNoCorrectionStanding) {
-  MachineBody body = body_of(ideal_machine());
-  body.reset({10.0, 0.0, 0.0});
-  CircleSource source(0.001);
-  double highest_rise = 0.0;
-  double before = 1.0;
-  run(
-      body, source, 3000,
-      [](int i, Command& c) {
-        c.heartbeat = static_cast<std::uint64_t>(std::min(i, 1000));
-        c.feed_code = code_of(30);
-        c.feed_masks_panel = true;
-      },
-      [&](int) {
-        const double now = body.frame().feed.effective_ratio;
-        highest_rise = std::max(highest_rise, now - before);
-        before = now;
-      });
-  EXPECT_NEAR(before, 1.0, 1e-12);
-  EXPECT_LT(highest_rise, 0.021);
-}
-
-// Asked 0.5 mm, allowed 0.02 mm. A layer that dies in the cut must leave the offset where it is:
-// moving it would leave a step in the part.
-TEST(MachineBody, OffsetsSlewFreezeInTheCutAndRampOutElsewhere) {
-  Machine machine = ideal_machine();
-  machine.envelope.offset_slew_mm_s = 0.05;
-  machine.envelope.max_offset_mm = 0.02;
-  MachineBody body = body_of(machine);
-  body.reset({});
-  Command command;
-  Setpoint still;
-  still.motion = kernel::signal::Motion::feed;
-  double largest_step = 0.0;
-  double before = 0.0;
-  const auto go = [&](int cycles, bool alive) {
-    for (int i = 0; i < cycles; ++i) {
-      command.heartbeat += alive ? 1U : 0U;
-      body.begin(command);
-      body.end(still);
-      largest_step = std::max(largest_step, std::abs(body.truth().command_mm[2] - before));
-      before = body.truth().command_mm[2];
-    }
-  };
-  command.offset_mm[2] = 0.5;  // more than the machine allows
-  go(2000, true);
-  EXPECT_NEAR(body.truth().tool_mm[2], 0.02, 1e-6);
-  go(2000, false);
-  EXPECT_NEAR(body.truth().command_mm[2], 0.02, 1e-12);
-  still.motion = kernel::signal::Motion::rapid;
-  go(2000, false);
-  EXPECT_NEAR(body.truth().command_mm[2], 0.0, 1e-12);
-  EXPECT_LE(largest_step, 0.05 * 0.001 * (1.0 + 1e-9));
 }
 
 // The script is not in order of time on purpose. 0.5 ms of tolerance: cycles are 1 ms.

@@ -9,98 +9,22 @@
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 #include <steadyrest/sim/cut/cutting_process.hpp>
+#include <steadyrest/sim/cut/test/cuts.hpp>
 
 namespace steadyrest::sim {
 namespace {
 
 using std::numbers::pi;
-
-CuttingMode mode(double stiffness_n_mm, double frequency_hz, double damping, bool along_x = true) {
-  const double w = 2.0 * pi * frequency_hz;
-  return {.shape = {along_x ? 1.0 : 0.0, along_x ? 0.0 : 1.0},
-          .frequency_hz = frequency_hz,
-          .damping_ratio = damping,
-          .mass_kg = 1000.0 * stiffness_n_mm / (w * w)};
-}
-
-/// Two teeth, slot: Insperger and Stépán's benchmark.
-Cutting benchmark(double depth_mm) {
-  Cutting cut;
-  cut.modes = {CuttingMode{.frequency_hz = 922.0, .damping_ratio = 0.011, .mass_kg = 0.03993}};
-  cut.depth_mm = depth_mm;
-  return cut;
-}
+using test::benchmark;
+using test::made;
+using test::mode;
+using test::turns;
 
 /// So stiff that it moves by nanometres.
 Cutting rigid() {
   Cutting cut;
   cut.modes = {mode(1e9, 2000.0, 0.05), mode(1e9, 2000.0, 0.05, false)};
   return cut;
-}
-
-CuttingProcess made(const CuttingProcess::Config& config) {
-  return CuttingProcess::make(config).value();
-}
-
-std::vector<CuttingProcess::Output> turns(CuttingProcess& process,
-                                          const CuttingProcess::Input& input, std::size_t n) {
-  std::vector<CuttingProcess::Output> out;
-  out.reserve(n * process.steps());
-  for (std::size_t i = 0; i < n * process.steps(); ++i) {
-    out.push_back(process.step(input));
-  }
-  return out;
-}
-
-/// Mean growth of the vibration over a tooth pass, by the norm of one turn.
-/// The power method: the vibration is scaled back every eight turns, and the first half of the
-/// record, in which other modes still fade, does not count.
-double growth(CuttingProcess& process, double speed_rev_s, std::size_t teeth, int n) {
-  const CuttingProcess::Input input{.speed_rev_s = speed_rev_s};
-  process.step(input);
-  process.disturb(1e-3);
-  const auto norm = [&] {
-    double sum = 0.0;
-    for (const auto& o : turns(process, input, 8)) {
-      sum += o.displacement_mm[0] * o.displacement_mm[0];
-    }
-    return std::sqrt(sum);
-  };
-  double log = 0.0;
-  double first = 0.0;
-  for (int i = 0; i < n; ++i) {
-    const double now = norm();
-    log += std::log(now);
-    if (2 * i == n) {
-      first = log;
-    }
-    process.scale(1.0 / now);
-  }
-  const int counted = n - 1 - n / 2;
-  return std::exp((log - first) / (8.0 * static_cast<double>(teeth) * counted));
-}
-
-TEST(CuttingProcess, GrowsByTheBenchmarksMultipliers) {
-  // Converged dominant multipliers of the slot at 5000 rpm, by collocation.
-  for (const auto& [depth_mm, truth] :
-       {std::pair{0.2, 0.81974278}, std::pair{0.5, 1.07397559}, std::pair{1.0, 1.40647353}}) {
-    CuttingProcess process =
-        made({.cut = benchmark(depth_mm), .slowest_rev_s = 5000.0 / 60.0, .keeps_contact = true});
-    EXPECT_NEAR(growth(process, 5000.0 / 60.0, 2, 40), truth, 2e-3 * truth) << depth_mm;
-  }
-}
-
-// Second order: half the step, a quarter of the error; 0.3 leaves room for the next order.
-TEST(CuttingProcess, IsOfSecondOrder) {
-  const auto error = [](double steps) {
-    CuttingProcess process = made({.cut = benchmark(1.0),
-                                   .slowest_rev_s = 5000.0 / 60.0,
-                                   .steps_per_period = steps,
-                                   .keeps_contact = true});
-    return std::abs(growth(process, 5000.0 / 60.0, 2, 40) - 1.40647353);
-  };
-  EXPECT_LT(error(80.0), 0.3 * error(40.0));
-  EXPECT_LT(error(160.0), 0.3 * error(80.0));
 }
 
 TEST(CuttingProcess, RigidToolHasTheForcesOfTheChip) {

@@ -67,25 +67,6 @@ TEST(OffsetGovernor, FollowsTheRoomByItsSensor) {
   EXPECT_EQ(out.displacement_mm[1], 0.0) << "Y has no passport";
 }
 
-TEST(OffsetGovernor, ALostSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
-  Governed on;
-  on.frame.temperature_c[0] = 23.0;
-  on.seconds(60.0);
-  on.frame.temperature_c[0] = kNan;
-  EXPECT_EQ(on.seconds(300.0).request.reason, Reason::thermal_sensor_lost);
-  EXPECT_NEAR(on.offset_mm()[kX], -0.006, 1e-12);
-  EXPECT_LT(on.offset_mm()[kZ], -0.006) << "the other axis goes on";
-  on.tool_in_cut = false;
-  on.frame.motion = Motion::rapid;
-  // 18 s at 10 µm/min are 3 of the 6 µm.
-  on.seconds(18.0);
-  EXPECT_NEAR(on.offset_mm()[kX], -0.003, 1e-4) << "10 µm/min";
-  on.seconds(60.0);
-  EXPECT_EQ(on.offset_mm()[kX], 0.0);
-  on.frame.temperature_c[0] = 23.0;
-  EXPECT_NEAR(on.seconds(60.0).offset_mm[kX], -0.006, 1e-12);
-}
-
 // A thread is recut on the same lead, and a probe measures with the offset that it began with.
 TEST(OffsetGovernor, HoldsStillInThreadsTapsAndProbing) {
   for (const Motion motion : {Motion::thread, Motion::tap, Motion::probe}) {
@@ -193,22 +174,6 @@ TEST(OffsetGovernor, OutOfTheCutItMovesByTheRetractSlopeWhereThereIsOne) {
   EXPECT_NEAR(walks_s(120.0, kSlew_mm_s, true, Motion::idle), 24.0, 2.0) << "still in the cut";
   EXPECT_NEAR(walks_s(120.0, kSlew_mm_s, false, Motion::feed), 24.0, 2.0) << "it feeds";
   EXPECT_NEAR(walks_s(60'000.0, 0.001, false, Motion::rapid), 4.0, 0.3) << "the envelope's slew";
-}
-
-// At the retract slope a second of NaN would take off the whole offset, and the next cut would miss
-// it.
-TEST(OffsetGovernor, ASensorThatFailsForASecondOutOfTheCutDoesNotTakeTheOffsetAway) {
-  auto machine = mill();
-  machine.thermal.retract_slope_mm_s = 0.010;
-  Governed on(machine);
-  on.frame.temperature_c[0] = 23.0;
-  on.seconds(60.0);
-  on.tool_in_cut = false;
-  on.frame.motion = Motion::rapid;
-  on.frame.temperature_c[0] = kNan;
-  EXPECT_NEAR(on.seconds(1.0).offset_mm[kX], -0.006, 2e-4);
-  on.frame.temperature_c[0] = 23.0;
-  EXPECT_NEAR(on.seconds(0.2).offset_mm[kX], -0.006, 1e-12);
 }
 
 TEST(OffsetGovernor, AfterTheZeroWasSetOnlyWhatChangesIsCorrected) {

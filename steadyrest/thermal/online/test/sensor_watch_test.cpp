@@ -8,13 +8,11 @@
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
-#include <steadyrest/thermal/online/test/governed.hpp>
 
 namespace steadyrest::thermal::online {
 namespace {
 
 using kernel::outcome::Reason;
-using kernel::signal::Motion;
 using kernel::signal::Temperatures;
 using kernel::units::kNan;
 
@@ -233,45 +231,6 @@ TEST(SensorWatch, ItsStateGoesOnAfterARestart) {
   state.sensor[0].follower_c = kNan;
   second.restore(state);
   EXPECT_EQ(second.fault(0), Reason::none) << "anew";
-}
-
-TEST(OffsetGovernor, AWildSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
-  test::Governed on;
-  on.frame.temperature_c[0] = 23.0;
-  on.seconds(60.0);
-  const double before = on.governor.output().displacement_mm[test::kX];
-  on.frame.temperature_c[0] = 60.0;
-  EXPECT_EQ(on.seconds(300.0).request.reason, Reason::thermal_sensor_wild);
-  EXPECT_EQ(on.governor.output().displacement_mm[test::kX], before) << "the model has not seen it";
-  EXPECT_NEAR(on.offset_mm()[test::kX], -0.006, 1e-12);
-  EXPECT_LT(on.offset_mm()[test::kZ], -0.006) << "the other axis goes on";
-  on.tool_in_cut = false;
-  on.frame.motion = Motion::rapid;
-  EXPECT_EQ(on.seconds(60.0).offset_mm[test::kX], 0.0);
-  on.frame.temperature_c[0] = 23.5;
-  EXPECT_NEAR(on.seconds(60.0).offset_mm[test::kX], -0.007, 1e-12);
-}
-
-TEST(OffsetGovernor, AStuckSensorIsAsOneThatIsLost) {
-  auto machine = test::mill();
-  machine.thermal.axis[0].ambient.push_back({.sensor = "column", .gain_mm_k = 0.001});
-  test::Governed on(machine);
-  on.frame.temperature_c[1] = 21.373;
-  const auto hours = [&](double h) {
-    for (int i = 0; i < static_cast<int>(h * 120.0); ++i) {
-      on.frame.time_s += 30.0;
-      // The governor's order: Z's sensor is named first.
-      on.frame.temperature_c[0] = 22.0 + 2.0 * std::sin(on.frame.time_s / 2000.0);
-      on.look();
-    }
-    return on.governor.output().request.reason;
-  };
-  EXPECT_NE(hours(1.5), Reason::thermal_sensor_stuck);
-  EXPECT_EQ(hours(4.0), Reason::thermal_sensor_stuck);
-  test::Governed restarted(machine);
-  restarted.governor.restore(on.governor.state());
-  restarted.frame = on.frame;
-  EXPECT_EQ(restarted.cycle().request.reason, Reason::thermal_sensor_stuck);
 }
 
 TEST(SensorWatch, DoesNotAllocate) {

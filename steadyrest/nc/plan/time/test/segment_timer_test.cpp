@@ -152,40 +152,6 @@ TEST(SegmentTimer, AgreesWithTheInterpolatorOnRealProgramsWithinAThousandth) {
   EXPECT_GT(longest_s, 1000.0);
 }
 
-double closed_s(const Machine& m, const Program& p) {
-  auto timer = SegmentTimer::make(m).value();
-  for (const auto& move : p.moves) {
-    timer.on_move(move);
-  }
-  timer.on_event({EventKind::end, 99, 0.0});
-  return timer.take().value();
-}
-
-TEST(SegmentTimer, ALineTakesItsLengthOverTheSpeedAndTheSpeedOverTheAcceleration) {
-  const auto m = mill();  // 200 mm/s, 2000 mm/s²
-  // From a feed whose ramps vanish to one where they take a tenth of the time.
-  for (const double feed : {0.5, 10.0, 50.0, 150.0}) {
-    // L/V + V/A, from stop to stop; the end may wait for its period.
-    Program p;
-    p.line(100, 0, feed);
-    const double law_s = 100.0 / feed + feed / 2000.0;
-    EXPECT_GE(closed_s(m, p), law_s - 1e-6);
-    EXPECT_LE(closed_s(m, p), law_s + 0.001);  // it ends with a period
-  }
-  Program triangle;
-  triangle.line(2, 0, 150.0);
-  // 2 mm are too short for 150 mm/s: up and down in 2·√(L/A).
-  EXPECT_NEAR(closed_s(m, triangle), 2.0 * std::sqrt(2.0 / 2000.0), 0.001);
-}
-
-TEST(SegmentTimer, WithAJerkLimitALineTakesAccelerationOverJerkBesides) {
-  const auto m = mill(50000.0);
-  Program p;
-  p.line(100, 0, 50.0);
-  // The average over A/J adds its length: the textbook S-curve.
-  EXPECT_NEAR(closed_s(m, p), 100.0 / 50.0 + 50.0 / 2000.0 + 2000.0 / 50000.0, 0.003);
-}
-
 /// What the interpolator's periods cost at a corner, at most: 0.65 of one.
 constexpr double kPerMove = 0.65 * 0.001;
 
@@ -258,28 +224,6 @@ TEST(SegmentTimer, AFeedPerRevolutionFollowsTheSpindleAsItRampsUp) {
   // speed take 1.9 s and 1.8 s.
   EXPECT_NEAR(d.total_s, 20.0 + 10.0 + 3.8, 0.4);
   expect_near(d, 0.001, 0.02, "per revolution");
-}
-
-TEST(SegmentTimer, RefusesWhatThePlannerRefusesAndWhatNeverEnds) {
-  const auto m = mill();
-  auto without_feed = SegmentTimer::make(m).value();
-  Program p;
-  p.line(10, 0, 0.0);
-  without_feed.on_move(p.moves[0]);
-  EXPECT_FALSE(without_feed.take().has_value());
-
-  auto endless = SegmentTimer::make(m).value();
-  Program slow;
-  slow.line(1000, 0, 1e-4);
-  // 1000 mm at 1e-4 mm/s are 116 days.
-  endless.on_move(slow.moves[0]);
-  const auto refused = endless.take();
-  ASSERT_FALSE(refused.has_value());
-  EXPECT_NE(refused.error().what.find("30 days"), std::string::npos);
-
-  auto blind = m;
-  blind.control.look_ahead_blocks = 0;
-  EXPECT_FALSE(SegmentTimer::make(blind).has_value());
 }
 
 }  // namespace

@@ -2,58 +2,22 @@
 #include <cmath>
 #include <numeric>
 #include <random>
-#include <utility>
 
 #include <gtest/gtest.h>
 
 #include <steadyrest/thermal/offline/plan/plan.hpp>
+#include <steadyrest/thermal/offline/plan/test/paper_plan.hpp>
 
 namespace steadyrest::thermal::offline {
 namespace {
 
 using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
-
-// The one-mode curve that gives the paper's example: τ 53.475 min, levels 35.2245 and 49.0785 µm.
-online::ThermalModel paper() {
-  ThermalAxis axis;
-  ThermalMode mode;
-  mode.tau_s = 53.475 * 60.0;
-  mode.speed_rev_s = {0.0, 10.0, 20.0, 30.0};
-  mode.level_mm = {0.0, 0.0352245, 0.0490785, 0.0420};
-  axis.mode = {mode};
-  return *online::ThermalModel::make(axis);
-}
-
-Cyclogram stages(const std::vector<std::pair<double, double>>& minutes_and_speed) {
-  Cyclogram out;
-  for (const auto& [minutes, speed] : minutes_and_speed) {
-    Transition t;
-    t.minutes = minutes;
-    t.seconds = 60.0 * minutes;
-    t.speed_rev_s = speed;
-    out.transition.push_back(t);
-  }
-  return out;
-}
-
-AxisCorrections planned(const online::ThermalModel& model, const Cyclogram& cyclogram,
-                        const PlanRequest& request) {
-  const auto plan = plan_corrections("Z", curve_of(model, cyclogram), cyclogram, request);
-  EXPECT_TRUE(plan) << kernel::outcome::text(plan.error());
-  return plan.value_or(AxisCorrections{});
-}
-
-std::vector<double> whole_minutes(const std::vector<double>& seconds) {
-  std::vector<double> out;
-  out.reserve(seconds.size());
-  for (const double s : seconds) {
-    out.push_back(std::round(s / 60.0));
-  }
-  return out;
-}
-
 using List = std::vector<double>;
+using test::paper;
+using test::planned;
+using test::stages;
+using test::whole_minutes;
 
 // Marusich 2012, eq. (1), line by line.
 TEST(Plan, IsThePapersSystemR) {
@@ -169,41 +133,6 @@ TEST(Plan, HoldsTheBandForRandomMachinesAndCyclograms) {
   }
 }
 
-TEST(Plan, InstantsCanBeWholeMinutes) {
-  PlanRequest request;
-  request.resolution_s = 60.0;
-  const auto plan = planned(paper(), stages({{60, 10}, {60, 20}}), request);
-  EXPECT_EQ(plan.transition[0].interval_s, (List{18.0 * 60.0, 27.0 * 60.0, 15.0 * 60.0}));
-  EXPECT_EQ(plan.transition[1].interval_s, (List{15.0 * 60.0, 40.0 * 60.0, 5.0 * 60.0}));
-  EXPECT_GT(plan.largest_residual_mm, 0.010) << "said as it is";
-  EXPECT_LT(plan.largest_residual_mm, 0.0105);
-}
-
-// 10 µm of 40 are reached at τ·ln(4/3): the first transition ends there, in the second it rises on.
-TEST(Plan, ABorderReachedAtATransitionsEndIsCorrectedAtTheNextOnesStart) {
-  ThermalAxis axis;
-  ThermalMode mode;
-  mode.tau_s = 1800.0;
-  mode.speed_rev_s = {0.0, 10.0};
-  mode.level_mm = {0.0, 0.040};
-  axis.mode = {mode};
-  const auto model = *online::ThermalModel::make(axis);
-  const double reached_min = 30.0 * std::log(4.0 / 3.0);
-  for (const double later_min : {-1e-12, 0.0, 1e-12, 1e-9, 1e-6}) {
-    for (const bool whole_band : {false, true}) {
-      PlanRequest request;
-      request.whole_band = whole_band;
-      const auto plan = planned(model, stages({{reached_min + later_min, 10}, {4, 10}}), request);
-      ASSERT_EQ(plan.transition.size(), 2U);
-      EXPECT_EQ(plan.corrections, 1U) << later_min;
-      EXPECT_EQ(plan.transition[1].delta_mm, (List{whole_band ? 0.020 : 0.010})) << later_min;
-      EXPECT_LE(plan.largest_residual_mm, 0.010 + 1e-8);
-      // Where it falls again there is nothing to correct.
-      EXPECT_EQ(planned(model, stages({{reached_min, 10}, {4, 0}}), request).corrections, 0U);
-    }
-  }
-}
-
 // The band is passed at most by what half a minute of the steepest slope is, 35.2 µm / 53.5 min.
 TEST(Plan, EveryToleranceOfTheSweepHasItsPlan) {
   const auto cyclogram = stages({{60, 10}, {60, 20}, {60, 20}, {60, 20}, {60, 20}});
@@ -221,38 +150,6 @@ TEST(Plan, EveryToleranceOfTheSweepHasItsPlan) {
                 static_cast<std::size_t>(std::floor(plan.largest_mm / request.tolerance_mm)));
     }
   }
-}
-
-// 0.4 s behind the start, on the narrow band that already took a correction there.
-TEST(Plan, ACrossingJustBehindACorrectedStartBelongsToIt) {
-  auto cyclogram = stages({{30, 20}, {60, 20}});
-  const auto curve = curve_of(paper(), cyclogram);
-  PlanRequest request;
-  request.tolerance_mm = 0.5 * curve.at(1800.0 + 0.4);
-  cyclogram.transition[0].tolerance_mm = 0.1;
-  const auto plan = planned(paper(), cyclogram, request);
-  ASSERT_EQ(plan.transition.size(), 2U);
-  ASSERT_EQ(plan.transition[1].delta_mm.size(), 2U);
-  EXPECT_DOUBLE_EQ(plan.transition[1].delta_mm[0], 2.0 * request.tolerance_mm);
-  EXPECT_LE(plan.largest_residual_mm, 0.1);
-}
-
-// Up to 12 µm within 4 s, at 0 again after 23 s: both crossings are rounded onto the start.
-TEST(Plan, WhatCancelsInTheRoundingIsNoCorrection) {
-  ThermalAxis axis;
-  for (const auto& [tau_s, level_mm] : {std::pair{2.0, 0.020}, {20.0, -0.029}}) {
-    ThermalMode mode;
-    mode.tau_s = tau_s;
-    mode.speed_rev_s = {0.0, 10.0};
-    mode.level_mm = {0.0, level_mm};
-    axis.mode.push_back(mode);
-  }
-  PlanRequest request;
-  request.resolution_s = 60.0;
-  const auto plan = planned(*online::ThermalModel::make(axis), stages({{60, 10}}), request);
-  ASSERT_EQ(plan.transition.size(), 1U);
-  EXPECT_EQ(plan.transition[0].delta_mm, (List{0.0}));
-  EXPECT_EQ(plan.corrections, 0U);
 }
 
 // 49 µm of growth ask for four corrections of 10; the machine allows three and a half.
