@@ -73,25 +73,54 @@ std::optional<Refusal> unfit_bytes(std::string_view text) {
   return std::nullopt;
 }
 
+/// Length of the string that begins with the quote at i (TOML 1.0, section String): on one line, or
+/// over several between three quotes, the last of which may have two more of the content before
+/// them. Of an unclosed one: up to where the parser gives up, the line's or the text's end.
+std::size_t string_length(std::string_view text, std::size_t i) {
+  const char quote = text[i];
+  const bool escapes = quote == '"';
+  const std::string_view three = escapes ? "\"\"\"" : "'''";
+  const bool many_lines = text.substr(i).starts_with(three);
+  std::size_t at = i + (many_lines ? three.size() : 1);
+  while (at < text.size()) {
+    if (many_lines ? text.substr(at).starts_with(three) : text[at] == quote) {
+      const std::size_t end = text.find_first_not_of(quote, at);
+      const std::size_t quotes = std::min(end, text.size()) - at;
+      return at - i + (many_lines ? std::min<std::size_t>(quotes, 5) : 1);
+    }
+    if (!many_lines && text[at] == '\n') {
+      break;
+    }
+    // Whatever is escaped closes nothing. A line's end cannot be escaped on one line.
+    const bool pair = escapes && text[at] == '\\' && (many_lines || byte_at(text, at + 1) != '\n');
+    at += pair ? 2 : 1;
+  }
+  return std::min(at, text.size()) - i;
+}
+
 /// The TOML parser and the destructor of its tree recurse once for each part of a dotted key.
-/// Counted roughly, without reading strings: numbers and dates have few dots.
+/// Strings and comments are passed over: what they contain is neither a part nor the end of a key.
+/// Numbers and dates have few dots and need no care.
 std::optional<Refusal> too_deep(std::string_view text) {
   int parts = 1;
-  bool comment = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
-    if (c == '\n') {
+    if (c == '"' || c == '\'') {
+      i += string_length(text, i);
+      continue;
+    }
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      continue;
+    }
+    if (c == '\n' || c == ',' || c == '=' || c == '{' || c == '[') {
       parts = 1;
-      comment = false;
-    } else if (c == '#') {
-      comment = true;
-    } else if (c == ',' || c == '=' || c == '{' || c == '[') {
-      parts = 1;
-    } else if (c == '.' && !comment && ++parts > kMaxKeyParts) {
+    } else if (c == '.' && ++parts > kMaxKeyParts) {
       return bad_input("", line_at(text, i),
                        fmt::format("more than {} dots in one key or value", kMaxKeyParts),
                        "write plain keys below a [section]");
     }
+    ++i;
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <toml++/toml.h>
 
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
@@ -164,6 +165,68 @@ TEST(RefusedMachineText, NestingThatWouldExhaustTheStack) {
     tables += "{a=";
   }
   EXPECT_THAT(refusal_of("a = " + tables), HasSubstr("given.toml:1:"));
+}
+
+/// Twenty parts of a key, each written like `part`.
+std::string dotted(std::string_view part) {
+  std::string out(part);
+  for (int i = 1; i < 20; ++i) {
+    out += '.';
+    out += part;
+  }
+  return out;
+}
+
+// What ends a key or begins a comment does neither within quotes, and a quote that is escaped or
+// part of a longer string's content closes nothing. toml++ takes each of these (the second test).
+const std::vector<std::string> kDeepKeys = {dotted(R"("#")"),
+                                            dotted("'#'"),
+                                            dotted(R"("=")"),
+                                            dotted(R"('[,{')"),
+                                            dotted(R"("\"#")"),
+                                            dotted(R"("\\")"),
+                                            dotted(R"('\')"),
+                                            dotted(R"("'#")"),
+                                            dotted(R"('"#')"),
+                                            dotted(R"("")"),
+                                            R"("#" . )" + dotted("a"),
+                                            "b = \"\"\"\n\"# \\\"\"\"\n\"\"\"\"\"\n" + dotted("a"),
+                                            "b = '''\n''#\\'''''\n" + dotted("a"),
+                                            "b = \"\"\"\"\"\"\n" + dotted("a"),
+                                            "b = \"\"\"\\\n  #\"\"\"\n" + dotted("a"),
+                                            "b = {\"}\" = '#', " + dotted("a") + " = 2}\nc"};
+
+TEST(RefusedMachineText, DeepKeysWhateverTheirQuotesContain) {
+  for (const std::string& key : kDeepKeys) {
+    EXPECT_THAT(refusal_of(key + " = 1\n"), HasSubstr("more than 16 dots")) << key;
+  }
+}
+
+/// The deepest table below, counting from 0.
+int depth_of(const toml::table& table) {
+  int deepest = 0;
+  for (const auto& [name, node] : table) {
+    if (const auto* child = node.as_table()) {
+      deepest = std::max(deepest, 1 + depth_of(*child));
+    }
+  }
+  return deepest;
+}
+
+TEST(RefusedMachineText, DeepKeysAreDeepToTheParserToo) {
+  for (const std::string& key : kDeepKeys) {
+    EXPECT_GE(depth_of(toml::parse(key + " = 1\n")), 18) << key;
+  }
+}
+
+// Dots within a text or a comment are no parts of a key.
+TEST(RefusedMachineText, DotsInTextsAreNoDepth) {
+  const std::string dots(40, '.');
+  for (const std::string& text : {"a = \"" + dots + "\"", "a = '" + dots + "'", "a = 1 # " + dots,
+                                  "a = \"\\\"" + dots + "\" # \"",
+                                  "a = \"\"\"\n" + dots + "\n\"\"\"", "\"" + dots + "\" = 1"}) {
+    EXPECT_FALSE(unfit_text(text + "\n")) << text;
+  }
 }
 
 // Two lines of five have number 0 and come first: sections that are missing.
