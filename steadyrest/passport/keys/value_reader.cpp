@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdlib>
 
 #include <steadyrest/passport/keys/section_reader.hpp>
 
@@ -9,6 +10,8 @@ namespace steadyrest::passport {
 namespace {
 
 constexpr std::size_t kShownCharacters = 40;
+/// Every whole number up to here is a double, the next one is not.
+constexpr double kMostExact = 0x1p53;
 
 /// TOML's types in words a user knows.
 std::string_view type_name(const toml::node& node) {
@@ -44,8 +47,11 @@ std::string cut(std::string_view text) {
   return std::string(text.substr(0, end)) + "…";
 }
 
+/// Ten digits; a whole number has all of its own, as it may be the end of a range.
 std::string shown(double value) {
-  return fmt::format("{:.10g}", value);
+  std::string out = fmt::format("{:.10g}", value);
+  const bool whole = std::abs(value) <= kMostExact && value == std::floor(value);
+  return whole && std::strtod(out.c_str(), nullptr) != value ? fmt::format("{:.0f}", value) : out;
 }
 
 /// A value as the file has it; lists and tables only by their type.
@@ -119,8 +125,12 @@ bool ValueReader::integer(const toml::node& node, std::int64_t& out) const {
     wrong_type(node, "a whole number", "write it without decimal point, exponent or quotes");
     return false;
   }
-  // Ranges of whole keys end at 2^53 at the latest; up to there double is exact.
-  if (!in_range(node, static_cast<double>(value->get()))) {
+  // Ranges of whole keys end at 2^53 at the latest. Up to there a double is exact; 2^53 + 1 would
+  // be rounded into such a range.
+  constexpr auto kMost = static_cast<std::int64_t>(kMostExact);
+  const bool exact = value->get() >= -kMost && value->get() <= kMost;
+  const auto rounded = static_cast<double>(value->get());
+  if (!in_range(node, exact ? rounded : 2.0 * rounded)) {
     return false;
   }
   out = value->get();
