@@ -63,9 +63,10 @@ std::expected<double, Fault> Clock::stamped(const Row& row) {
   const std::string_view field = row.field(*column_);
   const auto stamp = stamp_of(field);
   if (!stamp) {
-    return std::unexpected(Fault{row.line(),
-                                 fmt::format("\"{}\" is not a date and time", shown(field)),
-                                 "write each stamp as in the first row, 2026-11-22T23:47:06.5"});
+    return std::unexpected(
+        Fault{row.line(), fmt::format("\"{}\" is not a date and time", shown(field)),
+              "write each stamp as in the first row, 2026-11-22T23:47:06.5; leave out "
+              "the row of a leap second (:60)"});
   }
   if (rows_++ == 0) {
     zoned_ = stamp->zoned;

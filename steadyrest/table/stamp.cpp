@@ -102,7 +102,7 @@ std::optional<Stamp> stamp_of(std::string_view field) noexcept {
   Stamp out;
   int second = 0;
   if (colons ? at.take(':') : at.at_digit()) {
-    second = at.digits(2, 60);  // a leap second may be written
+    second = at.digits(2, 59);  // a leap second is no second of this count
     if (at.take('.') || at.take(',')) {
       out.fraction_s = at.fraction(out.decimals);
     }

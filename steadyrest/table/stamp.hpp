@@ -17,7 +17,8 @@ struct Stamp {
 
 /// ISO 8601-1:2019: `2026-11-22T23:47:06`, a blank in place of the T, `20261122T234706`; seconds
 /// may be missing or have a fraction behind a point or a comma; `Z`, `+01:00`, `+0100` and `+01`
-/// name the zone. Years 1970 … 2199. None: the field is no such stamp.
+/// name the zone. Years 1970 … 2199. None: the field is no such stamp, or a leap second (`:60`),
+/// which a count of seconds since 1970 cannot tell from the second after it.
 [[nodiscard]] std::optional<Stamp> stamp_of(std::string_view field) noexcept;
 
 }  // namespace steadyrest::table

@@ -218,6 +218,9 @@ TEST(RowReader, ReadsStampsWithADate) {
               HasSubstr("3: the stamp \"2026-11-22 10:00:01\" has no time zone"));
   EXPECT_THAT(said_by("t_s,z\n2026-11-22 10:00:00,1\n5,2\n").fault,
               HasSubstr("3: \"5\" is not a date and time"));
+  const Said leap = said_by("t,z\n2016-12-31T23:59:59Z,1\n2016-12-31T23:59:60Z,2\n");
+  EXPECT_THAT(leap.fault, HasSubstr("3: \"2016-12-31T23:59:60Z\" is not a date and time"));
+  EXPECT_THAT(leap.to_do, HasSubstr("leave out the row of a leap second"));
   EXPECT_THAT(said_by("t_s,z\n1,1\n2026-11-22 10:00:00,2\n").fault,
               HasSubstr("3: t_s = \"2026-11-22 10:00:00\" is not a finite number"));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <steadyrest/table/stamp.hpp>
@@ -46,6 +47,30 @@ TEST(Stamp, IsNothingElse) {
         "2026-11-22T23:47:06+1", "1969-12-31T23:59:59", "2026-11-22T23:47:06+01:0", "20261122",
         "2026-11-22T2347:06"}) {
     EXPECT_FALSE(stamp_of(text)) << text;
+  }
+}
+
+// The count since 1970 has no number for a leap second: `date -u -d 2016-12-31T23:59:60Z +%s` is an
+// error too, and 1483228800 is midnight.
+TEST(Stamp, IsNoLeapSecond) {
+  EXPECT_EQ(stamp_of("2016-12-31T23:59:59Z")->whole_s, 1483228799);
+  EXPECT_EQ(stamp_of("2017-01-01T00:00:00Z")->whole_s, 1483228800);
+  for (const auto* text : {"2016-12-31T23:59:60Z", "2016-12-31 23:59:60.5", "20161231T235960Z",
+                           "2017-01-01T00:59:60+01:00", "2026-11-22T23:47:60"}) {
+    EXPECT_FALSE(stamp_of(text)) << text;
+  }
+}
+
+// The count goes up by one from each second of a day to the next, also of a day that had a leap
+// second.
+TEST(Stamp, GivesEachSecondItsOwnNumber) {
+  std::int64_t last = stamp_of("2016-12-30T23:59:59Z")->whole_s;
+  for (int s = 0; s < 86'400; ++s) {
+    const std::string text =
+        fmt::format("2016-12-31T{:02}:{:02}:{:02}Z", s / 3600, s / 60 % 60, s % 60);
+    const auto stamp = stamp_of(text);
+    ASSERT_TRUE(stamp && stamp->whole_s == last + 1) << text;
+    last = stamp->whole_s;
   }
 }
 
