@@ -140,6 +140,15 @@ double* Parameters::stored(int index, bool& rotary) const noexcept {
   return nullptr;
 }
 
+// Under compensation LinuxCNC shows the tool's centre, not the contour.
+Axes Parameters::position() const noexcept {
+  Axes shown = state_->position;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    shown[i] += state_->cutter_shift[i];
+  }
+  return shown;
+}
+
 bool Parameters::of_state(int index, double& value) const {
   const auto in_force = [&](const Axes& axes, int first, double unit_mm) {
     // Offsets, reference points and tool data in the units of the machine's files, positions in
@@ -149,12 +158,7 @@ bool Parameters::of_state(int index, double& value) const {
     return true;
   };
   if (within(index, kPosition)) {
-    Axes shown = state_->position;
-    // Under compensation LinuxCNC shows the tool's centre, not the contour.
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-      shown[i] += state_->cutter_shift[i];
-    }
-    return in_force(shown, kPosition, state_->unit_mm);
+    return in_force(position(), kPosition, state_->unit_mm);
   }
   if (within(index, kToolOffset)) {
     return in_force(state_->tool.offset, kToolOffset, config_->data_unit_mm);
@@ -203,7 +207,7 @@ bool Parameters::of_state(std::string_view name, double& value) const {
   if (name.starts_with("_abs_") && name.size() == 6) {
     constexpr std::string_view kLetters = "xyzabc";
     if (const auto axis = kLetters.find(name[5]); axis != std::string_view::npos) {
-      const Axes machine = turned(state_->position, state_->rotation_in_force_deg);
+      const Axes machine = turned(position(), state_->rotation_in_force_deg);
       value = (machine[axis] + state_->offset[axis]) / (is_rotary(axis) ? 1.0 : state_->unit_mm);
       return true;
     }

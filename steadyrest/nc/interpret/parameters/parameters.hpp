@@ -84,6 +84,7 @@ class Parameters final : public read::Values {
   [[nodiscard]] Names& local_names() noexcept;
   [[nodiscard]] const Names& local_names() const noexcept;
 
+  [[nodiscard]] Axes position() const noexcept;
   [[nodiscard]] bool of_state(int index, double& value) const;
   [[nodiscard]] bool of_state(std::string_view name, double& value) const;
   /// Where a stored offset or reference point lies in the state; nullptr when it is none of them.

@@ -10,6 +10,9 @@
 
 namespace steadyrest::nc::interpret {
 
+/// rs274 prints four decimals.
+inline constexpr double kHalfDigit = 0.00005 + 1e-9;
+
 /// Keeps everything that a program gives.
 struct Kept final : public Sink {
   std::vector<Move> moves;

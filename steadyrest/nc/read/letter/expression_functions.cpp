@@ -132,7 +132,9 @@ bool Expression::exists(double& out) {
     if (!parameter_number(index)) {
       return false;
     }
-    out = values_.number(index, ignored) == Lookup::found ? 1.0 : 0.0;
+    // A position is there while cutter radius compensation is on, but cannot be read.
+    const Lookup lookup = values_.number(index, ignored);
+    out = lookup == Lookup::found || lookup == Lookup::not_while_compensating ? 1.0 : 0.0;
   }
   if (peek() != ']') {
     return fail("bad_function", kText);

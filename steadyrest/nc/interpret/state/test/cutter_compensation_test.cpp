@@ -14,8 +14,6 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
-constexpr double kHalfDigit = 0.00005 + 1e-9;
-
 void expect_end(const Move& move, MoveKind kind, double x, double y, double z = 0.0) {
   EXPECT_EQ(move.kind, kind);
   EXPECT_NEAR(move.end[0], x, kHalfDigit);
@@ -98,6 +96,53 @@ TEST(CutterCompensation, KeepsLineFeedAndSpindleOfTheBlockThatAMoveComesFrom) {
   for (std::size_t i = 1; i < kept.moves.size(); ++i) {
     EXPECT_EQ(kept.moves[i].start, kept.moves[i - 1].end) << i;
   }
+}
+
+/// What `what` is behind the given line of a compensated contour; nothing where it is refused.
+std::vector<double> held(const std::string& line, const std::string& what) {
+  std::string text =
+      "G21 G17 G90 G64\nG92 X1 Y2\nG10 L2 P1 X100 Y200 R30\nF100\nG0 X0 Y0\n"
+      "G41.1 D4\nG1 X10 Y0 Z1\nG1 X10 Y10\nG3 X0 Y20 I-10\nG91 G1 X-5\nG90\nG40\n"
+      "G1 X0 Y0\nG0 X#1\nM2\n";
+  text.insert(text.find(line) + line.size(), "#1=" + what + "\n");
+  const auto moves = moves_of(text);
+  return moves.empty() ? std::vector<double>{} : std::vector{moves.back().end[0]};
+}
+
+// Both #<_x> and #<_abs_x> are the tool's centre, as (DEBUG,#<_x> #<_abs_x>) of rs274 shows.
+TEST(CutterCompensation, NamesShowTheToolsCentreInWorkAndMachineCoordinates) {
+  const struct {
+    const char* behind;
+    double x, y, abs_x, abs_y;
+  } cases[] = {{"G0 X0 Y0\n", 0.0, 0.0, 100.133975, 197.767949},
+               {"G41.1 D4\n", 0.0, 0.0, 100.133975, 197.767949},
+               {"G1 X10 Y0 Z1\n", 10.0, 2.0, 107.794229, 204.5},
+               {"G1 X10 Y10\n", 8.0, 10.0, 102.062178, 210.428203},
+               {"G3 X0 Y20 I-10\n", 0.0, 18.0, 91.133975, 213.356406},
+               {"G91 G1 X-5\n", -5.0, 18.0, 86.803848, 210.856406},
+               {"G40\n", -5.0, 20.0, 85.803848, 212.588457}};
+  for (const auto& one : cases) {
+    const std::pair<const char*, double> names[] = {
+        {"#<_x>", one.x}, {"#<_y>", one.y}, {"#<_abs_x>", one.abs_x}, {"#<_abs_y>", one.abs_y}};
+    for (const auto& [name, value] : names) {
+      const auto got = held(one.behind, name);
+      ASSERT_EQ(got.size(), 1U);
+      EXPECT_NEAR(got.front(), value, 1e-6) << one.behind << name;
+    }
+  }
+}
+
+// The numbers exist all the while, but cannot be read from G41 to G40.
+TEST(CutterCompensation, NumbersOfThePositionExistButAreNotRead) {
+  EXPECT_EQ(held("G40\n", "#5421"), std::vector{20.0});
+  for (const char* number : {"#5420", "#[5419+1]", "#5428"}) {
+    EXPECT_EQ(reason_of("F100\nG41.1 D4\n#1=" + std::string{number} + "\nG1 X9\nG40\nM2\n"),
+              "position_in_cutter_comp");
+    for (const char* behind : {"G0 X0 Y0\n", "G1 X10 Y10\n", "G40\n"}) {
+      EXPECT_EQ(held(behind, "EXISTS[" + std::string{number} + "]"), std::vector{1.0});
+    }
+  }
+  EXPECT_EQ(held("G1 X10 Y10\n", "EXISTS[#6000]"), std::vector{0.0});
 }
 
 TEST(CutterCompensation, ANegativeDiameterChangesTheSide) {
