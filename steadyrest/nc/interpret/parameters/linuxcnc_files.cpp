@@ -40,7 +40,8 @@ bool take_word(std::string_view& text, char& letter, double& value) noexcept {
 }
 
 // One tool a line: words in any order, lengths in the units of the machine's files, angles in
-// degrees. The pocket (P) moves nothing.
+// degrees. I, J and Q are a lathe tool's: front angle, back angle, orientation of its edge. The
+// pocket (P) moves nothing.
 Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_view text,
                        double unit_mm) {
   Tool tool;
@@ -54,6 +55,11 @@ Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_vi
                     "write letters with numbers, like T1 P1 Z12.5 D6");
     }
     const auto axis = kAxisLetters.find(letter);
+    const bool edge = value == std::floor(value) && value >= 0.0 && value <= 9.0;
+    if (letter == 'Q' && !edge) {
+      return refuse(path, line, "`" + read::printable(before) + "` is no orientation of a tool",
+                    "write Q0 to Q9");
+    }
     if (letter == 'T' && value == std::floor(value) && value >= 0.0 && value < 1e9) {
       tool.number = static_cast<std::int32_t>(value);
       numbered = true;
@@ -61,7 +67,11 @@ Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_vi
       tool.diameter_mm = value * unit_mm;
     } else if (axis != std::string_view::npos) {
       tool.offset[axis] = is_rotary(axis) ? value : value * unit_mm;
-    } else if (std::string_view{"PIJQ"}.find(letter) == std::string_view::npos) {
+    } else if (letter == 'I' || letter == 'J') {
+      (letter == 'I' ? tool.front_angle_deg : tool.back_angle_deg) = value;
+    } else if (letter == 'Q') {
+      tool.orientation = static_cast<std::int32_t>(value);
+    } else if (letter != 'P') {
       return refuse(path, line, "`" + read::printable(before) + "` is not a word of a tool table",
                     "T (a whole number), P, X Y Z A B C U V W, D, I, J and Q are allowed");
     }
