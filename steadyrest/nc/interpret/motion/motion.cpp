@@ -17,6 +17,21 @@ unsigned named_axes(const Step& step) noexcept {
   return axes;
 }
 
+/// G9 is for its block alone, whichever way the block ends.
+class ExactStop {
+ public:
+  ExactStop(const Step& step, State& state) noexcept : mode_(state.path_mode), before_(mode_) {
+    mode_ = step.exact_stop ? PathMode::exact_stop : mode_;
+  }
+  ExactStop(const ExactStop&) = delete;
+  ExactStop& operator=(const ExactStop&) = delete;
+  ~ExactStop() { mode_ = before_; }
+
+ private:
+  PathMode& mode_;
+  PathMode before_;
+};
+
 }  // namespace
 
 bool Motion::straight(const Step& step) {
@@ -25,11 +40,7 @@ bool Motion::straight(const Step& step) {
     return false;
   }
   const Axes end = end_point(step, control_);
-  const PathMode mode = state_.path_mode;
-  // G9 is for this block alone.
-  if (step.exact_stop) {
-    state_.path_mode = PathMode::exact_stop;
-  }
+  const ExactStop exact_stop(step, state_);
   cutter_.goes_straight();
   const MoveKind kind = cutting ? MoveKind::linear : MoveKind::rapid;
   if (cutter_.active()) {
@@ -41,7 +52,6 @@ bool Motion::straight(const Step& step) {
     out_.current().machine_axes = named_axes(step);
   }
   out_.move(kind, end);
-  state_.path_mode = mode;
   return true;
 }
 
@@ -191,17 +201,13 @@ bool Motion::arc(const Step& step) {
   move.normal[axes.normal] = 1.0;
   const double turns = step.has('P') ? step['P'] : 1.0;
   move.turns = static_cast<int>(step.moves_by == g::kArcClockwise ? -turns : turns);
-  const PathMode mode = state_.path_mode;
-  if (step.exact_stop) {
-    state_.path_mode = PathMode::exact_stop;
-  }
+  const ExactStop exact_stop(step, state_);
   bool accepted = true;
   if (cutter_.active()) {
     accepted = cutter_.compensate(step, MoveKind::arc, end);
   } else {
     out_.move(MoveKind::arc, end);
   }
-  state_.path_mode = mode;
   // The move in hand serves the next block too, which may be no arc.
   move.centre_mm = {};
   move.normal = {};
