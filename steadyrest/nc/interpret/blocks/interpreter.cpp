@@ -198,8 +198,8 @@ bool Interpreter::move(const Step& step) {
   }
   // Control points are collected until G5.3; any other motion in between would be lost.
   if (splines_.open() && motion != g::kSplinePoint && motion != g::kSplineEnd) {
-    return control_.refusals.code(
-        step, 'G', motion / 10, "spline_words",
+    return control_.refusals.g_word(
+        step, motion, "spline_words",
         "another motion between the control points of G5.2; end them with G5.3 first");
   }
   if (motion >= g::kCubicSpline && motion <= g::kSplineEnd) {
@@ -237,8 +237,8 @@ bool Interpreter::call_program(const Step& step) {
     return true;
   }
   if (!step.has('P') || step['P'] != std::floor(step['P']) || step['P'] < 0.0) {
-    return control_.refusals.code(step, 'M', 98, "word_missing",
-                                  "M98 without the program's number (P)");
+    return control_.refusals.m_word(step, 98, "word_missing",
+                                    "M98 without the program's number (P)");
   }
   program_call_.number = static_cast<std::int32_t>(step['P']);
   program_call_.repeats = step.has('L') ? step['L'] : 1.0;

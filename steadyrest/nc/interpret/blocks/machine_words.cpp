@@ -47,7 +47,8 @@ bool MachineWords::spindle_speed(const Step& step) {
   const int mode = step.code(GGroup::spindle_mode);
   if (mode == g::kCuttingSpeed) {
     if (!step.has('S')) {
-      return refusals_.code(step, 'G', 96, "speed_missing", "G96 without its cutting speed (S)");
+      return refusals_.g_word(step, g::kCuttingSpeed, "speed_missing",
+                              "G96 without its cutting speed (S)");
     }
     state_.surface_speed = true;
     // D limits the speed as the tool comes near the centre; without it only the spindle does.
@@ -98,8 +99,8 @@ bool MachineWords::change_tool(const Step& step) {
   // M61 says what is in the spindle; nothing moves.
   if (code == m::kToolInSpindle) {
     if (!step.has('Q') || step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0) {
-      return refusals_.code(step, 'M', 61, "tool_missing",
-                            "M61 without the number of the tool in the spindle (Q)");
+      return refusals_.m_word(step, 61, "tool_missing",
+                              "M61 without the number of the tool in the spindle (Q)");
     }
     state_.position = out_.take_beside(state_.position);
     if (!tool_number(control_, step, 'Q', state_.tool_in_spindle)) {
@@ -158,15 +159,15 @@ void MachineWords::overrides(const Step& step) noexcept {
 bool MachineWords::outputs(const Step& step) {
   const int code = step.code(MGroup::io);
   if (code >= m::kOutputOnWithMove && code <= m::kOutputOff && !step.has('P')) {
-    return refusals_.code(step, 'M', code, "word_missing", "an output without its number (P)");
+    return refusals_.m_word(step, code, "word_missing", "an output without its number (P)");
   }
   if (code == m::kWaitForInput && step.has('P') == step.has('E')) {
-    return refusals_.code(step, 'M', code, "word_missing",
-                          "M66 needs the number of one input: P (digital) or E (analog)");
+    return refusals_.m_word(step, code, "word_missing",
+                            "M66 needs the number of one input: P (digital) or E (analog)");
   }
   if ((code == m::kAnalogWithMove || code == m::kAnalog) && !(step.has('E') && step.has('Q'))) {
-    return refusals_.code(step, 'M', code, "word_missing",
-                          "an analog output without its number (E) or value (Q)");
+    return refusals_.m_word(step, code, "word_missing",
+                            "an analog output without its number (E) or value (Q)");
   }
   return true;
 }

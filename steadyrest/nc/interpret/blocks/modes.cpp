@@ -89,8 +89,8 @@ bool Modes::keep(const Step& step) {
       return true;
     case m::kRestoreModes:
       if (!kept.state) {
-        return refusals_.code(
-            step, 'M', 72, "modes_not_kept",
+        return refusals_.m_word(
+            step, 72, "modes_not_kept",
             "M72 without saved modes; save them first with M70 or M73 in the same subprogram");
       }
       restore(*kept.state);

@@ -20,8 +20,8 @@ bool OffsetData::set(const Step& step) {
   if (form == 1.0 || form == 10.0 || form == 11.0) {
     return tool(step, form);
   }
-  return refusals_.code(
-      step, 'G', 10, "g10_form",
+  return refusals_.g_word(
+      step, g::kSetData, "g10_form",
       "this form of G10 is not interpreted; L1, L10, L11 (tool table), L2 and L20 "
       "(work offsets) are");
 }
@@ -29,8 +29,8 @@ bool OffsetData::set(const Step& step) {
 bool OffsetData::work(const Step& step, double form) {
   const double number = step.has('P') ? step['P'] : -1.0;
   if (number != std::floor(number) || number < 0.0 || number > 9.0) {
-    return refusals_.code(step, 'G', 10, "g10_form",
-                          "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
+    return refusals_.g_word(step, g::kSetData, "g10_form",
+                            "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
   }
   if (step.has('R') && form == 20.0) {
     // L20 computes the offset for a given rotation; a new rotation in the same words would make two
@@ -38,7 +38,7 @@ bool OffsetData::work(const Step& step, double form) {
     return refusals_.letter(step, 'R', "g10_form", "a rotation (R) in G10 L20; G10 L2 takes one");
   }
   if (!state_.work_offset_on && number == 0.0) {
-    return refusals_.code(step, 'G', 10, "g10_form", "no work offset is active");
+    return refusals_.g_word(step, g::kSetData, "g10_form", "no work offset is active");
   }
   const std::size_t set =
       number == 0.0 ? state_.active_offset : static_cast<std::size_t>(number) - 1;
@@ -82,16 +82,17 @@ bool OffsetData::work(const Step& step, double form) {
 // Haas P0 is G52. In G91 the words are added to what the offset has.
 bool OffsetData::added_work(const Step& step, double form) {
   if (form != 2.0) {
-    return refusals_.code(step, 'G', 10, "g10_form",
-                          "this form of G10 is not interpreted; L2 (work offsets) is");
+    return refusals_.g_word(step, g::kSetData, "g10_form",
+                            "this form of G10 is not interpreted; L2 (work offsets) is");
   }
   const double number = step.has('P') ? step['P'] : -1.0;
   if (number != std::floor(number) || number < 0.0 || number > 6.0) {
-    return refusals_.code(step, 'G', 10, "g10_form",
-                          "G10 L2 names no work offset; P0 (external) to P6 (G59) are allowed");
+    return refusals_.g_word(step, g::kSetData, "g10_form",
+                            "G10 L2 names no work offset; P0 (external) to P6 (G59) are allowed");
   }
   if (number == 0.0 && !control_.config.external_offset) {
-    return refusals_.code(step, 'G', 10, "g10_form", "G10 L2 P0 is G52 on this control; write G52");
+    return refusals_.g_word(step, g::kSetData, "g10_form",
+                            "G10 L2 P0 is G52 on this control; write G52");
   }
   if (step.has('R')) {
     return refusals_.letter(step, 'R', "unused_word", "an R word with G10 L2");
@@ -170,8 +171,8 @@ bool OffsetData::tool(const Step& step, double form) {
                           ? place_of_tool(control_.config, static_cast<std::int32_t>(number))
                           : nullptr;
   if (place == nullptr) {
-    return refusals_.code(step, 'G', 10, "no_such_tool",
-                          "G10 names a tool (P) that is not in the tool table");
+    return refusals_.g_word(step, g::kSetData, "no_such_tool",
+                            "G10 names a tool (P) that is not in the tool table");
   }
   constexpr std::size_t kFixtures = 8;  // G59.3
   // L11 measures against a fixture on the table, whose place G59.3 holds: independent of the part's

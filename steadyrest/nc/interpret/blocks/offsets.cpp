@@ -13,7 +13,8 @@ bool Offsets::tool_length(const Step& step) {
       // Without H the tool in the spindle, as on LinuxCNC.
       std::int32_t number = state_.tool_in_spindle;
       if (step.code(GGroup::tool_length) == g::kAddToolLength && !step.has('H')) {
-        return refusals_.code(step, 'G', 43, "tool_missing", "G43.2 without the tool's number (H)");
+        return refusals_.g_word(step, g::kAddToolLength, "tool_missing",
+                                "G43.2 without the tool's number (H)");
       }
       if (step.has('H') && !tool_number(control_, step, 'H', number)) {
         return false;

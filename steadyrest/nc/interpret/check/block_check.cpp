@@ -30,26 +30,25 @@ bool BlockCheck::choose_motion(Step& step) const {
   if (motion != kNoCode) {
     if (motion == g::kCycleEnd) {
       if (axis_words && !axes_taken) {
-        return refusals_.code(step, 'G', 80, "axis_words_with_g80",
-                              "axis words in a block with G80, which ends motion");
+        return refusals_.g_word(step, g::kCycleEnd, "axis_words_with_g80",
+                                "axis words in a block with G80, which ends motion");
       }
     } else if (axes_taken) {
-      return refusals_.code(step, 'G', motion / 10, "two_users_of_axis_words",
-                            "two G words in one block that both use the axis words");
+      return refusals_.g_word(step, motion, "two_users_of_axis_words",
+                              "two G words in one block that both use the axis words");
     } else if (!axis_words && (is_cycle(motion) || motion == g::kThread || motion == g::kRigidTap ||
                                motion == g::kThreadCycle || motion == g::kCubicSpline ||
                                motion == g::kQuadraticSpline)) {
       // Without an axis word these have nothing to do: more likely a word is missing.
-      return refusals_.code(step, 'G', motion / 10, "axis_words_missing",
-                            "a motion without any axis word");
+      return refusals_.g_word(step, motion, "axis_words_missing", "a motion without any axis word");
     }
     step.moves_by = motion;
     return true;
   }
   if (axes_taken) {
     if (!axis_words && (non_modal == g::kShift || non_modal == g::kSetOrigin)) {
-      return refusals_.code(step, 'G', non_modal / 10, "axis_words_missing",
-                            "an offset without any axis word");
+      return refusals_.g_word(step, non_modal, "axis_words_missing",
+                              "an offset without any axis word");
     }
     return true;
   }
@@ -114,7 +113,8 @@ bool BlockCheck::check_values(const Step& step) const {
 bool BlockCheck::check_non_modal(const Step& step) const {
   const int non_modal = step.code(GGroup::non_modal);
   if (non_modal == g::kDwell && !(step.has('P') && step['P'] >= 0.0)) {
-    return refusals_.code(step, 'G', 4, "dwell_missing", "a dwell without its time (P from 0)");
+    return refusals_.g_word(step, g::kDwell, "dwell_missing",
+                            "a dwell without its time (P from 0)");
   }
   if (non_modal == g::kDwell && step['P'] > 1e6) {
     return refusals_.letter(step, 'P', "out_of_range", "a dwell of more than 1000000 s");
@@ -125,15 +125,15 @@ bool BlockCheck::check_non_modal(const Step& step) const {
     const bool lone = rules_.machine_frame_alone && (step.mask & kAxisMask) == 0 &&
                       step.code(GGroup::motion) == kNoCode;
     if (!straight && !lone) {
-      return refusals_.code(step, 'G', 53, "g53_without_straight_motion",
-                            "machine coordinates need G0 or G1 in force");
+      return refusals_.g_word(step, g::kMachineFrame, "g53_without_straight_motion",
+                              "machine coordinates need G0 or G1 in force");
     }
     // What machine coordinates mean as increments is not defined.
     const int distance = step.code(GGroup::distance);
     if (!lone &&
         (distance == g::kIncremental || (distance != g::kAbsolute && state_.incremental))) {
-      return refusals_.code(step, 'G', 53, "g53_incremental",
-                            "machine coordinates while G91 is in force");
+      return refusals_.g_word(step, g::kMachineFrame, "g53_incremental",
+                              "machine coordinates while G91 is in force");
     }
   }
   return true;
@@ -207,19 +207,20 @@ bool has_feed(const Step& step, const State& state, Refusals& refusals) {
   // In G93 F belongs to its block and is not modal (RS274/NGC).
   if (state.feed_mode == FeedMode::inverse_time) {
     if (!step.has('F')) {
-      return refusals.letter(step, 'G', "feed_missing",
+      return refusals.g_word(step, step.moves_by, "feed_missing",
                              "no F word; under G93 every cutting block needs one");
     }
     return step['F'] > 0.0 || refusals.letter(step, 'F', "feed_missing", "a feed of zero");
   }
   if (!(state.feed_mm_s > 0.0)) {
-    return refusals.letter(step, step.has('F') ? 'F' : 'G', "feed_missing",
-                           "a cutting move, but no feed (F) is in force");
+    constexpr std::string_view kText = "a cutting move, but no feed (F) is in force";
+    return step.has('F') ? refusals.letter(step, 'F', "feed_missing", kText)
+                         : refusals.g_word(step, step.moves_by, "feed_missing", kText);
   }
   // With S0 a feed per revolution would never move.
   if (state.feed_mode == FeedMode::per_revolution && state.spindle_speed_rev_s == 0.0 &&
       state.surface_speed_mm_s == 0.0) {
-    return refusals.letter(step, 'G', "spindle_speed_missing",
+    return refusals.g_word(step, step.moves_by, "spindle_speed_missing",
                            "feed per revolution, but no spindle speed (S) is in force");
   }
   return true;

@@ -38,16 +38,17 @@ bool BlockCheck::check_cutter(const Step& step) const {
 bool BlockCheck::cutter_permits_what_comes_before(const Step& step) const {
   const int code = step.code(GGroup::cutter);
   const auto forbid = [&](char letter, int word, std::string_view what) {
-    return refusals_.code(step, letter, word, kForbidden, what);
+    return letter == 'G' ? refusals_.g_word(step, word, kForbidden, what)
+                         : refusals_.m_word(step, word, kForbidden, what);
   };
   if (code > g::kCutterOff) {
-    return forbid('G', code / 10, "cutter radius compensation while it is already on");
+    return forbid('G', code, "cutter radius compensation while it is already on");
   }
   const int io = step.code(MGroup::io);
   const int override_switch = step.code(MGroup::override_switch);
   const int plane = step.code(GGroup::plane);
   if (step.code(MGroup::tool_change) == m::kToolChange) {
-    return forbid('M', 6, "a tool change while cutter radius compensation is on");
+    return forbid('M', m::kToolChange, "a tool change while cutter radius compensation is on");
   }
   if (io != kNoCode) {
     return forbid('M', io, "an output or input while cutter radius compensation is on");
@@ -59,7 +60,7 @@ bool BlockCheck::cutter_permits_what_comes_before(const Step& step) const {
   if (plane != kNoCode && (plane == g::kPlaneXy   ? Plane::xy
                            : plane == g::kPlaneZx ? Plane::zx
                                                   : Plane::yz) != state_.plane) {
-    return forbid('G', plane / 10, "another plane while cutter radius compensation is on");
+    return forbid('G', plane, "another plane while cutter radius compensation is on");
   }
   return true;
 }
@@ -83,8 +84,8 @@ bool BlockCheck::cutter_permits_what_comes_behind(const Step& step) const {
       (non_modal == g::kForgetOrigin || non_modal == g::kOriginOff) && state_.g92 != Axes{};
   const bool shifts = clears || (non_modal == g::kOriginOn && state_.g92 != state_.g92_stored);
   if (shifts) {  // the control takes it and goes on from another place
-    return refusals_.code(step, 'G', 92, "cutter_comp_shift",
-                          "an axis offset that changes while cutter radius compensation is on");
+    return refusals_.g_word(step, non_modal, "cutter_comp_shift",
+                            "an axis offset that changes while cutter radius compensation is on");
   }
   const std::array rules = {
       Rule{length != kNoCode, length, "another tool length while cutter radius compensation is on"},
@@ -110,7 +111,7 @@ bool BlockCheck::cutter_permits_what_comes_behind(const Step& step) const {
   };
   for (const Rule& rule : rules) {
     if (rule.broken) {
-      return refusals_.code(step, 'G', rule.code / 10, kForbidden, rule.text);
+      return refusals_.g_word(step, rule.code, kForbidden, rule.text);
     }
   }
   return true;

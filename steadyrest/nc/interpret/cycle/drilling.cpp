@@ -67,7 +67,7 @@ bool Drilling::remember(const Step& step) {
     if (step.has(word.letter)) {
       *word.place = step[word.letter];
     } else if (word.needed && fresh) {
-      return refusals_.code(step, 'G', code / 10, "cycle_word_missing", word.text);
+      return refusals_.g_word(step, code, "cycle_word_missing", word.text);
     }
   }
   if (taps && step.has('P') && step['P'] < 0.0) {
@@ -89,8 +89,8 @@ bool Drilling::check(const Step& step) {
   }
   // In G93 each block has one time, but a cycle is many moves.
   if (state_.feed_mode == FeedMode::inverse_time) {
-    return refusals_.code(step, 'G', step.moves_by / 10, "cycle_in_inverse_time",
-                          "a canned cycle while inverse-time feed (G93) is in force");
+    return refusals_.g_word(step, step.moves_by, "cycle_in_inverse_time",
+                            "a canned cycle while inverse-time feed (G93) is in force");
   }
   if (repeats_of(step) < 1.0) {
     return refusals_.letter(step, 'L', "out_of_range", "too few repeats (L); allowed: 1 or more");
@@ -232,8 +232,8 @@ bool Drilling::peck(const Step& step, const Hole& hole) {
   const double furthest_mm = std::max(std::abs(hole.retract_mm), std::abs(hole.bottom_mm));
   // When subtracting a peck changes nothing any more, the loop below would not end.
   if (furthest_mm - peck_mm == furthest_mm) {  // there would be no end
-    return refusals_.code(step, 'G', step.moves_by / 10, "out_of_range",
-                          "a peck this small is lost in rounding at this distance from zero");
+    return refusals_.g_word(step, step.moves_by, "out_of_range",
+                            "a peck this small is lost in rounding at this distance from zero");
   }
   for (double depth = hole.retract_mm - peck_mm; depth > hole.bottom_mm; depth -= peck_mm) {
     out_.along(MoveKind::linear, normal, depth);
@@ -252,15 +252,15 @@ bool Drilling::peck(const Step& step, const Hole& hole) {
 bool Drilling::tap(const Step& step, const Hole& hole) {
   const int into = step.moves_by == g::kTapRight ? 1 : -1;
   if (state_.spindle_direction != into) {
-    return refusals_.code(step, 'G', step.moves_by / 10, "spindle_direction",
-                          into > 0 ? "right-hand tapping needs the spindle turning clockwise (M3)"
-                                   : "left-hand tapping needs the spindle turning "
-                                     "counter-clockwise (M4)");
+    return refusals_.g_word(step, step.moves_by, "spindle_direction",
+                            into > 0 ? "right-hand tapping needs the spindle turning clockwise (M3)"
+                                     : "left-hand tapping needs the spindle turning "
+                                       "counter-clockwise (M4)");
   }
   const std::size_t normal = hole.axes.normal;
   if (control_.rules.taps_in_xy_alone && state_.plane != Plane::xy) {
-    return refusals_.code(step, 'G', step.moves_by / 10, "tapping_off_xy",
-                          "tapping outside G17: LinuxCNC 2.9 moves the wrong axes");
+    return refusals_.g_word(step, step.moves_by, "tapping_off_xy",
+                            "tapping outside G17: LinuxCNC 2.9 moves the wrong axes");
   }
   // Feed and spindle must keep their ratio, so no override may act while the tap is in.
   const bool override_off = state_.override_off;
@@ -280,8 +280,8 @@ bool Drilling::tap(const Step& step, const Hole& hole) {
 bool Drilling::bore(const Step& step, const Hole& hole) {
   const int direction = state_.spindle_direction;
   if (direction == 0) {
-    return refusals_.code(step, 'G', step.moves_by / 10, "spindle_stands",
-                          "a boring cycle with the spindle stopped");
+    return refusals_.g_word(step, step.moves_by, "spindle_stands",
+                            "a boring cycle with the spindle stopped");
   }
   out_.along(MoveKind::linear, hole.axes.normal, hole.bottom_mm);
   out_.dwell(state_.cycle.dwell_s);
@@ -303,8 +303,8 @@ bool Drilling::bore(const Step& step, const Hole& hole) {
 bool Drilling::back_bore(const Step& step, const Hole& hole) {
   const int direction = state_.spindle_direction;
   if (direction == 0) {
-    return refusals_.code(step, 'G', 87, "spindle_stands",
-                          "a boring cycle with the spindle stopped");
+    return refusals_.g_word(step, g::kBackBore, "spindle_stands",
+                            "a boring cycle with the spindle stopped");
   }
   const CycleMemory& memory = state_.cycle;
   const double unit = state_.unit_mm;

@@ -28,8 +28,8 @@ bool CutterStage::set(const Step& step) {
   }
   // LinuxCNC compensates in XY and ZX.
   if (state_.plane == Plane::yz) {
-    return refusals_.code(step, 'G', code / 10, "cutter_comp_plane",
-                          "cutter radius compensation outside G17 and G18");
+    return refusals_.g_word(step, code, "cutter_comp_plane",
+                            "cutter radius compensation outside G17 and G18");
   }
   CutterCompensation::Tool tool;
   if (!choose_tool(step, code, tool)) {
@@ -70,8 +70,8 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
   const bool turned = state_.plane == Plane::zx;
   if (code == g::kCutterLeftBy || code == g::kCutterRightBy) {
     if (!step.has('D')) {
-      return refusals_.code(step, 'G', code / 10, "word_missing",
-                            "cutter radius compensation without the tool's diameter (D)");
+      return refusals_.g_word(step, code, "word_missing",
+                              "cutter radius compensation without the tool's diameter (D)");
     }
     if (step.has('L') && !turned) {
       return refusals_.letter(step, 'L', "cutter_comp_plane",
@@ -94,23 +94,23 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
     }
   }
   if (!control_.config.tools) {
-    return refusals_.code(
-        step, 'G', code / 10, "tool_radius_unknown",
+    return refusals_.g_word(
+        step, code, "tool_radius_unknown",
         "cutter radius compensation, but the tool's diameter is unknown; give a tool table");
   }
   const interpret::Tool* const found = find_tool(control_.config, number);
   tool.radius_mm = found == nullptr ? 0.0 : 0.5 * found->diameter_mm;
   tool.orientation = found == nullptr ? 0 : found->orientation;
   return turned || tool.orientation == 0 || tool.orientation == 9 ||
-         refusals_.code(step, 'G', code / 10, "cutter_comp_plane",
-                        "cutter radius compensation with a lathe tool outside G18");
+         refusals_.g_word(step, code, "cutter_comp_plane",
+                          "cutter radius compensation with a lathe tool outside G18");
 }
 
 // The program's position goes on along the contour; what goes out is the compensation's affair.
 bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
   if (step.machine_frame) {
-    return refusals_.code(step, 'G', 53, "cutter_comp_on",
-                          "machine coordinates while cutter radius compensation is on");
+    return refusals_.g_word(step, g::kMachineFrame, "cutter_comp_on",
+                            "machine coordinates while cutter radius compensation is on");
   }
   const Axes start = state_.position;
   // Filled, but not sent: the compensation keeps it until it knows the next move.

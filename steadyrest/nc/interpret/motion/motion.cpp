@@ -61,8 +61,8 @@ bool Motion::straight(const Step& step) {
 bool Motion::probe(const Step& step) {
   constexpr double kBefore_mm = 0.254;
   if (state_.feed_mode == FeedMode::per_revolution) {
-    return refusals_.code(step, 'G', 38, "probe_per_revolution",
-                          "probing while feed per revolution (G95) is in force");
+    return refusals_.g_word(step, step.moves_by, "probe_per_revolution",
+                            "probing while feed per revolution (G95) is in force");
   }
   if (!has_feed(step, state_, refusals_)) {
     return false;
@@ -82,7 +82,8 @@ bool Motion::probe(const Step& step) {
   // G38.3 and G38.5 may end without a touch; the others would fail.
   const bool may_fail = step.moves_by == g::kProbe || step.moves_by == g::kProbeAway;
   if (!(distance > 0.0) && !may_fail) {
-    return refusals_.code(step, 'G', 38, "probe_too_short", "a probing move that goes nowhere");
+    return refusals_.g_word(step, step.moves_by, "probe_too_short",
+                            "a probing move that goes nowhere");
   }
   out_.move(MoveKind::probe, end);
   parameters_.record_probe(end);
@@ -144,7 +145,7 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
   // From the program's zero a centre word that is left out could mean 0 or the start.
   if (state_.centre_absolute &&
       !(step.has(kCentreLetters[axes.first]) && step.has(kCentreLetters[axes.second]))) {
-    return refusals_.letter(step, 'G', "arc_centre_missing",
+    return refusals_.g_word(step, step.moves_by, "arc_centre_missing",
                             "absolute arc centres (G90.1) need both centre words of the plane");
   }
   centre = {.first = coordinate(axes.first, start.first),
@@ -157,7 +158,7 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
 bool Motion::arc_words(const Step& step, const PlaneAxes& axes) {
   const bool by_centre = (step.mask & kCentreMask) != 0;
   if (!by_centre && !step.has('R')) {
-    return refusals_.letter(step, 'G', "arc_centre_missing",
+    return refusals_.g_word(step, step.moves_by, "arc_centre_missing",
                             "an arc without radius (R) or centre (I J K)");
   }
   if (by_centre && step.has('R')) {
@@ -184,7 +185,7 @@ bool Motion::arc(const Step& step) {
   }
   if (!cutter_.arc_allowed()) {
     // After G40 the tool is beside the contour: an arc from there would have another radius.
-    return refusals_.letter(step, 'G', "arc_after_cutter_comp",
+    return refusals_.g_word(step, step.moves_by, "arc_after_cutter_comp",
                             "the move after G40 is an arc; it must be a straight line");
   }
   const PlaneAxes axes = axes_of(state_.plane);

@@ -16,7 +16,8 @@ constexpr std::size_t kMostPoints = 10'000;
 bool Splines::spline(const Step& step) {
   const int code = step.moves_by;
   if (state_.plane != Plane::xy && (code == g::kCubicSpline || code == g::kQuadraticSpline)) {
-    return refusals_.code(step, 'G', 5, "spline_off_xy", "a spline outside the XY plane (G17)");
+    return refusals_.g_word(step, step.moves_by, "spline_off_xy",
+                            "a spline outside the XY plane (G17)");
   }
   // Control points are in XY; LinuxCNC's splines know no other plane.
   for (const char letter : std::string_view{"ZABCUVW"}) {
@@ -29,8 +30,8 @@ bool Splines::spline(const Step& step) {
   }
   // G93 would need the curve's length before the curve is known.
   if (state_.feed_mode == FeedMode::inverse_time) {
-    return refusals_.code(step, 'G', 5, "spline_in_inverse_time",
-                          "a spline while inverse-time feed (G93) is in force");
+    return refusals_.g_word(step, step.moves_by, "spline_in_inverse_time",
+                            "a spline while inverse-time feed (G93) is in force");
   }
   if (!has_feed(step, state_, refusals_)) {
     return false;
@@ -41,7 +42,7 @@ bool Splines::spline(const Step& step) {
 }
 
 bool Splines::words(const Step& step, std::string_view text) {
-  return refusals_.code(step, 'G', 5, "spline_words", text);
+  return refusals_.g_word(step, step.moves_by, "spline_words", text);
 }
 
 bool Splines::cubic(const Step& step) {

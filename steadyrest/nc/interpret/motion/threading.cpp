@@ -20,8 +20,8 @@ bool Threading::spindle_turns(const Step& step) {
   // The feed follows the spindle; with the spindle stopped it would never arrive.
   return (state_.spindle_direction != 0 &&
           (state_.spindle_speed_rev_s != 0.0 || state_.surface_speed_mm_s != 0.0)) ||
-         refusals_.code(step, 'G', step.moves_by / 10, "spindle_stands",
-                        "threading with the spindle stopped");
+         refusals_.g_word(step, step.moves_by, "spindle_stands",
+                          "threading with the spindle stopped");
 }
 
 void Threading::emit(const Axes& end, double pitch_mm) {
@@ -38,7 +38,7 @@ void Threading::emit(const Axes& end, double pitch_mm) {
 // K is the travel in a revolution. G33.1 turns the spindle back at the end and goes out again.
 bool Threading::thread(const Step& step) {
   if (!step.has('K')) {
-    return refusals_.code(step, 'G', 33, "pitch_missing", "a thread without its pitch (K)");
+    return refusals_.g_word(step, g::kThread, "pitch_missing", "a thread without its pitch (K)");
   }
   if (!spindle_turns(step)) {
     return false;
@@ -89,8 +89,8 @@ struct Threading::Cycle {
 bool Threading::read(const Step& step, Cycle& cycle) {
   for (const char letter : std::string_view{"PIJK"}) {
     if (!step.has(letter)) {
-      return refusals_.code(step, 'G', 76, "cycle_word_missing",
-                            std::string{"G76 without its "} + letter + " word");
+      return refusals_.g_word(step, g::kThreadCycle, "cycle_word_missing",
+                              std::string{"G76 without its "} + letter + " word");
     }
   }
   for (const char letter : std::string_view{"ABCUVW"}) {

@@ -28,11 +28,19 @@ bool Refusals::letter(const Step& step, char letter, std::string_view reason,
   return word(step.line, step.block->words().back(), reason, text);
 }
 
-bool Refusals::code(const Step& step, char letter, int number, std::string_view reason,
-                    std::string_view text) {
+bool Refusals::g_word(const Step& step, int code, std::string_view reason, std::string_view text) {
   for (const Word& one : step.block->words()) {
-    // By the whole number: `number` is G code / 10, so G59 also finds G59.1.
-    if (one.letter == letter && static_cast<int>(one.value) == number) {
+    if (one.letter == 'G' && g::code_of(one.value) == code) {
+      return word(step.line, one, reason, text);
+    }
+  }
+  return block(step, reason, text);
+}
+
+bool Refusals::m_word(const Step& step, int number, std::string_view reason,
+                      std::string_view text) {
+  for (const Word& one : step.block->words()) {
+    if (one.letter == 'M' && one.value == number) {
       return word(step.line, one, reason, text);
     }
   }

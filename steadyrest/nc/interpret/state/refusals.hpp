@@ -21,9 +21,10 @@ class Refusals {
   /// For the word of a letter. Where a decoder put another word in the letter's place, the block's
   /// last one is shown.
   bool letter(const Step& step, char letter, std::string_view reason, std::string_view text);
-  /// For a G or M word, by the whole part of its number; the block's first word where it is absent.
-  bool code(const Step& step, char letter, int number, std::string_view reason,
-            std::string_view text);
+  /// For a G word by its code, or an M word by its number; the block's first word where it is
+  /// absent.
+  bool g_word(const Step& step, int code, std::string_view reason, std::string_view text);
+  bool m_word(const Step& step, int number, std::string_view reason, std::string_view text);
   /// For the block as a whole: its first word is shown.
   bool block(const Step& step, std::string_view reason, std::string_view text);
   /// For a call: its name is shown.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 /// The G and M words of a `Step` by name. Numbers are LinuxCNC's, whatever the dialect; those of G
@@ -10,6 +11,15 @@ namespace steadyrest::nc::interpret {
 namespace g {
 
 using Code = std::int16_t;
+
+/// The code of a G word's number; −1 where it is none. Tenths with a tolerance, as 59.1·10 is not
+/// exactly 591 in binary; RS274/NGC allows 0.0001.
+[[nodiscard]] inline int code_of(double number) noexcept {
+  const double tenfold = number * 10.0;
+  const double code = std::round(tenfold);
+  const bool is = code >= 0.0 && code < 1e5 && std::abs(tenfold - code) <= 1e-3;
+  return is ? static_cast<int>(code) : -1;
+}
 
 // motion
 inline constexpr Code kRapid = 0;

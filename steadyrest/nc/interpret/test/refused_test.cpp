@@ -79,6 +79,47 @@ TEST(RefusedPrograms, AreRefusedAtTheLineAndForTheFaultThatTheirFirstLineNames) 
   }
 }
 
+// Of several G words the one at fault, as it is written.
+TEST(RefusedPrograms, ShowTheWordAtFault) {
+  const std::pair<const char*, const char*> cases[] = {{"G17 F9 G2 X1\n", "G2"},
+                                                       {"G90.1 F9 G2 X1 I1\n", "G2"},
+                                                       {"G17 G1 X5\n", "G1"},
+                                                       {"G17 G1 X5 F0\n", "F0"},
+                                                       {"G41.1 D1\nG90 G59\n", "G59"},
+                                                       {"G41.1 D1\nG90 G59.1\n", "G59.1"},
+                                                       {"G41.1 D1\nG90 G59.10\n", "G59.10"},
+                                                       {"G41.1 D1\nG90.1 G61.1\n", "G61.1"},
+                                                       {"G91.1 G53 G90 G0 X1\nG91 G53 X1\n", "G53"},
+                                                       {"M3 M72\n", "M72"}};
+  for (const auto& [text, word] : cases) {
+    Kept kept;
+    const auto report = run_text(text, Config{}, kept);
+    ASSERT_TRUE(report && !report->refused.empty()) << text;
+    EXPECT_EQ(report->refused.front().word, word) << text;
+  }
+}
+
+// A code is found by its tenth, whatever else of its whole number the block has.
+TEST(RefusedPrograms, TellAWordFromItsTenths) {
+  read::Block block;
+  block.reset(7);
+  for (const char* text : {"G59.1", "G59", "G59.3"}) {
+    block.push({.letter = 'G', .value = std::stod(text + 1), .name = {}, .text = text});
+  }
+  Step step;
+  step.reset(block);
+  Refusals refusals;
+  const std::pair<int, const char*> cases[] = {{g::kWorkOffset6, "G59"},
+                                               {g::kWorkOffset7, "G59.1"},
+                                               {g::kWorkOffset9, "G59.3"},
+                                               {g::kWorkOffset8, "G59.1"}};  // absent: the first
+  for (const auto& [code, word] : cases) {
+    EXPECT_FALSE(refusals.g_word(step, code, "reason", "text"));
+    EXPECT_EQ(refusals.last().word, word);
+    EXPECT_EQ(refusals.last().line, 7U);
+  }
+}
+
 TEST(RefusedPrograms, AProgramCutOffAnywhereIsNeverAccepted) {
   // None of these is a whole program, even where the last word is cut to another legal one (X10.5
   // to X1).

@@ -102,13 +102,7 @@ bool FanucDecoder::block(const Block& block) {
 // FANUC's G61 is an exact stop and G64 cutting mode. Decimal codes of LinuxCNC are refused:
 // controls of this family disagree on them.
 bool FanucDecoder::g_word(const Word& word) {
-  // Tenths: G54.1 is 541. 54.1·10 is not exactly 541 in binary, hence the tolerance.
-  const double tenfold = word.value * 10.0;
-  const double rounded = std::round(tenfold);
-  if (!(rounded >= 0.0 && rounded < 1e5) || std::abs(tenfold - rounded) > 1e-3) {
-    return refuse(word, "unknown_g_code", "an unknown G word");
-  }
-  const int code = static_cast<int>(rounded);
+  const int code = g::code_of(word.value);
   for (const Note& note : kNotes) {
     if (note.code == code) {
       return refuse(word, note.reason, note.text);
@@ -269,24 +263,25 @@ bool FanucDecoder::finish() {
       step_.code(GGroup::motion) != kNoCode) {
     const std::int16_t motion = step_.code(GGroup::motion);
     if (motion != g::kRapid && motion != g::kLinear) {
-      return in_.refusals.letter(step_, 'G', "two_users_of_axis_words",
+      return in_.refusals.g_word(step_, motion, "two_users_of_axis_words",
                                  "two G words in one block that both use the axis words");
     }
     step_.motion_mode = motion;
     step_.g[static_cast<std::size_t>(GGroup::motion)] = kNoCode;
   }
   if ((non_modal == g::kHome || non_modal == g::kSecondHome) && (step_.mask & kAxisMask) == 0) {
-    return in_.refusals.code(step_, 'G', non_modal / 10, "axis_words_missing",
-                             "a reference point without axes; write G91 G28 Z0");
+    return in_.refusals.g_word(step_, non_modal, "axis_words_missing",
+                               "a reference point without axes; write G91 G28 Z0");
   }
   if (step_.code(GGroup::tool_length) == g::kToolLength && !step_.has('H')) {
-    return in_.refusals.code(step_, 'G', 43, "tool_missing", "G43 without its offset number (H)");
+    return in_.refusals.g_word(step_, g::kToolLength, "tool_missing",
+                               "G43 without its offset number (H)");
   }
   // What one leaves of the other differs between controls, so a program may use either.
   if ((non_modal == g::kShift && in_.state.g92_used) ||
       (non_modal == g::kSetOrigin && in_.state.g52_used)) {
-    return in_.refusals.code(
-        step_, 'G', non_modal / 10, "ambiguous_code",
+    return in_.refusals.g_word(
+        step_, non_modal, "ambiguous_code",
         "G52 and G92 in one program: controls differ in which acts first; use only one");
   }
   return true;

@@ -297,16 +297,16 @@ bool SinumerikDecoder::finish() {
     step_.g[static_cast<std::size_t>(GGroup::non_modal)] = kNoCode;
   }
   if (step_.code(GGroup::non_modal) == g::kDwell && (step_.mask & kAxisMask) != 0) {
-    return in_.refusals.letter(
-        step_, 'G', "g4_with_motion",
+    return in_.refusals.g_word(
+        step_, g::kDwell, "g4_with_motion",
         "a dwell (G4) together with axis words; write it in a separate block");
   }
   // Constant cutting speed brings feed per revolution with it.
   std::int16_t& feed_mode = step_.g[static_cast<std::size_t>(GGroup::feed_mode)];
   if (step_.code(GGroup::spindle_mode) == g::kCuttingSpeed) {
     if (feed_mode != kNoCode) {
-      return in_.refusals.letter(
-          step_, 'G', "same_modal_group",
+      return in_.refusals.g_word(
+          step_, g::kCuttingSpeed, "same_modal_group",
           "G96 together with another feed type; in this dialect G96 is one itself");
     }
     // Already in G95: setting it again must not clear the feed.
