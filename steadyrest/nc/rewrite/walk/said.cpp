@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
-#include <cmath>
 #include <utility>
 
 #include <fmt/core.h>
@@ -25,8 +24,7 @@ ModeMask of_g(double code, bool sinumerik) noexcept {
   if (sinumerik && code >= 500.0 && code < 600.0) {
     return mode(GGroup::work_offset);
   }
-  // Codes in tenths, as the decoders have them; the sum of rounding is far below half a tenth.
-  const auto found = interpret::group_of_g(static_cast<int>(std::lround(code * 10.0)));
+  const auto found = interpret::group_of_g(interpret::g::code_of(code));
   return found.known && found.group != GGroup::non_modal ? mode(found.group) : 0;
 }
 

@@ -22,7 +22,8 @@ class Changes final : public interpret::Sink {
 // From G43 (D1) on the length of the tool is in force.
 bool puts_length_on(const read::Block& block, read::Dialect dialect) {
   return std::ranges::any_of(block.words(), [dialect](const read::Word& word) {
-    const bool g43 = word.letter == 'G' && word.value >= 43.0 && word.value < 44.0;
+    const int code = word.letter == 'G' ? interpret::g::code_of(word.value) : -1;
+    const bool g43 = code >= interpret::g::kToolLength && code <= interpret::g::kAddToolLength;
     const bool edge = dialect == read::Dialect::sinumerik && word.letter == 'D' && word.value > 0.0;
     return g43 || edge;
   });

@@ -218,7 +218,8 @@ bool Walk::step_alone() {
 }
 
 void Walk::look_at_g(const read::Word& word) {
-  const double code = word.value;
+  // As the decoders read it: G[59.3-31.2] is G28.1, though not to the last bit.
+  const double code = interpret::g::code_of(word.value) / 10.0;
   if (code == 0.0 || code == 1.0) {
     says_ ? said_.motion() : void();
     return;

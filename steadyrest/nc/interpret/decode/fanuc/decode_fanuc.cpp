@@ -36,6 +36,8 @@ constexpr std::array kNotes = {
          "in this dialect probing is a macro of the control (G31)"},
     Note{g::kDiameter, "g_code_not_interpreted",
          "G7/G07 means something different on every control"},
+    Note{71, "g_code_not_interpreted",
+         "cylindrical interpolation (G7.1) is not interpreted; G0 to G3 in X, Y and Z are"},
     Note{g::kRadius, "g_code_not_interpreted", "G8/G08 (look-ahead control) is not interpreted"},
     Note{150, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
     Note{160, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},

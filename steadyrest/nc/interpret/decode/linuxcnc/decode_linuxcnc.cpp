@@ -61,15 +61,7 @@ class LinuxcncDecoder final : public StepWriter {
     return true;
   }
 
-  bool take_g(const Word& word) {
-    // Tenths, with a tolerance as 59.1·10 is not exactly 591 in binary; RS274/NGC allows 0.0001.
-    const double tenfold = word.value * 10.0;
-    const double code = std::round(tenfold);
-    if (!(code >= 0.0 && code < 1000.0) || std::abs(tenfold - code) > 1e-3) {
-      return refuse(word, "unknown_g_code", "an unknown G word");
-    }
-    return put_g(word, static_cast<int>(code));
-  }
+  bool take_g(const Word& word) { return put_g(word, g::code_of(word.value)); }
 };
 
 bool decode_linuxcnc(const Decoding& in, const Block& block, Step& step) {
