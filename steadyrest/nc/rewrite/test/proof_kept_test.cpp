@@ -37,6 +37,7 @@ TEST_F(Kept, NoCorrectionStaysInWhatTheControlKeeps) {
   } cases[] = {
       {"N121 G28.1\n", "G28.1"},
       {"N121 G30.1\n", "G30.1"},
+      {"N121 G[59.3-31.2]\n", "G28.1"},
       {"N121 G53 G0 Z0\nN122 G10 L10 P5 Z0\nN123 G0 Z15\n", "tool 5"},
       {"N121 G10 L11 P5 Z0\n", "tool 5"},
       {"N121 #100=#<_abs_z>\n", "#100"},
