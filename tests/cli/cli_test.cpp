@@ -162,5 +162,11 @@ TEST(Cli, AnOutputIsNotCalledMinus) {
   expect_refused("thermal fit examples/thermal/spindle-test.csv -o -", "write /dev/stdout");
 }
 
+TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
+  expect_refused(kLimit + "--feed-mm-min -1", "--feed-mm-min -1 is outside 0 to 1e+09;");
+  expect_refused("contour limit --radius-mm 10 --kv-1-s 1e-300 --max-error-mm 0.01",
+                 "--kv-1-s 1e-300 is outside 0.001 to");
+}
+
 }  // namespace
 }  // namespace steadyrest::test

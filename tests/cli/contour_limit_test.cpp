@@ -72,11 +72,5 @@ TEST(ContourLimit, RefusesWhatIsNoCircle) {
                       "contour limit --radius-mm 10 --kv-1-s 50"});
 }
 
-TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
-  expect_refused(kLimit + "--feed-mm-min -1", "--feed-mm-min -1 is outside 0 to 1e+09;");
-  expect_refused("contour limit --radius-mm 10 --kv-1-s 1e-300 --max-error-mm 0.01",
-                 "--kv-1-s 1e-300 is outside 0.001 to");
-}
-
 }  // namespace
 }  // namespace steadyrest::test

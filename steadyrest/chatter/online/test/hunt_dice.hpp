@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
-/// Chance for the hunts: the same numbers on every machine.
+#include <steadyrest/chatter/online/modulator.hpp>
+#include <steadyrest/kernel/override/test/published_tables.hpp>
+
+/// Chance for the hunts: the same numbers on every machine, and what is drawn by them.
 namespace steadyrest::chatter::online::test {
 
 /// splitmix64
@@ -34,5 +39,69 @@ class Dice {
  private:
   std::uint64_t state_;
 };
+
+/// A modulator and how fast both envelopes slew. In a calm machine nothing but the modulation moves
+/// the feed per tooth.
+struct RandomSetup {
+  Modulator::Config config;
+  double slew_1_s = 2.0;
+};
+
+inline RandomSetup random_setup(Dice& dice, bool calm) {
+  namespace tables = kernel::override::test;
+  RandomSetup setup;
+  auto& [c, slew_1_s] = setup;
+  c.spindle_table = dice.one_in(4) ? tables::percent_word() : tables::spindle_840d();
+  c.feed_table = dice.one_in(2) ? tables::feed_840d() : tables::feed_dmg();
+  c.spindle_table.layer_may_exceed_panel = dice.one_in(3);
+  c.feed_table.layer_may_exceed_panel = dice.one_in(3);
+  for (auto* table : {&c.spindle_table, &c.feed_table}) {
+    table->scan_period_s = dice.within(0.001, 0.03);
+    table->dead_time_s = dice.one_in(2) ? 0.0 : dice.within(0.0, 0.1);
+  }
+  c.min_ratio = dice.within(0.3, 0.8);
+  c.max_ratio = std::max(c.min_ratio + dice.within(0.21, 0.6), 0.7);
+  c.max_rev_s = dice.one_in(2) ? kernel::machine::kUnlimited : dice.within(40.0, 80.0);
+  c.min_rev_s = dice.one_in(2) ? 0.0 : dice.within(0.0, 30.0);
+  slew_1_s = dice.within(0.2, 20.0);
+  c.acceleration_rev_s2 = dice.within(1.0, 400.0);
+  c.min_feed_per_tooth_ratio = dice.within(0.5, 1.0);
+  c.max_feed_per_tooth_ratio = dice.within(1.0, 1.5);
+  c.fade_s = dice.within(0.01, 1.0);
+  c.hysteresis = dice.within(0.0, 0.5);
+  c.always = dice.one_in(4);
+  if (calm) {
+    c.max_ratio = std::max(c.max_ratio, 1.0);
+    c.max_rev_s = std::max(c.max_rev_s, 50.0);
+  }
+  return setup;
+}
+
+/// One value of a modulation changed, now and then to one that is not fit.
+inline Modulation random_change(Modulation m, Dice& dice) {
+  switch (dice.below(6)) {
+    case 0:
+      m.law = static_cast<Law>(dice.below(7));
+      break;
+    case 1:
+      m.amplitude_ratio = dice.one_in(16) ? dice.unfit() : dice.within(0.0, 0.9);
+      break;
+    case 2:
+      m.amplitude_rev_s = dice.one_in(16)  ? dice.unfit()
+                          : dice.one_in(2) ? 0.0
+                                           : dice.within(0.0, 30.0);
+      break;
+    case 3:
+      m.period_s = dice.one_in(16) ? dice.unfit() : std::exp(dice.within(-3.9, 6.3));
+      break;
+    case 4:
+      m.mean_ratio = dice.one_in(16) ? dice.unfit() : dice.within(0.1, 2.0);
+      break;
+    default:
+      m.law = dice.one_in(8) ? static_cast<Law>(dice.below(256)) : m.law;
+      m.seed = dice.next();
+  }
+  return m;
+}
 
 }  // namespace steadyrest::chatter::online::test

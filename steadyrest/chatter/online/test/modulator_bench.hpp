@@ -29,7 +29,8 @@ inline Modulator::Config sine_config() {
 /// A modulator, its frame and what came of its requests; the spindle and the feed follow at once.
 class Bench {
  public:
-  explicit Bench(const Modulator::Config& c = sine_config()) : modulator(Modulator::make(c).value()) {
+  explicit Bench(const Modulator::Config& c = sine_config())
+      : modulator(Modulator::make(c).value()) {
     frame.motion = Motion::feed;
     frame.speed_modulation = true;
     frame.programmed_feed_mm_s = 10.0;

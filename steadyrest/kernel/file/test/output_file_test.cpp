@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -203,6 +204,19 @@ TEST_F(Output, StdoutIsWrittenToEvenWhereItIsAFile) {
   });
   EXPECT_EQ(WEXITSTATUS(status), 7);
   EXPECT_EQ(text_of(file), "old\nnew\n");
+}
+
+// The signal comes before the write, the end after the rename.
+TEST_F(Output, SignalsWaitUntilAllHaveTheirPlaces) {
+  const int status = in_child([&] {
+    const SignalsHeldBack wait;
+    raise(SIGINT);
+    static_cast<void>(write_file(at("out.csv"), "new\n"));
+  });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGINT);
+  EXPECT_EQ(text_of(at("out.csv")), "new\n");
+  EXPECT_EQ(entries(), 1);
 }
 
 }  // namespace

@@ -19,19 +19,6 @@ namespace fs = std::filesystem;
 using test::in_child;
 using test::Output;
 
-// The signal comes before the write, the end after the rename.
-TEST_F(Output, SignalsWaitUntilAllHaveTheirPlaces) {
-  const int status = in_child([&] {
-    const SignalsHeldBack wait;
-    raise(SIGINT);
-    static_cast<void>(write_file(at("out.csv"), "new\n"));
-  });
-  EXPECT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(WTERMSIG(status), SIGINT);
-  EXPECT_EQ(text_of(at("out.csv")), "new\n");
-  EXPECT_EQ(entries(), 1);
-}
-
 // Nested folders are removed from the inside out.
 TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {

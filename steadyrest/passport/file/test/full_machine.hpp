@@ -3,6 +3,10 @@
 
 #include <string_view>
 
+#include <gtest/gtest.h>
+
+#include <steadyrest/passport/file/machine_file.hpp>
+
 /// A machine file with every key of the schema, each at a different value.
 namespace steadyrest::passport::test {
 
@@ -159,5 +163,11 @@ polynomial_um = [1]
 sensor = "room"
 gain_um_k = 2
 )";
+
+inline kernel::machine::Machine full() {
+  const auto machine = parse(kFullMachine, "full.toml");
+  EXPECT_TRUE(machine) << kernel::outcome::text(machine.error());
+  return machine.value_or(kernel::machine::Machine{});
+}
 
 }  // namespace steadyrest::passport::test

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/override/arbiter.hpp>
-#include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/trial/cut/test/modulated_slot.hpp>
 
 namespace steadyrest::trial::cut {

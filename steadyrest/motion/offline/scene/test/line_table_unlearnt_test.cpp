@@ -23,8 +23,7 @@ double largest(const std::vector<double>& values) {
   return out;
 }
 
-// A hundred passes over ideal lines: what is learnt is the fits' own error and must not be
-// applied.
+// A hundred passes over ideal lines: what is learnt is the fits' own error and is not applied.
 TEST(LineTable, AnIdealScaleStaysAsItIs) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine_ideal(), 100);

@@ -211,5 +211,15 @@ TEST(Compensate, SparesTheSubprogramsThatItCalls) {
   EXPECT_TRUE(done) << done.error().what;
 }
 
+TEST(Compensate, APlanWithoutCorrectionsLeavesItsMark) {
+  Workshop shop;
+  shop.settings.told = {{.name = "window-s", .value = "60"}};
+  const std::string plan = R"({"transitions": [{"n": 2, "t_min": [2, 2.2], "delta_um": [0, 0]}]})";
+  ASSERT_TRUE(shop.compensate(kPasses, plan));
+  EXPECT_EQ(read_file(shop.changed()),
+            replaced(kPasses, "%\n", "%\n" + mark_text(Way{}, shop.settings.told, "\n")));
+  EXPECT_TRUE(shop.verify(plan));
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::rewrite

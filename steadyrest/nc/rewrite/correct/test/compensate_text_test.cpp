@@ -11,7 +11,6 @@ using test::kGrowth;
 using test::kPasses;
 using test::one_step;
 using test::read_file;
-using test::replaced;
 using test::Workshop;
 using ::testing::HasSubstr;
 
@@ -53,16 +52,6 @@ TEST(Compensate, WritesForEitherUnitWhereTheProgramSaysNone) {
                                 "(STEADYREST restated)\n"));
     EXPECT_EQ(done->proof.added, 1U);
   }
-}
-
-TEST(Compensate, APlanWithoutCorrectionsLeavesItsMark) {
-  Workshop shop;
-  shop.settings.told = {{.name = "window-s", .value = "60"}};
-  const std::string plan = R"({"transitions": [{"n": 2, "t_min": [2, 2.2], "delta_um": [0, 0]}]})";
-  ASSERT_TRUE(shop.compensate(kPasses, plan));
-  EXPECT_EQ(read_file(shop.changed()),
-            replaced(kPasses, "%\n", "%\n" + mark_text(Way{}, shop.settings.told, "\n")));
-  EXPECT_TRUE(shop.verify(plan));
 }
 
 TEST(Compensate, EveryLineForLinuxcncIsShortEnough) {

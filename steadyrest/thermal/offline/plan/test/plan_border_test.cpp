@@ -17,16 +17,6 @@ using test::paper;
 using test::planned;
 using test::stages;
 
-TEST(Plan, InstantsCanBeWholeMinutes) {
-  PlanRequest request;
-  request.resolution_s = 60.0;
-  const auto plan = planned(paper(), stages({{60, 10}, {60, 20}}), request);
-  EXPECT_EQ(plan.transition[0].interval_s, (List{18.0 * 60.0, 27.0 * 60.0, 15.0 * 60.0}));
-  EXPECT_EQ(plan.transition[1].interval_s, (List{15.0 * 60.0, 40.0 * 60.0, 5.0 * 60.0}));
-  EXPECT_GT(plan.largest_residual_mm, 0.010) << "said as it is";
-  EXPECT_LT(plan.largest_residual_mm, 0.0105);
-}
-
 // 10 µm of 40 are reached at τ·ln(4/3): the first transition ends there, in the second it rises on.
 TEST(Plan, ABorderReachedAtATransitionsEndIsCorrectedAtTheNextOnesStart) {
   ThermalAxis axis;

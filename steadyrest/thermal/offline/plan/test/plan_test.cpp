@@ -173,5 +173,15 @@ TEST(Plan, CorrectionsWithoutEndAreRefused) {
   EXPECT_FALSE(plan_corrections("Z", curve_of(paper(), cyclogram), cyclogram, request));
 }
 
+TEST(Plan, InstantsCanBeWholeMinutes) {
+  PlanRequest request;
+  request.resolution_s = 60.0;
+  const auto plan = planned(paper(), stages({{60, 10}, {60, 20}}), request);
+  EXPECT_EQ(plan.transition[0].interval_s, (List{18.0 * 60.0, 27.0 * 60.0, 15.0 * 60.0}));
+  EXPECT_EQ(plan.transition[1].interval_s, (List{15.0 * 60.0, 40.0 * 60.0, 5.0 * 60.0}));
+  EXPECT_GT(plan.largest_residual_mm, 0.010) << "said as it is";
+  EXPECT_LT(plan.largest_residual_mm, 0.0105);
+}
+
 }  // namespace
 }  // namespace steadyrest::thermal::offline
