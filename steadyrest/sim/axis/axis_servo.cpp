@@ -4,6 +4,7 @@
 
 #include <steadyrest/sim/axis/axis_servo.hpp>
 #include <steadyrest/sim/axis/friction.hpp>
+#include <steadyrest/sim/axis/matrix_exponential.hpp>
 #include <steadyrest/sim/base/portable.hpp>
 #include <steadyrest/sim/base/range.hpp>
 
@@ -17,42 +18,6 @@ using kernel::outcome::Result;
 
 /// Standstill window of an axis whose encoder is ideal or finer than this.
 constexpr double kFinestWindowMm = 5e-4;
-
-struct Matrix {
-  double xx, xv, vx, vv;
-};
-
-Matrix product(const Matrix& a, const Matrix& b) noexcept {
-  return {.xx = a.xx * b.xx + a.xv * b.vx,
-          .xv = a.xx * b.xv + a.xv * b.vv,
-          .vx = a.vx * b.xx + a.vv * b.vx,
-          .vv = a.vx * b.xv + a.vv * b.vv};
-}
-
-/// exp of a 2×2 matrix by scaling and squaring: products only, so the same bits everywhere.
-/// Norm ≤ 0.25 after scaling: twelve terms leave 0.25¹³/13! ≈ 2·10⁻¹⁸.
-Matrix exponential(Matrix a) noexcept {
-  int squarings = 0;
-  while (std::abs(a.xx) + std::abs(a.xv) + std::abs(a.vx) + std::abs(a.vv) > 0.25 &&
-         squarings < 60) {
-    a = {.xx = a.xx / 2, .xv = a.xv / 2, .vx = a.vx / 2, .vv = a.vv / 2};
-    ++squarings;
-  }
-  Matrix sum{.xx = 1, .xv = 0, .vx = 0, .vv = 1};
-  Matrix term = sum;
-  for (int i = 1; i <= 12; ++i) {
-    term = product(term, a);
-    term = {.xx = term.xx / i, .xv = term.xv / i, .vx = term.vx / i, .vv = term.vv / i};
-    sum = {.xx = sum.xx + term.xx,
-           .xv = sum.xv + term.xv,
-           .vx = sum.vx + term.vx,
-           .vv = sum.vv + term.vv};
-  }
-  for (; squarings > 0; --squarings) {
-    sum = product(sum, sum);
-  }
-  return sum;
-}
 
 Result<void> check(const AxisServo::Config& c) {
   constexpr double kMax = 1e12;
@@ -112,7 +77,7 @@ AxisServo::AxisServo(const Config& config, const Encoder& encoder) noexcept
   integral_share_ = friction_.present() ? 1.0 - portable::exp(-h / config.integral_s) : 0.0;
   if (lag_s_ > 0.0) {
     // ẋ = v, τ·v̇ = −k·x − v over one step h.
-    const Matrix m =
+    const Matrix2 m =
         exponential({.xx = 0.0, .xv = h, .vx = -gain_1_s_ * h / lag_s_, .vv = -h / lag_s_});
     step_ = {.h_s = h, .rate_1_s = 1.0 / h, .xx = m.xx, .xv = m.xv, .vx = m.vx, .vv = m.vv};
   } else {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <steadyrest/motion/online/bounded/cell_sight.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
 /// What happens at a tick: the look at the cell, and the exchange between the hypotheses.

@@ -13,6 +13,7 @@
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/offline/log/log_clock.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
+#include <steadyrest/thermal/offline/log/packed_file.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
 // From a table to a Log: the clock first, since all rows depend on it, then the speed, which must

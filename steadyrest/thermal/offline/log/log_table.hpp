@@ -32,9 +32,6 @@ struct LogTable {
   std::vector<table::Fault> notes;  ///< what was passed over
 };
 
-/// The bytes of a file, unpacked where gzip has packed them.
-[[nodiscard]] kernel::outcome::Result<std::string> read_packed(const std::string& path);
-
 [[nodiscard]] kernel::outcome::Result<LogTable> parse_log_table(std::string_view text,
                                                                 const std::string& file,
                                                                 const table::Format& format);

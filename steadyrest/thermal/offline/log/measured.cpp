@@ -10,6 +10,7 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 #include <steadyrest/thermal/offline/log/measured.hpp>
+#include <steadyrest/thermal/offline/log/packed_file.hpp>
 
 // Gauging reports come from people: columns in any order, units in the name, `;` or `,`. An unknown
 // column is refused, not skipped, since a misspelt tolerance_um would silently change the level.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/motion/online/bounded/cell_sight.hpp>
 #include <steadyrest/motion/online/bounded/model_bank.hpp>
 
 namespace steadyrest::motion::online {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// Files that may be packed.
+namespace steadyrest::thermal::offline {
+
+/// The bytes of a file, unpacked where gzip has packed them.
+[[nodiscard]] kernel::outcome::Result<std::string> read_packed(const std::string& path);
+
+}  // namespace steadyrest::thermal::offline
