@@ -161,7 +161,7 @@ std::string reference_page() {
                  "the modes.\n",
                  thermal_mode_keys());
   out += section("`[[thermal.axis.ambient]]`",
-                 "\nBelow its axis, at most four: the surroundings add gain·(lagged temperature − "
+                 "\nBelow its axis, at most 64: the surroundings add gain·(lagged temperature − "
                  "reference).\n",
                  thermal_ambient_keys());
   out += section("`[envelope]`", "\nThe last step before any write. It is always on.\n",
