@@ -77,9 +77,9 @@ bool in_thread(signal::Motion motion) noexcept {
   return motion == signal::Motion::thread || motion == signal::Motion::tap;
 }
 
-template <class Request>
 // Held in a thread: the wish becomes neutral and the envelope holds, since a change of feed or
 // spindle between two passes would cut a second thread beside the first.
+template <class Request>
 kernel::override::RatioEnvelope::Input channel_input(double step_s, const Request& request,
                                                      Reason unfit, bool hold,
                                                      const signal::OverrideState& panel) noexcept {
@@ -98,8 +98,8 @@ double shown(const signal::OverrideState& panel) noexcept {
 }
 
 /// Of an override that the machine does not have.
-template <class Request>
 // A wish that nobody can carry out must not look like one that is in force.
+template <class Request>
 Reason without_channel(const Request& request, Reason unfit) noexcept {
   if (unfit != Reason::none) {
     return unfit;

@@ -10,6 +10,18 @@
 // leaves goes to the spectrum, which speaks every eighth of a window. Each spectrum starts a
 // question to FreeShare, and its answer, some samples later, starts judge(). Both work in small
 // portions, so that no sample costs more than its share of the cycle.
+//
+// When it alarms (R energy ratio, F free ratio, C line energy, as in the header; each spectrum
+// whose strongest line stands clear of the noise, once the cut has settled, brings a suspicion):
+//
+//   constant speed  R > sure, or R > on and C > margin·floor, or F > bound ─┐
+//                   F not small, and the last revolution has the line too ──┴ suspects ≥ confirm ┐
+//   any speed       F − bound, summed up, never below 0 ───────────────── evidence ≥ enough() ┴ on
+//   over            R < off, or F < half of free while the speed moves, for a whole window
+//
+// floor and bound are what this cut has shown so far: learn(), free_bound(). While a line is
+// suspicious, and for two seconds at most, `hold` keeps the order filter from learning it as
+// forced.
 namespace steadyrest::chatter::online {
 
 using kernel::outcome::Reason;

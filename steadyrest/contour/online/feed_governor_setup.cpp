@@ -28,6 +28,10 @@ constexpr double kStep = 0.12;
 constexpr double kSettle = 4.0;     // of the softest axis's 1/k: e⁻⁴ is left of an error, 2 %
 constexpr double kSettleLag = 3.0;  // of the longest τ: e⁻³, of what the velocity loop adds
 
+/// For the control's own braking. A forecast runs v/a longer than the override needs (Walk::steps
+/// in forecast.cpp); here, where neither is known yet, v/a of 12 m/min at 2 m/s².
+constexpr double kBrakingS = 0.1;
+
 /// The axes that make the contour.
 Axes path_axes(Axes axes) noexcept {
   return axes.first(std::min<std::size_t>(3, axes.size()));
@@ -233,10 +237,10 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   timing.settle_s = kSettle / softest(m.axes) + kSettleLag * longest_lag(m.axes);
   forecast_.set_timing(timing);
   forecast_.set_table(table_ratio_);
-  // How far ahead a decision must see: until a fall that begins at the next decision has ended and
-  // settled.
-  reach_s_ =
-      timing.dead_s + timing.scan_s + decision_s_ + 0.1 + 1.0 / timing.fall_1_s + timing.settle_s;
+  // How far ahead a decision must see: until a fall that begins at the next decision has gone all
+  // the way from 1 to 0, the control has braked, and the axes have settled.
+  reach_s_ = timing.dead_s + timing.scan_s + decision_s_ + kBrakingS + 1.0 / timing.fall_1_s +
+             timing.settle_s;
   refresh_model(0.0);
   history_.fill(1.0);
 }

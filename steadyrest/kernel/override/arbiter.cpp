@@ -22,8 +22,8 @@ Reason graver(Reason a, Reason b) noexcept {
   return std::min(a, b);
 }
 
-template <class Request>
 // An unfit ratio becomes neutral before it is compared: NaN loses and wins no comparison.
+template <class Request>
 Request made_fit(Request request) noexcept {
   if (const Reason fault = fault_of(request.ratio); fault != Reason::none) {
     request.ratio = 1.0;
@@ -32,8 +32,8 @@ Request made_fit(Request request) noexcept {
   return request;
 }
 
-template <class Request>
 // Only while nobody wishes: a wish always goes before a withdrawal.
+template <class Request>
 void withdraw(Request& decision, const Request& request) noexcept {
   const Reason reason = graver(decision.reason, request.reason);
   if (reason != decision.reason) {

@@ -78,7 +78,7 @@ std::unexpected<Refusals> refused(Refusal refusal) {
 
 Session::Session() : app_("Steadyrest: the corrective layer for CNC machines", std::string(kName)) {
   app_.set_version_flag("--version", std::string(kName) + " " + STEADYREST_VERSION);
-  // `steadyrest` alone is a usage error with the list of verbs.
+  // `steadyrest` alone is refused in one line that points to --help.
   app_.require_subcommand(1);
   app_.footer(
       "`steadyrest VERB --help` says more and ends with an example.\nExit codes: 0 done, 2 refused "

@@ -10,11 +10,14 @@
 
 /// The matrix of the tooth pass over a disc of z, as power series about its centre.
 ///
-/// What g is made of besides ξ is entire in z and real on the real axis, so that its values at n/2
-/// points of a half circle give n coefficients of Σ f_k·u^k, u = (z − centre)/radius. With z =
-/// a·(1 − ξ) one disc serves all ξ of a circle and many depths a, and g costs n multiplications
-/// instead of the product of all pieces. Over the disc the series repeats PassMatrix to 1e-12 of
-/// the largest value on its rim.
+/// Symbols, all of PassMatrix: μ the multiplier of a tooth pass, ξ = 1/μ, a the depth of cut (mm),
+/// z = a·(1 − ξ) (mm), M(z) the matrix of the pass, g(ξ) = det(I − ξ·M(z)), whose zeros are sought.
+///
+/// g needs ξ and some functions of z: the trace of M, or its entries (PassMatrix::functions). They
+/// are entire in z and real on the real axis, so their values at n/2 points of a half circle give n
+/// coefficients of Σ f_k·u^k, u = (z − centre)/radius. One disc serves all ξ of a circle and many
+/// depths a, and g costs n multiplications instead of the product of all pieces. Over the disc the
+/// series repeats PassMatrix to 1e-12 of the largest value on its rim.
 namespace steadyrest::chatter::offline {
 
 class PassDisc {
@@ -28,11 +31,12 @@ class PassDisc {
   [[nodiscard]] static std::optional<PassDisc> make(const PassMatrix& pass, double center_mm,
                                                     double radius_mm, std::size_t terms);
 
-  /// Are all z with |z − a| ≤ `reach_mm` within?
+  /// Are all z with |z − a| ≤ `reach_mm` within the disc?
   [[nodiscard]] bool holds(double depth_mm, double reach_mm) const noexcept;
   [[nodiscard]] std::size_t terms() const noexcept { return terms_; }
 
-  /// g at ξ whose z = a·(1 − ξ) are within; as many as a multiple of PassMatrix::kLanes.
+  /// g at each ξ of `xi`. Every z = a·(1 − ξ) must lie within the disc, and the number of ξ must be
+  /// a multiple of PassMatrix::kLanes.
   void g(std::span<const Complex> xi, double depth_mm, std::span<Complex> out) const;
 
  private:

@@ -161,10 +161,9 @@ bool DepthTracker::follow(Root& root, double from_mm, double to_mm) {
   return false;
 }
 
-/// Zeros of g with |ξ| < radius by the turns of its argument; empty: the circle passes too near to
-/// one. Conjugate symmetry: half of the circle is enough.
-/// The argument principle: g is entire, so its argument turns by 2π on the circle for each zero
-/// inside.
+/// Number of zeros of g with |ξ| < radius; empty: the circle passes too near to one. The argument
+/// principle: g is entire, so on the circle its argument turns by 2π for each zero inside. g is
+/// real on the real axis, so half of the circle is enough.
 std::optional<int> DepthTracker::zeros_within(double radius, double depth_mm) {
   static const std::array<Complex, kArc> kUnit = [] {
     std::array<Complex, kArc> out;

@@ -35,8 +35,8 @@ EstimatorResult made(const typename T::Config& config) {
   return std::make_unique<T>(std::move(*estimator));
 }
 
-template <class T>
 // Both of ours have the same settings.
+template <class T>
 EstimatorResult kalman(const EstimatorSetup& setup) {
   typename T::Config config;
   config.count_mm = setup.count_mm;

@@ -4,11 +4,17 @@
 
 #include <steadyrest/motion/online/bounded/lag_smoother.hpp>
 
+// A look is what the forward filters knew at a tick (LagSmoother::Look). smooth() starts filters at
+// the newest look and lets them run backwards in time over the edges seen since the look asked for.
+// There the two opinions are joined model by model, and the models by their weights.
 namespace steadyrest::motion::online {
 namespace {
 
-/// The state then from the forward moments and an independent second opinion in UD form (its
-/// independent parts are taken as three scalar measurements).
+/// Joins two independent opinions of the state (x, v, a): `forward`, with its covariance P, and
+/// `mirrored` (its mean alone is used), whose covariance comes in UD form: U·D·Uᵀ, U unit upper
+/// triangular with the elements u12, u13, u23, D = diag(variance). The elements of U⁻¹·(x, v, a)
+/// are then independent of one another, so the second opinion is three scalar measurements: row k
+/// of U⁻¹ says what is measured, `variance`[k] how well.
 std::array<double, 3> join(const Moments& forward, const Moments& mirrored, double u12, double u13,
                            double u23, const std::array<double, 3>& variance) noexcept {
   std::array<double, 3> x = forward.mean;
@@ -18,7 +24,7 @@ std::array<double, 3> join(const Moments& forward, const Moments& mirrored, doub
   const std::array<std::array<double, 3>, 3> rows{
       {{1.0, -u12, u12 * u23 - u13}, {0.0, 1.0, -u23}, {0.0, 0.0, 1.0}}};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto& h = rows[k];
+    const auto& h = rows[k];  // of U⁻¹
     std::array<double, 3> ph{};
     double innovation = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -69,6 +75,7 @@ LagSmoother::State LagSmoother::smooth(const Lanes& jerk_density, double cycle_s
   const Look& now = looks_[(next_look_ + looks_.size() - 1) % looks_.size()];
   const Look& past = then();
   ModelBank back;
+  // It begins without an opinion: 1 count, 100 counts per cycle, 1 count per cycle².
   const double v = 100.0 / cycle_s;
   const double a = 1.0 / (cycle_s * cycle_s);
   for (std::size_t j = 0; j < kModels; ++j) {

@@ -15,20 +15,25 @@
 /// each observation within the lag, at every tick. What a lag buys at most (guaranteed errors, jerk
 /// limit): 3.0 times in velocity and 2.0 in acceleration, reached near ∛(192·ε/J). Lengths are
 /// counts.
+///
+/// Two rings: of what was *observed* (edges, as position z with variance r, since the oldest tick
+/// that may be asked for), and of *looks*, one for each tick: what the forward filters knew when
+/// they looked at the cell in which the axis then was.
 namespace steadyrest::motion::online {
 
 class LagSmoother {
  public:
   static constexpr std::size_t kMostTicks = 32;
 
+  /// What the forward filters knew at one tick.
   struct Look {
     double t_s = 0.0;
-    ModelBank bank;
-    Lanes weight{};
-    double weight_rest = 0.0;
-    double rest_x = 0.0;
-    MotionIntervals sure;
-    double low_mm = 0.0;
+    ModelBank bank;            ///< the moving models: means and covariances
+    Lanes weight{};            ///< of each of them
+    double weight_rest = 0.0;  ///< of standstill; all weights together are 1
+    double rest_x = 0.0;       ///< where the axis is, if it stands
+    MotionIntervals sure;      ///< guaranteed then
+    double low_mm = 0.0;       ///< the cell
     double high_mm = 0.0;
   };
   struct State {

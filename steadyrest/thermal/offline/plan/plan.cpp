@@ -17,9 +17,13 @@ namespace {
 
 using kernel::outcome::Result;
 
-/// A residual that is nearer to its border than that has reached it.
+/// A residual this near to its border has reached it. The law says "reaches ±Δ_k", and roots are
+/// found to a rounding only: without this a correction at the border would be missed or made twice.
+/// Far below any increment of a control.
 constexpr double kReached_mm = 1e-9;
-/// Instants nearer to one another than that are one.
+/// Instants this near to one another are one: their corrections are added up and made together. At
+/// the end of a transition they belong to the start of the next. So no interval of the system R is
+/// shorter.
 constexpr double kInstant_s = 1e-3;
 
 Exponentials slope_of(const Exponentials& f) {
@@ -97,6 +101,7 @@ class Planner {
       // From the later of both: a rounded instant may lie before its crossing, which would be found
       // again.
       after_s = std::max(crossing_s, at_s);
+      // early: taken by the transition's first δ instead of an interval of its own.
       const bool early = belongs_to_start(piece, from_s, at_s, sign);
       // Twice the band takes the residual from one border to the other; at the start it may not be
       // at the border yet.
@@ -203,8 +208,10 @@ class Planner {
     return {};
   }
 
-  /// Rounded instants, and those that were taken as one, may pass the band by what the displacement
-  /// does meanwhile.
+  /// The law of a plan that holds: in every interval of the finished plan, with its rounded
+  /// instants, |δ − corrections| ≤ Δ_k + early_s·(steepest slope). A correction comes too early or
+  /// too late by half of `resolution_s` at most, or by kInstant_s where instants were taken as one,
+  /// and the displacement goes on meanwhile.
   Result<void> band_is_held() {
     double corrected = 0.0;
     for (std::size_t i = 0; i < out_.transition.size(); ++i) {
