@@ -6,6 +6,9 @@
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/motion/motion.hpp>
 
+// The long way. A plain G0 or G1 block, nearly every line of a long program, goes past it, through
+// blocks/plain_block.cpp: change what a straight move does in both. The property test
+// PlainBlock.MovesAsTheLongWayDoes holds them equal.
 namespace steadyrest::nc::interpret {
 namespace {
 
