@@ -63,6 +63,8 @@ TEST(ChatterFit, RefusesBadUsage) {
   expect_refused("chatter fit " + kTapTest + " --axis x --modes 0");
   expect_refused("chatter fit " + kTapTest + " --axis x --modes 17");
   expect_refused("chatter fit " + kTapTest + " --axis x --from-hz 5000", "points in the band");
+  expect_refused("chatter fit " + kTapTest + " " + kTapTest + " --axis x",
+                 kTapTest + ": the same response twice; give each measurement once");
   EXPECT_EQ(run_line("chatter fit " + kTapTest + " --axis x -o no/such/modes.toml").code, 1);
 }
 
@@ -87,6 +89,8 @@ TEST(ChatterFit, SaysWhereAProcessNamesABadResponse) {
   EXPECT_FALSE(tap.empty());
   refused("[[frf]]\nfile = \"tap.csv\"\naxis = \"x\"\n", "tap.csv:1: frequency in \"khz\"");
   refused("[[frf]]\nfile = \"tap.csv\"\n", "axis");
+  const std::string own = "[[frf]]\nfile = \"" + project_file(kTapTest) + "\"\naxis = \"x\"\n";
+  refused(own + own, "a second time; name each response once for an axis");
   refused("[[frf]]\naxis = \"x\"\n", "file");
   refused("[[frf]]\nfile = \"tap.csv\"\naxis = \"z\"\n", "axis = \"z\"");
   refused("[frf]\nfile = \"tap.csv\"\naxis = \"x\"\n", "frf");

@@ -2,7 +2,10 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <set>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/process/process_file.hpp>
 #include <steadyrest/chatter/offline/process/process_keys.hpp>
@@ -208,6 +211,12 @@ class FileReader {
       return;
     }
     const auto path = response_path(faults_.file, keys.file);
+    // Its modes would count twice.
+    if (!measured_.emplace(path.lexically_normal(), keys.axis).second) {
+      faults_.add(given.at({"file"}), fmt::format("[[frf]] file = \"{}\" a second time", keys.file),
+                  "name each response once for an axis");
+      return;
+    }
     const auto responses = read_frf(path.string());
     const auto fit = responses ? fit_modes(*responses, {}) : std::unexpected(responses.error());
     if (!fit) {
@@ -269,6 +278,7 @@ class FileReader {
 
   Faults& faults_;
   Process process_;
+  std::set<std::pair<std::filesystem::path, ModeKeys::Axis>> measured_;  ///< files fitted so far
 };
 
 /// toml++ throws on a syntax error; that ends here.

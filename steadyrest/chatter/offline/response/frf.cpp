@@ -186,15 +186,23 @@ Result<std::vector<Frf>> read_frf(const std::string& path, const table::Format& 
     text.error().to_do = "give a measured response: CSV or universal file format 58";
     return std::unexpected(text.error());
   }
-  if (universal(*text)) {
-    return parse_uff58(*text, path);
-  }
-  auto one = parse_frf_csv(*text, path, format);
-  if (!one) {
-    return std::unexpected(one.error());
-  }
   std::vector<Frf> out;
-  out.push_back(std::move(*one));
+  if (universal(*text)) {
+    auto all = parse_uff58(*text, path);
+    if (!all) {
+      return std::unexpected(all.error());
+    }
+    out = std::move(*all);
+  } else {
+    auto one = parse_frf_csv(*text, path, format);
+    if (!one) {
+      return std::unexpected(one.error());
+    }
+    out.push_back(std::move(*one));
+  }
+  for (Frf& frf : out) {
+    frf.file = path;
+  }
   return out;
 }
 

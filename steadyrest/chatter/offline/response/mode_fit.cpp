@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/QR>
 #include <fmt/core.h>
 
+#include <steadyrest/chatter/offline/response/fit_check.hpp>
 #include <steadyrest/chatter/offline/response/mode_fit.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
@@ -313,6 +315,9 @@ Complex response_mm_n(const ModeFit& fit, double frequency_hz) noexcept {
 }
 
 Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& config) {
+  if (auto refusal = given_twice(responses)) {
+    return std::unexpected(std::move(*refusal));
+  }
   Data data = gather(responses, config);
   const std::size_t most = config.order > 0 ? config.order : config.most_modes;
   constexpr int kSteps = 60;
@@ -359,6 +364,9 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
   if (!best) {
     return refuse("no mode with a positive mass explains the response",
                   "check the sign and the unit, and that this is a drive-point response");
+  }
+  if (auto refusal = no_more_than_noise(data.w, data.h, best->modes.size(), best->residual)) {
+    return std::unexpected(std::move(*refusal));
   }
   best->criterion = criterion;
   return *best;

@@ -46,8 +46,9 @@ struct ModeFit {
 /// H of the fit at this frequency, > 0.
 [[nodiscard]] std::complex<double> response_mm_n(const ModeFit& fit, double frequency_hz) noexcept;
 
-/// Responses of the same point, measured once or several times. Refused: none, fewer points in the
-/// band than unknowns, no mode with positive mass.
+/// Responses of the same point, measured once or several times. Refused: none, one of them twice,
+/// fewer points in the band than unknowns, no mode with positive mass, modes that explain no more
+/// than they would of noise.
 [[nodiscard]] kernel::outcome::Result<ModeFit> fit_modes(std::span<const Frf> responses,
                                                          const ModeFitConfig& config);
 

@@ -121,6 +121,64 @@ TEST(ModeFit, ItsResponseLeavesWhatItSaysThatItLeaves) {
   EXPECT_NEAR(std::sqrt(left / all), fit->residual, 1e-9);
 }
 
+/// Noise alone, `even` or falling with 1/ω² as an accelerometer's does in displacement.
+Frf noise_of(std::size_t points, bool even, unsigned seed) {
+  Frf out;
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double f = 100.0 + 1900.0 * static_cast<double>(i) / static_cast<double>(points);
+    const double size = even ? 1e-5 : 1.0 / (f * f);
+    const double re = size * normal(generator);
+    out.frequency_hz.push_back(f);
+    out.compliance_mm_n.emplace_back(re, size * normal(generator));
+  }
+  return out;
+}
+
+TEST(ModeFit, FindsNoModeInNoise) {
+  for (const std::size_t points : cases({8U, 12U, 50U, 200U})) {
+    for (const bool even : cases({true, false})) {
+      for (unsigned seed = 1; seed <= 8; ++seed) {
+        const Frf frf = noise_of(points, even, seed);
+        for (const std::size_t order : cases({0U, 2U})) {
+          EXPECT_FALSE(fit_modes(std::span(&frf, 1), {.order = order}))
+              << points << " points, even " << even << ", seed " << seed;
+        }
+      }
+    }
+  }
+}
+
+/// The other side of the bound: a mode that holds little of the energy of the noise around it,
+/// and eight clean points.
+TEST(ModeFit, FindsAModeThatIsLittleMoreThanNoise) {
+  const std::vector<FittedMode> mode = {{922.0, 0.011, 0.03993, 0.0}};
+  const Frf faint = measured(mode, 3.0, Noise::even, 1);
+  const auto fit = fit_modes(std::span(&faint, 1), {});
+  ASSERT_TRUE(fit) << kernel::outcome::text(fit.error());
+  EXPECT_GT(fit->residual, 0.9);
+  EXPECT_NEAR(fit->modes[0].frequency_hz, 922.0, 5.0);
+
+  Frf few;
+  const Frf clean = measured(mode, 0.01, Noise::proportional, 1);
+  for (std::size_t i = 742; i < 902; i += 20) {
+    few.frequency_hz.push_back(clean.frequency_hz[i]);
+    few.compliance_mm_n.push_back(clean.compliance_mm_n[i]);
+  }
+  EXPECT_TRUE(fit_modes(std::span(&few, 1), {}));
+}
+
+TEST(ModeFit, RefusesAMeasurementGivenTwice) {
+  std::vector<Frf> twice(2, measured({{922.0, 0.011, 0.03993, 0.0}}, 0.01, Noise::even, 1));
+  twice[0].file = "tap.csv";
+  twice[1].file = "copy.csv";
+  const auto fit = fit_modes(twice, {});
+  ASSERT_FALSE(fit);
+  EXPECT_EQ(kernel::outcome::text(fit.error()),
+            "copy.csv: the same response as in tap.csv; give each measurement once");
+}
+
 TEST(ModeFit, RefusesWhatNoModeExplains) {
   Frf frf = measured({{922.0, 0.011, 0.03993, 0.0}}, 0.01, Noise::proportional, 1);
   EXPECT_FALSE(fit_modes({}, {}));
