@@ -121,6 +121,9 @@ class LogMaker {
       for (const std::size_t row : row_) {
         channel.value.push_back(column.value[row]);
       }
+      if (column.quantity == Quantity::displacement) {
+        note_absent(channel);
+      }
       auto fit = drop_wild(channel, column);
       if (!fit) {
         return fit;
@@ -132,6 +135,18 @@ class LogMaker {
       keep(std::move(channel), column.quantity);
     }
     return {};
+  }
+
+  /// A bridged temperature loses nothing. A displacement loses what the fit is made of.
+  void note_absent(const LogChannel& channel) {
+    const auto absent = [](double v) { return std::isnan(v); };
+    if (const auto count = std::ranges::count_if(channel.value, absent); count > 0) {
+      const auto first = std::ranges::find_if(channel.value, absent) - channel.value.begin();
+      note(line_of_row(static_cast<std::size_t>(first)),
+           fmt::format("{} has no reading in {} of {} rows, from here on", channel.name, count,
+                       channel.value.size()),
+           "it is fitted without them");
+    }
   }
 
   /// Values that cannot be: single ones are left out, more mean a wrong unit.

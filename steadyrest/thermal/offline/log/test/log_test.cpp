@@ -92,6 +92,12 @@ TEST(ThermalLog, HolesOfADisplacementStayHoles) {
   EXPECT_FALSE(std::isnan(log.displacement[0].value[31]));
 }
 
+TEST(ThermalLog, HolesOfADisplacementAreCountedInANote) {
+  const Log log = parsed(log_text([](int i, Row& row) { row.z = i % 5 == 3 ? "nan" : row.z; }));
+  EXPECT_THAT(log.notes, ElementsAre(HasSubstr("day.csv:5: z_um has no reading in 80 of 400 rows, "
+                                               "from here on; it is fitted without them")));
+}
+
 TEST(ThermalLog, AStuckProbeCountsForNothingWhileItIsStuck) {
   const Log log = parsed(log_text([](int i, Row& row) { row.z = i > 260 ? "6.0000" : row.z; }));
   ASSERT_EQ(log.displacement.size(), 1U);
