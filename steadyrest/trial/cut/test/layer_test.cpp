@@ -21,8 +21,8 @@ namespace {
 
 using kernel::machine::ContourStrategy;
 using kernel::machine::Machine;
-using test::kExamples;
-using test::machine_of;
+using trial::test::kExamples;
+using trial::test::machine_of;
 
 Job example_job(const std::string& program, const Machine& machine, nc::read::Dialect dialect) {
   nc::interpret::Config config;

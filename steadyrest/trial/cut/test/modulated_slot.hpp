@@ -15,7 +15,7 @@
 #include <steadyrest/supervisor/supervisor.hpp>
 
 /// A slot that is cut with modulation.
-namespace steadyrest::trial::test {
+namespace steadyrest::trial::cut::test {
 
 namespace machine = kernel::machine;
 using kernel::signal::Motion;
@@ -106,4 +106,4 @@ inline std::vector<Moment> in_slot(const std::vector<Moment>& all) {
   return out;
 }
 
-}  // namespace steadyrest::trial::test
+}  // namespace steadyrest::trial::cut::test

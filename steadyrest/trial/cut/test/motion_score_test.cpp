@@ -18,8 +18,8 @@ namespace steadyrest::trial::cut {
 namespace {
 
 using kernel::machine::Machine;
-using test::kExamples;
-using test::machine_of;
+using trial::test::kExamples;
+using trial::test::machine_of;
 
 std::vector<MotionFigures> cut(const Machine& machine, const std::string& program,
                                nc::read::Dialect dialect) {
