@@ -22,6 +22,7 @@ namespace {
 // A smaller turn is left to the junction law: no axis jumps by more than 1e-4 of the speed there.
 constexpr double kSmoothTurn_rad = 1e-4;
 constexpr double kInPlane = 1e-6;
+constexpr double kStraight_mm = 1e6;  ///< a wider rounding is a straight line to every machine
 constexpr double kRounding = 1e-7;  ///< of lengths, where the pieces are nearly in line
 
 // A vector in the corner's plane: origin at the corner, x along the incoming direction, y to its
@@ -190,11 +191,16 @@ double line_radius(const Half& half, const CornerRequest& request) {
 
 double largest_radius(const Curve& a, const Curve& b, const Half& half,
                       const CornerRequest& request) {
-  // What the tangents would permit is near the answer; from there the largest that fits.
+  // What the tangents would permit is near the answer where the arcs are wide. Arcs that bend away
+  // from the corner permit more, up to any radius: their common tangent touches both.
   double low = 0.0;
   double high = std::min(4.0 * line_radius(half, request), request.most_radius_mm);
-  if (fit(a, b, high, request)) {
-    return high;
+  while (fit(a, b, high, request)) {
+    if (high >= request.most_radius_mm || high > kStraight_mm) {
+      return high;
+    }
+    low = high;
+    high = std::min(2.0 * high, request.most_radius_mm);
   }
   // 50 halvings take the interval below the last digit of a double. What fits is monotonic in r
   // (corner.hpp), so bisection finds the largest.
