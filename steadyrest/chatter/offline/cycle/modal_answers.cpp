@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Eigenvalues>
+
 #include <steadyrest/chatter/offline/cycle/modal_answers.hpp>
 #include <steadyrest/chatter/offline/cycle/small_inverse.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
@@ -31,21 +33,41 @@ Index directions(const Process& process) noexcept {
                                                                                              : 2;
 }
 
-double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s) noexcept {
-  // The whole cutting stiffness of one tooth on each mode, in the mode's own direction.
-  const double stiffness =
-      depth_mm * std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2);
-  const double damping = depth_mm * process.cut.process_damping_n_mm /
-                         (std::numbers::pi * process.tool.diameter_mm * speed_rev_s);
-  double fastest = 0.0;
-  for (const Mode& mode : process.modes) {
-    const double w = kTurn * mode.frequency_hz;
-    const double per_mass = 1000.0 / mode.mass_kg;
-    // √(ω² + a·|K|/m) is the oscillation, a·C/(v·m) the decay by process damping; their sum is on
-    // the safe side for the choice of nodes.
-    fastest = std::max(fastest, std::sqrt(w * w + per_mass * stiffness) + per_mass * damping);
+// Forces of the delayed displacements only drive; what oscillates by itself at a frozen angle is
+// λ²·v + λ·(D + 1000·Bᵀ·P·B)·v + (diag ω² + 1000·a·BᵀHB)·v = 0, with H = Σ_j H_j, D = diag 2ζω and
+// the columns of B shape/√m. Times v* for |v| = 1 it is λ² + λ·d + κ = 0, d ≥ 0, and
+//   |κ| ≤ v*·(diag ω² + 1000·a·‖H‖·BᵀB)·v ≤ the largest eigenvalue Λ of that matrix.
+// With s² = d²/4 − κ the oscillation is |Im s|, which is largest for d = 0: |Im λ|² ≤ (|κ| +
+// Re κ)/2 ≤ Λ. Process damping decays at no more than its own d ≤ 1000·‖P‖·‖BᵀB‖.
+double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s) {
+  if (process.modes.empty()) {
+    return 0.0;
   }
-  return fastest;
+  // Straight edges are the worst case, so the coefficients are asked at no depth.
+  const double at_once = CuttingCoefficients(process, 0.0).most_at_once();
+  const double stiffness =
+      depth_mm * at_once * std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2);
+  const double damping = depth_mm * at_once * process.cut.process_damping_n_mm /
+                         (std::numbers::pi * process.tool.diameter_mm * speed_rev_s);
+  const auto modes = static_cast<Index>(process.modes.size());
+  Eigen::MatrixXd b(2, modes);
+  Eigen::VectorXd free(modes);
+  for (Index k = 0; k < modes; ++k) {
+    const Mode& mode = process.modes[static_cast<std::size_t>(k)];
+    b.col(k) << mode.shape[0], mode.shape[1];
+    b.col(k) *= std::sqrt(1000.0 / mode.mass_kg);
+    free[k] = std::pow(kTurn * mode.frequency_hz, 2);
+  }
+  const auto largest = [](const Eigen::MatrixXd& symmetric) {
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
+  };
+  const Eigen::MatrixXd compliance = b.transpose() * b;
+  Eigen::MatrixXd stiff = stiffness * compliance;
+  stiff.diagonal() += free;
+  // Their sum is on the safe side for the choice of nodes.
+  return std::sqrt(largest(stiff)) + (damping > 0.0 ? damping * largest(compliance) : 0.0);
 }
 
 std::vector<double> corners_of_pass(const Process& process, const CuttingCoefficients& coefficients,

@@ -41,9 +41,10 @@ struct ModalAnswers {
 /// 1: x alone vibrates, else 2.
 [[nodiscard]] Eigen::Index directions(const Process& process) noexcept;
 
-/// The fastest that anything oscillates, or dies by process damping, at this depth and speed.
-[[nodiscard]] double fastest_rad_s(const Process& process, double depth_mm,
-                                   double speed_rev_s) noexcept;
+/// An upper bound on how fast anything oscillates, or dies by process damping, at this depth and
+/// speed: √Λ + 1000·a·z·C/v·‖BᵀB‖, Λ the largest eigenvalue of diag ω² + 1000·a·z·|(Kt, Kr)|·BᵀB,
+/// with shape/√m of each mode as the columns of B and z teeth cutting at once.
+[[nodiscard]] double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s);
 
 /// Angles within a pass, rising from 0 to its end, at which the cut is not smooth, with those in
 /// `others`. Uneven pitch: what is not smooth comes back with each tooth's delay.

@@ -82,7 +82,7 @@ std::string allowed(double speed_rev_s, double depth_mm, const Fits& fits) {
 
 }  // namespace
 
-double fastest_waves(const Process& process, double slowest_rev_s, double depth_mm) noexcept {
+double fastest_waves(const Process& process, double slowest_rev_s, double depth_mm) {
   return fastest_rad_s(process, depth_mm, slowest_rev_s) /
          (kTurn * slowest_rev_s * passes_per_rev(process));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include <steadyrest/chatter/offline/process/cutting_coefficients.hpp>
@@ -10,6 +11,9 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 using kernel::units::kTurn;
+
+// Corners closer than this are one corner and its rounding.
+constexpr double kSameCorner = 1e-10;  ///< rad
 
 double within_turn(double angle) noexcept {
   const double turns = std::floor(angle / kTurn);
@@ -27,7 +31,10 @@ Eigen::Vector3d primitive(double phi) noexcept {
 }  // namespace
 
 CuttingCoefficients::CuttingCoefficients(const Process& process, double depth_mm)
-    : cut_(process.cut), entry_rad_(process.entry_rad()), exit_rad_(process.exit_rad()) {
+    : cut_(process.cut),
+      entry_rad_(process.entry_rad()),
+      exit_rad_(process.exit_rad()),
+      repeats_rad_(process.even_pitch() ? process.pitch_rad(0) : kTurn) {
   if (cut_.operation == Operation::milling) {
     // The top of a helical edge trails its tip by a·tan β over the radius.
     lag_rad_ = 2.0 * depth_mm * std::tan(process.tool.helix_rad) / process.tool.diameter_mm;
@@ -111,6 +118,44 @@ std::vector<double> CuttingCoefficients::corners_rad(std::size_t tooth) const {
     }
   }
   return out;
+}
+
+// H_j = (Kr·I + Kt·J)·n·nᵀ with J a quarter turn, and ‖Kr·I + Kt·J‖ = |(Kt, Kr)|: what remains is
+// the larger eigenvalue of Σ n·nᵀ over the m teeth that cut, (m + |Σ e^{2iφ_j}|)/2. It is the same
+// until a tooth enters or leaves, since all turn together. A helical edge is a mean of straight
+// ones, and the norm of a mean is at most the largest norm.
+double CuttingCoefficients::most_at_once() const {
+  if (cut_.operation == Operation::turning) {
+    return static_cast<double>(teeth());
+  }
+  std::vector<double> corner;
+  // Within a pitch, evenly pitched teeth all have the same corners.
+  const std::size_t different = repeats_rad_ < kTurn ? 1 : teeth();
+  for (std::size_t j = 0; j < different; ++j) {
+    for (const double border : {entry_rad_, exit_rad_}) {
+      corner.push_back(std::fmod(within_turn(border + offset_rad_[j]), repeats_rad_));
+    }
+  }
+  std::ranges::sort(corner);
+  corner.push_back(corner.front() + repeats_rad_);
+  double most = 0.0;
+  for (std::size_t i = 0; i + 1 < corner.size(); ++i) {
+    if (corner[i + 1] - corner[i] < kSameCorner) {
+      continue;
+    }
+    const double middle = 0.5 * (corner[i] + corner[i + 1]);
+    double cutting = 0.0;
+    std::complex<double> twice = 0.0;
+    for (const double offset : offset_rad_) {
+      const double phi = within_turn(middle - offset);
+      if (phi >= entry_rad_ && phi <= exit_rad_) {
+        cutting += 1.0;
+        twice += std::polar(1.0, 2.0 * phi);
+      }
+    }
+    most = std::max(most, 0.5 * (cutting + std::abs(twice)));
+  }
+  return most;
 }
 
 }  // namespace steadyrest::chatter::offline

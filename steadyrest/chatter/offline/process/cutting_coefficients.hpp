@@ -29,6 +29,10 @@ class CuttingCoefficients {
   [[nodiscard]] Eigen::Matrix2d damping(std::size_t tooth, double angle_rad) const noexcept;
   /// Angles within [0, 2π) at which an answer of this tooth is not smooth.
   [[nodiscard]] std::vector<double> corners_rad(std::size_t tooth) const;
+  /// How many teeth's stiffness acts in one direction, where most do: the largest ‖Σ_j H_j(θ)‖₂
+  /// over
+  /// |(Kt, Kr)|. Of straight edges; helical ones have no more.
+  [[nodiscard]] double most_at_once() const;
 
  private:
   /// ∫ of sin², sin·cos, cos² over the engaged part of the edge, per unit of depth.
@@ -37,6 +41,7 @@ class CuttingCoefficients {
   Cut cut_;
   double entry_rad_;
   double exit_rad_;
+  double repeats_rad_;        ///< the pitch where it is even, else a turn
   double lag_rad_ = 0.0;      ///< of the edge's top behind its tip
   double damping_n_s_ = 0.0;  ///< C over the cutting speed at 1 rev/s
   std::vector<double> offset_rad_;
