@@ -20,19 +20,22 @@ constexpr double kNarrowest = 1e-4;  ///< of the depth: islands thinner than thi
 constexpr double kPeak = 3.0;        ///< of the fall to the sides, by which a maximum may be higher
 constexpr int kMostSections = 40;
 
-/// No speed is unstable below: a·Σ|H|·max|G|·2 < 1 (small gain), |G| ≤ Σ 1/(2ζk).
-/// |1 − e^{−iωT}| ≤ 2 is the factor 2; all teeth are taken to cut at once.
+}  // namespace
+
+// Small gain: a·Σ‖H_j‖·max|1 − e^{−iωT}|·max‖G(iω)‖ < 1 with ‖H_j‖ ≤ |(Kt, Kr)| and
+// |1 − e^{−iωT}| ≤ 2. |G| of a mode is largest, 1/(2ζ√(1−ζ²)·k), at ω·√(1−2ζ²); from ζ = 1/√2 on
+// it has no peak and is largest at standstill, 1/k.
 double safe_depth_mm(const Process& process) {
   double most_mm_n = 0.0;
   for (const Mode& mode : process.modes) {
     const double w = 2.0 * std::numbers::pi * mode.frequency_hz;
-    most_mm_n += 1000.0 / (2.0 * mode.damping_ratio * mode.mass_kg * w * w);
+    const double z = mode.damping_ratio;
+    const double peak = 2.0 * z * z < 1.0 ? 1.0 / (2.0 * z * std::sqrt(1.0 - z * z)) : 1.0;
+    most_mm_n += peak * 1000.0 / (mode.mass_kg * w * w);
   }
   return 1.0 / (2.0 * static_cast<double>(process.tool.teeth) * most_mm_n *
                 std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2));
 }
-
-}  // namespace
 
 std::optional<double> island_mm(DepthLine& line, const std::array<double, 3>& depth_mm,
                                 const std::array<double, 3>& log_radius) {

@@ -23,6 +23,10 @@ namespace steadyrest::chatter::offline {
 [[nodiscard]] kernel::outcome::Result<std::optional<double>> limit_depth_mm(
     const Process& process, double speed_rev_s, const Modulation& modulation, double most_depth_mm);
 
+/// A depth in mm below which no constant speed is unstable (process damping left out), whatever the
+/// phases and directions: all teeth are taken to cut at once, all modes to answer at their largest.
+[[nodiscard]] double safe_depth_mm(const Process& process);
+
 /// A depth in mm with ρ ≥ 1 beside a maximum of ρ that was seen at `middle_mm`: between the depths
 /// on its sides, ln ρ at all three below 0 and highest in the middle. Empty: ρ stays below 1.
 [[nodiscard]] std::optional<double> island_mm(DepthLine& line,
