@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <random>
 
@@ -26,7 +27,7 @@ constexpr Index kMostAtLowSpeed = 300;
 constexpr double kAlike = 0.99;  ///< of the largest modulus: these have to settle with it
 constexpr Index kFirstKrylov = 6;
 constexpr Index kKrylovStep = 4;
-constexpr Index kBasis = 6;  ///< vectors of the QR method
+constexpr Index kLeastBasis = 2;  ///< vectors of the QR method: the leading ones may be a pair
 /// ln of the growth within a period over |μ| up to which Arnoldi's values are right to 1e-9:
 /// rounding of 2e-16, grown by e^14 ≈ 1.2e6, leaves 3e-10.
 constexpr double kSafeLogGrowth = 14.0;
@@ -164,24 +165,22 @@ struct Frame {
   }
 };
 
-/// Eigenvalues of a map of one or two dimensions, the larger first.
+/// The eigenvalues of a small map, the largest first.
 std::vector<Complex> eigenvalues(const Eigen::MatrixXd& map) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map);
-  const auto& e = eigen.eigenvalues();
-  const bool swap = map.rows() > 1 && std::abs(e[1]) > std::abs(e[0]);
-  std::vector<Complex> out{e[swap ? 1 : 0]};
-  if (map.rows() > 1) {
-    out.push_back(e[swap ? 0 : 1]);
-  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(map, false);
+  std::vector<Complex> out(eigen.eigenvalues().begin(), eigen.eigenvalues().end());
+  std::ranges::stable_sort(out, std::ranges::greater{}, [](Complex v) { return std::abs(v); });
   return out;
 }
 
-/// The period's map within the subspace that two vectors settle on has the two dominant multipliers
-/// as its eigenvalues; both directions are renewed at each pass, so that neither is lost in the
-/// other's rounding.
-std::vector<Complex> discrete_qr(DelayCycle& cycle, double tolerance, Multipliers& out) {
+/// The period's map within the subspace that the vectors settle on has the dominant multipliers as
+/// its eigenvalues; all directions are renewed at each pass, so that none is lost in another's
+/// rounding. Each column depends on those before it alone: vectors beyond the wanted ones would
+/// change nothing.
+std::vector<Complex> discrete_qr(DelayCycle& cycle, std::size_t wanted, double tolerance,
+                                 Multipliers& out) {
   const Index size = cycle.state_size();
-  const Index k = std::min(kBasis, size);
+  const Index k = std::min(std::max(kLeastBasis, static_cast<Index>(wanted)), size);
   Frame frame;
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -193,18 +192,16 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, double tolerance, Multiplier
   for (int period = 0; period < kMostPeriods; ++period) {
     // The basis at the period's end is that at the next one's start, so that it settles on the
     // dominant directions from period to period.
-    const Eigen::MatrixXd start = frame.basis.leftCols(std::min<Index>(2, k));
+    const Eigen::MatrixXd start = frame.basis;
     if (!frame.drive(cycle)) {
       out.log_modulus = {kBeyondLog};
       out.vector = start.col(0);
       return {1.0};
     }
     out.passes_done += cycle.passes() * static_cast<std::size_t>(k);
-    const Index pair = start.cols();
-    // The period's map within the leading pair: the triangle gives it in the new basis, `turn`
-    // brings that back to the old one.
-    const Eigen::MatrixXd turn = start.transpose() * frame.basis.leftCols(pair);
-    value = eigenvalues(turn * frame.triangle.topLeftCorner(pair, pair));
+    // The triangle gives the period's map in the new basis; their product brings it back to the
+    // old one.
+    value = eigenvalues(start.transpose() * frame.basis * frame.triangle);
     const double log_modulus = std::log(std::max(std::abs(value[0]), 1e-300)) + frame.log_scale;
     out.residual = std::abs(log_modulus - before);
     out.log_modulus = {log_modulus};
@@ -215,8 +212,8 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, double tolerance, Multiplier
     }
     before = log_modulus;
   }
-  // Only the ratio of the two is known from the scaled map; the scale is in the first one's
-  // logarithm.
+  value.resize(std::min(value.size(), wanted));
+  // Only the ratios are known from the scaled map; the scale is in the first one's logarithm.
   for (std::size_t i = 1; i < value.size(); ++i) {
     out.log_modulus.push_back(out.log_modulus[0] +
                               std::log(std::max(std::abs(value[i]), 1e-300) / std::abs(value[0])));
@@ -269,7 +266,7 @@ Multipliers multipliers(DelayCycle& cycle, std::size_t wanted, double tolerance)
   if (cycle.passes() > 1 &&
       (out.log_modulus[0] >= kBeyondLog ||
        log_growth_within(cycle, out.vector) - out.log_modulus[0] > kSafeLogGrowth)) {
-    out.value = discrete_qr(cycle, std::max(tolerance, 1e-9), out);
+    out.value = discrete_qr(cycle, wanted, std::max(tolerance, 1e-9), out);
   }
   return out;
 }
