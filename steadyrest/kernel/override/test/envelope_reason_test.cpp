@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the envelope says of itself. The operator goes by the reason: it must name what holds the
+// feed now, not what held it a moment ago.
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/override/envelope.hpp>
+#include <steadyrest/kernel/override/test/cycle.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+using outcome::Reason;
+using test::kCycle_s;
+
+/// An envelope that falls by 0.01 and rises by 0.002 a cycle.
+struct Told {
+  explicit Told(const RatioEnvelope::Config& config = {})
+      : envelope(RatioEnvelope::make(config).value()) {
+    envelope.update(input);
+  }
+  RatioEnvelope::Output cycles(int count) {
+    RatioEnvelope::Output out;
+    for (int i = 0; i < count; ++i) {
+      out = envelope.update(input);
+    }
+    return out;
+  }
+  void wish(double ratio) {
+    input.ratio = ratio;
+    input.reason = Reason::contour_limit;
+  }
+  void no_wish(Reason reason = Reason::none) {
+    input.ratio = 1.0;
+    input.reason = reason;
+  }
+
+  RatioEnvelope envelope;
+  RatioEnvelope::Input input{.step_s = kCycle_s};
+};
+
+// From 0.9 back to 1.0 at 2 1/s: 50 cycles on the way, then nothing is left to say.
+TEST(EnvelopeReason, OnItsWayBackItIsSlewLimitedAndThenNothing) {
+  Told told;
+  told.wish(0.9);
+  told.cycles(20);
+  told.no_wish();
+  for (int i = 0; i < 49; ++i) {
+    ASSERT_EQ(told.cycles(1).reason, Reason::slew_limited) << "cycle " << i;
+  }
+  EXPECT_EQ(told.cycles(3).reason, Reason::none);
+}
+
+// A room that withdrew says why, on the way back and after it.
+TEST(EnvelopeReason, AWithdrawalIsNamedOnTheWholeWayBack) {
+  Told told;
+  told.wish(0.9);
+  told.cycles(20);
+  told.no_wish(Reason::not_cutting);
+  EXPECT_EQ(told.cycles(1).reason, Reason::not_cutting);
+  EXPECT_EQ(told.cycles(100).reason, Reason::not_cutting);
+}
+
+// The wish is the panel's own 80 %: the panel takes nothing away.
+TEST(EnvelopeReason, APanelThatIsJustHighEnoughLimitsNothing) {
+  Told told;
+  told.input.panel.panel_ratio = 0.8;
+  told.wish(0.8);
+  EXPECT_EQ(told.cycles(100).reason, Reason::contour_limit);
+}
+
+// The operator turns from 50 to 70 %, the layer wants 90 %. On the way up it is the slew that
+// holds, at 70 % the panel.
+TEST(EnvelopeReason, ThePanelIsTheReasonOnlyOnceItIsReached) {
+  Told told;
+  told.input.panel.panel_ratio = 0.5;
+  told.wish(0.9);
+  EXPECT_EQ(told.cycles(1).reason, Reason::panel_lower);
+  told.input.panel.panel_ratio = 0.7;
+  EXPECT_EQ(told.cycles(50).reason, Reason::slew_limited);
+  EXPECT_EQ(told.cycles(100).reason, Reason::panel_lower);
+}
+
+// No time has passed: the wish for less stands at the panel still, and the panel is not to blame.
+TEST(EnvelopeReason, AFallThatHasNotBegunIsSlewLimited) {
+  Told told;
+  told.wish(0.5);
+  told.input.step_s = 0.0;
+  EXPECT_EQ(told.cycles(1).reason, Reason::slew_limited);
+}
+
+// Beyond the limits and on the way there: first the slew, then the limit.
+TEST(EnvelopeReason, AClampIsTheReasonOnlyOnceItIsReached) {
+  Told told({.min_ratio = 0.8});
+  told.wish(0.1);
+  EXPECT_EQ(told.cycles(19).reason, Reason::slew_limited);
+  EXPECT_EQ(told.cycles(2).reason, Reason::clamped);
+  told.wish(0.8);
+  EXPECT_EQ(told.cycles(1).reason, Reason::contour_limit) << "the limit itself is no clamp";
+}
+
+// Zero comes before every cause but a fault of the input.
+TEST(EnvelopeReason, ThePanelAtZeroIsNamedBeforeTheWish) {
+  Told told;
+  told.input.panel.panel_ratio = 0.0;
+  EXPECT_EQ(told.cycles(1).reason, Reason::panel_zero);
+  told.wish(0.5);
+  EXPECT_EQ(told.cycles(1).reason, Reason::panel_zero);
+  told.input.unfit = Reason::input_stale;
+  EXPECT_EQ(told.cycles(1).reason, Reason::input_stale);
+}
+
+// Of two faults the frame's own is named before the panel's, the panel's before the wish's.
+TEST(EnvelopeReason, OfSeveralFaultsTheFramesIsNamedFirst) {
+  Told told;
+  told.input.ratio = -1.0;
+  EXPECT_EQ(told.cycles(1).reason, Reason::input_out_of_range);
+  told.input.panel.panel_code_known = false;
+  EXPECT_EQ(told.cycles(1).reason, Reason::unknown_override_code);
+  told.input.unfit = Reason::input_stale;
+  EXPECT_EQ(told.cycles(1).reason, Reason::input_stale);
+}
+
+// Without a mask the layer holds nothing in a thread: the switch acts at once, up and down, even if
+// a room asks for something.
+TEST(EnvelopeHold, AtThePanelTheOperatorsSwitchActsAtOnce) {
+  Told told;
+  told.input.hold = true;
+  told.wish(0.5);
+  for (const double panel : {0.4, 1.1, 0.0, 0.9}) {
+    told.input.panel.panel_ratio = panel;
+    EXPECT_EQ(told.cycles(1).ratio, panel);
+    EXPECT_TRUE(told.cycles(1).hand_back);
+  }
+}
+
+// Held at 60 %; the operator turns down to just there and up again. It was the layer's 60 % all the
+// time, and a thread must not speed up in its middle.
+TEST(EnvelopeHold, APanelThatOnlyTouchesTheHeldRatioDoesNotFreeIt) {
+  Told told;
+  told.wish(0.6);
+  told.cycles(100);
+  told.input.hold = true;
+  told.no_wish(Reason::withdrawn_thread);
+  told.input.panel.panel_ratio = 0.6;
+  EXPECT_EQ(told.cycles(5).ratio, 0.6);
+  told.input.panel.panel_ratio = 1.0;
+  EXPECT_EQ(told.cycles(200).ratio, 0.6);
+}
+
+// The envelope starts where the machine is: a switch at 40 % is no rise from 100 %.
+TEST(EnvelopeStart, TheFirstPanelSeenIsWhereItBegins) {
+  auto envelope = RatioEnvelope::make({}).value();
+  RatioEnvelope::Input input{.step_s = kCycle_s, .ratio = 0.9, .reason = Reason::contour_limit};
+  input.panel.panel_ratio = 1.1;
+  EXPECT_EQ(envelope.update(input).ratio, 1.1) << "no time has passed for the wish";
+  EXPECT_NEAR(envelope.update(input).ratio, 1.09, 1e-12);
+}
+
+// One ratio only: neither more nor less may be asked for, and that is a config.
+TEST(EnvelopeStart, ARangeOfOneRatioIsARange) {
+  EXPECT_TRUE(RatioEnvelope::make({.min_ratio = 0.7, .max_ratio = 0.7}));
+}
+
+}  // namespace
+}  // namespace steadyrest::kernel::override
