@@ -5,6 +5,7 @@
 
 #include <steadyrest/kernel/override/envelope.hpp>
 #include <steadyrest/kernel/override/test/cycle.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::kernel::override {
 namespace {
@@ -159,6 +160,70 @@ TEST(EnvelopeStart, TheFirstPanelSeenIsWhereItBegins) {
 // One ratio only: neither more nor less may be asked for, and that is a config.
 TEST(EnvelopeStart, ARangeOfOneRatioIsARange) {
   EXPECT_TRUE(RatioEnvelope::make({.min_ratio = 0.7, .max_ratio = 0.7}));
+}
+
+// A ratio that could not be spoils the state, and so does a panel that could not.
+TEST(EnvelopeStart, HalfAStateIsNone) {
+  for (const bool panel : {true, false}) {
+    auto envelope = RatioEnvelope::make({}).value();
+    envelope.restore({.ratio = panel ? 0.5 : -1.0,
+                      .panel_ratio = panel ? units::kNan : 0.5,
+                      .panel_seen = true,
+                      .at_panel = false});
+    EXPECT_EQ(envelope.state().ratio, 1.0);
+    EXPECT_EQ(envelope.state().panel_ratio, 1.0);
+    EXPECT_FALSE(envelope.state().panel_seen);
+  }
+}
+
+/// Two axes of 0.2 mm at 0.05 mm/s.
+OffsetEnvelope two_axes() {
+  OffsetEnvelope::Config config{.slew_mm_s = 0.05};
+  config.max_mm[0] = config.max_mm[1] = 0.2;
+  return OffsetEnvelope::make(config).value();
+}
+
+OffsetEnvelope::Input wishes_x(double x_mm, double slope_mm_s) {
+  OffsetEnvelope::Input input{.step_s = 0.01};
+  input.request.reason = Reason::thermal_correcting;
+  input.request.offset_mm[0] = x_mm;
+  input.request.slope_mm_s[0] = slope_mm_s;
+  return input;
+}
+
+// A room that asks for just the envelope's slew gets what it asks for.
+TEST(OffsetReason, ASlopeOfTheEnvelopesOwnSlewIsNotHeldUp) {
+  auto envelope = two_axes();
+  EXPECT_EQ(envelope.update(wishes_x(0.1, 0.05)).reason, Reason::thermal_correcting);
+  EXPECT_EQ(envelope.update(wishes_x(0.1, 0.0500001)).reason, Reason::slew_limited);
+}
+
+// Any axis that is off zero keeps the machine from being handed back, until it is at zero exactly.
+TEST(OffsetReason, AtZeroMeansEveryAxis) {
+  auto envelope = two_axes();
+  EXPECT_TRUE(envelope.update(wishes_x(0.0, 1.0)).at_zero);
+  auto input = wishes_x(0.0, 1.0);
+  input.request.offset_mm[1] = -0.01;
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_FALSE(envelope.update(input).at_zero);
+  }
+  input.request.reason = Reason::none;
+  input.tool_in_cut = false;
+  for (int i = 0; i < 19; ++i) {
+    EXPECT_FALSE(envelope.update(input).at_zero) << i;
+  }
+  EXPECT_TRUE((envelope.update(input), envelope.update(input)).at_zero);
+}
+
+// Without a longest step a gap in the input would be credit without end.
+TEST(OffsetReason, AStepWithoutLimitIsRefused) {
+  for (const double max_step_s : {0.0, -1.0, units::kInfinity, units::kNan}) {
+    EXPECT_FALSE(OffsetEnvelope::make({.max_step_s = max_step_s})) << max_step_s;
+  }
+  auto envelope = two_axes();
+  auto input = wishes_x(0.2, 1.0);
+  input.step_s = 100.0;
+  EXPECT_NEAR(envelope.update(input).offset_mm[0], 0.05 * 0.1, 1e-12) << "0.1 s of credit";
 }
 
 }  // namespace
