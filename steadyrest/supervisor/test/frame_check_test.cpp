@@ -11,7 +11,6 @@
 namespace steadyrest::supervisor {
 namespace {
 
-using kernel::machine::Axis;
 using kernel::outcome::Reason;
 using kernel::signal::Frame;
 using kernel::units::kInfinity;
@@ -20,8 +19,8 @@ using kernel::units::kNan;
 constexpr double kStale_s = 0.1;
 
 /// X of −100 … 100 mm, a rotary axis, and one without limits.
-std::vector<Axis> axes_of_a_lathe() {
-  std::vector<Axis> axes(3);
+std::vector<kernel::machine::Axis> axes_of_a_lathe() {
+  std::vector<kernel::machine::Axis> axes(3);
   axes[0].min_mm = -100.0;
   axes[0].max_mm = 100.0;
   axes[1].min_mm = 0.0;
@@ -32,15 +31,15 @@ std::vector<Axis> axes_of_a_lathe() {
   return axes;
 }
 
-Reason fault(const Frame& frame, Reason of_time = Reason::none) {
+Reason judged(const Frame& frame, Reason of_time = Reason::none) {
   return FrameCheck(axes_of_a_lathe(), kStale_s).fault(frame, of_time);
 }
 
-using Spoil = std::function<void(Frame&, double)>;
+using SetNumber = std::function<void(Frame&, double)>;
 
 // Every number that a room computes with, one at a time.
 TEST(FrameCheck, ANumberThatIsNotFiniteMakesTheFrameUnfit) {
-  const std::vector<Spoil> fields = {
+  const std::vector<SetNumber> fields = {
       [](Frame& frame, double v) { frame.time_s = v; },
       [](Frame& frame, double v) { frame.age_s = v; },
       [](Frame& frame, double v) { frame.programmed_feed_mm_s = v; },
@@ -56,9 +55,9 @@ TEST(FrameCheck, ANumberThatIsNotFiniteMakesTheFrameUnfit) {
   for (std::size_t i = 0; i < fields.size(); ++i) {
     for (const double value : {kNan, kInfinity, -kInfinity}) {
       Frame frame;
-      ASSERT_EQ(fault(frame), Reason::none);
+      ASSERT_EQ(judged(frame), Reason::none);
       fields[i](frame, value);
-      EXPECT_EQ(fault(frame), Reason::input_not_finite) << "field " << i << ": " << value;
+      EXPECT_EQ(judged(frame), Reason::input_not_finite) << "field " << i << ": " << value;
     }
   }
 }
@@ -74,16 +73,16 @@ TEST(FrameCheck, WhatOthersJudgeIsNotLookedAt) {
   frame.temperature_c[0] = kInfinity;
   frame.probe.displacement_mm = kNan;
   frame.vibration_rate_hz = kNan;
-  EXPECT_EQ(fault(frame), Reason::none);
+  EXPECT_EQ(judged(frame), Reason::none);
 }
 
 TEST(FrameCheck, AxesBeyondThoseShownDoNotCount) {
   Frame frame;
   frame.axis_count = 2;
   frame.axis[2].actual_mm = kNan;
-  EXPECT_EQ(fault(frame), Reason::none);
+  EXPECT_EQ(judged(frame), Reason::none);
   frame.axis_count = 3;
-  EXPECT_EQ(fault(frame), Reason::input_not_finite);
+  EXPECT_EQ(judged(frame), Reason::input_not_finite);
 }
 
 // −100 … 100 is 200 mm of travel: up to 200 more on either side may be a wrong offset in the
@@ -94,9 +93,9 @@ TEST(FrameCheck, ALinearAxisMayStandItsWholeTravelOutsideOfItsLimits) {
       Frame frame;
       double& position_mm = commanded ? frame.axis[0].command_mm : frame.axis[0].actual_mm;
       position_mm = sign * 300.0;
-      EXPECT_EQ(fault(frame), Reason::none);
+      EXPECT_EQ(judged(frame), Reason::none);
       position_mm = sign * std::nextafter(300.0, kInfinity);
-      EXPECT_EQ(fault(frame), Reason::input_out_of_range);
+      EXPECT_EQ(judged(frame), Reason::input_out_of_range);
     }
   }
 }
@@ -106,13 +105,13 @@ TEST(FrameCheck, RotaryAndUnlimitedAxesMayStandAnywhere) {
   frame.axis[1].actual_mm = 1e7;
   frame.axis[1].command_mm = -1e7;
   frame.axis[2].actual_mm = 1e7;
-  EXPECT_EQ(fault(frame), Reason::none);
+  EXPECT_EQ(judged(frame), Reason::none);
 }
 
 // A position beyond the limits counts only for axes that the frame shows; a machine file may name
 // more axes than a frame holds.
 TEST(FrameCheck, MoreAxesThanAFrameHoldsAreNoFaultOfTheMachineFileButOfTheFrame) {
-  std::vector<Axis> many(12, axes_of_a_lathe()[0]);
+  std::vector<kernel::machine::Axis> many(12, axes_of_a_lathe()[0]);
   const FrameCheck check(many, kStale_s);
   Frame frame;
   frame.axis_count = kernel::signal::kMaxAxes;
@@ -128,11 +127,11 @@ TEST(FrameCheck, MoreAxesThanAFrameHoldsAreNoFaultOfTheMachineFileButOfTheFrame)
 TEST(FrameCheck, AFeedBelowZeroIsNone) {
   Frame frame;
   frame.programmed_feed_mm_s = -1e-12;
-  EXPECT_EQ(fault(frame), Reason::input_out_of_range);
+  EXPECT_EQ(judged(frame), Reason::input_out_of_range);
   frame.programmed_feed_mm_s = 0.0;
-  EXPECT_EQ(fault(frame), Reason::none);
+  EXPECT_EQ(judged(frame), Reason::none);
   frame.path_speed_mm_s = -5.0;  // backwards along the path, as with a retrace
-  EXPECT_EQ(fault(frame), Reason::none);
+  EXPECT_EQ(judged(frame), Reason::none);
 }
 
 // The limit itself is still fresh; a frame from further ahead than that has a wrong clock.
@@ -140,7 +139,7 @@ TEST(FrameCheck, AgeIsJudgedOnBothSides) {
   const auto aged = [](double age_s) {
     Frame frame;
     frame.age_s = age_s;
-    return fault(frame);
+    return judged(frame);
   };
   EXPECT_EQ(aged(kStale_s), Reason::none);
   EXPECT_EQ(aged(std::nextafter(kStale_s, 1.0)), Reason::input_stale);
@@ -154,14 +153,14 @@ TEST(FrameCheck, TheGravestFaultIsNamed) {
   frame.axis[0].actual_mm = kNan;
   frame.programmed_feed_mm_s = -1.0;
   frame.age_s = 1.0;
-  EXPECT_EQ(fault(frame, Reason::heartbeat_lost), Reason::input_not_finite);
+  EXPECT_EQ(judged(frame, Reason::heartbeat_lost), Reason::input_not_finite);
   frame.axis[0].actual_mm = 0.0;
-  EXPECT_EQ(fault(frame, Reason::heartbeat_lost), Reason::input_out_of_range);
+  EXPECT_EQ(judged(frame, Reason::heartbeat_lost), Reason::input_out_of_range);
   frame.programmed_feed_mm_s = 0.0;
-  EXPECT_EQ(fault(frame, Reason::heartbeat_lost), Reason::heartbeat_lost) << "the clock's verdict";
-  EXPECT_EQ(fault(frame), Reason::input_stale);
+  EXPECT_EQ(judged(frame, Reason::heartbeat_lost), Reason::heartbeat_lost) << "the clock's verdict";
+  EXPECT_EQ(judged(frame), Reason::input_stale);
   frame.age_s = 0.0;
-  EXPECT_EQ(fault(frame), Reason::none);
+  EXPECT_EQ(judged(frame), Reason::none);
 }
 
 }  // namespace
