@@ -165,8 +165,8 @@ TEST(ForecastSpeed, BrakesForTheCornerAheadAndNoSooner) {
 }
 
 // A millimetre in feed at 50 %, then another motion, seen while the tool is still in the cut and
-// 0.15 mm of the other motion are commanded. The feed goes on at 20 mm/s; a rapid at 25 % has braked
-// to 10 mm/s; a thread is not scaled and speeds up, v² = 20² + 2·1000·0.15.
+// 0.15 mm of the other motion are commanded. The feed goes on at 20 mm/s; a rapid at 25 % has
+// braked to 10 mm/s; a thread is not scaled and speeds up, v² = 20² + 2·1000·0.15.
 TEST(ForecastSpeed, TheFeedOverrideScalesTheFeedAlone) {
   const auto speed_in = [](Motion motion) {
     PathMaker maker({0, 0, 0}, kFeed_mm_s);

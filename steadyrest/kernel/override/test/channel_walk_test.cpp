@@ -69,7 +69,8 @@ TEST(ChannelWalk, TheSlewWaitsForTheWordOnItsFineSteps) {
   for (std::size_t from = 0; from < in_force.size(); from += 5) {
     for (std::size_t to = from; to < in_force.size(); to += 5) {
       const double passed_s = kCycle_s * static_cast<double>(to - from);
-      ASSERT_LE(in_force[to] - in_force[from], 5.0 * passed_s + kCoarse + 1e-9) << from << "…" << to;
+      ASSERT_LE(in_force[to] - in_force[from], 5.0 * passed_s + kCoarse + 1e-9)
+          << from << "…" << to;
     }
   }
 }
@@ -150,12 +151,10 @@ TEST(ChannelConfig, EachPartsRefusalIsTheChannels) {
 
 // 70 % alone is allowed and is a step: no more is needed. 0.7 as 1 − 0.3 is the same 70 %.
 TEST(ChannelConfig, AnEnvelopeOfOneStepIsEnough) {
+  EXPECT_TRUE(Channel::make({.table = fine_and_coarse(), .min_ratio = 0.7, .max_ratio = 0.7}));
   EXPECT_TRUE(
-      Channel::make({.table = fine_and_coarse(), .min_ratio = 0.7, .max_ratio = 0.7}));
-  EXPECT_TRUE(Channel::make(
-      {.table = fine_and_coarse(), .min_ratio = 1.0 - 0.3, .max_ratio = 1.0 - 0.3}));
-  EXPECT_FALSE(
-      Channel::make({.table = fine_and_coarse(), .min_ratio = 0.71, .max_ratio = 0.79}));
+      Channel::make({.table = fine_and_coarse(), .min_ratio = 1.0 - 0.3, .max_ratio = 1.0 - 0.3}));
+  EXPECT_FALSE(Channel::make({.table = fine_and_coarse(), .min_ratio = 0.71, .max_ratio = 0.79}));
 }
 
 }  // namespace

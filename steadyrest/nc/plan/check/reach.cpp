@@ -14,6 +14,30 @@ using interpret::MoveKind;
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
+/// Where an arc swings, by angles behind its start.
+struct Swing {
+  double swept_rad = 0.0;
+  double slack_rad = 0.0;
+  double beyond_mm = 0.0;
+
+  [[nodiscard]] bool passes(double behind_rad) const noexcept { return behind_rad <= swept_rad; }
+  /// What a point may be beyond the ends near a direction that is not passed.
+  [[nodiscard]] double beside_mm(double behind_rad) const noexcept {
+    const bool is_near = behind_rad <= swept_rad + slack_rad || behind_rad >= kFullTurn - slack_rad;
+    return is_near ? beyond_mm : 0.0;
+  }
+};
+
+/// A spiral or helix turns back a little before or behind the direction: s·(r′·cos φ − r·sin φ) +
+/// h′ = 0, so within asin((s·r′ + h′)/(s·r)) of it. What s·r and h change in all is what that adds
+/// to the end of an arc that does not pass the direction itself.
+Swing swing_of(double swept_rad, double changes_mm, double least_mm) noexcept {
+  const double sine = changes_mm / (swept_rad * std::max(1e-9, least_mm));
+  return {.swept_rad = swept_rad,
+          .slack_rad = sine < 1.0 ? std::asin(sine) : kFullTurn,
+          .beyond_mm = changes_mm};
+}
+
 /// What is added to the ends of an arc: where it passes the axis' direction from its centre. The
 /// work coordinates may be turned out of the arc's plane.
 /// With s1, s2 = what the machine's axis sees of the plane's two directions, a point at angle θ on
@@ -60,14 +84,23 @@ void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
   }
   // A bound, not the exact extreme: the larger radius of a spiral, and the whole rise of a helix,
   // which reaches this axis only where a rotation turns the plane's normal towards it.
-  const double bulge_mm = share * std::max(from_centre_mm(move.start), from_centre_mm(move.end));
+  const double radius_mm = from_centre_mm(move.start);
+  const double radius_end_mm = from_centre_mm(move.end);
+  const double bulge_mm = share * std::max(radius_mm, radius_end_mm);
   const double helix_mm = (move.end[normal] - move.start[normal]) * along(normal);
+  const double changes_mm = share * std::abs(radius_end_mm - radius_mm) + std::abs(helix_mm);
+  const Swing swing = swing_of(swept, changes_mm, share * std::min(radius_mm, radius_end_mm));
   const double high_at = std::atan2(along(second), along(first));
-  if (behind_start(high_at) <= swept) {
+  if (swing.passes(behind_start(high_at))) {
     reach.high_mm = std::max(reach.high_mm, centre_mm + bulge_mm + std::max(helix_mm, 0.0));
+  } else {
+    reach.high_mm += swing.beside_mm(behind_start(high_at));
   }
-  if (behind_start(high_at + std::numbers::pi) <= swept) {
+  const double low_at = high_at + std::numbers::pi;
+  if (swing.passes(behind_start(low_at))) {
     reach.low_mm = std::min(reach.low_mm, centre_mm - bulge_mm + std::min(helix_mm, 0.0));
+  } else {
+    reach.low_mm -= swing.beside_mm(behind_start(low_at));
   }
 }
 
