@@ -37,7 +37,7 @@ class Stepper {
   struct State {
     std::size_t step = 0;
     double stood_s = 0.0;  ///< good time since the last change
-    bool written = false;  ///< a first word has been out; what was there before is not known
+    bool written = false;  ///< the first word has been sent; the word before it is not known
     bool changed = true;   ///< no time has passed since: without a scan it settles no sooner either
   };
 

@@ -31,11 +31,11 @@ class LineFit {
   /// `max_span_s`: a window that took longer is not used, the motion is not smooth enough for it.
   explicit LineFit(double max_span_s = 0.02) noexcept : max_span_s_(max_span_s) {}
 
-  /// A passage in order of time; a turn or a lost edge starts anew. Valid from the window's fill
-  /// on.
+  /// A passage in order of time; a turn or a lost edge starts a new window. Valid from the window's
+  /// fill on.
   Residual push(double t_s, double position_mm, std::int64_t line, std::int8_t direction) noexcept;
-  /// Whether a passage would start anew; then the windows at the end of what was there are
-  /// `tail(longest_tail())` … `tail(kLeast)`.
+  /// Whether a passage would start a new window; then the windows at the end of the old passages
+  /// are `tail(longest_tail())` … `tail(kLeast)`.
   [[nodiscard]] bool breaks(double t_s, std::int64_t line, std::int8_t direction,
                             bool lost) const noexcept;
   [[nodiscard]] std::size_t longest_tail() const noexcept {

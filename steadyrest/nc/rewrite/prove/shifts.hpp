@@ -25,11 +25,11 @@ struct Frames {
   std::uint32_t acts_at_once = 0;  ///< axes whose new correction must act in this line, a mask
 };
 
-/// How far the machine of the changed program stands from that of the original, move by move.
+/// How far the machine of the changed program is from that of the original, move by move.
 ///
-/// A move must end at what is wanted; or, where the original leaves the axis alone or moves it by
-/// increments, at what was there before; or at nothing, where the original goes to machine
-/// coordinates. Arcs, splines, threads and probes keep what they begin with.
+/// A move must end at the shift that is wanted; or, where the original leaves the axis alone or
+/// moves it by increments, at the shift that it began with; or at none, where the original goes to
+/// machine coordinates. Arcs, splines, threads and probes keep what they begin with.
 class Shifts {
  public:
   explicit Shifts(const Plan& plan);

@@ -207,7 +207,7 @@ std::vector<Prediction> predict(const online::ThermalModel& model, const Cyclogr
     drive_in(at);
     // A copy for each instant: the running model stays at the transition's start.
     online::ThermalModel then = running;
-    // Against the start of the work: what was there then is in the workpiece's zero.
+    // Against the start of the work: the displacement at that time is in the workpiece's zero.
     out[k].displacement_mm = then.update(std::max(0.0, time_s[k] - begin_s), drive) - start_mm;
     for (std::size_t i = 0; i < modes; ++i) {
       out[k].mode_mm.push_back(then.state().mode_mm[i] - start.mode_mm[i]);
