@@ -55,9 +55,10 @@ std::size_t shelf_rank(const Location& at, std::string_view folder) {
 }
 
 std::string home_of(const Rules& rules, const std::string& folder) {
+  // A room's tests share its namespace, in folders by theme too.
   std::string home = folder;
-  if (home.ends_with("/test")) {
-    home.resize(home.size() - 5);
+  if (const auto test = (home + "/").find("/test/"); test != std::string::npos) {
+    home.resize(test);
   }
   const auto at = locate(rules, folder);
   return at && shelf_of(*at, home) ? at->folder : home;

@@ -118,6 +118,9 @@ TEST(Namespaces, FollowTheFolder) {
   EXPECT_THAT(
       found({"steadyrest/nc/read/test/x_test.cpp", text + "namespace steadyrest::nc::read {}\n"}),
       IsEmpty());
+  EXPECT_THAT(found({"steadyrest/nc/read/test/words/x_test.cpp",
+                     text + "namespace steadyrest::nc::read {}\n"}),
+              IsEmpty());
   EXPECT_THAT(found({"steadyrest/apps/cli/main.cpp", text + "int main() {}\n"}), IsEmpty());
 }
 
