@@ -129,5 +129,39 @@ TEST(RevolutionSpread, IsZeroForARepeatingCutAndOneLessCosineForALine) {
   }
 }
 
+// Scalar variances p about noise of 1: the same sample twice, at one angle, leaves 1/(1 + Σp) the
+// second time. Two orders of 10 each at the start, as in the source.
+TEST(OrderFilter, BelievesTheFirstSampleAsTheSourceDoes) {
+  OrderFilter filter =
+      OrderFilter::make({.teeth = 1, .tooth_harmonics = 1, .spindle_harmonics = 1}).value();
+  filter.update(1.0, 0.1, 1e-9, false, false);
+  EXPECT_NEAR(filter.update(1.0, 0.1, 1e-9, false, false).residual, 1.0 / 21.0, 1e-9);
+}
+
+// Into a new cut runout begins as if 100 samples had been heard, so that chatter beside a spindle
+// order has the time to be: p = 1/(100 + n/2) after n samples, and of runout that comes after n₀
+// there is left (100 + n₀/2)/(100 + n/2). A revolution passes first, in which the orders of the
+// teeth settle, which are learnt at once.
+TEST(OrderFilter, LearnsHalfTheRunoutOfANewCutInTwoRevolutionsOf200Samples) {
+  constexpr int kTurnSamples = 200;
+  OrderFilter filter = OrderFilter::make({.teeth = 4,
+                                          .tooth_harmonics = 1,
+                                          .spindle_harmonics = 3,
+                                          .runout_memory_rev = 1000.0,
+                                          .half_memory_rev = 1000.0})
+                           .value();
+  filter.open(false);
+  double energy = 0.0;
+  for (int i = 0; i < 4 * kTurnSamples; ++i) {
+    const double angle_rev = static_cast<double>(i) / kTurnSamples;
+    const double value = i < kTurnSamples ? 0.0 : std::cos(3.0 * kTurn * angle_rev);
+    const double residual =
+        filter.update(value, angle_rev, kDefaultRate / kTurnSamples, false, false).residual;
+    // The revolution about the 600th sample.
+    energy += std::abs(i - 3 * kTurnSamples) < kTurnSamples / 2 ? residual * residual : 0.0;
+  }
+  EXPECT_NEAR(std::sqrt(2.0 * energy / kTurnSamples), 200.0 / 400.0, 0.03);
+}
+
 }  // namespace
 }  // namespace steadyrest::chatter::online

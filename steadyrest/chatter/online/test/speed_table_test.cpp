@@ -88,6 +88,43 @@ TEST(SpeedTable, TheRuleDoesNotLeaveASpeedThatFitsItBetter) {
   EXPECT_EQ(advice.request.ratio, 1.0);
 }
 
+/// A single wave between two teeth at `whole` of the programmed speed, asked at 70 %.
+SpeedTable::Advice advice_for_one_wave(double whole) {
+  SpeedTable::Config config;
+  config.step_ratio = panel();
+  // Two waves, at half the speed, are not asked for.
+  config.min_ratio = 0.8 * whole;
+  return SpeedTable::make(config)->ask(
+      {.programmed_rev_s = 100.0, .ratio = 0.7, .frequency_hz = 2.0 * 100.0 * whole});
+}
+
+// From 100 % on a switch in steps of 5 % has a step within half a step of any speed, so the rule
+// finds one, the nearest; at half the speed the same steps lie too far apart for it.
+TEST(SpeedTable, TheRuleReachesHalfAStepOfTheSwitch) {
+  for (double whole = 1.0; whole < 1.15; whole += 0.0037) {
+    const auto advice = advice_for_one_wave(whole);
+    ASSERT_EQ(advice.reason, Reason::chatter_rule_speed) << whole;
+    EXPECT_LT(std::abs(advice.request.ratio - whole), 0.5 * 0.05 * 1.05) << whole;
+  }
+  EXPECT_EQ(advice_for_one_wave(0.525).reason, Reason::chatter_no_better_speed);
+}
+
+// A miss of ε waves leaves |1 − e^{2πiε}|/2 = sin πε of the worst regeneration. With 20 waves
+// between two teeth a step that leaves a quarter is taken, one that leaves half is not.
+TEST(SpeedTable, TheRuleTakesAStepThatLeavesAQuarterOfTheRegenerationNotHalf) {
+  const double pi = std::acos(-1.0);
+  for (const double left : {0.25, 0.5}) {
+    SpeedTable::Config config;
+    config.step_ratio = {0.98, 1.0};
+    const double miss = std::asin(left) / pi;
+    // At 100 % there are 20 waves and that much of another.
+    const double frequency_hz = 2.0 * 100.0 * (20.0 + miss);
+    const auto advice = SpeedTable::make(config)->ask(
+        {.programmed_rev_s = 100.0, .ratio = 0.98, .frequency_hz = frequency_hz});
+    EXPECT_EQ(advice.reason == Reason::chatter_rule_speed, left < 0.3) << left;
+  }
+}
+
 TEST(SpeedTable, KeepsTheLimitsForAnyQuestion) {
   SpeedTable::Config config = slot();
   // The spindle's limits, narrower than the table and the panel.
