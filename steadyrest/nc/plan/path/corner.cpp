@@ -23,7 +23,7 @@ namespace {
 constexpr double kSmoothTurn_rad = 1e-4;
 constexpr double kInPlane = 1e-6;
 constexpr double kStraight_mm = 1e6;  ///< a wider rounding is a straight line to every machine
-constexpr double kRounding = 1e-7;  ///< of lengths, where the pieces are nearly in line
+constexpr double kRounding = 1e-7;    ///< of lengths, where the pieces are nearly in line
 
 // A vector in the corner's plane: origin at the corner, x along the incoming direction, y to its
 // left (the bend's axis is the normal, so the corner always turns left).
