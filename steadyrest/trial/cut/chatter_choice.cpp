@@ -54,11 +54,10 @@ double switch_of(const chatter::offline::Alternative& chosen,
   return std::max(1.0, written.empty() ? chosen.ratio : std::ranges::max(written));
 }
 
-}  // namespace
-
-// Speeds that nothing is cut at need no plan; events come before the segment that they act on.
-std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path) {
-  std::vector<double> speeds;
+/// visit(segment, spindle speed, whether G96 changes it) for each segment that cuts; events come
+/// before the segment that they act on.
+template <class Visit>
+void for_each_cut(const nc::plan::PlannedPath& path, const Visit& visit) {
   double speed_rev_s = 0.0;
   auto event = path.events.begin();
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
@@ -67,17 +66,71 @@ std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path) {
         speed_rev_s = std::abs(event->value);
       }
     }
-    const bool cuts = path.segments[i].motion == kernel::signal::Motion::feed;
+    const double by_radius = std::abs(path.plans[i].spindle_rev_s);
+    if (path.segments[i].motion == kernel::signal::Motion::feed) {
+      visit(i, by_radius > 0.0 ? by_radius : speed_rev_s, by_radius > 0.0);
+    }
+  }
+}
+
+/// The slowest instant of a law is its lower turning point.
+double least_ratio(const chatter::online::Modulation& m) noexcept {
+  return m.law == Law::constant ? m.mean_ratio : m.mean_ratio * (1.0 - m.amplitude_ratio);
+}
+
+}  // namespace
+
+// Speeds that nothing is cut at need no plan.
+std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path) {
+  std::vector<double> speeds;
+  for_each_cut(path, [&](std::size_t, double speed_rev_s, bool changes) {
     // Under G96 (constant cutting speed) the speed changes along the segment: there is no one speed
     // to plan for.
-    const bool known = speed_rev_s > 0.0 && path.plans[i].spindle_rev_s == 0.0;
-    if (cuts && known &&
+    if (!changes && speed_rev_s > 0.0 &&
         std::ranges::none_of(speeds, [&](double s) { return same(s, speed_rev_s); })) {
       speeds.push_back(speed_rev_s);
     }
-  }
+  });
   std::ranges::sort(speeds);
   return speeds;
+}
+
+std::vector<nc::plan::Warning> unplanned_cuts(const nc::plan::PlannedPath& path) {
+  struct Stretch {
+    std::uint32_t first, last;
+    double least_rev_s, most_rev_s;
+  };
+  std::vector<Stretch> all;
+  bool open = false;
+  for_each_cut(path, [&](std::size_t i, double speed_rev_s, bool changes) {
+    const std::uint32_t line = path.segments[i].line;
+    if (changes && !open) {
+      all.push_back({line, line, speed_rev_s, speed_rev_s});
+    }
+    open = changes;
+    if (changes) {
+      Stretch& at = all.back();
+      // A subprogram or a loop goes back.
+      at = {std::min(at.first, line), std::max(at.last, line),
+            std::min(at.least_rev_s, speed_rev_s), std::max(at.most_rev_s, speed_rev_s)};
+    }
+  });
+  std::vector<nc::plan::Warning> out;
+  for (const Stretch& s : all) {
+    if (std::ranges::any_of(out, [&](const auto& w) { return w.line == s.first; })) {
+      continue;
+    }
+    out.push_back(
+        {s.first,
+         fmt::format(
+             "under G96 the spindle speed changes{} ({:.0f} … {:.0f} rpm at the moves' mean "
+             "radii), so nothing is planned against chatter here; see `chatter lobes` over "
+             "these speeds",
+             s.last > s.first ? fmt::format(" up to line {}", s.last) : "",
+             kernel::units::rpm_from_rev_s(s.least_rev_s),
+             kernel::units::rpm_from_rev_s(s.most_rev_s))});
+  }
+  return out;
 }
 
 Result<std::vector<ChatterChoice>> choose(
@@ -117,6 +170,27 @@ const ChatterChoice* choice_for(const std::vector<ChatterChoice>& choices,
     return same(c.speed_rev_s, std::abs(programmed_rev_s));
   });
   return found == choices.end() ? nullptr : &*found;
+}
+
+double least_spindle_ratio(const std::vector<ChatterChoice>& choices, bool listens,
+                           const kernel::machine::Machine& machine) {
+  // Nothing below the switch's lowest position can be written; 0 % is a stop, not a speed.
+  double floor = 1.0;
+  for (const double step : machine.spindle_override.ratio) {
+    floor = step > 0.0 ? std::min(floor, step) : floor;
+  }
+  floor = std::clamp(machine.envelope.min_spindle_ratio, floor, 1.0);
+  double least = listens ? floor : 1.0;
+  for (const ChatterChoice& choice : choices) {
+    least = std::min(least, least_ratio(choice.modulation));
+  }
+  const kernel::machine::Chatter& c = machine.chatter;
+  if (c.enabled) {
+    // What an amplitude in rev/min is of the programmed speed depends on that speed.
+    least =
+        std::min(least, c.amplitude_rev_s > 0.0 ? floor : c.mean_ratio * (1.0 - c.amplitude_ratio));
+  }
+  return std::clamp(least, floor, 1.0);
 }
 
 Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process& process,

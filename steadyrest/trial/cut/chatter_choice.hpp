@@ -10,6 +10,7 @@
 #include <steadyrest/chatter/online/modulator.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/plan/check/machine_check.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 #include <steadyrest/sim/panel/operator_panel.hpp>
 #include <steadyrest/supervisor/listening_stage.hpp>
@@ -31,6 +32,10 @@ struct ChatterChoice {
 /// on the way and are left out.
 [[nodiscard]] std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path);
 
+/// For each stretch that cuts under G96, so at a speed that nothing is planned for: where, and from
+/// which speed to which. A cut at a programmed speed ends a stretch; repeated lines count once.
+[[nodiscard]] std::vector<nc::plan::Warning> unplanned_cuts(const nc::plan::PlannedPath& path);
+
 /// Asks the planner for each of the speeds. At most `kMostSpeeds`; refuses more, and what the
 /// planner refuses.
 [[nodiscard]] kernel::outcome::Result<std::vector<ChatterChoice>> choose(
@@ -43,6 +48,12 @@ inline constexpr std::size_t kMostSpeeds = 32;
 /// The choice for a programmed speed; nullptr where there was none to make.
 [[nodiscard]] const ChatterChoice* choice_for(const std::vector<ChatterChoice>& choices,
                                               double programmed_rev_s) noexcept;
+
+/// The least ratio of the programmed spindle speed that the layer can ask for: that of the choices,
+/// of the machine's own [chatter], and for a listener whatever it likes, within the envelope and
+/// the override's steps. `machine`: as with_modulator() made it, where it did.
+[[nodiscard]] double least_spindle_ratio(const std::vector<ChatterChoice>& choices, bool listens,
+                                         const kernel::machine::Machine& machine);
 
 /// The ear of the layer: detector and planner's table of the process at the override's steps, as
 /// far as the operator's switch at 100 % lets the layer go. Refuses what they refuse.

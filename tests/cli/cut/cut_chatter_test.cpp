@@ -19,6 +19,7 @@ namespace steadyrest::test {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string kCutSlot =
@@ -113,6 +114,28 @@ TEST(CutChatter, EachSpindleSpeedOfTheProgramGetsItsOwnChoice) {
   }
   EXPECT_LT(answer["with"]["unforced_rms_um"].get<double>(),
             0.1 * answer["without"]["unforced_rms_um"].get<double>());
+}
+
+// 120 m/min at radii of 60 and, on the way to 40, of 50 mm: 318 and 382 rpm.
+TEST(CutChatter, SaysWhichLinesAConstantCuttingSpeedLeavesUnplanned) {
+  const Scratch scratch;
+  const std::string program = scratch.file("faced.mpf",
+                                           "N10 G71 G90 G94 S1500 M3\n"
+                                           "N20 G0 X60 Y0 Z5\n"
+                                           "N30 G96 S120\n"
+                                           "N40 G1 Z0 F500\n"
+                                           "N50 G1 X40 F500\n"
+                                           "N60 G97 S1500\n"
+                                           "N70 G0 Z50\n"
+                                           "N80 M30\n");
+  const std::string line = "cut " + program + " --machine examples/machines/vmc-840d.toml" +
+                           kProcess + " --depth-mm 0.3";
+  const json answer = answer_of(line);
+  EXPECT_TRUE(answer["chatter"].empty());
+  ASSERT_GE(answer["warnings"].size(), 1U);
+  EXPECT_EQ(answer["warnings"][0]["line"], 4);
+  EXPECT_THAT(answer["warnings"][0]["text"].get<std::string>(),
+              AllOf(HasSubstr("up to line 5"), HasSubstr("318 … 382 rpm")));
 }
 
 TEST(CutChatter, HearsItAndTakesTheBetterStepOfTheTable) {

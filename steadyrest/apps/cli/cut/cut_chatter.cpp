@@ -39,29 +39,6 @@ double slowest_cut_rev_s(const nc::plan::PlannedPath& path) {
   return slowest;
 }
 
-/// The slowest instant of a law is its lower turning point.
-double lowest_ratio(const chatter::online::Modulation& m) {
-  return m.law == Law::constant ? m.mean_ratio : m.mean_ratio * (1.0 - m.amplitude_ratio);
-}
-
-/// The layer may slow the spindle down further than the program does. The grid is made once, so it
-/// must cover the slowest speed that any way of fighting chatter can ask for.
-double lowest_ratio(const CutChatter& chatter, const Machine& machine) {
-  double lowest = chatter.listener ? machine.envelope.min_spindle_ratio : 1.0;
-  for (const ChatterChoice& choice : chatter.choices) {
-    lowest = std::min(lowest, lowest_ratio(choice.modulation));
-  }
-  const kernel::machine::Chatter& c = machine.chatter;
-  // With the file's own [chatter] and an amplitude in rev/min the share depends on the programmed
-  // speed, so the envelope's lower limit is taken.
-  if (!chatter.by_plan && c.enabled) {
-    lowest = c.amplitude_rev_s > 0.0 ? machine.envelope.min_spindle_ratio
-                                     : c.mean_ratio * (1.0 - c.amplitude_ratio);
-  }
-  // Half the programmed speed is the least that the grid is prepared for: the switches end at 50 %.
-  return std::clamp(lowest, 0.5, 1.0);
-}
-
 std::string choice_words(const ChatterChoice& choice) {
   const chatter::online::Modulation& m = choice.modulation;
   switch (choice.decision) {
@@ -168,6 +145,7 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     }
     out.choices = std::move(*choices);
     out.by_plan = true;
+    out.warnings = trial::cut::unplanned_cuts(path);
     const bool acts = std::ranges::any_of(out.choices, [](const ChatterChoice& choice) {
       return choice.decision == PlanDecision::constant || choice.decision == PlanDecision::law;
     });
@@ -192,7 +170,9 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     machine = trial::cut::with_modulator(std::move(machine));
   }
   out.cutting = {.cut = trial::vibration::cutting_of(*process, *options.depth_mm),
-                 .slowest_rev_s = slowest * lowest_ratio(out, machine)};
+                 // The grid is made once, so it must be fine enough for whatever the layer may ask.
+                 .slowest_rev_s = slowest * trial::cut::least_spindle_ratio(
+                                                out.choices, out.listener.has_value(), machine)};
   return out;
 }
 

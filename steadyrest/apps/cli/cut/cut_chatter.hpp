@@ -10,6 +10,7 @@
 #include <steadyrest/apps/cli/shared/progress.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/nc/plan/check/machine_check.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 #include <steadyrest/sim/cut/cutting_vibration.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
@@ -33,6 +34,7 @@ struct CutChatter {
   std::vector<trial::cut::ChatterChoice> choices;
   std::optional<supervisor::ListeningStage> listener;
   bool by_plan = false;
+  std::vector<nc::plan::Warning> warnings;  ///< cuts that the plan leaves out
 };
 
 /// Reads the process, asks the planner for the program's spindle speeds, and switches the machine's

@@ -255,6 +255,9 @@ Outcome run(const Options& options, Progress& progress) {
   if (!chatter) {
     return std::unexpected(chatter.error());
   }
+  planned->warnings.insert(planned->warnings.begin(), chatter->warnings.begin(),
+                           chatter->warnings.end());
+  planned->warning_count += chatter->warnings.size();
   const auto without = cut_once(*machine, path, *chatter, false, progress);
   if (!without) {
     return refused(without.error());
