@@ -45,6 +45,16 @@ TEST(ChatterRadius, GivesTheConvergedRadiusOfTheSlot) {
               1e-6);
 }
 
+// At constant speed there is no period: the worst vibration is followed over 20 passes, and grows
+// by ρ a pass at least.
+TEST(ChatterRadius, SaysOverHowManyPassesItFollowsTheWorstGrowth) {
+  EXPECT_THAT(run_line(kPoint).out, HasSubstr("worst growth within 20 tooth passes"));
+  EXPECT_GT(answer_of(kPoint)["peak_growth"], std::pow(1.40647, 20.0));
+  // A law of 20 passes: two periods.
+  EXPECT_THAT(run_line(kPoint + " --law triangle --rva 0.2 --rvf 0.1").out,
+              HasSubstr("worst growth within 40 tooth passes"));
+}
+
 // RVA 0.2 and RVF 0.1 at 5000 rpm are ±1000 rpm every 0.12 s: all ways to say it are one law.
 TEST(ChatterRadius, TakesAModulationInRatiosAndInTheWordsOfTheShopFloor) {
   const json ratios = answer_of(kPoint + " --law sine --rva 0.2 --rvf 0.1");

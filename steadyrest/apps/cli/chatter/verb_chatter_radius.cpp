@@ -26,8 +26,14 @@ struct Options {
   std::string report;
 };
 
+/// How long growth is followed.
+struct Passes {
+  std::size_t count = 0;
+  const char* name = "";
+};
+
 Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
-                 const offline::Stability& found) {
+                 const offline::Stability& found, const Passes& passes) {
   Answer answer;
   Json& json = answer.json;
   put_stability(json, found);
@@ -49,7 +55,9 @@ Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
   table.row({constant ? "spectral radius per pass" : "spectral radius per modulation period",
              fmt::format("{:.6g}", std::exp(found.log_radius))});
   table.row({"its logarithm", fmt::format("{:.6g}", found.log_radius)});
-  table.row({"worst growth within the period", fmt::format("{:.4g}", found.peak_growth)});
+  // Passes, not periods: at constant speed there is no period to speak of.
+  table.row({fmt::format("worst growth within {} {}", passes.count, passes.name),
+             fmt::format("{:.4g}", found.peak_growth)});
   // Under modulation the dominant vibration is e^{λt}·p(t): its multiplier fixes the frequency only
   // up to multiples of 1/T, hence the comb of lines.
   if (found.frequency_hz) {
@@ -83,7 +91,11 @@ Outcome run(const Options& options, Progress& progress) {
   // period before it dies. The worst of the courses is what the report plots, so the number comes
   // from there too.
   found.peak_growth = offline::worst(courses).peak();
-  Answer answer = answer_of(options.cut, cut->law, found);
+  const bool teeth =
+      cut->process.cut.operation == offline::Operation::milling && cut->process.even_pitch();
+  Answer answer =
+      answer_of(options.cut, cut->law, found,
+                {offline::growth_window(*cycle), teeth ? "tooth passes" : "revolutions"});
   if (!options.report.empty()) {
     const offline::SpeedProfile speed(cut->speed_rev_s, cut->law.modulation);
     put_report(answer, options.report,

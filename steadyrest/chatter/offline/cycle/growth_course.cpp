@@ -21,8 +21,8 @@ using Eigen::Index;
 // From which pass the growth is worst is not known beforehand. With hundreds of passes in a period
 // neighbouring starts differ by one pass in hundreds.
 constexpr std::size_t kMostStarts = 16;
-constexpr std::size_t kLeastWindow = 20;  ///< passes
 constexpr Index kMostRows = 200;          ///< that are followed one by one
+constexpr std::size_t kLeastWindow = 20;  ///< passes
 constexpr double kDied = 1e-4;            ///< of its peak, then it is followed no longer
 
 /// Ends the course where it has died.
@@ -149,10 +149,14 @@ double GrowthCourse::peak() const noexcept {
   return std::exp(std::min(kBeyondLog, log_peak()));
 }
 
+std::size_t growth_window(const DelayCycle& cycle) noexcept {
+  return std::max(2 * cycle.passes(), kLeastWindow);
+}
+
 std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {
   const std::size_t passes = cycle.passes();
   if (passes == 1) {
-    return {EvenPasses(cycle, kLeastWindow).course(cycle.modal_size())};
+    return {EvenPasses(cycle, growth_window(cycle)).course(cycle.modal_size())};
   }
   const std::size_t starts = std::min(passes, kMostStarts);
   std::vector<GrowthCourse> out;
@@ -160,7 +164,7 @@ std::vector<GrowthCourse> growth_courses(DelayCycle& cycle) {
   tbb::parallel_for(std::size_t{0}, starts, [&](std::size_t k) {
     // Starts are independent: one copy each, no locks.
     DelayCycle own = cycle;  // advance() leaves the last pass in it
-    out[k] = course_from(own, k * passes / starts, std::max(2 * passes, kLeastWindow));
+    out[k] = course_from(own, k * passes / starts, growth_window(own));
   });
   return out;
 }

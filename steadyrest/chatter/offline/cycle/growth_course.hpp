@@ -24,6 +24,9 @@ struct GrowthCourse {
   [[nodiscard]] double peak() const noexcept;
 };
 
+/// How many passes a course is followed at most: two principal periods, 20 passes at least.
+[[nodiscard]] std::size_t growth_window(const DelayCycle& cycle) noexcept;
+
 /// At the cycle's present depth; from each pass, from 16 even ones where there are more.
 [[nodiscard]] std::vector<GrowthCourse> growth_courses(DelayCycle& cycle);
 
