@@ -79,7 +79,7 @@ std::optional<Refusal> unfit_bytes(std::string_view text) {
 std::size_t string_length(std::string_view text, std::size_t i) {
   const char quote = text[i];
   const bool escapes = quote == '"';
-  const std::string_view three = escapes ? "\"\"\"" : "'''";
+  const std::string_view three = escapes ? R"(""")" : "'''";
   const bool many_lines = text.substr(i).starts_with(three);
   std::size_t at = i + (many_lines ? three.size() : 1);
   while (at < text.size()) {

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <steadyrest/kernel/testing/cases.hpp>
+#include <steadyrest/nc/interpret/state/refusals.hpp>
 #include <steadyrest/nc/interpret/test/moves.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -106,7 +107,7 @@ TEST(RefusedPrograms, TellAWordFromItsTenths) {
   for (const char* text : {"G59.1", "G59", "G59.3"}) {
     block.push({.letter = 'G', .value = std::stod(text + 1), .name = {}, .text = text});
   }
-  Step step;
+  Step step{};
   step.reset(block);
   Refusals refusals;
   const std::pair<int, const char*> cases[] = {{g::kWorkOffset6, "G59"},

@@ -223,7 +223,7 @@ TEST(RefusedMachineText, DeepKeysAreDeepToTheParserToo) {
 TEST(RefusedMachineText, DotsInTextsAreNoDepth) {
   const std::string dots(40, '.');
   for (const std::string& text : {"a = \"" + dots + "\"", "a = '" + dots + "'", "a = 1 # " + dots,
-                                  "a = \"\\\"" + dots + "\" # \"",
+                                  R"(a = "\")" + dots + R"(" # ")",
                                   "a = \"\"\"\n" + dots + "\n\"\"\"", "\"" + dots + "\" = 1"}) {
     EXPECT_FALSE(unfit_text(text + "\n")) << text;
   }

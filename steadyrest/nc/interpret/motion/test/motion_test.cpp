@@ -19,7 +19,7 @@ class MotionStage : public ::testing::Test {
 
   Step step() {
     cutter_.send_to(kept_);
-    Step step;
+    Step step{};
     step.reset(block_);
     return step;
   }
@@ -49,6 +49,7 @@ class MotionStage : public ::testing::Test {
 
 std::vector<PathMode> modes_of(const std::vector<Move>& moves) {
   std::vector<PathMode> out;
+  out.reserve(moves.size());
   for (const Move& move : moves) {
     out.push_back(move.path_mode);
   }
