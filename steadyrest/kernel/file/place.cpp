@@ -71,6 +71,18 @@ Result<Place> of_existing(const std::string& name, const struct ::stat& found) {
 
 }  // namespace
 
+Unwritable unwritable(const std::string& thing, int error) {
+  if (error == EROFS) {
+    return {"the " + thing + " is on a read-only file system",
+            "name a place on another file system"};
+  }
+  if (error == EACCES || error == EPERM) {
+    return {"the " + thing + " is write-protected",
+            "give it write permission, or name another " + thing};
+  }
+  return {"the " + thing + ": " + std::generic_category().message(error), "name another " + thing};
+}
+
 Result<Place> place_of(const std::string& name) {
   if (name.empty()) {
     return refuse(name, Kind::bad_input, "an output has an empty name", "name a file");
@@ -95,15 +107,16 @@ Result<Place> place_of(const std::string& name) {
   place.path = *file;
   // root may write everything; a file that nobody may write is write-protected for root as well.
   const bool nobody = place.exists && (found.st_mode & 0222U) == 0;
-  if (nobody || (place.exists && ::access(file->c_str(), W_OK) != 0)) {
-    return refuse(name, Kind::unavailable, "is not writable: the file is write-protected",
-                  "give it write permission, or name another file; the old content is untouched");
+  const int denied = place.exists && ::access(file->c_str(), W_OK) != 0 ? errno : 0;
+  if (nobody || denied != 0) {
+    const Unwritable why = unwritable("file", denied == 0 ? EACCES : denied);
+    return refuse(name, Kind::unavailable, "is not writable: " + why.what,
+                  why.to_do + "; the old content is untouched");
   }
   // A file is replaced by a rename, which needs the folder's permission more than the file's.
   if (::access(file->parent_path().c_str(), W_OK | X_OK) != 0) {
-    return refuse(name, Kind::unavailable,
-                  "is not writable: its folder: " + std::generic_category().message(errno),
-                  "give the folder write permission, or name another");
+    const Unwritable why = unwritable("folder", errno);
+    return refuse(name, Kind::unavailable, "is not writable: " + why.what, why.to_do);
   }
   return place;
 }
@@ -140,8 +153,8 @@ Result<MadeFolders> MadeFolders::make(const fs::path& folder) {
                   "name another folder");
   }
   if (::access(whole.c_str(), W_OK | X_OK) != 0) {
-    return refuse(name, Kind::bad_input, "the folder is not writable",
-                  "give it write permission, or name another folder");
+    const Unwritable why = unwritable("folder", errno);
+    return refuse(name, Kind::bad_input, "is not writable: " + why.what, why.to_do);
   }
   return out;
 }

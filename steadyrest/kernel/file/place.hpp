@@ -27,6 +27,14 @@ struct Place {
 /// a file that may not be written (also to root, when nobody may).
 [[nodiscard]] outcome::Result<Place> place_of(const std::string& name);
 
+/// What is wrong with an output that may not be written, and what to do.
+struct Unwritable {
+  std::string what;
+  std::string to_do;
+};
+/// By the system's error; `thing`: "file" or "folder". Only a lack of permission is called so.
+[[nodiscard]] Unwritable unwritable(const std::string& thing, int error);
+
 /// Both names lead to the same file, by whatever spelling or links. False where either is a
 /// character device or cannot be resolved.
 [[nodiscard]] bool same_place(const std::string& one, const std::string& other);

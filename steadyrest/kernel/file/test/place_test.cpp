@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -14,7 +15,9 @@ namespace steadyrest::kernel::file {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AnyOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class Places : public testing::Test {
  public:
@@ -97,6 +100,24 @@ TEST_F(Places, RefusesWhatCannotBeWritten) {
     EXPECT_FALSE(place.error().to_do.empty());
   }
   EXPECT_FALSE(place_of("").has_value());
+}
+
+// Permission does not help on a read-only file system.
+TEST(Unwritable, SpeaksOfPermissionsOnlyWhereTheyAreMissing) {
+  for (const char* const thing : {"file", "folder"}) {
+    for (const int error : {EACCES, EPERM}) {
+      EXPECT_THAT(unwritable(thing, error).what, HasSubstr("write-protected"));
+      EXPECT_THAT(unwritable(thing, error).to_do, HasSubstr("permission"));
+    }
+    EXPECT_THAT(unwritable(thing, EROFS).what, HasSubstr("read-only file system"));
+    EXPECT_THAT(unwritable(thing, EIO).what, HasSubstr("Input/output error"));
+    for (const int error : {EROFS, ETXTBSY, EIO}) {
+      const Unwritable why = unwritable(thing, error);
+      EXPECT_THAT(why.what + why.to_do,
+                  Not(AnyOf(HasSubstr("permission"), HasSubstr("protected"))));
+      EXPECT_THAT(why.what, HasSubstr(thing));
+    }
+  }
 }
 
 }  // namespace
