@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/kernel/machine/dialect.hpp>
 #include <steadyrest/nc/interpret/parameters/linuxcnc_files.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 
@@ -16,8 +17,10 @@ namespace {
 /// control's data.
 std::vector<CLI::Option*> add_data(Verb& verb, ProgramOptions& options) {
   std::vector<CLI::Option*> made;
-  made.push_back(verb.add_option("--dialect", options.dialect, "Control the program is written for")
-                     ->check(CLI::IsMember({"linuxcnc", "fanuc", "sinumerik"})));
+  made.push_back(
+      verb.add_option("--dialect", options.dialect, "Control the program is written for")
+          ->check(CLI::IsMember(std::vector<std::string>(kernel::machine::kDialectNames.begin(),
+                                                         kernel::machine::kDialectNames.end()))));
   made.push_back(verb.reads("--tools", options.tools,
                             "Tool table in LinuxCNC's format; without it every tool has length 0"));
   made.push_back(verb.reads("--variables", options.variables,

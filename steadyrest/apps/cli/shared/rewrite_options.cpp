@@ -42,12 +42,20 @@ Method method_of(const RewriteOptions& options, const kernel::machine::Compensat
 }
 
 /// LinuxCNC's G10 L20 and Fanuc's G10 L2 P0 are what "by dialect" means; a SINUMERIK has no
-/// default, and way_of() has refused it before.
+/// default and stays `by_dialect`, which way_of() refuses.
 Method written(Method method, kernel::machine::Dialect dialect) {
   if (method != Method::by_dialect) {
     return method;
   }
-  return dialect == kernel::machine::Dialect::fanuc ? Method::fanuc : Method::linuxcnc;
+  switch (dialect) {
+    case kernel::machine::Dialect::linuxcnc:
+      return Method::linuxcnc;
+    case kernel::machine::Dialect::fanuc:
+      return Method::fanuc;
+    case kernel::machine::Dialect::sinumerik:
+      break;
+  }
+  return method;
 }
 
 }  // namespace
@@ -84,10 +92,11 @@ std::expected<nc::rewrite::Way, Refusals> way_of(const RewriteOptions& options,
         "give the machine file of the control the program is for"));
   }
   // No SINUMERIK method is safe without knowing the machine's PLC, so none is assumed.
-  if (program == Dialect::sinumerik && method == Method::by_dialect) {
-    return refused(bad_input("no method for corrections in dialect sinumerik",
-                             "add [compensation] to the machine file (method = \"r_parameter\", "
-                             "\"setting_data\" or \"frame_fine\"), or give --r-parameter N"));
+  if (written(method, program) == Method::by_dialect) {
+    return refused(
+        bad_input(fmt::format("no method for corrections in dialect {}", nc::read::name(program)),
+                  "add [compensation] to the machine file (method = \"r_parameter\", "
+                  "\"setting_data\" or \"frame_fine\"), or give --r-parameter N"));
   }
   const auto r_parameter = options.r_parameter == kNoParameter
                                ? compensation.r_parameter

@@ -51,6 +51,10 @@ struct DialectRules {
   bool numbered_programs = false;  ///< M98 P looks for its number in the file first
   bool named_calls = false;  ///< of cycles and subprograms, with values; M17 or RET ends these
   bool short_way = false;    ///< plain lines may go past the checks: see plain_block.hpp
+  bool plain_words = false;  ///< letters and written numbers alone mean the same in every state
+  bool has_g92 = true;
+  bool settable_frames = false;  ///< G54 … G57, G500 … G599 choose them; G70, G71, G700, G710 units
+  bool edge_chooses_length = false;  ///< D and T, not G43
 };
 
 [[nodiscard]] const DialectRules& rules_of(read::Dialect dialect) noexcept;

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/plan/check/machine_check.hpp>
 #include <steadyrest/nc/plan/check/reach.hpp>
@@ -80,7 +81,7 @@ bool MachineCheck::placed(const Move& move, std::size_t axis) const noexcept {
   const bool by_tool = axis == 2 || (axis == 0 && lathe_);
   const bool length = known_.tools || !tool_came_ || !by_tool;
   if ((move.machine_axes >> axis & 1U) != 0) {  // SUPA keeps the tool's length
-    return length || machine_.control.dialect != kernel::machine::Dialect::sinumerik;
+    return length || !interpret::rules_of(machine_.control.dialect).tool_in_machine_frame;
   }
   return known_.offsets && length;
 }

@@ -18,7 +18,7 @@ std::optional<Dialect> dialect_from_name(std::string_view name) noexcept {
 }
 
 std::string_view name(Dialect dialect) noexcept {
-  return kDialectNames[static_cast<std::size_t>(dialect)];
+  return kernel::machine::name_of(dialect);
 }
 
 }  // namespace steadyrest::nc::read

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/rewrite/text/linuxcnc_text.hpp>
 #include <steadyrest/nc/rewrite/text/settings.hpp>
 
@@ -91,9 +92,10 @@ interpret::Config with_unknown_offsets(interpret::Config config, const Way& way)
   if (config.start_known) {
     return config;
   }
+  const interpret::DialectRules& rules = interpret::rules_of(config.dialect);
   // The head may set the external offset to 0 where it is free: it must be unknown only where it is
   // not.
-  if (none(config.external) && config.dialect == read::Dialect::fanuc && config.external_offset &&
+  if (none(config.external) && rules.g10_adds && config.external_offset &&
       !way.external_offset_free) {
     std::fill_n(config.external.begin(), 3, kOwn_mm);
   }
@@ -107,7 +109,7 @@ interpret::Config with_unknown_offsets(interpret::Config config, const Way& way)
   }
   fill(config.tool_offset);
   // SINUMERIK has no G92; its frames start empty.
-  if (config.dialect != read::Dialect::sinumerik) {
+  if (rules.has_g92) {
     fill(config.g92);
     config.g92_on = true;
   }

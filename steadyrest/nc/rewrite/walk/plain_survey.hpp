@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 #include <steadyrest/nc/rewrite/walk/survey.hpp>
 
@@ -21,7 +22,7 @@ namespace steadyrest::nc::rewrite {
 class PlainSurvey {
  public:
   explicit PlainSurvey(read::Dialect dialect) noexcept
-      : plain_(dialect == read::Dialect::linuxcnc) {}
+      : plain_(interpret::rules_of(dialect).plain_words) {}
 
   /// The next line. True where it certainly holds no comment.
   bool look(std::string_view line);

@@ -17,11 +17,11 @@ using interpret::ModeMask;
 namespace {
 
 // What a word settles: from then on the program, and not the control's past, has the mode.
-ModeMask of_g(double code, bool sinumerik) noexcept {
-  if (sinumerik && (code == 70.0 || code == 71.0 || code == 700.0 || code == 710.0)) {
+ModeMask of_g(double code, bool settable_frames) noexcept {
+  if (settable_frames && (code == 70.0 || code == 71.0 || code == 700.0 || code == 710.0)) {
     return mode(GGroup::units);
   }
-  if (sinumerik && code >= 500.0 && code < 600.0) {
+  if (settable_frames && code >= 500.0 && code < 600.0) {
     return mode(GGroup::work_offset);
   }
   const auto found = interpret::group_of_g(interpret::g::code_of(code));
@@ -52,7 +52,7 @@ ModeMask of_m(double code) noexcept {
 void Said::look(const read::Word& word) {
   switch (word.letter) {
     case 'G':
-      modes_ |= of_g(word.value, sinumerik_) & ~lost_;
+      modes_ |= of_g(word.value, settable_frames_) & ~lost_;
       break;
     case 'M':
       // M72, or the end of the subprogram after M73, brings back what was in force here. A mode

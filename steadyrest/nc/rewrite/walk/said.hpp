@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/interpret/state/asked.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/read/text/block.hpp>
@@ -31,7 +32,7 @@ struct Taken {
 class Said {
  public:
   explicit Said(const interpret::Config& config) noexcept
-      : sinumerik_(config.dialect == read::Dialect::sinumerik),
+      : settable_frames_(interpret::rules_of(config.dialect).settable_frames),
         modes_(config.start_known ? mode(interpret::GGroup::work_offset) : 0) {}
 
   /// G0, G1: nearly every line.
@@ -55,7 +56,7 @@ class Said {
   [[nodiscard]] const std::optional<Taken>& taken() const noexcept { return taken_; }
 
  private:
-  bool sinumerik_;
+  bool settable_frames_;
   interpret::ModeMask modes_;
   interpret::ModeMask lost_ = 0;
   std::optional<Taken> taken_;

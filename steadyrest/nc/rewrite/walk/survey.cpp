@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/read/text/line_source.hpp>
 #include <steadyrest/nc/rewrite/walk/survey.hpp>
@@ -24,7 +25,8 @@ bool puts_length_on(const read::Block& block, read::Dialect dialect) {
   return std::ranges::any_of(block.words(), [dialect](const read::Word& word) {
     const int code = word.letter == 'G' ? interpret::g::code_of(word.value) : -1;
     const bool g43 = code >= interpret::g::kToolLength && code <= interpret::g::kAddToolLength;
-    const bool edge = dialect == read::Dialect::sinumerik && word.letter == 'D' && word.value > 0.0;
+    const bool edge =
+        interpret::rules_of(dialect).edge_chooses_length && word.letter == 'D' && word.value > 0.0;
     return g43 || edge;
   });
 }

@@ -54,7 +54,7 @@ Walk::Walk(read::LineSource source, const interpret::Config& config, const Surve
     : source_(std::move(source)),
       survey_(survey),
       said_(config),
-      sinumerik_(config.dialect == read::Dialect::sinumerik),
+      rules_(interpret::rules_of(config.dialect)),
       start_known_(config.start_known),
       mill_(config.axes.find('Y') != std::string::npos),
       method_(way.method),
@@ -235,8 +235,8 @@ void Walk::look_at_g(const read::Word& word) {
                  code == 49.0 || (code >= 43.0 && code < 44.0);
   facts_.shifts = facts_.shifts || code == 52.0 || (code >= 92.0 && code < 93.0);
   facts_.settable =
-      facts_.settable ||
-      (sinumerik_ && ((code >= 54.0 && code <= 57.0) || (code >= 500.0 && code < 600.0)));
+      facts_.settable || (rules_.settable_frames &&
+                          ((code >= 54.0 && code <= 57.0) || (code >= 500.0 && code < 600.0)));
 }
 
 void Walk::look(const read::Block& block) {
@@ -285,7 +285,7 @@ void Walk::look_at(const read::Word& word) {
     default:
       facts_.machine_frame = facts_.machine_frame || is(word.name, "SUPA");
       facts_.loses = facts_.loses || facts_.machine_frame ||
-                     (sinumerik_ && (word.letter == 'D' || word.letter == 'T'));
+                     (rules_.edge_chooses_length && (word.letter == 'D' || word.letter == 'T'));
       facts_.shifts = facts_.shifts || std::ranges::any_of(kFrameWords, [&](std::string_view name) {
                         return is(word.name, name);
                       });

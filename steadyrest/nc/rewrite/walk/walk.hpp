@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
@@ -168,7 +169,7 @@ class Walk {
   bool over_ = false;
   bool any_move_ = false;
   bool ends_ = false;
-  bool sinumerik_ = false;
+  const interpret::DialectRules& rules_;
   bool start_known_ = false;
   bool mill_ = false;  ///< it has a Y: no diameters
   Method method_;

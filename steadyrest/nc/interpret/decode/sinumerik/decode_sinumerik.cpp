@@ -331,7 +331,10 @@ const DialectRules& sinumerik_rules() noexcept {
                                        .tool_in_machine_frame = true,
                                        .rounding_distance = true,
                                        .variables = Variables::typed,
-                                       .named_calls = true};
+                                       .named_calls = true,
+                                       .has_g92 = false,
+                                       .settable_frames = true,
+                                       .edge_chooses_length = true};
   return kRules;
 }
 

@@ -48,6 +48,16 @@ bool is_word(const std::string& word, Dialect dialect) {
   return std::ranges::find(unknown, reason) == unknown.end();
 }
 
+TEST(Dialects, AreNamedInTheOrderOfTheEnumerationAndFoundByTheirNames) {
+  for (std::size_t i = 0; i < kernel::machine::kDialectNames.size(); ++i) {
+    const auto dialect = static_cast<Dialect>(i);
+    EXPECT_EQ(read::name(dialect), kernel::machine::kDialectNames[i]);
+    EXPECT_EQ(read::dialect_from_name(read::name(dialect)), dialect);
+  }
+  EXPECT_EQ(kernel::machine::kDialectNames.back(), "sinumerik");
+  EXPECT_FALSE(read::dialect_from_name(""));
+}
+
 TEST(Codes, OfADialectAreThoseOfItsListToTheTenth) {
   std::vector<double> of_linuxcnc = kOfRs274;
   std::erase_if(of_linuxcnc, [](double code) {
