@@ -91,6 +91,12 @@ Result<void> write_cyclogram(const ProgramTime& time, const Options& options) {
   return kernel::file::write_file(options.cyclogram, text);
 }
 
+/// Whole, or three digits of what would round to little or nothing.
+std::string rate(double value) {
+  constexpr double kWhole = 10.0;
+  return value < kWhole ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
+}
+
 /// Sums by kind of motion, by tool, and the first transitions.
 std::string text_of(const ProgramTime& time) {
   const auto seconds = [](double s) { return fmt::format("{:.2f}", s); };
@@ -115,8 +121,7 @@ std::string text_of(const ProgramTime& time) {
   for (std::size_t i = 0; i < std::min(time.cyclogram.size(), kShown); ++i) {
     const auto& t = time.cyclogram[i];
     cyclogram.row({seconds(t.start_s), seconds(t.seconds), fmt::format("T{}", t.tool),
-                   fmt::format("{:.0f}", rpm_from_rev_s(t.speed_rev_s)),
-                   fmt::format("{:.0f}", mm_min_from_mm_s(t.feed_mm_s())),
+                   rate(rpm_from_rev_s(t.speed_rev_s)), rate(mm_min_from_mm_s(t.feed_mm_s())),
                    std::string{name(t.load())}, t.coolant ? "on" : ""});
   }
   text += cyclogram.text();

@@ -324,7 +324,10 @@ void PathStream::on_move(const Move& move) {
     return;
   }
   if (move.kind == MoveKind::dwell) {
-    event(PathEventKind::dwell, move.line, move.dwell_s);
+    refusal_ = least_.add_dwell(move);
+    if (!refusal_) {
+      event(PathEventKind::dwell, move.line, move.dwell_s);
+    }
     return;
   }
   Piece& next = places_[next_];
@@ -333,7 +336,8 @@ void PathStream::on_move(const Move& move) {
     refusal_ = made.error();
     return;
   }
-  if (!*made) {
+  refusal_ = *made ? least_.add(next, move) : std::nullopt;
+  if (!*made || refusal_) {
     return;
   }
   if (spindle_pending_ && !next.plan.rapid) {

@@ -11,6 +11,7 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 #include <steadyrest/nc/plan/path/corner.hpp>
+#include <steadyrest/nc/plan/path/least_time.hpp>
 #include <steadyrest/nc/plan/path/piece.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
@@ -39,7 +40,8 @@ class PathReceiver {
 /// Lines of continuous mode with a tolerance are merged while all points between lie within
 /// merge_share·(the program's own tolerance) of the chord (0 = never); an arc in the XY plane that
 /// is nearer to its chord than that, r·(1 − cos(sweep/2)), is two lines over its middle. Every
-/// event stops the path. Splines are refused.
+/// event stops the path. Splines are refused, and so is a program that takes longer than
+/// kLongestProgram_s (LeastTime).
 class PathStream final : public interpret::Sink {
  public:
   PathStream(const kernel::machine::Machine& machine, PathReceiver& receiver);
@@ -87,6 +89,7 @@ class PathStream final : public interpret::Sink {
   bool spindle_pending_ = false;
   std::uint32_t spindle_line_ = 0;
   double spindle_rev_s_ = 0.0;
+  LeastTime least_;
   std::optional<kernel::outcome::Refusal> refusal_;
 };
 

@@ -11,6 +11,9 @@
 /// The planned path of a program: geometry for everyone, and what the interpolator needs beside it.
 namespace steadyrest::nc::plan {
 
+/// A program that takes longer has a feed or a dwell in the wrong unit.
+inline constexpr double kLongestProgram_s = 30.0 * 24.0 * 3600.0;
+
 /// What the speed plan needs of one segment, in one cache line; parallel to the PathSegments.
 struct SegmentPlan {
   double length_mm = 0.0;

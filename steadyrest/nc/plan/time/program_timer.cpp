@@ -86,6 +86,7 @@ class ProgramTimer::Runner final : public PathReceiver {
 
   // A feed far too low would keep the loops above busy for ever.
   [[nodiscard]] bool stuck() const { return time.total_s > kMost_s; }
+  [[nodiscard]] std::uint32_t line_in_hand() const { return line_; }
 
   PathStream stream;
   ProgramTime time;
@@ -129,9 +130,11 @@ class ProgramTimer::Runner final : public PathReceiver {
   }
 
   void account(const Setpoint& s, double period) {
-    if (arrival && s.line != line_) {
+    if (s.line != line_) {
       line_ = s.line;
-      arrival(s.line, time.total_s);
+      if (arrival) {
+        arrival(s.line, time.total_s);
+      }
     }
     // The cyclogram feeds the thermal forecast: the spindle as it really turns. The feed override
     // is in the path speed already.
@@ -215,7 +218,7 @@ Result<ProgramTime> ProgramTimer::take() {
     return std::unexpected(*runner_->stream.refusal());
   }
   if (runner_->stuck()) {
-    return refuse("the program takes longer than 30 days",
+    return refuse("", runner_->line_in_hand(), "the program takes longer than 30 days up to here",
                   "look for a feed or a dwell in the wrong unit");
   }
   ProgramTime& time = runner_->time;

@@ -10,6 +10,7 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/plan/path/planned_path.hpp>
 #include <steadyrest/nc/plan/time/cyclogram.hpp>
 
 namespace steadyrest::nc::plan {
@@ -49,7 +50,8 @@ class ProgramTimer final : public interpret::Sink {
   void on_move(const interpret::Move& move) override;
   void on_event(const interpret::Event& event) override;
   /// The result; call once after the last move. Refuses what the planner refuses, and a program
-  /// that would take longer than `kMost_s`.
+  /// that would take longer than `kMost_s`: at the programmed feeds before it is run, with the line
+  /// (PathStream); at these overrides with the line where the limit was passed.
   [[nodiscard]] kernel::outcome::Result<ProgramTime> take();
 
   /// Called with a move's line when the machine gets to it, and the time since the program's
@@ -60,7 +62,7 @@ class ProgramTimer final : public interpret::Sink {
   /// Feed, rapid and spindle override in force throughout; 1 without.
   void set_overrides(double feed_ratio, double rapid_ratio, double spindle_ratio);
 
-  static constexpr double kMost_s = 30.0 * 24.0 * 3600.0;
+  static constexpr double kMost_s = kLongestProgram_s;
 
  private:
   class Runner;

@@ -152,5 +152,39 @@ TEST(ProgramTimer, RefusesWhatThePlannerRefusesAndWhatNeverEnds) {
   EXPECT_FALSE(timer.take().has_value());
 }
 
+// By length over feed, before a single period is run; the same for feeds per revolution and dwells.
+TEST(ProgramTimer, RefusesAMoveOfMonthsAtOnceWithItsLine) {
+  const auto m = mill();
+  const auto refusal_of = [&m](const auto& change) {
+    auto timer = ProgramTimer::make(m).value();
+    Program p;
+    p.line(10, 0, 10.0);
+    p.line(20, 0, 10.0);
+    change(p.moves[1]);
+    std::size_t arrivals = 0;
+    timer.set_arrival([&arrivals](std::uint32_t, double) { ++arrivals; });
+    for (const auto& move : p.moves) {
+      timer.on_move(move);
+    }
+    const auto refused = timer.take();
+    EXPECT_FALSE(refused.has_value());
+    EXPECT_LE(arrivals, 1U);
+    return refused ? kernel::outcome::Refusal{} : refused.error();
+  };
+  for (const auto& refusal :
+       {refusal_of([](auto& move) { move.feed_mm_s = 1e-6 / 60.0; }), refusal_of([](auto& move) {
+          move.feed_mode = interpret::FeedMode::per_revolution;
+          move.feed_mm_s = 1e-7;
+          move.spindle_rev_s = -10.0;
+        }),
+        refusal_of([](auto& move) {
+          move.kind = interpret::MoveKind::dwell;
+          move.dwell_s = 1e7;
+        })}) {
+    EXPECT_EQ(refusal.line, 2U);
+    EXPECT_NE(refusal.what.find("30 days"), std::string::npos) << refusal.what;
+  }
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::plan
