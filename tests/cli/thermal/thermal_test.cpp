@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
 #include <string>
@@ -9,12 +10,14 @@
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace steadyrest::test {
 namespace {
 
+using testing::HasSubstr;
 using List = std::vector<double>;
 
 // Marusich 2012, eq. (1): R = {3;{18,27,15};{0,10,10}}, {3;{15,40,5};{0,10,10}}, 3 × {1;{60};{0}}.
@@ -46,6 +49,22 @@ TEST(ThermalPlan, AHigherLevelIsStricter) {
   }
   EXPECT_NEAR(before, 3.5, 1e-6);
   expect_refused("thermal plan" + kPaperWork + " --tolerance-um 10 --level 4", "0 … 3");
+}
+
+// Rounded instants may leave more than the band; a plan that does says so and by how much.
+TEST(ThermalPlan, WarnsOfWhatRoundedInstantsLeaveBeyondTheBand) {
+  for (const auto& [options, band_um] : {std::pair{" --tolerance-um 10 --resolution-min 60", 10.0},
+                                         {" --tolerance-um 10 --resolution-min 0", 10.0}}) {
+    const std::string line = "thermal plan" + kPaperWork + options + " --level 0";
+    const auto answer = answer_of(line);
+    const auto& axis = answer["axes"][0];
+    const double over_um = axis["residual_um"].get<double>() - band_um;
+    EXPECT_NEAR(axis["over_band_um"].get<double>(), std::max(over_um, 0.0), 1e-5);
+    const bool warns = over_um > 1e-3;
+    EXPECT_EQ(answer["warnings"].size(), warns ? 1U : 0U) << options;
+    EXPECT_EQ(run_line(line).out.find("outside its band") != std::string::npos, warns);
+    EXPECT_THAT(run_line(line).out, HasSubstr("without / band"));
+  }
 }
 
 // From forecast to proven program: as many insertions as the plan has corrections.

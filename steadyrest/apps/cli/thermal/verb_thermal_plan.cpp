@@ -189,7 +189,7 @@ Json head_of(const Options& options, std::uint32_t level, double share) {
 
 void show(Answer& answer, const Planned& planned, double share) {
   answer.json["axes"] = Json::array();
-  Table table({"axis", "without um", "with um", "ratio", "corrections", "95 %"});
+  Table table({"axis", "without um", "with um", "without / band", "corrections", "95 %"});
   for (std::size_t i = 0; i < planned.axis.size(); ++i) {
     const AxisCorrections& axis = planned.axis[i];
     // As the paper counts: the largest displacement over the band that it is held to.
@@ -202,6 +202,7 @@ void show(Answer& answer, const Planned& planned, double share) {
     answer.json["axes"].push_back({{"axis", axis.name},
                                    {"max_um", um_from_mm(axis.largest_mm)},
                                    {"residual_um", um_from_mm(axis.largest_residual_mm)},
+                                   {"over_band_um", um_from_mm(axis.over_band_mm)},
                                    {"ratio", ratio},
                                    {"corrections", axis.corrections},
                                    {"largest_offset_um", um_from_mm(axis.largest_offset_mm)},
@@ -220,6 +221,24 @@ void show(Answer& answer, const Planned& planned, double share) {
   answer.text += table.text();
   // The first axis on the top level, in the paper's shape, for scripts that know one axis.
   answer.json["transitions"] = transitions(planned.axis.front());
+}
+
+/// Rounded instants may let what is left pass the band that the plan is made for.
+void put_warnings(Answer& answer, const Planned& planned, double resolution_s) {
+  answer.json["warnings"] = Json::array();
+  for (const AxisCorrections& axis : planned.axis) {
+    if (axis.over_band_mm <= 0.0) {
+      continue;
+    }
+    const std::string warning = fmt::format(
+        "{} is left up to {:.3g} µm outside its band, because instants are rounded to {}; up to "
+        "{:.3g} µm is accepted",
+        axis.name, um_from_mm(axis.over_band_mm),
+        resolution_s > 0.0 ? fmt::format("{:.6g} min", resolution_s / 60.0) : std::string{"1 ms"},
+        um_from_mm(axis.allowed_over_mm));
+    answer.json["warnings"].push_back(warning);
+    answer.text += "warning: " + warning + "\n";
+  }
 }
 
 /// Level and share from the passport unless the command line says otherwise; tolerance from each
@@ -262,6 +281,7 @@ Outcome run(const Options& options) {
   answer.json["k"] = request.share;
   answer.json["tolerance_um"] = options.tolerance_um;
   show(answer, *planned, request.share);
+  put_warnings(answer, *planned, request.resolution_s);
   put_notes(answer, *job);
   if (!options.report.empty()) {
     std::vector<page::Course> courses;

@@ -238,14 +238,19 @@ class Planner {
       const double early_s = std::max(kInstant_s, 0.5 * request_.resolution_s);
       // Rounding an instant costs at most what the displacement does in half a step of the
       // resolution.
-      const double allowed = request_.share * row.tolerance_mm + 2.0 * kReached_mm +
-                             early_s * steepest_mm_s(f, curve_.piece[i].seconds);
+      const double band = request_.share * row.tolerance_mm + 2.0 * kReached_mm;
+      const double over = early_s * steepest_mm_s(f, curve_.piece[i].seconds);
+      const double allowed = band + over;
       if (most > allowed) {
         return refuse(fmt::format("{} would be left {:.3g} µm off, more than the {:.3g} µm allowed",
                                   place(i, 0.0), most * 1e3, allowed * 1e3),
                       "give a wider tolerance, a lower level or a finer resolution");
       }
       out_.largest_residual_mm = std::max(out_.largest_residual_mm, most);
+      if (most - band > out_.over_band_mm) {
+        out_.over_band_mm = most - band;
+        out_.allowed_over_mm = over;
+      }
     }
     return {};
   }

@@ -15,8 +15,8 @@ struct PlanRequest {
   double share = 1.0;           ///< k; Δ_k = k·Δ
   double max_offset_mm = 0.1;   ///< no sum of corrections goes beyond it
   double min_interval_s = 1.0;  ///< from one correction that is not zero to the next
-  /// Instants are rounded to whole multiples of it since the beginning; 0 = not. The residual may
-  /// then pass the band by half of it times the slope.
+  /// Instants are rounded to whole multiples of it since the beginning; 0 = not. What is left may
+  /// then pass the band: see AxisCorrections::over_band_mm.
   double resolution_s = 0.0;
   /// Corrections of 2·Δ_k, so that what is left swings from +Δ_k to −Δ_k: half as many places.
   bool whole_band = false;
@@ -35,7 +35,12 @@ struct AxisCorrections {
   std::vector<PlannedTransition> transition;
   double largest_mm = 0.0;           ///< |displacement| without corrections
   double largest_residual_mm = 0.0;  ///< |displacement| that is left
-  double largest_offset_mm = 0.0;    ///< |sum of corrections|
+  /// By how much what is left passes the band Δ_k of its transition at most, and what was allowed
+  /// there: the steepest slope of the transition × half the resolution (at least 1 ms, within
+  /// which instants are taken as one). Both 0 where the band itself is held.
+  double over_band_mm = 0.0;
+  double allowed_over_mm = 0.0;
+  double largest_offset_mm = 0.0;  ///< |sum of corrections|
   std::size_t corrections = 0;
 };
 
@@ -48,7 +53,8 @@ struct AxisCorrections {
 /// transition's first δ.
 ///
 /// Refused: tolerances that are not positive, corrections beyond `max_offset_mm`, corrections that
-/// follow one another within `min_interval_s`, and a plan that would not hold its band.
+/// follow one another within `min_interval_s`, and a plan that would leave more than its band and
+/// the allowance for the rounding of its instants (`allowed_over_mm`).
 [[nodiscard]] kernel::outcome::Result<AxisCorrections> plan_corrections(const std::string& name,
                                                                         const Curve& curve,
                                                                         const Cyclogram& cyclogram,
