@@ -39,6 +39,30 @@ TEST(Cut, GivesBothCutsAsJson) {
   }
 }
 
+// Outside of the travel the layer does not trust its input: what the machine cannot do is named by
+// line, and that the layer stood back by its time. The offsets of the simulated machine are known.
+TEST(Cut, SaysThatTheProgramLeavesTheTravelAndHowLongTheLayerWithdrew) {
+  const Scratch scratch;
+  const std::string far =
+      scratch.file("far.ngc", "G21 G90 F4000\nM3 S1000\nG0 X1600 Y0\nG2 X1600 Y0 I10 J0\nM2\n");
+  const std::string line = "cut " + far + " --machine examples/machines/linuxcnc-mill.toml";
+  const json answer = answer_of(line);
+  ASSERT_EQ(answer["withdrawn"].size(), 1U);
+  EXPECT_EQ(answer["withdrawn"][0]["reason"], "input_out_of_range");
+  EXPECT_GT(answer["withdrawn"][0]["seconds"], answer["with"]["cutting_time_s"]);
+  ASSERT_EQ(answer["warning_count"], 2U);
+  for (const int at : {3, 4}) {
+    const json& warning = answer["warnings"][static_cast<std::size_t>(at - 3)];
+    EXPECT_EQ(warning["line"], at);
+    EXPECT_THAT(warning["text"].get<std::string>(), HasSubstr("outside its travel -500"));
+  }
+  EXPECT_THAT(run_line(line).out,
+              ContainsRegex("the layer withdrew for [0-9]+\\.[0-9] s: input_out_of_range"));
+  const json within = answer_of(kCut);
+  EXPECT_TRUE(within["withdrawn"].empty());
+  EXPECT_EQ(within["warning_count"], 0U);
+}
+
 // 840D with encoders of 1 µm: the estimate must beat differences, and the guaranteed bounds must
 // hold for every sample (coverage 1).
 TEST(Cut, SaysWhatTheEstimatesOfTheMotionAreWorthOnEachAxis) {

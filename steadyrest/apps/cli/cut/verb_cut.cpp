@@ -18,6 +18,7 @@
 #include <steadyrest/apps/cli/shared/report_option.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/cut/report.hpp>
+#include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/plan/check/idle_override.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
@@ -33,6 +34,7 @@ namespace {
 using kernel::machine::ContourStrategy;
 using kernel::machine::Machine;
 using kernel::outcome::Kind;
+using kernel::outcome::Reason;
 using nc::plan::PlannedPath;
 using trial::cut::Figures;
 using trial::cut::Recorder;
@@ -86,7 +88,7 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
     return std::unexpected(std::move(answer));
   }
   nc::plan::PathBuilder builder(machine);
-  nc::plan::MachineCheck check(machine, known_of(options));
+  nc::plan::MachineCheck check(machine, known_in_simulation());
   nc::plan::Both both(builder, check);
   const auto report = nc::interpret::run_file(options.file, *config, both);
   if (!report) {
@@ -221,6 +223,25 @@ std::string text_of(const std::vector<trial::cut::ProbeFigures>& probes) {
   return "\n" + table.text();
 }
 
+/// Why and how long the layer stood back from its input. Standing back outside of cuts is its
+/// ordinary work and no news.
+std::string put_withdrawn(Answer& answer, const Recorder& with) {
+  answer.json["withdrawn"] = Json::array();
+  std::string text;
+  for (const Reason reason :
+       {Reason::input_not_finite, Reason::input_out_of_range, Reason::input_stale}) {
+    const auto found = with.time_by_reason().find(reason);
+    if (found == with.time_by_reason().end()) {
+      continue;
+    }
+    answer.json["withdrawn"].push_back(
+        {{"reason", kernel::outcome::name(reason)}, {"seconds", found->second}});
+    text += fmt::format("the layer withdrew for {:.1f} s: {}: {}\n", found->second,
+                        kernel::outcome::name(reason), kernel::outcome::sentence(reason));
+  }
+  return text.empty() ? text : "\n" + text;
+}
+
 /// One run of the simulated machine over the whole path.
 Result<Recorder> cut_once(const Machine& machine, const PathPointer& path,
                           const CutChatter& chatter, bool with_layer, Progress& progress) {
@@ -278,6 +299,7 @@ Outcome run(const Options& options, Progress& progress) {
   answer.json["probes"] = json_of(with->probes());
   answer.text = text_of(without->figures(), with->figures(), machine->contour.limit_mm) +
                 text_of(with->motion(), *machine) + text_of(with->probes()) +
+                put_withdrawn(answer, *with) +
                 put_warnings(answer, planned->warnings, planned->warning_count);
   put_vibration(answer, *chatter, *without, *with);
   if (auto done =

@@ -13,6 +13,11 @@ namespace steadyrest::apps::cli {
 /// What the options tell of the control's data.
 [[nodiscard]] nc::plan::Known known_of(const ProgramOptions& options);
 
+/// On the simulated machine all of it is known: what no option gives is 0 there.
+[[nodiscard]] constexpr nc::plan::Known known_in_simulation() noexcept {
+  return {.offsets = true, .tools = true};
+}
+
 /// The keys `warnings[]` (`line`, `text`) and `warning_count`; the text for people, empty for none.
 [[nodiscard]] std::string put_warnings(Answer& answer,
                                        const std::vector<nc::plan::Warning>& warnings,
