@@ -58,6 +58,7 @@ TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
   expect_refused("program compensate examples/plans/rib-pocket-compensated.ngc" + kWithPlan + to,
                  "program strip");
   expect_refused("program verify " + kProgram + " " + kProgram + kWithPlan, "head");
+  expect_refused("program verify " + kProgram + " " + kProgram + kWithPlan, "has no corrections");
   EXPECT_FALSE(std::filesystem::exists(scratch.at("changed.ngc")));
 }
 

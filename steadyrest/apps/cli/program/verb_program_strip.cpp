@@ -15,8 +15,8 @@ struct Options {
   std::string output;
 };
 
-/// strip() finds its own lines by their tag, so it needs no plan and no machine: a program can be
-/// cleaned years later.
+/// strip() knows its own lines by tag and form, so it needs no plan and no machine: a program can
+/// be cleaned years later.
 Outcome run(const Options& options) {
   const auto removed = nc::rewrite::strip(options.file, options.output);
   if (!removed) {

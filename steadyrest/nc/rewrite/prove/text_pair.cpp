@@ -133,6 +133,10 @@ Result<Inserted> compare_text(const std::string& original, const std::string& ch
   }
   TextPair pair(std::move(*before), std::move(*after), original, changed, settings);
   auto inserted = pair.compare(plain);
+  if (inserted && inserted->lines.empty() && corrects(plan)) {
+    return kernel::outcome::refuse(changed, "has no corrections: neither a head nor any other line",
+                                   "give the program that `program compensate` has written");
+  }
   if (inserted && inserted->head != whole_head(plan, settings)) {
     return kernel::outcome::refuse(changed, "the head does not match this plan, machine and method",
                                    std::string(kAgainstOtherLines));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <csignal>
+#include <cstddef>
 #include <filesystem>
 #include <iterator>
 #include <random>
@@ -91,6 +93,82 @@ TEST(Strip, LeavesOtherCommentsAlone) {
   test::write_file(shop.original(), program);
   EXPECT_EQ(strip(shop.original(), shop.changed()).value(), 0U);
   EXPECT_EQ(read_file(shop.changed()), program);
+}
+
+/// Lines with the mark that an author may have written; of the last ones only a number, a blank or
+/// an axis differs from what compensate() writes.
+const std::string kOwnLines[] = {
+    "G1 X1 F10 (STEADYREST is on this machine)",
+    "(STEADYREST is on this machine)",
+    "; G0 Z5 ;STEADYREST restated",
+    "G0 Z5 X1 (STEADYREST restated)",
+    "G0 Z5.0000 (STEADYREST restated) M30",
+    "G1 Z5.0000 (STEADYREST restated)",
+    "G90 G10 L2 P1 Z0.0000 X1 (STEADYREST head Z)",
+    "(STEADYREST head told --dialect linuxcnc) G1 X1",
+    "(STEADYREST head told us to) G0 X1",
+    "M0 (STEADYREST head of the coolant)",
+    "R50=R51 ;STEADYREST head Z",
+    "STOPRE STOPRE ;STEADYREST Z0.0100 mm",
+    "(MSG,STEADYREST is on this machine)",
+};
+
+TEST(Strip, RefusesALineThatCompensateDoesNotWriteWithItsLine) {
+  const Workshop shop;
+  for (const std::string& own : kOwnLines) {
+    const std::string program = "G21 G90\n" + own + "\nM2\n";
+    test::write_file(shop.original(), program);
+    const auto stripped = strip(shop.original(), shop.changed());
+    ASSERT_FALSE(stripped) << own;
+    EXPECT_EQ(stripped.error().kind, kernel::outcome::Kind::bad_input);
+    EXPECT_EQ(stripped.error().line, 2U) << own;
+    EXPECT_FALSE(std::filesystem::exists(shop.changed())) << own;
+  }
+}
+
+// What compensate() would write, in a program that it has not written.
+TEST(Strip, RefusesCorrectionsWithoutAHead) {
+  const Workshop shop;
+  for (const std::string& line :
+       {std::string{"G0 Z5.0000 (STEADYREST restated)\n"}, test::change_to(0.01)}) {
+    test::write_file(shop.original(), "G21\n" + line + "M2\n");
+    const auto stripped = strip(shop.original(), shop.changed());
+    ASSERT_FALSE(stripped) << line;
+    EXPECT_EQ(stripped.error().line, 2U);
+    EXPECT_FALSE(std::filesystem::exists(shop.changed()));
+  }
+}
+
+// Any line of the author's own in a corrected program: nothing is taken out.
+RC_GTEST_PROP(Strip, TakesNoLineThatCompensateDidNotInsert, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<unsigned>());
+  Workshop shop;
+  shop.machine.control.interpolator_period_s = 0.05;
+  shop.settings.told = {{"dialect", "linuxcnc"}, {"window-s", "60"}};
+  RC_ASSERT(shop.compensate(test::kPasses, test::kGrowth).has_value());
+  std::string text = read_file(shop.changed());
+  auto at = text.find('\n', random() % (text.size() - 1)) + 1;
+  const std::string& own = kOwnLines[random() % std::size(kOwnLines)];
+  const bool apart = random() % 2 == 0;
+  text.insert(at, own + "\n");
+  // Or the author has changed a line of ours: a word more in front of its mark.
+  if (apart) {
+    text.erase(at, own.size() + 1);
+    const auto mark = text.find(" (STEADYREST", at);
+    if (mark == std::string::npos) {
+      return;
+    }
+    at = mark;
+    text.insert(mark, " X1");
+  }
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  test::write_file(shop.original(), text);
+  std::filesystem::remove(shop.changed());
+  const auto stripped = strip(shop.original(), shop.changed());
+  RC_ASSERT(!stripped.has_value());
+  RC_ASSERT(stripped.error().line == static_cast<std::size_t>(line));
+  RC_ASSERT(!std::filesystem::exists(shop.changed()));
 }
 
 TEST(Strip, RefusesATargetThatIsAFolder) {

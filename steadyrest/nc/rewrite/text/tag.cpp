@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <expected>
 
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
 #include <steadyrest/nc/rewrite/text/tag.hpp>
+#include <steadyrest/nc/rewrite/text/written_lines.hpp>
 
 namespace steadyrest::nc::rewrite {
 namespace {
@@ -100,6 +103,27 @@ bool names_variable(std::string_view line, std::string_view upper_begin) noexcep
           }).empty();
 }
 
+namespace {
+
+constexpr std::string_view kAgainstOthers =
+    "change its comment if the line is your own, else take the line out by hand";
+
+/// Why a marked line is not one of ours. compensate() begins with a head in every program.
+std::expected<void, std::string_view> is_ours(std::string_view line, const WrittenLines& written,
+                                              bool first) {
+  if (!written.has(line)) {
+    return std::unexpected(
+        "has a STEADYREST comment, but is no line that `program compensate` "
+        "writes");
+  }
+  if (first && !is_head(line)) {
+    return std::unexpected("has a STEADYREST comment, but no head of corrections stands before it");
+  }
+  return {};
+}
+
+}  // namespace
+
 kernel::outcome::Result<std::size_t> strip(const std::string& program, const std::string& output) {
   auto lines = SourceLines::open(program);
   if (!lines) {
@@ -109,10 +133,16 @@ kernel::outcome::Result<std::size_t> strip(const std::string& program, const std
   if (!writer) {
     return std::unexpected(writer.error());
   }
+  const WrittenLines written_lines;
   std::size_t removed = 0;
   // Byte for byte: lines that stay are written with their own ends.
   while (lines->next()) {
     if (is_inserted(lines->line())) {
+      // The mark alone proves nothing: the line may be the author's own move.
+      if (auto ours = is_ours(lines->line(), written_lines, removed == 0); !ours) {
+        return kernel::outcome::refuse(program, lines->number(), std::string(ours.error()),
+                                       std::string(kAgainstOthers));
+      }
       ++removed;
     } else {
       writer->write(lines->line());
