@@ -234,5 +234,42 @@ TEST(MotionEstimate, SaysSoWhenTheOutputCannotBeWritten) {
   EXPECT_EQ(run_line(line + "/dev/full").code, 1);
 }
 
+/// A second of 1 kHz: 20 mm/s, 20 counts a row.
+std::string ticks(double stamp_per_s, std::int64_t jump = 0) {
+  std::string text = "t_s,count\n";
+  for (int i = 0; i < 1000; ++i) {
+    text += std::to_string(i * 1e-3 * stamp_per_s) + "," +
+            std::to_string(20 * i + (i >= 500 ? jump : 0)) + "\n";
+  }
+  return text;
+}
+
+// Milliseconds in t_s, a wrong cycle, a lost reference: each with its numbers and what to check.
+TEST(MotionEstimate, WarnsWhereTheLogIsNotWhatWasSaidOfIt) {
+  const Scratch scratch;
+  const auto line = [&](const std::string& text, const std::string& hz) {
+    return "motion estimate " + scratch.file("log.csv", text) +
+           " --input ticks --count-mm 0.001 --cycle-hz " + hz + " -o " + scratch.at("out.csv") +
+           " --force";
+  };
+  EXPECT_TRUE(answer_of(line(ticks(1.0), "1000"))["warnings"].empty());
+  expect_refused(line(ticks(1e3), "1000"),
+                 "log.csv: rows are 1000 ms apart (median), but 1000 cycles a second are 1 ms: "
+                 "nothing can be estimated; check --cycle-hz, and that t_s is in seconds");
+  const Finished twice = run_line(line(ticks(1.0), "2000"));
+  EXPECT_EQ(twice.code, 0);
+  EXPECT_THAT(twice.err,
+              HasSubstr("log.csv: warning: rows are 1 ms apart (median), but 2000 cycles "
+                        "a second are 0.5 ms; check --cycle-hz"));
+  const Finished jump = run_line(line(ticks(1.0, 1'000'000'000), "1000"));
+  EXPECT_EQ(jump.code, 0);
+  EXPECT_THAT(jump.err, HasSubstr("warning: the count jumps by 1e+09 in 1 ms at t_s = 0.5"));
+  EXPECT_EQ(answer_of(line(ticks(1.0, 200), "1000"))["warnings"].size(), 0U)
+      << "ten times the speed may be a short move";
+  expect_refused(
+      "motion estimate " + scratch.file("short.csv", "t_s,count\n0.0001,0\n0.0002,1\n") + kEdges,
+      "no control cycle of 1 ms lies between");
+}
+
 }  // namespace
 }  // namespace steadyrest::test

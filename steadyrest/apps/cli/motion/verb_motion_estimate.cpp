@@ -16,6 +16,7 @@
 #include <steadyrest/motion/offline/bench/estimator_choice.hpp>
 #include <steadyrest/motion/offline/log/edge_log.hpp>
 #include <steadyrest/motion/offline/log/estimate_table.hpp>
+#include <steadyrest/motion/offline/log/log_doubts.hpp>
 #include <steadyrest/motion/offline/log/log_record.hpp>
 #include <steadyrest/motion/offline/scene/line_calibration.hpp>
 #include <steadyrest/motion/online/edges/cycle_monitor.hpp>
@@ -66,6 +67,11 @@ offline::EdgeLogConfig log_config(const Options& options) {
     config.max_speed_counts_s = 1.01 * options.setup.max_speed_mm_s / options.setup.count_mm;
   }
   return config;
+}
+
+offline::LogClaims claims_of(const Options& options) {
+  return {options.edges() ? LogInput::edges : LogInput::ticks, options.setup.cycle_hz,
+          log_config(options).max_speed_counts_s};
 }
 
 /// The log as an estimator takes it: edges with lines and directions, or ticks.
@@ -188,6 +194,12 @@ Answer answer_of(const Options& options, const EdgeLog& log, const Record& recor
   }
   answer.text = table.text();
   put_findings(log, answer);
+  answer.json["warnings"] = Json::array();
+  for (Refusal& doubt : offline::doubts(log, claims_of(options))) {
+    answer.json["warnings"].push_back(fmt::format("{}; {}", doubt.what, doubt.to_do));
+    doubt.what = "warning: " + doubt.what;
+    answer.refusals.push_back(std::move(doubt));
+  }
   return answer;
 }
 
@@ -215,6 +227,16 @@ Outcome estimate(const Options& options, const EdgeLog& log,
   auto record = record_of(options, log);
   if (!record) {
     return refused(record.error());
+  }
+  if (const auto refusal = offline::no_cycles(log, claims_of(options))) {
+    return refused(*refusal);
+  }
+  if (record->ticks.empty() && !log.stopped) {
+    return refused(bad_input(log.file,
+                             fmt::format("no control cycle of {:.6g} ms lies between its first and "
+                                         "its last row: nothing can be estimated",
+                                         1e3 / options.setup.cycle_hz),
+                             "give a longer log, or check --cycle-hz"));
   }
   // Edges are moved to where the lines really are, before any estimator sees them.
   if (lines) {
