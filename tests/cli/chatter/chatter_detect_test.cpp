@@ -218,5 +218,38 @@ TEST(ChatterDetect, Refuses) {
   expect_refused(detect("no/such.csv"), "no/such.csv: cannot be read");
 }
 
+// "No chatter" is said of a signal that was heard.
+TEST(ChatterDetect, RefusesADeadSensorAndImpossibleAmplitudes) {
+  const Scratch scratch;
+  const auto detect = [&scratch](double scale, double offset) {
+    std::string text = "t_s,value\n";
+    const std::vector<double> values = cut(true);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      text += fmt::format("{:.6f},{:.8g}\n", static_cast<double>(i) / kRateHz,
+                          scale * values[i] + offset);
+    }
+    return "chatter detect " + scratch.file("a.csv", text) + kOnVmc + " --teeth 2 --speed-rpm 5000";
+  };
+  expect_refused(detect(0.0, 0.0),
+                 "a.csv: value is 0 in every sample: no signal; check the sensor");
+  expect_refused(detect(0.0, -32768.0), "value is -32768 in every sample");
+  expect_refused(detect(1e308, 0.0), "it may reach 1e+100");
+  expect_refused(detect(1e160, 0.0), "it may reach 1e+100");
+  expect_refused(detect(1e-160, 0.0), "must change by 1e-100 or more");
+  for (const double scale : {1e-30, 1e30}) {
+    EXPECT_FALSE(answer_of(detect(scale, 0.0))["events"].empty()) << scale;
+  }
+}
+
+TEST(ChatterDetect, RefusesASpeedThatTheSpindleDoesNotReach) {
+  const Scratch scratch;
+  std::string text = csv(cut(false), true);
+  text.replace(text.rfind(",5000"), 5, ",1e9");
+  expect_refused("chatter detect " + scratch.file("a.csv", text) + kOnVmc + " --teeth 2",
+                 "a.csv: speed_rpm 1e+09 is above the spindle's 8000");
+  expect_refused(kDetect + " --teeth 2 --programmed-rpm 1e9",
+                 "--programmed-rpm 1e+09 is above the spindle's 8000");
+}
+
 }  // namespace
 }  // namespace steadyrest::test

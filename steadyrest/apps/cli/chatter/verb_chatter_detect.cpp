@@ -100,15 +100,26 @@ std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
     return bad("has no spindle speed", "give --speed-rpm N, or a CSV with a speed_rpm column",
                options.signal);
   }
+  // The first margin lets a speed pass that is the spindle's limit to the last digit printed, the
+  // second a spindle that overshoots.
+  const double most_rpm = rpm_from_rev_s(machine.spindle.max_rev_s);
+  constexpr double kRounding = 1.0 + 1e-9;
+  constexpr double kOvershoot = 1.2;
+  const auto above = [most_rpm](const char* what, double rpm, const std::string& file = {}) {
+    return bad(fmt::format("{} {:.6g} is above the spindle's {:.6g}", what, rpm, most_rpm),
+               "give the speed in rev/min, or the right machine file", file);
+  };
+  if (options.programmed_rpm && *options.programmed_rpm > most_rpm * kRounding) {
+    return above("--programmed-rpm", *options.programmed_rpm);
+  }
   if (options.speed_rpm) {
-    const double most_rpm = rpm_from_rev_s(machine.spindle.max_rev_s);
-    // The margin lets a speed pass that is the spindle's limit to the last digit printed.
-    if (*options.speed_rpm > most_rpm * (1.0 + 1e-9)) {
-      return bad(fmt::format("--speed-rpm {:.6g} is above the spindle's {:.6g}", *options.speed_rpm,
-                             most_rpm),
-                 "give the speed in rev/min, or the right machine file");
+    if (*options.speed_rpm > most_rpm * kRounding) {
+      return above("--speed-rpm", *options.speed_rpm);
     }
     speed.assign(signal.value.size(), kernel::units::rev_s_from_rpm(*options.speed_rpm));
+  }
+  if (const double most = rpm_from_rev_s(std::ranges::max(speed)); most > most_rpm * kOvershoot) {
+    return above("speed_rpm", most, options.signal);
   }
   // All frequencies are judged by their order (frequency over speed), and at speed 0 there is none.
   if (std::ranges::none_of(speed, [](double s) { return s > 0.0; })) {
@@ -297,6 +308,9 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
     return refused(bad(fmt::format("has {} samples; one spectrum needs {}", signal->value.size(),
                                    detector->window()),
                        "give a longer recording: a few tenths of a second", options.signal));
+  }
+  if (auto refusal = offline::no_signal(*signal, options.signal)) {
+    return refused(*refusal);
   }
   std::vector<Event> events;
   for (const ChatterEvent& heard : chatter_events(*signal, *detector, progress)) {

@@ -99,6 +99,9 @@ class SignalSink final : public table::Sink {
     // Over the whole record: one step has only the digits of its stamps.
     out_.rate_hz = static_cast<double>(steps.size()) / (time_s_.back() - time_s_.front());
     if (auto fault = unfit_rate(out_.rate_hz)) {
+      if (out_.rate_hz < kLeastRateHz) {
+        fault->to_do += "; t_s is in seconds";
+      }
       return std::unexpected(std::move(*fault));
     }
     out_.rate_hz = rate_of(out_.rate_hz);

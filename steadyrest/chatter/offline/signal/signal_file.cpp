@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -82,7 +83,7 @@ std::optional<SignalFault> unfit_rate(double rate_hz) {
   return SignalFault{0, fmt::format("{:.6g} samples a second; allowed: 1000 … 50000", rate_hz),
                      rate_hz > kMostRateHz
                          ? "resample it to 50 kHz or less, through a low-pass filter"
-                         : "record at 1 kHz or more; t_s is in seconds"};
+                         : "record at 1 kHz or more"};
 }
 
 Result<RecordedSignal> parse_signal(std::string_view bytes, const std::string& file,
@@ -100,6 +101,24 @@ Result<RecordedSignal> read_signal(const std::string& path, const table::Format&
     return std::unexpected(refusal_of(std::move(bytes.error()), path));
   }
   return parse_signal(*bytes, path, format);
+}
+
+std::optional<Refusal> no_signal(const RecordedSignal& signal, const std::string& file) {
+  constexpr double kLargest = 1e100;
+  constexpr double kSmallest = 1e-100;
+  const auto [least, most] = std::ranges::minmax(signal.value);
+  if (least == most) {
+    return bad_input(file, fmt::format("value is {:.6g} in every sample: no signal", least),
+                     "check the sensor, its supply and the channel that was recorded");
+  }
+  if (std::max(-least, most) > kLargest || most - least < kSmallest) {
+    return bad_input(file,
+                     fmt::format("value lies within {:.6g} … {:.6g}; it may reach {:g} and must "
+                                 "change by {:g} or more",
+                                 least, most, kLargest, kSmallest),
+                     "check the column and its unit; a sensor gives some 1e-6 … 1e6");
+  }
+  return std::nullopt;
 }
 
 }  // namespace steadyrest::chatter::offline

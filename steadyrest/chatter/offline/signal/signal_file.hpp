@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,5 +36,10 @@ struct RecordedSignal {
 /// The same of bytes; `file` is what the refusals are to call it.
 [[nodiscard]] kernel::outcome::Result<RecordedSignal> parse_signal(
     std::string_view bytes, const std::string& file, const table::Format& format = {});
+
+/// What can be read and yet not be judged: every sample the same (a sensor that is dead, saturated
+/// or not plugged in), or amplitudes whose squares, summed over a window, leave a double.
+[[nodiscard]] std::optional<kernel::outcome::Refusal> no_signal(const RecordedSignal& signal,
+                                                                const std::string& file);
 
 }  // namespace steadyrest::chatter::offline
