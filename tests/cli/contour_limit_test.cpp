@@ -68,6 +68,7 @@ TEST(ContourLimit, RefusesWhatIsNoCircle) {
                       "contour limit --radius-mm 10 --kv-1-s 0 --max-error-mm 0.01",
                       "contour limit --radius-mm 10 --kv-1-s inf --max-error-mm 0.01",
                       "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 10",
+                      "contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 9.9999999999",
                       "contour limit --radius-mm 10 --kv-1-s 50 --feed-mm-min -5",
                       "contour limit --radius-mm 10 --kv-1-s 50"});
 }

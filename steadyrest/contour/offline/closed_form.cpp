@@ -119,17 +119,24 @@ Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double ma
   if (auto refusal = outside("largest error in mm", max_error_mm, 0.0, radius_mm, false)) {
     return std::unexpected(*refusal);
   }
-  if (max_error_mm == radius_mm) {
-    return refuse("the largest error is not below the radius", "give an error below the radius");
-  }
+  // At the radius the tool stands still at the centre. Near it the speed grows without bound, and
+  // 1 − (1 − ε/R)² is 1 to the last digit.
+  constexpr double kMostShare = 1.0 - 1e-6;
   const double share = max_error_mm / radius_mm;
+  if (share > kMostShare) {
+    return refuse(fmt::format("the largest error, {:.12g} mm, is not below the radius, {:.12g} mm",
+                              max_error_mm, radius_mm),
+                  "give an error that the part may have, far below the radius");
+  }
   // R′ = R ∓ ε: g − 1 = (1 ∓ ε/R)² − 1, written without the 1 that would swallow a small share.
   // With velocity lag the circle may come out too large first.
   const double too_small = crossing(servo, -share * (2.0 - share));
   const double too_large = crossing(servo, share * (2.0 + share));
   const double w = std::min(too_small, too_large);
   if (!std::isfinite(w)) {
-    return CircleLimit{kNone, {}};
+    // |G| → a without lag, → 0 with it.
+    const double rest = servo.velocity_lag_s > 0.0 ? 0.0 : servo.feed_forward;
+    return CircleLimit{kNone, {radius_mm * (1.0 - rest), radius_mm * std::abs(1.0 - rest)}};
   }
   const double speed_mm_s = radius_mm * std::sqrt(w);
   const Shares at = shares(servo, w);

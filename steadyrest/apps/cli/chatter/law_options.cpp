@@ -106,6 +106,10 @@ Result<ChosenLaw> chosen_law(const LawOptions& options, const Process& process, 
     return refuse("a modulation without a law", "give --law, for example --law sine");
   }
   if (!options.modulated()) {
+    if (numbers) {
+      return refuse("--law constant with an amplitude or a period",
+                    "leave them out, or name the law that they belong to");
+    }
     return out;
   }
   const auto rva = amplitude(options, speed_rpm);

@@ -11,6 +11,7 @@
 #include <steadyrest/apps/cli/chatter/verb_chatter_simulate.hpp>
 #include <steadyrest/apps/cli/shared/report_option.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/cli/shared/value_check.hpp>
 #include <steadyrest/apps/page/chatter/cut_recorder.hpp>
 #include <steadyrest/chatter/offline/cycle/stability.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
@@ -219,13 +220,15 @@ void add_verb_chatter_simulate(Session& session, Verb& verb) {
   auto options = std::make_shared<chatter_simulate::Options>();
   add_cut_point_options(verb, options->cut);
   verb.add_option("--seconds", options->seconds, "Length of the cut")->capture_default_str();
+  CLI::Option* steps =
+      verb.writes("-o,--output", options->output,
+                  "Write t_s, angle_rad, speed_rpm, x_mm, y_mm, fx_N, fy_N, torque_Nm, power_W and "
+                  "chip_mm for each step to this file",
+                  csv_content("the steps of a cut (CSV)", {chatter_simulate::kHead}));
   verb.add_option("--every", options->every, "Write only every Nth step")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  verb.writes("-o,--output", options->output,
-              "Write t_s, angle_rad, speed_rpm, x_mm, y_mm, fx_N, fy_N, torque_Nm, power_W and "
-              "chip_mm for each step to this file",
-              csv_content("the steps of a cut (CSV)", {chatter_simulate::kHead}));
+      ->check(within(1, 1e9))
+      ->capture_default_str()
+      ->needs(steps);
   verb.reports(options->report);
   session.on(verb,
              [options](Progress& progress) { return chatter_simulate::run(*options, progress); });

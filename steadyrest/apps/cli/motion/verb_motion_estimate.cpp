@@ -326,9 +326,11 @@ void add_verb_motion_estimate(Session& session, Verb& verb) {
       ->check(CLI::IsMember({"edges", "ticks"}));
   add_axis_options(verb, *options);
   add_log_options(verb, options->format);
-  verb.reads("--calibration", options->calibration,
-             "Encoder lines as written by `motion calibrate`, or a machine file");
-  verb.add_option("--axis", options->axis, "Axis of the machine file the log belongs to");
+  CLI::Option* lines =
+      verb.reads("--calibration", options->calibration,
+                 "Encoder lines as written by `motion calibrate`, or a machine file");
+  verb.add_option("--axis", options->axis, "Axis of the machine file the log belongs to")
+      ->needs(lines);
   verb.add_option("--estimator", options->estimator,
                   fmt::format("One of {}", fmt::join(motion::offline::estimator_names(), ", ")))
       ->capture_default_str();

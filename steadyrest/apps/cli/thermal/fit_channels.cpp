@@ -60,6 +60,11 @@ kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>
   // Two columns of one axis would overwrite each other in the passport. There are few, so pairs do.
   for (std::size_t i = 0; i < out.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
+      if (out[i].first == out[j].first) {
+        return refuse(fmt::format("--channel {} is given twice",
+                                  log.displacement[static_cast<std::size_t>(out[i].first)].name),
+                      "name each column once");
+      }
       if (out[i].second == out[j].second) {
         return refuse(fmt::format("two channels are called {}", out[i].second),
                       "give each a different name");

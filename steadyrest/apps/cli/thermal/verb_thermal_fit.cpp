@@ -238,6 +238,9 @@ Result<Job> job_of(const Options& options) {
   }
   job.channels = std::move(*channels);
   for (const std::string& sensor : options.sensors) {
+    if (std::ranges::count(options.sensors, sensor) > 1) {
+      return refuse(fmt::format("--ambient {} is given twice", sensor), "name each column once");
+    }
     if (std::ranges::find(job.log.temperature, sensor, &offline::LogChannel::name) ==
         job.log.temperature.end()) {
       return refuse(options.log, fmt::format("there is no temperature {}", sensor),
@@ -356,17 +359,21 @@ void add_verb_thermal_fit(Session& session, Verb& verb) {
   add_log_options(verb, options->format);
   verb.add_option("--channel", options->channels,
                   "Only this displacement, and its axis: z_um=Z; repeatable");
-  verb.add_option("--ambient", options->sensors,
-                  "Temperature that may be an input; default: all in the log");
-  verb.add_flag("--no-ambient", options->no_ambient, "Use the spindle speed as the only input");
-  verb.add_flag("--own-tau", options->own_tau,
-                "Fit time constants for each axis separately, even where several could share them");
+  CLI::Option* ambient = verb.add_option(
+      "--ambient", options->sensors, "Temperature that may be an input; default: all in the log");
+  verb.add_flag("--no-ambient", options->no_ambient, "Use the spindle speed as the only input")
+      ->excludes(ambient);
+  CLI::Option* own =
+      verb.add_flag("--own-tau", options->own_tau,
+                    "Fit time constants for each axis separately, even where several could share "
+                    "them");
   verb.add_option("--modes", options->modes,
                   "Number of modes; default: chosen by the left-out hours")
       ->check(within(1, 3));
   CLI::Option* known = verb.reads(
       "--tau-from", options->tau_from,
       "Passport from a longer test: its time constants are kept, its levels are a prior");
+  known->excludes(own);
   verb.add_option("--levels", options->levels,
                   "Levels as a function of spindle speed: polynomial (n, n² or both), or table "
                   "over the speeds held for 20 min in the log, linear between them")
