@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 
@@ -31,6 +36,38 @@ kernel::outcome::Result<Report> run_text(std::string_view text, const Config& co
   return run_lines(source, config, sink);
 }
 
+namespace {
+
+/// What no dialect and no other word would mend has a remedy of its own.
+std::string remedy_of(const read::Refused& refused) {
+  struct Remedy {
+    std::string_view reason;
+    const char* to_do;
+  };
+  constexpr std::array kRemedies = {
+      Remedy{"byte_order_mark", "editors call that UTF-8 without BOM"},
+      Remedy{"line_too_long", "give the text of an NC program, one block a line"},
+      Remedy{"control_character", "copy the program from its source once more"},
+      Remedy{"read_failed", "copy the program from its source once more"},
+      Remedy{"no_program_end", "check that the file is whole"},
+  };
+  const auto* const found = std::ranges::find(kRemedies, refused.reason, &Remedy::reason);
+  if (found != kRemedies.end()) {
+    return found->to_do;
+  }
+  // Both marks of UTF-16, as they are or as the reader shows them.
+  for (const std::string_view mark : {"\xff", "\xfe", "\\xff", "\\xfe"}) {
+    if (refused.reason == "not_ascii" && refused.line == 1 && refused.word.starts_with(mark)) {
+      return "this is UTF-16: save the program as plain text, ASCII or UTF-8";
+    }
+  }
+  return refused.reason == "not_ascii"
+             ? "write it in ASCII; other characters may stand in comments"
+             : "change this line, or choose the dialect that the program was written for";
+}
+
+}  // namespace
+
 // A verb has one refusal to show: the first, since those behind it may follow from it.
 kernel::outcome::Refusal first_refusal(const Report& report, const std::string& path) {
   if (report.refused.empty()) {
@@ -39,8 +76,7 @@ kernel::outcome::Refusal first_refusal(const Report& report, const std::string& 
   const read::Refused& first = report.refused.front();
   return kernel::outcome::bad_input(
       first.file.empty() ? path : first.file, first.line,
-      first.word.empty() ? first.text : "`" + first.word + "`: " + first.text,
-      "change this line, or choose the dialect that the program was written for");
+      first.word.empty() ? first.text : "`" + first.word + "`: " + first.text, remedy_of(first));
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -217,7 +217,7 @@ class SectionReader {
       if (key.need == Need::mandatory && fits(key) && !any_unit_given(key) && first_unit(key)) {
         faults_.add(given_.line,
                     fmt::format("{} has no {}, which is mandatory", section_, key.name),
-                    fmt::format("add {} = …; {}", key.name, key.meaning));
+                    fmt::format("add {} = …{}; {}", key.name, other_units(key), key.meaning));
       }
     }
   }
@@ -225,6 +225,16 @@ class SectionReader {
     return std::any_of(keys_.begin(), keys_.end(), [&](const Key<S>& other) {
       return other.field == key.field && given_.has(other.name);
     });
+  }
+  /// The keys that would do as well.
+  [[nodiscard]] std::string other_units(const Key<S>& key) const {
+    std::string out;
+    for (const Key<S>& other : keys_) {
+      if (fits(other) && other.field == key.field && other.name != key.name) {
+        out += fmt::format(" or {} = …", other.name);
+      }
+    }
+    return out;
   }
   /// A quantity with several units is asked for once.
   [[nodiscard]] bool first_unit(const Key<S>& key) const {

@@ -27,7 +27,7 @@ std::string_view type_name(const toml::node& node) {
     case toml::node_type::floating_point:
       return "a number";
     case toml::node_type::boolean:
-      return "true or false";
+      return "a switch, true or false";
     default:
       return "a date or time";
   }
@@ -79,10 +79,12 @@ std::size_t line_of(const toml::source_region& source) {
 /// One form for all: what the key was given, what that is, what it needs.
 void ValueReader::wrong_type(const toml::node& node, std::string_view needed,
                              std::string_view way) const {
-  faults_.add(
-      line_of(node.source()),
-      fmt::format("{} = {} is {}; {} is needed", key_, shown(node), type_name(node), needed),
-      std::string(way));
+  // A list, a table and a date are shown by their type alone.
+  const bool by_type = shown(node) == type_name(node);
+  faults_.add(line_of(node.source()),
+              fmt::format("{}{} is {}; {} is needed", key_,
+                          by_type ? std::string() : " = " + shown(node), type_name(node), needed),
+              std::string(way));
 }
 
 bool ValueReader::in_range(const toml::node& node, double value) const {

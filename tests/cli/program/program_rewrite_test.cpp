@@ -35,7 +35,7 @@ TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
   const auto proof = answer_of("program verify " + kProgram + " " + changed + kWithPlan);
   EXPECT_TRUE(proof["proved"].get<bool>());
   EXPECT_EQ(proof["inserted_lines"], answer["inserted_lines"]);
-  expect_refused("program strip " + changed + " -o " + changed, "is the FILE itself");
+  expect_refused("program strip " + changed + " -o " + changed, "is the input file itself");
   const auto removed = answer_of("program strip " + changed + " --force -o " + changed);
   EXPECT_EQ(removed["removed_lines"], answer["inserted_lines"]);
   EXPECT_EQ(text_of_file(changed), text_of_file(project_file(kProgram)));

@@ -99,6 +99,7 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
   }
   if (!report->refused.empty()) {
     put_report(answer, *report, options.file);
+    say_dialect(answer, options, machine);
     return std::unexpected(std::move(answer));
   }
   auto path = builder.take();

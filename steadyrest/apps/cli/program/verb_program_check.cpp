@@ -86,6 +86,9 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
   }
   Answer answer;
   put_report(answer, *report, options.program.file);
+  if (machine != nullptr) {
+    say_dialect(answer, options.program, *machine);
+  }
   answer.json["moves"] = report->moves;
   answer.text = text_of(*report);
   if (check) {

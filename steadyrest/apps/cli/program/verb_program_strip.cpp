@@ -24,7 +24,7 @@ Outcome run(const Options& options) {
   }
   Answer answer;
   answer.json["removed_lines"] = *removed;
-  answer.text = fmt::format("{} lines taken out\n", *removed);
+  answer.text = fmt::format("{} {} taken out\n", *removed, *removed == 1 ? "line" : "lines");
   return answer;
 }
 

@@ -158,6 +158,7 @@ Outcome run(const Options& options) {
   }
   Answer answer;
   put_report(answer, *report, options.program.file);
+  say_dialect(answer, options.program, *machine);
   // A time up to the refusal is no time of the program.
   if (!report->refused.empty()) {
     return answer;

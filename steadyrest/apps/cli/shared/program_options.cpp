@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <string_view>
+#include <system_error>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/kernel/machine/dialect.hpp>
@@ -76,6 +80,15 @@ Result<Config> program_config(const ProgramOptions& options) {
   config.axes = options.axes;
   config.decimal_rule = options.least_increment ? nc::interpret::DecimalRule::least_increment
                                                 : nc::interpret::DecimalRule::calculator;
+  if (!options.units.empty() && options.tools.empty() && options.variables.empty()) {
+    return refuse("--data-units without --tools or --variables",
+                  "name the data, or leave out their unit");
+  }
+  for (const std::string& folder : options.subprograms) {
+    if (std::error_code error; !std::filesystem::is_directory(folder, error)) {
+      return refuse(folder, "there is no such folder", "give a folder of subprograms");
+    }
+  }
   const double unit_mm = options.units == "inch" ? 25.4 : 1.0;
   config.data_unit_mm = unit_mm;
   config.subprogram_folders = options.subprograms;
@@ -117,6 +130,22 @@ Result<Config> program_config(const ProgramOptions& options,
     config->modulation_off = static_cast<std::int32_t>(machine.chatter.m_code_off);
   }
   return config;
+}
+
+/// A program for another control fails at its first foreign word; the machine file chose the
+/// dialect unseen.
+void say_dialect(Answer& answer, const ProgramOptions& options,
+                 const kernel::machine::Machine& machine) {
+  constexpr std::string_view kChoose = "choose the dialect that the program was written for";
+  for (Refusal& refusal : answer.refusals) {
+    if (const std::size_t at = refusal.to_do.find(kChoose);
+        at != std::string::npos && options.dialect.empty()) {
+      refusal.to_do.replace(at, kChoose.size(),
+                            fmt::format("name the program's dialect with --dialect: it was read as "
+                                        "{}, the dialect of the machine file",
+                                        nc::read::name(machine.control.dialect)));
+    }
+  }
 }
 
 /// Every refused word is in the JSON with its line; exit code 2 as soon as there is one.

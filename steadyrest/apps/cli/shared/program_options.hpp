@@ -43,5 +43,8 @@ void add_optional_program(Verb& verb, ProgramOptions& options, const std::string
 
 /// The keys `blocks` and `refused[]`, the refusals for stderr and the exit code.
 void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file);
+/// Behind put_report(), where the machine file chose the dialect: says so, and which.
+void say_dialect(Answer& answer, const ProgramOptions& options,
+                 const kernel::machine::Machine& machine);
 
 }  // namespace steadyrest::apps::cli

@@ -44,7 +44,8 @@ std::vector<std::string> files_in(const std::string& path) {
 /// How the refusal calls the input: by its option, or as the positional argument it is.
 std::string role_of(const CLI::Option& option) {
   return option.get_positional() && option.get_lnames().empty()
-             ? "the " + option.get_name() + " itself"
+             ? (option.get_name() == "FILE" ? "the input file itself"
+                                            : "the " + option.get_name() + " itself")
              : "the file of " + option.get_name() + " itself";
 }
 

@@ -15,6 +15,7 @@ using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 constexpr double kDepthsOver = 5.0;  ///< limit depths up to so many times the wanted one
+constexpr double kDeepest_mm = 1e4;  ///< no tool cuts as deep
 // Process damping grows as the waves on the flank get shorter, which means at low speed. Ten waves
 // between two teeth is a cautious threshold for the note.
 constexpr double kManyWaves = 10.0;
@@ -102,9 +103,14 @@ std::optional<Refusal> fault_of_request(const Process& process, double speed_rev
                                  60.0 * speed_rev_s, depth_mm),
                      "give the programmed speed and the wanted depth");
   }
+  if (depth_mm > kDeepest_mm) {
+    return bad_input(fmt::format("depth {:.6g} mm; at most {:g} is allowed", depth_mm, kDeepest_mm),
+                     "give the axial depth of cut in mm");
+  }
   if (auto refused = beyond_reach(process, speed_rev_s, most_depth_mm(depth_mm, options))) {
     refused->to_do +=
-        "; --most-depth-mm limits the border search; its default is five times the wanted depth";
+        "; the border is searched to five times the wanted depth, or to `chatter plan "
+        "--most-depth-mm`";
     return refused;
   }
   return fault_of_options(depth_mm, options);

@@ -91,12 +91,11 @@ constexpr std::array kChoices{
 
 /// A limit may be infinite (none is known), but not 0, negative or NaN.
 /// Positive includes infinity; the comparison itself fails for NaN.
-std::optional<Refusal> unfit_limit(std::string_view what, double value) {
+std::optional<Refusal> unfit_limit(std::string_view what, double value, const char* to_do) {
   if (value > 0.0) {
     return std::nullopt;
   }
-  return bad_input(fmt::format("{} = {:.10g}; allowed: a number above 0", what, value),
-                   "give the limit of the axis, or leave it out");
+  return bad_input(fmt::format("{} = {:.10g}; allowed: a number above 0", what, value), to_do);
 }
 
 std::optional<Refusal> unfit_amount(std::string_view what, double value) {
@@ -113,11 +112,13 @@ std::optional<Refusal> unfit(const EstimatorSetup& setup) {
   for (const auto& [what, value] :
        {std::pair{"largest speed in mm/s", setup.max_speed_mm_s},
         std::pair{"largest acceleration in mm/s²", setup.max_acceleration_mm_s2},
-        std::pair{"largest jerk in mm/s³", setup.max_jerk_mm_s3},
-        std::pair{"count in mm", setup.count_mm},
-        std::pair{"control cycle in Hz", setup.cycle_hz}}) {
-    out = out ? out : unfit_limit(what, value);
+        std::pair{"largest jerk in mm/s³", setup.max_jerk_mm_s3}}) {
+    out = out ? out : unfit_limit(what, value, "give the limit of the axis, or leave it out");
   }
+  out = out ? out : unfit_limit("count in mm", setup.count_mm, "give the length of one count");
+  out = out ? out
+            : unfit_limit("control cycle in Hz", setup.cycle_hz,
+                          "give the cycles of the control in a second");
   for (const auto& [what, value] :
        {std::pair{"line error in mm", setup.line_error_mm.value_or(0.0)},
         std::pair{"lag in s", setup.lag_s},

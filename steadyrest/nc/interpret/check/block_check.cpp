@@ -157,7 +157,8 @@ bool BlockCheck::check_unused(const Step& step) const {
     return step.has(letter) && !used &&
            !refusals_.letter(
                step, letter, "unused_word",
-               std::string{"a "} + letter + " word, but no word of the block uses it");
+               std::string{std::string_view("AEFHILMNORSX").contains(letter) ? "an " : "a "} +
+                   letter + " word, but no word of the block uses it");
   };
   const int io = step.code(MGroup::io);
   const bool orients = step.code(MGroup::spindle) == m::kOrient;

@@ -168,14 +168,17 @@ class LogMaker {
     // Back to the log's own unit, so that the refusal names what is in the file.
     const auto shown_as = [&](double inner) { return (inner - column.offset) / column.factor; };
     const std::string what =
-        fmt::format("{} = {:.6g} is implausible; {:.6g} … {:.6g} is allowed", channel.name,
-                    shown_as(channel.value[first]), shown_as(least), shown_as(most));
+        fmt::format("{} = {:.6g} is implausible", channel.name, shown_as(channel.value[first]));
+    const std::string range =
+        fmt::format("{:.6g} … {:.6g} is allowed", shown_as(least), shown_as(most));
     // A spike or two is a loose plug; one row in a hundred is a wrong unit.
     if (static_cast<double>(wild) > kWild_share * static_cast<double>(channel.value.size())) {
-      return refuse(line_of_row(first), what,
+      return refuse(line_of_row(first), what + "; " + range,
                     "make the column's unit agree with its name: _um or _mm, _c, _k or _f");
     }
-    note(line_of_row(first), fmt::format("{}, {} times", what, wild), "these are skipped");
+    note(line_of_row(first),
+         wild == 1 ? what : fmt::format("{}, the first of {} such readings", what, wild),
+         range + (wild == 1 ? ", so it is skipped" : ", so they are skipped"));
     for (double& value : channel.value) {
       value = value < least || value > most ? kNan : value;
     }
