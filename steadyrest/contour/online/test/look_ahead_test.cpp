@@ -10,7 +10,6 @@
 #include <steadyrest/contour/online/look_ahead.hpp>
 #include <steadyrest/contour/online/test/paths.hpp>
 #include <steadyrest/kernel/machine/unlimited.hpp>
-#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/test/segments.hpp>
 
 namespace steadyrest::contour::online {
@@ -22,8 +21,6 @@ using math::geometry::test::number;
 using test::PathMaker;
 using test::PathSegment;
 
-constexpr double kPath_mm_s2 = 2500.0;
-
 /// X 1000, Y 2000, Z 4000 mm/s².
 LookAhead unequal(double path_mm_s2 = kUnlimited) {
   std::vector<kernel::machine::Axis> axes(3);
@@ -34,9 +31,8 @@ LookAhead unequal(double path_mm_s2 = kUnlimited) {
 }
 
 std::vector<Cell> cells_of(LookAhead& ahead, const std::vector<PathSegment>& path) {
-  const double whole = path.back().position_mm + path.back().length_mm;
   for (int i = 0; i < 200; ++i) {
-    ahead.update(path, 0, 0.0, 0.0, whole + 1.0);
+    ahead.update(path, 0, 0.0, 0.0, path.back().position_mm + path.back().length_mm + 1.0);
   }
   std::vector<Cell> cells;
   for (std::size_t i = ahead.begin(); i < ahead.end(); ++i) {
@@ -94,13 +90,12 @@ RC_GTEST_PROP(LookAheadFind, GivesTheCellThatHoldsThePlaceFromAnyHint, ()) {
 TEST(LookAheadAcceleration, OfALineIsThatOfTheAxisThatIsFirstAtItsLimit) {
   const auto on = [](double path_mm_s2, const kernel::signal::Point& end) {
     LookAhead ahead = unequal(path_mm_s2);
-    return cells_of(ahead, PathMaker({0, 0, 0}, 30.0).line_to(end).path())
-        .front()
-        .acceleration_mm_s2;
+    const auto cells = cells_of(ahead, PathMaker({0, 0, 0}, 30.0).line_to(end).path());
+    return cells.front().acceleration_mm_s2;
   };
   EXPECT_NEAR(on(kUnlimited, {3, 4, 0}), 1000.0 / 0.6, 1e-6);
   EXPECT_NEAR(on(kUnlimited, {0, -5, 0}), 2000.0, 1e-6);
-  EXPECT_NEAR(on(kPath_mm_s2, {0, 0, 5}), kPath_mm_s2, 1e-6);
+  EXPECT_NEAR(on(2500.0, {0, 0, 5}), 2500.0, 1e-6);
   EXPECT_NEAR(on(kUnlimited, {0, 0, 5}), 4000.0, 1e-6);
 }
 
@@ -163,7 +158,7 @@ TEST(LookAheadChords, KeepTheStrictestLimitOfTheirLines) {
 // A square with one rounded corner: the sharp ones break the direction, the round one does not.
 TEST(LookAheadCorner, IsWhereTheDirectionBreaks) {
   PathMaker maker({0, 0, 0}, 30.0);
-  maker.line_to({10, 0, 0}).line_to({10, 8, 0}).arc({8, 8, 0}, kernel::units::kTurn / 4);
+  maker.line_to({10, 0, 0}).line_to({10, 8, 0}).arc({8, 8, 0}, test::kTurn / 4);
   maker.line_to({0, 10, 0}).line_to({0, 0, 0});
   LookAhead ahead = unequal();
   std::vector<double> corners;
@@ -172,10 +167,9 @@ TEST(LookAheadCorner, IsWhereTheDirectionBreaks) {
       corners.push_back(cell.position_mm);
     }
   }
-  const double quarter = kernel::units::kTurn / 4 * 2.0;
   ASSERT_EQ(corners.size(), 2U);
   EXPECT_NEAR(corners[0], 10.0, 1e-9);
-  EXPECT_NEAR(corners[1], 10.0 + 8.0 + quarter + 8.0, 1e-9);
+  EXPECT_NEAR(corners[1], 26.0 + test::kTurn / 2, 1e-9);
 }
 
 TEST(LookAheadStop, IsTheLastCellAndHasNoLengthAndNoSpeed) {
@@ -187,7 +181,6 @@ TEST(LookAheadStop, IsTheLastCellAndHasNoLengthAndNoSpeed) {
   EXPECT_EQ(cells.back().square_mm2_s2, 0.0);
   EXPECT_FALSE(cells.back().corner);
   EXPECT_LE(math::geometry::distance(cells.back().point_mm, path.back().end_mm), 1e-4);
-  // The way to brake from 30 mm/s: the last cells know of the stop.
   const Cell& last = cells[cells.size() - 2];
   EXPECT_NEAR(last.square_mm2_s2, 2.0 * last.acceleration_mm_s2 * last.length_mm, 1e-9);
 }
@@ -198,12 +191,12 @@ TEST(LookAheadRing, MovesAlongWithABoundedCycle) {
   for (int i = 1; i <= 10'000; ++i) {
     maker.line_to({0.2 * i, 0, 0});
   }
-  const auto& path = maker.path();
   LookAhead ahead = unequal();
   for (int cycle = 0; cycle < 2000; ++cycle) {
     const double at_mm = 0.9 * cycle;
     const std::size_t before = ahead.end();
-    ahead.update(path, static_cast<std::size_t>(at_mm / 0.2), at_mm - 1.0, at_mm, at_mm + 20.0);
+    ahead.update(maker.path(), static_cast<std::size_t>(at_mm / 0.2), at_mm - 1.0, at_mm,
+                 at_mm + 20.0);
     ASSERT_LE(ahead.end() - before, static_cast<std::size_t>(LookAhead::kCellsPerCycle));
     ASSERT_LE(ahead.cell(ahead.begin()).position_mm, std::max(0.0, at_mm - 1.0));
     ASSERT_LE(ahead.end() - ahead.begin(), 110U) << "what is behind is dropped";
@@ -220,7 +213,7 @@ TEST(LookAheadRing, AnotherPathIsMadeAnew) {
   const auto second = PathMaker({0, 0, 0}, 30.0).line_to({0, 50, 0}).path();
   LookAhead ahead = unequal();
   ahead.update(first, 0, 0.0, 10.0, 30.0);
-  EXPECT_EQ(ahead.cell(ahead.begin()).tangent[0], 1.0);
+  ASSERT_EQ(ahead.cell(ahead.begin()).tangent[0], 1.0);
   ahead.update(second, 0, 0.0, 10.0, 30.0);
   EXPECT_EQ(ahead.cell(ahead.begin()).tangent[1], 1.0);
 }
@@ -243,8 +236,7 @@ TEST(LookAheadRing, AStateThatDoesNotFitItsIndicesIsDropped) {
   auto state = ahead.state();
   LookAhead other = unequal();
   other.restore(state);
-  ASSERT_EQ(other.end(), ahead.end());
-  EXPECT_EQ(other.known_to_mm(), ahead.known_to_mm());
+  ASSERT_EQ(other.known_to_mm(), ahead.known_to_mm());
   state.cell.pop_back();
   other.restore(state);
   EXPECT_TRUE(other.empty());

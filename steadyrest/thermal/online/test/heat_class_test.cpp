@@ -96,6 +96,28 @@ TEST(HeatClass, ASpindleThatTurnsLeftHeatsAsMuch) {
   EXPECT_EQ(left.seconds(100.0).displacement_mm[kZ], right.seconds(100.0).displacement_mm[kZ]);
 }
 
+// Where the zero was set nothing is off; a reading of 4 µm there is 4 µm more than the model had,
+// whatever had grown and whatever offset stands.
+TEST(Rezero, CountsFromWhereTheZeroWasSet) {
+  Governed on;
+  on.seconds(600.0);
+  on.governor.zero_here();
+  const double grown_mm = on.governor.output().displacement_mm[kZ];
+  ASSERT_LT(on.offset_mm()[kZ], -0.005);
+  on.governor.rezero(kZ, {.displacement_mm = 0.004, .sd_mm = 1e-6});
+  EXPECT_NEAR(on.look().displacement_mm[kZ], grown_mm + 0.004, 2e-5);
+}
+
+TEST(Reset, IsColdAndAsksForNothing) {
+  Governed on;
+  on.seconds(600.0);
+  on.governor.reset();
+  EXPECT_FALSE(on.governor.state().started);
+  EXPECT_EQ(on.governor.output().displacement_mm, kernel::signal::AxisValues{});
+  EXPECT_EQ(on.governor.output().request.offset_mm, kernel::signal::AxisValues{});
+  EXPECT_EQ(on.cycle().displacement_mm[kZ], 0.0) << "the first frame only says when it is";
+}
+
 // One reason is shown for all axes. X has lost its sensor while Z is in each of its own states: the
 // graver one is named, whichever axis it is.
 TEST(ShownReason, IsTheGravestOfAllAxes) {
