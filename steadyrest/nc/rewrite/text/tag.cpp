@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <expected>
 
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
@@ -108,20 +107,6 @@ namespace {
 constexpr std::string_view kAgainstOthers =
     "change its comment if the line is your own, else take the line out by hand";
 
-/// Why a marked line is not one of ours. compensate() begins with a head in every program.
-std::expected<void, std::string_view> is_ours(std::string_view line, const WrittenLines& written,
-                                              bool first) {
-  if (!written.has(line)) {
-    return std::unexpected(
-        "has a STEADYREST comment, but is no line that `program compensate` "
-        "writes");
-  }
-  if (first && !is_head(line)) {
-    return std::unexpected("has a STEADYREST comment, but no head of corrections stands before it");
-  }
-  return {};
-}
-
 }  // namespace
 
 kernel::outcome::Result<std::size_t> strip(const std::string& program, const std::string& output) {
@@ -135,14 +120,20 @@ kernel::outcome::Result<std::size_t> strip(const std::string& program, const std
   }
   const WrittenLines written_lines;
   std::size_t removed = 0;
+  std::uint32_t first = 0;
+  bool headed = false;
   // Byte for byte: lines that stay are written with their own ends.
   while (lines->next()) {
     if (is_inserted(lines->line())) {
       // The mark alone proves nothing: the line may be the author's own move.
-      if (auto ours = is_ours(lines->line(), written_lines, removed == 0); !ours) {
-        return kernel::outcome::refuse(program, lines->number(), std::string(ours.error()),
-                                       std::string(kAgainstOthers));
+      if (!written_lines.has(lines->line())) {
+        return kernel::outcome::refuse(
+            program, lines->number(),
+            "has a STEADYREST comment, but `program compensate` writes no such line",
+            std::string(kAgainstOthers));
       }
+      first = removed == 0 ? lines->number() : first;
+      headed = headed || is_head(lines->line());
       ++removed;
     } else {
       writer->write(lines->line());
@@ -151,6 +142,12 @@ kernel::outcome::Result<std::size_t> strip(const std::string& program, const std
   }
   if (auto whole = lines->whole(); !whole) {
     return std::unexpected(whole.error());
+  }
+  // compensate() puts a head into every program that it corrects.
+  if (removed > 0 && !headed) {
+    return kernel::outcome::refuse(
+        program, first, "has a STEADYREST comment, but the program has no head of corrections",
+        std::string(kAgainstOthers));
   }
   if (auto written = writer->commit(); !written) {
     return std::unexpected(written.error());

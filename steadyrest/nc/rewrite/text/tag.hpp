@@ -36,7 +36,7 @@ inline constexpr std::string_view kOwnNames = "#<_steadyrest";
 
 /// Writes `program` without its inserted lines to `output`, all other bytes as they are. Gives the
 /// number of lines taken out. Refused with the line, and nothing written: a line that has the tag
-/// but is none that compensate() writes (WrittenLines), and the tag before any head.
+/// but is none that compensate() writes (WrittenLines), and the tag in a program without a head.
 [[nodiscard]] kernel::outcome::Result<std::size_t> strip(const std::string& program,
                                                          const std::string& output);
 

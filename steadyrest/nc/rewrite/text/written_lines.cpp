@@ -17,8 +17,18 @@ constexpr bool is_digit(char c) noexcept {
   return c >= '0' && c <= '9';
 }
 
-/// How long the number at `at` is, its sign included; 0 where none begins.
+/// How long the number at `at` is, its sign included; 0 where none begins. What a G, M or L is
+/// followed by is no number but the word's meaning: G1 is not G0.
 std::size_t number_at(std::string_view line, std::size_t at) noexcept {
+  constexpr std::string_view kCodes = "GML";
+  // Within a code, too: the 0 of L20.
+  std::size_t word = at;
+  while (word > 0 && (is_digit(line[word - 1]) || line[word - 1] == '.')) {
+    --word;
+  }
+  if (word > 0 && kCodes.find(line[word - 1]) != std::string_view::npos) {
+    return 0;
+  }
   std::size_t end = at + (line[at] == '+' || line[at] == '-' ? 1U : 0U);
   if (end == line.size() || !is_digit(line[end])) {
     return 0;

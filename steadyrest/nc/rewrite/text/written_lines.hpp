@@ -12,7 +12,7 @@ namespace steadyrest::nc::rewrite {
 /// `linuxcnc_text`), so a changed text is a changed form.
 ///
 /// A form is the line with each number, its sign included, as one character and the axes named in
-/// the head's comments as one: what a line does can differ by numbers alone.
+/// the head's comments as one. What follows a G, M or L is no number: it says what the line does.
 class WrittenLines {
  public:
   WrittenLines();
