@@ -184,35 +184,36 @@ TEST(Cli, RefusesContradictoryAndEmptyOptions) {
        "1000 "
        "--axis X"});
   expect_refused(check + "--subprograms no/such", "no/such: there is no such folder");
-  expect_refused(check + "--data-units inch", "--data-units without --tools or --variables");
-  // A remedy fits its fault.
-  TEST(Cli, SaysTheRemedyThatFits) {
-    const Scratch scratch;
-    const auto check = [&scratch](const std::string& text) {
-      return "program check " + scratch.file("p.ngc", text) + " --dialect fanuc";
-    };
-    expect_refused(check(""), "end it with M2 or M30; check that the file is whole");
-    expect_refused(check("\xEF\xBB\xBFG0 X1\nM2\n"), "editors call that UTF-8 without BOM");
-    expect_refused(check(std::string(70000, 'G')), "one block a line");
-    expect_refused(check(std::string("\xFF\xFEG\0", 4)), "this is UTF-16");
-    expect_refused(check("G0 X1\nE5\nM2\n"), "`E5`: an E word, but");
-    expect_refused(
-        "cut examples/programs/circle-r10.ngc --machine examples/machines/ideal-k50.toml",
-        "it was read as sinumerik, the dialect of the machine file");
-    const std::string estimate = "motion estimate examples/logs/sine-edges.csv --input edges ";
-    expect_refused(estimate + "--count-mm 0 --cycle-hz 1000", "give the length of one count");
-    expect_refused(estimate + "--count-mm 0.001 --cycle-hz 0", "give the cycles of the control");
-    expect_refused(
-        "cut examples/programs/slot.mpf --machine examples/machines/vmc-840d.toml --process "
-        "examples/processes/slot-922hz.toml --depth-mm 1e308",
-        "at most 10000 is allowed");
-    const std::string machine = text_of_file(project_file("examples/machines/ideal-k50.toml"));
-    const std::string gain = machine.substr(machine.find("servo_gain_1_s"));
-    std::string without = machine;
-    without.erase(machine.find("servo_gain_1_s"), gain.find('\n'));
-    expect_refused("doctor --machine " + scratch.file("m.toml", without),
-                   "add servo_gain_1_s = … or servo_gain_m_min_mm = …;");
-  }
+  expect_refused(check + "--data-units inch", "--data-units inch without --tools or --variables");
+}
+
+// A remedy fits its fault.
+TEST(Cli, SaysTheRemedyThatFits) {
+  const Scratch scratch;
+  const auto check = [&scratch](const std::string& text) {
+    return "program check " + scratch.file("p.ngc", text) + " --dialect fanuc";
+  };
+  expect_refused(check(""), "end it with M2 or M30; check that the file is whole");
+  expect_refused(check("\xEF\xBB\xBFG0 X1\nM2\n"), "editors call that UTF-8 without BOM");
+  expect_refused(check(std::string(70000, 'G')), "one block a line");
+  expect_refused(check(std::string("\xFF\xFEG\0", 4)), "this is UTF-16");
+  expect_refused(check("G0 X1\nE5\nM2\n"), "`E5`: an E word, but");
+  expect_refused("cut examples/programs/circle-r10.ngc --machine examples/machines/ideal-k50.toml",
+                 "it was read as sinumerik, the dialect of the machine file");
+  const std::string estimate = "motion estimate examples/logs/sine-edges.csv --input edges ";
+  expect_refused(estimate + "--count-mm 0 --cycle-hz 1000", "give the length of one count");
+  expect_refused(estimate + "--count-mm 0.001 --cycle-hz 0", "give the cycles of the control");
+  expect_refused(
+      "cut examples/programs/slot.mpf --machine examples/machines/vmc-840d.toml --process "
+      "examples/processes/slot-922hz.toml --depth-mm 1e308",
+      "at most 10000 is allowed");
+  const std::string machine = text_of_file(project_file("examples/machines/ideal-k50.toml"));
+  const std::string gain = machine.substr(machine.find("servo_gain_1_s"));
+  std::string without = machine;
+  without.erase(machine.find("servo_gain_1_s"), gain.find('\n'));
+  expect_refused("doctor --machine " + scratch.file("m.toml", without),
+                 "add servo_gain_1_s = … or servo_gain_m_min_mm = …;");
+}
 
 }  // namespace
 }  // namespace steadyrest::test

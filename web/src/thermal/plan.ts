@@ -91,7 +91,7 @@ function verdict(page: PlanPage): string {
   return page.answer.axes
     .map((a) => {
       const keep = counted(a.corrections, 'correction keeps', 'corrections keep');
-      const less = a.corrections === 0 ? `${escapeHtml(a.axis)} needs no correction: it stays within ${um(a.max_um)}` : `${keep} ${escapeHtml(a.axis)} within ${um(a.residual_um)} instead of ${um(a.max_um)}: ${fixed(a.ratio, 1)} times less`;
+      const less = a.corrections === 0 ? `${escapeHtml(a.axis)} needs no correction: it stays within ${um(a.max_um)}` : `${keep} ${escapeHtml(a.axis)} within ${um(a.residual_um)} instead of ${um(a.max_um)}: ${fixed(a.max_um / a.residual_um, 1)} times less`;
       return `${less}.${a.sd_um > 0 ? ` The forecast itself is uncertain by ±${um(BAND * a.sd_um)}.` : ''}`;
     })
     .join('<br>');

@@ -80,8 +80,9 @@ Result<Config> program_config(const ProgramOptions& options) {
   config.axes = options.axes;
   config.decimal_rule = options.least_increment ? nc::interpret::DecimalRule::least_increment
                                                 : nc::interpret::DecimalRule::calculator;
-  if (!options.units.empty() && options.tools.empty() && options.variables.empty()) {
-    return refuse("--data-units without --tools or --variables",
+  // Millimetres are what holds without a word; inches of nothing are forgotten data.
+  if (options.units == "inch" && options.tools.empty() && options.variables.empty()) {
+    return refuse("--data-units inch without --tools or --variables",
                   "name the data, or leave out their unit");
   }
   for (const std::string& folder : options.subprograms) {

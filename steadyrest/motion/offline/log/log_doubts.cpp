@@ -80,7 +80,7 @@ std::vector<Refusal> doubts(const EdgeLog& log, const LogClaims& claims) {
         log.file,
         fmt::format(
             "the count jumps by {:.6g} in {:.6g} ms at t_s = {:.6g}, unlike the rows before "
-            "and behind; {} of {} rows do so",
+            "and behind; {} such in {} rows",
             counts(largest), 1e3 * (log.rows[largest].t_s - log.rows[largest - 1].t_s),
             log.rows[largest].t_s, jumps, log.rows.size()),
         "check the encoder's cable and the recorder; --max-speed names the line of each jump"));
