@@ -19,7 +19,8 @@ namespace steadyrest::chatter::offline {
 /// Modes that leave `residual` (RMS, as a share) of the responses h at ω = `w`, and so explain no
 /// more of them than they would of noise. The bound is an information criterion: without modes,
 /// c − d/ω² leaves s₀; fitted noise lowers −2 ln L = 4·N·ln s by 3·ln 2N for each mode and by up to
-/// 16 more (largest of 700 seeds, 8 … 1900 points). 20 is asked for:
+/// 16 more (100 seeds each of even and of 1/ω² noise at 8, 12, 20 and 50 points; at 200 and 1900
+/// points by less than the criterion charges). 20 is asked for:
 ///   s < s₀·exp(−(3·modes·ln 2N + 20)/4N),  N = (Σ|h₀|²)²/Σ|h₀|⁴ of what c − d/ω² leaves.
 /// N counts points of equal size: a few large ones at one end of the band are few.
 [[nodiscard]] std::optional<kernel::outcome::Refusal> no_more_than_noise(const Eigen::ArrayXd& w,
