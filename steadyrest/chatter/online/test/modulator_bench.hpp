@@ -65,6 +65,7 @@ class Bench {
 
 inline std::vector<double> ratios(const std::vector<Modulator::Output>& outputs) {
   std::vector<double> all;
+  all.reserve(outputs.size());
   for (const auto& out : outputs) {
     all.push_back(out.spindle.ratio);
   }

@@ -6,7 +6,6 @@
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/contour/online/test/path_runner.hpp>
 #include <steadyrest/contour/online/test/paths.hpp>
-#include <steadyrest/math/geometry/test/segments.hpp>
 
 namespace steadyrest::contour::online {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
 #include <steadyrest/kernel/override/channel.hpp>

@@ -12,8 +12,6 @@
 namespace steadyrest::passport {
 namespace {
 
-using kernel::machine::Chatter;
-using kernel::machine::Compensation;
 using kernel::machine::CompensationMethod;
 using kernel::machine::Machine;
 using kernel::machine::SpeedLaw;

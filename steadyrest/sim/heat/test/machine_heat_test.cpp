@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/sim/heat/test/growing_axes.hpp>
-#include <steadyrest/sim/heat/thermal_growth.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 
 namespace steadyrest::sim {
 namespace {
 
-using test::ambient;
 using test::kMinute;
 using test::paper;
 

@@ -9,7 +9,6 @@
 
 #include <steadyrest/sim/heat/test/growing_axes.hpp>
 #include <steadyrest/sim/heat/thermal_growth.hpp>
-#include <steadyrest/sim/machine_body.hpp>
 
 namespace steadyrest::sim {
 namespace {

@@ -17,7 +17,6 @@ using kernel::machine::ThermalAxis;
 using kernel::outcome::Reason;
 using kernel::units::kNan;
 using test::made;
-using test::mode;
 using test::turning;
 using test::two_modes;
 

@@ -14,7 +14,6 @@ namespace steadyrest::thermal::online {
 namespace {
 
 using test::made;
-using test::mode;
 using test::turning;
 using test::two_modes;
 

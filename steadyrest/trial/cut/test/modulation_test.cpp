@@ -6,9 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
-#include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/trial/cut/test/modulated_slot.hpp>
 
 namespace steadyrest::trial::cut {

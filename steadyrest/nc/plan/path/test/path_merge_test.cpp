@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/plan/test/moves.hpp>
 
 namespace steadyrest::nc::plan {

@@ -4,10 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/kernel/testing/cases.hpp>
-#include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/test/moves.hpp>
-#include <steadyrest/nc/plan/time/program_timer.hpp>
 #include <steadyrest/nc/plan/time/segment_timer.hpp>
 
 // The truth is the closed form of a single line.
