@@ -144,15 +144,15 @@ class Search {
         std::vector<Candidate> all;
         for (std::size_t power = 0; power < kPowers.size(); ++power) {
           std::vector<Candidate> kind = tried(sets, modes, power);
-          for (const Candidate& c : best(kind, kKeep, true)) {
+          for (const Candidate& c : best(kind, kKeep)) {
             out.push_back(structure(c));
           }
-          std::ranges::move(best(kind, kCarried, true), std::back_inserter(all));
+          std::ranges::move(best(kind, kCarried), std::back_inserter(all));
         }
         sets.clear();
         // More modes are tried only with the sets of inputs that did well with fewer, else the
         // pairs would be far too many.
-        for (const Candidate& c : best(all, kCarried, true)) {
+        for (const Candidate& c : best(all, kCarried)) {
           sets.push_back(c.lag);
         }
         if (progress_) {
@@ -212,14 +212,15 @@ class Search {
     return out;
   }
 
-  /// The best, of each set of sensors one only.
-  static std::vector<Candidate> best(std::vector<Candidate> from, std::size_t count,
-                                     bool by_sensors) {
+  /// The best, of each set of inputs one only. Inputs with other lags are other inputs: the
+  /// lags are refined from where they begin (0 stays 0), and which of them is best changes with
+  /// the number of modes.
+  static std::vector<Candidate> best(std::vector<Candidate> from, std::size_t count) {
     std::ranges::sort(from, {}, &Candidate::loss);
     std::vector<Candidate> out;
     for (Candidate& c : from) {
-      const bool there = by_sensors && std::ranges::any_of(
-                                           out, [&](const Candidate& o) { return o.lag == c.lag; });
+      const bool there =
+          std::ranges::any_of(out, [&](const Candidate& o) { return o.lag == c.lag; });
       if (!there && out.size() < count && std::isfinite(c.loss)) {
         out.push_back(std::move(c));
       }
