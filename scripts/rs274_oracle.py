@@ -114,8 +114,9 @@ def ours(steadyrest, program, dialect, oracle, extra=()):
         try:
             done = subprocess.run([steadyrest, "program", "moves", program, "--dialect", dialect, "--json",
                                    "-o", f"/dev/fd/{entry}",
-                                   *([] if dialect == "sinumerik" else ["--tools", oracle.path("tool.tbl")]),  # by name
-                                   "--data-units", "inch", *extra],
+                                   # sinumerik has its tools by name
+                                   *([] if dialect == "sinumerik" else ["--tools", oracle.path("tool.tbl"), "--data-units", "inch"]),
+                                   *extra],
                                   capture_output=True, timeout=120, pass_fds=[entry])
         finally:
             os.close(entry)
