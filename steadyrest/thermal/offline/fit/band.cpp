@@ -167,12 +167,9 @@ Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::Matrix
       made_from(free, probe, reach.size(), [](const Sample&) { return true; });
   const Others others(free, probe, reach);
   std::tie(out.free_coverage, out.probed_coverage) = others.coverage(1.0);
-  // What no RMS would hold (errors beside a band of nearly none, or in its first minutes after a
-  // probe) is no reason for a wider one.
-  const auto most = others.coverage(kMostWider);
   const auto holds = [&](double wider) {
     const auto [whole, hourly] = others.coverage(wider);
-    return whole >= std::min(kWanted, most.first) && hourly >= std::min(kWanted, most.second);
+    return whole >= kWanted && hourly >= kWanted;
   };
   if (!holds(1.0)) {
     out.drift_um *= least(1.0, kMostWider, holds);

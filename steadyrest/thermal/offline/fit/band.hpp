@@ -14,7 +14,7 @@ namespace steadyrest::thermal::offline {
 /// every hour (time constant). Of n blocks the RMS is widened by student(n)·√(1 + 1/n), for one
 /// more; what it does within an hour, which each block shows many times, is not. Where the bands
 /// that were made without a block do not hold 95 % of these blocks' readings all the same, the RMS
-/// grows by what they lack, tenfold at most, and no further than that lets them hold more.
+/// grows by what they lack.
 struct Band {
   double drift_um = 0.0;
   double tau_s = 0.0;
