@@ -24,7 +24,7 @@ struct Frf {
   std::vector<std::complex<double>> compliance_mm_n;
   std::vector<double> coherence;  ///< 0 … 1, as many; empty: not recorded
   int measured_order = 0;  ///< 0: a displacement was measured, 1: a velocity, 2: an acceleration
-  std::string file = {};   ///< it was read from
+  std::string file;        ///< it was read from
 };
 
 /// All responses of a file, universal file format 58 or CSV, told apart by its first line.

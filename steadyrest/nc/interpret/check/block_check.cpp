@@ -17,6 +17,11 @@ constexpr bool is_arc(int code) noexcept {
   return code == g::kArcClockwise || code == g::kArcCounterClockwise;
 }
 
+/// "an E", "a Q": as the letter is spoken.
+std::string with_article(char letter) {
+  return std::string{std::string_view("AEFHILMNORSX").contains(letter) ? "an " : "a "} + letter;
+}
+
 }  // namespace
 
 // Which word uses the axis words: a motion of this block, a non-modal word (G10 G28 G30 G52 G92),
@@ -155,10 +160,8 @@ bool BlockCheck::check_unused(const Step& step) const {
   const bool drilling = is_cycle(motion);
   const auto unused = [&](char letter, bool used) {
     return step.has(letter) && !used &&
-           !refusals_.letter(
-               step, letter, "unused_word",
-               std::string{std::string_view("AEFHILMNORSX").contains(letter) ? "an " : "a "} +
-                   letter + " word, but no word of the block uses it");
+           !refusals_.letter(step, letter, "unused_word",
+                             with_article(letter) + " word, but no word of the block uses it");
   };
   const int io = step.code(MGroup::io);
   const bool orients = step.code(MGroup::spindle) == m::kOrient;
