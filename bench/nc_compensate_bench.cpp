@@ -19,6 +19,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
@@ -144,13 +145,10 @@ void measure(const std::string& name, const std::string& from, const std::string
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::atoi(argv[1]) : 10;
   const std::string data = steadyrest::kernel::file::testing::shared_data();
-  // Two runs at once must not share the changed file: each makes its own folder.
-  std::string folder = std::filesystem::temp_directory_path() / "compensate-XXXXXX";
-  if (::mkdtemp(folder.data()) == nullptr) {
-    return 1;
-  }
+  // Two runs at once must not share the changed file.
+  const steadyrest::kernel::file::testing::OwnFolder own;
+  const std::string folder = own.path();
   measure("linuxcnc_sample", data + "/nc/gpr/linuxcnc_sample.ngc", folder, repeats);
   measure("part", data + "/nc/cncjs/part.gcode", folder, repeats);
-  std::filesystem::remove_all(folder);
   return 0;
 }

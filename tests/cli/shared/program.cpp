@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
@@ -11,33 +10,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "scratch.hpp"
+
 namespace steadyrest::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Each run has its own folder with the examples in it, so that paths in commands are short
-/// and tests run side by side.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "steadyrest-cli-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-    fs::create_symlink(fs::path(STEADYREST_SOURCE_DIR) / "examples", path_ / "examples");
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path_); }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 /// 126 and 127 are codes that the program itself never returns.
 void redirect(const char* path, int descriptor) {
@@ -57,7 +35,9 @@ bool redirect_stdin(const std::string& path) {
 
 Finished run_in(const std::vector<std::string>& arguments, const std::string& out_path,
                 const std::string& in_path = "") {
-  const Folder folder;
+  // The examples are in it, so that paths in commands are short.
+  const Scratch folder;
+  fs::create_symlink(fs::path(STEADYREST_SOURCE_DIR) / "examples", folder.path() / "examples");
   std::vector<char*> argv = {const_cast<char*>("steadyrest")};
   for (const std::string& argument : arguments) {
     argv.push_back(const_cast<char*>(argument.c_str()));
@@ -80,8 +60,8 @@ Finished run_in(const std::vector<std::string>& arguments, const std::string& ou
   if (child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status)) {
     finished.code = WEXITSTATUS(status);
   }
-  finished.out = out_path.empty() ? text_of(out) : "";
-  finished.err = text_of(err);
+  finished.out = out_path.empty() ? text_of_file(out) : "";
+  finished.err = text_of_file(err);
   return finished;
 }
 

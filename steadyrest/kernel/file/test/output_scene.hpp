@@ -3,45 +3,33 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 
 /// A folder for outputs, and a child process that writes them.
 namespace steadyrest::kernel::file::test {
 
 namespace fs = std::filesystem;
 
-class Output : public testing::Test {
- public:
-  Output() {
-    std::string pattern = (fs::temp_directory_path() / "steadyrest-file-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~Output() override { fs::remove_all(folder_); }
-
+class Output : public ::testing::Test {
  protected:
-  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string at(const std::string& name) const { return folder_.at(name); }
   [[nodiscard]] std::string old(const std::string& name) const {
-    std::ofstream(at(name)) << "old\n";
-    return at(name);
+    return folder_.file(name, "old\n");
   }
-  static std::string text_of(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
+  static std::string text_of(const std::string& file) { return testing::text_of_file(file); }
   [[nodiscard]] std::ptrdiff_t entries() const {
-    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator{});
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator{});
   }
 
-  fs::path folder_;
+  testing::OwnFolder folder_;
 };
 
 /// Runs `work` in a child, so that limits and signals are its own; gives the status.

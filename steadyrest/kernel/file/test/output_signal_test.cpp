@@ -24,9 +24,9 @@ TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
     const std::string file = old("out.csv");
     const int status = in_child([&] {
-      const Temporary folder((folder_ / "new").string(), Temporary::Kind::folder);
+      const Temporary folder((folder_.path() / "new").string(), Temporary::Kind::folder);
       fs::create_directory(at("new"));
-      const Temporary deeper((folder_ / "new" / "er").string(), Temporary::Kind::folder);
+      const Temporary deeper((folder_.path() / "new" / "er").string(), Temporary::Kind::folder);
       fs::create_directory(at("new/er"));
       auto out = OutputFile::open(file);
       out->write("new\n");
@@ -42,7 +42,7 @@ TEST_F(Output, SignalsEndTheProcessAndLeaveNoTemporary) {
 
 // SIGKILL runs no handler: only a file without a name leaves nothing.
 TEST_F(Output, SigkillLeavesNothingWhereAFileMayHaveNoName) {
-  const int probe = open(folder_.c_str(), O_TMPFILE | O_RDWR, 0600);
+  const int probe = open(folder_.path().c_str(), O_TMPFILE | O_RDWR, 0600);
   if (probe < 0) {
     GTEST_SKIP() << "this file system has no files without a name";
   }

@@ -1,40 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 #include <steadyrest/kernel/file/place.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 
 namespace steadyrest::kernel::file {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AnyOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
-class Places : public testing::Test {
+class Places : public ::testing::Test {
  public:
   Places() {
-    std::string pattern = (fs::temp_directory_path() / "steadyrest-place-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    std::ofstream(at("log.csv")) << "t_s,count\n";
+    folder_.file("log.csv", "t_s,count\n");
     fs::create_directory(at("x"));
     fs::create_symlink("log.csv", at("soft"));
     fs::create_hard_link(at("log.csv"), at("hard"));
     fs::create_directory_symlink(".", at("here"));
   }
-  ~Places() override { fs::remove_all(folder_); }
 
  protected:
-  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
-  fs::path folder_;
+  [[nodiscard]] std::string at(const std::string& name) const { return folder_.at(name); }
+  testing::OwnFolder folder_;
 };
 
 // Symbolic, hard, with dots, through a linked folder: all the same file. An output that overwrote

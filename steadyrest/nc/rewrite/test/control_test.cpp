@@ -34,13 +34,13 @@ TEST_F(Fanuc, MovesTheExternalOffsetByIncrements) {
   // end.
   const auto done = shop_.compensate(kFanuc, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   EXPECT_THAT(text, HasSubstr("G91 G10 L2 P0 Z-0.0100 (STEADYREST Z-0.0100 mm)\n"
                               "G90 (STEADYREST Z-0.0100 mm)\n"));
   EXPECT_THAT(text, HasSubstr("G91 G10 L2 P0 Z0.0150 (STEADYREST Z0.0000 mm)\n"
                               "G90 (STEADYREST Z0.0000 mm)\nM30"));
   ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
-  EXPECT_EQ(read_file(shop_.changed()), kFanuc);
+  EXPECT_EQ(text_of_file(shop_.changed()), kFanuc);
 }
 
 TEST_F(Fanuc, NeedsNoCareWhenTheWorkOffsetChanges) {
@@ -56,7 +56,7 @@ TEST_F(Fanuc, LeavesG91InForceAtTheEnd) {
   const std::string program = replaced(kFanuc, "M30\n", "G91 G28 Z0\nM30\n");
   const auto done = shop_.compensate(program, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
-  EXPECT_THAT(read_file(shop_.changed()),
+  EXPECT_THAT(text_of_file(shop_.changed()),
               HasSubstr("G91 G28 Z0\nG91 G10 L2 P0 Z0.0150 (STEADYREST Z0.0000 mm)\nM30"));
 }
 
@@ -74,11 +74,11 @@ TEST_F(Fanuc, WritesInchesInWholeIncrements) {
   const auto done = shop_.compensate(program, plan);
   ASSERT_TRUE(done) << done.error().what;
   // 10 um are 0.000394 in; in whole 0.0001 in that is 0.0004 in, 10.16 um.
-  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.00040 (STEADYREST Z-0.01016"));
+  EXPECT_THAT(text_of_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.00040 (STEADYREST Z-0.01016"));
   EXPECT_NEAR(done->insertions.at(0).total_um, -10.16, 1e-9);
   shop_.settings.increment_mm = 1e-5;
   ASSERT_TRUE(shop_.compensate(program, plan));
-  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.000394 (STEADYREST"));
+  EXPECT_THAT(text_of_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.000394 (STEADYREST"));
 }
 
 TEST_F(Fanuc, NeedsTheUnitsSaid) {
@@ -129,7 +129,7 @@ RC_GTEST_PROP(Increments, AddUpToNothingAndStayWithinHalfOfOneOfThePlan, ()) {
 
 TEST_F(Fanuc, VerifyCatchesAMissingG90) {
   ASSERT_TRUE(shop_.compensate(kFanuc, kGrowth));
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   EXPECT_NE(shop_.fault(kGrowth, replaced(text, "G90 (STEADYREST Z-0.0100 mm)\n", "")), "");
   EXPECT_NE(shop_.fault(kGrowth, replaced(text, "G91 G10", "G10")), "");
   EXPECT_NE(shop_.fault(kGrowth, replaced(text, "P0 Z-0.0100", "P0 Z0.0100")), "");
@@ -142,7 +142,7 @@ TEST_F(Haas, MovesTheActiveWorkOffsetAndTurnsItOver) {
   const std::string program = replaced(kFanuc, "G0 X0 Y20\n", "G55\nG0 X0 Y20\n");
   const auto done = shop_.compensate(program, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   EXPECT_THAT(text, HasSubstr("G91 G10 L2 P1 Z-0.0100"));
   EXPECT_THAT(text, HasSubstr("\nG55\nG91 G10 L2 P2 Z-0."));
   EXPECT_THAT(text, Not(HasSubstr("P0")));
@@ -158,7 +158,7 @@ class Sinumerik : public Fanuc {
   void SetUp() override {
     const auto done = shop_.compensate(kProgram, kGrowth);
     ASSERT_TRUE(done) << done.error().what;
-    text_ = read_file(shop_.changed());
+    text_ = text_of_file(shop_.changed());
   }
   const std::string kProgram = replaced(replaced(kPasses, "%\nG21", "G71"), "M30\n%\n", "M30\n");
   std::string text_;
@@ -170,13 +170,13 @@ TEST_F(Sinumerik, WritesTheParameterWhenTheMachineGetsThere) {
   EXPECT_THAT(text_, HasSubstr("R50=0.0000 ;STEADYREST Z0.0000 mm\nM30"));
   EXPECT_EQ(shop_.verify(kGrowth).value().changes, 4U);
   ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
-  EXPECT_EQ(read_file(shop_.changed()), kProgram);
+  EXPECT_EQ(text_of_file(shop_.changed()), kProgram);
 }
 
 TEST_F(Sinumerik, AsksBeforeItTakesOffWhereSomebodyMayHaveTouchedOff) {
   shop_.settings.cleared_after_abort = false;
   ASSERT_TRUE(shop_.compensate(kProgram, kGrowth));
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   EXPECT_EQ(text.substr(0, text.find("G71")),
             "MSG(\"Z: touched off after an aborted run? Stop, set R50 to 0, touch off again\") "
             ";STEADYREST head Z\nM0 ;STEADYREST head Z\nMSG() ;STEADYREST head Z\n"
@@ -185,7 +185,7 @@ TEST_F(Sinumerik, AsksBeforeItTakesOffWhereSomebodyMayHaveTouchedOff) {
   EXPECT_THAT(shop_.fault(kGrowth, replaced(text, "M0 ;STEADYREST head Z\n", "")),
               HasSubstr("head"));
   ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
-  EXPECT_EQ(read_file(shop_.changed()), kProgram);
+  EXPECT_EQ(text_of_file(shop_.changed()), kProgram);
 }
 
 TEST_F(Sinumerik, TheHeadStandsBehindTheNameOfTheProgram) {
@@ -193,7 +193,7 @@ TEST_F(Sinumerik, TheHeadStandsBehindTheNameOfTheProgram) {
   const auto done = shop_.compensate(names + kProgram, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
   const std::string head = "R50=0.0000 ;STEADYREST head Z\n";
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   EXPECT_EQ(text.substr(0, names.size() + head.size()), names + head);
   EXPECT_THAT(shop_.fault(kGrowth, head + replaced(text, head, "")),
               HasSubstr("the head is not before the first block"));

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 TEST_F(Fanuc, StopsAtTheHeadWhereNothingTellsWhatAnAbortedRunHasLeft) {
   const auto done = shop_.compensate(kFanuc, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   EXPECT_THAT(text, HasSubstr("%\r\nO1234 (PASSES)\nM0 (STEADYREST head Z: AFTER AN ABORTED RUN"));
   ASSERT_TRUE(shop_.verify(kGrowth));
   EXPECT_THAT(shop_.fault(kGrowth, replaced(text, "M0 (STEADYREST", "M1 (STEADYREST")),
@@ -32,7 +32,7 @@ TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffse
   shop_.settings.cleared_after_abort = true;
   const auto done = shop_.compensate(kFanuc, kGrowth);
   ASSERT_TRUE(done) << done.error().what;
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   const std::string head = "G90 G10 L2 P0 Z0.0000 (STEADYREST head Z)\n";
   EXPECT_THAT(text, HasSubstr("%\r\nO1234 (PASSES)\n" + head + "G21 G90"));
   // One line of head moves the first insertion down.
@@ -45,14 +45,14 @@ TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffse
   const std::string late = replaced(replaced(text, head, ""), "G0 X0 Y10\n", head + "G0 X0 Y10\n");
   EXPECT_THAT(shop_.fault(kGrowth, late), HasSubstr("head"));
   ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
-  EXPECT_EQ(read_file(shop_.changed()), kFanuc);
+  EXPECT_EQ(text_of_file(shop_.changed()), kFanuc);
 }
 
 // 0 takes it off by value, but a touch-off through it shows in no number.
 TEST_F(Fanuc, AsksBeforeItTakesOffWhereSomebodyMayHaveTouchedOff) {
   shop_.settings.external_offset_free = true;
   ASSERT_TRUE(shop_.compensate(kFanuc, kGrowth));
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   EXPECT_THAT(text, HasSubstr("\nM0 (STEADYREST head Z: IF TOUCHED OFF AFTER AN ABORTED RUN STOP"));
   EXPECT_THAT(text, HasSubstr(")\nG90 G10 L2 P0 Z0.0000 (STEADYREST head Z)\nG21 G90"));
   EXPECT_TRUE(shop_.verify(kGrowth));
@@ -102,8 +102,8 @@ TEST_F(Fanuc, TheExternalOffsetIsNotFreeWhereTheProgramSetsIt) {
     EXPECT_NE(refusal(line), "") << line;
   }
   EXPECT_EQ(refusal("G10 L2 P2 Z0"), "");
-  const std::string text = read_file(shop_.changed());
-  test::write_file(shop_.original(), replaced(read_file(shop_.original()), "P2 Z0", "P0 X0"));
+  const std::string text = text_of_file(shop_.changed());
+  test::write_file(shop_.original(), replaced(text_of_file(shop_.original()), "P2 Z0", "P0 X0"));
   EXPECT_THAT(shop_.fault(kGrowth, replaced(text, "P2 Z0", "P0 X0")),
               HasSubstr("external offset itself"));
 }

@@ -98,7 +98,7 @@ TEST_F(Kept, OffsetsInForceThatAreSetByTheirNumbersAreRefusedByTheLine) {
 
 TEST_F(Kept, VerifyRefusesWhatIsSetByItsNumbersToo) {
   ASSERT_EQ(fault(shop_, pockets("(HERE)\n")), "");
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   for (const char* line : {"#5213=0\n", "#5230=0\n", "/#5213=0\n"}) {
     test::write_file(shop_.original(), pockets(line));
     EXPECT_THAT(shop_.fault(kThreeSteps, replaced(text, "(HERE)\n", line)),

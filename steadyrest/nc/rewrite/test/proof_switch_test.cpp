@@ -48,13 +48,13 @@ TEST_F(Switch, MovesOnToAPlaceThatIsOneInBothPositions) {
       shop_.compensate(replaced(kClamp, "N110 G0 X100 Y0", "N110 G0 X100 Y0 Z50"), kOneStep);
   ASSERT_TRUE(done) << done.error().what;
   EXPECT_EQ(done->insertions.front().site, Site::rapid);
-  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("noted)\nN110 G0"));
+  EXPECT_THAT(text_of_file(shop_.changed()), HasSubstr("noted)\nN110 G0"));
 }
 
 TEST_F(Switch, ProvesForBothPositions) {
   const std::string always = replaced(kClamp, "/N90", "N90");
   ASSERT_TRUE(shop_.compensate(always, kOneStep));
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   test::write_file(shop_.original(), kClamp);
   EXPECT_THAT(shop_.fault(kOneStep, replaced(text, "\nN90", "\n/N90")), HasSubstr("no safe place"));
 }
@@ -66,7 +66,7 @@ TEST_F(Switch, PlacesNothingWhoseMeaningTheSwitchChanges) {
                            "/G93", "/G81 X1 Z-1 R2", "/G7"}) {
     const std::string what =
         fault(shop_, replaced(kClamp, "/N90 G0 Z2\n", std::string{line} + "\n"), kOneStep);
-    EXPECT_THAT(what, HasSubstr("no safe place")) << line << "\n" << read_file(shop_.changed());
+    EXPECT_THAT(what, HasSubstr("no safe place")) << line << "\n" << text_of_file(shop_.changed());
   }
 }
 

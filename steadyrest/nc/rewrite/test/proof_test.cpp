@@ -35,7 +35,7 @@ TEST_F(Start, TheWorkOffsetIsSaidBeforeTheFirstPlace) {
   shop_.config.active_offset = 1;
   shop_.config.work_offset[1][2] = 5.0;
   ASSERT_EQ(fault_of(late), "");
-  EXPECT_THAT(read_file(shop_.changed()), HasSubstr("N175 G54\n#<_steadyrest_z>=[1/"));
+  EXPECT_THAT(text_of_file(shop_.changed()), HasSubstr("N175 G54\n#<_steadyrest_z>=[1/"));
 }
 
 TEST_F(Start, AbsolutePositionsAreSaid) {
@@ -61,7 +61,7 @@ TEST_F(Start, XAndYAreCorrectedAlongTheMachinesAxesAlone) {
   shop_.config.start_known = true;
   const std::string in_x = replaced(kThreeSteps, R"({"tr)", R"({"axis": "X", "tr)");
   ASSERT_EQ(fault(shop_, pockets(""), in_x), "");
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   EXPECT_THAT(text, HasSubstr("AND [[ABS[#[5210+20*#5220]]+#<_lathe_diameter_mode>] EQ 0]"));
   EXPECT_THAT(text, HasSubstr("o<steadyrest_x3> if [#<_lathe_diameter_mode> NE 0] (STEADYREST"));
   for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
@@ -108,7 +108,7 @@ TEST_F(Start, RestatesNothingBehindATool) {
 TEST_F(Start, AShiftOfTheProgramIsNotedWhateverItWasBefore) {
   for (const char* line : {"G92.1", "G92.2", "G92.3", "G92 X0", "G52 Z0", "G52 X1"}) {
     ASSERT_EQ(fault_of(pockets("N121 " + std::string{line} + "\n")), "") << line;
-    EXPECT_THAT(read_file(shop_.changed()),
+    EXPECT_THAT(text_of_file(shop_.changed()),
                 HasSubstr("set since)\nN121 " + std::string{line} + "\n#[5208"));
   }
 }
@@ -116,7 +116,7 @@ TEST_F(Start, AShiftOfTheProgramIsNotedWhateverItWasBefore) {
 // A note that is not renewed stops the program at its next change.
 TEST_F(Start, TheProofSimulatesAShiftThatNoProgramKnows) {
   ASSERT_EQ(fault_of(pockets("N121 G92.1\n")), "");
-  const std::string text = read_file(shop_.changed());
+  const std::string text = text_of_file(shop_.changed());
   const auto line = text.find("N121");
   const auto note = text.find('\n', line) + 1;
   EXPECT_NE(shop_.fault(kThreeSteps, text.substr(0, note) + text.substr(text.find('\n', note) + 1)),

@@ -31,7 +31,7 @@ class OfSinumerik : public ::testing::Test {
   std::string write(const std::string& program = kProgram) {
     const auto done = shop_.compensate(program, kGrowth);
     EXPECT_TRUE(done) << done.error().what << " " << done.error().line;
-    return done ? read_file(shop_.changed()) : std::string{};
+    return done ? text_of_file(shop_.changed()) : std::string{};
   }
   /// Why the program is refused.
   std::string refusal(const std::string& program) {
@@ -40,7 +40,7 @@ class OfSinumerik : public ::testing::Test {
   }
   void expect_stripped(const std::string& program) {
     ASSERT_TRUE(strip(shop_.changed(), shop_.changed()));
-    EXPECT_EQ(read_file(shop_.changed()), program);
+    EXPECT_EQ(text_of_file(shop_.changed()), program);
   }
   Workshop shop_;
 };

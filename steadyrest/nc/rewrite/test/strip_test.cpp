@@ -82,7 +82,7 @@ RC_GTEST_PROP(Strip, RestoresEveryProgramByteForByte, ()) {
   RC_ASSERT(done.has_value());
   RC_ASSERT(done->inserted_lines > 0U);
   RC_ASSERT(strip(shop.changed(), shop.changed()).value() == done->inserted_lines);
-  RC_ASSERT(read_file(shop.changed()) == program);
+  RC_ASSERT(text_of_file(shop.changed()) == program);
 }
 
 TEST(Strip, LeavesOtherCommentsAlone) {
@@ -92,7 +92,7 @@ TEST(Strip, LeavesOtherCommentsAlone) {
   const std::string program = "(STEADYREST)\n(made for STEADYREST 1)\n;a STEADYREST b\nM2";
   test::write_file(shop.original(), program);
   EXPECT_EQ(strip(shop.original(), shop.changed()).value(), 0U);
-  EXPECT_EQ(read_file(shop.changed()), program);
+  EXPECT_EQ(text_of_file(shop.changed()), program);
 }
 
 /// Lines with the mark that an author may have written; of the last ones only a number, a blank or
@@ -150,7 +150,7 @@ RC_GTEST_PROP(Strip, TakesNoLineThatCompensateDidNotInsert, ()) {
   shop.machine.control.interpolator_period_s = 0.05;
   shop.settings.told = {{"dialect", "linuxcnc"}, {"window-s", "60"}};
   RC_ASSERT(shop.compensate(test::kPasses, test::kGrowth).has_value());
-  std::string text = read_file(shop.changed());
+  std::string text = text_of_file(shop.changed());
   auto at = text.find('\n', random() % (text.size() - 1)) + 1;
   const std::string& own = kOwnLines[random() % std::size(kOwnLines)];
   const bool apart = random() % 2 == 0;
@@ -199,7 +199,7 @@ TEST(Strip, ADiskThatTakesNoMoreLeavesTheOldFile) {
   std::signal(SIGXFSZ, handler);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, kernel::outcome::Kind::unavailable);
-  EXPECT_EQ(read_file(shop.changed()), "old");
+  EXPECT_EQ(text_of_file(shop.changed()), "old");
   const auto files = std::filesystem::directory_iterator(shop.folder());
   EXPECT_EQ(std::distance(begin(files), end(files)), 2);
 }

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/nc/rewrite/correct/compensate.hpp>
 #include <steadyrest/nc/rewrite/prove/verify.hpp>
@@ -16,10 +14,8 @@
 
 namespace steadyrest::nc::rewrite::test {
 
-inline std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using kernel::file::testing::text_of_file;
+
 inline void write_file(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
@@ -28,8 +24,6 @@ inline void write_file(const std::string& path, const std::string& text) {
 class Workshop {
  public:
   Workshop() {
-    std::string pattern = ::testing::TempDir() + "rewrite-XXXXXX";
-    folder_ = ::mkdtemp(pattern.data());
     for (const char* name : {"X", "Y", "Z"}) {
       kernel::machine::Axis axis;
       axis.name = name;
@@ -38,13 +32,10 @@ class Workshop {
     machine.control.interpolator_period_s = 0.01;
     config.axes = "XYZ";
   }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-  ~Workshop() { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] std::string original() const { return folder_ + "/original.nc"; }
-  [[nodiscard]] std::string changed() const { return folder_ + "/changed.nc"; }
-  [[nodiscard]] const std::string& folder() const { return folder_; }
+  [[nodiscard]] std::string original() const { return folder_.at("original.nc"); }
+  [[nodiscard]] std::string changed() const { return folder_.at("changed.nc"); }
+  [[nodiscard]] std::string folder() const { return folder_.path().string(); }
 
   kernel::outcome::Result<Compensated> compensate(const std::string& program,
                                                   const std::string& plan) const {
@@ -68,7 +59,7 @@ class Workshop {
   Settings settings;
 
  private:
-  std::string folder_;
+  kernel::file::testing::OwnFolder folder_;
 };
 
 /// `text` with the first `from` replaced; fails when there is none.

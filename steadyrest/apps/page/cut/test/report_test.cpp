@@ -8,11 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <steadyrest/apps/page/cut/report.hpp>
 #include <steadyrest/apps/page/cut/test/sample.hpp>
 #include <steadyrest/apps/page/shared/write_files.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 
 namespace steadyrest::apps::page {
 namespace {
@@ -25,21 +25,11 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// A folder for each test, gone afterwards: tests run side by side.
 class Report : public ::testing::Test {
  protected:
-  Report() {
-    std::string name = (fs::temp_directory_path() / "steadyrest-report-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~Report() override { fs::remove_all(folder_); }
+  [[nodiscard]] fs::path at(const std::string& name) const { return folder_.path() / name; }
 
-  static std::string read(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  fs::path folder_;
+  kernel::file::testing::OwnFolder folder_;
 };
 
 std::string text(const ReportData& data) {
@@ -136,25 +126,25 @@ TEST_F(Report, ThePageNeedsNothingFromOutside) {
 
 // The folder is made, two files appear, and no temporary stays behind.
 TEST_F(Report, WritesBothFilesAndLeavesNothingElse) {
-  const auto written = write(20, folder_ / "a" / "b");
+  const auto written = write(20, at("a") / "b");
   ASSERT_TRUE(written.has_value());
   EXPECT_EQ(read(written->json), text(sample_report(20)) + "\n");
   EXPECT_EQ(read(written->html), to_html(text(sample_report(20))));
   const auto count =
-      std::distance(fs::directory_iterator(folder_ / "a" / "b"), fs::directory_iterator{});
+      std::distance(fs::directory_iterator(at("a") / "b"), fs::directory_iterator{});
   EXPECT_EQ(count, 2);
 }
 
 TEST_F(Report, ReplacesAnOlderReport) {
-  ASSERT_TRUE(write(20, folder_).has_value());
-  ASSERT_TRUE(write(3, folder_).has_value());
-  EXPECT_EQ(read(folder_ / "report.json"), text(sample_report(3)) + "\n");
+  ASSERT_TRUE(write(20, folder_.path()).has_value());
+  ASSERT_TRUE(write(3, folder_.path()).has_value());
+  EXPECT_EQ(kernel::file::testing::text_of_file(at("report.json")), text(sample_report(3)) + "\n");
 }
 
 // A file where the folder should be, at the end and in the middle of the path.
 TEST_F(Report, RefusesAFileInPlaceOfTheDirectory) {
-  std::ofstream(folder_ / "taken") << "x";
-  for (const fs::path& directory : {folder_ / "taken", folder_ / "taken" / "below"}) {
+  std::ofstream(at("taken")) << "x";
+  for (const fs::path& directory : {at("taken"), at("taken") / "below"}) {
     const auto written = write(2, directory);
     ASSERT_FALSE(written.has_value());
     EXPECT_EQ(written.error().kind, kernel::outcome::Kind::bad_input);
@@ -165,11 +155,11 @@ TEST_F(Report, RefusesAFileInPlaceOfTheDirectory) {
 
 // A folder in the place of report.json: the rename fails, and report.html must not be left alone.
 TEST_F(Report, RefusesWhenAFileCannotBeReplacedAndLeavesNoPart) {
-  fs::create_directories(folder_ / "report.json" / "in-the-way");
-  const auto written = write(2, folder_);
+  fs::create_directories(at("report.json") / "in-the-way");
+  const auto written = write(2, folder_.path());
   ASSERT_FALSE(written.has_value());
   EXPECT_EQ(written.error().kind, kernel::outcome::Kind::unavailable);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator{}), 1);
 }
 
 }  // namespace

@@ -1,34 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <steadyrest/apps/page/shared/provenance.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 
 namespace steadyrest::apps::page {
 namespace {
 
-/// A file of this test's own.
 class HashedFile : public ::testing::Test {
  protected:
-  HashedFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "steadyrest-hash-XXXXXX").string();
-    const int made = ::mkstemp(name.data());
-    ::close(made);
-    path_ = name;
-  }
-  ~HashedFile() override { std::filesystem::remove(path_); }
-
   std::optional<std::string> hash_of(const std::string& content) {
-    std::ofstream(path_, std::ios::binary) << content;
-    return sha256_of_file(path_);
+    return sha256_of_file(folder_.file("hashed", content));
   }
 
-  std::string path_;
+  kernel::file::testing::OwnFolder folder_;
 };
 
 // The examples of FIPS 180-2, appendix B.
@@ -44,7 +33,7 @@ TEST_F(HashedFile, HasTheHashOfTheStandard) {
 
 // An absent file, a folder, and stdin.
 TEST_F(HashedFile, WhatIsNoFileHasNone) {
-  EXPECT_EQ(sha256_of_file(path_ + "-absent"), std::nullopt);
+  EXPECT_EQ(sha256_of_file(folder_.at("absent")), std::nullopt);
   EXPECT_EQ(sha256_of_file(std::filesystem::temp_directory_path().string()), std::nullopt);
   EXPECT_EQ(sha256_of_file("-"), std::nullopt);
 }

@@ -45,7 +45,7 @@ TEST(Compensate, RefusesACorrectionBeyondTheClamp) {
 TEST(Compensate, RefusesAProgramThatIsCompensatedAlready) {
   const Workshop shop;
   ASSERT_TRUE(shop.compensate(kPasses, kGrowth));
-  const auto refused = shop.compensate(read_file(shop.changed()), kGrowth);
+  const auto refused = shop.compensate(text_of_file(shop.changed()), kGrowth);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().to_do, HasSubstr("program strip"));
 }
@@ -54,7 +54,7 @@ TEST(Compensate, LeavesTheOldFileWhenItRefuses) {
   const Workshop shop;
   test::write_file(shop.changed(), "old");
   ASSERT_FALSE(shop.compensate(kPasses, one_step(1.0, 10.0, 10)));
-  EXPECT_EQ(read_file(shop.changed()), "old");
+  EXPECT_EQ(text_of_file(shop.changed()), "old");
   // The folder holds the program and the old output, and no third file.
   const auto files = std::filesystem::directory_iterator(shop.folder());
   EXPECT_EQ(std::distance(begin(files), end(files)), 2) << "nothing half-written lies about";

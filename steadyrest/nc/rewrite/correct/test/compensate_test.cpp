@@ -24,7 +24,7 @@ TEST(Compensate, PutsEveryCorrectionBeforeAnAbsoluteRapidOfItsAxis) {
   const Workshop shop;
   const auto done = shop.compensate(kPasses, kGrowth).value();
   ASSERT_EQ(done.insertions.size(), 3U);
-  const std::string text = read_file(shop.changed());
+  const std::string text = text_of_file(shop.changed());
   // Between the passes `G0 Z5` and `G0 Z2` program Z; the nearest to 60 s, 120 s, 180 s is taken.
   for (const auto& one : done.insertions) {
     EXPECT_EQ(one.site, Site::rapid);
@@ -40,7 +40,7 @@ TEST(Compensate, PutsEveryCorrectionBeforeAnAbsoluteRapidOfItsAxis) {
 TEST(Compensate, TellsTheLineInTheChangedProgram) {
   const Workshop shop;
   const auto done = shop.compensate(kPasses, kGrowth).value();
-  const std::string text = read_file(shop.changed());
+  const std::string text = text_of_file(shop.changed());
   for (const auto& one : done.insertions) {
     std::size_t at = 0;
     for (std::uint32_t line = 1; line < one.line; ++line) {
@@ -81,7 +81,7 @@ TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
   ASSERT_EQ(done.insertions.size(), 1U);
   EXPECT_EQ(done.insertions[0].site, Site::clearance);
   EXPECT_EQ(done.proof.added, 1U);
-  EXPECT_THAT(read_file(shop.changed()), HasSubstr("G0 Z5.0000 (STEADYREST restated)\nG0 X0"));
+  EXPECT_THAT(text_of_file(shop.changed()), HasSubstr("G0 Z5.0000 (STEADYREST restated)\nG0 X0"));
 }
 
 // The axis' position is not known there: a number in its place would move it by the work offset.
@@ -107,7 +107,7 @@ TEST(Compensate, TurnsTheCorrectionOverWhenTheWorkOffsetChanges) {
   shop.config.work_offset[1][2] = 7.5;
   const std::string program = replaced(kPasses, "G0 X0 Y20\n", "G55\nG0 X0 Y20\n");
   const auto done = shop.compensate(program, kGrowth).value();
-  const std::string text = read_file(shop.changed());
+  const std::string text = text_of_file(shop.changed());
   // Nine lines of head for each of three axes; three changes of three lines; at G55 two off and
   // three on; two at the end.
   EXPECT_EQ(done.inserted_lines, 27U + 9U + 5U + 2U);
@@ -140,7 +140,7 @@ TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
     const double minutes = std::string(one.unsafe) == "arcs" ? 0.52 : 1.0;
     const double total = std::string(one.unsafe) == "loop" ? 3.0 : minutes;
     const auto refused = shop.compensate(one.program, one_step(minutes, total, 10));
-    ASSERT_FALSE(refused) << one.unsafe << "\n" << read_file(shop.changed());
+    ASSERT_FALSE(refused) << one.unsafe << "\n" << text_of_file(shop.changed());
     EXPECT_THAT(refused.error().what, HasSubstr("no safe place")) << one.unsafe;
     EXPECT_FALSE(std::filesystem::exists(shop.changed()));
   }
@@ -152,9 +152,9 @@ TEST(Compensate, MayReplaceTheProgramItself) {
   const auto plan = parse_plan(kGrowth, "plan.json").value();
   ASSERT_TRUE(
       compensate(shop.original(), shop.original(), plan, shop.config, shop.machine, shop.settings));
-  EXPECT_THAT(read_file(shop.original()), HasSubstr("STEADYREST"));
+  EXPECT_THAT(text_of_file(shop.original()), HasSubstr("STEADYREST"));
   ASSERT_TRUE(strip(shop.original(), shop.original()));
-  EXPECT_EQ(read_file(shop.original()), kPasses);
+  EXPECT_EQ(text_of_file(shop.original()), kPasses);
 }
 
 TEST(Compensate, APlanThatCorrectsNothingCopiesTheProgram) {
@@ -162,7 +162,7 @@ TEST(Compensate, APlanThatCorrectsNothingCopiesTheProgram) {
   const auto done =
       shop.compensate(kPasses, R"({"transitions": [{"n": 1, "t_min": [4.2], "delta_um": [0]}]})");
   ASSERT_TRUE(done);
-  EXPECT_EQ(read_file(shop.changed()), kPasses);
+  EXPECT_EQ(text_of_file(shop.changed()), kPasses);
 }
 
 TEST(Compensate, FollowsAnOffsetThatTheProgramSetsItself) {
@@ -172,7 +172,7 @@ TEST(Compensate, FollowsAnOffsetThatTheProgramSetsItself) {
         replaced(kPasses, "G0 X0 Y20\n", "G0 X0 Y20\n" + line + "\nG0 Z6\n");
     const auto done = shop.compensate(program, kGrowth);
     ASSERT_TRUE(done) << line << ": " << done.error().what;
-    EXPECT_THAT(read_file(shop.changed()), HasSubstr(" (STEADYREST Z noted)\nG0 Z6")) << line;
+    EXPECT_THAT(text_of_file(shop.changed()), HasSubstr(" (STEADYREST Z noted)\nG0 Z6")) << line;
   }
   const std::string in_loop = "o1 repeat [2]\nG92 Z4\no1 endrepeat\nG0 Z6\n";
   // In a loop the line is executed twice, so nothing may be written around it.
@@ -205,7 +205,7 @@ TEST(Compensate, SparesTheSubprogramsThatItCalls) {
   const auto refused = shop.compensate(program, kGrowth);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().what, HasSubstr("coolant.ngc"));
-  EXPECT_EQ(read_file(file), text);
+  EXPECT_EQ(text_of_file(file), text);
   std::filesystem::remove(shop.changed());
   const auto done = shop.compensate(program, kGrowth);
   EXPECT_TRUE(done) << done.error().what;
@@ -216,7 +216,7 @@ TEST(Compensate, APlanWithoutCorrectionsLeavesItsMark) {
   shop.settings.told = {{.name = "window-s", .value = "60"}};
   const std::string plan = R"({"transitions": [{"n": 2, "t_min": [2, 2.2], "delta_um": [0, 0]}]})";
   ASSERT_TRUE(shop.compensate(kPasses, plan));
-  EXPECT_EQ(read_file(shop.changed()),
+  EXPECT_EQ(text_of_file(shop.changed()),
             replaced(kPasses, "%\n", "%\n" + mark_text(Way{}, shop.settings.told, "\n")));
   EXPECT_TRUE(shop.verify(plan));
 }

@@ -20,7 +20,7 @@ TEST(Compensate, WritesMillimetresIntoAProgramInInches) {
       "G20 G90 G94 G54\nG0 Z1\nG1 X4 F4\nG0 Z1\nG0 X0\nG0 Z.5\nG1 X4 F4\nG0 Z1\nM2\n";
   // 0.01 mm whatever the unit: the text converts at run time.
   ASSERT_TRUE(shop.compensate(program, one_step(1.0, 1.05, 10)));
-  EXPECT_THAT(read_file(shop.changed()), HasSubstr(test::change_to(-0.01)));
+  EXPECT_THAT(text_of_file(shop.changed()), HasSubstr(test::change_to(-0.01)));
 }
 
 TEST(Compensate, StepsThatCancelAtOnePlaceLeaveNoText) {
@@ -46,7 +46,7 @@ TEST(Compensate, WritesForEitherUnitWhereTheProgramSaysNone) {
                                 "\nG0 Y10\nG0 X0\nG1 " + far + "\nG0 Z20\nM2\n";
     const auto done = shop.compensate(program, one_step(1.0, 1.05, 10));
     ASSERT_TRUE(done) << done.error().what;
-    const std::string text = read_file(shop.changed());
+    const std::string text = text_of_file(shop.changed());
     EXPECT_THAT(text, HasSubstr(test::change_to(-0.01) +
                                 "G0 Z[#<_z>-0.0100*[#<_metric>+#<_imperial>/25.4]] "
                                 "(STEADYREST restated)\n"));

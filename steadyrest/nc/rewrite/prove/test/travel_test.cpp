@@ -84,7 +84,7 @@ TEST_F(TravelOfAProgram, IsKeptToTheMicrometre) {
   EXPECT_THAT(refused.error().what,
               HasSubstr("the correction takes Z to -51.0200 mm, past the end of its travel at "
                         "-51.0199 mm; without it Z goes to -51.0000 mm"));
-  EXPECT_EQ(read_file(shop_.changed()), "as it was\n");
+  EXPECT_EQ(text_of_file(shop_.changed()), "as it was\n");
 }
 
 TEST_F(TravelOfAProgram, IsTheProgramsOwnAffairWhereItIsOverWithoutACorrection) {

@@ -22,7 +22,7 @@ class Verify : public ::testing::Test {
   void SetUp() override {
     shop_.settings.window_s = 30.0;
     ASSERT_TRUE(shop_.compensate(kPasses, kGrowth));
-    text_ = read_file(shop_.changed());
+    text_ = text_of_file(shop_.changed());
   }
   [[nodiscard]] std::string fault(const std::string& text) const {
     return shop_.fault(kGrowth, text);
@@ -71,7 +71,7 @@ TEST_F(Verify, CatchesAShiftThatNeverTakesEffect) {
   // In G91 a shift would act nowhere.
   const std::string program = replaced(kPasses, "G0 X0 Y10\n", "G91\nG0 X0 Z1\nG90\nG0 X0 Y10\n");
   ASSERT_TRUE(shop_.compensate(program, kGrowth));
-  text_ = read_file(shop_.changed());
+  text_ = text_of_file(shop_.changed());
   EXPECT_EQ(fault(text_), "");
   EXPECT_THAT(fault(moved_before("G0 X0 Z1\n")), HasSubstr("no safe place"));
 }

@@ -38,14 +38,14 @@ TEST(Mark, IsProvedWithTheHead) {
   test::Workshop shop;
   shop.settings.told = {{"window-s", "60"}};
   ASSERT_TRUE(shop.compensate(test::kPasses, test::kGrowth));
-  const std::string text = test::read_file(shop.changed());
+  const std::string text = test::text_of_file(shop.changed());
   const std::string mark = mark_text(Way{}, shop.settings.told, "\n");
   EXPECT_THAT(mark, HasSubstr("(STEADYREST head told --window-s 60 --sum "));
   EXPECT_THAT(text, HasSubstr("%\n" + mark + "#<_steadyrest_z>="));
   EXPECT_TRUE(shop.verify(test::kGrowth));
   EXPECT_THAT(shop.fault(test::kGrowth, test::replaced(text, mark, "")), HasSubstr("head"));
   ASSERT_TRUE(strip(shop.changed(), shop.changed()));
-  EXPECT_EQ(test::read_file(shop.changed()), test::kPasses);
+  EXPECT_EQ(test::text_of_file(shop.changed()), test::kPasses);
 }
 
 TEST(Mark, IsRefusedWhereItWasChanged) {

@@ -53,7 +53,7 @@ TEST(PlanFile, RefusesEveryFileOfTheCorpus) {
   std::size_t seen = 0;
   const auto folder = std::filesystem::path(STEADYREST_SOURCE_DIR) / "tests/refused/plan";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string text = test::read_file(entry.path().string());
+    const std::string text = test::text_of_file(entry.path().string());
     const auto head = text.find('\n');
     ASSERT_EQ(text.substr(0, 3), "// ") << entry.path();
     // The fault's line is kept empty, so that line numbers stay.
