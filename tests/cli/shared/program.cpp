@@ -6,11 +6,10 @@
 #include <iterator>
 #include <sstream>
 
+#include "scratch.hpp"
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include "scratch.hpp"
 
 namespace steadyrest::test {
 namespace {

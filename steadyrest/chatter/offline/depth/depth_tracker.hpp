@@ -20,6 +20,8 @@
 /// nearer to 0 than the nearest one followed is counted by the argument principle on a circle just
 /// inside of it; where one is, Arnoldi's method on the DelayCycle finds it. So a new lobe cannot be
 /// missed, and an ordinary point costs some 40 evaluations of g, four at a time.
+/// Heavy damping with many waves between two teeth crowds the multipliers; with ζ ≥ 0.75 and 30 to
+/// 50 waves the border comes out up to 1.2 % too deep (turning, against the closed form).
 namespace steadyrest::chatter::offline {
 
 class DepthTracker {
@@ -76,7 +78,9 @@ class DepthTracker {
   std::size_t terms_ = 0;  ///< of the last disc
   std::unique_ptr<DelayCycle> cycle_;
   double free_log_radius_ = -1e300;  ///< ln|μ| at depth 0
-  std::vector<Root> roots_;          ///< Im ξ ≥ 0, the smallest |ξ| first
+  std::vector<Complex> half_circle_;
+  std::vector<Complex> on_circle_, values_;  ///< of one count
+  std::vector<Root> roots_;                  ///< Im ξ ≥ 0, the smallest |ξ| first
   double depth_mm_ = 0.0;
   std::size_t helped_ = 0;
 };

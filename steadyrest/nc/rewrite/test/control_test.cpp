@@ -74,7 +74,8 @@ TEST_F(Fanuc, WritesInchesInWholeIncrements) {
   const auto done = shop_.compensate(program, plan);
   ASSERT_TRUE(done) << done.error().what;
   // 10 um are 0.000394 in; in whole 0.0001 in that is 0.0004 in, 10.16 um.
-  EXPECT_THAT(text_of_file(shop_.changed()), HasSubstr("G10 L2 P0 Z-0.00040 (STEADYREST Z-0.01016"));
+  EXPECT_THAT(text_of_file(shop_.changed()),
+              HasSubstr("G10 L2 P0 Z-0.00040 (STEADYREST Z-0.01016"));
   EXPECT_NEAR(done->insertions.at(0).total_um, -10.16, 1e-9);
   shop_.settings.increment_mm = 1e-5;
   ASSERT_TRUE(shop_.compensate(program, plan));

@@ -130,8 +130,7 @@ TEST_F(Report, WritesBothFilesAndLeavesNothingElse) {
   ASSERT_TRUE(written.has_value());
   EXPECT_EQ(read(written->json), text(sample_report(20)) + "\n");
   EXPECT_EQ(read(written->html), to_html(text(sample_report(20))));
-  const auto count =
-      std::distance(fs::directory_iterator(at("a") / "b"), fs::directory_iterator{});
+  const auto count = std::distance(fs::directory_iterator(at("a") / "b"), fs::directory_iterator{});
   EXPECT_EQ(count, 2);
 }
 

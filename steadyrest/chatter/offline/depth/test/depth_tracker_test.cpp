@@ -6,7 +6,9 @@
 
 #include <steadyrest/chatter/offline/cycle/multipliers.hpp>
 #include <steadyrest/chatter/offline/depth/depth_tracker.hpp>
+#include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 #include <steadyrest/chatter/offline/test/cuts.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::offline::test {
 namespace {
@@ -59,6 +61,51 @@ TEST(DepthTracker, AgreesWithArnoldiAtEveryDepth) {
                   1e-8 * std::exp(multipliers(cycle, 1).log_modulus[0]))
           << rpm << " " << depth;
     }
+  }
+}
+
+/// Turned with one mode along the chip thickness, `kr` < 0 where the tool digs in.
+Process turned(double damping_ratio, double kr) {
+  Process p;
+  p.cut.operation = Operation::turning;
+  p.cut.tangential_n_mm2 = 1.0;
+  p.cut.radial_n_mm2 = kr;
+  Mode mode;
+  mode.frequency_hz = 100.0;
+  mode.damping_ratio = damping_ratio;
+  mode.mass_kg = 1e6 / std::pow(kernel::units::kTurn * mode.frequency_hz, 2);
+  p.modes = {mode};
+  return p;
+}
+
+// Many waves and much damping crowd the multipliers: the count of zeros must not overlook them.
+// ln ρ at twice and at five times the safe depth, by Arnoldi's method on the whole map.
+TEST(DepthTracker, OverlooksNoneWhereMultipliersCrowd) {
+  struct Row {
+    double damping_ratio, kr, waves, depth;
+  };
+  for (const auto& [z, kr, waves, depth] : {Row{0.05, 400.0, 50.0, 5.0},
+                                            {0.1, 400.0, 30.0, 2.0},
+                                            {0.3, 400.0, 10.0, 5.0},
+                                            {0.3, 400.0, 20.5, 5.0},
+                                            {0.5, -400.0, 10.0, 2.0},
+                                            {0.5, -400.0, 20.5, 1.2},
+                                            {0.75, -400.0, 30.0, 1.01},
+                                            {0.75, -400.0, 30.0, 1.2},
+                                            {0.9, -400.0, 50.0, 1.2},
+                                            {0.99, -400.0, 10.0, 1.05}}) {
+    const Process p = turned(z, kr);
+    const double speed = 100.0 / waves;
+    const double depth_mm = depth * safe_depth_mm(p);
+    DelayCycle cycle =
+        DelayCycle::make(
+            p, {.speed_rev_s = speed, .modulation = {}, .course = {}, .most_depth_mm = depth_mm})
+            .value();
+    cycle.set_depth(depth_mm);
+    DepthTracker tracker(p, speed, 1.1 * depth_mm);
+    EXPECT_NEAR(std::log(std::abs(tracker.dominant(depth_mm))),
+                multipliers(cycle, 1).log_modulus[0], 1e-4)
+        << z << " " << kr << " " << waves << " " << depth;
   }
 }
 
