@@ -32,11 +32,11 @@ std::vector<OutputRow> of_cut() {
   const std::string batch = "examples/thermal-batch/";
   return {
       {"cut",
-       batch + "plate.ngc --machine " + batch + "machine.toml --batch 2",
+       "examples/groove.ngc --machine " + batch + "machine.toml --batch 2",
        {{"--report",
          "out",
          {"out/report.html", "out/report.json", "out/batch/report.html", "out/batch/report.json"}}},
-       {batch + "plate.ngc", batch + "machine.toml"}},
+       {"examples/groove.ngc", batch + "machine.toml"}},
   };
 }
 
@@ -53,7 +53,7 @@ std::vector<OutputRow> of_chatter() {
        {kSlot},
        true},
       {"chatter plan",
-       kSlot + " --machine " + kVmc + " --speed-rpm 5000 --depth-mm 0.2",
+       kSlot + " --machine " + kVmc + " --speed-rpm 5000 --depth-mm 0.2 --samples 2 --laws sine",
        {report()},
        {kSlot, kVmc},
        true},
@@ -71,7 +71,7 @@ std::vector<OutputRow> of_chatter() {
 std::vector<OutputRow> of_motion() {
   return {
       {"motion bench",
-       "--scenes constant --phases 1",
+       "--scenes constant --phases 1 --estimators difference",
        {{"--output", "out.csv", {"out.csv", "out.requirement.csv"}},
         {"--page", "p.html", {"p.html"}}},
        {},

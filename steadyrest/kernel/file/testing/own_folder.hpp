@@ -32,7 +32,7 @@ class OwnFolder {
   /// The path of `name` in it.
   [[nodiscard]] std::string at(const std::string& name) const { return (path_ / name).string(); }
   /// Writes a file there; its path.
-  [[nodiscard]] std::string file(const std::string& name, const std::string& text) const {
+  std::string file(const std::string& name, const std::string& text) const {
     std::ofstream(at(name), std::ios::binary) << text;
     return at(name);
   }

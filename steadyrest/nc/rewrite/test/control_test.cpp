@@ -19,8 +19,8 @@ using test::Fanuc;
 using test::kFanuc;
 using test::kGrowth;
 using test::kPasses;
-using test::read_file;
 using test::replaced;
+using test::text_of_file;
 using ::testing::HasSubstr;
 using ::testing::Not;
 

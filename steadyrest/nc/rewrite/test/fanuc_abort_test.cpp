@@ -12,8 +12,8 @@ namespace {
 using test::Fanuc;
 using test::kFanuc;
 using test::kGrowth;
-using test::read_file;
 using test::replaced;
+using test::text_of_file;
 using ::testing::HasSubstr;
 
 TEST_F(Fanuc, StopsAtTheHeadWhereNothingTellsWhatAnAbortedRunHasLeft) {

@@ -13,8 +13,8 @@ using test::fault;
 using test::kHead;
 using test::kThreeSteps;
 using test::pockets;
-using test::read_file;
 using test::replaced;
+using test::text_of_file;
 using test::Workshop;
 using ::testing::HasSubstr;
 

@@ -10,8 +10,8 @@ namespace {
 
 using test::kGrowth;
 using test::kPasses;
-using test::read_file;
 using test::replaced;
+using test::text_of_file;
 using test::Workshop;
 using ::testing::HasSubstr;
 using ::testing::Not;

@@ -17,7 +17,7 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-using test::read_file;
+using test::text_of_file;
 using test::Workshop;
 
 /// A program of passes with ends of lines, comments and formats as they come; its bytes need not

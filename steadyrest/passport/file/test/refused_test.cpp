@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <toml++/toml.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 
@@ -118,17 +119,14 @@ TEST(RefusedMachineText, EndsInTheMiddleOfACharacter) {
 class SparseFile {
  public:
   explicit SparseFile(std::uintmax_t bytes)
-      : path_(fs::path(testing::TempDir()) / "steadyrest-large.toml") {
-    std::ofstream(path_) << "name = \"large\"\n";
+      : path_(folder_.file("large.toml", "name = \"large\"\n")) {
     fs::resize_file(path_, bytes);
   }
-  SparseFile(const SparseFile&) = delete;
-  SparseFile& operator=(const SparseFile&) = delete;
-  ~SparseFile() { fs::remove(path_); }
-  [[nodiscard]] std::string path() const { return path_.string(); }
+  [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  fs::path path_;
+  kernel::file::testing::OwnFolder folder_;
+  std::string path_;
 };
 
 TEST(RefusedMachineText, LargeFileWithoutReadingItWhole) {

@@ -20,6 +20,7 @@ namespace {
 using trial::cut::ReportData;
 
 namespace fs = std::filesystem;
+using kernel::file::testing::text_of_file;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -128,8 +129,8 @@ TEST_F(Report, ThePageNeedsNothingFromOutside) {
 TEST_F(Report, WritesBothFilesAndLeavesNothingElse) {
   const auto written = write(20, at("a") / "b");
   ASSERT_TRUE(written.has_value());
-  EXPECT_EQ(read(written->json), text(sample_report(20)) + "\n");
-  EXPECT_EQ(read(written->html), to_html(text(sample_report(20))));
+  EXPECT_EQ(text_of_file(written->json), text(sample_report(20)) + "\n");
+  EXPECT_EQ(text_of_file(written->html), to_html(text(sample_report(20))));
   const auto count = std::distance(fs::directory_iterator(at("a") / "b"), fs::directory_iterator{});
   EXPECT_EQ(count, 2);
 }
@@ -137,7 +138,7 @@ TEST_F(Report, WritesBothFilesAndLeavesNothingElse) {
 TEST_F(Report, ReplacesAnOlderReport) {
   ASSERT_TRUE(write(20, folder_.path()).has_value());
   ASSERT_TRUE(write(3, folder_.path()).has_value());
-  EXPECT_EQ(kernel::file::testing::text_of_file(at("report.json")), text(sample_report(3)) + "\n");
+  EXPECT_EQ(text_of_file(at("report.json")), text(sample_report(3)) + "\n");
 }
 
 // A file where the folder should be, at the end and in the middle of the path.

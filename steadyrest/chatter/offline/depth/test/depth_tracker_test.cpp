@@ -8,7 +8,6 @@
 #include <steadyrest/chatter/offline/depth/depth_tracker.hpp>
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 #include <steadyrest/chatter/offline/test/cuts.hpp>
-#include <steadyrest/kernel/units/constants.hpp>
 
 namespace steadyrest::chatter::offline::test {
 namespace {
@@ -64,20 +63,6 @@ TEST(DepthTracker, AgreesWithArnoldiAtEveryDepth) {
   }
 }
 
-/// Turned with one mode along the chip thickness, `kr` < 0 where the tool digs in.
-Process turned(double damping_ratio, double kr) {
-  Process p;
-  p.cut.operation = Operation::turning;
-  p.cut.tangential_n_mm2 = 1.0;
-  p.cut.radial_n_mm2 = kr;
-  Mode mode;
-  mode.frequency_hz = 100.0;
-  mode.damping_ratio = damping_ratio;
-  mode.mass_kg = 1e6 / std::pow(kernel::units::kTurn * mode.frequency_hz, 2);
-  p.modes = {mode};
-  return p;
-}
-
 // Many waves and much damping crowd the multipliers: the count of zeros must not overlook them.
 // ln ρ at twice and at five times the safe depth, by Arnoldi's method on the whole map.
 TEST(DepthTracker, OverlooksNoneWhereMultipliersCrowd) {
@@ -95,7 +80,7 @@ TEST(DepthTracker, OverlooksNoneWhereMultipliersCrowd) {
                                             {0.9, -400.0, 50.0, 1.2},
                                             {0.99, -400.0, 10.0, 1.05}}) {
     const Process p = turned(z, kr);
-    const double speed = 100.0 / waves;
+    const double speed = kTurned_hz / waves;
     const double depth_mm = depth * safe_depth_mm(p);
     DelayCycle cycle =
         DelayCycle::make(

@@ -28,23 +28,6 @@ constexpr double kEnd_rev_s = 18209.0 / 60.0;
 
 using kernel::testing::cases;
 
-constexpr double kTurned_hz = 100.0;
-constexpr double kTurned_N_mm = 5000.0;
-
-/// Turning along x, by the radial force alone: below 0 the tool digs in as it yields.
-Process turned(double damping_ratio, double radial_n_mm2) {
-  Process p;
-  p.cut.operation = Operation::turning;
-  p.cut.tangential_n_mm2 = 1.0;
-  p.cut.radial_n_mm2 = radial_n_mm2;
-  Mode mode;
-  mode.frequency_hz = kTurned_hz;
-  mode.damping_ratio = damping_ratio;
-  mode.mass_kg = 1000.0 * kTurned_N_mm / std::pow(2.0 * std::numbers::pi * kTurned_hz, 2);
-  p.modes = {mode};
-  return p;
-}
-
 /// k·G at every frequency from 0 to ten times the mode's, the largest of what `of` makes of it.
 template <class Of>
 double largest_answer(double damping_ratio, const Of& of) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/parameters/linuxcnc_files.hpp>
 #include <steadyrest/nc/interpret/test/moves.hpp>
@@ -16,15 +15,11 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 kernel::outcome::Result<std::vector<Tool>> table_of(const std::string& text, double unit_mm = 1.0) {
-  const fs::path path = fs::path(testing::TempDir()) / "steadyrest-tool.tbl";
-  std::ofstream(path) << text;
-  auto tools = read_tool_table(path.string(), unit_mm);
-  fs::remove(path);
-  return tools;
+  const kernel::file::testing::OwnFolder folder;
+  return read_tool_table(folder.file("tool.tbl", text), unit_mm);
 }
 
 // #5411, #5412 and #5413 of rs274 with these lines.

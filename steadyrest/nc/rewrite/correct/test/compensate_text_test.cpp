@@ -10,7 +10,7 @@ namespace {
 using test::kGrowth;
 using test::kPasses;
 using test::one_step;
-using test::read_file;
+using test::text_of_file;
 using test::Workshop;
 using ::testing::HasSubstr;
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/offline/log/test/log_text.hpp>
@@ -59,14 +60,14 @@ TEST(ThermalLog, UnitsAreConvertedByName) {
 
 // Packed here with zlib itself, so the reader is tested against the format and not against itself.
 TEST(ThermalLog, PackedIsThePlainOne) {
-  const fs::path path = fs::temp_directory_path() / "steadyrest_thermal_log_test.csv.gz";
+  const kernel::file::testing::OwnFolder folder;
+  const std::string path = folder.at("log.csv.gz");
   const std::string text = log_text();
   const gzFile out = gzopen(path.c_str(), "wb");
   ASSERT_EQ(gzwrite(out, text.data(), static_cast<unsigned>(text.size())),
             static_cast<int>(text.size()));
   gzclose(out);
-  const auto log = read_log(path.string());
-  fs::remove(path);
+  const auto log = read_log(path);
   ASSERT_TRUE(log.has_value()) << log.error().what;
   EXPECT_EQ(log->displacement[0].value, parsed(text).displacement[0].value);
 }
