@@ -8,8 +8,8 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 
-// begin() and end() enclose the interpolator: overrides and spindle must be known before it
-// decides on a setpoint, heat, offsets and servos follow once it has.
+// begin() and end() enclose the interpolator: it needs overrides and spindle before it decides on a
+// setpoint; heat, offsets and servos follow once it has.
 namespace steadyrest::sim {
 namespace {
 
@@ -42,7 +42,7 @@ Result<void> check(const Machine& machine) {
                    {"offset_slew_mm_s", machine.envelope.offset_slew_mm_s, 0.0, 1e6}});
 }
 
-/// No switch at all is allowed: its override is 100 %.
+/// A machine without a switch is allowed: its override is 100 %.
 Result<std::optional<OverrideInput>> input_of(const OverrideTable& table, const Machine& machine) {
   if (table.ratio.empty() && table.code.empty()) {
     return std::nullopt;
@@ -146,7 +146,7 @@ MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, Sp
       periods_of_growth_(periods_of_growth(config.machine)),
       probe_noise_mm_(config.machine.simulation.probe_noise_mm),
       normal_(config.machine.simulation.seed) {
-  // A displacement whose axis the machine lacks (a tilt, say) is reckoned but moves nothing.
+  // A displacement whose axis the machine lacks (a tilt, say) is computed but moves nothing.
   for (const kernel::machine::ThermalAxis& displacement : config.machine.thermal.axis) {
     const auto found =
         std::ranges::find(config.machine.axes, displacement.name, &kernel::machine::Axis::name);
@@ -192,7 +192,7 @@ void MachineBody::watch(std::uint64_t heartbeat) noexcept {
 
 nc::plan::Overrides MachineBody::begin(const kernel::signal::Command& layer) noexcept {
   ++cycle_;
-  // n·T, not a sum: the frame's stamps then have no drift against the interpolator.
+  // n·T, not a sum: the frame's stamps then do not drift against the interpolator.
   time_s_ = static_cast<double>(cycle_) * period_s_;
   watch(layer.heartbeat);
   layer_offset_mm_ = layer.offset_mm;
@@ -214,7 +214,7 @@ nc::plan::Overrides MachineBody::begin(const kernel::signal::Command& layer) noe
                                                 .layer_masks = layer.spindle_masks_panel,
                                                 .heartbeat = layer.heartbeat});
   }
-  // While it taps the control ignores the spindle override.
+  // During tapping the control ignores the spindle override.
   const bool tapping = setpoint_.motion == Motion::tap;
   spindle_now_ = spindle_.update({.command_rev_s = setpoint_.spindle_rev_s,
                                   .override_ratio = tapping ? 1.0 : spindle_state_.effective_ratio,
@@ -225,7 +225,7 @@ nc::plan::Overrides MachineBody::begin(const kernel::signal::Command& layer) noe
           .spindle_ratio = tapping ? 1.0 : spindle_state_.effective_ratio};
 }
 
-/// The counter's latch after a servo period: it holds the last edge until the next one comes.
+/// The counter's latch after a servo period: it holds the last edge until the next one arrives.
 void MachineBody::latch(std::size_t axis, std::uint32_t periods_left) noexcept {
   const std::optional<Passage>& edge = servos_[axis].state().edge;
   Counter& counter = counters_[axis];
@@ -233,12 +233,12 @@ void MachineBody::latch(std::size_t axis, std::uint32_t periods_left) noexcept {
     return;
   }
   const double t_s = time_s_ - periods_left * servo_period_s_ - edge->before_end_s;
-  // The counter's clock stamps an edge with the tick that has begun.
+  // The counter's clock stamps an edge with the current tick.
   counter.edge_s = std::floor(t_s / counter.clock_s) * counter.clock_s;
   counter.direction = edge->direction;
 }
 
-/// One axis through the servo periods of one interpolator period.
+/// Takes one axis through the servo periods of one interpolator period.
 void MachineBody::follow(std::size_t axis, const nc::plan::Setpoint& setpoint,
                          double offset_mm) noexcept {
   AxisServo& servo = servos_[axis];
@@ -261,7 +261,7 @@ void MachineBody::follow(std::size_t axis, const nc::plan::Setpoint& setpoint,
   latch(axis, 0);
 }
 
-/// Heat of one period; the displacement that it makes stands in truth_.heat_mm.
+/// Heat of one period; the resulting displacement is in truth_.heat_mm.
 void MachineBody::grow(const nc::plan::Setpoint& setpoint) noexcept {
   heating_.speed_rev_s += std::abs(spindle_now_.actual_rev_s);
   heating_.feed_mm_s += setpoint.path_speed_mm_s;
@@ -291,8 +291,8 @@ void MachineBody::read_sensors() noexcept {
   }
 }
 
-// A probing move ends where the motion or the segment changes; what it read goes with the axis
-// that it moved furthest.
+// A probing move ends where the motion or the segment changes; its reading belongs to the axis that
+// it moved furthest.
 void MachineBody::probe(const nc::plan::Setpoint& setpoint) noexcept {
   const bool probed = setpoint_.motion == Motion::probe;
   const bool another =
@@ -334,7 +334,7 @@ void MachineBody::end(const nc::plan::Setpoint& setpoint) noexcept {
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     follow(i, setpoint, offset_mm[i]);
     const AxisServo::State& s = servos_[i].state();
-    // Heat and disturbance lie beyond the motors' encoders: only the truth has them.
+    // The motors' encoders miss heat and disturbance: only the truth has them.
     truth_.tool_mm[i] = s.table_mm + truth_.heat_mm[i];
     if (disturbed_[i]) {
       truth_.tool_mm[i] += noise_[i].update(normal_.next());

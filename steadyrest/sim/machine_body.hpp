@@ -21,12 +21,12 @@
 
 namespace steadyrest::sim {
 
-/// What really happens at the machine, which no control can see.
+/// What really happens at the machine; no control can see it.
 struct Truth {
   double time_s = 0.0;
-  /// Table side with heat and disturbance: where it cuts.
+  /// Table side with heat and disturbance: the actual place of the cut.
   kernel::signal::AxisValues tool_mm{};
-  kernel::signal::AxisValues heat_mm{};        ///< of it by thermal growth
+  kernel::signal::AxisValues heat_mm{};        ///< the part of it due to thermal growth
   kernel::signal::AxisValues velocity_mm_s{};  ///< of the table side, without the disturbance
   kernel::signal::AxisValues motor_mm{};       ///< motor side, where the encoder sits
   kernel::signal::AxisValues motor_mm_s{};
@@ -35,23 +35,24 @@ struct Truth {
   kernel::signal::AxisValues program_mm{};   ///< commanded by the program, without offsets
   double spindle_rev_s = 0.0;
   bool spindle_at_speed = true;
-  std::uint8_t saturated_axes = 0;  ///< bit i: the drive of axis i stood at its limit
+  std::uint8_t saturated_axes = 0;  ///< bit i: the drive of axis i was at its limit
 };
 
-/// Everything of the machine but the interpolator: panel and override inputs, spindle, servos.
+/// Everything of the machine except the interpolator: panel and override inputs, spindle, servos.
 ///
 /// One interpolator period is begin() → setpoint from the interpolator → end(). Time t = n·T.
-///   begin  the operator's actions up to t act; the PLC scans; the spindle turns on by T towards
-///          the last setpoint's command · spindle override (100 % while tapping)
+///   begin  the operator's actions up to t take effect; the PLC scans; the spindle turns on by T
+///          towards the last setpoint's command · spindle override (100 % while tapping)
 ///   end    the setpoint is reached at the end of the period; between setpoints the servo periods
 ///          get the cubic through both setpoints' positions and velocities (fine interpolation)
-/// Frame: command and encoder reading at the end of the period, following error their difference;
-/// of encoders with counts the count and the time of the last edge with its direction, the instant
-/// on the true motion (edge_search.hpp) cut off to the counter's clock. A new edge has a new time.
-/// Where a probing move ends the probe has found its goal: along the linear axis that it moved
-/// furthest it reads what heat and offset have left, with the probe's noise
+/// Frame: command and encoder reading at the end of the period, and their difference as following
+/// error. Encoders with counts also give the count and the time and direction of the last edge: the
+/// instant on the true motion (edge_search.hpp), truncated to the counter's clock. A new edge has a
+/// new time. Where a probing move ends, the probe has touched: along the linear axis that it moved
+/// furthest it reads the remainder of heat and offset, with the probe's noise
 /// (`simulation.probe_noise_um`), if that axis has a thermal passport.
 /// The disturbance (`simulation.position_noise_mm`, correlation time 2 ms) moves the tool of linear
+/// axes unseen by the motors' encoders: only Truth has it.
 /// axes beyond the motors' encoders: only Truth has it.
 class MachineBody {
  public:
@@ -74,7 +75,7 @@ class MachineBody {
   void end(const nc::plan::Setpoint& setpoint) noexcept;
 
   [[nodiscard]] const Truth& truth() const noexcept { return truth_; }
-  /// All but the path.
+  /// Everything but the path.
   [[nodiscard]] kernel::signal::Frame frame() const noexcept;
   [[nodiscard]] const std::optional<OverrideInput>& feed_input() const noexcept { return feed_; }
   [[nodiscard]] const std::optional<OverrideInput>& spindle_input() const noexcept {
@@ -115,7 +116,7 @@ class MachineBody {
   OperatorPanel panel_;
   AxisOffset offset_;
   std::optional<ThermalGrowth> growth_;
-  std::vector<std::size_t> grown_axis_;  ///< of each displacement; kMaxAxes: no axis of that name
+  std::vector<std::size_t> grown_axis_;  ///< of each displacement; kMaxAxes: no such axis
   ThermalGrowth::Input heating_;         ///< sums since the last step
   std::uint32_t heating_periods_ = 0;
   std::uint32_t periods_of_growth_ = 1;  ///< between two steps

@@ -7,16 +7,16 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
-// The port of a machine that is not there. read() runs the machine on by one layer cycle and shows
-// the end of it, write() sets what holds in the next: so a command acts one cycle after the frame
-// that it was decided on, as on a real control.
+// The port of a simulated machine. read() advances the machine by one layer cycle and shows the end
+// of it; write() sets what applies in the next. A command thus acts one cycle after the frame that
+// it was based on, as on a real control.
 namespace steadyrest::sim {
 namespace {
 
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
-constexpr double kPlunge = 0.05;  ///< less of the path's speed than this lies in the XY plane
+constexpr double kPlunge = 0.05;  ///< share of the path's speed in the XY plane; a plunge has less
 
 kernel::signal::AxisValues start_of(const nc::plan::PlannedPath& path) noexcept {
   kernel::signal::AxisValues position{};
@@ -70,7 +70,7 @@ SimulatedMachine::SimulatedMachine(const Config& config, MachineBody body,
       body_(std::move(body)),
       interpolator_(std::move(interpolator)),
       cutting_(std::move(cutting)) {
-  // What the port can do follows from the machine file alone: a switch that is described can be
+  // The port's capabilities follow from the machine file alone: a switch described there can be
   // written, an offset limit above 0 means that offsets are taken.
   capability_ = {.feed_override = body_.feed_input().has_value(),
                  .spindle_override = body_.spindle_input().has_value(),
@@ -83,8 +83,8 @@ kernel::port::Capability SimulatedMachine::capability() const noexcept {
   return capability_;
 }
 
-/// The cut of one period, at the mean of the spindle's speeds at both ends. A mill that plunges
-/// cuts with its face, which the process does not describe: below 5 % of the speed in the XY plane
+/// The cut of one period, at the mean of the spindle's speeds at both ends. A plunging mill cuts
+/// with its face, which the process does not model: with less than 5 % of the speed in the XY plane
 /// it counts as out of the cut.
 void SimulatedMachine::vibrate(const nc::plan::Setpoint& setpoint, double before_rev_s) noexcept {
   const double x = setpoint.velocity[0];
@@ -106,7 +106,7 @@ Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
   if (cutting_) {
     cutting_->begin_cycle();
   }
-  // The interpolator needs the overrides of this period, the body the setpoint that it answers.
+  // The interpolator needs this period's overrides, the body the resulting setpoint.
   for (std::uint32_t i = 0; i < periods_per_cycle_; ++i) {
     const double before_rev_s = body_.truth().spindle_rev_s;
     const nc::plan::Setpoint setpoint = interpolator_.update(body_.begin(command_));
@@ -125,7 +125,7 @@ Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
 }
 
 Result<void> SimulatedMachine::write(const kernel::signal::Command& command) noexcept {
-  // A supervisor that writes in another mode than act is a fault worth stopping for.
+  // A supervisor that writes in any mode but act is a fault worth stopping for.
   if (!command.write) {
     return refuse("the port was handed a command in a mode that does not write",
                   "write only in mode act");

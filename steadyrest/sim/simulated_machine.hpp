@@ -16,12 +16,12 @@
 
 namespace steadyrest::sim {
 
-/// The simulated machine: runs a planned program behind the port that a real control has.
+/// The simulated machine: runs a planned program behind the same port as a real control.
 ///
 /// read() runs one cycle of the layer (one interpolator period, or `periods_per_cycle` of them) and
-/// gives its Frame, the planned path included. write() latches the layer's words; they act from the
-/// next read() on, as machine_body.hpp says. Time stands still between calls, so the simulation is
-/// as fast as the processor allows. Deterministic: same machine, path, script, commands and seed
+/// returns its Frame, including the planned path. write() latches the layer's words; they act from
+/// the next read() on, as machine_body.hpp describes. Time stops between calls, so the simulation
+/// is as fast as the processor allows. Deterministic: same machine, path, script, commands and seed
 /// give the same bytes.
 class SimulatedMachine final : public kernel::port::Port {
  public:
@@ -32,23 +32,23 @@ class SimulatedMachine final : public kernel::port::Port {
     // NOLINTNEXTLINE(readability-redundant-member-init)
     std::vector<OperatorAction> operator_actions = {};
     std::uint32_t periods_per_cycle = 1;  ///< interpolator periods in one cycle of the layer, ≥ 1
-    /// What the tool cuts during G1–G3 in the XY plane (turning: any), vibration and all; a plunge
-    /// along Z cuts nothing. Empty: air.
+    /// What the tool cuts during G1–G3 in the XY plane (turning: any), including vibration; a
+    /// plunge along Z cuts nothing. Empty: air.
     std::optional<CuttingVibration::Config> cutting = std::nullopt;
   };
 
-  /// The machine stands at the path's start, panel at 100 % (the step nearest to it).
+  /// The machine is at the path's start, panel at 100 % (the nearest step).
   static kernel::outcome::Result<std::unique_ptr<SimulatedMachine>> make(const Config& config);
 
   [[nodiscard]] kernel::port::Capability capability() const noexcept override;
   kernel::outcome::Result<kernel::signal::Frame> read() noexcept override;
   kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override;
 
-  /// The program has ended: the last setpoint is reached by the command (the axes still lag).
+  /// The program has ended: the command has reached the last setpoint (the axes still lag).
   [[nodiscard]] bool finished() const noexcept { return interpolator_.finished(); }
   /// What really happened at the end of the last cycle.
   [[nodiscard]] const Truth& truth() const noexcept { return body_.truth(); }
-  /// The cut in the last cycle; nullptr where it cuts air.
+  /// The cut in the last cycle; nullptr when cutting air.
   [[nodiscard]] const CuttingVibration* cutting() const noexcept {
     return cutting_ ? &*cutting_ : nullptr;
   }

@@ -4,9 +4,8 @@
 
 #include <steadyrest/supervisor/frame_check.hpp>
 
-// Fit or not, in the order of how bad it is: a frame that is not finite may not be compared with
-// anything, so that comes first; age comes last, since only a frame that makes sense can be merely
-// old.
+// Ordered by severity: a frame that is not finite may not be compared with anything, so that comes
+// first; age comes last, since only a frame that makes sense can be merely old.
 namespace steadyrest::supervisor {
 namespace {
 
@@ -21,9 +20,9 @@ bool all_finite(std::initializer_list<double> values) noexcept {
 
 FrameCheck::FrameCheck(std::span<const kernel::machine::Axis> axes, double stale_after_s) noexcept
     : stale_after_s_(stale_after_s) {
-  // A linear axis may show up to its own travel beyond its limits: machine files are often wrong
-  // by an offset, while garbage from a broken link is off by powers of ten. Rotary axes turn on
-  // and on.
+  // A linear axis may read up to its own travel beyond its limits: machine files are often wrong by
+  // an offset, while garbage from a broken link is off by powers of ten. Rotary axes turn without
+  // limit.
   range_.fill({.min = -kernel::machine::kUnlimited, .max = kernel::machine::kUnlimited});
   for (std::size_t i = 0; i < std::min(axes.size(), range_.size()); ++i) {
     const auto& axis = axes[i];
@@ -36,9 +35,8 @@ FrameCheck::FrameCheck(std::span<const kernel::machine::Axis> axes, double stale
 
 bool FrameCheck::finite(const Frame& frame) const noexcept {
   const auto sample_finite = [](const auto& axis) {
-    // Only what the rooms compute with. Panels are judged by their own channel, edges by the
-    // motion stage, probes and temperatures by the thermal room: a fault there costs that one
-    // input only.
+    // Only what the rooms compute with. Each channel judges its own panel, the motion stage the
+    // edges, the thermal room probes and temperatures: a fault there costs only that input.
     return all_finite({axis.command_mm, axis.actual_mm, axis.following_error_mm});
   };
   const auto axes = std::min<std::size_t>(frame.axis_count, frame.axis.size());
@@ -49,7 +47,8 @@ bool FrameCheck::finite(const Frame& frame) const noexcept {
 }
 
 bool FrameCheck::in_range(const Frame& frame) const noexcept {
-  // Slightly negative ages come from rounding; a frame from further ahead has a wrong clock.
+  // Slightly negative ages come from rounding; a frame from further in the future has a wrong
+  // clock.
   if (frame.axis_count > frame.axis.size() || frame.programmed_feed_mm_s < 0.0 ||
       frame.age_s < -stale_after_s_) {
     return false;

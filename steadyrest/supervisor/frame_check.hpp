@@ -10,15 +10,15 @@
 
 namespace steadyrest::supervisor {
 
-/// Says whether one cycle's inputs may be acted on.
+/// Judges whether one cycle's inputs may be acted on.
 ///
-/// Law, first that holds: any number that is not finite → input_not_finite; more axes than there
-/// are, a negative feed, a linear axis further than its whole travel outside of its limits →
-/// input_out_of_range; what the clock says of the time stamp; age above `stale_after_s` →
+/// Law, first match wins: any number that is not finite → input_not_finite; too many axes, a
+/// negative feed, a linear axis further outside its limits than its whole travel →
+/// input_out_of_range; the clock's verdict on the time stamp; age above `stale_after_s` →
 /// input_stale; else none.
-/// The override states are not looked at here: each channel's envelope does that for its own, so
-/// that a bad spindle panel does not withdraw the feed.
-/// A port that shows an old sample must say so in `age_s`; there is no clock here.
+/// The override states are not checked here: each channel's envelope checks its own, so that a bad
+/// spindle panel does not withdraw the feed.
+/// A port that delivers an old sample must say so in `age_s`; there is no clock here.
 class FrameCheck {
  public:
   FrameCheck(std::span<const kernel::machine::Axis> axes, double stale_after_s) noexcept;

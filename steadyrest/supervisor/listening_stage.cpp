@@ -6,9 +6,9 @@
 
 #include <steadyrest/supervisor/listening_stage.hpp>
 
-// The frame's vibration is a block of samples, one cycle long; the detector takes one sample at a
-// time with the spindle speed at that instant, which is interpolated from frame to frame. A speed
-// that jumped once a cycle would smear the tooth-passing lines that the detector takes out.
+// The frame's vibration is a block of samples, one cycle long. The detector takes one sample at a
+// time with the spindle speed at that instant, interpolated from frame to frame: a speed that
+// jumped once per cycle would smear the tooth-passing lines that the detector removes.
 namespace steadyrest::supervisor {
 
 kernel::outcome::Result<ListeningStage> ListeningStage::make(Config config) {
@@ -41,14 +41,14 @@ const chatter::online::BetterSpeed::Output& ListeningStage::update(
   const double now_rev_s = std::abs(frame.spindle_actual_rev_s);
   const double before_rev_s = last_rev_s_ > 0.0 ? last_rev_s_ : now_rev_s;
   last_rev_s_ = now_rev_s;
-  // The detector's windows are counted in samples: at another rate every frequency would be wrong
-  // by the ratio. Threads, taps and air are not judged.
+  // The detector's windows are counted in samples: another sample rate would scale every frequency.
+  // Threads, taps and air are not judged.
   const bool known_rate =
       std::abs(frame.vibration_rate_hz - sample_rate_hz_) <= 1e-6 * sample_rate_hz_;
   if (!fit || !known_rate || frame.motion != kernel::signal::Motion::feed) {
     return out_;
   }
-  // A second of samples bounds the loop, whatever a port hands over.
+  // A second of samples bounds the loop, whatever a port delivers.
   const auto most = static_cast<std::size_t>(sample_rate_hz_);
   const std::size_t count = std::min(frame.vibration.size(), most);
   for (std::size_t i = 0; i < count; ++i) {

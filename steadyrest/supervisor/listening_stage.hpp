@@ -9,13 +9,13 @@
 
 namespace steadyrest::supervisor {
 
-/// Hands the vibration of each frame to the detector, sample by sample, with the spindle's speed on
-/// a straight line from the last frame's to this one's, and keeps what was answered.
+/// Hands each frame's vibration to the detector, sample by sample, with the spindle speed
+/// interpolated linearly from the last frame to this one, and keeps the answer.
 ///
-/// The ratio that the speed table is asked from is the one that the control shows: the sound was
-/// made at that one, not at what is on its way.
-/// Only what is cut in feed is listened to; threads, taps and unfit frames are not. Bound: a second
-/// of samples a frame, no allocation.
+/// The speed table is queried from the ratio that the control reports: the sound was made at that
+/// one, not at the one on its way.
+/// It listens only to feed cuts, not to threads, taps or unfit frames. Bound: a second of samples
+/// per frame, no allocation.
 class ListeningStage {
  public:
   struct Config {
@@ -36,7 +36,7 @@ class ListeningStage {
                                                      bool fit) noexcept;
   void reset() noexcept;
   [[nodiscard]] State state() const;
-  /// Of one that was made from the same config.
+  /// From a stage with the same config.
   void restore(const State& state) noexcept;
 
  private:

@@ -19,19 +19,18 @@ using motion::online::LineTable;
 using motion::online::MotionEstimator;
 
 constexpr double kGapCycles = 50.0;  ///< as MotionEstimator's
-/// Times the axis's largest: overshoot stays below it, a counter that was set is far above.
+/// Times the axis's largest speed: overshoot stays below it, a counter that was set is far above.
 constexpr double kImpossibleSpeed = 2.0;
-/// A count beyond it cannot be told from its neighbours in mm.
+/// Neighbouring counts beyond this cannot be told apart in mm.
 constexpr double kFarthestCount = 1e12;
 constexpr double kMostLost = 255.0;  ///< what the field holds
-constexpr double kSigmas = 4.0;      ///< as MotionEstimator takes of a σ that it learnt
-/// Counts RMS that a learnt table is wrong by on ideal lines: motion/README.md, calibration.
+constexpr double kSigmas = 4.0;      ///< as MotionEstimator uses for a learnt σ
+/// RMS error of a learnt table in counts, on ideal lines: motion/README.md, calibration.
 constexpr double kFits = 0.004;
 
-/// How far a line may stand off from where it is taken to be.
-/// With a table, what is left of the lines' errors; without one, the machine file's bound. A table
-/// that does not cover the whole travel leaves some lines at their raw error, and moved by the
-/// phases that the learnt lines have.
+/// How far a line may be from its assumed position. With a table, what is left of the lines'
+/// errors; without one, the machine file's bound. A table that does not cover the whole travel
+/// leaves some lines at their raw error, shifted by the phases of the learnt lines.
 double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) {
   if (!lines.in_use()) {
     return axis.encoder.line_error_mm;
@@ -39,7 +38,7 @@ double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) 
   const LineTable::Config& table = lines.config();
   std::int64_t from = table.first_line;
   std::int64_t to = from + static_cast<std::int64_t>(table.lines) - 1;
-  if (!table.periodic) {  // the line before and the one behind stand for all that it has not
+  if (!table.periodic) {  // the lines just before and after represent all that it lacks
     const double first = std::floor(axis.min_mm / table.count_mm);
     const double last = std::ceil(axis.max_mm / table.count_mm) + 1.0;
     from = static_cast<std::int64_t>(std::max(first, static_cast<double>(from - 1)));
@@ -60,9 +59,9 @@ double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) 
   return all_learnt ? left_mm : std::max(axis.encoder.line_error_mm + phase_mm, left_mm);
 }
 
-// An axis brakes harder than its drive pulls: friction helps. So |a| ≤ drive + Coulomb (or
-// breakaway) + viscous at full speed. No limit of jerk: friction that reverses is a step of
-// acceleration, and a bound on a broken limit would be a lie.
+// An axis brakes harder than its drive pulls, since friction helps. So |a| ≤ drive + Coulomb (or
+// breakaway) + viscous at full speed. No jerk limit: friction that reverses is a step of
+// acceleration, and a bound based on a broken limit would be a lie.
 MotionEstimator::Config config_of(const kernel::machine::Axis& axis, double cycle_s,
                                   double error_mm) {
   const kernel::machine::Friction& friction = axis.friction;
@@ -74,14 +73,14 @@ MotionEstimator::Config config_of(const kernel::machine::Axis& axis, double cycl
   return {.count_mm = axis.encoder.count_mm,
           .cycle_s = cycle_s,
           .clock_s = std::min(axis.encoder.clock_s, cycle_s),
-          // A line that may be off by more than a count could be its neighbour: no bound then.
+          // A line that may be off by more than a count could be its neighbour: then no bound.
           .line_error_mm = error_mm <= axis.encoder.count_mm ? error_mm : -1.0,
           .max_speed_mm_s = axis.max_speed_mm_s,
           .max_acceleration_mm_s2 = drive_mm_s2 + braking_mm_s2,
           .max_jerk_mm_s3 = motion::online::kNoBound};
 }
 
-/// The counter rounds: it shows n from n − ½ to n + ½, so its line n lies half a count below the
+/// The counter rounds: it shows n from n − ½ to n + ½, so its line n is half a count below the
 /// table's.
 double line_mm(const LineTable& lines, std::int64_t line) noexcept {
   return lines.position_mm(line) - 0.5 * lines.config().count_mm;
@@ -119,7 +118,7 @@ Result<MotionStage> MotionStage::make(const Config& config) {
   return stage;
 }
 
-// Copying the fresh estimator is bounded and takes no memory, which making one would.
+// Copying the fresh estimator is bounded and takes no memory; making one would.
 void MotionStage::restart(Axis& axis) const noexcept {
   if (axis.now.started) {
     axis.now.estimator = axis.fresh;
@@ -136,7 +135,7 @@ MotionStage::State MotionStage::state() const {
   return state;
 }
 
-// A state of another machine file has other axes: begin again rather than mix them.
+// A state from another machine file has other axes: start over rather than mix them.
 void MotionStage::restore(const State& state) noexcept {
   if (state.axis.size() != axes_.size()) {
     reset();
@@ -153,8 +152,8 @@ void MotionStage::reset() noexcept {
   }
 }
 
-/// The record does not go on from where it was.
-/// Two counts of slack for the cell's borders; beyond twice the axis's speed the counter was set.
+/// The record does not continue from where it was. Two counts of slack for the cell's borders;
+/// beyond twice the axis's speed the counter was set.
 bool MotionStage::broken(const Axis& axis, const AxisSample& sample, double time_s) const noexcept {
   const double passed_s = time_s - axis.now.time_s;
   const double steps = static_cast<double>(sample.count) - static_cast<double>(axis.now.count);
@@ -162,12 +161,12 @@ bool MotionStage::broken(const Axis& axis, const AxisSample& sample, double time
                               std::abs(steps) > 2.0 + axis.max_steps_s * passed_s);
 }
 
-// A latching counter shows the count now and the time of the last edge. Of several edges in one
+// A latching counter gives the present count and the time of the last edge. Of several edges in one
 // cycle only the last is known; the others are reported as lost, and the cell at the tick still
 // bounds the position.
 void MotionStage::take_edge(Axis& axis, const AxisSample& sample, double time_s) const noexcept {
   const bool usable = axis.clock_s > 0.0 && std::isfinite(sample.edge_s) && sample.edge_s <= time_s;
-  // A stamp that is cut off to the clock may lie just before the tick that it came after.
+  // A stamp truncated to the clock may lie just before the tick that it came after.
   const bool later = !axis.now.started || (sample.edge_s > axis.now.edge_s &&
                                            sample.edge_s >= axis.now.time_s - axis.clock_s);
   if (!usable || !later) {
@@ -186,7 +185,7 @@ void MotionStage::take_edge(Axis& axis, const AxisSample& sample, double time_s)
   // Up from n − 1 to n crosses line n; down from n + 1 to n crosses line n + 1.
   const std::int64_t line = up ? sample.count : sample.count + 1;
   const double others = std::abs(static_cast<double>(steps) - (up ? 1.0 : -1.0));
-  // Never before the last tick: the estimator would refuse an edge that lies in its past.
+  // Never before the last tick: the estimator would refuse an edge in its past.
   axis.now.estimator.edge({.t_s = std::max(sample.edge_s, axis.now.time_s),
                            .position_mm = line_mm(axis.lines, line),
                            .line = line,
@@ -195,7 +194,7 @@ void MotionStage::take_edge(Axis& axis, const AxisSample& sample, double time_s)
                            .sigma_mm = axis.lines.sigma_mm(line)});
 }
 
-/// Neither the edges nor the cell are surer than the lines stand.
+/// Neither the edges nor the cell are more certain than the lines' positions.
 void MotionStage::look(Axis& axis, const AxisSample& sample, double time_s) const noexcept {
   take_edge(axis, sample, time_s);
   axis.now.estimate = axis.now.estimator.tick(
@@ -208,7 +207,7 @@ void MotionStage::look(Axis& axis, const AxisSample& sample, double time_s) cons
   axis.now.count = sample.count;
 }
 
-// First all axes to "not known": what a port may have put there is nobody's estimate.
+// First set all axes to "not known": no estimate from the port may pass for ours.
 void MotionStage::update(kernel::signal::Frame& frame, bool fit) noexcept {
   for (AxisSample& sample : frame.axis) {
     sample.velocity_mm_s = 0.0;
@@ -221,7 +220,7 @@ void MotionStage::update(kernel::signal::Frame& frame, bool fit) noexcept {
     if (!fit || axis.index >= frame.axis_count || !std::isfinite(frame.time_s)) {
       continue;
     }
-    // From 10¹² counts on a double in mm cannot tell neighbours apart.
+    // From 10¹² counts on, neighbouring counts look the same as a double in mm.
     if (!sample.encoder_shown || !(std::abs(static_cast<double>(sample.count)) < kFarthestCount)) {
       restart(axis);
       continue;

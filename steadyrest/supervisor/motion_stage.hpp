@@ -13,32 +13,32 @@
 
 namespace steadyrest::supervisor {
 
-/// Velocity and acceleration of each axis, written into the Frame before anybody decides by them.
+/// Velocity and acceleration of each axis, written into the Frame before any room decides by them.
 ///
-/// One MotionEstimator for each present axis whose encoder has counts. Of a cycle it gets the last
-/// edge, with the lines that were passed before it as lost, and the count; without time stamps the
-/// counts alone. Which line the last edge was: `count` if it raised the count, `count` + 1 if it
-/// lowered it. Where the control does not show the direction it is the sign of the count's change;
-/// an edge that left the count as it was is then not used, its line being either.
+/// One MotionEstimator for each present axis whose encoder has counts. Each cycle it gets the last
+/// edge, with the lines passed before it as lost, and the count; without time stamps only the
+/// counts. The last edge's line is `count` if the edge raised the count, `count` + 1 if it lowered
+/// it. Where the control does not report the direction, the sign of the count's change decides; an
+/// edge that left the count unchanged is then ignored, since its line could be either.
 ///
 /// Limits of the estimator, from the machine file:
 ///   speed         max_speed
-///   acceleration  what the drive can do (else max_acceleration), and what friction brakes with
-///   jerk          none: max_jerk is what the control plans with. Dry friction turns round at once,
+///   acceleration  what the drive can do (else max_acceleration), plus the braking by friction
+///   jerk          none: max_jerk is what the control plans with. Dry friction reverses at once,
 ///                 and a corner of the path comes through the servo as a step of the speed; with
 ///                 max_jerk the bounds fail in up to 3 of 10 000 cycles of the example pocket, and
 ///                 the estimates are as fine without
-///   line error    line_error, within which the lines and so the cells stand; with a calibration
-///                 what that leaves
+///   line error    line_error, the bound on the position of lines and so of cells; with a
+///                 calibration what that leaves
 ///
-/// Calibration: line n stands at q·(n − ½) + phase[n mod 4] + table[n] of the machine file; the
-/// counter must count from the same place. It leaves 4·√(σ² + (0.004 q)²), σ what the table states
-/// of its lines (LineTable::sigma_mm); unless every line of the travel was learnt, no less than
-/// line_error and the largest phase together. As sure as the calibration is: four sigma, no proof.
+/// Calibration: line n is at q·(n − ½) + phase[n mod 4] + table[n] of the machine file; the counter
+/// must count from the same place. It leaves 4·√(σ² + (0.004 q)²), where σ is the table's own
+/// figure for its lines (LineTable::sigma_mm); unless every line of the travel was learnt, at least
+/// line_error plus the largest phase. As sure as the calibration is: four sigma, no proof.
 ///
-/// An axis without estimate (not shown, not finite, ideal encoder, unfit frame) has 0 and infinite
-/// bounds. An axis starts anew after a gap of more than 50 cycles, a step of the count that its
-/// speed cannot give, or time that ran backwards.
+/// An axis without estimate (not reported, not finite, ideal encoder, unfit frame) has 0 and
+/// infinite bounds. An axis starts over after a gap of more than 50 cycles, a step of the count
+/// that its speed cannot produce, or time that ran backwards.
 class MotionStage {
  public:
   struct Config {
@@ -47,10 +47,10 @@ class MotionStage {
   };
 
   struct AxisState {
-    motion::online::MotionEstimator estimator;  ///< a value: its copy goes on as it would
+    motion::online::MotionEstimator estimator;  ///< a value: a copy continues identically
     bool started = false;
     double time_s = 0.0;
-    double edge_s = 0.0;  ///< the last one that was seen
+    double edge_s = 0.0;  ///< the last one seen
     std::int64_t count = 0;
     motion::online::Estimate estimate{};
   };
@@ -63,18 +63,18 @@ class MotionStage {
     return make({.axes = machine.axes, .cycle_s = machine.control.interpolator_period_s});
   }
 
-  /// Fills in the estimates; `fit` false: the frame may not be used, the estimates are none.
+  /// Fills in the estimates; `fit` false: the frame is unusable and gets no estimates.
   void update(kernel::signal::Frame& frame, bool fit) noexcept;
   void reset() noexcept;
   [[nodiscard]] State state() const;
-  /// Of a stage with the same machine; a state with other axes is not taken.
+  /// From a stage for the same machine; a state with other axes is rejected.
   void restore(const State& state) noexcept;
 
  private:
   struct Axis {
     std::size_t index = 0;
     double line_error_mm = 0.0;
-    double max_steps_s = 0.0;  ///< counts/s beyond which the counter must have been set
+    double max_steps_s = 0.0;  ///< counts/s above which the counter must have been set
     double clock_s = 0.0;      ///< 0: no time stamps
     bool bounded = true;
     motion::online::LineTable lines;

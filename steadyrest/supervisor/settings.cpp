@@ -4,8 +4,8 @@
 #include <steadyrest/supervisor/settings.hpp>
 
 // From the machine file and the port to the envelopes' settings. Feed may fall faster than it
-// rises: slowing down protects, speeding up surprises. The spindle has one slew for both ways,
-// since its drive works as hard at either. The longest step that a slew is credited with is the
+// rises: slowing down protects, speeding up surprises. The spindle has one slew for both
+// directions, since its drive works as hard in either. The longest step credited to a slew is the
 // watchdog's time; beyond it the machine has dropped the word.
 namespace steadyrest::supervisor {
 
@@ -37,7 +37,7 @@ Channel::Config spindle_config(const machine::Machine& machine,
           .available = capability.spindle_override};
 }
 
-// A limit of 0 is how an axis takes no offset: rotary axes, and ports that cannot write one.
+// A limit of 0 means that the axis takes no offset: rotary axes, and ports that cannot write one.
 OffsetEnvelope::Config offset_config(const machine::Machine& machine, bool available) {
   OffsetEnvelope::Config config{.max_mm = {},
                                 .slew_mm_s = machine.envelope.offset_slew_mm_s,

@@ -6,14 +6,14 @@
 #include <steadyrest/kernel/override/envelope.hpp>
 #include <steadyrest/kernel/port/port.hpp>
 
-/// What the machine file says about the last step before any write, as the envelopes take it.
+/// The machine file's settings for the last step before any write, in the form the envelopes take.
 namespace steadyrest::supervisor {
 
 [[nodiscard]] kernel::override::Channel::Config feed_config(
     const kernel::machine::Machine& machine, const kernel::port::Capability& capability);
 [[nodiscard]] kernel::override::Channel::Config spindle_config(
     const kernel::machine::Machine& machine, const kernel::port::Capability& capability);
-/// Rotary axes take none: the machine file limits offsets in mm alone.
+/// Rotary axes take none: the machine file limits offsets in mm only.
 [[nodiscard]] kernel::override::OffsetEnvelope::Config offset_config(
     const kernel::machine::Machine& machine, bool available);
 

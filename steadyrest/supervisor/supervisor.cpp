@@ -6,10 +6,10 @@
 #include <steadyrest/supervisor/settings.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
-// A cycle runs through update() in the order of README "The life of one Frame": time,
-// interruption, mode, check, estimate, arbitrate, clamp. Each step takes the result of the one
-// before as a value, so no step can act on a frame that an earlier one has found unfit. What is
-// kept over an interruption is in supervisor_state.cpp.
+// A cycle runs through update() in the order of README "The life of one Frame": time, interruption,
+// mode, check, estimate, arbitrate, clamp. Each step takes the previous result as a value, so none
+// can act on a frame that an earlier one found unfit. What survives an interruption is in
+// supervisor_state.cpp.
 namespace steadyrest::supervisor {
 namespace {
 
@@ -21,13 +21,13 @@ using kernel::override::Channel;
 using kernel::override::OffsetEnvelope;
 using machine::Mode;
 
-// Age of the frame before the first one was read: stale by any limit.
+// Age of the frame before the first reading: stale by any limit.
 constexpr double kNeverReadS = 1e9;  ///< older than any limit on stale input
-/// Between two blocks a control may show idle for some cycles with the tool in the cut. Tests
+/// Between two blocks a control may report idle for some cycles with the tool in the cut. Tests
 /// AfterAnAbortTheOffsetFades, ADwellOrAShortIdleInTheCutKeepsTheOffset.
 constexpr double kIdleLeavesCutS = 1.0;
 
-// No table, no override: the machine file need not name what the control does not have.
+// No table, no override: the machine file need not name what the control lacks.
 Result<std::optional<Channel>> channel(const Channel::Config& config) {
   if (config.table.ratio.empty()) {
     return std::nullopt;
@@ -77,8 +77,8 @@ bool in_thread(signal::Motion motion) noexcept {
   return motion == signal::Motion::thread || motion == signal::Motion::tap;
 }
 
-// Held in a thread: the wish becomes neutral and the envelope holds, since a change of feed or
-// spindle between two passes would cut a second thread beside the first.
+// Held in a thread: the wish becomes neutral and the envelope holds, since changing feed or spindle
+// between two passes would cut a second thread next to the first.
 template <class Request>
 kernel::override::RatioEnvelope::Input channel_input(double step_s, const Request& request,
                                                      Reason unfit, bool hold,
@@ -91,14 +91,13 @@ kernel::override::RatioEnvelope::Input channel_input(double step_s, const Reques
           .hold = hold};
 }
 
-// A panel that reads NaN or below 0 is shown as 100 %; the fault itself is the channel's to
-// report.
+// A panel that reads NaN or below 0 is shown as 100 %; the channel reports the fault itself.
 double shown(const signal::OverrideState& panel) noexcept {
   return kernel::override::fault_of(panel.panel_ratio) == Reason::none ? panel.panel_ratio : 1.0;
 }
 
-/// Of an override that the machine does not have.
-// A wish that nobody can carry out must not look like one that is in force.
+/// For an override that the machine lacks. A wish that nobody can carry out must not look like one
+/// in force.
 template <class Request>
 Reason without_channel(const Request& request, Reason unfit) noexcept {
   if (unfit != Reason::none) {
@@ -116,8 +115,8 @@ struct Place {
   Reason& reason;
 };
 
-/// One override through its channel into the command; true when it is the panel's again. Without a
-/// channel there is a reason alone.
+/// Takes one override through its channel into the command; true when it is the panel's again.
+/// Without a channel there is only a reason.
 template <class Request>
 bool put(std::optional<Channel>& channel, const kernel::override::RatioEnvelope::Input& input,
          const Request& wanted, const Place& place) noexcept {
@@ -133,7 +132,7 @@ bool put(std::optional<Channel>& channel, const kernel::override::RatioEnvelope:
   return out.handed_back;
 }
 
-/// The frame as the rooms see it: all its times in good time. A frame of before has them already.
+/// The frame as the rooms see it: all times in good time. An old frame has them already.
 void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
   // Edge stamps move with the frame's: their distance to the tick is what the estimators use.
   const double shift_s = read_now ? time_s - frame.time_s : 0.0;
@@ -143,7 +142,7 @@ void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
   }
 }
 
-/// What holds without the layer: the panel's own value.
+/// What applies without the layer: the panel's own value.
 signal::Command panel_command(const signal::Frame& frame) noexcept {
   return {.feed_ratio = shown(frame.feed),
           .feed_code = frame.feed.panel_code,
@@ -157,8 +156,8 @@ signal::Command panel_command(const signal::Frame& frame) noexcept {
 
 }  // namespace
 
-// Channels before rooms: the contour room works through the feed override, the chatter room
-// through the spindle's, and a room without its channel is switched off rather than refused.
+// Channels before rooms: the contour room works through the feed override, the chatter room through
+// the spindle's, and a room without its channel is switched off, not refused.
 Result<Supervisor> Supervisor::make(const machine::Machine& machine,
                                     const kernel::port::Capability& capability) {
   auto feed = channel(feed_config(machine, capability));
@@ -222,11 +221,11 @@ void Supervisor::settle_mode() noexcept {
   if (state_.mode_wanted == state_.mode_in_force || (leaving_act() && !handed_back_)) {
     return;
   }
-  begin_at_panel();  // what was only advised was never on the machine
+  begin_at_panel();  // mere advice was never on the machine
   state_.mode_in_force = state_.mode_wanted;
 }
 
-// Tool and thread follow fit frames only: a stale frame that shows a rapid does not say that the
+// Tool and thread follow fit frames only: a stale frame that shows a rapid does not prove that the
 // tool is out of the cut now.
 Reason Supervisor::inspect(const signal::Frame& frame, const FrameClock::Tick& tick) noexcept {
   const Reason fault = check_.fault(frame, tick.fault);
@@ -238,7 +237,7 @@ Reason Supervisor::inspect(const signal::Frame& frame, const FrameClock::Tick& t
   return fault;
 }
 
-/// What was answered runs as the modulator's constant speed, so that the feed goes with it.
+/// The answer runs as the modulator's constant speed, so that the feed follows.
 void Supervisor::hear(const signal::Frame& frame, bool fit) noexcept {
   if (!listener_) {
     return;
@@ -246,13 +245,13 @@ void Supervisor::hear(const signal::Frame& frame, bool fit) noexcept {
   estimates_.heard = listener_->update(frame, fit);
   const signal::SpindleRequest& request = estimates_.heard->request;
   const bool wish = kernel::override::is_wish(request.ratio, request.reason);
-  // Refused only if out of the modulator's range; then the mean it has stays.
+  // Refused only if outside the modulator's range; then the present mean stays.
   [[maybe_unused]] const bool taken = chatter_->change(
       {.law = chatter::online::Law::constant, .mean_ratio = wish ? request.ratio : 1.0});
 }
 
-// The motion room first: what it puts into the frame is what the other rooms see. All rooms get
-// the same value of what is in force, that of the cycle before.
+// The motion room first: the other rooms see what it writes into the frame. All rooms get the same
+// values in force, those of the previous cycle.
 void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept {
   motion_.update(frame, fit);
   if (std::isfinite(frame.time_s)) {
@@ -273,7 +272,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   }
 }
 
-// Requests from outside and from the rooms have the same rank: the lowest feed wins whoever asks.
+// Requests from outside and from the rooms rank equally: the lowest feed wins, whoever asks.
 Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Requests& requests,
                                             Reason unfit) noexcept {
   kernel::override::FeedArbiter feed;
@@ -298,13 +297,13 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
           .spindle = spindle.decision(),
           .offset = offset.decision(),
           .unfit = unfit == Reason::none && leaving_act() ? Reason::observe_only : unfit,
-          // The raw frame's motion as well: an unfit frame that shows a tap holds at once, while
-          // only a fit one ends the hold.
+          // The raw frame's motion too: an unfit frame that shows a tap holds at once, while only a
+          // fit one ends the hold.
           .hold = state_.in_thread || in_thread(frame.motion)};
 }
 
-// The last step before the port. All three channels run in every cycle, also when one is unfit:
-// each slews back on its own.
+// The last step before the port. All three channels run in every cycle, even when one is unfit:
+// each slews back independently.
 void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,
                        signal::Command& command) noexcept {
   const bool feed_back =
@@ -329,8 +328,8 @@ void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decision
   handed_back_ = handed_back_ && offset.at_zero;
 }
 
-// resume() and settle_mode() may put the words back to the panel, so the copy that a refused write
-// returns to (before_) is taken after them.
+// resume() and settle_mode() may put the words back to the panel, so before_, the copy that a
+// refused write returns to, is taken after them.
 signal::Command Supervisor::update(const signal::Frame& frame, const Requests& requests,
                                    bool read_now) noexcept {
   const double last_s = clock_.time_s();
@@ -340,8 +339,8 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   settle_mode();
   before_ = written();
   signal::Frame known = frame;
-  // Nothing was read: the last frame ages by good time, so that a link that is lost and a source
-  // that has stopped become stale by the same rule.
+  // Nothing was read: the last frame ages by good time, so that a lost link and a stopped source
+  // become stale by the same rule.
   if (!read_now) {
     known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;
   }
@@ -350,8 +349,8 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
     in_good_time(known, tick.time_s, read_now);
   }
   estimate(known, read_now && unfit == Reason::none, unfit);
-  // The panel and the motion come from the frame as it is, not from the aged copy: the operator's
-  // switch is believed even in an unfit frame.
+  // Panel and motion come from the frame itself, not from the aged copy: the operator's switch is
+  // believed even in an unfit frame.
   const Decisions decisions = arbitrate(frame, requests, unfit);
   signal::Command command = panel_command(frame);
   if (state_.mode_in_force != Mode::observe && !state_.interrupted) {
@@ -364,8 +363,7 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
     state_.delivered_s = tick.time_s;
     state_.delivered_stamped_s = tick.stamped_s;
   }
-  // In every cycle, fit or not: the watchdog on the machine's side watches the layer, not its
-  // input.
+  // In every cycle, fit or not: the machine's watchdog watches the layer, not its input.
   command.heartbeat = ++state_.heartbeat;
   return command;
 }
@@ -376,8 +374,8 @@ signal::Command Supervisor::update_without_frame(double time_s) noexcept {
   return update(frame, {}, false);
 }
 
-// A frame that could not be read, or a command that was not taken, interrupts: what is on the
-// machine from here on is for the watchdog to say.
+// A frame that could not be read, or a command that was not taken, interrupts: from here on the
+// watchdog decides what is on the machine.
 Result<signal::Command> Supervisor::cycle(kernel::port::Port& port,
                                           const Requests& requests) noexcept {
   auto frame = port.read();

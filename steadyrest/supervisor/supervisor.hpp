@@ -28,35 +28,35 @@ namespace steadyrest::supervisor {
 /// One cycle of the layer: read → estimate → decide → arbitrate → clamp → write.
 ///
 /// Modes. observe: the rooms estimate, the Command is the panel's own. advise: the Command is what
-/// would be written. act: it is, and `Command::write` says so; only then. Leaving act hands back
-/// first: neutral through the slew limit, offsets out once no tool is in the cut; until then the
-/// mode in force stays act.
-/// Time. FrameClock makes good time of the frames' stamps; rooms, envelopes and words are fed with
-/// nothing else. What it doubts gives no credit to any slew and settles no word.
-/// What the envelopes have let through comes down to the rooms with the next frame (InForce); no
-/// room keeps a copy of it.
+/// would be written. act: the Command is written, and only then is `Command::write` set. Leaving
+/// act hands back first: neutral through the slew limit, offsets out once no tool is in the cut;
+/// until then the mode in force stays act.
+/// Time. FrameClock turns the frames' stamps into good time, and rooms, envelopes and words get
+/// nothing else. A stamp in doubt gives no credit to any slew and settles no word.
+/// What the envelopes let pass comes down to the rooms with the next frame (InForce); no room keeps
+/// a copy of it.
 /// Thread cutting and tapping hold feed and spindle where they are, from the first frame that shows
 /// them to the first fit one that shows something else, whatever the mode and the input; the
 /// operator still wins.
 /// The tool counts as in the cut during feed, thread and tap, and as out of it during rapids and
 /// tool changes and after a second of idle (program end, abort); anything else, and unfit input,
-/// keeps what was last known.
-/// What was not written is not there: what was only advised is dropped on the way to act, a cycle
-/// that the port did not take is taken back. After an interruption (restore(), a port that could
-/// not be read or written) of more than `stale_after` the machine's watchdog has dropped all, so
-/// the layer begins at the panel and at offset 0; while the time does not say how long it was,
-/// nothing is written.
-/// All of update() is online code: bounded, noexcept, without allocation, lock or I/O.
+/// keeps the last known state.
+/// Only what was written counts: mere advice is dropped on the way to act, and a cycle that the
+/// port did not take is taken back. After an interruption (restore(), a port that could not read or
+/// write) of more than `stale_after` the machine's watchdog has dropped everything, so the layer
+/// begins at the panel and at offset 0; until a good stamp tells how long it was, nothing is
+/// written.
+/// All of update() runs in the cycle: bounded, noexcept, without allocation, lock or I/O.
 class Supervisor {
  public:
-  /// What is asked from outside of the rooms that the supervisor has itself.
+  /// Requests from outside, in addition to the supervisor's own rooms.
   struct Requests {
     std::span<const kernel::signal::FeedRequest> feed;
     std::span<const kernel::signal::SpindleRequest> spindle;
     std::span<const kernel::signal::OffsetRequest> offset;
   };
 
-  /// What the rooms that are switched on saw and chose in the last cycle; for logs and the page.
+  /// What the active rooms saw and chose in the last cycle; for logs and the page.
   struct Estimates {
     std::optional<contour::online::FeedGovernor::Output> contour;
     std::optional<chatter::online::Modulator::Output> chatter;
@@ -64,29 +64,29 @@ class Supervisor {
     std::optional<thermal::online::OffsetGovernor::Output> thermal;
   };
 
-  /// Without the rooms' estimates: those begin again after restore(). The heat in the machine does
-  /// not, so it has the thermal room's.
+  /// Without the rooms' estimates: those start over after restore(). The machine keeps its heat, so
+  /// the thermal room's state is included.
   struct State {
     kernel::machine::Mode mode_in_force = kernel::machine::Mode::observe;
     kernel::machine::Mode mode_wanted = kernel::machine::Mode::observe;
     std::uint64_t heartbeat = 0;
     FrameClock::State clock;
-    double delivered_s = 0.0;          ///< good time of the last cycle that was written
+    double delivered_s = 0.0;          ///< good time of the last written cycle
     double delivered_stamped_s = 0.0;  ///< the same by its stamp, which may have been in doubt
-    double idle_s = 0.0;               ///< good time since the control is idle
+    double idle_s = 0.0;               ///< good time since the control became idle
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
-    bool interrupted = false;  ///< what is on the machine is not known until the time is
+    bool interrupted = false;  ///< what is on the machine is unknown until the time is known
     kernel::override::Channel::State feed;
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
     thermal::online::OffsetGovernor::State thermal;
   };
 
-  /// Refuses tables, envelopes and rooms' settings that are none. A room is switched on by the
-  /// machine file: contour by `contour.enabled`, where there is a feed override to work through;
-  /// chatter by `chatter.enabled`, where there is a spindle override; thermal by `thermal.enabled`.
-  /// A machine without a table has no such override.
+  /// Refuses invalid tables, envelopes and room settings. The machine file switches rooms on:
+  /// contour by `contour.enabled`, where there is a feed override to work through; chatter by
+  /// `chatter.enabled`, where there is a spindle override; thermal by `thermal.enabled`. A machine
+  /// without a table has no such override.
   [[nodiscard]] static kernel::outcome::Result<Supervisor> make(
       const kernel::machine::Machine& machine, const kernel::port::Capability& capability);
 
@@ -98,38 +98,38 @@ class Supervisor {
   kernel::signal::Command update(const kernel::signal::Frame& frame) noexcept {
     return update(frame, {});
   }
-  /// The last command did not reach the machine: what it had before still holds there.
+  /// The last command did not reach the machine: the previous one still applies there.
   void not_delivered() noexcept;
-  /// A cycle in which nothing could be read: the last frame, aged. The caller gives the time.
+  /// A cycle without a reading: the last frame, aged. The caller gives the time.
   kernel::signal::Command update_without_frame(double time_s) noexcept;
-  /// One whole cycle on a port: its refusal when it cannot be read or written.
+  /// One whole cycle on a port; returns its refusal when it cannot read or write.
   kernel::outcome::Result<kernel::signal::Command> cycle(kernel::port::Port& port,
                                                          const Requests& requests) noexcept;
 
   [[nodiscard]] const Estimates& estimates() const noexcept { return estimates_; }
-  /// The last cycle's frame as the rooms decided by it: with the motion room's estimates, without
-  /// its path.
+  /// The last cycle's frame as the rooms saw it: with the motion room's estimates, without its
+  /// path.
   [[nodiscard]] const kernel::signal::Frame& frame() const noexcept { return last_frame_; }
 
-  /// What has come of the requests so far: the rooms get it with the next frame.
+  /// What became of the requests so far: the rooms get it with the next frame.
   [[nodiscard]] kernel::signal::InForce in_force() const noexcept;
 
   void set_mode(kernel::machine::Mode mode) noexcept { state_.mode_wanted = mode; }
-  /// Another modulation of the spindle's speed from now on; false and nothing changes where the
-  /// chatter room is off or a value is out of its range.
+  /// Changes the modulation of the spindle's speed; false, with nothing changed, where the chatter
+  /// room is off or a value is out of range.
   [[nodiscard]] bool modulate(const chatter::online::Modulation& modulation) noexcept {
     return chatter_ && chatter_->change(modulation);
   }
-  /// Hears the frames' vibration from now on. When it chatters, the better speed of the table
-  /// becomes the modulator's constant mean: feed per tooth, slew and withdrawal are those of the
-  /// modulator. False and nothing changes where the chatter room is off.
+  /// Listens to the frames' vibration from now on. When it chatters, the table's better speed
+  /// becomes the modulator's constant mean: feed per tooth, slew and withdrawal are the
+  /// modulator's. False, with nothing changed, where the chatter room is off.
   [[nodiscard]] bool listen(const ListeningStage& listener) noexcept {
     if (chatter_) {
       listener_ = listener;
     }
     return chatter_.has_value();
   }
-  /// The thermal room, for probe readings and the workpiece's zero; none where it is off.
+  /// The thermal room, for probe readings and the workpiece's zero; null where it is off.
   [[nodiscard]] thermal::online::OffsetGovernor* thermal() noexcept {
     return thermal_ ? &*thermal_ : nullptr;
   }
@@ -179,7 +179,7 @@ class Supervisor {
 
   FrameCheck check_;
   FrameClock clock_;
-  double watchdog_s_;  ///< the machine drops what no heartbeat renews for so long
+  double watchdog_s_;  ///< the machine drops whatever no heartbeat renews for this long
   MotionStage motion_;
   std::optional<contour::online::FeedGovernor> contour_;
   std::optional<chatter::online::Modulator> chatter_;

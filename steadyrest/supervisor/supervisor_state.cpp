@@ -4,14 +4,14 @@
 
 #include <steadyrest/supervisor/supervisor.hpp>
 
-// What is on the machine: taken back, brought back after a restart, or given up.
+// What is on the machine: taken back, resumed after a restart, or given up.
 namespace steadyrest::supervisor {
 
 using kernel::override::Channel;
 
-/// Nothing of the layer is on the machine, and what its words show is not known.
-/// The start of every life on the machine: mode act begins here, and so does the layer after a gap
-/// longer than the watchdog's. Words must settle again before a mask goes on.
+/// Nothing of the layer is on the machine, and the state of its words is unknown. Every start on
+/// the machine goes through here: mode act begins so, and so does the layer after a gap longer than
+/// the watchdog's. Words must settle again before a mask goes on.
 void Supervisor::begin_at_panel() noexcept {
   for (auto* channel : {&feed_, &spindle_}) {
     if (*channel) {
@@ -22,7 +22,7 @@ void Supervisor::begin_at_panel() noexcept {
   handed_back_ = true;
 }
 
-/// What the operator has set is known from every frame, also where nothing is written.
+/// Every frame shows the operator's setting, even where nothing is written.
 void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
   if (feed_) {
     feed_->see_panel(frame.feed);
@@ -32,12 +32,12 @@ void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
   }
 }
 
-// An interruption ends with the first good stamp, since only good time says how long it lasted. Up
-// to the watchdog's time the machine still holds what was written, and the layer goes on where it
-// was; beyond it, or when the clock was set, it begins at the panel.
+// An interruption ends with the first good stamp, since only good time tells how long it lasted. Up
+// to the watchdog's time the machine still holds what was written, and the layer continues from
+// there; beyond it, or when the clock was set, it begins at the panel.
 void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
-  // A jump that was confirmed means that the last delivery's stamp was right, doubt or not: the
-  // gap counts from there, else a long cycle would pass for an interruption.
+  // A confirmed jump means that the last delivery's stamp was right, doubt or not: the gap counts
+  // from there, else a long cycle would pass for an interruption.
   if (tick.jumped) {  // a stamp that was in doubt was right
     state_.delivered_s = state_.delivered_stamped_s;
   }
@@ -50,7 +50,7 @@ void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
   }
 }
 
-/// Read off envelopes and words, so that whatever was taken back or given up is not in it.
+/// Read from envelopes and words, so that whatever was taken back or given up is excluded.
 kernel::signal::InForce Supervisor::in_force() const noexcept {
   using kernel::machine::Mode;
   return {.feed = feed_ ? feed_->in_force() : kernel::signal::RatioInForce{},
@@ -67,8 +67,8 @@ Supervisor::Written Supervisor::written() const noexcept {
           .delivered_stamped_s = state_.delivered_stamped_s};
 }
 
-// Channels are not in here: taken back, they keep what the undelivered cycle saw of the panel (the
-// operator did turn it); restored, they do not.
+// Excludes the channels: when taken back they keep what the undelivered cycle saw of the panel (the
+// operator did turn it), when restored they do not.
 void Supervisor::put_back(const Written& written) noexcept {
   offset_.restore(written.offset);
   state_.delivered_s = written.delivered_s;
@@ -76,7 +76,7 @@ void Supervisor::put_back(const Written& written) noexcept {
   handed_back_ = false;
 }
 
-// The port refused the command, so the machine still has the one before. Interrupted, since the
+// The port refused the command, so the machine still has the previous one. Interrupted, since the
 // watchdog now runs there.
 void Supervisor::not_delivered() noexcept {
   if (feed_) {
@@ -102,9 +102,9 @@ Supervisor::State Supervisor::state() const noexcept {
   return state;
 }
 
-// A restored process does not know how long it was away: it is interrupted until a good stamp says
-// so. The rooms' estimates rest on an unbroken record and begin again; heat in the machine
-// outlives the process, so the thermal room goes on.
+// A restored process does not know how long it was away: it stays interrupted until a good stamp
+// tells. The rooms' estimates need an unbroken record and start over; the machine's heat outlives
+// the process, so the thermal room carries on.
 void Supervisor::restore(const State& state) noexcept {
   state_ = state;
   state_.interrupted = true;

@@ -4,8 +4,8 @@
 #include <steadyrest/table/clock.hpp>
 #include <steadyrest/table/stamp.hpp>
 
-// Where a row's time comes from: a column of seconds, of stamps, of sample numbers, or the number
-// of the row.
+// Where a row's time comes from: a column of seconds, of stamps, of sample numbers, or the row
+// number.
 namespace steadyrest::table {
 namespace {
 
@@ -15,7 +15,7 @@ constexpr int kExact = 12;
 }  // namespace
 
 // The caller's own column first, then a column of stamps, then sample numbers, then the rows
-// themselves where the caller says that rows are samples.
+// themselves if the caller says that rows are samples.
 std::optional<Clock> Clock::of(const Head& head, const Format& format,
                                std::optional<std::size_t> own, double factor, Epoch epoch) {
   Clock out;
@@ -46,7 +46,7 @@ std::expected<double, Fault> Clock::seconds(const Row& row) {
     case Kind::sample:
       break;
   }
-  // Sample numbers without a rate are no time.
+  // Sample numbers without a rate give no time.
   if (factor_ == 0.0) {
     return std::unexpected(Fault{row.line(), "the sample rate is unknown",
                                  "give --sample-hz, the samples per second"});
@@ -58,7 +58,7 @@ std::expected<double, Fault> Clock::seconds(const Row& row) {
   return value;
 }
 
-// All stamps with a zone or none: mixed, an hour's difference could be either.
+// All stamps with a zone or none: in a mixture, an hour's difference could mean either.
 std::expected<double, Fault> Clock::stamped(const Row& row) {
   const std::string_view field = row.field(*column_);
   const auto stamp = stamp_of(field);

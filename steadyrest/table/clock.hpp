@@ -11,27 +11,28 @@
 
 namespace steadyrest::table {
 
-/// From where stamps with a date are counted.
+/// Origin for stamps with a date.
 enum class Epoch : std::uint8_t {
-  unix,      ///< 1970-01-01, UTC or the clock's own zone: two logs can be set side by side
+  unix,      ///< 1970-01-01, UTC or the clock's own zone: two logs can be compared
   first_day  ///< midnight before the first row: a double holds 0.01 ns
 };
 
-/// The time of a row, s: a column of numbers, of stamps (ISO 8601), of sample numbers, or none.
+/// The time of a row, s: from a column of numbers, of stamps (ISO 8601), of sample numbers, or
+/// none.
 class Clock {
  public:
-  /// `own` is the column that the verb calls its time, in units of `factor` seconds. Where there is
-  /// none: the only column of stamps; a column `sample`; rows at an even rate (Format). None of
-  /// these: no clock.
+  /// `own` is the column that the verb calls its time, in units of `factor` seconds. If there is
+  /// none: the only column of stamps; else a column `sample`; else rows at an even rate (Format).
+  /// None of these: no clock.
   [[nodiscard]] static std::optional<Clock> of(const Head& head, const Format& format,
                                                std::optional<std::size_t> own, double factor = 1.0,
                                                Epoch epoch = Epoch::first_day);
 
-  /// Once for each row, in order.
+  /// Once per row, in order.
   [[nodiscard]] std::expected<double, Fault> seconds(const Row& row);
-  /// Decimals of a second that the row's time was written with; many where it is worked out.
+  /// Decimals of a second in the row's written time; many where it is computed.
   [[nodiscard]] int decimals(const Row& row) const;
-  /// The column, where there is one.
+  /// The column, if there is one.
   [[nodiscard]] std::optional<std::size_t> column() const noexcept { return column_; }
 
  private:

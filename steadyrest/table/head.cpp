@@ -7,14 +7,14 @@
 
 #include <steadyrest/table/head.hpp>
 
-// Names of columns end in their unit, as everywhere in this project. Heads write units in
-// brackets, in a row below the names or in the name; all are brought to the same form.
+// Column names end in their unit, as everywhere in this project. Heads write units in brackets, in
+// a row below the names or in the name; all are converted to the same form.
 namespace steadyrest::table {
 namespace {
 
 using namespace std::string_view_literals;
 
-/// Units by the way in which names end.
+/// Units by the endings of names.
 constexpr std::array kUnits = {
     "s"sv,     "ms"sv,     "us"sv,   "ns"sv,     "min"sv,     "h"sv,    "hz"sv,    "khz"sv,
     "m"sv,     "mm"sv,     "um"sv,   "nm"sv,     "in"sv,      "c"sv,    "k"sv,     "f"sv,
@@ -36,7 +36,7 @@ constexpr std::array kOthers = {
     Other{"iso8601", "1"},
 };
 
-/// Small letters; µ (either code) as u, `^2` and `²` as 2; blanks, ° and round brackets off.
+/// Lower case; µ (either code) as u, `^2` and `²` as 2; without blanks, ° and round brackets.
 std::string plain(std::string_view field) {
   std::string out;
   for (std::size_t i = 0; i < field.size(); ++i) {
@@ -56,7 +56,7 @@ std::string plain(std::string_view field) {
   return lower(out);
 }
 
-// Heads are quoted by some programs although nothing in them needs it.
+// Some programs quote heads although nothing in them needs it.
 std::string_view unquoted(std::string_view field) {
   field = trimmed(field);
   const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
@@ -76,7 +76,8 @@ std::optional<std::size_t> Head::place(std::string_view wanted) const {
                           : std::optional(static_cast<std::size_t>(at - name.begin()));
 }
 
-// Two columns of one name: which one is meant nobody can say. Columns without a name do not count.
+// Two columns with the same name: nobody can tell which is meant. Columns without a name do not
+// count.
 std::optional<Fault> Head::twice(std::string_view only) const {
   for (std::size_t i = 1; i < name.size(); ++i) {
     const auto before = std::span(name).first(i);
@@ -103,14 +104,14 @@ std::string unit_of(std::string_view field) {
   return other == kOthers.end() ? std::string() : std::string(other->unit);
 }
 
-// `z [µm]` becomes `z_um`: the form that the program looks its columns up by.
+// `z [µm]` becomes `z_um`: the form in which the program looks up its columns.
 std::string name_of(std::string_view field) {
   field = unquoted(field);
   const char close = field.empty() ? '\0' : field.back();
   if (close != ']' && close != ')') {
     return std::string(field);
   }
-  // The unit may have brackets of its own: `real ((m/s²)/N)`.
+  // The unit may contain brackets: `real ((m/s²)/N)`.
   const char open = close == ']' ? '[' : '(';
   for (std::size_t at = field.rfind(open); at != std::string_view::npos && at > 0;
        at = field.rfind(open, at - 1)) {
@@ -122,7 +123,7 @@ std::string name_of(std::string_view field) {
   return std::string(field);
 }
 
-// A second line of units only, with at least one that is a unit beyond doubt.
+// A second line of units only, with at least one that is definitely a unit.
 bool are_units(const std::vector<std::string_view>& fields) {
   bool any = false;
   for (const std::string_view field : fields) {
@@ -130,7 +131,7 @@ bool are_units(const std::vector<std::string_view>& fields) {
     if (!empty && unit_of(field).empty()) {
       return false;
     }
-    // A row of blanks and ones would be a row of numbers just as well.
+    // A row of blanks and ones could just as well be a row of numbers.
     any = any || (!empty && unit_of(field) != "1");
   }
   return any;
@@ -146,7 +147,7 @@ std::optional<Fault> add_units(const std::vector<std::string_view>& fields, std:
     if (unit.empty() || unit == "1" || name.empty() || lower(name).ends_with("_" + unit)) {
       continue;
     }
-    // Two units for one column: nobody can say which is right.
+    // Two units for one column: nobody can tell which is right.
     if (!own.empty()) {
       return Fault{line, fmt::format("the unit of {} is \"{}\"", shown(name), shown(fields[i])),
                    "make the unit in the name agree with the row of units"};

@@ -10,8 +10,8 @@
 #include <steadyrest/table/number.hpp>
 
 // A comma may be a decimal mark or group thousands. Numbers are read as they come, and the file is
-// refused at its end if nothing in it has proved which: 12,5 does, 1,234 does not. A point
-// anywhere beside a comma is a contradiction.
+// refused at its end if nothing in it has proved which: 12,5 does, 1,234 does not. A point in a
+// file with commas is a contradiction.
 namespace steadyrest::table {
 namespace {
 
@@ -21,7 +21,7 @@ std::string_view without_plus(std::string_view field) noexcept {
   return field.size() > 1 && field[0] == '+' && field[1] != '-' ? field.substr(1) : field;
 }
 
-// Empty and unreadable are told apart: the one is a sensor that was silent.
+// Empty and unreadable are different: an empty field is a silent sensor.
 Fault no_number(std::string_view name, std::string_view field, std::size_t line) {
   if (field.empty()) {
     return {line, fmt::format("{} is empty", name), std::string(kRepair)};
@@ -42,7 +42,7 @@ bool could_group(std::string_view field) noexcept {
 
 }  // namespace
 
-// from_chars knows no locale: a decimal comma in the user's settings changes nothing.
+// from_chars ignores the locale: a decimal comma in the user's settings changes nothing.
 std::optional<double> plain_number(std::string_view field) noexcept {
   field = without_plus(field);
   double value = 0.0;
@@ -73,7 +73,7 @@ int decimals_of(std::string_view field) noexcept {
   return std::max(out, 0);
 }
 
-// A point seen anywhere makes every comma a contradiction, before it or behind it.
+// A point anywhere makes every comma a contradiction, before it or after it.
 std::expected<double, Fault> NumberReader::read(std::string_view field, std::string_view name,
                                                 std::size_t line) {
   const auto value = plain_number(field);
@@ -130,7 +130,7 @@ std::expected<double, Fault> NumberReader::with_comma(std::string_view field, st
   return *value;
 }
 
-// Asked once, at the end: any row may have held the proof.
+// Called once, at the end: any row may have held the proof.
 std::optional<Fault> NumberReader::unproved() const {
   if (comma_line_ == 0 || proved_) {
     return std::nullopt;

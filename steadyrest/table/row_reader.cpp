@@ -9,10 +9,10 @@
 #include <steadyrest/table/row_reader.hpp>
 #include <steadyrest/table/stamp.hpp>
 
-// Logs come from many programs: separators, decimal marks, units and heads differ. The separator
-// is decided when the first row is there to compare with the head; decimal marks are proved or
-// refused at the end (number.hpp). Whatever is ambiguous is refused: a log that is read wrongly
-// does more harm than one that is not read.
+// Logs come from many programs with different separators, decimal marks, units and heads. The
+// separator is decided when the first row can be compared with the head; decimal marks are proved
+// or refused at the end (number.hpp). Anything ambiguous is refused: a log read wrongly does more
+// harm than one not read.
 namespace steadyrest::table {
 namespace {
 
@@ -27,15 +27,15 @@ bool is_control(char c) {
   return (byte < 0x20 && c != '\t') || byte == 0x7F;
 }
 
-/// The bytes of the field at the front of `text`, quotes and what they hold counted.
+/// The bytes of the field at the front of `text`, including quotes and their contents.
 std::size_t size_of_field(std::string_view text, char separator) {
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin != std::string_view::npos && text[begin] == '"') {
-    // A quote ends at one that the separator or the line's end follows.
+    // A quote ends at one followed by the separator or the line's end.
     for (std::size_t at = text.find('"', begin + 1); at != std::string_view::npos;
          at = text.find('"', at + 1)) {
       const std::size_t next = text.find_first_not_of(separator == '\t' ? " "sv : " \t"sv, at + 1);
-      // A tab is a separator there, so it must not be skipped as a blank.
+      // A tab is a separator there, so it must not be skipped like a blank.
       if (next == std::string_view::npos) {
         return text.size();
       }
@@ -49,7 +49,7 @@ std::size_t size_of_field(std::string_view text, char separator) {
                        : static_cast<std::size_t>(static_cast<const char*>(at) - text.data());
 }
 
-// Quotes are decoration here: what they hold is read like any other field.
+// Quotes are decoration here: their contents are read like any other field.
 std::string_view field_of(std::string_view text) {
   text = trimmed(text);
   const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
@@ -58,7 +58,8 @@ std::string_view field_of(std::string_view text) {
 
 void split_by(std::string_view text, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
-  // Blanks separate only where the command line names the columns; any number of them is one.
+  // Blanks separate only where the command line names the columns; any number of them counts as
+  // one.
   if (separator == ' ') {
     for (text = trimmed(text); !text.empty();) {
       const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
@@ -82,9 +83,9 @@ bool holds_value(std::string_view field) {
   return like_a_number(field) || stamp_of(field).has_value();
 }
 
-/// The first mark of the head that parts head and first row alike, else the first one.
-/// A head may contain other marks in its names, a row may contain decimal commas: only a mark that
-/// cuts both into as many fields is believed.
+/// The first mark of the head that splits head and first row alike, else the first one. A head may
+/// contain other marks in its names, a row may contain decimal commas: only a mark that cuts both
+/// into the same number of fields is believed.
 char separator_of(std::string_view head, std::string_view row) {
   std::vector<std::string_view> of_head;
   std::vector<std::string_view> of_row;
@@ -112,7 +113,7 @@ std::expected<double, Fault> Row::number(std::size_t column) const {
 RowReader::RowReader(Format format, Sink& sink)
     : format_(std::move(format)), sink_(sink), numbers_(format_.decimal) {}
 
-// A file that is no text says so by its first bytes.
+// A file that is no text shows it in its first bytes.
 std::optional<Fault> RowReader::first_line(std::string_view& text) {
   if (auto fault = fault_of_kind(text)) {
     return fault;
@@ -124,8 +125,8 @@ std::optional<Fault> RowReader::first_line(std::string_view& text) {
   return std::nullopt;
 }
 
-// Line by line, so that logs of any length stream through. Comments and blank lines count for the
-// numbers in refusals and nothing else.
+// Line by line, so that logs of any length stream through. Comments and blank lines count only for
+// the line numbers in refusals.
 std::optional<Fault> RowReader::line(std::string_view text) {
   ++line_;
   if (line_ == 1) {
@@ -164,7 +165,7 @@ std::optional<Fault> RowReader::overrun() {
   return std::nullopt;
 }
 
-// Kept as text: without the first row the separator is not known yet.
+// Kept as text: without the first row the separator is unknown.
 std::optional<Fault> RowReader::take_head(std::string_view text) {
   if (text.find('\r') != std::string_view::npos) {
     return Fault{line_, "the lines end with a bare carriage return",
@@ -185,11 +186,11 @@ std::optional<Fault> RowReader::take_head(std::string_view text) {
   return std::nullopt;
 }
 
-/// The first line where the command line names the columns.
+/// The first line, if the command line names the columns.
 std::optional<Fault> RowReader::take_named(std::string_view text) {
   const std::size_t wanted = format_.columns.size();
   std::size_t best = 0;
-  // In the order of how rarely each occurs within a field.
+  // In order of how rarely each occurs within a field.
   for (const char candidate : {'\t', ';', ',', ' '}) {
     split_by(text, candidate, fields_);
     const std::size_t found =
@@ -220,7 +221,7 @@ std::optional<Fault> RowReader::take_named(std::string_view text) {
       "name each column, with - for one to skip"};
 }
 
-/// The first line behind the head: the units, or the first row. Now the separator can be told.
+/// The line after the head: the units, or the first row. Now the separator can be determined.
 std::optional<Fault> RowReader::behind_head(std::string_view text) {
   if (head_.name.empty()) {
     separator_ = separator_of(head_text_, text);
@@ -238,7 +239,7 @@ std::optional<Fault> RowReader::behind_head(std::string_view text) {
   open_end_ = fields_.size() == head_.name.size() + 1 && fields_.back().empty();
   for (std::size_t i = 0; i < std::min(fields_.size(), head_.name.size()); ++i) {
     if (stamp_of(fields_[i])) {
-      head_.stamped = head_.stamped ? head_.name.size() : i;  // two: neither is told from the other
+      head_.stamped = head_.stamped ? head_.name.size() : i;  // two of them: indistinguishable
     }
   }
   if (head_.stamped == head_.name.size()) {
@@ -250,7 +251,7 @@ std::optional<Fault> RowReader::behind_head(std::string_view text) {
   return take_row(text);
 }
 
-// Once, before the first row, so that a missing column is told before any work is done.
+// Once, before the first row, so that a missing column is reported before any work is done.
 std::optional<Fault> RowReader::give_head() {
   std::optional<Fault> fault;
   if (head_.name.size() > kMostColumns) {
@@ -271,8 +272,7 @@ void RowReader::split(std::string_view text) {
   split_by(text, separator_, fields_);
 }
 
-// Never fewer and never more fields than names: a decimal comma in a comma-separated file shows
-// here first.
+// Exactly as many fields as names: a decimal comma in a comma-separated file shows here first.
 std::optional<Fault> RowReader::take_row(std::string_view text) {
   split(text);
   if (open_end_ && fields_.size() == head_.name.size() + 1 && fields_.back().empty()) {
@@ -288,7 +288,7 @@ std::optional<Fault> RowReader::take_row(std::string_view text) {
   return sink_.row(Row(*this, line_, fields_));
 }
 
-// A head without a row is still a head: its faults are worth telling.
+// A head without a row is still a head: its faults are worth reporting.
 std::optional<Fault> RowReader::finish() {
   if (have_names_ && !head_given_) {
     if (head_.name.empty()) {
@@ -305,7 +305,7 @@ std::optional<Fault> RowReader::finish() {
   return numbers_.unproved();
 }
 
-// A text that is in memory as a whole; files come through line() block by block.
+// A text that is wholly in memory; files come through line() block by block.
 std::optional<Fault> read_rows(std::string_view text, RowReader& reader) {
   // NUL bytes: UTF-16 without a mark, or no text at all.
   if (text.find('\0') != std::string_view::npos) {

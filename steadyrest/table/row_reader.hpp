@@ -12,20 +12,20 @@
 #include <steadyrest/table/number.hpp>
 #include <steadyrest/table/text.hpp>
 
-/// The one reader of columns: what loggers, samplers and spreadsheets write, line by line.
+/// The one reader of columns: the output of loggers, samplers and spreadsheets, line by line.
 ///
-/// Accepted: separator `,`, `;` or tab (the first in the head that parts head and first row alike);
-/// quoted fields; a decimal point, or a comma for the whole file (number.hpp); LF or CR LF; a byte
-/// order mark; blank lines; lines that begin with `#`; units in the names, `z [µm]`, or in a row of
-/// their own behind the head; a separator behind the last field of every row. Without a head
-/// (Format::columns) blanks may part the fields too, as halsampler(1) prints them; its line
-/// `overrun` is passed over and noted.
+/// Accepted: separator `,`, `;` or tab (the first in the head that splits head and first row
+/// alike); quoted fields; a decimal point, or a comma for the whole file (number.hpp); LF or CR LF;
+/// a byte order mark; blank lines; lines that begin with `#`; units in the names, `z [µm]`, or in a
+/// separate row after the head; a separator after the last field of every row. Without a head
+/// (Format::columns) blanks may separate the fields too, as halsampler(1) prints them; its line
+/// `overrun` is skipped and noted.
 namespace steadyrest::table {
 
-/// What the file itself does not say.
+/// What the file itself does not tell.
 struct Format {
-  /// Names of the columns, `-` for one that is to be passed over; empty: the first line has them. A
-  /// head that the file has all the same is passed over.
+  /// Names of the columns, `-` for a column to ignore; empty: the first line has them. A head in
+  /// the file is then skipped.
   std::vector<std::string> columns;
   Decimal decimal = Decimal::by_file;
   double sample_hz = 0.0;         ///< rate of a column `sample`; 0: not known
@@ -52,7 +52,7 @@ class Row {
   const std::vector<std::string_view>& fields_;
 };
 
-/// Receives the head, once, before the first row; a fault that it gives ends the reading.
+/// Receives the head, once, before the first row; a fault that it returns ends the reading.
 class Sink {
  public:
   Sink() = default;
@@ -68,16 +68,16 @@ class RowReader {
  public:
   RowReader(Format format, Sink& sink);
 
-  /// The next line, without its LF. The fault that ends the reading.
+  /// The next line, without its LF. Returns the fault that ends the reading.
   [[nodiscard]] std::optional<Fault> line(std::string_view text);
-  /// No more lines. The fault of the file as a whole.
+  /// No more lines. Returns the fault of the file as a whole.
   [[nodiscard]] std::optional<Fault> finish();
 
   [[nodiscard]] const Format& format() const noexcept { return format_; }
   [[nodiscard]] std::size_t line_number() const noexcept { return line_; }
-  /// Whether the sink has had its head.
+  /// Whether the sink has received its head.
   [[nodiscard]] bool has_head() const noexcept { return head_given_; }
-  /// What was passed over, at most 20 of it.
+  /// What was skipped, at most 20 entries.
   [[nodiscard]] const std::vector<Fault>& notes() const noexcept { return notes_; }
   [[nodiscard]] NumberReader& numbers() noexcept { return numbers_; }
   [[nodiscard]] const Head& names() const noexcept { return head_; }
@@ -102,16 +102,16 @@ class RowReader {
   bool have_names_ = false;
   bool units_may_follow_ = true;
   bool head_given_ = false;
-  bool open_end_ = false;  ///< a separator stands behind the last field of every row
+  bool open_end_ = false;  ///< every row ends with a separator
   std::vector<std::string_view> fields_;
   std::vector<Fault> notes_;
 };
 
-/// All lines of a text. `to_do` says what to give where it is no text at all.
+/// All lines of a text. `to_do` says what to give if it is no text at all.
 [[nodiscard]] std::optional<Fault> read_rows(std::string_view text, RowReader& reader);
 
-/// A file that is no text of columns, told by its first bytes (packed, UTF-16); none when it may
-/// be.
+/// The fault of a file that is no text of columns, judged by its first bytes (packed, UTF-16); none
+/// when it may be one.
 [[nodiscard]] std::optional<Fault> fault_of_kind(std::string_view first_bytes);
 
 }  // namespace steadyrest::table

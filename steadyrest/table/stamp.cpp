@@ -3,14 +3,14 @@
 
 #include <steadyrest/table/stamp.hpp>
 
-// ISO 8601, basic and extended, as recorders and spreadsheets write it. Taken apart by hand: the
-// library's parsers of this compiler allocate and know the locale.
+// ISO 8601, basic and extended, as recorders and spreadsheets write it. Parsed by hand: this
+// compiler's library parsers allocate and depend on the locale.
 namespace steadyrest::table {
 namespace {
 
 constexpr int kMostDecimals = 12;
 
-/// Takes a text apart from its front.
+/// Parses a text from the front.
 class Cursor {
  public:
   explicit Cursor(std::string_view text) noexcept : rest_(text) {}
@@ -29,7 +29,7 @@ class Cursor {
     return true;
   }
 
-  /// A number of so many digits, at most `most`.
+  /// A number of exactly `count` digits, at most `most`.
   int digits(int count, int most) noexcept {
     int out = 0;
     for (int i = 0; i < count; ++i) {
@@ -44,8 +44,8 @@ class Cursor {
     return out;
   }
 
-  /// The digits behind a decimal mark, and how many they are.
-  /// Twelve digits are more than a second's fraction needs in a double.
+  /// The digits after a decimal mark, and their number. Twelve digits are more than a second's
+  /// fraction needs in a double.
   double fraction(int& count) noexcept {
     double value = 0.0;
     double scale = 1.0;
@@ -102,7 +102,7 @@ std::optional<Stamp> stamp_of(std::string_view field) noexcept {
   Stamp out;
   int second = 0;
   if (colons ? at.take(':') : at.at_digit()) {
-    second = at.digits(2, 59);  // a leap second is no second of this count
+    second = at.digits(2, 59);  // a leap second is not in this count
     if (at.take('.') || at.take(',')) {
       out.fraction_s = at.fraction(out.decimals);
     }
@@ -115,12 +115,12 @@ std::optional<Stamp> stamp_of(std::string_view field) noexcept {
   const std::chrono::year_month_day date{std::chrono::year(year),
                                          std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
-  // Before 1970 there was no such log, and the count of seconds would be negative.
+  // There was no such log before 1970, and the count of seconds would be negative.
   if (!at.ok() || !at.done() || year < 1970 || !date.ok()) {
     return std::nullopt;
   }
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
-  // Whole seconds and fraction apart: one double since 1970 resolves 0.2 µs.
+  // Whole seconds and fraction separately: one double since 1970 resolves 0.2 µs.
   out.whole_s = 86'400 * days + 3600LL * hour + 60LL * (minute - ahead_min) + second;
   return out;
 }

@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text) noexcept {
   return text;
 }
 
-// ASCII alone, whatever the locale: units and keys are ASCII.
+// ASCII only, whatever the locale: units and keys are ASCII.
 std::string lower(std::string_view text) {
   std::string out(text);
   std::ranges::transform(out, out.begin(), [](char c) {

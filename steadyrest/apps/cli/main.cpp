@@ -40,8 +40,8 @@ struct Entry {
   std::array<const char*, 3> examples{};
 };
 
-/// The command line: every verb that works, in the order in which --help has them: the main job
-/// first, then the verbs that people try next.
+/// The command line: every verb that works, in the order of --help: the main job first, then the
+/// verbs that people try next.
 constexpr Entry kVerbs[] = {
     {"cut",
      "Cut a part twice on the simulated machine, without and with the layer, and compare",

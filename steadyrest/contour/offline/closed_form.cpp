@@ -44,7 +44,7 @@ std::optional<Refusal> unfit(const Servo& servo, double radius_mm) {
   return outside("velocity lag in s", servo.velocity_lag_s, 0.0, 10.0, true);
 }
 
-/// Both errors as shares of R, at W = ω².
+/// Both errors as fractions of R, at W = ω².
 struct Shares {
   double contour = 0.0;
   double tracking = 0.0;
@@ -64,8 +64,8 @@ Shares shares(const Servo& servo, double w) {
           std::sqrt(w * ((1.0 - a) * (1.0 - a) + tau * tau * w) / denominator)};
 }
 
-/// Smallest W > 0 with |G|² = g: g·τ²·W² + (g·(1 − 2kτ) − a²)·W + k²·(g − 1) = 0. `rest` = g − 1,
-/// handed over because it is small.
+/// Smallest W > 0 with |G|² = g: g·τ²·W² + (g·(1 − 2kτ) − a²)·W + k²·(g − 1) = 0. `rest` = g − 1 is
+/// passed in because it is small.
 double crossing(const Servo& servo, double rest) {
   const double k = servo.gain_1_s;
   const double tau = servo.velocity_lag_s;
@@ -110,8 +110,8 @@ Result<CircleErrors> circle_errors(const Servo& servo, double radius_mm, double 
   return CircleErrors{radius_mm * share.contour, radius_mm * share.tracking};
 }
 
-// Where |G| first leaves 1 ± ε/R: two quadratics in ω², of which the smallest positive root is the
-// limit. With velocity lag |G| rises above 1 before it falls, so both sides count.
+// Where |G| first leaves 1 ± ε/R: two quadratics in ω², whose smallest positive root is the limit.
+// With velocity lag |G| rises above 1 before it falls, so both sides count.
 Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double max_error_mm) {
   if (auto refusal = unfit(servo, radius_mm)) {
     return std::unexpected(*refusal);
@@ -119,8 +119,8 @@ Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double ma
   if (auto refusal = outside("largest error in mm", max_error_mm, 0.0, radius_mm, false)) {
     return std::unexpected(*refusal);
   }
-  // At the radius the tool stands still at the centre. Near it the speed grows without bound, and
-  // 1 − (1 − ε/R)² is 1 to the last digit.
+  // With an error equal to R the tool stays at the centre. Close to that the speed grows without
+  // bound, and 1 − (1 − ε/R)² is 1 to the last digit.
   constexpr double kMostShare = 1.0 - 1e-6;
   const double share = max_error_mm / radius_mm;
   if (share > kMostShare) {
@@ -128,8 +128,8 @@ Result<CircleLimit> circle_limit(const Servo& servo, double radius_mm, double ma
                               max_error_mm, radius_mm),
                   "give an error that the part may have, far below the radius");
   }
-  // R′ = R ∓ ε: g − 1 = (1 ∓ ε/R)² − 1, written without the 1 that would swallow a small share.
-  // With velocity lag the circle may come out too large first.
+  // R′ = R ∓ ε: g − 1 = (1 ∓ ε/R)² − 1, written without the 1 that would swallow a small fraction.
+  // With velocity lag the circle may first come out too large.
   const double too_small = crossing(servo, -share * (2.0 - share));
   const double too_large = crossing(servo, share * (2.0 + share));
   const double w = std::min(too_small, too_large);

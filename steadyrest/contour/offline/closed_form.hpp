@@ -34,11 +34,11 @@ struct CircleErrors {
   double tracking_error_mm = 0.0;  ///< Ed
 };
 
-/// The largest speed that keeps a limit, and what it costs. speed_mm_s is infinite when no speed
-/// passes the limit (full feed-forward without lag).
+/// The largest speed that keeps a limit, and the errors there. speed_mm_s is infinite when no speed
+/// exceeds the limit (full feed-forward without lag).
 struct CircleLimit {
   double speed_mm_s = 0.0;
-  CircleErrors errors;  ///< at that speed; when it is infinite, what they tend to
+  CircleErrors errors;  ///< at that speed; when it is infinite, their limits
 };
 
 /// Errors at one speed. Refused unless R, k > 0, v, τ ≥ 0, 0 ≤ a ≤ 1.5 and all are finite.
@@ -47,8 +47,7 @@ struct CircleLimit {
                                                                   double speed_mm_s);
 
 /// The largest v such that |ε| ≤ max_error_mm there and at every lower speed. With a = 0 and τ = 0:
-/// v = k·R·√((R/(R − ε))² − 1). Refused as above and unless 0 < max_error_mm < R,
-/// R by a millionth less.
+/// v = k·R·√((R/(R − ε))² − 1). Refused as above, and unless 0 < max_error_mm < R·(1 − 10⁻⁶).
 [[nodiscard]] kernel::outcome::Result<CircleLimit> circle_limit(const Servo& servo,
                                                                 double radius_mm,
                                                                 double max_error_mm);

@@ -9,9 +9,9 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
-// One search serves both cases: pieces of the program's path, or pieces of the trail that the
-// commanded point has left. The window keeps it on the right turn (see the header); the search
-// itself is in window_search.hpp.
+// One search serves both cases: pieces of the program's path, or pieces of the commanded point's
+// own trail. The window keeps it on the right turn (see the header); the search itself is in
+// window_search.hpp.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -92,9 +92,9 @@ class TrailPieces {
 };
 
 /// Direction of travel at the foot: at a joint the mean of both sides, since on the outside of a
-/// corner the foot lies on the corner itself and either leg alone would turn the sign.
+/// corner the foot is on the corner itself and either leg alone would flip the sign.
 Point direction_at(PathView path, const Nearest& foot, const geometry::Station& here) noexcept {
-  constexpr double kJoint = 1e-9;  // mm, to which the foot is found
+  constexpr double kJoint = 1e-9;  // mm, the accuracy of the foot
   const PathSegment& segment = path[foot.index];
   const double from_start = foot.position_mm - segment.position_mm;
   if (from_start <= kJoint && foot.index > 0) {
@@ -115,8 +115,8 @@ bool is_fit(const ContourError::Input& input) noexcept {
          (input.path.empty() || input.path_index < input.path.size());
 }
 
-/// The error at the foot with its signs: against the centre of curvature on arcs, against the
-/// plane's left on lines. The distance is that of the search; only the signs come from here.
+/// The error at the foot with its signs: relative to the centre of curvature on arcs, to the
+/// plane's left on lines. The distance comes from the search; only the signs come from here.
 void measure(const Point& actual_mm, const Nearest& foot, const geometry::Station& here,
              const Point& plane_normal, ContourError::Output& output) noexcept {
   const Point offset = geometry::subtract(actual_mm, foot.point_mm);
@@ -157,7 +157,7 @@ void ContourError::remember(const Input& input) noexcept {
   if (state_.count > 0) {
     const double step = geometry::distance(state_.point_mm[last], input.command_mm);
     if (step == 0.0) {
-      return;  // standstill must not wash the trail out
+      return;  // standstill must not flush the trail
     }
     state_.travelled_mm += step;
   }
@@ -167,13 +167,12 @@ void ContourError::remember(const Input& input) noexcept {
   state_.count = std::min(state_.count + 1, kHistory);
 }
 
-/// Takes the commanded point and the lag on to this sample; the time since the last one.
+/// Advances commanded point and lag to this sample; returns the time since the last one.
 double ContourError::advance(const Input& input) noexcept {
   const bool has_path = !input.path.empty();
   const double elapsed_s =
       state_.started ? std::clamp(input.time_s - state_.time_s, 0.0, 1.0) : 0.0;
-  // With or without a path the lengths count from different zeros: what was known of the foot is
-  // void.
+  // With and without a path the lengths count from different zeros, so the last foot is void.
   if (!state_.started || has_path != state_.from_path) {
     state_.lag_mm = input.path_speed_mm_s / config_.servo_gain_1_s;
     state_.foot_position_mm = -1.0;
@@ -189,7 +188,7 @@ double ContourError::advance(const Input& input) noexcept {
   return elapsed_s;
 }
 
-/// Where the foot may stand, by what the servo lag permits, and where it is looked for first.
+/// Where the foot may be, given the servo lag, and where to look first.
 ContourError::Window ContourError::window(const Input& input, double tracking_error_mm,
                                           double elapsed_s) const noexcept {
   const double back = std::max(2.5 * state_.lag_mm, 1.2 * tracking_error_mm) + config_.reserve_mm;

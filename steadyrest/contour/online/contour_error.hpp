@@ -11,29 +11,27 @@
 /// The true contour error: distance from the actual point to the commanded path.
 ///
 /// Law: ε = min |p(s) − x| over s ∈ [s_c − back, s_c + ahead], with s_c the commanded path
-/// position, x the actual point. The window is bounded by what the servo lag permits and not by
-/// distance, so the foot never jumps to a neighbouring turn of a spiral or to the other wall of a
-/// pocket:
+/// position, x the actual point. The servo lag, not a distance, bounds the window, so the foot
+/// never jumps to a neighbouring turn of a spiral or to the other wall of a pocket:
 ///   back = max(2.5·ℓ, 1.2·|e|) + reserve,   ahead = |e|/4 + reserve
-/// ℓ is the lag by path length of the slowest axis, ℓ' = v − k·ℓ; |e| the distance between
-/// commanded and actual point. Inside the window the minimum is global: a distance changes at most
-/// as fast as the path length, so a stretch that cannot hold a nearer point is skipped without
-/// looking at it.
+/// ℓ is the slowest axis's lag along the path, ℓ' = v − k·ℓ; |e| the distance between commanded and
+/// actual point. Inside the window the minimum is global: a distance changes at most as fast as the
+/// path length, so the search skips any stretch too far away to hold a nearer point.
 ///
 /// Sign. On arcs ε > 0 means towards the centre (a disc comes out undersize): ε = R − R′. On lines
-/// ε > 0 means left of the direction of travel, seen against `plane_normal`. Where the foot stands
-/// on a corner the mean direction of both sides counts as direction of travel. `left_mm` has the
-/// same magnitude and the rule of lines everywhere, so it has no step where a clockwise arc begins.
-/// In space |ε| is the whole distance; only its sign is taken from the plane. Where the direction
-/// of travel is parallel to the normal the sign is +.
+/// ε > 0 means left of the direction of travel, seen against `plane_normal`. Where the foot is on a
+/// corner, the direction of travel is the mean of both sides. `left_mm` has the same magnitude and
+/// follows the rule of lines everywhere, so it has no step where a clockwise arc begins. In space
+/// |ε| is the whole distance; the plane gives only its sign. Where the direction of travel is
+/// parallel to the normal the sign is +.
 ///
 /// Accuracy: foot point to rounding on lines and arcs, < 1e-9 mm on helices and spirals. Without a
-/// path the recent commanded points are the path (a polyline): on an arc its chords add at most
-/// (v·Δt)²/(8R). Ends: rotary axes do not count; where the control rounds corners (G64) and the
-/// path given is the programmed one, that rounding is part of ε.
+/// path the recent commanded points form the path (a polyline): on an arc its chords add at most
+/// (v·Δt)²/(8R). Limits: rotary axes do not count; where the control rounds corners (G64) and the
+/// given path is the programmed one, that rounding is part of ε.
 ///
-/// Bounded: at most `kMaxFeet` segments are evaluated in a cycle, nearest to the last foot first;
-/// `complete` says whether the whole window was covered.
+/// Bounded: at most `kMaxFeet` segments are evaluated per cycle, starting next to the last foot;
+/// `complete` tells whether the whole window was covered.
 ///
 /// Source: Jin, Zhang, Ding (definition of the contour error); Erkorkmaz and Altintas, IJMTM 41
 /// (2001).
@@ -41,7 +39,7 @@ namespace steadyrest::contour::online {
 
 class ContourError {
  public:
-  static constexpr std::size_t kHistory = 1024;  ///< commanded points kept for want of a path
+  static constexpr std::size_t kHistory = 1024;  ///< commanded points kept in place of a path
   static constexpr int kMaxFeet = 160;
 
   struct Config {
@@ -80,7 +78,7 @@ class ContourError {
     double lag_mm = 0.0;  ///< ℓ
     double foot_position_mm = 0.0;
     std::size_t foot_index = 0;
-    double travelled_mm = 0.0;  ///< of the commanded point, for want of a path
+    double travelled_mm = 0.0;  ///< of the commanded point, in place of a path
     std::size_t count = 0;      ///< commanded points in the ring
     std::size_t next = 0;
     std::array<kernel::signal::Point, kHistory> point_mm{};
@@ -107,8 +105,8 @@ class ContourError {
   struct Window {
     double low_mm = 0.0;
     double high_mm = 0.0;
-    double guess_mm = 0.0;    ///< where the foot is likely to be
-    bool knows_foot = false;  ///< the last foot lies within
+    double guess_mm = 0.0;    ///< likely position of the foot
+    bool knows_foot = false;  ///< the last foot lies inside
   };
 
   explicit ContourError(const Config& config) noexcept : config_(config) {}

@@ -6,10 +6,10 @@
 #include <steadyrest/contour/online/feed_governor.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
-// The governor's cycle: what is in force and what the frame shows (is_fit, contour error, servo
-// model, what the model leaves unexplained), then the path ahead, then, once every decision
+// The governor's cycle: first what is in force and what the frame shows (is_fit, contour error,
+// servo model, what the model leaves unexplained), then the path ahead, then, once per decision
 // period, which step (feed_governor_decide.cpp). The estimates run in every mode and motion, so
-// that a decision never begins without them.
+// that a decision never starts without them.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -19,11 +19,11 @@ using kernel::signal::Frame;
 using kernel::signal::Motion;
 using kernel::signal::Point;
 
-// What halving and doubling them does to the rib pocket: README, "What the constants do".
+// Effect on the rib pocket of halving and doubling them: README, "What the constants do".
 constexpr double kUnexplainedMemoryS = 1.0;
 constexpr double kMostReserve = 0.6;  // of the limit
-constexpr double kReserveRms = 3.0;   // the reserve, in RMS of what the model does not explain
-constexpr double kDrift = 0.003;      // of k and a together, from which the forecast takes it over
+constexpr double kReserveRms = 3.0;   // the reserve, in RMS of the unexplained error
+constexpr double kDrift = 0.003;      // of k and a together, beyond which the forecast adopts it
 constexpr double kOtherModel = 0.02;  // … and what was unexplained before no longer counts
 
 bool is_fit(const Frame& frame) noexcept {
@@ -82,8 +82,8 @@ void FeedGovernor::restore(const State& state) noexcept {
   history_at_ = state.history_at % kHistory;
 }
 
-// The exact steps of the model cost 64 Runge–Kutta steps for each axis, so they are renewed only
-// when the model has moved by 0.3 % or the cycle by 1 %.
+// The model's exact steps cost 64 Runge–Kutta steps per axis, so they are renewed only when the
+// model has moved by 0.3 % or the cycle by 1 %.
 void FeedGovernor::refresh_model(double dt) noexcept {
   bool renew = cycle_s_ == 0.0 || std::abs(dt - cycle_s_) > 0.01 * cycle_s_;
   bool is_other = false;
@@ -104,13 +104,13 @@ void FeedGovernor::refresh_model(double dt) noexcept {
   }
   forecast_.set_model(model_);
   if (is_other) {
-    state_.unexplained_mm2 = 0.0;  // that was another model's
+    state_.unexplained_mm2 = 0.0;  // that belonged to the old model
   }
 }
 
-// The model runs beside the axes on the same commands; e − modelled is what it does not explain
-// (friction, backlash, a wrong τ). Only the part across the path counts, and beyond what counting
-// gives by itself: q²/12 in each of the two directions across, q²/6.
+// The model runs in parallel with the axes on the same commands; e − modelled is what it does not
+// explain (friction, backlash, a wrong τ). Only the part across the path counts, less the counting
+// error itself: q²/12 in each of the two directions across, q²/6.
 void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error,
                            double dt) noexcept {
   const bool is_regular = dt > 0.0 && std::abs(dt - cycle_s_) < 0.01 * cycle_s_;
@@ -158,9 +158,8 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
   state_.unexplained_mm2 += dt / kUnexplainedMemoryS * (excess - state_.unexplained_mm2);
 }
 
-// The margin covers the first 3σ of what is unexplained; only what goes beyond it is taken off.
-// Not more than 60 % of the limit: a reserve that eats all of it would always ask for the lowest
-// step.
+// The margin covers the first 3σ of the unexplained error; only the excess is taken off. At most 60
+// % of the limit: a reserve that used up all of it would always ask for the lowest step.
 double FeedGovernor::limit_mm() const noexcept {
   const auto& contour = config_.contour;
   const double beyond_margin = kReserveRms * std::sqrt(std::max(0.0, state_.unexplained_mm2)) -
@@ -170,7 +169,7 @@ double FeedGovernor::limit_mm() const noexcept {
          std::min(reserve_mm, kMostReserve * contour.limit_mm);
 }
 
-// The words as the control was told them, one each cycle: for dead time and scan they are still
+// The words as the control was told them, one per cycle: for dead time and scan they are still
 // under way.
 void FeedGovernor::remember(const kernel::signal::RatioInForce& in_force) noexcept {
   state_.in_force_ratio = in_force.ratio;
@@ -187,7 +186,7 @@ void FeedGovernor::fill_pending(const Frame& frame) noexcept {
   for (; n < Forecast::kMaxSteps; ++n) {
     const double t = timing.step_s * static_cast<double>(n + 1);
     // What acts at t was told between dead + scan − t and dead − t before now. The largest of
-    // those: for the contour the faster one is the worse.
+    // those: the faster one is worse for the contour.
     const double oldest = timing.dead_s + timing.scan_s - t;
     if (oldest <= 0.0) {
       break;
@@ -204,7 +203,7 @@ void FeedGovernor::fill_pending(const Frame& frame) noexcept {
   forecast_.set_pending_count(n);
 }
 
-/// Without a path: the circle that the command has run on lately goes on, at the programmed feed.
+/// Without a path: extends the circle that the command has followed lately, at the programmed feed.
 void FeedGovernor::extrapolate(const Frame& frame) noexcept {
   const auto bend = curve_.update(state_.command_mm);
   guess_.reset();
@@ -214,8 +213,8 @@ void FeedGovernor::extrapolate(const Frame& frame) noexcept {
   const double curvature = geometry::norm(bend.curvature_1_mm);
   const Point normal = geometry::unit(bend.curvature_1_mm);
   const double speed = std::max({frame.path_speed_mm_s, frame.programmed_feed_mm_s, 1.0});
-  // Behind the command far enough to hold the foot: the lag v/k, three times. Cells so short that
-  // the cubic term κ²h³/6 stays below 5·10⁻⁵ mm, and not more than about 400 of them.
+  // Far enough behind the command to hold the foot: three times the lag v/k. Cells short enough
+  // that the cubic term κ²h³/6 stays below 5·10⁻⁵ mm, and at most about 400 of them.
   const double back = 3.0 * speed / softest_gain_1_s_ + 0.5;
   const double ahead = speed * reach_s_;
   const double fine = curvature > 1e-6 ? std::cbrt(3e-4 / (curvature * curvature)) : ahead;
@@ -271,8 +270,8 @@ bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {
     return false;
   }
   const Forecast::Timing& timing = forecast_.timing();
-  // Time within which a step told now can still fall: dead time, scan, two decisions and the whole
-  // slew.
+  // Time in which a step told now can still be reversed: dead time, scan, two decisions and the
+  // whole slew.
   const double time = timing.dead_s + timing.scan_s + 2.0 * decision_s_ + 1.0 / timing.fall_1_s;
   const double a = ahead_.cell(state_.command_cell).acceleration_mm_s2;
   const double reach = (frame.path_speed_mm_s + 0.5 * std::min(a, 1e5) * time) * time;
@@ -351,7 +350,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   state_.started = true;
   state_.time_s = frame.time_s;
   if (!(dt >= 0.0 && dt < 1.0)) {
-    // The clock jumped: what was timed by it is void.
+    // The clock jumped: whatever it timed is void.
     state_.next_decision_s = state_.next_objective_s = frame.time_s;
     state_.fallen_s = frame.time_s - config_.pause_s;
     state_.idle_effect_s = 0.0;

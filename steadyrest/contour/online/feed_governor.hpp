@@ -40,44 +40,44 @@ struct Candidate {
 /// J = w1·ε/ε_max + w2·(v_max − v)/(v_max − v_min), smaller is better.
 [[nodiscard]] double combined_objective(const Candidate& candidate) noexcept;
 
-/// Chooses the step of the feed override that holds the contour error, by forecast.
+/// Chooses the feed override step that keeps the contour error within its limit, by forecast.
 ///
 /// Each candidate step is simulated along the path ahead (Forecast): the control's speed under dead
 /// time, scan and slew, then the axes with the identified servo model, then the distance to the
 /// path.
 ///
-/// | strategy | choice |
-/// |---|---|
-/// | contour priority | the least predicted error; all errors up to `target_mm` count as equal,
-/// then the fastest. Since ε grows with v it ends at the lowest step wherever no step reaches the
-/// target | | feed priority | the largest admissible step | | combined | the admissible step of the
-/// smallest J |
+/// Strategies:
+///   contour priority  the lowest predicted error, with all errors up to `target_mm` equal; then
+///                     the fastest. Since ε grows with v it ends at the lowest step wherever no
+///                     step reaches the target
+///   feed priority     the largest admissible step
+///   combined          the admissible step with the smallest J
 ///
 /// Admissible: "go to the step, hold it for one decision, then fall to the lowest step as fast as
-/// the slew permits" keeps |ε| ≤ ε_max·(1 − margin) − reserve on the whole way. So the fall can
-/// always be put off to the next decision and no sooner: neither late nor early. The largest
-/// admissible step is sought from the highest down, nothing being assumed about the order of their
-/// errors; in tables of more than 32 steps from the one in force, in doubling strides and then by
-/// halves (step_search.hpp). Where even the fall does not keep the limit, each place
-/// may have what the fall alone gives there.
+/// the slew permits" keeps |ε| ≤ ε_max·(1 − margin) − reserve all the way. The fall can thus always
+/// wait until the next decision and no longer: neither late nor early. The search for the largest
+/// admissible step starts from the highest and assumes nothing about the order of their errors; in
+/// tables of more than 32 steps it starts from the step in force, in doubling strides and then by
+/// halves (step_search.hpp). Where even the fall does not keep the limit, each place may have the
+/// error that the fall alone gives there.
 ///
-/// Steady state: a slow servo would permit a too large step for a moment, again and again. So a
-/// rise must also be sustainable: held for `pause_s` it must not break the limit within the stretch
-/// of even curvature that the tool is in; what breaks it in a later, tighter stretch does not
-/// count, for the fall comes before.
+/// Steady state: a slow servo would permit too large a step for a moment, again and again. A rise
+/// must therefore also be sustainable: held for `pause_s` it must not break the limit within the
+/// present stretch of even curvature. A break in a later, tighter stretch does not count, since the
+/// fall comes first.
 ///
-/// `reserve`: half of the largest backlash, which encoders on the motors cannot see, and three
-/// times the RMS of what the model did not explain, beyond the margin. Changes: a rise needs 2 %
-/// room (15 % within `pause_s` after a fall); a fall is immediate. It only plans with the slew
-/// limits; the kernel's envelope enforces them, and what it has let through comes in with the
-/// frame: there every plan begins, and the words of the last cycles are what is still under way.
+/// `reserve`: half of the largest backlash, which encoders on the motors cannot see, plus three
+/// times the RMS of the unexplained error, beyond the margin. Changes: a rise needs 2 % room (15 %
+/// within `pause_s` after a fall); a fall is immediate. The governor only plans with the slew
+/// limits; the kernel's envelope enforces them. The frame brings what the envelope let pass: every
+/// plan starts there, and the words of the last cycles are those still under way.
 ///
 /// Withdraws (ratio 1): input not finite or stale, threading and tapping, no cutting within reach
-/// ahead. Bounded: a search looks no further once its forecasts have taken `work_share` of a
-/// control cycle, at kForecastStepCostS for each of their steps. The search for the admissible step
-/// then takes the largest that it knows, the next decision goes on from there; the objective's
-/// search goes on with the next decision. One look, and the fall with one look along it, are always
-/// made: most_forecast_steps() has the bound. See bench/contour_decision_bench.
+/// ahead. Bounded: a search stops once its forecasts have used `work_share` of a control cycle, at
+/// kForecastStepCostS for each of their steps. The search for the admissible step then takes the
+/// largest one known and the next decision continues from there; the objective's search resumes
+/// with the next decision. One look, and the fall with one look along it, are always made:
+/// most_forecast_steps() has the bound. See bench/contour_decision_bench.
 ///
 /// Source: Jin, Zhang, Ding (strategies, exhaustive search). The admissibility rule is this
 /// project's.
@@ -89,17 +89,17 @@ class FeedGovernor {
     std::vector<kernel::machine::Axis> axes;  ///< X, Y, Z first
     kernel::machine::OverrideTable feed_override;
     kernel::machine::Contour contour;
-    kernel::machine::Envelope envelope;  ///< of the feed, and how old a frame may be
+    kernel::machine::Envelope envelope;  ///< of the feed, and the age limit of a frame
     kernel::machine::Control control;    ///< its period and its limit along the path
     double decision_s = 0.0;             ///< 0 = the override's scan period, 4…10 ms
     double objective_s = 0.10;           ///< period of the full search of the other strategies
-    double pause_s = 0.5;                ///< after a fall, rises need more room
-    double work_share = 0.1;             ///< of a control cycle that one search may take
-    std::size_t exhaustive_steps = 32;   ///< up to so many are all looked at
+    double pause_s = 0.5;                ///< after a fall; rises then need more room
+    double work_share = 0.1;             ///< share of a control cycle for one search
+    std::size_t exhaustive_steps = 32;   ///< tables up to this size are searched in full
     double forecast_step_s = 0.0;        ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
     double (*objective)(const Candidate&) noexcept = combined_objective;
 
-    /// These sections of a passport, the rest as above.
+    /// These sections of a passport, the rest with the defaults above.
     static Config of(const kernel::machine::Machine& machine);
   };
 
@@ -108,28 +108,28 @@ class FeedGovernor {
     bool error_valid = false;
     double error_mm = 0.0;            ///< contour error now, signed as in ContourError
     double nominal_error_mm = 0.0;    ///< Ed
-    double predicted_error_mm = 0.0;  ///< largest that the chosen step leads to, signed (+ inside)
+    double predicted_error_mm = 0.0;  ///< largest with the chosen step, signed (+ inside)
     double predicted_at_mm = 0.0;     ///< path length where
-    double limit_mm = 0.0;            ///< that the decision kept: ε_max·(1 − margin) − reserve
+    double limit_mm = 0.0;            ///< used by the decision: ε_max·(1 − margin) − reserve
     std::size_t step = 0;             ///< index in the override table
     bool path_known = false;
     bool decided = false;              ///< a decision was made in this cycle
-    std::uint32_t forecasts = 0;       ///< that it took
+    std::uint32_t forecasts = 0;       ///< used by the decision
     std::uint32_t forecast_steps = 0;  ///< of all of them
   };
 
-  /// Of the decisions.
+  /// The course of the decisions.
   struct Course {
     bool started = false;
     double time_s = 0.0;
     double next_decision_s = 0.0;
     double next_objective_s = 0.0;
-    double in_force_ratio = 1.0;  ///< what the envelope has let through
+    double in_force_ratio = 1.0;  ///< what the envelope let pass
     double fallen_s = -1e9;       ///< time of the last fall
     double wanted_ratio = 1.0;    ///< of the objective's last search
     ObjectiveSearch objective;
-    double unexplained_mm2 = 0.0;  ///< mean square of what the model leaves
-    double idle_effect_s = 0.0;    ///< since when the speed does not follow the override
+    double unexplained_mm2 = 0.0;  ///< mean square of the unexplained error
+    double idle_effect_s = 0.0;    ///< how long the speed has ignored the override
     bool engaged = false;
     Output last;
     std::array<double, 3> velocity_mm_s{};  ///< observer of the axes' velocity
@@ -141,13 +141,13 @@ class FeedGovernor {
     std::size_t command_cell = 0;
   };
 
-  /// All that update() changes, the parts' own included.
+  /// Everything that update() changes, including the parts' own state.
   struct State : Course {
     ContourError::State contour;
     ServoModel::State servo;
     CommandedCurve::State curve;
     LookAhead::State ahead;
-    std::array<AxisModel, 3> model{};  ///< that the forecast has been set to
+    std::array<AxisModel, 3> model{};  ///< the forecast's present model
     double cycle_s = 0.0;
     std::array<double, kHistory> history{};  ///< what the control was told, by cycle
     std::size_t history_at = 0;
@@ -156,7 +156,7 @@ class FeedGovernor {
   static kernel::outcome::Result<FeedGovernor> make(const Config& config);
   static kernel::outcome::Result<FeedGovernor> make(const kernel::machine::Machine& machine);
 
-  /// One cycle. The request stands until the next call.
+  /// One cycle. The request remains in force until the next call.
   Output update(const kernel::signal::Frame& frame,
                 const kernel::signal::InForce& in_force) noexcept;
 
@@ -164,11 +164,11 @@ class FeedGovernor {
   [[nodiscard]] const ServoModel& servo_model() const noexcept { return servo_; }
   [[nodiscard]] const Course& course() const noexcept { return state_; }
   [[nodiscard]] State state() const;
-  /// Of one that was made from the same config. The path's storage must be the same, or the path
-  /// ahead is made again.
+  /// From one made from the same config. The path's storage must be the same, or the path ahead is
+  /// rebuilt.
   void restore(const State& state) noexcept;
-  /// No decision takes more: what the share allows, the look in hand (two forecasts), the fall and
-  /// one look along it; with an objective its share and the look in hand there.
+  /// No decision takes more: what the share allows, the look in progress (two forecasts), the fall
+  /// and one look along it; with an objective also its share and the look in progress there.
   [[nodiscard]] std::size_t most_forecast_steps() const noexcept;
   void reset() noexcept;
 
@@ -206,17 +206,17 @@ class FeedGovernor {
   Output withdraw(kernel::outcome::Reason reason, Output output) noexcept;
 
   Config config_;
-  std::vector<double> candidate_;        ///< permitted ratios, rising
+  std::vector<double> candidate_;        ///< permitted ratios, ascending
   std::vector<std::size_t> table_step_;  ///< their steps in the table
   std::vector<double> table_ratio_;
   ContourError contour_;
   ServoModel servo_;
   CommandedCurve curve_;
   LookAhead ahead_;
-  LookAhead guess_;  ///< the path extrapolated, where none is known
+  LookAhead guess_;  ///< the extrapolated path, where none is known
   Forecast forecast_;
   Forecast::Trace trace_;
-  std::array<AxisModel, 3> model_{};      ///< that forecast_ has been set to
+  std::array<AxisModel, 3> model_{};      ///< the present model of forecast_
   std::array<AxisStep, 3> cycle_step_{};  ///< of one control cycle
   double cycle_s_ = 0.0;
   double softest_gain_1_s_ = 50.0;

@@ -6,7 +6,7 @@
 #include <steadyrest/contour/online/step_search.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
-// Which step: the search over the table.
+// Which step to take: the search over the table.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -16,16 +16,16 @@ using kernel::outcome::Reason;
 using kernel::signal::Frame;
 using kernel::signal::Point;
 
-// What halving and doubling them does to the rib pocket: README, "What the constants do".
+// Effect on the rib pocket of halving and doubling them: README, "What the constants do".
 constexpr double kRiseRoom = 0.98;  // share of the limit that a rise may use
 constexpr double kRiseRoomInPause = 0.85;
-constexpr double kStretchTurn = 0.1;   // rad by which an even stretch may depart from its mean
+constexpr double kStretchTurn = 0.1;   // rad by which an even stretch may deviate from its mean
 constexpr double kTraceRoom = 1.02;    // over the fall's own error: twenty times what a forecast …
 constexpr double kTraceRoomMm = 2e-4;  // … is off by, and twice (0.1 % + 0.1 µm, forecast.hpp)
 constexpr double kTieMm = 1e-4;        // errors closer than this are equal: a forecast's 0.1 µm
 constexpr double kTie = 1e-9;          // other objectives: their rounding
 
-/// Adds a forecast to what the decision took; its steps.
+/// Adds a forecast to the decision's count; returns its steps.
 std::size_t count(const Forecast::Result& result, FeedGovernor::Output& output) noexcept {
   ++output.forecasts;
   output.forecast_steps += static_cast<std::uint32_t>(result.steps);
@@ -34,10 +34,10 @@ std::size_t count(const Forecast::Result& result, FeedGovernor::Output& output) 
 
 }  // namespace
 
-/// Where the turning of the path departs from its mean between foot and command.
-/// Even means: the path turns at a constant rate, as on an arc, a line or the CAM chords of either.
-/// Held for long, a rise must not break the limit on this stretch; beyond it the fall comes in
-/// time, which the admissibility itself ensures.
+/// Where the path's turning deviates from its mean between foot and command. Even means that the
+/// path turns at a constant rate, as on an arc, a line or the CAM chords of either. A rise held for
+/// long must not break the limit on this stretch; beyond it the fall comes in time, as
+/// admissibility ensures.
 double FeedGovernor::stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept {
   const auto turn_into = [&path](std::size_t i) {
     return geometry::distance(path.cell(i).tangent, path.cell(i + 1).tangent);
@@ -48,8 +48,8 @@ double FeedGovernor::stretch_end_mm(const LookAhead& path, const Outset& outset)
   }
   const double begin = path.cell(outset.foot_cell).position_mm;
   const Cell& here = path.cell(outset.command_cell);
-  // The foot lags behind the command, so the turning between the two is the curvature that the
-  // error now comes from.
+  // The foot lags behind the command, so the turning between the two is the curvature that causes
+  // the present error.
   const double length = here.position_mm - begin;
   const double rate = length > 0.0 ? turned / length : geometry::norm(here.curvature_1_mm);
   const double end = outset.position_mm + config_.pause_s * std::max(here.feed_mm_s, 1.0);
@@ -67,7 +67,7 @@ double FeedGovernor::stretch_end_mm(const LookAhead& path, const Outset& outset)
   return end;
 }
 
-/// The search for the largest admissible step, with what its forecasts took so far.
+/// The search for the largest admissible step, with the forecasts spent so far.
 struct FeedGovernor::Search {
   Search(const FeedGovernor& governor, const Outset& from, Output& into) noexcept
       : of(governor),
@@ -83,14 +83,14 @@ struct FeedGovernor::Search {
 
   Forecast::Result forecast(const RatioPlan& tried, double most_mm,
                             const Forecast::Trace* trace) noexcept {
-    // Stopped at the first place above the limit: most candidates that fail do so at once.
+    // Stops at the first place above the limit: most candidates that fail do so at once.
     const Forecast::Result result =
         of.forecast_.run(path, outset, tried, most_mm, true, trace, nullptr);
     spent += count(result, output);
     return result;
   }
 
-  /// May the step be taken and, where it is a rise, be held?
+  /// Tells whether the step may be taken and, where it is a rise, held.
   bool admissible(std::size_t c, const Forecast::Trace* trace) noexcept {
     plan.target = of.candidate_[c];
     const Forecast::Result result = forecast(plan, limit_mm, trace);
@@ -98,7 +98,7 @@ struct FeedGovernor::Search {
       return false;
     }
     const bool rises = of.candidate_[c] > in_force + kSameRatio;
-    // Along a trace the limit is broken anyway; a rise there needs no room to last.
+    // Along a trace the limit is broken anyway; a rise there need not last.
     if (rises && trace == nullptr) {
       const bool pauses = of.state_.time_s - of.state_.fallen_s < of.config_.pause_s;
       const double room_mm = (pauses ? kRiseRoomInPause : kRiseRoom) * limit_mm;
@@ -115,9 +115,9 @@ struct FeedGovernor::Search {
     return true;
   }
 
-  /// Among the candidates up to `top`; false where none is admissible, not even the lowest.
-  /// From the highest down while the table is small; otherwise from the step in force, where the
-  /// answer nearly always lies.
+  /// Searches the candidates up to `top`; false where none is admissible, not even the lowest. From
+  /// the highest down while the table is small; otherwise from the step in force, where the answer
+  /// nearly always lies.
   bool find(std::size_t top, const Forecast::Trace* trace) noexcept {
     const auto may_go_on = [&] { return spent < of.search_steps_; };
     const auto is_admissible = [&](std::size_t c) { return admissible(c, trace); };
@@ -125,7 +125,7 @@ struct FeedGovernor::Search {
     const auto above = std::ranges::upper_bound(candidate, in_force + kSameRatio);
     const auto start =
         static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - candidate.begin() - 1, 0));
-    // What the fall alone gives is no bound that slower steps keep too: all of them must be tried.
+    // Slower steps need not keep within what the fall alone gives, so all steps must be tried.
     const bool all = trace != nullptr || candidate.size() <= of.config_.exhaustive_steps;
     const auto found = all ? first_admissible_below(top, is_admissible, may_go_on)
                            : largest_admissible_near(start, top, is_admissible, may_go_on);
@@ -133,9 +133,9 @@ struct FeedGovernor::Search {
     return found.has_value();
   }
 
-  /// Chooses the fall; the trace receives what it gives at each place, with a little room.
-  /// Recorded without a limit: with a little room on top, it is the limit of the second search, so
-  /// that a step that is as good as the fall at each place may be taken.
+  /// Chooses the fall; the trace receives the error it gives at each place, with a little room.
+  /// Recorded without a limit: with that room on top, it is the limit of the second search, so that
+  /// a step as good as the fall at each place may be taken.
   void fall(Forecast::Trace& trace) noexcept {
     plan.target = of.candidate_.front();
     choice.candidate = 0;
@@ -159,23 +159,22 @@ struct FeedGovernor::Search {
   std::size_t spent = 0;  ///< forecast steps
 };
 
-// Bounded by search_steps_: once spent, the largest step known to be admissible is taken, and the
-// next decision starts from it.
+// Bounded by search_steps_: once they are spent, the largest step known to be admissible is taken,
+// and the next decision starts from it.
 FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std::size_t top,
                                                       Output& output) noexcept {
   Search search(*this, outset, output);
   if (!search.find(top, nullptr)) {
-    // Not even the fall keeps the limit: what it gives at each place is what can be had.
+    // Not even the fall keeps the limit: the error it gives at each place is the best attainable.
     search.fall(trace_);
     search.find(top, &trace_);
   }
   return search.choice;
 }
 
-/// Goes on with the objective's search as far as its share of the cycle goes.
-/// The objective compares steps that are held, not changes: start, target and floor are the same.
-/// Errors up to `target_mm` are equal for contour priority, so that it does not creep for a gain
-/// that no gauge would show.
+/// Continues the objective's search within its share of the cycle. The objective compares steps
+/// that are held, not changes: start, target and floor are the same. For contour priority errors up
+/// to `target_mm` are equal, so that it does not creep for a gain that no gauge would show.
 void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noexcept {
   const LookAhead& path = state_.last.path_known ? ahead_ : guess_;
   const auto& contour = config_.contour;
@@ -204,7 +203,7 @@ void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noex
   }
 }
 
-/// The candidate that the strategy would have: with feed priority the fastest.
+/// The candidate that the strategy prefers: with feed priority the fastest.
 std::size_t FeedGovernor::wanted_candidate(const Outset& outset, Output& output) noexcept {
   std::size_t candidate = candidate_.size() - 1;
   if (config_.contour.strategy == ContourStrategy::feed_priority) {
@@ -221,8 +220,8 @@ std::size_t FeedGovernor::wanted_candidate(const Outset& outset, Output& output)
   return candidate;
 }
 
-/// The highest candidate up to `wanted` that the override can rise to within one decision.
-/// A higher step could not come through before the next decision, and that one will know more.
+/// The highest candidate up to `wanted` that the override can rise to within one decision. A higher
+/// step would not take effect before the next decision, which will know more.
 std::size_t FeedGovernor::reachable_candidate(std::size_t wanted) const noexcept {
   const double soon =
       state_.in_force_ratio + forecast_.timing().rise_1_s * decision_s_ + kSameRatio;
@@ -233,7 +232,7 @@ std::size_t FeedGovernor::reachable_candidate(std::size_t wanted) const noexcept
   return top;
 }
 
-// The strongest cause first: what the operator can do least about.
+// The strongest cause first: the one the operator can do least about.
 Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
                             std::size_t wanted) const noexcept {
   if (choice.floor) {
@@ -256,9 +255,9 @@ Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
                                                     : Reason::contour_within_limit;
 }
 
-// A decision begins at what the envelope has let through, with what is still under way before it.
-// Without a path the circle that the command runs on takes its place, and no rise is concluded from
-// a speed that the override does not govern.
+// A decision starts from what the envelope let pass, preceded by what is still under way. Without a
+// path the command's present circle takes its place, and no rise is derived from a speed that the
+// override does not govern.
 void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   if (!state_.last.path_known) {
     extrapolate(frame);
@@ -275,7 +274,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   Choice choice = largest_admissible(from, reachable_candidate(wish), output);
   const double before = state_.last.request.ratio;
   if (no_effect && !state_.last.path_known && candidate_[choice.candidate] > before) {
-    // The error seen is not the override's doing; nothing may be concluded from it upwards.
+    // The override did not cause the present error, so it justifies no rise.
     while (choice.candidate > 0 && candidate_[choice.candidate] > before + kSameRatio) {
       --choice.candidate;
     }
@@ -286,8 +285,8 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   output.predicted_at_mm = choice.forecast.at_mm;
   output.step = table_step_[choice.candidate];
   const double ratio = candidate_[choice.candidate];
-  // A fall is judged against what is in force and what was asked before: a wish that is still
-  // being slewed to is no fall.
+  // A fall is judged against what is in force and what was asked before: a wish still on its way at
+  // the slew is no fall.
   const double in_force = forecast_.floor_ratio(state_.in_force_ratio);
   const bool falls = ratio < std::min(in_force, before) - kSameRatio;
   if (falls) {

@@ -18,21 +18,21 @@ using kernel::machine::Machine;
 using kernel::outcome::refuse;
 using Axes = std::span<const Axis>;
 
-/// What one step of a forecast is taken to cost: twice what a core of 3 GHz needs, so that slower
-/// ones keep the share too. A fixed figure, so that the same input decides alike everywhere.
+/// Assumed cost of one forecast step: twice what a 3 GHz core needs, so that slower ones keep the
+/// share too. A fixed figure, so that the same input gives the same decisions everywhere.
 constexpr double kForecastStepCostS = 100e-9;
 
-/// Of the stiffest axis's 1/k: with it a steady circle is foreseen to 0.1 % of ε + 0.1 µm (test
-/// Forecast, OfASteadyCircle…). README, "What the constants do", also of the next two.
+/// Of the stiffest axis's 1/k: it forecasts a steady circle to 0.1 % of ε + 0.1 µm (test Forecast,
+/// OfASteadyCircle…). README, "What the constants do", covers the next two as well.
 constexpr double kStep = 0.12;
-constexpr double kSettle = 4.0;     // of the softest axis's 1/k: e⁻⁴ is left of an error, 2 %
-constexpr double kSettleLag = 3.0;  // of the longest τ: e⁻³, of what the velocity loop adds
+constexpr double kSettle = 4.0;     // of the softest axis's 1/k: e⁻⁴ of an error is left, 2 %
+constexpr double kSettleLag = 3.0;  // of the longest τ: e⁻³ of the velocity loop's part is left
 
 /// For the control's own braking. A forecast runs v/a longer than the override needs (Walk::steps
-/// in forecast.cpp); here, where neither is known yet, v/a of 12 m/min at 2 m/s².
+/// in forecast.cpp); neither is known yet here, so v/a is taken for 12 m/min at 2 m/s².
 constexpr double kBrakingS = 0.1;
 
-/// The axes that make the contour.
+/// The axes that form the contour.
 Axes path_axes(Axes axes) noexcept {
   return axes.first(std::min<std::size_t>(3, axes.size()));
 }
@@ -45,7 +45,7 @@ double largest(Axes axes, double Axis::* value, double at_least) noexcept {
   return largest;
 }
 
-// The stiffest axis sets the forecast's step, the softest one how far back the foot lies and how
+// The stiffest axis sets the forecast's step; the softest one sets how far back the foot is and how
 // long a change takes to settle.
 double stiffest(Axes axes) noexcept {
   return largest(axes, &Axis::servo_gain_1_s, 1.0);
@@ -75,8 +75,8 @@ double jerk_time(Axes axes) noexcept {
   return std::min(time, 0.5);
 }
 
-/// The steps that the search looks at: all of them, of a table finer than the forecast's as many
-/// as that holds, evenly spread, both ends among them.
+/// The steps that the search looks at: all of them, or, for a table finer than the forecast's, as
+/// many as that holds, evenly spread and including both ends.
 std::vector<std::size_t> searched_steps(std::size_t steps) {
   const std::size_t count = std::min(steps, Forecast::kMaxTable);
   std::vector<std::size_t> index(count);
@@ -86,8 +86,8 @@ std::vector<std::size_t> searched_steps(std::size_t steps) {
   return index;
 }
 
-/// A word that is not latched walks from neighbour to neighbour, one each scan: the slowest pace of
-/// that among the steps that are searched.
+/// A word that is not latched walks from neighbour to neighbour, one per scan: the slowest pace of
+/// that among the searched steps.
 double walking_1_s(const kernel::machine::OverrideTable& table,
                    const std::vector<double>& candidate) noexcept {
   double slowest = std::numeric_limits<double>::infinity();
@@ -100,7 +100,7 @@ double walking_1_s(const kernel::machine::OverrideTable& table,
   return slowest;
 }
 
-/// What backlash puts between the encoders on the motors and the tool: half of it either way.
+/// Backlash between the encoders on the motors and the tool: half of it either way.
 double unseen_by_encoders_mm(Axes axes) noexcept {
   double backlash_mm = 0.0;
   for (const Axis& axis : path_axes(axes)) {
@@ -147,7 +147,7 @@ kernel::outcome::Result<void> check(const FeedGovernor::Config& config) {
 
 }  // namespace
 
-// Both terms run from 0 to 1 over what is permitted, so that the weights compare like with like.
+// Both terms run from 0 to 1 over the permitted range, so that the weights compare like with like.
 double combined_objective(const Candidate& c) noexcept {
   const double span = c.max_ratio - c.min_ratio;
   const double slowness = span > 0.0 ? (c.max_ratio - c.ratio) / span : 0.0;
@@ -221,23 +221,23 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   search_steps_ = static_cast<std::size_t>(
       std::max(1.0, config_.work_share * m.control.interpolator_period_s / kForecastStepCostS));
   Forecast::Timing timing;
-  // 0.12/k: eight steps to a time constant of the stiffest axis. The step itself is exact; it is
-  // the curvature between two instants that must stay small.
+  // 0.12/k: eight steps per time constant of the stiffest axis. The step itself is exact; the
+  // change of curvature within one step must stay small.
   timing.step_s = config_.forecast_step_s > 0.0 ? config_.forecast_step_s
                                                 : std::clamp(kStep / stiffest(m.axes), 5e-4, 4e-3);
-  // A word that is written now acts after the table's dead time, one cycle of the interpolator and
-  // half of the jerk filter.
+  // A word written now acts after the table's dead time, one interpolator cycle and half of the
+  // jerk filter.
   timing.dead_s =
       m.feed_override.dead_time_s + m.control.interpolator_period_s + 0.5 * jerk_time(m.axes);
   timing.scan_s = m.feed_override.scan_period_s + m.control.interpolator_period_s;
   const double walk_1_s = walking_1_s(m.feed_override, candidate_);
   timing.fall_1_s = std::min(m.envelope.feed_fall_1_s, walk_1_s);
   timing.rise_1_s = std::min(m.envelope.feed_rise_1_s, walk_1_s);
-  // e⁻⁴ of a change is left after four time constants of the softest axis.
+  // After four time constants of the softest axis e⁻⁴ of a change is left.
   timing.settle_s = kSettle / softest(m.axes) + kSettleLag * longest_lag(m.axes);
   forecast_.set_timing(timing);
   forecast_.set_table(table_ratio_);
-  // How far ahead a decision must see: until a fall that begins at the next decision has gone all
+  // How far ahead a decision must see: until a fall that begins at the next decision has run all
   // the way from 1 to 0, the control has braked, and the axes have settled.
   reach_s_ = timing.dead_s + timing.scan_s + decision_s_ + kBrakingS + 1.0 / timing.fall_1_s +
              timing.settle_s;
@@ -246,7 +246,7 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
 }
 
 // A search may overshoot its budget by one look, which is up to two forecasts; the fall and one
-// look along it are made in any case. The objective's search overshoots by one forecast.
+// look along it are always made. The objective's search overshoots by one forecast.
 std::size_t FeedGovernor::most_forecast_steps() const noexcept {
   const bool by_objective =
       config_.contour.strategy != kernel::machine::ContourStrategy::feed_priority;

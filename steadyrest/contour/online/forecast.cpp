@@ -7,18 +7,18 @@
 
 // A forecast walks in steps of a few milliseconds. Each step: the ratio that acts then, the
 // control's speed under it, the three servos by their exact step, the foot on the path, the error
-// against the limit. Nothing is searched and nothing branches back, so its cost is its steps.
+// against the limit. There is no search and no backtracking, so its cost is its number of steps.
 namespace steadyrest::contour::online {
 namespace {
 
 namespace geometry = math::geometry;
 using kernel::signal::Point;
 
-// A velocity loop faster than this is none: on a circle it changes ε by 2kτ, 1 % at k = 50 1/s. At
-// τ = 0.1 ms kSub steps of 4 ms/64 are 0.6·τ long, well inside of where Runge and Kutta's are
-// stable (2.8·τ). Test AxisStep, OfNoLagIsTheLimitOfSmallLag.
+// A velocity loop faster than this counts as none: on a circle it changes ε by 2kτ, 1 % at k = 50
+// 1/s. At τ = 0.1 ms kSub steps of 4 ms/64 are 0.6·τ long, well inside Runge–Kutta's stability
+// limit (2.8·τ). Test AxisStep, OfNoLagIsTheLimitOfSmallLag.
 constexpr double kNoLag_s = 1e-4;
-constexpr double kRatioTolerance = 1e-9;  // as the kernel's table has it
+constexpr double kRatioTolerance = 1e-9;  // as in the kernel's table
 
 Point on_cell(const Cell& cell, double delta) noexcept {
   return geometry::add_scaled(geometry::add_scaled(cell.point_mm, cell.tangent, delta),
@@ -48,15 +48,15 @@ Near near_on_cell(const Cell& cell, const Point& query) noexcept {
 
 }  // namespace
 
-/// The foot point as it moves along the cells. Inside of a corner the foot never reaches the end of
-/// the first leg; so the first cell behind the next corner is followed as well, and wins once it is
+/// The foot point as it moves along the cells. Inside a corner the foot never reaches the end of
+/// the first leg, so the first cell behind the next corner is tracked as well, and wins once it is
 /// nearer.
 class Forecast::FootTracker {
  public:
   FootTracker(const LookAhead& path, std::size_t cell) noexcept
       : path_(path), cell_(cell), scanned_(cell) {}
 
-  // Cells between foot and command are looked through once for corners: amortised, one a step.
+  // Cells between foot and command are searched once for corners: amortised, one per step.
   Near update(const Point& query, std::size_t command_cell) noexcept {
     Near here = advance(cell_, query, command_cell);
     if (beyond_ != kNone && beyond_ <= cell_) {
@@ -117,9 +117,9 @@ AxisStep AxisStep::of(const AxisModel& model, double h_s) noexcept {
     step.e_change = (1.0 - a) * (phi2 - 0.5 * phi1);
     return step;
   }
-  // With lag the roots may be real, double or complex. Unit responses by Runge–Kutta of fourth
-  // order serve all three alike; the step is linear, so four of them are the whole matrix. Not in
-  // the cycle but when the model changes.
+  // With lag the roots may be real, double or complex. Fourth-order Runge–Kutta unit responses
+  // serve all three alike; the step is linear, so four of them give the whole matrix. Runs only
+  // when the model changes, not in every cycle.
   constexpr int kSub = 64;
   const double d = h_s / kSub;
   const double tau = model.velocity_lag_s;
@@ -177,8 +177,8 @@ double Forecast::floor_ratio(double ratio) const noexcept {
   return above == begin ? *begin : *(above - 1);
 }
 
-// A rise is taken to act as early as it can (after the dead time), a fall as late as it can (a
-// scan later): the worse of both for the contour.
+// A rise is assumed to act as early as possible (after the dead time), a fall as late as possible
+// (a scan later): the worse case of both for the contour.
 double Forecast::planned(const RatioPlan& plan, double t_s) const noexcept {
   const double since = t_s - timing_.dead_s;
   const double late = since - timing_.scan_s;
@@ -218,7 +218,7 @@ struct Forecast::Walk {
         servo(from.servo),
         foot(cells, std::min(from.foot_cell, at)) {}
 
-  /// Until the override has done all that the plan says, and all has settled.
+  /// Until the override has completed the plan and everything has settled.
   [[nodiscard]] std::size_t steps(const RatioPlan& plan) const noexcept {
     const Timing& timing = of.timing_;
     const double change_s = plan.target > plan.start ? (plan.target - plan.start) / timing.rise_1_s
@@ -239,7 +239,7 @@ struct Forecast::Walk {
     return std::min(ratio, outset.panel_ratio);
   }
 
-  /// The control's speed; false: nothing is known of what follows.
+  /// The control's speed; false when the path that follows is unknown.
   bool advance(double ratio) noexcept {
     const double h = of.timing_.step_s;
     // The feed override scales cutting moves; rapids have their own.
@@ -252,7 +252,7 @@ struct Forecast::Walk {
     double v1 = v < goal ? std::min(goal, v + dv) : std::max(goal, v - dv);
     double s1 = s + 0.5 * (v + v1) * h;
     double left = cell->position_mm + cell->length_mm - s1;
-    // Several cells may lie in one step. The one that s₁ falls into decides.
+    // Several cells may fall into one step. The one that contains s₁ decides.
     std::size_t next = at;
     while (left < 0.0 && next + 1 < path.end()) {
       ++next;
@@ -261,8 +261,7 @@ struct Forecast::Walk {
     }
     const Cell& ahead = path.cell(next);
     if (left < 0.0) {
-      // Beyond the known cells anything may follow: the forecast ends. At the path's end the axis
-      // stops.
+      // Anything may follow the known cells: the forecast ends. At the path's end the axis stops.
       if (!path.complete()) {
         return false;
       }
@@ -272,12 +271,12 @@ struct Forecast::Walk {
     }
     if (next + 1 < path.end()) {
       const Cell& after = path.cell(next + 1);
-      // v² from which the next cell's limit can still be reached by braking along what is left.
+      // v² from which braking over the rest can still reach the next cell's limit.
       const double slower = target_of(after);
       const double square =
           std::min(after.square_mm2_s2, slower * slower) + 2.0 * ahead.acceleration_mm_s2 * left;
       if (v1 * v1 > square) {
-        // Rounding may ask for more than the brake has: two steps' worth is the most.
+        // Rounding may ask for more than the brake can give; the limit is two steps' worth.
         v1 = std::max(std::sqrt(square), v - 2.0 * dv);
         s1 = s + 0.5 * (v + v1) * h;
       }
@@ -285,7 +284,7 @@ struct Forecast::Walk {
     s = s1;
     at = next;
     if (next + 1 < path.end() && v1 * h >= left && path.cell(next + 1).square_mm2_s2 <= dv * dv) {
-      // A stop on the path: it is reached within this step, and left again in the next.
+      // A stop on the path: reached within this step and left again in the next.
       ++at;
       s = path.cell(at).position_mm;
       v1 = 0.0;
@@ -295,7 +294,7 @@ struct Forecast::Walk {
     return true;
   }
 
-  /// The servos follow the commanded point; the actual one.
+  /// The servos follow the commanded point; returns the actual one.
   Point follow() noexcept {
     const double h = of.timing_.step_s;
     const double delta = s - cell->position_mm;
@@ -319,7 +318,7 @@ struct Forecast::Walk {
     return actual;
   }
 
-  /// Keeps the largest error; false: it is above what is allowed here.
+  /// Keeps the largest error; false when it exceeds the limit here.
   bool judge(const Near& near, const Cell& under, double limit_mm, const Trace* trace) noexcept {
     if (near.squared > worst) {
       worst = near.squared;
@@ -341,7 +340,7 @@ struct Forecast::Walk {
       return true;
     }
     if (result.kept) {
-      // By the foot: there the tool is.
+      // By the foot: the tool is there.
       result.broken_mm = under.position_mm + near.delta;
     }
     result.kept = false;
@@ -380,7 +379,7 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
     const Near near = walk.foot.update(walk.follow(), walk.at);
     const Cell& under = path.cell(walk.foot.cell());
     walk.result.steps = n;
-    // In the air the error does not matter; within the dead time nothing can be done about it.
+    // In air the error does not matter; within the dead time nothing can change it.
     if (!under.cutting || t <= timing_.dead_s) {
       continue;
     }

@@ -26,11 +26,11 @@ struct ServoState {
   std::array<double, 3> velocity_mm_s{};
 };
 
-/// What the override will do, from now on.
+/// What the override will do from now on.
 ///
-/// r(t), the ratio that the envelope lets through, moves to `target` at the slew limits, stays
-/// there for `hold_s`, then falls to `floor`. It acts after the dead time; a rise is taken to act
-/// at once after it, a fall a whole scan later, which is the worse of both for the contour. The
+/// r(t), the ratio that the envelope lets pass, moves to `target` at the slew limits, stays there
+/// for `hold_s`, then falls to `floor`. It acts after the dead time. A rise is assumed to act
+/// immediately after it, a fall a whole scan later: the worse case of both for the contour. The
 /// control sees the largest step not above r.
 struct RatioPlan {
   double start = 1.0;  ///< the envelope's ratio now
@@ -39,7 +39,7 @@ struct RatioPlan {
   double hold_s = 0.02;
 };
 
-/// Where the machine stands at the beginning of a forecast.
+/// The machine's state at the beginning of a forecast.
 struct Outset {
   double position_mm = 0.0;  ///< commanded path length
   double speed_mm_s = 0.0;   ///< commanded path speed
@@ -57,9 +57,9 @@ struct Outset {
 /// the predicted actual point to the parabola of the foot's cell; the foot moves forward only, over
 /// corners by comparison with the first cell behind the corner, as ContourError would find it.
 ///
-/// Accuracy against the closed forms of constant curvature: 0.1 % of ε and 0.1 µm (test). Not in
-/// it: jerk beyond its mean delay, friction, backlash, drive saturation; the governor measures what
-/// that leaves over.
+/// Accuracy against the closed forms of constant curvature: 0.1 % of ε and 0.1 µm (test). Not
+/// modelled: jerk beyond its mean delay, friction, backlash, drive saturation; the governor
+/// measures the rest.
 class Forecast {
  public:
   static constexpr std::size_t kMaxSteps = 512;
@@ -74,8 +74,8 @@ class Forecast {
     double settle_s = 0.08;  ///< after the last change
   };
 
-  /// The least error that can still be had, by place: what is above the limit anyway must not stop
-  /// a candidate.
+  /// The least error still attainable, by place: an error that exceeds the limit anyway must not
+  /// stop a candidate.
   struct Trace {
     std::size_t count = 0;
     std::array<double, kMaxSteps> position_mm{};
@@ -87,7 +87,7 @@ class Forecast {
         0.0;             ///< largest |ε| while the candidate can still change something; with sign
     double at_mm = 0.0;  ///< commanded path length then
     bool kept = true;    ///< never above the limit (and the trace)
-    double broken_mm = 0.0;  ///< else path length of the foot where that was first seen
+    double broken_mm = 0.0;  ///< else the foot's path length at the first break
     std::size_t steps = 0;
   };
 
@@ -95,7 +95,7 @@ class Forecast {
   void set_timing(const Timing& timing) noexcept;
   [[nodiscard]] const Timing& timing() const noexcept { return timing_; }
   void set_model(std::span<const AxisModel, 3> model) noexcept;
-  /// Ratios of the table's steps in rising order.
+  /// Ratios of the table's steps in ascending order.
   void set_table(std::span<const double> ratio) noexcept;
   /// Ratios already on their way: entry n acts at most until n·step_s; 0 = nothing pending.
   [[nodiscard]] std::array<double, kMaxSteps>& pending() noexcept { return pending_; }

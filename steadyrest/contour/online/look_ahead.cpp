@@ -7,9 +7,9 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
-// Cells are made once, as the command moves on, and a bounded number in each cycle; a backward
-// pass over the speed limits runs with each new cell. Lines and arcs become parabolas, so that the
-// forecast needs one kind of piece.
+// Cells are made once as the command moves along, a bounded number per cycle; a backward pass over
+// the speed limits runs with each new cell. Lines and arcs become parabolas, so the forecast needs
+// only one kind of piece.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -21,14 +21,15 @@ using kernel::signal::PathView;
 using kernel::signal::Point;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// 0.1 rad: above what cells of a smooth path break by, kChordTurn or the 0.003 rad by which a
-// parabola over 0.2 rad ends beside its arc; below the corners whose far side the foot must find.
+// 0.1 rad: above the breaks between cells of a smooth path, kChordTurn or the 0.003 rad by which a
+// parabola over 0.2 rad misses its arc's direction; below the corners whose far side the foot must
+// find.
 constexpr double kCornerCosine = 0.995;
-// A chord of length L over lines that turn by φ cuts off L·φ/8: 0.1 mm and 0.02 rad, 0.25 µm.
+// A chord of length L over lines that turn by φ cuts off L·φ/8: 0.1 mm and 0.02 rad give 0.25 µm.
 constexpr double kChordTurn = 0.02;
 constexpr double kChordMm = 0.1;
 
-/// The term that the parabola leaves out: h³/6·(κ² + |dκ/ds|) ≤ 2·10⁻⁵ mm, so h³ ≤ 1.2·10⁻⁴/(…).
+/// The term that the parabola omits: h³/6·(κ² + |dκ/ds|) ≤ 2·10⁻⁵ mm, so h³ ≤ 1.2·10⁻⁴/(…).
 double arc_cell_mm(const PathSegment& segment, double curvature_1_mm) noexcept {
   const double wound = std::abs(1.0 / std::max(segment.radius_end_mm, 1e-3) -
                                 1.0 / std::max(segment.radius_mm, 1e-3)) /
@@ -38,8 +39,8 @@ double arc_cell_mm(const PathSegment& segment, double curvature_1_mm) noexcept {
   return std::clamp(std::min(by_third, 0.2 / std::max(curvature_1_mm, 1e-9)), 0.002, 1.0);
 }
 
-/// Is the next cell's direction another than that which `before` ends with?
-/// Measured against the end of the cell before: its tangent has turned by κ⃗·length.
+/// Tells whether the next cell's direction differs from the one `before` ends with: at its end the
+/// tangent has turned by κ⃗·length.
 bool breaks(const Cell& before, const Cell& next) noexcept {
   const Point out = geometry::add_scaled(before.tangent, before.curvature_1_mm, before.length_mm);
   return geometry::dot(out, next.tangent) <
@@ -86,7 +87,7 @@ LookAhead::State LookAhead::state() const {
   return state;
 }
 
-// A state whose cells do not match its indices is dropped; the next update makes the cells again.
+// A state whose cells do not match its indices is dropped; the next update rebuilds the cells.
 void LookAhead::restore(const State& state) noexcept {
   reset();
   if (state.last - state.first != state.cell.size() || state.cell.size() > kCells) {
@@ -109,7 +110,7 @@ double LookAhead::known_to_mm() const noexcept {
   return made_to_mm_;
 }
 
-// The axis that reaches its limit first along this direction sets the path's.
+// The axis that reaches its limit first in this direction sets the path's limit.
 double LookAhead::line_acceleration(const Point& direction) const noexcept {
   double a = path_mm_s2_;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -121,8 +122,8 @@ double LookAhead::line_acceleration(const Point& direction) const noexcept {
   return std::min(a, 1e9);
 }
 
-// On an arc every direction of its plane comes up, so the largest share of each axis counts: √(1 −
-// n²), n the plane's normal.
+// An arc passes through every direction of its plane, so the largest share of each axis counts: √(1
+// − n²), n the plane's normal.
 double LookAhead::arc_acceleration(const PathSegment& segment) const noexcept {
   double plane = path_mm_s2_;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -133,7 +134,8 @@ double LookAhead::arc_acceleration(const PathSegment& segment) const noexcept {
     }
   }
   plane = std::min(plane, 1e9);
-  // What the turn at the highest speed leaves; never less than half, as controls share it.
+  // What the turn at the highest speed leaves; never less than half, which is how controls share
+  // it.
   const double v = std::min(segment.speed_limit_mm_s, 2.0 * segment.feed_mm_s);
   const double r = std::max(1e-6, std::min(segment.radius_mm, segment.radius_end_mm));
   const double turn = std::min(v * v / r, 0.866 * plane);
@@ -148,8 +150,8 @@ void LookAhead::describe(Cell& cell, const PathSegment& segment) const noexcept 
 }
 
 // square_i = min(limit², square_{i+1} + 2·a·length), v² = v₀² + 2as read backwards. The pass ends
-// at the first cell that is not lowered, since those before it already agree: each cell is lowered
-// a few times at most.
+// at the first cell that it does not lower, since those before it already agree: each cell is
+// lowered a few times at most.
 void LookAhead::append(Cell cell, double joint_limit_mm_s) noexcept {
   const double limit = std::min(cell.cap_mm_s, joint_limit_mm_s);
   cell.square_mm2_s2 = limit < 1e150 ? limit * limit : kInfinite;
@@ -166,7 +168,7 @@ void LookAhead::append(Cell cell, double joint_limit_mm_s) noexcept {
   }
 }
 
-/// At the path's end: a piece of no length whose speed is the limit there.
+/// At the path's end: a piece of zero length whose speed is the limit there.
 void LookAhead::append_stop() noexcept {
   complete_ = true;
   if (empty()) {
@@ -184,13 +186,13 @@ void LookAhead::append_stop() noexcept {
   append(stop, 0.0);
 }
 
-/// The next piece of an arc, so short that the cell's parabola follows it.
+/// The next piece of an arc, short enough for the cell's parabola to follow it.
 void LookAhead::take_from_arc(const PathSegment& segment, Cell& cell) noexcept {
   const double left = segment.length_mm - next_offset_mm_;
   const geometry::Station here =
       geometry::station_at(segment, geometry::parameter_at(segment, next_offset_mm_));
   const double wish = arc_cell_mm(segment, geometry::norm(here.curvature_1_mm));
-  // The last two cells share what is left, so that no sliver remains.
+  // The last two cells share the rest, so that no sliver remains.
   cell.length_mm = left <= wish ? left : std::min(wish, 0.5 * left);
   cell.point_mm = here.point_mm;
   cell.tangent = here.tangent;
@@ -205,10 +207,10 @@ void LookAhead::take_from_arc(const PathSegment& segment, Cell& cell) noexcept {
   }
 }
 
-/// A line, and the short ones behind it that one chord stands for.
-/// CAM paths have lines of some micrometres; one chord for each would fill the ring within a few
-/// millimetres. Joined only where motion and feed are the same and the direction is within 0.02
-/// rad; the strictest of the limits holds for all.
+/// A line, with the short ones behind it that share one chord. CAM paths have lines of a few
+/// micrometres; one chord for each would fill the ring within a few millimetres. Joined only where
+/// motion and feed are the same and the direction is within 0.02 rad; the strictest limit applies
+/// to all.
 void LookAhead::take_lines(PathView path, Cell& cell, int& segments) noexcept {
   const PathSegment& segment = path[next_segment_];
   cell.point_mm = segment.start_mm;
@@ -234,7 +236,7 @@ void LookAhead::take_lines(PathView path, Cell& cell, int& segments) noexcept {
   }
   const Point chord = geometry::subtract(end, cell.point_mm);
   cell.length_mm = length;
-  // A chord over short lines is a little shorter than they are: its "tangent" is, too.
+  // A chord over short lines is a little shorter than they are, and so is its "tangent".
   cell.tangent = length > 0.0 ? geometry::scale(chord, 1.0 / length) : Point{};
   cell.acceleration_mm_s2 = line_acceleration(cell.tangent);
 }
@@ -266,14 +268,14 @@ bool LookAhead::add_next(PathView path, int& segments) noexcept {
 
 void LookAhead::update(PathView path, std::size_t index, double from_mm, double command_mm,
                        double to_mm) noexcept {
-  // Another address is another path: the cells in hand belong to the old one.
+  // Another address is another path: the present cells belong to the old one.
   const bool is_known = path_data_ == path.data() && first_ != last_ &&
                         cell(first_).position_mm <= command_mm && made_to_mm_ >= command_mm;
   if (!is_known) {
     reset();
     path_data_ = path.data();
     next_segment_ = std::min(index, path.size() - 1);
-    // Back to where the foot may lie, as far as one cycle's work goes.
+    // Back to where the foot may be, within one cycle's work.
     while (next_segment_ > 0 && path[next_segment_].position_mm > from_mm &&
            index - next_segment_ < static_cast<std::size_t>(kSegmentsPerCycle)) {
       --next_segment_;
@@ -293,7 +295,7 @@ void LookAhead::update(PathView path, std::size_t index, double from_mm, double 
   }
 }
 
-// Command and foot move by a cell or two a cycle; from the hint that is a step or two.
+// Command and foot move by a cell or two per cycle: a step or two from the hint.
 std::size_t LookAhead::find(double s_mm, std::size_t hint) const noexcept {
   std::size_t i = std::clamp(hint, first_, last_ - 1);
   while (i > first_ && cell(i).position_mm > s_mm) {

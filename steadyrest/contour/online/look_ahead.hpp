@@ -21,7 +21,7 @@ struct Cell {
   double position_mm = 0.0;
   double length_mm = 0.0;
   double square_mm2_s2 = 0.0;  ///< largest v² at its start from which all later limits can be kept
-  double cap_mm_s = 0.0;       ///< the control's limit inside
+  double cap_mm_s = 0.0;       ///< the control's limit inside the cell
   double feed_mm_s = 0.0;      ///< at 100 %
   double acceleration_mm_s2 = 0.0;  ///< along the path
   bool corner = false;              ///< the direction breaks at its start
@@ -30,14 +30,14 @@ struct Cell {
 };
 
 /// The path around the commanded point as cells, made once and kept in a ring while the command
-/// moves along.
+/// moves along it.
 ///
-/// Lines are one cell; arcs are divided so that the third-order term stays below
-/// 2·10⁻⁵ mm; runs of short CAM lines are joined to chords that turn by at most 0.02 rad. Backward
-/// pass over the speed limits as the control's look-ahead makes it:
+/// Lines are one cell; arcs are divided so that the third-order term stays below 2·10⁻⁵ mm; runs of
+/// short CAM lines are joined to chords that turn by at most 0.02 rad. A backward pass sets the
+/// speed limits as the control's look-ahead does:
 ///   square_i = min(cap_i², limit at the joint², square_{i+1} + 2·a_i·length_i).
-/// What lies beyond the last cell is not known and does not limit. Work in a cycle is bounded by
-/// `kCellsPerCycle`; the ring's memory is taken once.
+/// The path beyond the last cell is unknown and does not limit. Work per cycle is bounded by
+/// `kCellsPerCycle`; the ring's memory is allocated once.
 class LookAhead {
  public:
   static constexpr std::size_t kCells = 2048;
@@ -64,11 +64,11 @@ class LookAhead {
   LookAhead(const LookAhead&) = delete;
   LookAhead& operator=(const LookAhead&) = delete;
 
-  /// Forgets all; the next update starts anew.
+  /// Forgets everything; the next update starts from scratch.
   void reset() noexcept;
-  /// Keeps the cells from `from_mm` on and adds cells up to `to_mm` as far as one cycle's work
-  /// goes. `index` is the segment of the commanded point, which stands at `command_mm`. The path's
-  /// storage must stay where it is: another address is another path and all cells are made anew.
+  /// Keeps the cells from `from_mm` on and adds cells up to `to_mm`, within one cycle's work.
+  /// `index` is the segment of the commanded point, which is at `command_mm`. The path's storage
+  /// must stay where it is: another address counts as another path, and all cells are rebuilt.
   void update(kernel::signal::PathView path, std::size_t index, double from_mm, double command_mm,
               double to_mm) noexcept;
 
@@ -76,7 +76,7 @@ class LookAhead {
   [[nodiscard]] std::size_t end() const noexcept { return last_; }
   [[nodiscard]] bool empty() const noexcept { return first_ == last_; }
   [[nodiscard]] const Cell& cell(std::size_t i) const noexcept { return (*ring_)[i % kCells]; }
-  /// The cell that holds s, sought forward from `hint` (or backward if it lies before).
+  /// The cell that contains s, searched forward from `hint` (backward if it lies before).
   [[nodiscard]] std::size_t find(double s_mm, std::size_t hint) const noexcept;
   /// Path length up to which cells are known.
   [[nodiscard]] double known_to_mm() const noexcept;
@@ -84,15 +84,15 @@ class LookAhead {
   [[nodiscard]] bool complete() const noexcept { return complete_; }
 
   [[nodiscard]] State state() const;
-  /// More cells than there are places start over.
+  /// More cells than the ring holds start over.
   void restore(const State& state) noexcept;
 
-  /// One cell added by hand (for paths that are extrapolated and not read).
+  /// Adds one cell by hand (for extrapolated paths).
   void append(Cell cell, double joint_limit_mm_s) noexcept;
 
  private:
   [[nodiscard]] Cell& at(std::size_t i) noexcept;
-  /// `segments`: those that this cycle may still read. False at the path's end.
+  /// `segments`: how many this cycle may still read. False at the path's end.
   bool add_next(kernel::signal::PathView path, int& segments) noexcept;
   void append_stop() noexcept;
   void take_from_arc(const kernel::signal::PathSegment& segment, Cell& cell) noexcept;

@@ -10,7 +10,7 @@ namespace steadyrest::contour::online {
 namespace geometry = math::geometry;
 using kernel::signal::Point;
 
-// Ed of the paper: √(ex² + ey² + ez²). It grows with the contour error but is not one.
+// The paper's Ed: √(ex² + ey² + ez²). It grows with the contour error but is not one.
 double nominal_error_mm(const kernel::signal::Frame& frame) noexcept {
   double squares = 0.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, frame.axis_count); ++i) {
@@ -20,7 +20,7 @@ double nominal_error_mm(const kernel::signal::Frame& frame) noexcept {
 }
 
 // ε = R − √(R² − Ed²) for equal gains, without knowing them: command, actual point and centre form
-// a right triangle with Ed as one leg. Beyond R it has no meaning and is held at R.
+// a right triangle with Ed as one leg. Beyond R it is meaningless and held at R.
 double arc_identity_mm(double nominal_error_mm, double radius_mm) noexcept {
   const double r = std::abs(radius_mm);
   const double e = std::min(std::abs(nominal_error_mm), r);
@@ -37,13 +37,13 @@ Point corrected_offset_mm(const Point& error_mm, const Point& tangent,
                           const Point& curvature_1_mm) noexcept {
   const double along = geometry::dot(error_mm, tangent);
   const Point normal = tangential_error_mm(error_mm, tangent);
-  // Going back by `along` the path itself leaves its tangent by along²/2·κ⃗, towards the centre.
+  // Over `along` backwards, the path leaves its tangent by along²/2·κ⃗ towards the centre.
   return geometry::add_scaled(geometry::scale(normal, -1.0), curvature_1_mm, -0.5 * along * along);
 }
 
-// Three points a fixed length apart make a circle: the turn from the first chord to the second
-// over half of their length is κ⃗. Spaced by distance, not by time, so that slow motion does not
-// let rounding decide.
+// Three points a fixed length apart define a circle: the turn from the first chord to the second,
+// over half their length, is κ⃗. Spaced by distance, not by time, so that rounding does not
+// dominate slow motion.
 CommandedCurve::Output CommandedCurve::update(const Point& command_mm) noexcept {
   Output output;
   if (!geometry::is_finite(command_mm)) {
@@ -82,7 +82,7 @@ CommandedCurve::Output CommandedCurve::update(const Point& command_mm) noexcept 
   const Point turn = geometry::scale(geometry::subtract(t2, t1), 2.0 / (l1 + l2));
   // The chord's direction is the tangent half a chord ago.
   output.tangent = geometry::unit(geometry::add_scaled(t2, turn, 0.5 * l2));
-  // The turn points to the centre as seen from the middle point: its direction moves on with the
+  // The turn points to the centre as seen from the middle point: its direction advances with the
   // tangent, its size stays.
   const Point across =
       geometry::add_scaled(turn, output.tangent, -geometry::dot(turn, output.tangent));

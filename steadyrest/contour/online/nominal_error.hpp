@@ -10,18 +10,18 @@
 ///
 /// e = command − actual, t the unit direction of travel, R the radius of the commanded arc:
 ///
-/// | estimate | law | good for |
-/// |---|---|---|
-/// | nominal (tracking error norm) | Ed = √(e_x² + e_y² + e_z²) | what the paper controls; grows
-/// with the contour error but overstates it by 2R/Ed on arcs, without bound on lines | | arc
-/// identity | ε = R − √(R² − Ed²) ≈ Ed²/(2R) | arcs with equal gains and no feed-forward, steady
-/// state: exact, needs no gain | | tangential | n = e − (e·t)·t | lines and gentle curves; on an
-/// arc with lag it is Ed²/R, about twice too large | | corrected tangential | ε⃗ = −n − (e·t)²/2·κ⃗ |
-/// any curve while (e·t) ≪ R; κ⃗ is the curvature vector at the commanded point |
+///   nominal (norm of the tracking error)  Ed = √(e_x² + e_y² + e_z²): what the paper controls;
+///       grows with the contour error but overstates it by 2R/Ed on arcs, without bound on lines
+///   arc identity  ε = R − √(R² − Ed²) ≈ Ed²/(2R): for arcs with equal gains and no feed-forward in
+///       steady state: exact, needs no gain
+///   tangential  n = e − (e·t)·t: for lines and gentle curves; on an arc with lag it is Ed²/R,
+///       about twice too large
+///   corrected tangential  ε⃗ = −n − (e·t)²/2·κ⃗: for any curve while (e·t) ≪ R; κ⃗ is the
+///       curvature vector at the commanded point
 ///
-/// Sign of the arc identity: + towards the centre, as lag always pulls; a negative radius gives the
-/// mirrored sign. It cannot see an oversize (feed-forward, velocity-loop lag); the corrected
-/// tangential estimate can. Ends: |e·t| < R/2, steady curvature over the lag.
+/// Sign of the arc identity: + towards the centre, the direction of lag; a negative radius gives
+/// the mirrored sign. It cannot see an oversize (feed-forward, velocity-loop lag); the corrected
+/// tangential estimate can. Limits: |e·t| < R/2, steady curvature over the lag.
 ///
 /// Source: Jin, Zhang, Ding (Ed); Koren and Lo, CIRP Annals 40/1 (1991); Yeh and Hsu (tangential).
 namespace steadyrest::contour::online {
@@ -29,7 +29,8 @@ namespace steadyrest::contour::online {
 /// Norm of the following errors of the first three axes that the frame holds.
 [[nodiscard]] double nominal_error_mm(const kernel::signal::Frame& frame) noexcept;
 
-/// R − √(R² − Ed²) with the sign of R; beyond Ed = |R| the identity has no solution: |R| is given.
+/// R − √(R² − Ed²) with the sign of R; beyond Ed = |R| the identity has no solution and |R| is
+/// returned.
 [[nodiscard]] double arc_identity_mm(double nominal_error_mm, double radius_mm) noexcept;
 
 /// n = e − (e·t)·t; t must be a unit vector.
@@ -42,7 +43,7 @@ namespace steadyrest::contour::online {
     const kernel::signal::Point& error_mm, const kernel::signal::Point& tangent,
     const kernel::signal::Point& curvature_1_mm) noexcept;
 
-/// Direction and curvature of the command, from its last points alone.
+/// Direction and curvature of the command, from its most recent points only.
 ///
 /// Three points half of `span_mm` apart fix a circle; the turn of the chords over their mean
 /// length is its curvature. Good to (span/R)²/24; at corners it shows the mean over the span.

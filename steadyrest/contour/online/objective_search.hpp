@@ -6,15 +6,15 @@
 
 namespace steadyrest::contour::online {
 
-/// The step of a table with the least value, one look at a time, so that it can be left and taken
-/// up again.
+/// Finds the step of a table with the lowest value, one look at a time, so that it can be
+/// interrupted and resumed.
 ///
-/// Up to `exhaustive_steps` all are looked at; more in strides of kStride, then ever closer around
-/// the best: where the values have one valley the best is found. Values that differ by no
-/// more than `tie` are equal; among equals the highest step wins.
+/// Up to `exhaustive_steps` it looks at all; in larger tables in strides of kStride, then ever
+/// closer around the best: where the values form one valley it finds the best. Values within `tie`
+/// of each other are equal; among equals the highest step wins.
 class ObjectiveSearch {
  public:
-  /// n/s + 2·log₂ s looks: of 64 steps 14 at s = 8, 20 at 4, 12 at 16, which sees only every
+  /// n/s + 2·log₂ s looks: for 64 steps 14 at s = 8, 20 at 4, 12 at 16, which sees only every
   /// sixteenth step of a narrow valley.
   static constexpr std::size_t kStride = 8;
 
@@ -24,9 +24,9 @@ class ObjectiveSearch {
     stride_ = steps <= exhaustive_steps ? 1 : kStride;
   }
   [[nodiscard]] bool done() const noexcept { return stride_ == 0; }
-  /// The step to look at, unless done.
+  /// The next step to look at, unless done.
   [[nodiscard]] std::size_t next() const noexcept { return next_; }
-  /// What that step is worth.
+  /// Reports that step's value.
   void tell(double value, double tie) noexcept {
     if (value < least_ - tie || (value <= least_ + tie && next_ >= best_)) {
       best_ = next_;

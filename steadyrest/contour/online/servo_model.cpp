@@ -16,12 +16,12 @@ namespace {
 
 using kernel::signal::Frame;
 
-// k₀/3 … 3·k₀. A file that is further off is to be corrected: test NeverLeavesItsBounds….
+// k₀/3 … 3·k₀. A file further off needs correcting: test NeverLeavesItsBounds….
 constexpr double kGainSpan = 3.0;
-// Of a window that is worth a row: 0.3 counts of 1 µm are 1.5 % of it, about what row_noise_ratio
-// says of the law. Test NeedsFiftiethsOfAMillimetre….
+// Travel that makes a window worth a row: 0.3 counts of 1 µm are 1.5 % of it, about
+// row_noise_ratio's figure for the law. Test NeedsFiftiethsOfAMillimetre….
 constexpr double kMinTravelMm = 0.02;
-// A missing sample, 2 periods, ends the window; up to 1.9 it is late. Test AMissingSample….
+// A missing sample, 2 periods, ends the window; up to 1.9 it is merely late. Test AMissingSample….
 constexpr double kMaxGapRatio = 1.9;
 // Of the drive's limit; the rest is for friction and cutting force, which the command does not
 // show. Test LearnsBelowFourFifths….
@@ -92,7 +92,7 @@ ServoModel::ServoModel(const Config& config) noexcept : config_(config) {
   }
 }
 
-// Positions count from the window's start: what is large cancels before it is summed.
+// Positions count from the window's start: large values cancel before they are summed.
 void ServoModel::open_window(const Frame& frame) noexcept {
   state_.elapsed_s = 0.0;
   state_.samples = 0;
@@ -134,7 +134,7 @@ bool ServoModel::update(const Frame& frame) noexcept {
     if (state_.samples == 0) {
       axis.first_step_mm = step;
     }
-    // Simpson's rule on each interval with the mid value taken as the mean of both ends.
+    // Simpson's rule on each interval, the mid value being the mean of both ends.
     const double h = 0.5 * dt;
     const double xa = axis.last_x - axis.x0;
     const double xb = x - axis.x0;
@@ -174,8 +174,8 @@ bool ServoModel::close_window() noexcept {
   return renewed;
 }
 
-// What teaches nothing: standstill, a reversal (friction, backlash), travel of a few counts, a
-// drive near its limit (the law is linear, a saturated drive is not).
+// These teach nothing: standstill, a reversal (friction, backlash), travel of a few counts, a drive
+// near its limit (the law is linear, a saturated drive is not).
 bool ServoModel::learn(std::size_t i) noexcept {
   AxisState& axis = state_.axis[i];
   const AxisModel& prior = config_.prior[i];
@@ -202,8 +202,8 @@ bool ServoModel::learn(std::size_t i) noexcept {
 
   const double y = speed_x + prior.velocity_lag_s * acceleration_x;
   const double residual = y - axis.model.gain_1_s * error - axis.model.feed_forward * speed_c;
-  // Huber's weight: a row that is off by more than twice what rows lately were off by counts by
-  // its size, not by its square.
+  // Huber's weight: a row more than twice as far off as recent rows counts by its size, not by its
+  // square.
   const double size = std::abs(residual) / std::max(std::abs(y), 1e-9);
   const double expected = std::max(axis.residual_ratio, config_.row_noise_ratio);
   const double huber = std::min(1.0, 2.0 * expected / std::max(size, 1e-12));
@@ -211,8 +211,8 @@ bool ServoModel::learn(std::size_t i) noexcept {
 
   const double sigma = config_.row_noise_ratio * std::abs(y) + 0.3 * count + 1e-9;
   const double weight = huber / (sigma * sigma);
-  // Forgets towards the prior: information that fades is replaced by the machine file's, so that a
-  // direction which the motion does not excite (at constant speed, k against a) does not drift.
+  // Forgets towards the prior: the machine file's information replaces what fades, so that a
+  // direction the motion does not excite (at constant speed, k against a) does not drift.
   const double keep = std::exp(-window / config_.memory_s);
   const double p1 = 1.0 / (config_.prior_gain_ratio * prior.gain_1_s);
   const double p2 = 1.0 / config_.prior_feed_forward;
@@ -227,10 +227,10 @@ bool ServoModel::learn(std::size_t i) noexcept {
   return true;
 }
 
-/// Minimum of the quadratic form within the bounds: free, else on the edge that it violates.
-/// The quadratic form is convex: where the free minimum lies outside of the box, the bounded one
-/// lies on an edge, and along an edge it is a division. One pass over both edges suffices here,
-/// since feed-forward is clamped again on the gain's edge.
+/// Minimum of the quadratic form within the bounds: free, else on the edge that it violates. The
+/// form is convex: where the free minimum lies outside the box, the bounded one lies on an edge,
+/// and along an edge it takes one division. One pass over both edges suffices here, since
+/// feed-forward is clamped again on the gain's edge.
 void ServoModel::solve(std::size_t i) noexcept {
   AxisState& axis = state_.axis[i];
   const double low = config_.prior[i].gain_1_s / kGainSpan;

@@ -19,7 +19,7 @@ struct AxisModel {
   double velocity_lag_s = 0.0;  ///< τ
 };
 
-/// Identifies servo gain k and feed-forward a of each axis while the machine works.
+/// Identifies servo gain k and feed-forward a of each axis while the machine cuts.
 ///
 /// Law. The axis obeys τ·ẍ + ẋ = k·e + a·ċ, e = c − x. Multiplied by φ(t) = 4t(T − t)/T², which
 /// vanishes at both ends of a window T, and integrated by parts:
@@ -28,15 +28,16 @@ struct AxisModel {
 /// functions, Shinbrot 1957). Each window is one row y = k·p + a·q of a recursive least-squares
 /// estimate in information form that forgets towards the prior, not towards nothing:
 ///   Λ ← λΛ + (1 − λ)Λ₀ + φφᵀ/σ²,   λ = exp(−T/memory).
-/// Λ ≥ (1 − λ)·Λ₀-share always, so the covariance is bounded: at constant speed, where only
-/// (1 − a)/k shows, the direction that shows is learnt and the prior holds the other one. Rows are
-/// weighted down (Huber) when their residual is large against the recent ones.
+/// Λ ≥ (1 − λ)·Λ₀-share always, so the covariance is bounded: at constant speed, where only (1 −
+/// a)/k shows, that direction is learnt and the prior holds the other one. Rows with a residual
+/// large against the recent ones get less weight (Huber).
 ///
-/// τ is not identified; it is the machine file's. Gates: no row from standstill, reversals
+/// τ is not identified; it comes from the machine file. Gates: no row from standstill, reversals
 /// (backlash, stiction), a saturated drive, gaps in time. The estimate never leaves k₀/3 … 3·k₀ and
 /// 0 … 1.
 ///
-/// Converges: with a gain of 42 where the file says 50, within 1 % after 0.3 s of steady motion.
+/// Converges: with a true gain of 42 and 50 in the file, to within 1 % after 0.3 s of steady
+/// motion.
 class ServoModel {
  public:
   struct Config {
@@ -48,7 +49,7 @@ class ServoModel {
     double memory_s = 2.0;                                       ///< forgetting; > window
     double prior_gain_ratio = 0.3;     ///< standard deviation of k₀ over k₀
     double prior_feed_forward = 0.03;  ///< standard deviation of a₀
-    double row_noise_ratio = 0.01;     ///< what the law leaves out, over the travel of a window
+    double row_noise_ratio = 0.01;     ///< error of the law over the travel of a window
   };
 
   /// One axis' running sums and information; plain values.
@@ -80,9 +81,9 @@ class ServoModel {
   static kernel::outcome::Result<ServoModel> make(std::span<const kernel::machine::Axis> axes,
                                                   double interpolator_period_s);
 
-  /// One cycle. True when some axis' model was renewed.
+  /// One cycle. True when some axis's model was renewed.
   bool update(const kernel::signal::Frame& frame) noexcept;
-  /// Nothing is learnt until the next update; use while the input cannot be trusted.
+  /// Learns nothing until the next update; for use while the input cannot be trusted.
   void pause() noexcept { state_.started = false; }
 
   [[nodiscard]] const AxisModel& axis(std::size_t i) const noexcept { return state_.axis[i].model; }

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <optional>
 
-/// The largest admissible step of a table: every one of them, or with few looks.
+/// The largest admissible step of a table: looking at every step, or at few.
 namespace steadyrest::contour::online {
 
 /// From the highest down: the first admissible one is the largest, whatever the order of their
-/// errors. `may_go_on()` is asked before each look but the first; nothing where none is found.
+/// errors. Asks `may_go_on()` before each look but the first; empty if none is found.
 template <class Admissible, class MayGoOn>
 std::optional<std::size_t> first_admissible_below(std::size_t top, Admissible&& admissible,
                                                   MayGoOn&& may_go_on) {
@@ -25,9 +25,9 @@ std::optional<std::size_t> first_admissible_below(std::size_t top, Admissible&& 
 }
 
 /// From `start` ≤ `top` in strides that double until the answer changes, then by halves: at most
-/// 2·log₂(n) + 2 looks, two where nothing changes. It is the largest where a slower step is
-/// admissible whenever a faster one is. Where it is not, the step found is admissible all the same,
-/// but a faster one may be passed over. Once it may not go on, the best that is known stays.
+/// 2·log₂(n) + 2 looks, two where nothing changes. The result is the largest where a slower step is
+/// admissible whenever a faster one is. Otherwise the step found is still admissible, but a faster
+/// one may be missed. When `may_go_on()` says no, the best one known remains.
 template <class Admissible, class MayGoOn>
 std::optional<std::size_t> largest_admissible_near(std::size_t start, std::size_t top,
                                                    Admissible&& admissible, MayGoOn&& may_go_on) {

@@ -15,10 +15,10 @@ struct Nearest {
   double distance_mm = 0.0;
   double u = 0.0;  ///< parameter on the piece
   kernel::signal::Point point_mm{};
-  bool complete = true;  ///< every piece of the window was evaluated or ruled out
+  bool complete = true;  ///< every piece of the window was evaluated or excluded
 };
 
-/// The piece that holds `position`, sought from `hint` in steps that double, then by halves.
+/// The piece that contains `position`, searched from `hint` in steps that double, then by halves.
 template <class Pieces>
 [[nodiscard]] std::size_t find_piece(const Pieces& pieces, std::size_t hint,
                                      double position_mm) noexcept {
@@ -46,10 +46,9 @@ template <class Pieces>
 
 /// The global minimum of the distance to `query` on the path lengths low…high.
 ///
-/// The distance changes at most as fast as the path length. So when a piece begins at distance d
-/// and the best so far is b, no point within the next d − b can be nearer: the search leaps over
-/// it. It begins at `guess_mm`, goes forward, then backward, and evaluates at most `max_feet`
-/// pieces.
+/// The distance changes at most as fast as the path length. When a piece begins at distance d and
+/// the best so far is b, no point within the next d − b can be nearer: the search leaps over it. It
+/// begins at `guess_mm`, goes forward, then backward, and evaluates at most `max_feet` pieces.
 ///
 /// `Pieces` has size(), begin_mm(i), end_mm(i), start(i), end(i) and
 /// foot(i, query, low, high, guess) → Nearest on that piece clipped to the window.
@@ -83,7 +82,7 @@ template <class Pieces>
       i = pieces.size();
       break;
     }
-    // The landing piece has not been seen from its start on: evaluate it as a whole.
+    // The landing piece has not been seen from its start: evaluate all of it.
     i = find_piece(pieces, i, free_to);
     look(i);
   }

@@ -16,11 +16,11 @@
 
 #include <steadyrest/kernel/file/output_file.hpp>
 
-// Order on disk: write beside the target, fsync the content, give it a name, rename, fsync the
-// folder. A crash before the rename leaves the old file, one after it the new; content before
-// name, or a power cut could leave a renamed file that is empty.
-// A program that declares its outputs gets them all or none: they wait settled in the ledger and
-// are renamed together at its end.
+// Order on disk: write next to the target, fsync the content, give it a name, rename, fsync the
+// folder. A crash before the rename leaves the old file, one after it the new. The content goes to
+// disk before the name; otherwise a power cut could leave a renamed but empty file. A program that
+// declares its outputs gets all of them or none: they wait settled in the ledger and are renamed
+// together at its end.
 namespace steadyrest::kernel::file {
 namespace {
 
@@ -28,7 +28,7 @@ using outcome::Kind;
 using outcome::Refusal;
 using outcome::Result;
 
-/// What the process has written, for the one answer at its end, and what waits for it.
+/// What the process has written, for the single report at its end, and what waits for it.
 struct Ledger {
   std::mutex mutex;
   std::vector<Written> files;
@@ -40,14 +40,14 @@ struct Ledger {
   }
 };
 
-// A function's static: made at the first use, whatever the order of initialisation.
+// Function-local static: made at first use, whatever the order of initialisation.
 Ledger& ledger() {
   static Ledger all;
   return all;
 }
 
-/// In the target's folder, so that the rename stays within a file system; short, so that no name is
-/// too long for it.
+/// In the target's folder, so that the rename stays within one file system; short, so that it fits
+/// wherever the target's own name does.
 std::string name_beside(const Place& place) {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz012345";
   constexpr int kLength = 12;
@@ -59,7 +59,8 @@ std::string name_beside(const Place& place) {
   return (place.path.parent_path() / name).string();
 }
 
-// The rename is in the folder, so the folder must reach the disk. Failure is no fault of the file.
+// The rename is an entry in the folder, so the folder must reach the disk. A failure here is not
+// the file's.
 void sync_folder(const std::filesystem::path& folder) {
   if (const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
       descriptor >= 0) {
@@ -99,7 +100,7 @@ OutputFile OutputFile::standard_output() {
   OutputFile made;
   made.name_ = "stdout";
   made.place_.kind = Place::Kind::standard_output;
-  // What the program has printed must come before what is written past stdio.
+  // What the program has printed must come before anything written past stdio.
   std::fflush(stdout);
   made.descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
   made.error_ = made.descriptor_ < 0 ? errno : 0;
@@ -107,8 +108,8 @@ OutputFile OutputFile::standard_output() {
 }
 
 Result<void> OutputFile::make_beside() {
-  // Without a name nothing is left behind even by SIGKILL and a power cut. Not every file system
-  // can do it, and the name that it gets at last is given through /proc.
+  // Without a name nothing is left behind even by SIGKILL or a power cut. Not every file system can
+  // do it, and the file gets its final name through /proc.
   descriptor_ = ::open(place_.path.parent_path().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   path_ = fmt::format("/proc/{}/fd/{}", ::getpid(), descriptor_);
   if (descriptor_ >= 0 && ::access(path_.c_str(), F_OK) != 0) {
@@ -128,7 +129,7 @@ Result<void> OutputFile::make_beside() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   if (replaces && (before.st_uid != ::geteuid() || before.st_gid != ::getegid())) {
-    // Who may not give a file away keeps it: the rights below still hold.
+    // Without the right to change the owner the file stays ours; the permissions below still hold.
     static_cast<void>(::fchown(descriptor_, before.st_uid, before.st_gid) == 0);
   }
   if (::fchmod(descriptor_, replaces ? before.st_mode & 07777U : 0666U & ~mask) != 0) {
@@ -163,7 +164,7 @@ void OutputFile::write(std::string_view bytes) noexcept {
   }
 }
 
-// The first error sticks and is told at the end: callers write in loops and cannot handle each.
+// The first error sticks and is reported at the end: callers write in loops and cannot handle each.
 void OutputFile::put() noexcept {
   bytes_ += held_.size();
   lines_ += static_cast<std::uintmax_t>(std::ranges::count(held_, '\n'));
@@ -186,7 +187,7 @@ Result<void> OutputFile::flush() {
   return {};
 }
 
-// Everything that can fail for want of space fails here, before any name changes.
+// Whatever can fail for lack of space fails here, before any name changes.
 Result<void> OutputFile::settle() {
   if (auto flushed = flush(); !flushed) {
     return flushed;
@@ -202,14 +203,14 @@ Result<void> OutputFile::take_name() {
     return {};
   }
   if (place_.kind == Place::Kind::file && beside_.path().empty()) {
-    // Only now does it get a name, and only for an instant; it is removed if the process ends.
+    // It gets a name only now, and only for an instant; it is removed if the process ends.
     beside_ = Temporary(name_beside(place_), Temporary::Kind::file);
     const std::string unnamed = std::exchange(path_, beside_.path());
     if (::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
       error_ = errno;
     }
   }
-  // Some file systems (NFS) report a full disk no sooner than at close.
+  // Some file systems (NFS) report a full disk only at close.
   if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) {
     error_ = errno;
   }
@@ -243,8 +244,8 @@ void OutputFile::let_stay() {
   if (place_.kind != Place::Kind::file) {
     return;
   }
-  // Renamed, the temporary name is gone: nothing to remove. Exchanged, it holds the old content,
-  // which goes with the object.
+  // After a rename the temporary name is gone: nothing to remove. After an exchange it holds the
+  // old content, which is removed with the object.
   if (!exchanged_) {
     beside_.keep();
   }
@@ -276,8 +277,8 @@ Refusal OutputFile::refusal(int error) const {
               : "check the program that reads it, and the disk space"};
 }
 
-// Signals wait while names change: half of the outputs renamed is what must never be seen. First
-// all names, then all renames, so that what can fail comes early.
+// Signals wait while names change: nobody must ever see half of the outputs renamed. All names come
+// first, then all renames, so that whatever can fail fails early.
 Result<void> put_in_place(std::span<OutputFile> settled) {
   const SignalsHeldBack all_or_none;
   for (OutputFile& file : settled) {

@@ -75,27 +75,27 @@ struct FileText {
   std::string text;
 };
 
-/// Renames these, which have been settled: all or none, whatever fails and whatever signal comes.
-/// Where the file system cannot exchange two names, a rename that fails leaves those before it.
+/// Renames these settled files: all or none, whatever fails and whatever signal arrives. Where the
+/// file system cannot exchange two names, a failed rename leaves the earlier ones in place.
 [[nodiscard]] outcome::Result<void> put_in_place(std::span<OutputFile> settled);
 
-/// The outputs of a program: from now on commit() leaves these files to put_outputs_in_place(), so
-/// that all of them take their places together or none does, and written_files() tells these alone.
+/// Declares a program's outputs: from now on commit() leaves these files to put_outputs_in_place(),
+/// so that either all of them are put in place or none, and written_files() lists only these.
 void declare_outputs(std::span<const std::string> files);
 [[nodiscard]] outcome::Result<void> put_outputs_in_place();
 
-/// Writes whole files; none is renamed before all are on the disk.
+/// Writes whole files; renames none before all are on the disk.
 [[nodiscard]] outcome::Result<void> write_files(std::span<const FileText> files);
 [[nodiscard]] outcome::Result<void> write_file(const std::string& file, std::string_view text);
 
-/// A file that has been put in its place by this process.
+/// A file that this process has put in place.
 struct Written {
   std::string file;  ///< as the user named it
   std::uintmax_t bytes = 0;
   std::uintmax_t lines = 0;
 };
 
-/// All of them, in their order: what a verb says that it has written.
+/// All of them, in order: what a verb reports as written.
 [[nodiscard]] std::vector<Written> written_files();
 
 }  // namespace steadyrest::kernel::file

@@ -8,7 +8,7 @@
 
 #include <steadyrest/kernel/file/place.hpp>
 
-// Where a name leads to, and whether it can be written, before hours of work begin.
+// Where a name leads, and whether it can be written, before hours of work begin.
 namespace steadyrest::kernel::file {
 namespace {
 
@@ -24,10 +24,9 @@ std::unexpected<Refusal> refuse(const std::string& name, Kind kind, std::string 
   return std::unexpected(Refusal{kind, name, 0, std::move(what), std::move(to_do)});
 }
 
-/// The file's own name in its own folder; what is wrong when the links go round or there is no such
-/// folder.
-/// By hand, link by link: canonical() refuses a target that does not exist yet, and the rename must
-/// hit the file, not the link.
+/// The file's own name in its own folder, or the error when links go round in circles or the folder
+/// is missing. Link by link: canonical() refuses a target that does not exist yet, and the rename
+/// must replace the file, not the link.
 std::expected<fs::path, std::error_code> resolved(const fs::path& name) {
   std::error_code error;
   fs::path at = name;
@@ -49,7 +48,7 @@ std::expected<fs::path, std::error_code> resolved(const fs::path& name) {
   return folder / at.filename();
 }
 
-/// A terminal, a pipe or a file that stdout is redirected to; /dev/null is nobody's own.
+/// A terminal, a pipe or a file that stdout is redirected to; /dev/null never counts.
 bool is_standard_output(const struct ::stat& found) {
   struct ::stat out{};
   return ::fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == found.st_dev &&
@@ -105,7 +104,7 @@ Result<Place> place_of(const std::string& name) {
                   "create the folder first, or name another");
   }
   place.path = *file;
-  // root may write everything; a file that nobody may write is write-protected for root as well.
+  // root may write anything; a file that nobody may write counts as write-protected for root too.
   const bool nobody = place.exists && (found.st_mode & 0222U) == 0;
   const int denied = place.exists && ::access(file->c_str(), W_OK) != 0 ? errno : 0;
   if (nobody || denied != 0) {
@@ -121,8 +120,8 @@ Result<Place> place_of(const std::string& name) {
   return place;
 }
 
-// Innermost missing folder first on the list, made from the outermost on; each is removed again by
-// its object if it stays empty.
+// Lists missing folders innermost first and makes them outermost first; each is removed by its
+// object if it stays empty.
 Result<MadeFolders> MadeFolders::make(const fs::path& folder) {
   const std::string name = folder.string();
   std::error_code error;
@@ -141,7 +140,7 @@ Result<MadeFolders> MadeFolders::make(const fs::path& folder) {
       continue;
     }
     made.keep();
-    if (why != EEXIST) {  // `a/.` is there once `a` is
+    if (why != EEXIST) {  // `a/.` exists once `a` does
       return refuse(name, Kind::bad_input,
                     "failed to create the folder: " + std::generic_category().message(why),
                     "name another folder");
@@ -165,8 +164,8 @@ MadeFolders::~MadeFolders() {
   }
 }
 
-// Device and inode where both exist: hard links and mounts have many names. Otherwise the resolved
-// names.
+// Device and inode where both exist, since hard links and mounts have many names; otherwise the
+// resolved names.
 bool same_place(const std::string& one, const std::string& other) {
   struct ::stat a{};
   struct ::stat b{};

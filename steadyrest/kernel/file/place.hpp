@@ -15,16 +15,16 @@ struct Place {
   enum class Kind {
     file,             ///< a file, there or not: written beside and renamed
     stream,           ///< a pipe or a character device: written as it arises
-    standard_output,  ///< what the process's own stdout is: the same
+    standard_output,  ///< the process's own stdout
   };
   Kind kind = Kind::file;
   std::filesystem::path path;  ///< of a file: absolute, without links; otherwise as it was named
   bool exists = false;
 };
 
-/// Resolves a name as the user gave it, with links followed, also one that leads to no file yet.
-/// Refused: an empty name, a folder, a block device, a folder that is missing or cannot be written,
-/// a file that may not be written (also to root, when nobody may).
+/// Resolves a name as the user gave it, following links, including one whose target does not exist
+/// yet. Refused: an empty name, a folder, a block device, a folder that is missing or cannot be
+/// written, a file that may not be written (for root too, when nobody may).
 [[nodiscard]] outcome::Result<Place> place_of(const std::string& name);
 
 /// What is wrong with an output that may not be written, and what to do.
@@ -32,18 +32,18 @@ struct Unwritable {
   std::string what;
   std::string to_do;
 };
-/// By the system's error; `thing`: "file" or "folder". Only a lack of permission is called so.
+/// From the system's error; `thing`: "file" or "folder". Blames permissions only where they are
+/// missing.
 [[nodiscard]] Unwritable unwritable(const std::string& thing, int error);
 
-/// Both names lead to the same file, by whatever spelling or links. False where either is a
+/// Both names lead to the same file, whatever the spelling or links. False where either is a
 /// character device or cannot be resolved.
 [[nodiscard]] bool same_place(const std::string& one, const std::string& other);
 
-/// Folders that were made for files to come; those that are still empty go with this object.
+/// Folders made for files to come; those still empty are removed with this object.
 class MadeFolders {
  public:
-  /// Makes the folder and those above it where they are missing. Refused: what cannot be made or
-  /// written.
+  /// Makes the folder and any missing ones above it. Refused: what cannot be made or written.
   static outcome::Result<MadeFolders> make(const std::filesystem::path& folder);
   MadeFolders(MadeFolders&&) = default;
   MadeFolders& operator=(MadeFolders&&) = default;

@@ -9,8 +9,8 @@
 
 #include <steadyrest/kernel/file/temporary.hpp>
 
-// Two ways to go: the object removes its file, and a signal handler removes all that are
-// registered. SIGKILL knows neither, which is why output_file prefers files without a name.
+// Two ways to remove it: the object removes its file, and a signal handler removes all that are
+// registered. Neither survives SIGKILL, which is why output_file prefers files without a name.
 namespace steadyrest::kernel::file {
 namespace {
 
@@ -21,8 +21,8 @@ struct Slot {
   std::array<char, 4096> path{};
 };
 
-// A signal handler may neither allocate nor lock. A verb has at most a handful open at a time; one
-// more than this table holds is removed by its object alone.
+// A signal handler may neither allocate nor lock. A verb has at most a handful open at a time; any
+// beyond this table is removed by its object alone.
 std::array<Slot, 16> slots;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 static_assert(std::atomic<Use>::is_always_lock_free);
 
@@ -38,15 +38,15 @@ std::optional<std::size_t> occupy(const std::string& path, Temporary::Kind kind)
   return std::nullopt;
 }
 
-// A signal comes to any thread, so that none can block it for the process. Each side first says
-// what it is about to do and then asks the other: of the two at least one gives way.
+// A signal may arrive on any thread, so no thread can block it for the whole process. Each side
+// first announces what it is about to do, then checks the other, so at least one gives way.
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<int> held_back = 0;  ///< objects of SignalsHeldBack
 std::atomic<int> ending = 0;     ///< the signal that came
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
-// Only async-signal-safe calls: unlink, rmdir, signal, raise. It ends by the same signal, so that
-// the shell sees why.
+// Async-signal-safe calls only: unlink, rmdir, signal, raise. The process ends by the same signal,
+// so that the shell sees why.
 extern "C" void remove_and_end(int signal) {
   ending = signal;
   if (held_back > 0) {
@@ -98,7 +98,7 @@ void Temporary::remove() noexcept {
   keep();
 }
 
-// The slot first, then the path: the handler must not see a name that is no longer ours.
+// Slot first, then path: the handler must not see a name that is no longer ours.
 void Temporary::keep() noexcept {
   if (slot_) {
     slots[*slot_].use = Use::free;
@@ -121,7 +121,8 @@ void remove_temporaries_on_signals() {
       ::sigaction(signal, &now, nullptr);
     }
   }
-  // A closed pipe or a full quota is then an error of write(), with a refusal that names the file.
+  // A closed pipe or a full quota then becomes an error of write(), with a refusal that names the
+  // file.
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
 }

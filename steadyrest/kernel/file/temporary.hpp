@@ -7,10 +7,10 @@
 
 namespace steadyrest::kernel::file {
 
-/// A file or an empty folder that is to go unless it is kept: with this object, and also when a
+/// A file or an empty folder that is removed unless it is kept: with this object, and also when a
 /// signal ends the process (remove_temporaries_on_signals).
 ///
-/// The name is registered before anything of that name is made, so no instant is without cover.
+/// The name is registered before anything of that name is made, so there is no gap in the cover.
 /// Only SIGKILL and a power cut can leave it behind.
 class Temporary {
  public:
@@ -36,12 +36,12 @@ class Temporary {
   std::optional<std::size_t> slot_;  ///< in the table of the signal handler
 };
 
-/// For a program's start: SIGINT, SIGTERM, SIGHUP and SIGQUIT remove all temporaries and then end
-/// the process as they always do (a signal that is ignored stays ignored). A closed pipe and a file
+/// Called at a program's start: SIGINT, SIGTERM, SIGHUP and SIGQUIT remove all temporaries and then
+/// end the process as usual (a signal that is ignored stays ignored). A closed pipe and a file
 /// above the permitted size become errors of write() instead of signals.
 void remove_temporaries_on_signals();
 
-/// Holds those signals back while it lives: the process ends with the object, not before.
+/// Holds those signals back while it lives: the process ends when the object goes, not before.
 class SignalsHeldBack {
  public:
   SignalsHeldBack() noexcept;

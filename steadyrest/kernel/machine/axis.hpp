@@ -22,8 +22,8 @@ struct Encoder {
   double count_mm = 0.001;        ///< length of one count after ×4 decoding; 0 = ideal
   double line_error_mm = 0.0;     ///< amplitude of the error that repeats with each line
   double line_period_mm = 0.004;  ///< length of one line
-  // The calibration, motion::online::LineTable: line k stands at k·count_mm + phase_error_mm[k mod
-  // 4] + line_table_mm[k − line_table_first].
+  // The calibration, motion::online::LineTable: line k lies at k·count_mm + phase_error_mm[k mod 4]
+  // + line_table_mm[k − line_table_first].
   std::vector<double> phase_error_mm;  ///< none or 4, their sum 0
   std::int64_t line_table_first = 0;   ///< line of the first entry
   bool line_table_periodic = false;    ///< the table is one revolution
@@ -34,7 +34,7 @@ struct Encoder {
 struct Axis {
   std::string name = "X";  ///< X Y Z A B C U V W
   bool rotary = false;
-  bool present = true;  ///< false: stands in for a missing X, Y or Z (a lathe's Y) so that the
+  bool present = true;  ///< false: a placeholder for a missing X, Y or Z (a lathe's Y), so that the
                         ///< first three are X, Y, Z on every machine; its travel is 0…0
   double servo_gain_1_s = 50.0;   ///< position loop gain k
   double feed_forward = 0.0;      ///< weight a of the velocity feed-forward, 0…1

@@ -13,12 +13,12 @@ struct Chatter {
   bool enabled = false;
   SpeedLaw law = SpeedLaw::triangle;
   double amplitude_ratio = 0.10;  ///< of the mean speed, to either side
-  double amplitude_rev_s = 0.0;   ///< the same as a speed; 0 = `amplitude_ratio` counts
+  double amplitude_rev_s = 0.0;   ///< the same as a speed; 0 = use `amplitude_ratio`
   double period_s = 2.0;
   double mean_ratio = 1.0;                ///< of the programmed speed
   double min_feed_per_tooth_ratio = 0.8;  ///< of the programmed feed per tooth
   double max_feed_per_tooth_ratio = 1.2;
-  std::uint32_t m_code_on = 38;  ///< 0 = always on, the program has no say
+  std::uint32_t m_code_on = 38;  ///< 0 = always on, whatever the program says
   std::uint32_t m_code_off = 39;
   std::uint64_t seed = 1;
 };

@@ -20,7 +20,7 @@ struct Control {
   std::uint32_t look_ahead_blocks = 100;
   double corner_tolerance_mm =
       0.0;  ///< G64 without P; 0 = as fast as the junction allows on the exact path
-  double junction_deviation_mm = 0.01;  ///< bound on the speed at a corner of the exact path
+  double junction_deviation_mm = 0.01;  ///< sets the speed limit at a corner of the exact path
   double tool_change_s = 5.0;
   double centripetal_share = 0.866;  ///< share of the axes' acceleration that arcs may use across
                                      ///< the path; the rest is for speed changes
@@ -32,8 +32,8 @@ struct Control {
       1.0;  ///< share of an axis's acceleration that a corner of the exact path may use in one
             ///< period; below 1 the rest is what its neighbours keep
   double corner_acceleration_share =
-      1.0;  ///< continuous mode: what is left of the acceleration beside a corner that could not be
-            ///< rounded and before a stop
+      1.0;  ///< continuous mode: share of the acceleration available next to a corner that could
+            ///< not be rounded and before a stop
   double blend_gap_cycles = 0.0;  ///< what a corner arc leaves of the line before it keeps the
                                   ///< arc's limits when it is shorter than this many periods
   bool stop_between_rapid_and_feed = false;

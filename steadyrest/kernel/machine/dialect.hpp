@@ -11,8 +11,8 @@ namespace steadyrest::kernel::machine {
 /// The families of controls whose programs are read; consecutive from 0.
 enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
 
-/// As machine files and the command line write it: the one place of the names. A switch, so that
-/// the compiler names an enumerator that is forgotten here. Empty behind the last one.
+/// As machine files and the command line write it; the names are given only here. A switch, so that
+/// the compiler names an enumerator that is forgotten. Empty beyond the last one.
 [[nodiscard]] constexpr std::string_view name_of(Dialect dialect) noexcept {
   switch (dialect) {
     case Dialect::linuxcnc:

@@ -14,7 +14,7 @@ struct Envelope {
   double spindle_slew_1_s = 2.0;
   double max_offset_mm = 0.2;
   double offset_slew_mm_s = 0.05;
-  double stale_after_s = 0.1;  ///< older input is not acted on
+  double stale_after_s = 0.1;  ///< older input is ignored
 };
 
 }  // namespace steadyrest::kernel::machine

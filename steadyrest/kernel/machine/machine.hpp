@@ -16,8 +16,8 @@
 #include <steadyrest/kernel/machine/spindle.hpp>
 #include <steadyrest/kernel/machine/thermal.hpp>
 
-/// The machine's passport as values: what the machine file (TOML) says, converted once to the inner
-/// units.
+/// The machine's passport as values: the contents of the machine file (TOML), converted once to the
+/// inner units.
 ///
 /// The same values drive the simulated machine and the layer on the real one. Every field has a
 /// working default; the schema (`passport/keys/schema.cpp`) gives each key its unit and its range.
@@ -28,7 +28,7 @@ enum class Mode : std::uint8_t { observe, advise, act };
 
 struct Machine {
   std::string name = "machine";
-  std::string file;  ///< where it was read; empty when built in code
+  std::string file;  ///< the file it was read from; empty when built in code
   PortKind port = PortKind::sim;
   Mode mode = Mode::observe;
   Control control;

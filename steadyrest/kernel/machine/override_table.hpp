@@ -13,9 +13,9 @@ struct OverrideTable {
   Coding coding = Coding::gray;
   std::vector<double> ratio;        ///< by step, not decreasing; 1.0 = 100 %
   std::vector<std::uint32_t> code;  ///< as long as `ratio`; distinct
-  double scan_period_s = 0.01;      ///< the PLC looks at the word this often
+  double scan_period_s = 0.01;      ///< the PLC reads the word this often
   double dead_time_s = 0.0;         ///< from the scan until the interpolator acts
-  bool latched_word = true;  ///< the word takes effect as a whole; else neighbours are walked
+  bool latched_word = true;  ///< the word takes effect as a whole; else it walks step by step
   bool layer_may_exceed_panel = false;
   double max_ratio = 2.0;  ///< the control clips here
 };

@@ -12,7 +12,7 @@ struct Spindle {
   double inertia_kg_m2 = 0.01;
   double rated_power_w = 10e3;
   double max_torque_n_m = 70.0;
-  double rated_torque_n_m = kUnlimited;  ///< RMS, for ever (S1); without it the largest torque
+  double rated_torque_n_m = kUnlimited;  ///< RMS, continuous (S1); without it the largest torque
   double speed_tolerance_ratio = 0.10;   ///< band of the control's speed monitor about its
                                          ///< set-point; 0 = the control has none
 };

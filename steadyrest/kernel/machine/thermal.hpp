@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-/// The thermal passport of a machine as values; the law that uses them stands in
-/// thermal/README.md.
+/// The thermal passport of a machine as values; for the law that uses them see thermal/README.md.
 namespace steadyrest::kernel::machine {
 
 /// One thermal mode of one displacement: x' = (G(n) − x)/τ.
@@ -16,18 +15,18 @@ namespace steadyrest::kernel::machine {
 /// Σ polynomial_mm[p]·(n/1000 rpm)^(p+1); not both.
 struct ThermalMode {
   double tau_s = 3600.0;    ///< time constant while the spindle turns
-  double rest_tau_s = 0.0;  ///< while it stands; 0 = `tau_s`
+  double rest_tau_s = 0.0;  ///< while it is stopped; 0 = `tau_s`
   std::vector<double> speed_rev_s;
   std::vector<double> level_mm;       ///< as many as speeds
   std::vector<double> polynomial_mm;  ///< coefficients of n, n², …, n in 1000 rev/min
-  double cutting_ratio = 1.0;         ///< of the level, while feed moves are made
+  double cutting_ratio = 1.0;         ///< of the level, during feed moves
   double coolant_ratio = 1.0;         ///< of the level, with coolant
-  double feed_s = 0.0;                ///< added to the level for each mm/s of feed: mm/(mm/s)
+  double feed_s = 0.0;                ///< added to the level per mm/s of feed: mm/(mm/s)
   double tau_sd_ratio = 0.0;          ///< standard deviation of ln τ
   double state_mm = 0.0;              ///< x at the passport's `state_s`
 };
 
-/// The surroundings: displacement gain·(T_lagged − reference), T_lagged' = (T − T_lagged)/τ.
+/// Surroundings: displacement gain·(T_lagged − reference), T_lagged' = (T − T_lagged)/τ.
 struct ThermalAmbient {
   std::string sensor = "ambient";  ///< its column in a log
   double tau_s = 0.0;              ///< 0 = no lag
@@ -36,16 +35,16 @@ struct ThermalAmbient {
   double state_c = 20.0;  ///< T_lagged at the passport's `state_s`
 };
 
-/// The displacement of one axis, as a sum of modes and of what the surroundings do.
+/// The displacement of one axis: the sum of its modes and of the effect of the surroundings.
 struct ThermalAxis {
   std::string name = "Z";  ///< an axis of the machine, or a displacement that no axis corrects
   double noise_mm = 0.0;   ///< RMS of one reading
-  /// What the model does not know: a first-order process of this RMS and time constant.
+  /// What the model cannot explain: a first-order process of this RMS and time constant.
   double drift_mm = 0.0;
   double drift_tau_s = 3600.0;
   double drift_state_mm = 0.0;   ///< its value at the passport's `state_s`
-  double max_speed_rev_s = 0.0;  ///< fastest that was fitted; 0 = not known
-  double zero_mm = 0.0;          ///< reading of the log's gauge where nothing displaces the machine
+  double max_speed_rev_s = 0.0;  ///< fastest speed fitted; 0 = not known
+  double zero_mm = 0.0;          ///< the log's gauge reading with no displacement at all
   std::vector<ThermalMode> mode;
   std::vector<ThermalAmbient> ambient;
   /// Lower triangle, row by row, of the covariance of the linear parameters: for each mode its
@@ -61,7 +60,7 @@ struct ThermalAxis {
   }
 };
 
-/// Bounds of the passport, so that what runs in the cycle has fixed sizes.
+/// Bounds of the passport: they fix the sizes of what runs in the cycle.
 inline constexpr std::size_t kMaxThermalModes = 4;
 inline constexpr std::size_t kMaxThermalAmbients = 64;
 inline constexpr std::size_t kMaxThermalLevels = 64;
@@ -71,14 +70,14 @@ struct Thermal {
   /// Shares k of the tolerance that the machine's heat may take, by level: k0, k1, …
   std::vector<double> share = {1.0, 0.7, 0.5, 0.35};
   std::uint32_t level = 0;           ///< the level in force
-  double max_offset_mm = 0.1;        ///< no correction beyond it
+  double max_offset_mm = 0.1;        ///< largest correction
   double slope_mm_s = 0.001 / 60.0;  ///< of the on-line correction
   double retract_slope_mm_s = 0.0;   ///< while no tool is in the cut; 0 = `slope_mm_s`
-  double state_s = 0.0;              ///< time in the log at which the states were
+  double state_s = 0.0;              ///< time in the log to which the states belong
   std::vector<ThermalAxis> axis;
 
-  /// The temperature sensors of all axes, each once, in the order in which they are named first:
-  /// the order of signal::Frame::temperature_c.
+  /// The temperature sensors of all axes, each once, in order of first mention;
+  /// signal::Frame::temperature_c uses the same order.
   [[nodiscard]] std::vector<std::string> sensors() const {
     std::vector<std::string> names;
     for (const ThermalAxis& a : axis) {

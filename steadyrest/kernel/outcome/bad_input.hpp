@@ -10,13 +10,13 @@
 
 namespace steadyrest::kernel::outcome {
 
-/// The refusal of something that the caller gave: a value; a file as a whole; a line of a file.
+/// The refusal of something the caller gave: a value; a whole file; a line of a file.
 [[nodiscard]] Refusal bad_input(std::string what, std::string to_do);
 [[nodiscard]] Refusal bad_input(std::string file, std::string what, std::string to_do);
 [[nodiscard]] Refusal bad_input(std::string file, std::size_t line, std::string what,
                                 std::string to_do);
 
-/// The same as the error of a Result: `return refuse("no speed", "give at least one speed");`.
+/// The same as a Result's error: `return refuse("no speed", "give at least one speed");`.
 template <class... Parts>
 [[nodiscard]] std::unexpected<Refusal> refuse(Parts&&... parts) {
   return std::unexpected(bad_input(std::forward<Parts>(parts)...));

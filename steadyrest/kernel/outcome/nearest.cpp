@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kLongestWord = 64;
 
 /// Optimal string alignment distance: insertions, deletions, replacements and swapped neighbours,
-/// each one step, which are the errors of typing. Three rows of the table are enough, since a swap
+/// the common typing errors, count one step each. Three rows of the table are enough, since a swap
 /// looks two rows back.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1);
@@ -43,7 +43,7 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
     return {};
   }
   std::string_view best;
-  // A third of the letters may be wrong, and one more: beyond that a suggestion would mislead.
+  // A third of the letters may be wrong, plus one; beyond that a suggestion would mislead.
   std::size_t best_distance = word.size() / 3 + 2;
   for (const std::string_view candidate : candidates) {
     const std::size_t d = distance(word, candidate);
@@ -55,7 +55,7 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
   return best;
 }
 
-// The suggestion, or what the caller says otherwise.
+// The suggestion, or else the caller's own advice.
 std::string meant(std::string_view word, std::span<const std::string_view> candidates,
                   std::string otherwise) {
   const std::string_view close = nearest(word, candidates);

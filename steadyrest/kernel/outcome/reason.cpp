@@ -4,9 +4,9 @@
 
 #include <steadyrest/kernel/outcome/reason.hpp>
 
-// The one table that code, logs, docs/reasons.md and the page take their words from. Numbers are
-// stable and in ranges by room (reason.hpp), rows rise by number; a test compares the table with
-// the enumerators and writes the page.
+// The one table behind code, logs, docs/reasons.md and the page. Numbers are stable, in ranges by
+// room (reason.hpp) and in ascending rows; a test compares the table with the enumerators and
+// writes the page.
 namespace steadyrest::kernel::outcome {
 namespace {
 
@@ -94,7 +94,7 @@ constexpr std::array kEntries = {
           "The readings no longer fit the thermal model: fit it again."},
 };
 
-// Linear: fewer than a hundred rows, and sentences are read by people.
+// Linear: fewer than a hundred rows, and only people read the sentences.
 const Entry* find(Reason reason) noexcept {
   const auto* entry = std::ranges::find(kEntries, reason, &Entry::reason);
   return entry == kEntries.end() ? nullptr : entry;
@@ -102,7 +102,7 @@ const Entry* find(Reason reason) noexcept {
 
 }  // namespace
 
-// For what lists them all: the generated page, the summary of a run.
+// For lists of all reasons: the generated page, the summary of a run.
 std::span<const ReasonEntry> reasons() noexcept {
   return kEntries;
 }

@@ -7,22 +7,22 @@
 
 namespace steadyrest::kernel::outcome {
 
-/// Why a room asked for what it asked, or why it withdrew.
+/// Why a room made its request, or why it withdrew.
 ///
-/// The numbers are stable: they stand in logs, in reports and on the page. 0–99 common, 100–199
-/// envelope and arbiter, 200–299 motion, 300–399 contour, 400–499 chatter, 500–599 thermal.
-/// `reason.cpp` holds the one table from which names and texts are made.
+/// The numbers are stable: logs, reports and the page use them. 0–99 common, 100–199 envelope and
+/// arbiter, 200–299 motion, 300–399 contour, 400–499 chatter, 500–599 thermal. The one table in
+/// `reason.cpp` gives their names and texts.
 enum class Reason : std::uint16_t {
   none = 0,                     ///< neutral: nothing to correct
   input_not_finite = 1,         ///< an input was NaN or infinite
-  input_out_of_range = 2,       ///< an input was outside of what the machine file allows
+  input_out_of_range = 2,       ///< an input was outside the machine file's limits
   input_stale = 3,              ///< the sample is older than the staleness limit
   not_cutting = 4,              ///< rapid, dwell, tool change, idle: nothing to correct
   withdrawn_thread = 5,         ///< thread cutting or tapping: the override must not move
   panel_zero = 100,             ///< the operator's panel is at 0 %
-  panel_lower = 101,            ///< the operator's panel is below what the layer asks
+  panel_lower = 101,            ///< the operator's panel is below what the layer asks for
   clamped = 102,                ///< held at a limit of the envelope
-  slew_limited = 103,           ///< on the way; the slew limit holds it
+  slew_limited = 103,           ///< on the way at the slew limit
   unknown_override_code = 104,  ///< the panel's code is not in the machine's table
   heartbeat_lost = 105,         ///< the layer or the control stopped answering
   outvoted = 106,               ///< another room asked for a lower value
@@ -32,10 +32,10 @@ enum class Reason : std::uint16_t {
   contour_within_limit = 301,   ///< the largest step that keeps the limit is in force
   contour_feed_floor = 302,     ///< the lowest permitted feed does not keep the limit
   contour_objective = 303,      ///< the step that minimises the combined objective
-  contour_hysteresis = 304,     ///< a better step exists, but not by enough or not for long enough
+  contour_hysteresis = 304,     ///< a step is better, but not by enough or not yet for long enough
   contour_no_effect = 305,     ///< the override does not move the feed here; the estimate is frozen
   contour_path_unknown = 306,  ///< no path window: only the error that already happened is known
-  chatter_modulating = 400,    ///< the spindle's speed swings by its law
+  chatter_modulating = 400,    ///< the spindle's speed follows its modulation law
   chatter_feed_follows = 401,  ///< feed reduced: the feed per tooth would pass its band
   chatter_feed_raised = 402,   ///< feed raised: the feed per tooth would fall below its band
   chatter_fading = 403,        ///< the swing grows or shrinks
@@ -46,14 +46,14 @@ enum class Reason : std::uint16_t {
   chatter_better_speed = 421,     ///< the planner's table has a speed that reaches deeper
   chatter_rule_speed = 422,       ///< the classical rule's speed: whole waves between two teeth
   chatter_no_better_speed = 423,  ///< no permitted speed is better: less depth, or modulation
-  thermal_correcting = 500,       ///< the offset stands against the forecast displacement
-  thermal_following = 501,        ///< on the way; the slope limit holds the offset
-  thermal_clamped = 502,          ///< the forecast passes the largest offset
+  thermal_correcting = 500,       ///< the offset counters the forecast displacement
+  thermal_following = 501,        ///< on the way at the slope limit
+  thermal_clamped = 502,          ///< the forecast exceeds the largest offset
   thermal_held = 503,             ///< threading, tapping or probing: the offset must not move
   thermal_sensor_lost = 504,      ///< a temperature that the forecast needs is not known
-  thermal_beyond_speed = 505,     ///< the spindle is faster than anything that was fitted
-  thermal_sensor_wild = 506,      ///< a temperature that cannot be, or came by a step
-  thermal_sensor_stuck = 507,     ///< a sensor stands still while others move
+  thermal_beyond_speed = 505,     ///< the spindle is faster than any fitted speed
+  thermal_sensor_wild = 506,      ///< a temperature reading is implausible or jumped
+  thermal_sensor_stuck = 507,     ///< a sensor's reading is frozen while others move
   thermal_reading_taken = 520,    ///< a reading has corrected the model's state
   thermal_reading_outlier = 521,  ///< a reading beyond the gate: not taken
   thermal_model_unfit = 522,      ///< the readings no longer fit the model
@@ -66,7 +66,7 @@ struct ReasonEntry {
   std::string_view sentence;
 };
 
-/// The whole table, by rising number; `docs/reasons.md` is written from it.
+/// The whole table in ascending order; `docs/reasons.md` is written from it.
 [[nodiscard]] std::span<const ReasonEntry> reasons() noexcept;
 
 /// `contour_limit` for Reason::contour_limit; `unknown` for a number that has no entry.

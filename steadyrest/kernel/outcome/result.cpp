@@ -3,7 +3,7 @@
 
 namespace steadyrest::kernel::outcome {
 
-// FILE:LINE: what; what to do. Compilers write so, and editors jump to it.
+// FILE:LINE: what; what to do. The format of compilers: editors jump to it.
 std::string text(const Refusal& refusal) {
   std::string out;
   if (!refusal.file.empty()) {

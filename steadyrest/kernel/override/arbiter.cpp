@@ -5,24 +5,23 @@
 #include <steadyrest/kernel/override/arbiter.hpp>
 
 // Feed: the lowest wish, since each room knows only its own limit and the lowest keeps them all.
-// Spindle: chatter's, else the least change. Offsets: the sum, since each corrects another error
-// of the same axis.
+// Spindle: chatter's, else the smallest change. Offsets: the sum, since each wish corrects a
+// different error of the same axis.
 namespace steadyrest::kernel::override {
 namespace {
 
 using outcome::Reason;
 
-/// Of two reasons to do nothing, the one that matters more: a fault before a withdrawal before
-/// none.
+/// The more serious of two reasons to do nothing: a fault before a withdrawal before none.
 Reason graver(Reason a, Reason b) noexcept {
   if (a == Reason::none || b == Reason::none) {
     return a == Reason::none ? b : a;
   }
-  // Lower numbers are graver: input faults come before withdrawals.
+  // Lower numbers are more serious: input faults come before withdrawals.
   return std::min(a, b);
 }
 
-// An unfit ratio becomes neutral before it is compared: NaN loses and wins no comparison.
+// An unfit ratio becomes neutral before any comparison: NaN neither wins nor loses one.
 template <class Request>
 Request made_fit(Request request) noexcept {
   if (const Reason fault = fault_of(request.ratio); fault != Reason::none) {
@@ -32,7 +31,7 @@ Request made_fit(Request request) noexcept {
   return request;
 }
 
-// Only while nobody wishes: a wish always goes before a withdrawal.
+// Only while there is no wish: a wish always beats a withdrawal.
 template <class Request>
 void withdraw(Request& decision, const Request& request) noexcept {
   const Reason reason = graver(decision.reason, request.reason);
@@ -79,10 +78,10 @@ void RatioArbiter<Request>::add(const Request& request) noexcept {
 template class RatioArbiter<signal::FeedRequest>;
 template class RatioArbiter<signal::SpindleRequest>;
 
-// Of the slopes the slowest holds, axis by axis. One unfit summand makes the whole sum unknown:
-// half of a correction may be worse than none.
+// Each axis takes the slowest slope. One unfit summand makes the whole sum unknown: half a
+// correction may be worse than none.
 void OffsetArbiter::add(const signal::OffsetRequest& request) noexcept {
-  // Even from an unfit request: taking the tool as in the cut is the safe side.
+  // Even from an unfit request: assuming the tool in the cut is the safe side.
   sum_.tool_in_cut = sum_.tool_in_cut || request.tool_in_cut;
   if (!std::ranges::all_of(request.offset_mm, [](double mm) { return std::isfinite(mm); })) {
     withdrawn_ = graver(withdrawn_, Reason::input_not_finite);

@@ -7,9 +7,8 @@
 #include <steadyrest/kernel/override/arbiter.hpp>
 #include <steadyrest/kernel/override/channel.hpp>
 
-// Envelope and hand-over are two halves of one state: the envelope may be ahead of the word only
-// as far as the word can follow in one step, else its slew would go on while the word waits for a
-// scan.
+// Envelope and hand-over are two halves of one state: the envelope may lead the word only by what
+// the word can follow in one step, else its slew would continue while the word waits for a scan.
 namespace steadyrest::kernel::override {
 namespace {
 
@@ -31,7 +30,7 @@ outcome::Result<Channel> Channel::make(const Config& config) {
   if (!lowest || table->ratio(*lowest) > config.max_ratio + kRatioTolerance) {
     return std::unexpected(no_step_between(config));
   }
-  // The next step up: ratios are rounded down to a step, and the floor must hold after that.
+  // The next step up: ratios are rounded down to a step, and the lower limit must survive that.
   auto envelope = RatioEnvelope::make({.min_ratio = table->ratio(*lowest),
                                        .max_ratio = config.max_ratio,
                                        .fall_1_s = config.fall_1_s,
@@ -50,9 +49,9 @@ outcome::Result<Channel> Channel::make(const Config& config) {
 }
 
 Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
-  // Without a mask the operator's switch acts at once. Where he has turned it since the last cycle,
-  // the layer's way begins at what it is now: from the old panel the first word would undo him. The
-  // first look at the panel is the envelope's, which gives no time before it.
+  // Without a mask the operator's switch acts at once. If he has turned it since the last cycle,
+  // the layer starts from the new position: a first word from the old one would undo him. The
+  // envelope takes the first look at the panel and gives no time credit before it.
   if (handover_.available() && envelope_.state().panel_seen) {
     see_panel(input.panel);
   }
@@ -61,10 +60,10 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
   if (word.masks_panel) {
     envelope_.wait_within(word.reach_low, word.reach_high);
   } else if (handover_.available()) {
-    // The mask had to wait: the way from the panel begins when it is on, not before.
+    // The mask had to wait: the way from the panel begins when the mask is on, not before.
     envelope_.start_at_panel();
   }
-  // A port that cannot write is the reason only while there is something to write.
+  // "Port cannot write" is the reason only while there is something to write.
   const bool stuck = !handover_.available() && !wanted.hand_back && is_wish(wanted.reason);
   return {.ratio = word.ratio,
           .code = word.code,
@@ -73,7 +72,7 @@ Channel::Output Channel::update(const RatioEnvelope::Input& input) noexcept {
           .reason = stuck ? outcome::Reason::port_cannot_write : wanted.reason};
 }
 
-// From the state, not from the last output: after a take-back or a restore it holds at once.
+// From the state, not from the last output: valid immediately after a take-back or a restore.
 signal::RatioInForce Channel::in_force() const noexcept {
   const RatioEnvelope::State& envelope = envelope_.state();
   const Handover::State handover = handover_.state();
@@ -91,7 +90,7 @@ void Channel::see_panel(const signal::OverrideState& panel) noexcept {
 void Channel::take_back(const State& before) noexcept {
   const RatioEnvelope::State now = envelope_.state();
   restore(before);
-  // What was seen of the panel is true whether or not the word arrived.
+  // The panel's reading is valid whether or not the word arrived.
   if (now.panel_seen) {
     see_panel({.panel_ratio = now.panel_ratio, .panel_code_known = true});
   }

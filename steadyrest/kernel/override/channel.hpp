@@ -32,7 +32,7 @@ class Channel {
     double ratio = 1.0;      ///< in force: the word's when masked, else the panel's
     std::uint32_t code = 0;  ///< the word to write
     bool masks_panel = false;
-    bool handed_back = true;  ///< neutral, and every reader has seen that no mask is on
+    bool handed_back = true;  ///< neutral, and every reader has seen the mask off
     outcome::Reason reason = outcome::Reason::none;
   };
 
@@ -44,20 +44,22 @@ class Channel {
   [[nodiscard]] static outcome::Result<Channel> make(const Config& config);
 
   Output update(const RatioEnvelope::Input& input) noexcept;
-  /// A cycle in which nothing is written shows the panel all the same.
+  /// Takes note of the panel in a cycle in which nothing is written.
   void see_panel(const signal::OverrideState& panel) noexcept;
 
-  /// What the last update let through, or what holds since (see_panel, take_back, reset, restore).
+  /// What the last update let pass, or what has applied since (see_panel, take_back, reset,
+  /// restore).
   [[nodiscard]] signal::RatioInForce in_force() const noexcept;
 
   [[nodiscard]] const Table& table() const noexcept { return handover_.table(); }
-  /// What is on the machine is not known: begins at the panel, without a mask.
+  /// The machine's state is unknown: starts at the panel, without a mask.
   void reset() noexcept;
   [[nodiscard]] State state() const noexcept {
     return {.envelope = envelope_.state(), .handover = handover_.state()};
   }
   void restore(const State& state) noexcept;
-  /// The last word did not reach the machine: as before, but for what was seen of the panel.
+  /// The last word did not reach the machine: restores the state before, except what was seen of
+  /// the panel.
   void take_back(const State& before) noexcept;
 
  private:

@@ -10,7 +10,7 @@
 #include <steadyrest/kernel/override/envelope.hpp>
 
 // Last step before any write. Everything here is clamped, slewed and bounded by the panel whatever
-// comes in; the reason that goes out names the one cause that the operator can act on.
+// comes in; the outgoing reason names the one cause that the operator can act on.
 namespace steadyrest::kernel::override {
 namespace {
 
@@ -34,7 +34,7 @@ double toward(double from, double target, double fall, double rise) noexcept {
   return std::clamp(target, from - fall, from + rise);
 }
 
-/// Time that is no time gives no credit.
+/// Invalid time gives no credit.
 double credit_s(double step_s, double max_step_s) noexcept {
   // A clock that jumps must not buy a jump of the override.
   return std::isfinite(step_s) ? std::clamp(step_s, 0.0, max_step_s) : 0.0;
@@ -62,7 +62,7 @@ outcome::Result<RatioEnvelope> RatioEnvelope::make(const Config& config) {
   return RatioEnvelope(config);
 }
 
-// An unknown or unfit panel keeps the value last known.
+// An unknown or unfit panel keeps the last known value.
 Reason RatioEnvelope::see_panel(const signal::OverrideState& panel) noexcept {
   if (!panel.panel_code_known) {
     return Reason::unknown_override_code;
@@ -79,9 +79,9 @@ Reason RatioEnvelope::see_panel(const signal::OverrideState& panel) noexcept {
   return Reason::none;
 }
 
-// A wish is clamped first and bounded by the panel afterwards: the panel is the operator's and
-// knows no least ratio. Neutral means the panel itself, not 1.0. Held, the target is where the
-// ratio is.
+// A wish is clamped first and bounded by the panel afterwards: the panel is the operator's and has
+// no lower limit. Neutral means the panel itself, not 1.0. During a hold the target is the present
+// ratio.
 RatioEnvelope::Target RatioEnvelope::target(const Input& input, Reason unfit) const noexcept {
   const double panel = state_.panel_ratio;
   Target target{.ratio = panel, .unfit = unfit};
@@ -121,7 +121,7 @@ Reason RatioEnvelope::explain(const Target& target, Reason asked) const noexcept
 }
 
 RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
-  // Nothing of the layer was in force before its first look at the panel.
+  // Before its first look at the panel the layer had nothing in force.
   const double step_s = state_.panel_seen ? credit_s(input.step_s, config_.max_step_s) : 0.0;
   const Reason panel_fault = see_panel(input.panel);
   Reason unfit = std::isfinite(input.step_s) ? input.unfit : Reason::input_not_finite;
@@ -130,9 +130,8 @@ RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
   }
   const Target aim = target(input, unfit);
   const double panel = state_.panel_ratio;
-  // At the panel and without a wish the operator's switch acts at once, up or down; the slew is
-  // for the layer's own changes. Where the layer may exceed the panel its way begins at the panel,
-  // too.
+  // At the panel and without a wish the operator's switch acts at once, up or down; the slew is for
+  // the layer's own changes. Where the layer may exceed the panel, its way also begins there.
   if (state_.at_panel && (aim.neutral || config_.may_exceed_panel)) {
     state_.ratio = panel;
   }
@@ -145,8 +144,9 @@ RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
     state_.ratio = std::min(state_.ratio, panel);
   }
   state_.at_panel = aim.neutral && state_.ratio == panel;
-  // Where the layer may exceed the panel, a wish keeps the mask even at the panel's own ratio: else
-  // turning the switch would act until the mask is on, and the layer would then undo it by a jump.
+  // Where the layer may exceed the panel, a wish keeps the mask even at the panel's own ratio.
+  // Otherwise turning the switch would act until the mask is on, and the layer would then undo it
+  // with a jump.
   const bool hand_back =
       config_.may_exceed_panel ? state_.at_panel || panel == 0.0 : state_.ratio == panel;
   return {.ratio = state_.ratio,
@@ -156,7 +156,7 @@ RatioEnvelope::Output RatioEnvelope::update(const Input& input) noexcept {
           .reason = explain(aim, input.reason)};
 }
 
-// An unfit state begins again at the panel.
+// An unfit state starts over at the panel.
 void RatioEnvelope::restore(const State& state) noexcept {
   const bool fit =
       fault_of(state.ratio) == Reason::none && fault_of(state.panel_ratio) == Reason::none;
@@ -178,8 +178,8 @@ outcome::Result<OffsetEnvelope> OffsetEnvelope::make(const Config& config) {
   return OffsetEnvelope(config);
 }
 
-// Each axis by the slower of the room's slope and the envelope's slew. Not reached counts as
-// slew-limited only where the envelope is what limits: a room that goes slowly by its own wish is
+// Each axis moves at the slower of the room's slope and the envelope's slew. A target not yet
+// reached counts as slew-limited only where the envelope limits: a room that chose to go slowly is
 // not held up.
 bool OffsetEnvelope::approach(const signal::AxisValues& target_mm,
                               const signal::AxisValues& slope_mm_s, double step_s) noexcept {
@@ -214,9 +214,9 @@ OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
   unfit = unfit == Reason::none && !finite ? Reason::input_not_finite : unfit;
 
   Output output;
-  // Without a wish the offset freezes while a tool may be in the cut, by the machine's or the
-  // room's word; moving it there would leave a step in the part. Afterwards it ramps out by the
-  // envelope's own slew.
+  // Without a wish the offset freezes while the machine or the room says that a tool may be in the
+  // cut; moving it there would leave a step in the part. Afterwards it ramps out at the envelope's
+  // own slew.
   if (unfit == Reason::none && is_wish(request.reason)) {
     signal::AxisValues target_mm{};
     for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {

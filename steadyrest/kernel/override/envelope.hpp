@@ -10,20 +10,20 @@
 
 /// The last step before any write: clamp, slew limit, the operator's panel, and the way back.
 ///
-/// There is no switch that turns it off. All of it is online code.
+/// No switch turns it off. All of it runs in the cycle.
 namespace steadyrest::kernel::override {
 
 /// Envelope of one override ratio (feed or spindle).
 ///
 /// Law, r = the layer's ratio, p = the panel's, w = the wish clamped to [min, max]:
-///   target = w in force of a wish, p when neutral;  r moves to target at most by
+///   target = w for a wish, p when neutral;  r moves to target at most by
 ///   fall·Δt downwards and rise·Δt upwards;  r ≤ p unless the layer may exceed the panel;  p = 0 ⇒
 ///   r = 0.
-/// Neutral is transparent once r has reached p: from there on the operator moves the ratio alone.
-/// Input that is unfit makes the request neutral. While the panel's code is unknown, p is the last
-/// that was known. In a thread or tap (`hold`) r stays, whatever the wish and the input; p still
-/// limits it. Δt is good time (supervisor/frame_clock); it has no credit beyond `max_step_s`, and
-/// none where it is negative or not finite.
+/// Neutral is transparent once r has reached p: from then on only the operator moves the ratio.
+/// Unfit input makes the request neutral. While the panel's code is unknown, p is the last known
+/// value. In a thread or tap (`hold`) r stays, whatever the wish and the input; p still limits it.
+/// Δt is good time (supervisor/frame_clock); at most `max_step_s` of it counts, and none where it
+/// is negative or not finite.
 class RatioEnvelope {
  public:
   struct Config {
@@ -62,23 +62,22 @@ class RatioEnvelope {
   [[nodiscard]] static outcome::Result<RatioEnvelope> make(const Config& config);
 
   Output update(const Input& input) noexcept;
-  /// What update() knows of the panel is this from now on; none, or why it is not: then the last
-  /// that was good remains.
+  /// Sets the panel value that update() uses from now on. Returns none, or why the value is unfit:
+  /// then the last good one remains.
   outcome::Reason see_panel(const signal::OverrideState& panel) noexcept;
 
   /// The panel is in force, whatever update() wanted: the next step starts there.
   void start_at_panel() noexcept { state_.ratio = state_.panel_ratio; }
-  /// The mask is on, so the panel is not in force yet; and the word walks slower than the slew: the
-  /// ratio must not run ahead of it, or it would later rise faster than `rise`.
+  /// With the mask on, the panel is not in force, and the word may walk slower than the slew: the
+  /// ratio must not run ahead of the word, or it would later rise faster than `rise`.
   void wait_within(double low, double high) noexcept {
     state_.ratio = std::clamp(state_.ratio, low, high);
     state_.at_panel = false;
   }
-  /// Begins again, as when the layer takes over.
+  /// Starts over, as when the layer takes over.
   void reset() noexcept { state_ = {}; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// Ratios that could not be (not finite, negative, far too large) are not taken: the envelope
-  /// begins again.
+  /// Rejects impossible ratios (not finite, negative, far too large): the envelope starts over.
   void restore(const State& state) noexcept;
 
  private:
@@ -101,10 +100,10 @@ class RatioEnvelope {
 
 /// Envelope of the axis offsets.
 ///
-/// Law, for each axis: in force of a wish the offset moves to clamp(wish, ±max) by at most
-/// min(slew, the request's slope)·Δt; a slope that is none counts as 0.
-/// Without a wish, or with unfit input, it freezes where it is; once no tool is in the cut it ramps
-/// to 0 at the same slew. An axis with max = 0 never gets an offset.
+/// Law, for each axis: under a wish the offset moves to clamp(wish, ±max) by at most min(slew, the
+/// request's slope)·Δt; a NaN or negative slope counts as 0. Without a wish, or with unfit input,
+/// it freezes; once no tool is in the cut it ramps to 0 at the same slew. An axis with max = 0
+/// never gets an offset.
 class OffsetEnvelope {
  public:
   struct Config {
@@ -117,7 +116,7 @@ class OffsetEnvelope {
     double step_s = 0.0;  ///< Δt, good time since the last cycle
     signal::OffsetRequest request{};
     outcome::Reason unfit = outcome::Reason::none;
-    bool tool_in_cut = true;  ///< by what is known of the machine, besides the rooms' own word
+    bool tool_in_cut = true;  ///< by the machine's own state; the rooms report theirs separately
   };
 
   struct Output {
@@ -136,7 +135,7 @@ class OffsetEnvelope {
 
   void reset() noexcept { state_ = {}; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// Offsets that are not finite are not taken; those beyond the limit are cut to it.
+  /// Offsets that are not finite are rejected; those beyond the limit are cut to it.
   void restore(const State& state) noexcept;
 
  private:

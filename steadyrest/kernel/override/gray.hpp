@@ -7,8 +7,8 @@
 /// Gray code of switch positions.
 ///
 /// Law: position p has the code p ⊕ ⌊p/2⌋, so that neighbours differ in exactly one bit. A rotary
-/// switch of a SINUMERIK panel counts its positions from 1: the table's index i (MD12030[i]) goes
-/// with gray(i + 1), and 00000, which an open cable would also show, is never a position.
+/// switch of a SINUMERIK panel counts its positions from 1: the table's index i (MD12030[i]) has
+/// the code gray(i + 1), and 00000, which an open cable would show, is never a position.
 /// Source: SINUMERIK 840D sl Commissioning Manual, HT2 rotary switch.
 namespace steadyrest::kernel::override {
 

@@ -4,13 +4,13 @@
 #include <steadyrest/kernel/override/arbiter.hpp>
 #include <steadyrest/kernel/override/handover.hpp>
 
-// Taking over: the word first follows the panel, settles there, and only then the mask goes on, so
-// the control sees no change. Handing back is the same backwards: the word goes to the panel's
-// step, settles, the mask comes off.
+// Taking over: the word first follows the panel and settles there; only then does the mask go on,
+// so the control sees no change. Handing back is the reverse: the word goes to the panel's step,
+// settles, and the mask comes off.
 namespace steadyrest::kernel::override {
 
 outcome::Result<Handover> Handover::make(Table table, const Config& config) {
-  // A word that is never written needs no safe way between its steps.
+  // A word that is never written needs no safe path between its steps.
   const bool latched = !config.available || (config.latched && table.latched_word());
   auto stepper = Stepper::make(table, {.latched = latched, .scan_period_s = table.scan_period_s()});
   if (!stepper) {
@@ -20,13 +20,13 @@ outcome::Result<Handover> Handover::make(Table table, const Config& config) {
 }
 
 // The operator's 0, or a panel below the word, takes the mask off at once, settled or not: on the
-// way down nothing can be misread that is faster than the panel.
+// way down no misreading can be faster than the panel.
 bool Handover::operator_releases(const RatioEnvelope::Output& wanted) const noexcept {
   const bool above_panel = word_ratio() > wanted.panel_ratio + kRatioTolerance;
   return wanted.panel_ratio == 0.0 || (above_panel && !table_.layer_may_exceed_panel());
 }
 
-// Where the panel lies between two steps the step below is as near as a word can come.
+// Where the panel lies between two steps, the step below is as close as a word can get.
 bool Handover::may_release(const RatioEnvelope::Output& wanted) const noexcept {
   if (!wanted.hand_back || !stepper_.settled()) {
     return false;
@@ -35,7 +35,7 @@ bool Handover::may_release(const RatioEnvelope::Output& wanted) const noexcept {
   return !panel_step || word_ratio() == table_.ratio(*panel_step);
 }
 
-/// The first word is placed at once: nothing of the layer was there before it.
+/// The first word is placed at once: the layer had nothing there before it.
 void Handover::follow_panel(const RatioEnvelope::Output& wanted, bool is_first) noexcept {
   const auto panel_step = table_.floor_step(wanted.panel_ratio);
   if (!wanted.panel_known || !panel_step || !(stepper_.settled() || is_first)) {
@@ -53,7 +53,7 @@ void Handover::write_word(const RatioEnvelope::Output& wanted) noexcept {
   stepper_.update(table_.floor_step(wanted.ratio).value_or(0));
 }
 
-// One thing a cycle: drop the mask, move the word, or follow the panel. During a hold only the
+// One action per cycle: drop the mask, move the word, or follow the panel. During a hold only the
 // operator changes anything.
 Handover::Output Handover::update(double step_s, const RatioEnvelope::Output& wanted,
                                   bool hold) noexcept {
@@ -72,7 +72,7 @@ Handover::Output Handover::update(double step_s, const RatioEnvelope::Output& wa
           .code = table_.code(stepper_.state().step),
           .masks_panel = masked_,
           .settled = stepper_.settled(),
-          // How far the next step can take the word; the envelope waits within.
+          // How far the next step can take the word; the envelope stays within that.
           .reach_low = step > 0 ? table_.ratio(step - 1) : 0.0,
           .reach_high = step + 1 < table_.steps() ? table_.ratio(step + 1) : kMaxRequestRatio};
 }

@@ -14,20 +14,20 @@ namespace steadyrest::kernel::override {
 /// masks the panel or hands back to it.
 ///
 /// Law: the step is the largest not above the envelope's ratio (and so not above the panel, unless
-/// the layer may exceed it). Where the table has nothing that low, the lowest step stands in if the
+/// the layer may exceed it). Where the table has nothing that low, the lowest step is used if the
 /// panel allows it.
-///   mask on:  only after the word has stood at the panel's own step for a scan, so that the switch
-///             from panel to layer changes nothing by itself (a latched word carries its mask and
+///   mask on:  only after the word has held the panel's own step for a scan, so that switching from
+///             panel to layer changes nothing by itself (a latched word carries its mask and
 ///             needs no wait);
 ///   mask off: at once when the word is above the panel (that lowers the value; it happens when the
 ///             operator turns down, unless the layer may exceed him); else once the envelope is
-///             back at the panel and the word stands at the largest step not above it, so that
-///             handing back raises the value by less than one step. The word stands still for one
+///             back at the panel and the word is at the largest step not above it, so that
+///             handing back raises the value by less than one step. The word then holds for one
 ///             more scan.
 /// Panel 0 takes the mask off in the same cycle. A panel whose code is unknown is never masked.
-///   hold:     the word stays where it is, also in the middle of a walk, and no mask goes on; the
-///             mask goes off only for the operator (panel 0, or panel below the word).
-/// Waits are counted in good time (`step_s`), so a cycle whose time is none settles nothing.
+///   hold:     the word stays where it is, even in mid-walk, and no mask goes on; the
+///             mask comes off only for the operator (panel 0, or panel below the word).
+/// Waits count good time (`step_s`), so a cycle without a valid time settles nothing.
 class Handover {
  public:
   struct Config {
@@ -36,11 +36,11 @@ class Handover {
   };
 
   struct Output {
-    double ratio = 1.0;      ///< in force by the layer: the word's when masked, else the panel's
+    double ratio = 1.0;      ///< in force: the word's when masked, else the panel's
     std::uint32_t code = 0;  ///< the word to write
     bool masks_panel = false;
-    bool settled = false;    ///< word and mask have stood for a scan
-    double reach_low = 0.0;  ///< ratios of the word's neighbours: the envelope waits within them
+    bool settled = false;    ///< word and mask have been unchanged for a scan
+    double reach_low = 0.0;  ///< ratios of the word's neighbours: the envelope stays between them
     double reach_high = 0.0;
   };
 
@@ -60,7 +60,7 @@ class Handover {
     return {.word = stepper_.state(), .masked = masked_};
   }
   void restore(const State& state) noexcept;
-  /// What the word's wires show is not known, and no mask is on.
+  /// The state of the word's wires is unknown, and no mask is on.
   void reset() noexcept { restore({}); }
 
  private:

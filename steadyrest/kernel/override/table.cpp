@@ -12,14 +12,14 @@
 #include <steadyrest/kernel/override/gray.hpp>
 #include <steadyrest/kernel/override/table.hpp>
 
-// What each code means is machine data: on one 840D 11010 is 100 %, on a DMG panel it is 70 %. A
-// table is checked once, here; afterwards look-ups cannot fail but by an unknown code.
+// What each code means is machine data: 11010 is 100 % on one 840D, 70 % on a DMG panel. A table is
+// checked once, here; afterwards only an unknown code can fail a look-up.
 namespace steadyrest::kernel::override {
 namespace {
 
 using Check = std::optional<outcome::Refusal>;
 
-// Rising order makes "the next step" the neighbour in ratio as well as in code.
+// Ascending order makes "the next step" the neighbour in ratio as well as in code.
 Check check_ratios(const std::vector<double>& ratio) {
   if (ratio.empty()) {
     return outcome::bad_input("an override table has no steps",
@@ -106,7 +106,7 @@ outcome::Result<Table> Table::make(const Config& config) {
   }
   Table table;
   for (double& ratio : filled.ratio) {
-    // What the control clips is not there to be asked for.
+    // Nobody can ask for what the control clips.
     ratio = std::min(ratio, filled.max_ratio);
   }
   for (std::size_t i = 0; i < filled.code.size(); ++i) {
@@ -148,7 +148,7 @@ std::optional<std::size_t> Table::step_of_code(std::uint32_t code) const noexcep
   return entry->step;
 }
 
-// The tolerance takes 0.7 computed as 1 − 0.3 for 0.7, not for the step below.
+// With the tolerance, 0.7 computed as 1 − 0.3 finds 0.7, not the step below.
 std::optional<std::size_t> Table::floor_step(double ratio) const noexcept {
   if (std::isnan(ratio)) {
     return std::nullopt;

@@ -12,16 +12,15 @@
 
 namespace steadyrest::kernel::override {
 
-/// Two ratios closer than this are the same: a percent that went through a conversion must not cost
-/// a step.
+/// Two ratios closer than this are the same: rounding in a percent conversion must not cost a step.
 inline constexpr double kRatioTolerance = 1e-9;
 
 /// The override switch of one machine: step ↔ ratio ↔ code.
 ///
 /// Machine data, never a constant: on one 840D the code 11010 means 100 %, on another 70 %. A code
-/// that is not in the table is unknown; it is never rounded to a neighbour. Ratios are those in
-/// force: the control clips them at `max_ratio`. Steps of equal ratio are allowed (unused positions
-/// repeat the last value); a search by ratio gives the lowest of them.
+/// that is not in the table is unknown; it is never rounded to a neighbour. Ratios are the
+/// effective ones: the control clips them at `max_ratio`. Steps of equal ratio are allowed (unused
+/// positions repeat the last value); a search by ratio gives the lowest of them.
 /// All queries are noexcept, allocate nothing and take O(log steps).
 class Table {
  public:
@@ -40,15 +39,15 @@ class Table {
   [[nodiscard]] std::span<const double> ratios() const noexcept { return ratio_; }
   [[nodiscard]] std::span<const std::uint32_t> codes() const noexcept { return code_; }
 
-  /// The step that a code stands for; nothing for a code that the table does not hold.
+  /// The step with this code; empty for a code that is not in the table.
   [[nodiscard]] std::optional<std::size_t> step_of_code(std::uint32_t code) const noexcept;
-  /// The step of the largest ratio that is not above `ratio`; nothing when all are above it or
-  /// `ratio` is NaN.
+  /// The step of the largest ratio not above `ratio`; empty when all are above it or `ratio` is
+  /// NaN.
   [[nodiscard]] std::optional<std::size_t> floor_step(double ratio) const noexcept;
-  /// The step of the smallest ratio that is not below `ratio`; nothing when all are below it or
-  /// `ratio` is NaN.
+  /// The step of the smallest ratio not below `ratio`; empty when all are below it or `ratio` is
+  /// NaN.
   [[nodiscard]] std::optional<std::size_t> ceil_step(double ratio) const noexcept;
-  /// The step whose ratio is nearest, the lower one when two are equally near; nothing for NaN.
+  /// The step whose ratio is nearest, the lower one of two equally near; empty for NaN.
   [[nodiscard]] std::optional<std::size_t> nearest_step(double ratio) const noexcept;
 
   [[nodiscard]] double min_ratio() const noexcept { return ratio_.front(); }

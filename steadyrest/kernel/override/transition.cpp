@@ -10,7 +10,7 @@
 #include <steadyrest/kernel/override/transition.hpp>
 
 // A word of several bits on separate wires changes bit by bit, and a PLC may read it in between. A
-// change is safe if each of these 2^k mixtures is a code of the table with a ratio between both
+// change is safe if each of these 2^k mixtures is a code of the table with a ratio between the two
 // ends.
 namespace steadyrest::kernel::override {
 namespace {
@@ -29,7 +29,7 @@ outcome::Refusal not_walkable(const Table& table, std::size_t from, std::size_t 
 
 }  // namespace
 
-// Counted over the table instead of over the mixtures: its cost is the table's length, not 2^k.
+// Counted over the table instead of over the mixtures: the cost is the table's length, not 2^k.
 bool change_is_safe(const Table& table, std::size_t from, std::size_t to) noexcept {
   const std::uint32_t differing = table.code(from) ^ table.code(to);
   const auto [lowest, highest] = std::minmax({table.ratio(from), table.ratio(to)});
@@ -40,11 +40,11 @@ bool change_is_safe(const Table& table, std::size_t from, std::size_t to) noexce
       ++inside;
     }
   }
-  // Codes are distinct: the words are all good exactly when there are 2^k good codes among them.
+  // Codes are distinct: all words are good exactly when 2^k good codes are among them.
   return inside == std::uint64_t{1} << static_cast<unsigned>(std::popcount(differing));
 }
 
-// Walking needs neighbours only; jumps are never made without a latch.
+// A walk needs neighbours only; without a latch no word ever jumps.
 outcome::Result<void> check_walk(const Table& table) {
   for (std::size_t step = 1; step < table.steps(); ++step) {
     if (!change_is_safe(table, step - 1, step)) {
@@ -68,9 +68,9 @@ outcome::Result<Stepper> Stepper::make(const Table& table, const Config& config)
   return Stepper(table.steps(), config);
 }
 
-// Time before the first write does not count: nothing was on the wires.
+// Time before the first write does not count: the layer had nothing on the wires.
 void Stepper::pass(double step_s) noexcept {
-  // Only good time counts: no fault of a clock may shorten the wait.
+  // Only good time counts: no clock fault may shorten the wait.
   if (state_.written && std::isfinite(step_s) && step_s > 0.0) {
     state_.stood_s += step_s;
     state_.changed = false;
@@ -97,13 +97,13 @@ void Stepper::place(std::size_t step) noexcept {
   }
 }
 
-// A word has settled once it was on the wires for a whole scan after its last change.
+// A word is settled after a whole scan on the wires since its last change.
 bool Stepper::settled() const noexcept {
   return config_.latched ||
          (!state_.changed && state_.stood_s >= config_.scan_period_s - kTimeTolerance);
 }
 
-// A table may have fewer steps than when the state was written.
+// The table may have fewer steps than when the state was written.
 void Stepper::restore(const State& state) noexcept {
   state_ = state;
   state_.step = std::min(state_.step, steps_ - 1);

@@ -12,12 +12,12 @@ struct Capability {
   bool feed_override = false;
   bool spindle_override = false;
   bool axis_offset = false;
-  bool latched_word = true;  ///< an override word of several bits takes effect as a whole; else
-                             ///< neighbours must be walked
+  bool latched_word = true;  ///< an override word of several bits takes effect as a whole; else it
+                             ///< must walk step by step
 };
 
-/// A machine: the simulated one or a real control behind an adapter. Changing it changes nothing
-/// above.
+/// A machine: the simulated one or a real control behind an adapter. Nothing above depends on
+/// which.
 class Port {
  public:
   Port() = default;
@@ -26,9 +26,9 @@ class Port {
   virtual ~Port() = default;
 
   [[nodiscard]] virtual Capability capability() const noexcept = 0;
-  /// The inputs of the next cycle. A refusal of kind `unavailable` says that the link is lost.
+  /// The inputs of the next cycle. A refusal of kind `unavailable` means that the link is lost.
   virtual outcome::Result<signal::Frame> read() noexcept = 0;
-  /// Hands one cycle's command over. Must not be called with command.write == false.
+  /// Hands over one cycle's command. Must not be called with command.write == false.
   virtual outcome::Result<void> write(const signal::Command& command) noexcept = 0;
 };
 

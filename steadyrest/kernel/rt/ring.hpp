@@ -10,14 +10,14 @@
 
 namespace steadyrest::kernel::rt {
 
-/// Size of the piece of memory that two cores fight for.
+/// Size of the memory block that two cores contend for.
 inline constexpr std::size_t kCacheLine = 64;
 
-/// Ring between one producer and one consumer: nothing is lost unless it is full, order is kept.
+/// Ring between one producer and one consumer: nothing is lost unless it is full; order is kept.
 ///
 /// Both sides are wait-free and allocate nothing. A full ring refuses (`try_push` gives false); the
-/// producer in the cycle then counts the loss and goes on. Indices run freely and are reduced by
-/// the mask, so that all of Capacity is used.
+/// producer in the cycle then counts the loss and carries on. Indices run freely and are masked, so
+/// that all of Capacity is used.
 template <class T, std::size_t Capacity>
 class Ring {
   static_assert(std::has_single_bit(Capacity), "the capacity is a power of two");
@@ -52,7 +52,7 @@ class Ring {
     return value;
   }
 
-  /// Exact when both sides rest; else a value that was true not long ago.
+  /// Exact when both sides rest; else a recently valid value.
   [[nodiscard]] std::size_t size() const noexcept {
     const std::size_t tail = tail_.load(std::memory_order_acquire);
     return head_.load(std::memory_order_acquire) - tail;

@@ -14,7 +14,7 @@ namespace steadyrest::kernel::rt {
 ///
 /// The writer never waits and never fails; the reader gets the newest whole value and never a torn
 /// one. Values that nobody fetched are lost, which is the point. Three slots: one is the writer's,
-/// one the reader's, and `middle_` names the third and whether it is new; each side exchanges its
+/// one the reader's; `middle_` names the third and tells whether it is new. Each side exchanges its
 /// own slot for the middle one in a single atomic step. Both sides are wait-free.
 template <class T>
 class Snapshot {

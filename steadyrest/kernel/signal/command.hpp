@@ -11,7 +11,7 @@ namespace steadyrest::kernel::signal {
 /// What goes to the port at the end of a cycle, after arbiter and envelope.
 struct Command {
   double feed_ratio = 1.0;        ///< a value of the machine's feed table
-  std::uint32_t feed_code = 0;    ///< the code that stands for it
+  std::uint32_t feed_code = 0;    ///< its code
   bool feed_masks_panel = false;  ///< the layer's value replaces the panel's (never above the
                                   ///< panel's unless the machine file says so)
   double spindle_ratio = 1.0;

@@ -9,36 +9,37 @@
 
 namespace steadyrest::kernel::signal {
 
-/// One axis as its control shows it in one cycle, and what the motion room makes of its counter.
+/// One axis as its control reports it in one cycle, with the motion room's estimates from its
+/// counter.
 ///
-/// A latching counter shows its count and when the last edge came. Line n is the border between the
-/// counts n − 1 and n; with counts of length q the reading `actual_mm` is q·count, so line n lies
-/// at q·(n − ½).
+/// A latching counter gives its count and the time of the last edge. Line n is the border between
+/// the counts n − 1 and n; with counts of length q the reading `actual_mm` is q·count, so line n
+/// lies at q·(n − ½).
 struct AxisSample {
   double command_mm = 0.0;          ///< commanded position
   double actual_mm = 0.0;           ///< position by the encoder
   double following_error_mm = 0.0;  ///< command − actual, as the control reports it
-  bool encoder_shown = false;       ///< `count` is there
+  bool encoder_shown = false;       ///< `count` is valid
   std::int64_t count = 0;           ///< of the encoder at `time_s`, ×4 decoded
   /// Time of the last edge up to now, in the frame's time; NaN: none yet, or no time stamps.
   double edge_s = std::numeric_limits<double>::quiet_NaN();
   std::int8_t edge_direction = 0;  ///< +1: that edge raised the count, −1: lowered; 0: not shown
 
-  // Estimates at `time_s`: 0 and infinite bounds until the motion room has filled them in, and
-  // where it has none. |true − estimate| ≤ bound as long as the axis keeps the machine file's
-  // limits.
+  // Estimates at `time_s`: 0 with infinite bounds until the motion room has filled them in, and
+  // where it has none. |true − estimate| ≤ bound as long as the axis keeps within the machine
+  // file's limits.
   double velocity_mm_s = 0.0;
   double acceleration_mm_s2 = 0.0;
   double velocity_bound_mm_s = std::numeric_limits<double>::infinity();
   double acceleration_bound_mm_s2 = std::numeric_limits<double>::infinity();
 };
 
-/// Override of feed, rapid or spindle as the control has it.
+/// Override of feed, rapid or spindle as the control reports it.
 struct OverrideState {
-  double panel_ratio = 1.0;      ///< what the operator's switch says
+  double panel_ratio = 1.0;      ///< ratio set on the operator's switch
   double effective_ratio = 1.0;  ///< what is in force now
   std::uint32_t panel_code = 0;  ///< raw code of the switch
-  bool panel_code_known = true;  ///< the code stands in the machine's table
+  bool panel_code_known = true;  ///< the code is in the machine's table
 };
 
 inline constexpr std::size_t kMaxTemperatures = 16;
@@ -51,16 +52,16 @@ using Temperatures = std::array<double, kMaxTemperatures>;
   return none;
 }
 
-/// What a probe has found on something whose place is known: how far the axis is from where it
-/// should be, the offset that stands included. It stands in the frames until the next one comes.
+/// What a probe has measured on a feature of known position: how far the axis is from where it
+/// should be, including the offset in force. It stays in the frames until the next one arrives.
 struct ProbeReading {
   std::uint64_t number = 0;  ///< counts the readings: each is taken once; 0 = none yet
   std::uint8_t axis = 0;     ///< of the machine
   double displacement_mm = std::numeric_limits<double>::quiet_NaN();
-  double sd_mm = 0.0;  ///< standard deviation; 0 = what the thermal passport says of a reading
+  double sd_mm = 0.0;  ///< standard deviation; 0 = the thermal passport's
 };
 
-/// All inputs of one cycle. A plain value; time comes in with it, there is no clock below.
+/// All inputs of one cycle. A plain value; time comes in with it: nothing below has a clock.
 struct Frame {
   double time_s = 0.0;  ///< time of the sample, monotone
   double age_s = 0.0;   ///< how old the sample was when it was read
@@ -74,20 +75,20 @@ struct Frame {
   std::uint32_t program_line = 0;
   double programmed_feed_mm_s = 0.0;      ///< F of the active block at 100 %
   double path_speed_mm_s = 0.0;           ///< commanded path speed now
-  bool feed_per_revolution = false;       ///< that F follows the spindle by itself
-  bool speed_modulation = false;          ///< the program has switched it on (M38)
-  double spindle_programmed_rev_s = 0.0;  ///< S of the program at 100 %, signed; 0 = stands still
+  bool feed_per_revolution = false;       ///< F follows the spindle by itself
+  bool speed_modulation = false;          ///< switched on by the program (M38)
+  double spindle_programmed_rev_s = 0.0;  ///< S of the program at 100 %, signed; 0 = stopped
   double spindle_command_rev_s = 0.0;     ///< what the drive is told, override included
   double spindle_actual_rev_s = 0.0;
-  bool coolant = false;  ///< it flows
+  bool coolant = false;  ///< on
   Temperatures temperature_c = unknown_temperatures();
   ProbeReading probe;
-  /// What a vibration sensor at the spindle has shown since the last frame, oldest first, evenly
+  /// Readings of a vibration sensor at the spindle since the last frame, oldest first, evenly
   /// sampled up to `time_s`; any unit. Valid as long as the path. Empty: no sensor.
   std::span<const double> vibration;
   double vibration_rate_hz = 0.0;
-  PathView path;                  ///< empty when the program's path is not known to the layer
-  std::size_t path_index = 0;     ///< segment in which the commanded point stands
+  PathView path;                  ///< empty when the layer does not know the program's path
+  std::size_t path_index = 0;     ///< segment that holds the commanded point
   double path_position_mm = 0.0;  ///< commanded path length since the program's start
 };
 

@@ -16,7 +16,7 @@ using AxisValues = std::array<double, kMaxAxes>;  ///< mm for linear axes, rad f
 
 /// What the control does with a piece of path.
 enum class Motion : std::uint8_t {
-  idle,         ///< standstill, no block active; a feed hold in a block stays that block's motion
+  idle,         ///< standstill, no block active; a feed hold keeps its block's motion
   rapid,        ///< G0: rapid override applies
   feed,         ///< G1–G3 in the cut: feed override applies
   thread,       ///< G33, G76: the override is fixed at 100 %
@@ -32,17 +32,17 @@ enum class Geometry : std::uint8_t {
   arc  ///< circle, helix (rise ≠ 0) or spiral (radius_end ≠ radius), any number of turns
 };
 
-/// One piece of the path as the control will follow it, with what limits its speed. Plain value, no
-/// ownership.
+/// One piece of the path as the control will follow it, with what limits its speed. A plain value
+/// that owns nothing.
 ///
 /// Arc law, u ∈ [0, 1]:  p(u) = centre + r(u)·(cos θ · e1 + sin θ · e2) + u·rise·axis,  θ =
 /// u·sweep, r(u) = radius + u·(radius_end − radius), e1 = unit vector from centre to start in the
-/// plane ⟂ axis, e2 = axis × e1. sweep > 0 always: the direction of travel is carried by the sign
-/// of `axis` (right-hand rule).
+/// plane ⟂ axis, e2 = axis × e1. sweep > 0 always: the sign of `axis` carries the direction of
+/// travel (right-hand rule).
 struct PathSegment {
   Geometry geometry = Geometry::line;
   Motion motion = Motion::feed;
-  bool speed_modulation = false;  ///< the program wants the spindle's speed modulated here (M38)
+  bool speed_modulation = false;  ///< the program asks for spindle speed modulation here (M38)
   std::uint32_t line = 0;         ///< 1-based line of the NC program
   Point start_mm{};
   Point end_mm{};

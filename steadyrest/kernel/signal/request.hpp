@@ -11,7 +11,7 @@ namespace steadyrest::kernel::signal {
 /// Who asks.
 enum class Room : std::uint8_t { motion, contour, chatter, thermal };
 
-/// What a room wants of the feed override. ratio 1.0 = as programmed; that and Reason::none is the
+/// A room's request for the feed override. Ratio 1.0 (as programmed) with Reason::none is the
 /// neutral request.
 struct FeedRequest {
   Room room = Room::contour;
@@ -19,22 +19,22 @@ struct FeedRequest {
   outcome::Reason reason = outcome::Reason::none;
 };
 
-/// What a room wants of the spindle override.
+/// A room's request for the spindle override.
 struct SpindleRequest {
   Room room = Room::chatter;
   double ratio = 1.0;
   outcome::Reason reason = outcome::Reason::none;
 };
 
-/// No slope is asked for: the envelope's slew alone holds.
+/// No slope requested: only the envelope's slew applies.
 [[nodiscard]] constexpr AxisValues any_slope() noexcept {
   AxisValues any{};
   any.fill(std::numeric_limits<double>::infinity());
   return any;
 }
 
-/// What a room wants to add to the axes' commanded positions: where they should be in the end. The
-/// envelope leads them there.
+/// A room's request for offsets to the axes' commanded positions: the final values. The envelope
+/// leads the axes there.
 struct OffsetRequest {
   Room room = Room::thermal;
   AxisValues offset_mm{};

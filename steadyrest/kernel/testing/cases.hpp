@@ -22,9 +22,8 @@ inline constexpr bool kSanitized = false;
 #endif
 
 /// The first cases of a sweep in a sanitized build, all of them otherwise.
-///
-/// A sweep repeats the same code with other numbers: the sanitizer sees in the first cases what it
-/// would see in all. The figures are judged over all of them in the release build.
+/// A sweep repeats the same code with other numbers: the first cases show the sanitizer all there
+/// is to see. The release build judges the figures over all of them.
 template <std::ranges::viewable_range Cases>
 [[nodiscard]] auto cases(Cases&& all, std::ptrdiff_t most_when_sanitized = 1) {
   return std::views::take(
@@ -32,7 +31,7 @@ template <std::ranges::viewable_range Cases>
       kSanitized ? most_when_sanitized : std::numeric_limits<std::ptrdiff_t>::max());
 }
 
-/// Copied: the braces' own array ends with the head of the loop.
+/// Copied: the braced list's own array ends with the head of the loop.
 template <class Case>
 [[nodiscard]] std::vector<Case> cases(std::initializer_list<Case> all,
                                       std::size_t most_when_sanitized = 1) {

@@ -11,7 +11,7 @@
 #include <steadyrest/math/geometry/vector.hpp>
 
 // Lines and circles in closed form; helices and spirals by sampling at most π/6 apart and refining
-// each dip. Two turns at most are looked at: the caller knows about where the foot is, and a foot
+// each dip. At most two turns are searched: the caller roughly knows where the foot is, and a foot
 // beyond would be on another turn.
 namespace steadyrest::math::geometry {
 namespace {
@@ -24,7 +24,7 @@ constexpr int kMaxSamples = 25;  // π/6 apart: two turns
 // Newton doubles its digits each step; bisection steps in between are few.
 constexpr int kMaxSteps = 12;
 
-// The projection, held within the permitted part.
+// The projection, clamped to the permitted part.
 Foot foot_on_line(const PathSegment& segment, const Point& query, double u_low,
                   double u_high) noexcept {
   const Point along = subtract(segment.end_mm, segment.start_mm);
@@ -60,7 +60,7 @@ Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low
                     double u_near) noexcept {
   const ArcFrame frame = arc_frame(segment);
   const Local q = local_of(segment, frame, query);
-  // The axis of the circle is as far from all its points; there any of them is nearest.
+  // From its axis a circle is equally far everywhere; any of its points is nearest there.
   const double rho = std::hypot(q.x, q.y);
   const double angle = std::atan2(q.y, q.x);
   // The turn whose point at this angle lies nearest to u_near, then moved into the permitted part.
@@ -131,11 +131,10 @@ class Curve {
   double growth_;
 };
 
-// Newton on the slope of the squared distance, kept inside of the bracket by bisection: where the
-// second derivative is not positive (beyond the centre of curvature) Newton would run to a
-// maximum.
+// Newton on the slope of the squared distance, kept inside the bracket by bisection: where the
+// second derivative is not positive (beyond the centre of curvature) Newton would run to a maximum.
 double refine(const Curve& curve, double low, double high, double start) noexcept {
-  // A bracket that ends at the permitted part's end may have its minimum there.
+  // A bracket that ends where the permitted part ends may have its minimum there.
   if (start <= low && curve.slope(low)[0] >= 0.0) {
     return low;
   }
@@ -167,7 +166,7 @@ Foot foot_on_helix(const PathSegment& segment, const Point& query, double u_low,
   const double high = std::min(u_high, near + reach);
   const int count =
       std::clamp(static_cast<int>(std::ceil((high - low) / max_step)) + 1, 3, kMaxSamples);
-  // At π/6 the squared distance has one dip at most between two samples.
+  // At π/6 the squared distance has at most one dip between two samples.
   const double step = (high - low) / (count - 1);
 
   const ArcFrame frame = arc_frame(segment);

@@ -5,7 +5,7 @@
 
 namespace steadyrest::math::geometry {
 
-/// The point of a segment that is nearest to another point.
+/// The point of a segment nearest to another point.
 struct Foot {
   double u = 0.0;  ///< parameter on the segment
   double distance_mm = 0.0;

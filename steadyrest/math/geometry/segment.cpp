@@ -14,7 +14,7 @@ namespace {
 using kernel::signal::Geometry;
 using kernel::signal::PathSegment;
 
-// Only there the speed along the parameter changes.
+// Only on a spiral does the speed along the parameter change.
 bool is_spiral(const PathSegment& segment) noexcept {
   return segment.geometry == Geometry::arc && segment.radius_end_mm != segment.radius_mm;
 }
@@ -28,7 +28,7 @@ double spiral_length(const PathSegment& segment, double u) noexcept {
   const double y1 = y0 + scale_up * u;
   const double w0 = std::sqrt(m2 + y0 * y0);
   const double w1 = std::sqrt(m2 + y1 * y1);
-  // A spiral that hardly grows: the primitives' difference cancels, Simpson's rule does not.
+  // A spiral that hardly grows: the difference of the primitives cancels, Simpson's rule does not.
   if (std::abs(y1 - y0) < 1e-3 * w0) {
     const double ym = 0.5 * (y0 + y1);
     return u / 6.0 * (w0 + 4.0 * std::sqrt(m2 + ym * ym) + w1);
@@ -48,7 +48,7 @@ double spiral_speed(const PathSegment& segment, double u) noexcept {
 
 ArcFrame arc_frame(const PathSegment& segment) noexcept {
   const Point out = subtract(segment.start_mm, segment.centre_mm);
-  // A spiral may begin in its centre; any direction in the plane does for the first point there.
+  // A spiral may begin at its centre; any direction in the plane will do for the first point there.
   if (segment.radius_mm > 0.0) {
     const Point e1 = unit(out);
     return {e1, cross(segment.axis, e1)};
@@ -125,13 +125,13 @@ double parameter_at(const PathSegment& segment, double distance_mm) noexcept {
     return share;
   }
   const double wanted = share * segment.length_mm;
-  // Start: the root of ω·(r₀u + ρu²/2) = share·(the same at u = 1), which leaves out m² alone.
+  // Start: the root of ω·(r₀u + ρu²/2) = share·(the same at u = 1), which only omits m².
   const double r0 = segment.radius_mm;
   const double r1 = segment.radius_end_mm;
   double u = share * (r0 + r1) / (r0 + std::sqrt(r0 * r0 + share * (r1 - r0) * (r0 + r1)));
   double low = 0.0;
   double high = 1.0;
-  // Newton on the length, with the speed as its derivative, inside of a bracket.
+  // Newton on the length, with the speed as its derivative, inside a bracket.
   for (int iteration = 0; iteration < 12; ++iteration) {
     const double excess = spiral_length(segment, u) - wanted;
     (excess > 0.0 ? high : low) = u;

@@ -31,15 +31,14 @@ struct ArcFrame {
 [[nodiscard]] kernel::signal::Point point_at(const kernel::signal::PathSegment& segment,
                                              double u) noexcept;
 
-/// Point, tangent and curvature at u. A segment of no length has the tangent (0, 0, 0).
+/// Point, tangent and curvature at u. A segment of zero length has the tangent (0, 0, 0).
 [[nodiscard]] Station station_at(const kernel::signal::PathSegment& segment, double u) noexcept;
 
 /// Length by geometry in mm; equals `length_mm` except for moves of rotary axes alone.
 [[nodiscard]] double arc_length_mm(const kernel::signal::PathSegment& segment) noexcept;
 
-/// The parameter u of the point that lies `distance_mm` (measured as `length_mm` measures) after
-/// the start, clamped to [0, 1]. Linear except on spirals, where Newton's method finishes within
-/// 1e-12.
+/// The parameter u of the point `distance_mm` (as measured by `length_mm`) after the start, clamped
+/// to [0, 1]. Linear except on spirals, where Newton's method finishes within 1e-12.
 [[nodiscard]] double parameter_at(const kernel::signal::PathSegment& segment,
                                   double distance_mm) noexcept;
 

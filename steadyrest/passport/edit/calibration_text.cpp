@@ -25,7 +25,7 @@ using kernel::machine::Encoder;
 using kernel::machine::Machine;
 using kernel::outcome::refuse;
 
-/// Relative difference of two counts that still are the same: what ten printed digits lose.
+/// Relative difference up to which two counts are the same: what ten printed digits lose.
 constexpr double kSameCount = 1e-6;
 constexpr double kDigit = 1e-5;      // of a count, for the lines
 constexpr double kFineDigit = 1e-8;  // for the phases, whose sum must be 0
@@ -82,7 +82,7 @@ std::vector<KeyValue> key_values(const Encoder& encoder, bool rotary) {
   return out;
 }
 
-/// Byte offsets from the parser's lines and columns. Its columns count characters, so the
+/// Converts the parser's lines and columns to byte offsets. Its columns count characters, so the
 /// continuation bytes of UTF-8 must be skipped.
 class Places {
  public:
@@ -103,7 +103,7 @@ class Places {
     }
     return i;
   }
-  /// Behind the end of the line in which `i` lies.
+  /// After the end of the line that contains `i`.
   [[nodiscard]] std::size_t line_end(std::size_t i) const {
     const std::size_t end = text_.find('\n', i);
     return end == std::string_view::npos ? text_.size() : end + 1;
@@ -126,8 +126,8 @@ const toml::table* axis_of(const toml::table& root, std::string_view name) {
   return nullptr;
 }
 
-/// Where new keys of a section go: behind its last plain value, or behind its head. Behind a
-/// subsection they would belong to that one.
+/// Where a section's new keys go: after its last plain value, or after its head. After a subsection
+/// they would belong to that one.
 std::size_t end_of(const toml::table& section, const Places& places) {
   std::size_t out = places.line_end(places.at(section.source().begin));
   for (const auto& [key, node] : section) {
@@ -146,7 +146,7 @@ struct Edit {
 };
 
 std::string applied(std::string_view text, std::vector<Edit> edits) {
-  // Edits do not overlap; applied in order, each leaves the text between untouched.
+  // Edits do not overlap; applied in order, each leaves the text in between untouched.
   std::ranges::stable_sort(edits, {}, &Edit::from);
   std::string out;
   std::size_t at = 0;
@@ -159,7 +159,7 @@ std::string applied(std::string_view text, std::vector<Edit> edits) {
   return out;
 }
 
-/// Inserted text takes the file's own line ends: a mixed file confuses editors and version control.
+/// Inserted text uses the file's own line ends: a mixed file confuses editors and version control.
 std::string with_line_ends(std::string text, std::string_view of) {
   if (of.find("\r\n") == std::string_view::npos) {
     return text;
@@ -176,7 +176,7 @@ std::vector<Edit> edits_for(std::string_view text, const toml::table& axis,
   const Places places(text);
   std::vector<Edit> out;
   std::string added = encoder == nullptr ? "[axis.encoder]\n" : "";
-  // A key that is there already is replaced in place; the others are added together.
+  // An existing key is replaced in place; the others are added together.
   for (const KeyValue& key : values) {
     const toml::node* old = encoder == nullptr ? nullptr : encoder->get(key.name);
     if (old != nullptr) {
@@ -218,7 +218,7 @@ kernel::outcome::Result<std::string> edited(std::string_view text, const std::st
   const toml::table* old = (*section)["encoder"].as_table();
   const Places places(text);
   for (const toml::table* table : {section, old}) {
-    // Inline tables and dotted keys have no place behind which a new line could go.
+    // After inline tables and dotted keys there is no place for a new line.
     if (table != nullptr && (table->is_inline() || text[places.at(table->source().begin)] != '[')) {
       return refuse(file, line_of(table->source()),
                     "the axis or its encoder is written inline or with dotted keys",
@@ -230,15 +230,15 @@ kernel::outcome::Result<std::string> edited(std::string_view text, const std::st
     return refuse(file, "inserting the calibration would change something else",
                   "write the calibration to a separate file and paste it in by hand");
   }
-  // It must also be a good machine file, ranges and all.
+  // It must also be a valid machine file, ranges included.
   if (const auto machine = parse(out, file); !machine) {
     return std::unexpected(machine.error());
   }
   return out;
 }
 
-/// A calibration belongs to one count length. Learnt with another one, its table would be scaled
-/// wrongly and shift every edge.
+/// A calibration belongs to one count length. With another one its table would be scaled wrongly
+/// and shift every edge.
 kernel::outcome::Result<const Axis*> axis_in(const Machine& machine, const std::string& file,
                                              std::string_view name, double count_mm) {
   const auto found = std::ranges::find_if(

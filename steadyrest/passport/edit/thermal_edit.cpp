@@ -6,7 +6,7 @@
 #include <steadyrest/passport/file/thermal_passport.hpp>
 
 // Replaces the [thermal] sections of a machine file and keeps every other byte. It works on lines,
-// since the sections are written by this program and hold nothing of the user's.
+// since this program writes those sections and they hold nothing of the user's.
 namespace steadyrest::passport {
 namespace {
 
@@ -44,7 +44,7 @@ kernel::outcome::Result<std::string> with_thermal(std::string_view text, const s
     const std::string_view content = trimmed(line);
     const bool head = content.starts_with('[');
     if (head && heads_thermal(content)) {
-      // The first thermal head is where the new sections go; the rest of the old ones vanish.
+      // The new sections go in place of the first thermal head; the rest of the old ones vanish.
       out += put ? "" : sections;
       put = true;
       inside = true;
@@ -66,8 +66,8 @@ kernel::outcome::Result<std::string> with_thermal(std::string_view text, const s
     out += (out.empty() || out.ends_with('\n') ? "" : "\n");
     out += (out.empty() ? "" : "\n") + sections;
   }
-  // The result must read back as a passport; inline tables and other spellings that the line scan
-  // does not know end in a refusal here.
+  // The result must read back as a passport; inline tables and other notations that the line scan
+  // does not know are refused here.
   const auto again = parse_thermal_passport(out, file);
   if (!again) {
     return std::unexpected(again.error());

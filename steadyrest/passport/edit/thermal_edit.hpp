@@ -10,10 +10,10 @@
 namespace steadyrest::passport {
 
 /// The text of a machine file, or of a passport alone, with its thermal sections replaced by these;
-/// at its end where it has none. Everything else stays byte for byte; comments within the replaced
-/// sections go. What comes out is read again before it is given back.
+/// at the end if it has none. Everything else stays byte for byte; comments inside the replaced
+/// sections go. The result is read back before it is returned.
 ///
-/// Refused: what the reader refuses, and thermal values that are not written as sections.
+/// Refused: what the reader refuses, and thermal values not written as sections.
 [[nodiscard]] kernel::outcome::Result<std::string> with_thermal(
     std::string_view text, const std::string& file, const kernel::machine::Thermal& thermal);
 

@@ -14,7 +14,7 @@ using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
 
 std::string quoted(const std::string& text) {
-  // TOML's basic strings take every character but controls, quotes and backslashes.
+  // TOML's basic strings take every character except controls, quotes and backslashes.
   std::string out = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
@@ -25,9 +25,9 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// Writes the keys of one section from the schema, the same table that reads it. Only what differs
-/// from the struct's defaults is written, and the mandatory keys: a passport stays short and says
-/// what was found.
+/// Writes the keys of one section from the schema, the same table that reads it. Only mandatory
+/// keys and values that differ from the struct's defaults are written: a passport stays short and
+/// says what was found.
 template <class S>
 class Writer {
  public:

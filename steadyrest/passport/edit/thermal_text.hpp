@@ -7,8 +7,8 @@
 
 namespace steadyrest::passport {
 
-/// The sections `[thermal]` … as a machine file has them; read back they give the same values to
-/// nine digits.
+/// The sections `[thermal]` … of a machine file; read back they give the same values to nine
+/// digits.
 [[nodiscard]] std::string thermal_text(const kernel::machine::Thermal& thermal);
 
 }  // namespace steadyrest::passport

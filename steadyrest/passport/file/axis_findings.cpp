@@ -15,7 +15,7 @@ using kernel::machine::Machine;
 
 using List = std::vector<Finding>;
 
-constexpr double kSameGain = 0.005;  // of the mean: less is below what a gain can be set to
+constexpr double kSameGain = 0.005;  // of the mean: finer than a gain can be set
 
 /// A line at 45° at speed v: each axis runs at v/√2 and lags by (v/√2)/k; the difference of the
 /// lags, projected across the line, is (v/2)·|1/kx − 1/ky|. Circles become ellipses by the same
@@ -33,7 +33,7 @@ void servo_gains(const Machine& machine, List& out) {
   if (k_high - k_low <= kSameGain * k_high) {
     return;
   }
-  // 1000 mm/min, a feed that everybody can picture.
+  // 1000 mm/min, a feed that everyone can picture.
   constexpr double kSpeed_mm_s = 1000.0 / 60.0;
   out.push_back(
       {Severity::warning, "servo_gain",
@@ -93,7 +93,7 @@ void drives(const Machine& machine, List& out) {
 }
 
 /// A limit along the path beyond what all axes together can do (the root of the sum of squares) is
-/// harmless, but the reader of the file expects it to act.
+/// harmless, but the reader of the file expects it to have an effect.
 void path_limits(const Machine& machine, List& out) {
   double speed2 = 0.0;
   double acceleration2 = 0.0;

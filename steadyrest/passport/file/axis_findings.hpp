@@ -6,7 +6,7 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
 
-/// The findings about the axes, some of those of consistency.hpp.
+/// The findings about the axes, part of those in consistency.hpp.
 namespace steadyrest::passport {
 
 /// Axes that contour together: present and linear. A rotary axis lags in degrees; its share of a
@@ -14,7 +14,7 @@ namespace steadyrest::passport {
 [[nodiscard]] std::vector<const kernel::machine::Axis*> contouring(
     const kernel::machine::Machine& machine);
 
-/// Servo gains, feed-forward, drives and the path's limits: what the axes make of the path.
+/// Servo gains, feed-forward, drives and the path's limits: how the axes follow the path.
 void add_axis_findings(const kernel::machine::Machine& machine, std::vector<Finding>& out);
 
 }  // namespace steadyrest::passport

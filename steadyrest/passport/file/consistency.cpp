@@ -8,8 +8,8 @@
 #include <steadyrest/passport/file/axis_findings.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
 
-// Findings are about machines that load but will disappoint: values that are each in range and
-// together make no sense. The checks say what it costs, in µm or seconds, and what to change.
+// Findings concern machines that load but will disappoint: values each in range that make no sense
+// together. The checks say what it costs, in µm or seconds, and what to change.
 namespace steadyrest::passport {
 namespace {
 
@@ -28,8 +28,8 @@ bool has_ratio(const OverrideTable& table, double ratio) {
 }
 
 /// Faults of one switch. Handing back means writing 100 %: without that step the layer could only
-/// leave its own value behind. A max_percent below its steps means that the control clips them:
-/// what the layer writes is not what it gets.
+/// leave its own value behind. With a max_percent below its steps the control clips them: it does
+/// not do what the layer writes.
 void override_table(std::string_view name, const OverrideTable& table, List& out) {
   if (!has_ratio(table, 1.0)) {
     out.push_back({Severity::error, "override_100",
@@ -53,8 +53,8 @@ void override_table(std::string_view name, const OverrideTable& table, List& out
 
 void overrides(const Machine& machine, List& out) {
   override_table("feed", machine.feed_override, out);
-  // The same codes: without [override.rapid] the rapid table is made from the feed's, and one fault
-  // is enough.
+  // Same codes: without [override.rapid] the rapid table is made from the feed's, and one fault is
+  // enough.
   if (machine.rapid_override.code != machine.feed_override.code) {
     override_table("rapid", machine.rapid_override, out);
   }
@@ -66,7 +66,7 @@ void overrides(const Machine& machine, List& out) {
 }
 
 /// Position feedback resolves one count, so a limit below two would be guessed, not held. Backlash
-/// leaves the axis half of it behind on either side of a reversal, at any feed.
+/// leaves the axis half of itself behind on either side of a reversal, at any feed.
 void contour_limit(const Machine& machine, List& out) {
   if (!machine.contour.enabled) {
     return;
@@ -90,8 +90,8 @@ void contour_limit(const Machine& machine, List& out) {
   }
 }
 
-/// The envelope clamps last, whatever the rooms ask for; it must leave them room, and 100 % above
-/// all, because neutral is 100 %.
+/// The envelope clamps last, whatever the rooms ask for. It must leave them room, above all 100 %,
+/// because neutral is 100 %.
 void envelope(const Machine& machine, List& out) {
   const Envelope& envelope = machine.envelope;
   const Contour& contour = machine.contour;
@@ -119,7 +119,7 @@ void envelope(const Machine& machine, List& out) {
   }
 }
 
-/// What the modulator would refuse, told before a run: a modulation needs two speeds.
+/// What the modulator would refuse, reported before a run: a modulation needs two speeds.
 void chatter(const Machine& machine, List& out) {
   if (!machine.chatter.enabled) {
     return;
@@ -151,7 +151,7 @@ void tempo(const Machine& machine, List& out) {
 
 }  // namespace
 
-/// All checks run: a machine file is corrected once, not fault by fault.
+/// All checks run: a machine file is corrected in one go, not fault by fault.
 std::vector<Finding> findings(const Machine& machine) {
   List out;
   add_axis_findings(machine, out);

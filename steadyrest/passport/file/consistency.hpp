@@ -8,7 +8,7 @@
 
 #include <steadyrest/kernel/machine/machine.hpp>
 
-/// What is allowed in a machine file, but will disappoint: the findings of `steadyrest doctor`.
+/// What is allowed in a machine file but will disappoint: the findings of `steadyrest doctor`.
 namespace steadyrest::passport {
 
 enum class Severity : std::uint8_t {

@@ -7,8 +7,8 @@
 
 #include <steadyrest/passport/file/contradictions.hpp>
 
-// Contradictions between keys of one section. Ranges of single keys are the schema's; these
-// functions see the section only when all its keys are good, and with the lines on which they were
+// Contradictions between keys of one section. The schema checks the ranges of single keys; these
+// functions see a section only when all its keys are good, and with the lines on which they were
 // written.
 namespace steadyrest::passport {
 namespace {
@@ -24,8 +24,8 @@ using kernel::machine::Envelope;
 using kernel::machine::Friction;
 using kernel::machine::Spindle;
 
-/// A fault unless low ≤ high, shown in the file's own units. A value that is the default has no
-/// line, so the one that was written is pointed at.
+/// A fault unless low ≤ high, shown in the file's own units. A default has no line, so the fault
+/// points at the value that was written.
 void ordered(const Given& given, Faults& faults, std::string_view low_key, double low,
              std::string_view high_key, double high) {
   if (low <= high) {
@@ -131,8 +131,8 @@ void contradictions(const Friction& friction, const Given& given, Faults& faults
   }
 }
 
-/// The rated torque has no default; without it the largest torque counts, and there is
-/// nothing to compare.
+/// The rated torque has no default; without it the largest torque applies, and there is nothing to
+/// compare.
 void contradictions(const Spindle& spindle, const Given& given, Faults& faults) {
   ordered(given, faults, "min_rpm", spindle.min_rev_s, "max_rpm", spindle.max_rev_s);
   if (given.has("rated_torque_n_m")) {
@@ -141,7 +141,7 @@ void contradictions(const Spindle& spindle, const Given& given, Faults& faults) 
   }
 }
 
-/// Target below limit, least feed below greatest. With both weights 0 every feed would be equally
+/// Target below limit, lowest feed below highest. With both weights 0 every feed would be equally
 /// good.
 void contradictions(const Contour& contour, const Given& given, Faults& faults) {
   ordered(given, faults, "target_um", contour.target_mm, "limit_um", contour.limit_mm);
@@ -153,7 +153,7 @@ void contradictions(const Contour& contour, const Given& given, Faults& faults) 
   }
 }
 
-/// The M words come in pairs, and 0 for both means that the program has no say.
+/// The M words come in pairs; 0 for both means that the program has no say.
 void contradictions(const Chatter& chatter, const Given& given, Faults& faults) {
   if (given.has("amplitude_percent") && chatter.amplitude_rev_s > 0.0) {
     faults.add(given.at({"amplitude_rpm"}),
@@ -169,8 +169,8 @@ void contradictions(const Chatter& chatter, const Given& given, Faults& faults) 
   }
 }
 
-/// Each method needs its own keys and none of the others': a key that has no effect here was meant
-/// for another control, and the operator would trust it.
+/// Each method needs its own keys and none of the others': a key without effect here was meant for
+/// another control, and the operator would trust it.
 void contradictions(const Compensation& compensation, const Given& given, Faults& faults) {
   using Method = CompensationMethod;
   const Method method = compensation.method;
@@ -183,7 +183,7 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
     }
   };
   needs(method == Method::r_parameter, "r_parameter", given.has("r_parameter"));
-  // The sign is tried out on the machine with an indicator. There is no safe default: the wrong one
+  // The sign is found on the machine with an indicator. There is no safe default: the wrong one
   // doubles the error.
   needs(method == Method::setting_data, "sign", given.has("sign"));
   if (given.has("sign") && compensation.sign == 0) {
@@ -193,8 +193,8 @@ void contradictions(const Compensation& compensation, const Given& given, Faults
   if (compensation.external_offset_free && method != Method::fanuc) {
     needs(false, "external_offset_free", true);
   }
-  // cleared_after_abort speaks of a place that only corrections use. Work offsets and frames belong
-  // to the operator as well.
+  // cleared_after_abort refers to a store that only corrections use. Work offsets and frames are
+  // also the operator's.
   const bool own_place = method == Method::r_parameter || method == Method::setting_data ||
                          (method == Method::fanuc && compensation.external_offset_free);
   if (compensation.cleared_after_abort && !own_place) {

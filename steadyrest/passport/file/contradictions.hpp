@@ -4,7 +4,7 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/passport/keys/section_reader.hpp>
 
-/// Values of one section that are each allowed, but not together. Internal to the reader; what is
+/// Values of one section that are each allowed, but not together. Internal to the reader; anything
 /// merely unwise is a finding (consistency.hpp), not a refusal.
 namespace steadyrest::passport {
 

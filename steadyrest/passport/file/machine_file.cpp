@@ -16,8 +16,8 @@
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
-// Reads the sections one by one, also after a fault, so that one run shows every fault.
-// Contradictions are looked for only in sections whose keys are all good.
+// Reads the sections one by one, even after a fault, so that one run shows every fault.
+// Contradictions are checked only in sections whose keys are all good.
 namespace steadyrest::passport {
 namespace {
 
@@ -236,7 +236,7 @@ class FileReader {
                             word(machine_.compensation.method), word(needed)));
   }
 
-  // Read behind the thermal passport, because the errors are those of its modes.
+  // Read after the thermal passport, because the errors belong to its modes.
   void simulation(const toml::table& root) {
     const std::size_t before = faults_.list.size();
     section<Simulation>(root, "simulation", simulation_keys(), machine_.simulation, nullptr);
@@ -350,7 +350,7 @@ kernel::outcome::Result<Machine> first_fault(AllFaults&& all) {
 
 }  // namespace
 
-/// Bytes first: the TOML parser must not see what could overflow its stack.
+/// Bytes first: the TOML parser must not see anything that could overflow its stack.
 AllFaults parse_all_faults(std::string_view text, const std::string& file) {
   Faults faults{file, {}};
   Machine machine;

@@ -11,7 +11,7 @@
 
 /// Reader of the machine file: TOML text → `Machine` in inner units.
 ///
-/// Every key and its unit, range and default: docs/machine-file.md (made from schema.cpp). A value
+/// Every key with its unit, range and default: docs/machine-file.md (made from schema.cpp). A value
 /// that is not allowed is never repaired: the file is refused with line, value seen, what is
 /// allowed and what to do. Nothing throws.
 namespace steadyrest::passport {
@@ -19,7 +19,7 @@ namespace steadyrest::passport {
 /// Reads a file. The first fault is the refusal.
 [[nodiscard]] kernel::outcome::Result<kernel::machine::Machine> read(const std::string& path);
 
-/// Reads a text; `file` is only what the refusals are to call it.
+/// Reads a text; `file` is only its name in refusals.
 [[nodiscard]] kernel::outcome::Result<kernel::machine::Machine> parse(std::string_view text,
                                                                       const std::string& file);
 

@@ -9,9 +9,9 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/file/override_table.hpp>
 
-// An override table is machine data and never a constant: on one 840D sl the code that means 100 %
-// elsewhere means 70 %. So a table is checked for everything that a slip of the pen can do to it:
-// order, codes twice, neighbours that differ in two bits.
+// An override table is machine data and never a constant: the code that means 100 % elsewhere means
+// 70 % on one 840D sl. A table is therefore checked for every likely typing error: order, duplicate
+// codes, neighbours that differ in two bits.
 namespace steadyrest::passport {
 namespace {
 
@@ -29,7 +29,8 @@ bool even_steps(const OverrideKeys& keys, const Given& given, Faults& faults, Ov
                "write coding = \"binary\", or give the steps as percent = [ … ]");
     return false;
   }
-  // The steps must end exactly at the largest value, or the last code would mean more than it says.
+  // The steps must end exactly at the largest value, or the last code would mean more than it
+  // claims.
   const double ratio = keys.binary_max / keys.binary_step;
   const double whole = std::round(ratio);
   if (std::abs(ratio - whole) > 1e-6 || whole < 1 || whole + 1 > static_cast<double>(kMaxSteps)) {
@@ -50,7 +51,7 @@ bool even_steps(const OverrideKeys& keys, const Given& given, Faults& faults, Ov
 }
 
 /// The switch is a staircase: a step that falls is a swapped entry, and the search for the next
-/// lower step relies on the order. Equal steps are allowed (unused positions repeat the last
+/// lower step depends on the order. Equal steps are allowed (unused positions repeat the last
 /// value).
 bool rising(const OverrideKeys& keys, const Given& given, Faults& faults) {
   for (std::size_t i = 1; i < keys.percent.size(); ++i) {
@@ -211,7 +212,7 @@ OverrideTable rapid_from_feed(const OverrideTable& feed) {
   return rapid;
 }
 
-/// No switch: the spindle has 100 % and nothing else, so every request ends there.
+/// No switch: the spindle has only 100 %, so every request ends there.
 OverrideTable without_override() {
   OverrideTable table;
   table.coding = Coding::binary;

@@ -5,7 +5,7 @@
 #include <steadyrest/passport/keys/section_reader.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 
-// Writes docs/machine-file.md from the schema, the same table that reads the files; so the page
+// Writes docs/machine-file.md from the schema, the same table that reads the files, so the page
 // cannot promise a key that does not exist. A test compares it with the file in docs/.
 namespace steadyrest::passport {
 namespace {
@@ -51,7 +51,7 @@ struct Describe {
   }
   void operator()(std::vector<double> S::* /*field*/) { between("list of "); }
   void operator()(std::vector<std::uint32_t> S::* /*field*/) { between("list of whole numbers "); }
-  // The words that are allowed, as they are written in the file.
+  // The allowed words as written in the file.
   void operator()(const Choice<S>& field) {
     for (const std::string_view word : field.words) {
       range += range.empty() ? "" : ", ";
@@ -74,7 +74,8 @@ std::string default_of(const Key<S>& key, const Describe<S>& described) {
   return described.standard_value;
 }
 
-/// One line per key, in the schema's order. Keys of linear or rotary axes alone say so first.
+/// One line per key, in the schema's order. Keys only for linear or only for rotary axes say so
+/// first.
 template <class S>
 std::string rows(std::span<const Key<S>> keys) {
   std::string out = "| key | unit | allowed | default | meaning |\n|--|--|--|--|--|\n";
@@ -91,7 +92,7 @@ std::string rows(std::span<const Key<S>> keys) {
   return out;
 }
 
-/// A heading, what the section is for, and its table.
+/// A heading, the purpose of the section, and its table.
 template <class S>
 std::string section(std::string_view head, std::string_view text, std::span<const Key<S>> keys) {
   return fmt::format("\n## {}\n{}\n{}", head, text, rows(keys));

@@ -17,8 +17,8 @@ using kernel::machine::Thermal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
-/// True when the file has nothing but [thermal]; its sections are read then. Everything else goes
-/// to the machine file's reader, which gives the better messages.
+/// True when the file has nothing but [thermal]; its sections are then read. Everything else goes
+/// to the machine file's reader, which gives better messages.
 bool passport_alone(std::string_view text, Thermal& thermal, Faults& faults) {
   try {
     const toml::table root = toml::parse(text);

@@ -9,8 +9,8 @@
 
 namespace steadyrest::passport {
 
-/// The thermal sections of a machine file, or of a passport that holds nothing else. Refused: what
-/// the machine file's reader refuses, and a file without [[thermal.axis]].
+/// The thermal sections of a machine file, or of a passport that contains nothing else. Refused:
+/// what the machine file's reader refuses, and a file without [[thermal.axis]].
 [[nodiscard]] kernel::outcome::Result<kernel::machine::Thermal> read_thermal_passport(
     const std::string& path);
 [[nodiscard]] kernel::outcome::Result<kernel::machine::Thermal> parse_thermal_passport(

@@ -60,13 +60,13 @@ void check(const ThermalMode& mode, const Given& given, Faults& faults) {
   }
 }
 
-/// A level is an index into the shares; a higher level is stricter, so they fall.
+/// A level is an index into the shares; a higher level is stricter, so the shares fall.
 void check(const Thermal& thermal, const Given& given, Faults& faults) {
   if (std::ranges::adjacent_find(thermal.share, std::ranges::less{}) != thermal.share.end()) {
     faults.add(given.at({"shares"}), "shares rise from one level to the next",
                "a higher level is stricter: write them in falling order");
   }
-  // The slow slope protects the surface in the cut. Out of it there is nothing to protect.
+  // The slow slope protects the surface in the cut. Out of the cut there is nothing to protect.
   if (thermal.retract_slope_mm_s > 0.0 && thermal.retract_slope_mm_s < thermal.slope_mm_s) {
     faults.add(given.at({"retract_slope_um_min", "slope_um_min"}),
                "retract_slope_um_min is below slope_um_min",
@@ -159,7 +159,7 @@ void read_thermal(const toml::table& root, Thermal& out, Faults& faults) {
     check(out, given, faults);
   }
   AxisReader axes(faults);
-  // Two sections of one axis would be two models that both want to move it.
+  // Two sections for one axis would be two models that both try to move it.
   each(*table, "axis", "[[thermal.axis]]", faults, [&](const toml::table& t) {
     ThermalAxis axis = axes.read(t);
     const bool twice = std::ranges::any_of(

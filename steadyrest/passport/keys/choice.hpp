@@ -10,7 +10,7 @@
 
 #include <steadyrest/passport/keys/schema.hpp>
 
-/// Keys whose value is one word of several: the words are in the order of the enumeration.
+/// Keys whose value is one of several words, in the order of the enumeration.
 namespace steadyrest::passport {
 
 template <class S, auto Member>

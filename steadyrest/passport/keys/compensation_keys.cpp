@@ -3,8 +3,8 @@
 
 #include <steadyrest/passport/keys/schema.hpp>
 
-// The method decides which store of the control holds a correction; the reasons for each are in
-// nc/rewrite/README.md.
+// The method decides where the control stores a correction; nc/rewrite/README.md has the reasons
+// for each.
 namespace steadyrest::passport {
 namespace {
 
@@ -63,8 +63,8 @@ std::span<const Key<Compensation>> compensation_keys() noexcept {
   return kKeys;
 }
 
-/// by_dialect goes with whatever dialect the file has; the SINUMERIK methods and those of Fanuc and
-/// Haas are tied to theirs.
+/// by_dialect suits any dialect of the file; the methods for SINUMERIK, Fanuc and Haas are tied to
+/// theirs.
 Dialect dialect_of(CompensationMethod method, Dialect own) noexcept {
   switch (method) {
     case CompensationMethod::linuxcnc:

@@ -70,7 +70,7 @@ std::span<const Key<Chatter>> chatter_keys() noexcept {
                    "Largest feed per tooth, as a share of the programmed one; when the spindle "
                    "slows down, the feed follows."},
       Key<Chatter>{
-          // Programs choose where to modulate: M38 and M39 are what Haas lathes use for it.
+          // Programs choose where to modulate: Haas lathes use M38 and M39 for it.
           "m_code_on", &Chatter::m_code_on, 0, 9999,
           "M word that turns the modulation on; 0 = always on, whatever the program says."},
       Key<Chatter>{"m_code_off", &Chatter::m_code_off, 0, 9999, "M word that turns it off."},

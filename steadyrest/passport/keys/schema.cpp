@@ -24,7 +24,7 @@ using kernel::machine::Spindle;
 using std::string_view;
 
 constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "modbus", "opcua", "replay"};
-/// Those that have an adapter; a file with another is refused.
+/// Those with an adapter; a file with another one is refused.
 constexpr auto kBuiltPorts = std::span(kPorts).first<1>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
@@ -36,8 +36,7 @@ constexpr auto kRotary = For::rotary;
 
 }  // namespace
 
-/// Only ports that are built are allowed, so a machine file cannot promise a port that does
-/// nothing.
+/// Only built ports are allowed, so a machine file cannot promise a port that does nothing.
 std::span<const Key<Machine>> top_keys() noexcept {
   static const std::array kKeys = {
       Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
@@ -74,8 +73,8 @@ std::span<const Key<Control>> control_keys() noexcept {
                    "Number of blocks the control looks ahead."},
       Key<Control>{"corner_tolerance_mm", &Control::corner_tolerance_mm, 0, 10,
                    "Rounding tolerance of a G64 without a value; 0 stays on the exact path."},
-      // The speed through a corner that is not rounded: as if an arc of this deviation were run,
-      // with the axes' acceleration across it.
+      // The speed through a corner that is not rounded: as on an arc of this deviation, with the
+      // axes' acceleration across it.
       Key<Control>{"junction_deviation_mm", &Control::junction_deviation_mm, 0, 1,
                    "Speed limit through a corner of the exact path."},
       Key<Control>{"tool_change_s", &Control::tool_change_s, 0, 3600, "Time for one tool change."},
@@ -111,8 +110,8 @@ std::span<const Key<Axis>> axis_keys() noexcept {
       Key<Axis>{"name", &Axis::name, 1, 1, "One of X Y Z U V W (linear) or A B C (rotary).", kMust},
       Key<Axis>{"servo_gain_1_s", &Axis::servo_gain_1_s, 1, 1000,
                 "Position loop gain: speed over following error.", kMust},
-      // Kv in the unit of the control's own parameter; drawings and commissioning sheets have it
-      // so.
+      // Kv in the unit of the control's own parameter, as drawings and commissioning sheets give
+      // it.
       Key<Axis>{"servo_gain_m_min_mm", &Axis::servo_gain_1_s, 0.06, 60,
                 "The same in the unit of SINUMERIK MD32200: 1 (m/min)/mm = 16.667 1/s.", kMust},
       Key<Axis>{"feed_forward", &Axis::feed_forward, 0, 1.5,
@@ -131,8 +130,8 @@ std::span<const Key<Axis>> axis_keys() noexcept {
                 "Largest jerk that the control plans with.", kMay, kLinear},
       Key<Axis>{"max_jerk_deg_s3", &Axis::max_jerk_mm_s3, 1, 1e9,
                 "Largest jerk that the control plans with.", kMay, kRotary},
-      // The drive's own limit lies above what the control plans with; where it does not, the axis
-      // falls behind the plan.
+      // The drive's own limit is above the one the control plans with; otherwise the axis falls
+      // behind the plan.
       Key<Axis>{"drive_acceleration_mm_s2", &Axis::drive_acceleration_mm_s2, 1, 1e6,
                 "What the drive delivers at its current limit; the servo saturates there.", kMay,
                 kLinear},
@@ -170,9 +169,8 @@ std::span<const Key<Encoder>> encoder_keys() noexcept {
                    kMay, kRotary},
       Key<Encoder>{"clock_ns", &Encoder::clock_s, 0, 1e6,
                    "Period of the clock that time-stamps the edges; 0 = no time stamps."},
-      // A line of the encoder has four edges, and each kind of edge is off by its own amount,
-      // the same on every line: the phase errors. What is left differs from line to line: the line
-      // table.
+      // A line of the encoder has four edges, and each kind of edge is off by its own amount, the
+      // same on every line: the phase errors. The rest differs from line to line: the line table.
       Key<Encoder>{"phase_error_um", &Encoder::phase_error_mm, -1000, 1000,
                    "Calibration: position errors of the four edges of a line, edge number mod 4 = "
                    "0, 1, 2, 3; their sum is 0 and each is less than a count.",
@@ -237,7 +235,7 @@ std::span<const Key<OverrideKeys>> override_keys() noexcept {
              "Binary switch with even steps from 0 to this value; the word is the step number."},
       Key<O>{"binary_step_percent", &O::binary_step, 0.05, 50,
              "Size of those steps; 2001 steps at most."},
-      // Together with dead_time_ms this decides how far ahead the layer must look to be in time.
+      // Together with dead_time_ms this decides how far ahead the layer must look.
       Key<O>{"scan_period_ms", &O::scan_period_s, 0.05, 10000,
              "How often the PLC (or whatever reads the switch) scans the word."},
       Key<O>{"dead_time_ms", &O::dead_time_s, 0, 10000,
@@ -265,7 +263,7 @@ std::span<const Key<Spindle>> spindle_keys() noexcept {
       Key<Spindle>{"rated_power_kw", &Spindle::rated_power_w, 0.001, 1e4, "Rated power."},
       Key<Spindle>{"max_torque_n_m", &Spindle::max_torque_n_m, 0.001, 1e6, "Largest torque."},
       // A modulated spindle works against its own inertia all the time; the RMS of that torque must
-      // stay below what the motor bears for ever.
+      // stay below the motor's continuous rating.
       Key<Spindle>{"rated_torque_n_m", &Spindle::rated_torque_n_m, 0.001, 1e6,
                    "Continuous RMS torque of the motor (S1); default `max_torque_n_m`."},
       Key<Spindle>{"speed_tolerance_percent", &Spindle::speed_tolerance_ratio, 0, 100,
@@ -293,8 +291,8 @@ std::span<const Key<Simulation>> simulation_keys() noexcept {
                       "How much larger the true levels and ambient gains are than the passport's, "
                       "in the same order.",
                       kMay, For::any, 72},
-      // The shop around the simulated machine: a daily swing, draughts, and sensors that see both
-      // with noise.
+      // The shop around the simulated machine: a daily swing, draughts, and sensors that measure
+      // both with noise.
       Key<Simulation>{"room_c", &Simulation::room_c, -20, 60, "Mean shop temperature."},
       Key<Simulation>{"room_swing_k", &Simulation::room_swing_k, 0, 30,
                       "Amplitude of the shop temperature over a day, warmest at 15:00."},

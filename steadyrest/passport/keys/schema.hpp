@@ -46,7 +46,7 @@ struct Key {
   std::size_t max_entries = 4096;  ///< of a list
 };
 
-/// An override section as it stands in the file; `make_override` turns it into the table.
+/// An override section as written in the file; `make_override` turns it into the table.
 struct OverrideKeys {
   kernel::machine::Coding coding = kernel::machine::Coding::gray;
   std::vector<double> percent;  ///< ratios once read
@@ -79,7 +79,7 @@ inline constexpr std::size_t kMaxLineTable = 1U << 20U;
 [[nodiscard]] std::span<const Key<kernel::machine::Envelope>> envelope_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Simulation>> simulation_keys() noexcept;
 
-/// The dialect that a method is for; `own` where the method is by_dialect.
+/// The dialect that a method belongs to; `own` if the method is by_dialect.
 [[nodiscard]] kernel::machine::Dialect dialect_of(kernel::machine::CompensationMethod method,
                                                   kernel::machine::Dialect own) noexcept;
 

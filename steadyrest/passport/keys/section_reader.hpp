@@ -22,7 +22,7 @@
 /// Reads one section of the machine file by its table of keys. Internal to the reader.
 namespace steadyrest::passport {
 
-/// All that is wrong with one file, in the order of its lines.
+/// Everything wrong with one file, in the order of its lines.
 struct Faults {
   std::string file;
   std::vector<kernel::outcome::Refusal> list;
@@ -35,7 +35,7 @@ struct Faults {
   }
 };
 
-/// Where each key that was given stands.
+/// The line of each given key.
 struct Given {
   std::string section;   ///< as shown to people: `[control]`, `[[axis]] X`
   std::size_t line = 0;  ///< of the section's head
@@ -63,15 +63,15 @@ struct Given {
   }
 };
 
-/// `text`, or its beginning when it is too long for a message.
+/// `text`, or its beginning if it is too long for a message.
 [[nodiscard]] std::string cut(std::string_view text);
-/// A value as it stands in the file, short enough for a message.
+/// A value as written in the file, short enough for a message.
 [[nodiscard]] std::string shown(const toml::node& node);
 /// A number as people write it.
 [[nodiscard]] std::string shown(double value);
 [[nodiscard]] std::size_t line_of(const toml::source_region& source);
 
-/// Reads plain values; says what is wrong with them.
+/// Reads plain values and reports what is wrong with them.
 class ValueReader {
  public:
   ValueReader(Faults& faults, std::string_view key, double min, double max, std::size_t max_entries)
@@ -98,7 +98,7 @@ class ValueReader {
   std::size_t max_entries_;
 };
 
-/// The keys of one section into its struct.
+/// Reads the keys of one section into its struct.
 template <class S>
 class SectionReader {
  public:
@@ -226,7 +226,7 @@ class SectionReader {
       return other.field == key.field && given_.has(other.name);
     });
   }
-  /// The keys that would do as well.
+  /// The alternative keys for the same quantity.
   [[nodiscard]] std::string other_units(const Key<S>& key) const {
     std::string out;
     for (const Key<S>& other : keys_) {
@@ -236,7 +236,7 @@ class SectionReader {
     }
     return out;
   }
-  /// A quantity with several units is asked for once.
+  /// A quantity with several units is requested only once.
   [[nodiscard]] bool first_unit(const Key<S>& key) const {
     for (const Key<S>& other : keys_) {
       if (fits(other) && other.field == key.field) {
@@ -261,7 +261,7 @@ class SectionReader {
                     name, names, fmt::format("remove it; {} has {}", section_, joined(names))));
   }
 
-  /// A key for linear axes on a rotary one, or the other way round.
+  /// A key for linear axes on a rotary one, or vice versa.
   bool other_kind_of_axis(std::string_view name, std::size_t line) {
     for (const Key<S>& key : keys_) {
       if (key.name != name) {
@@ -280,7 +280,7 @@ class SectionReader {
     return false;
   }
 
-  /// The right quantity in a unit that the machine file does not have for it.
+  /// The right quantity in a unit that the machine file does not offer for it.
   bool other_unit(std::string_view name, std::size_t line, const toml::node& node) {
     // NOLINTNEXTLINE(readability-use-anyofallof): it reports as it finds
     for (const Key<S>& key : keys_) {

@@ -17,7 +17,7 @@ std::span<const Key<Thermal>> thermal_keys() noexcept {
       Key<Thermal>{"enabled", &Thermal::enabled, 0, 0,
                    "The layer offsets the axes on line to cancel the forecast drift."},
       Key<Thermal>{
-          // The paper's k: the part of the tolerance that drift may use up. Measured parts move it
+          // The paper's k: the part of the tolerance that drift may use up. Measured parts shift it
           // by one level at a time.
           "shares", &Thermal::share, 0.01, 1,
           "Share k of the tolerance allowed for drift, level by level, falling: k0, k1, k2, k3.",
@@ -36,7 +36,7 @@ std::span<const Key<Thermal>> thermal_keys() noexcept {
   return kKeys;
 }
 
-/// Noise and drift set the width of the band and how much a reading is believed.
+/// Noise and drift set the width of the band and the weight of a reading.
 std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalAxis>{"name", &ThermalAxis::name, 1, 32,
@@ -44,7 +44,7 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
                        Need::mandatory},
       Key<ThermalAxis>{"noise_um", &ThermalAxis::noise_mm, 0, 1000, "RMS noise of a reading."},
       // What no mode explains is modelled as noise with a memory, so that a reading corrects the
-      // near future more than the far one.
+      // near future more than the distant one.
       Key<ThermalAxis>{"drift_um", &ThermalAxis::drift_mm, 0, 1000,
                        "RMS of the unmodelled part, a first-order process."},
       Key<ThermalAxis>{"drift_tau_min", &ThermalAxis::drift_tau_s, 0.1, 1e5,
@@ -58,8 +58,8 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
           "max_speed_rpm", &ThermalAxis::max_speed_rev_s, 0, 1e6,
           "Fastest spindle speed in the fit; 0 = unknown. No forecast beyond 1.2 times that."},
       Key<ThermalAxis>{
-          // The parameters were fitted together and their errors are tied; the band of a forecast
-          // needs all of it.
+          // The parameters were fitted together and their errors are correlated; the band of a
+          // forecast needs the whole matrix.
           "covariance", &ThermalAxis::covariance, -1e12, 1e12,
           "Lower triangle, row by row, of the covariance of the linear parameters (µm, µm/K): the "
           "levels or coefficients of each mode, then the ambient gains.",
@@ -68,8 +68,8 @@ std::span<const Key<ThermalAxis>> thermal_axis_keys() noexcept {
   return kKeys;
 }
 
-/// tau_min is with the spindle turning: windage carries heat away, so a spindle often cools more
-/// slowly at rest (rest_tau_min).
+/// tau_min applies with the spindle turning: windage carries heat away, so a spindle often cools
+/// more slowly at rest (rest_tau_min).
 std::span<const Key<ThermalMode>> thermal_mode_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalMode>{"tau_min", &ThermalMode::tau_s, 0.01, 1e5,
@@ -100,7 +100,7 @@ std::span<const Key<ThermalMode>> thermal_mode_keys() noexcept {
   return kKeys;
 }
 
-/// The lag is that of the machine behind the air: iron follows the room by hours.
+/// The lag is that of the machine, not of the air: iron follows the room by hours.
 std::span<const Key<ThermalAmbient>> thermal_ambient_keys() noexcept {
   static const std::array kKeys = {
       Key<ThermalAmbient>{"sensor", &ThermalAmbient::sensor, 1, 32,

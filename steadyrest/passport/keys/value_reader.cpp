@@ -4,8 +4,8 @@
 
 #include <steadyrest/passport/keys/section_reader.hpp>
 
-// Reads one value and says what is wrong with it: what was seen, its type, what is allowed, what to
-// write. A value is never repaired.
+// Reads one value and reports what is wrong with it: what was seen, its type, what is allowed, what
+// to write. A value is never repaired.
 namespace steadyrest::passport {
 namespace {
 
@@ -47,14 +47,14 @@ std::string cut(std::string_view text) {
   return std::string(text.substr(0, end)) + "…";
 }
 
-/// Ten digits; a whole number has all of its own, as it may be the end of a range.
+/// Ten digits; a whole number keeps all its digits, as it may be the end of a range.
 std::string shown(double value) {
   std::string out = fmt::format("{:.10g}", value);
   const bool whole = std::abs(value) <= kMostExact && value == std::floor(value);
   return whole && std::strtod(out.c_str(), nullptr) != value ? fmt::format("{:.0f}", value) : out;
 }
 
-/// A value as the file has it; lists and tables only by their type.
+/// A value as written in the file; lists and tables only by their type.
 std::string shown(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     return fmt::format("\"{}\"", cut(text->get()));
@@ -76,10 +76,10 @@ std::size_t line_of(const toml::source_region& source) {
   return source.begin.line;
 }
 
-/// One form for all: what the key was given, what that is, what it needs.
+/// One form for all: what the key was given, its type, what it needs.
 void ValueReader::wrong_type(const toml::node& node, std::string_view needed,
                              std::string_view way) const {
-  // A list, a table and a date are shown by their type alone.
+  // Lists, tables and dates are shown by their type only.
   const bool by_type = shown(node) == type_name(node);
   faults_.add(line_of(node.source()),
               fmt::format("{}{} is {}; {} is needed", key_,
@@ -104,8 +104,8 @@ bool ValueReader::in_range(const toml::node& node, double value) const {
 }
 
 bool ValueReader::number(const toml::node& node, double& out) const {
-  // Whole numbers are fine where a number is asked for; quoted ones are not, for "50" is a text and
-  // a unit in quotes would be lost.
+  // Whole numbers are fine where a number is needed; quoted ones are not, for "50" is a text and a
+  // unit in quotes would be lost.
   if (!node.is_integer() && !node.is_floating_point()) {
     const std::string_view unit = unit_of(key_).shown;
     wrong_type(node, unit.empty() ? "a number" : fmt::format("a number in {}", unit),
@@ -120,7 +120,7 @@ bool ValueReader::number(const toml::node& node, double& out) const {
   return true;
 }
 
-/// 1e3 is floating point to TOML even if it is whole.
+/// To TOML 1e3 is floating point even though it is whole.
 bool ValueReader::integer(const toml::node& node, std::int64_t& out) const {
   const auto* value = node.as_integer();
   if (value == nullptr) {
@@ -190,7 +190,7 @@ bool ValueReader::choice(const toml::node& node, std::span<const std::string_vie
   }
   const auto found = std::find(words.begin(), words.end(), value->get());
   if (found == words.end()) {
-    // A slip of the pen gets the nearest word as a suggestion.
+    // A typing error gets the nearest word as a suggestion.
     const std::string_view close = kernel::outcome::nearest(value->get(), words);
     faults_.add(line_of(node.source()),
                 fmt::format("{} = {} is unknown; allowed: {}{}", key_, shown(node),
@@ -210,7 +210,7 @@ const toml::array* ValueReader::list(const toml::node& node, std::string_view of
     wrong_type(node, fmt::format("a list of {}", of), "write [first, second, …]");
     return nullptr;
   }
-  // A limit, because a list of a million entries where four belong is a wrong file.
+  // Limited, because a list of a million entries in place of four is a wrong file.
   if (array->empty() || array->size() > max_entries_) {
     faults_.add(
         line_of(node.source()),
@@ -228,7 +228,7 @@ bool ValueReader::numbers(const toml::node& node, std::vector<double>& out) cons
     return false;
   }
   out.reserve(array->size());
-  // The first bad element ends the list: a thousand equal faults help nobody.
+  // The first bad element ends the list: a thousand identical faults help nobody.
   for (const toml::node& element : *array) {
     double value = 0.0;
     if (!number(element, value)) {

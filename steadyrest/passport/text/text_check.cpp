@@ -6,8 +6,8 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 
-// What TOML's parser must not be given at all: bytes that are no text, and nesting that would
-// overflow its stack. Checked on the raw text, with the line of the fault.
+// What TOML's parser must never receive: bytes that are not text, and nesting that would overflow
+// its stack. Checked on the raw text, with the line of the fault.
 namespace steadyrest::passport {
 namespace {
 
@@ -23,13 +23,13 @@ std::size_t line_at(std::string_view text, std::size_t offset) {
                  text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
 }
 
-/// 0 beyond the end: no byte of a sequence, so a cut-off character fails its check.
+/// 0 beyond the end: never part of a sequence, so a truncated character fails its check.
 unsigned byte_at(std::string_view text, std::size_t i) {
   return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
 }
 
-/// Length of the UTF-8 sequence that begins at i; 0 when it is none (RFC 3629, table of section 4:
-/// overlong forms, surrogates and code points above U+10FFFF are excluded by the second byte).
+/// Length of the UTF-8 sequence that begins at i; 0 if there is none (RFC 3629, table of section 4:
+/// the second byte excludes overlong forms, surrogates and code points above U+10FFFF).
 std::size_t sequence_length(std::string_view text, std::size_t i) {
   const unsigned a = byte_at(text, i);
   const unsigned b = byte_at(text, i + 1);
@@ -56,7 +56,7 @@ std::size_t sequence_length(std::string_view text, std::size_t i) {
 
 std::optional<Refusal> unfit_bytes(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
-    // Control characters but tab and line ends: a TOML file has none, a binary file soon does.
+    // Control characters except tab and line ends: a TOML file has none, a binary file soon does.
     const unsigned c = byte_at(text, i);
     if ((c < 0x20U && c != '\t' && c != '\n' && c != '\r') || c == 0x7FU) {
       return bad_input("", line_at(text, i),
@@ -74,8 +74,8 @@ std::optional<Refusal> unfit_bytes(std::string_view text) {
 }
 
 /// Length of the string that begins with the quote at i (TOML 1.0, section String): on one line, or
-/// over several between three quotes, the last of which may have two more of the content before
-/// them. Of an unclosed one: up to where the parser gives up, the line's or the text's end.
+/// over several between three quotes; up to two more quotes of content may precede the last three.
+/// An unclosed one runs up to where the parser gives up, the end of the line or of the text.
 std::size_t string_length(std::string_view text, std::size_t i) {
   const char quote = text[i];
   const bool escapes = quote == '"';
@@ -99,7 +99,7 @@ std::size_t string_length(std::string_view text, std::size_t i) {
 }
 
 /// The TOML parser and the destructor of its tree recurse once for each part of a dotted key.
-/// Strings and comments are passed over: what they contain is neither a part nor the end of a key.
+/// Strings and comments are skipped: their contents are neither a part nor the end of a key.
 /// Numbers and dates have few dots and need no care.
 std::optional<Refusal> too_deep(std::string_view text) {
   int parts = 1;
@@ -127,7 +127,7 @@ std::optional<Refusal> too_deep(std::string_view text) {
 
 }  // namespace
 
-/// Size first, before anything walks through the text.
+/// Size first, before anything scans the text.
 std::optional<Refusal> unfit_text(std::string_view text) {
   if (text.size() > kMaxFileBytes) {
     return bad_input(

@@ -10,11 +10,11 @@
 
 namespace steadyrest::passport {
 
-/// A machine file is a few kilobytes, ten megabytes with the longest table of an encoder's lines;
+/// A machine file is a few kilobytes, or ten megabytes with the longest table of encoder lines;
 /// anything larger than this is some other file.
 inline constexpr std::size_t kMaxFileBytes = 16U << 20U;
 
-/// What must hold before the text goes to the TOML parser: not empty, not over-large, UTF-8, no
+/// Requirements on the text before it goes to the TOML parser: not empty, not oversized, UTF-8, no
 /// control characters, no key path deep enough to exhaust the stack. `file` of the refusal stays
 /// empty.
 [[nodiscard]] std::optional<kernel::outcome::Refusal> unfit_text(std::string_view text);

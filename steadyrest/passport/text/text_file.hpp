@@ -7,8 +7,8 @@
 
 namespace steadyrest::passport {
 
-/// The whole of a machine file as it stands on the disk. Refused: no file, a folder. Of a larger
-/// file than is allowed one byte too many is read, which `unfit_text` refuses.
+/// The whole machine file from the disk. Refused: no file, a folder. Of an oversized file one byte
+/// more than allowed is read, which `unfit_text` refuses.
 [[nodiscard]] kernel::outcome::Result<std::string> read_text(const std::string& path);
 
 }  // namespace steadyrest::passport

@@ -50,7 +50,7 @@ constexpr double mm_s_from_um_min(double speed_um_min) noexcept {
 constexpr double um_min_from_mm_s(double speed_mm_s) noexcept {
   return speed_mm_s * 60e3;
 }
-/// Displacement for a feed: 1 µm/(m/min) = 1e-3 mm/(1000/60 mm/s) = 6e-5 s.
+/// Displacement per feed: 1 µm/(m/min) = 1e-3 mm/(1000/60 mm/s) = 6e-5 s.
 constexpr double s_from_um_m_min(double gain_um_m_min) noexcept {
   return gain_um_m_min * 6e-5;
 }
@@ -67,7 +67,7 @@ constexpr double n_um_from_n_mm(double stiffness_n_mm) noexcept {
 
 constexpr Unit kNone{"", "", same, same};
 
-/// The order is free: unit_of() takes the longest ending that fits.
+/// The order is free: unit_of() takes the longest matching ending.
 constexpr std::array kUnits = {
     Unit{"1_s", "1/s", same, same},
     Unit{"m_min_mm", "(m/min)/mm", gain_1_s_from_m_min_mm, m_min_mm_from_1_s},
@@ -111,8 +111,8 @@ constexpr std::array<std::string_view, 20> kForeign = {
     "us",  "khz", "m",     "m_s",   "m_s2",   "m_min", "g", "in", "inch", "in_min",
     "ipm", "rad", "rad_s", "rev_s", "rev_s2", "ratio", "w", "nm", "m_s3", "mm_min_mm"};
 
-/// Length of the part before `_suffix`; npos when the key does not end so. A suffix begins after an
-/// underscore, or is the whole key (`percent`).
+/// Length of the part before `_suffix`; npos when the key has another ending. A suffix begins after
+/// an underscore, or is the whole key (`percent`).
 std::size_t stem_length(std::string_view key, std::string_view suffix) noexcept {
   if (key == suffix) {
     return 0;

@@ -14,11 +14,11 @@ struct Unit {
   double (*from_inner)(double) noexcept = nullptr;
 };
 
-/// The unit in which `key` ends (the longest that fits); the one with an empty suffix if none does.
+/// The unit in which `key` ends (the longest match); the one with an empty suffix if there is none.
 [[nodiscard]] const Unit& unit_of(std::string_view key) noexcept;
 
-/// `key` without its unit: `servo_gain` for `servo_gain_m_min_mm`. Knows units that the
-/// files do not use (`_in`, `_khz`, …) as well, so that a wrong unit is told from a wrong word.
+/// `key` without its unit: `servo_gain` for `servo_gain_m_min_mm`. Also knows units that the files
+/// do not use (`_in`, `_khz`, …), so that a wrong unit is told from a wrong word.
 [[nodiscard]] std::string_view stem_of(std::string_view key) noexcept;
 
 }  // namespace steadyrest::passport

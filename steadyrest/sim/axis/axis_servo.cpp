@@ -9,8 +9,8 @@
 #include <steadyrest/sim/base/range.hpp>
 
 // A servo period is one exact step where the axis is linear, else as many drive steps as it takes:
-// exact linear step first, then what drive limit and friction take away from it, then the table on
-// its backlash. The encoder is read once, at the end, as a control reads it.
+// the exact linear step first, then what drive limit and friction take away from it, then the table
+// within its backlash. The encoder is read once, at the end, as a control does.
 namespace steadyrest::sim {
 namespace {
 
@@ -64,13 +64,13 @@ AxisServo::AxisServo(const Config& config, const Encoder& encoder) noexcept
       period_s_(config.period_s),
       friction_(config.axis.friction, config.period_s),
       encoder_(encoder) {
-  // Nothing to limit and nothing that rubs: one step serves the whole period.
+  // No limit and no friction: one step covers the whole period.
   linear_ = !friction_.present() && std::isinf(drive_mm_s2_);
   steps_ = linear_ ? 1U
                    : static_cast<std::uint32_t>(
                          std::max(1.0, std::ceil(period_s_ / config.drive_period_s - 1e-9)));
   const double h = period_s_ / steps_;
-  // Friction's step must be the one that it is used with.
+  // Friction must be built for the step it is used with.
   friction_ = Friction(config.axis.friction, h);
   // Exact step of Ti·d̂˙ = f − d̂. portable::exp, as everywhere here: the same bytes with every
   // compiler.
@@ -116,9 +116,8 @@ double AxisServo::nominal(const Piece& piece, double held_mm, double& x, double&
   return start_mm_s;
 }
 
-/// v̇ of the linear law at the end of a step that has been taken.
-/// For the log and the layer's tests: from the law, since a difference over the period would be its
-/// mean.
+/// v̇ of the linear law at the end of a completed step. For the log and the layer's tests: taken
+/// from the law, since a difference over the period would give its mean.
 double AxisServo::nominal_acceleration(const Piece& piece, double held_mm) const noexcept {
   const double forward = 1.0 - lag_gain_;
   const double command_mm_s = piece.slope_mm_s + piece.curvature_mm_s2 * step_.h_s;
@@ -138,21 +137,21 @@ void AxisServo::limited(const Piece& piece, double held_mm, State& s) const noex
   double x = x0;
   double v = v0;
   const double start = nominal(piece, held_mm, x, v);
-  // What the drive must give: the nominal acceleration and what it takes against friction.
+  // What the drive must deliver: the nominal acceleration plus the effort against friction.
   const double wanted = (v - v0) * step_.rate_1_s + s.disturbance_mm_s2;
   const double drive = std::clamp(wanted, -drive_mm_s2_, drive_mm_s2_);
   s.saturated = s.saturated || drive != wanted;
   const double v1 = friction_.step(v0, drive);
   const bool stuck = v0 == 0.0 && v1 == 0.0;
-  // The exact linear step plus the trapezoid of what the velocity lacks against it; at the limit
-  // the acceleration is constant and the trapezoid alone is exact.
+  // The exact linear step plus the trapezoid of the missing velocity; at the limit the acceleration
+  // is constant and the trapezoid alone is exact.
   const double moved =
       drive == wanted ? x - x0 + 0.5 * h * ((v0 - start) + (v1 - v)) : 0.5 * h * (v0 + v1);
   s.motor_mm = stuck ? x0 : x0 + moved;
   s.velocity_mm_s = v1;
   s.acceleration_mm_s2 = (v1 - v0) * step_.rate_1_s;
   s.drive_mm_s2 = drive;
-  // What the drive gave and the axis did not show: the integral part follows it.
+  // What the drive delivered and the axis did not show: the integral part follows it.
   const double friction = drive - s.acceleration_mm_s2;
   s.disturbance_mm_s2 += integral_share_ * (friction - s.disturbance_mm_s2);
 }
@@ -165,7 +164,7 @@ void AxisServo::move_table(State& s) const noexcept {
       half_backlash_mm_ > 0.0 ? (s.table_mm - before) * step_.rate_1_s : s.velocity_mm_s;
 }
 
-/// Inside of the standstill window of a command that stands, on dry friction.
+/// Inside the standstill window of a command at rest, on dry friction.
 bool AxisServo::holds(double command_mm, double command_mm_s) const noexcept {
   return friction_.dry() && command_mm_s == 0.0 && state_.command_mm_s == 0.0 &&
          command_mm == state_.command_mm && std::abs(command_mm - state_.encoder_mm) <= window_mm_;
@@ -175,7 +174,7 @@ const AxisServo::State& AxisServo::update(double command_mm, double command_mm_s
   const double held = state_.encoder_mm - state_.motor_mm;
   double base = state_.command_mm;
   double curvature = (command_mm_s - state_.command_mm_s) / period_s_;
-  // The parabola through both commanded positions whose slope changes by what the velocity does.
+  // The parabola through both commanded positions whose slope changes as the velocity does.
   double slope = (command_mm - base) / period_s_ - 0.5 * curvature * period_s_;
   state_.saturated = false;
   if (linear_) {
@@ -189,7 +188,7 @@ const AxisServo::State& AxisServo::update(double command_mm, double command_mm_s
     move_table(state_);
   } else {
     if (holds(command_mm, command_mm_s)) {
-      // Arrived: the loop holds where it is, so that stiction, count size and integral part
+      // Arrived: the loop holds its position, so that stiction, count size and integral part
       // together do not hunt.
       base = state_.encoder_mm;
       slope = curvature = 0.0;
@@ -221,7 +220,7 @@ void AxisServo::keep(std::size_t step, double start_mm, double start_mm_s,
   }
 }
 
-// A line passed there and back leaves the count as it was; only a change of sign shows it.
+// A line passed there and back leaves the count unchanged; only a change of sign shows it.
 bool AxisServo::turned() const noexcept {
   double slowest = 0.0;
   double fastest = 0.0;
@@ -232,7 +231,7 @@ bool AxisServo::turned() const noexcept {
   return slowest < 0.0 && fastest > 0.0;
 }
 
-/// The reading at the end of the period. Only the last edge is looked for, from the end backwards.
+/// The reading at the end of the period. Searches only the last edge, from the end backwards.
 void AxisServo::count_edges() noexcept {
   state_.edge.reset();
   if (stretches_.empty()) {

@@ -25,18 +25,17 @@ namespace steadyrest::sim {
 ///   δₙ = encoder(xₙ) − xₙ, sampled at the servo period and held through it
 ///
 /// Discretisation: c(t) is the parabola through the commanded positions at both ends of the servo
-/// period whose slope changes by what the commanded velocity changes (no velocity given: the
-/// straight line). The linear law is then solved exactly, so that the continuous closed forms
-/// (lag v/k, circle gain 1/√(1 + q²), …) hold at any servo period; the delay that sampling adds in
-/// a real control is not simulated apart: it is part of τ. With friction or a drive limit the
-/// period is divided into the drive's own steps (125 µs by default); each is the exact linear
-/// step, corrected by what limit and friction take away. There τ = 0 means a velocity loop that is
-/// deadbeat in one drive step.
-///
+/// period whose slope changes by as much as the commanded velocity (without a velocity: the
+/// straight line). The linear law is then solved exactly, so that the continuous closed forms (lag
+/// v/k, circle gain 1/√(1 + q²), …) hold at any servo period; the sampling delay of a real control
+/// is not simulated separately: it is part of τ. With friction or a drive limit the period is
+/// divided into the drive's own steps (125 µs by default); each is the exact linear step, corrected
+/// by what limit and friction take away. There τ = 0 means a velocity loop that is deadbeat in one
+/// drive step.
 /// Symbols: k servo gain 1/s, a feed-forward 0…1, τ s, A drive limit mm/s², b backlash mm, Ti s.
-/// Where there is dry friction, a command that stands and an error by the encoder of at most one
-/// count (0.5 µm if that is more) count as arrived, as drives do: the loop holds where it is, so
-/// that stiction, count size and integral part together do not hunt. Rotary axes: rad, not mm.
+/// With dry friction, a command at rest and an encoder error of at most one count (0.5 µm if that
+/// is more) count as arrived, as in real drives: the loop holds its position, so that stiction,
+/// count size and integral part together do not hunt. Rotary axes: rad, not mm.
 class AxisServo {
  public:
   struct Config {
@@ -61,7 +60,7 @@ class AxisServo {
     double command_mm = 0.0;                     ///< last commanded position
     double command_mm_s = 0.0;                   ///< last commanded velocity
     double drive_mm_s2 = 0.0;                    ///< u of the last step
-    bool saturated = false;                      ///< the drive limit held in this period
+    bool saturated = false;                      ///< the drive was at its limit in this period
   };
 
   static kernel::outcome::Result<AxisServo> make(const Config& config);
@@ -76,7 +75,7 @@ class AxisServo {
   [[nodiscard]] const State& state() const noexcept { return state_; }
 
  private:
-  /// Transition of (x, v) − particular solution over one step.
+  /// Transition of (x, v) minus the particular solution over one step.
   struct Transition {
     double h_s = 0.0;
     double rate_1_s = 0.0;  ///< 1/h
@@ -88,7 +87,8 @@ class AxisServo {
   };
 
   AxisServo(const Config& config, const Encoder& encoder) noexcept;
-  /// Takes x and v over one step of the linear law; gives the law's velocity at the step's start.
+  /// Advances x and v over one step of the linear law; returns the law's velocity at the step's
+  /// start.
   double nominal(const Piece& piece, double held_mm, double& x, double& v) const noexcept;
   void limited(const Piece& piece, double held_mm, State& s) const noexcept;
   [[nodiscard]] bool holds(double command_mm, double command_mm_s) const noexcept;

@@ -4,7 +4,7 @@
 #include <steadyrest/sim/axis/edge_search.hpp>
 
 // x(t) is the cubic through both ends' positions and velocities; a reversal divides it, so that
-// each part passes a border at most once. Then the instant by secants, kept inside of a bracket.
+// each part passes a border at most once. Secants then find the instant, kept inside a bracket.
 namespace steadyrest::sim {
 namespace {
 
@@ -12,7 +12,7 @@ constexpr int kMostRounds = 60;
 constexpr int kSecants = 10;
 constexpr double kPrecision = 1e-8;  ///< counts
 
-/// x(u) with u = t/h, from the end: what is large cancels before it is multiplied.
+/// x(u) with u = t/h, from the end: large values cancel before they are multiplied.
 class Cubic {
  public:
   explicit Cubic(const Stretch& s) noexcept
@@ -33,9 +33,8 @@ class Cubic {
     const double d1 = slope_mm_ - chord_mm_;
     return chord_mm_ + (w - u) * (w * d0 - u * d1) - u * w * (d0 + d1);
   }
-  /// Where the velocity changes its sign, when it has different ones at both ends.
-  /// Bisection: the slope is a parabola in w with different signs at the ends, so one root lies
-  /// between.
+  /// Where the velocity changes sign, when the signs at both ends differ. Bisection: the slope is a
+  /// parabola in w with different signs at the ends, so one root lies between.
   [[nodiscard]] double turn() const noexcept {
     double low = 0.0;
     double high = 1.0;
@@ -54,8 +53,8 @@ class Cubic {
   double chord_mm_;
 };
 
-/// Between w = `late` and w = `early` the reading crosses `border_mm`: secants, the first with the
-/// slope of the motion alone; bisection where one leaves the bracket or it takes long.
+/// The reading crosses `border_mm` between w = `late` and w = `early`: secants, the first with the
+/// slope of the motion alone; bisection where one leaves the bracket or takes too long.
 double crossing(const Encoder& encoder, const Cubic& x, double late, double early, double border_mm,
                 bool up) noexcept {
   const double tolerance_mm = kPrecision * encoder.count_mm() + 1e-15 * std::abs(border_mm);
@@ -77,12 +76,12 @@ double crossing(const Encoder& encoder, const Cubic& x, double late, double earl
   return w;
 }
 
-/// On a stretch without reversal, at whose late end the counter shows `after`.
+/// On a stretch without reversal, with the counter at `after` at its late end.
 std::optional<Passage> between(const Encoder& encoder, const Cubic& x, double late, double early,
                                double duration_s, std::int64_t after) noexcept {
   const double moved_mm = x.at(late) - x.at(early);
-  // A part that moved by more than the encoder can hide has an edge in its own direction; a
-  // shorter one has it only if the count differs.
+  // A part that moved further than the encoder can hide has an edge in its own direction; a shorter
+  // one has it only if the count differs.
   bool up = moved_mm > 0.0;
   if (std::abs(moved_mm) <= encoder.surely_mm()) {
     const std::int64_t before = encoder.count(x.at(early));

@@ -23,14 +23,14 @@ struct Passage {
   std::int8_t direction = 1;  ///< +1: the count rose, −1: it fell
 };
 
-/// The last line that was passed in the stretch, at whose end the counter shows `count_at_end`;
-/// none when the count stood.
+/// The last line passed in the stretch, with the counter at `count_at_end` at its end; empty when
+/// the count did not change.
 ///
 /// Law: the reading x + A·sin(2π·x/p) of x(t) crosses a border of its counts, (n − ½)·count. A
 /// reversal divides the stretch, so a line passed both ways is seen although the count is the same
-/// again. The instant is exact to the larger of 1e-8 counts and 1e-15 s; the cubic stands in for
-/// the law of the axis, which it meets with its velocity at both ends (a lag of rate k is missed by
-/// (k·h)⁴/384 of its amplitude). One function of + − × ÷ √ alone: the same bits everywhere.
+/// again. The instant is exact to the larger of 1e-8 counts and 1e-15 s. The cubic replaces the
+/// axis's own law, matching position and velocity at both ends (it misses a lag of rate k by
+/// (k·h)⁴/384 of its amplitude). One function of + − × ÷ √ only: the same bits everywhere.
 [[nodiscard]] std::optional<Passage> last_passage(const Encoder& encoder, const Stretch& stretch,
                                                   std::int64_t count_at_end) noexcept;
 

@@ -28,14 +28,14 @@ kernel::outcome::Result<Encoder> Encoder::make(const Config& config) {
   return Encoder(config);
 }
 
-// A sine once a signal period: what interpolation of a real scale leaves (short-period error).
+// One sine per signal period: the short-period error left by interpolation of a real scale.
 double Encoder::reading(double position_mm) const noexcept {
   return line_error_mm_ > 0.0
              ? position_mm + line_error_mm_ * portable::sin_turn(position_mm * lines_1_mm_)
              : position_mm;
 }
 
-// Rounded, not cut off: count n is shown from n − ½ to n + ½.
+// Rounded, not truncated: count n is shown from n − ½ to n + ½.
 double Encoder::read(double position_mm) const noexcept {
   const double seen_mm = reading(position_mm);
   return count_mm_ > 0.0 ? std::floor(seen_mm * counts_1_mm_ + 0.5) * count_mm_ : seen_mm;

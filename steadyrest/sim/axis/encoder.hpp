@@ -14,7 +14,7 @@ namespace steadyrest::sim {
 ///   x  position on the encoder's side, mm     y  reading, mm
 ///   A  line error's amplitude, mm             p  length of one line, mm
 /// count = 0 is the ideal encoder (y = x + A·sin(2π·x/p)). |y − x| ≤ A + count/2. The counter's
-/// value is y/count; between the values n − 1 and n stands the reading (n − ½)·count.
+/// value is y/count; it changes between n − 1 and n at the reading (n − ½)·count.
 class Encoder {
  public:
   using Config = kernel::machine::Encoder;
@@ -22,12 +22,12 @@ class Encoder {
   static kernel::outcome::Result<Encoder> make(const Config& config);
 
   [[nodiscard]] double read(double position_mm) const noexcept;
-  /// The counter's value; 0 of an ideal encoder, which has none.
+  /// The counter's value; 0 for an ideal encoder, which has none.
   [[nodiscard]] std::int64_t count(double position_mm) const noexcept;
-  /// Before it is rounded to counts.
+  /// Before rounding to counts.
   [[nodiscard]] double reading(double position_mm) const noexcept;
   [[nodiscard]] double count_mm() const noexcept { return count_mm_; }
-  /// Whoever moves by more has passed a border of the counts, line error and all.
+  /// A longer move is certain to cross a border of the counts, line error included.
   [[nodiscard]] double surely_mm() const noexcept { return count_mm_ + 2.0 * line_error_mm_; }
 
  private:

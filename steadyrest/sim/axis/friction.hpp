@@ -9,7 +9,7 @@
 
 namespace steadyrest::sim {
 
-/// Slower than this is standstill where there is dry friction: a drive that pushes with exactly the
+/// Below this an axis with dry friction is at standstill: a drive that pushes with exactly the
 /// friction force must not creep by rounding.
 inline constexpr double kStandstillMmS = 1e-9;
 
@@ -23,7 +23,7 @@ inline constexpr double kStandstillMmS = 1e-9;
 ///   v' = v + h·(u − F(|v|)·Sgn(v') − viscous·v')   with the set-valued Sgn(0) = [−1, 1]:
 ///   w = v + h·u;  |w| ≤ h·F → v' = 0 (stick);  else v' = sgn(w)·(|w| − h·F)/(1 + h·viscous).
 /// Implicit in the sign, so a stuck axis stays at exactly 0 and cannot chatter between the two
-/// signs whatever h is; first order in h.
+/// signs, whatever h; first order in h.
 class Friction {
  public:
   Friction(const kernel::machine::Friction& law, double h_s) noexcept

@@ -10,9 +10,9 @@ namespace steadyrest::sim {
 
 /// Standard normal numbers from a seed: the same bytes with every compiler and library.
 ///
-/// std::mt19937_64 (its sequence is fixed by the C++ standard) and the Box–Muller transform on our
-/// own ln and sin; std::normal_distribution is not used because each library draws it in its own
-/// way. Two numbers for each two words; bounded time.
+/// std::mt19937_64 (the C++ standard fixes its sequence) and the Box–Muller transform on our own ln
+/// and sin; std::normal_distribution is not used because each library implements it differently.
+/// Two numbers per two words; bounded time.
 class NormalNoise {
  public:
   explicit NormalNoise(std::uint64_t seed) : engine_(seed) {}

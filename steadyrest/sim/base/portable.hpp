@@ -7,12 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Elementary functions made of + − × ÷ and √ alone, which IEEE 754 rounds in one way only.
+/// Elementary functions made only of + − × ÷ and √, which IEEE 754 rounds in exactly one way.
 ///
-/// The C library picks its exp, log and sin by the processor it finds (with or without fused
-/// multiply-add), and the last bit may follow. A simulation that promises the same bytes for the
-/// same seed cannot call them in its loop. Error against the true value: below 1e-15 relative for
-/// `exp` and `log`, below 1e-15 absolute for `sin_turn`.
+/// The C library picks its exp, log and sin by processor (with or without fused multiply-add), and
+/// the last bit may differ. A simulation that promises the same bytes for the same seed cannot call
+/// them in its loop. Error against the true value: below 1e-15 relative for `exp` and `log`, below
+/// 1e-15 absolute for `sin_turn`.
 namespace steadyrest::sim::portable {
 
 /// 1/i and 1/(i·(i − 1)), rounded once: no division in the series.

@@ -9,13 +9,13 @@
 
 namespace steadyrest::sim {
 
-/// A number of the machine and where it may lie, both ends allowed.
+/// A number of the machine and its range, both ends allowed.
 struct Range {
   const char* name;
   double value, low, high;
 };
 
-/// Refuses the first number that is not in its range (NaN is in none).
+/// Refuses the first number outside its range (NaN always is).
 [[nodiscard]] kernel::outcome::Result<void> in_range(std::string_view owner,
                                                      std::initializer_list<Range> ranges);
 

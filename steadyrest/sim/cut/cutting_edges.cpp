@@ -7,8 +7,8 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/cut/cutting_edges.hpp>
 
-// All that depends on angle and geometry alone, as tables over one turn. Each tooth and each slice
-// of its helix is an edge with a shift in cells; edges whose shift differs by whole cells share a
+// All that depends only on angle and geometry, as tables over one turn. Each tooth and each slice
+// of its helix is an edge with a shift in cells; edges whose shifts differ by whole cells share a
 // table.
 namespace steadyrest::sim {
 namespace {
@@ -19,7 +19,7 @@ using kernel::units::kTurn;
 constexpr double kSliceLag_rad = 0.05;
 constexpr std::size_t kMostSlices = 64;
 constexpr double kSameCell = 1e-9;
-constexpr double kMargin = 3.0;  ///< cells beside the cut that the cubic may read
+constexpr double kMargin = 3.0;  ///< cells next to the cut that the cubic may read
 
 /// ∫ of the hat function of half-width 1 up to u.
 double hat(double u) {
@@ -50,8 +50,8 @@ EdgeCell milling_cell(const Cutting& cut, double angle, double step) {
     cell.rubbing[i] =
         cut.edge_tangential_n_mm * cell.tangent[i] + cut.edge_radial_n_mm * cell.normal[i];
   }
-  // An edge that enters or leaves between two points is shared between them by the hat function, so
-  // that zeroth and first moments are kept: second order in the step. The cut may begin at angle
+  // An edge that enters or leaves between two points is shared between them by the hat function,
+  // which preserves zeroth and first moments: second order in the step. The cut may begin at angle
   // 0, hence the second turn.
   for (const double turn : {0.0, -kTurn}) {
     const double from = (cut.entry_rad - angle - turn) / step;
@@ -61,7 +61,7 @@ EdgeCell milling_cell(const Cutting& cut, double angle, double step) {
     const double off = (angle + turn - cut.wall_rad) / step;
     cell.wall = cell.wall || (off > -0.5 && off <= 0.5);
   }
-  if (cell.weight < 1e-12) {  // rounding of the hat's ends
+  if (cell.weight < 1e-12) {  // rounding at the hat's ends
     cell.weight = 0.0;
   }
   return cell;
@@ -98,7 +98,8 @@ std::size_t table_of(CuttingEdges& out, std::vector<double>& fractions, const Cu
 
 CuttingEdges CuttingEdges::make(const Cutting& cut, std::size_t least_steps) {
   CuttingEdges out;
-  // A whole number of steps per tooth: with even pitch the next tooth meets the surface at a point.
+  // A whole number of steps per tooth: with even pitch the next tooth meets the surface at a grid
+  // point.
   out.steps = (least_steps + cut.teeth - 1) / cut.teeth * cut.teeth;
   out.step_rad = kTurn / static_cast<double>(out.steps);
   const double helix = cut.turning ? 0.0 : cut.helix_rad;

@@ -7,10 +7,10 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/cut/cutting_process.hpp>
 
-// One step: free motion of the modes, the edges that are near the material, the force that agrees
-// with the displacement at the step's end (implicit, so the step is second order and stable for
-// stiff cuts), then the surface that the edges leave. Which edges cut depends on the displacement,
-// so force and contact are found together in a few rounds.
+// One step: free motion of the modes, the edges near the material, the force consistent with the
+// displacement at the step's end (implicit, so the step is second order and stable for stiff cuts),
+// then the surface that the edges leave. Which edges cut depends on the displacement, so force and
+// contact are found together in a few rounds.
 namespace steadyrest::sim {
 namespace {
 
@@ -25,9 +25,8 @@ double dot(const std::array<double, 2>& a, const std::array<double, 2>& b) noexc
   return a[0] * b[0] + a[1] * b[1];
 }
 
-/// The fastest that anything oscillates at this depth.
-/// The cut acts as a spring between tool and part: it stiffens each mode by b·√(Kt² + Kr²), in the
-/// worst direction. 1000 turns N/kg into mm/s².
+/// The highest oscillation frequency at this depth. The cut acts as a spring between tool and part:
+/// it stiffens each mode by b·√(Kt² + Kr²), in the worst direction. 1000 turns N/kg into mm/s².
 double fastest_hz(const Cutting& cut) {
   const double stiffness = cut.depth_mm * std::hypot(cut.tangential_n_mm2, cut.radial_n_mm2);
   double square = 0.0;
@@ -39,11 +38,11 @@ double fastest_hz(const Cutting& cut) {
   return std::sqrt(square) / kTurn;
 }
 
-// Three demands, the strictest counts: steps to a vibration, to a tooth pass, to an arc of cut.
+// Three demands, the strictest counts: steps per vibration, per tooth pass, per arc of cut.
 double steps_for(const CuttingProcess::Config& config) {
   const Cutting& cut = config.cut;
-  // Steps are even in angle: at the slowest speed one takes longest, and there they must be fine
-  // enough.
+  // Steps are even in angle, so they last longest at the slowest speed and must be fine enough
+  // there.
   const double by_modes = config.steps_per_period * fastest_hz(cut) / config.slowest_rev_s;
   const double arc = cut.turning ? kTurn : std::max(cut.exit_rad - cut.entry_rad, 1e-6);
   return std::max(
@@ -71,7 +70,7 @@ CuttingProcess::CuttingProcess(const Config& config, CuttingEdges edges)
     : cut_(config.cut),
       keeps_contact_(config.keeps_contact),
       edges_(std::move(edges)),
-      // A circle of diameter D falls off by s²/D at the distance s along its tangent; in turning
+      // A circle of diameter D falls away by s²/D at the distance s along its tangent; in turning
       // the surface is flat along the feed.
       drop_1_mm_(config.cut.turning || config.keeps_contact ? 0.0 : 1.0 / config.cut.diameter_mm),
       modes_(config.cut.modes.size()),
@@ -82,7 +81,7 @@ CuttingProcess::CuttingProcess(const Config& config, CuttingEdges edges)
   std::ranges::transform(cut_.modes, shape_.begin(), &CuttingMode::shape);
 }
 
-// Modes are the machine's, the cut is the feed's: shapes are turned into the feed's frame.
+// Modes belong to the machine, the cut to the feed: the shapes are turned into the feed's frame.
 void CuttingProcess::turn_to(const std::array<double, 2>& direction) noexcept {
   if (direction == direction_) {
     return;
@@ -93,14 +92,14 @@ void CuttingProcess::turn_to(const std::array<double, 2>& direction) noexcept {
     const std::array<double, 2>& shape = cut_.modes[m].shape;
     shape_[m] = {c * shape[0] + s * shape[1], c * shape[1] - s * shape[0]};
   }
-  period_s_ = 0.0;  // what depends on the shapes is made anew
+  period_s_ = 0.0;  // forces everything that depends on the shapes to be rebuilt
 }
 
 double CuttingProcess::angle_rad() const noexcept {
   return kTurn * static_cast<double>(turns_) + static_cast<double>(cell_) * edges_.step_rad;
 }
 
-// Made only when the speed changes; at constant speed the step is a handful of products.
+// Runs only when the speed changes; at constant speed a step is a handful of products.
 void CuttingProcess::set_period(double period_s) noexcept {
   if (period_s == period_s_) {
     return;
@@ -114,8 +113,8 @@ void CuttingProcess::set_period(double period_s) noexcept {
     for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t k = 0; k < 2; ++k) {
         const double both = 1000.0 / mode.mass_kg * shape_[m][i] * shape_[m][k];
-        // X from a force at the step's end: the force is a straight line within the step, and only
-        // its end is unknown.
+        // X from a force at the step's end: the force is linear within the step, and only its end
+        // is unknown.
         answer_[i][k] += both * steps_[m].position.g1;
         answer_rate_[i][k] += both * steps_[m].velocity.g1;
       }
@@ -132,7 +131,7 @@ void CuttingProcess::lay_surface(double feed_per_tooth_mm) noexcept {
       const std::size_t step = (cell_ + 2 * edges_.steps - back) % edges_.steps;
       const std::size_t cell =
           (step + 1000 * edges_.steps - edge.shift % edges_.steps) % edges_.steps;
-      // Going back in angle, the feed the tool had when it was there.
+      // Backwards in angle, the feed that the tool had when it was there.
       const double feed = feed_mm_ - feed_1_rad * edges_.step_rad * static_cast<double>(back);
       surface_[edge.trace + cell] = {feed * cells[cell].normal[0] + edge.runout_mm, feed};
     }
@@ -148,7 +147,7 @@ CuttingProcess::Surface CuttingProcess::surface(const Edge& edge, std::size_t ce
   }
   Surface out;
   at = at == 0 ? edges_.steps - 1 : at - 1;
-  // The tooth in front passed between two cells: interpolated over its neighbours.
+  // The tooth in front passed between two cells: interpolate over the neighbours.
   for (const double weight : edge.front_weight) {
     out.reach_mm += weight * trace[at].reach_mm;
     out.feed_mm += weight * trace[at].feed_mm;
@@ -208,8 +207,8 @@ CuttingProcess::Motion CuttingProcess::moved(const Motion& free,
   return out;
 }
 
-/// Which edges cut at this displacement; true where that is news. With `keeps_contact` all of them
-/// do: the linear process whose multipliers are published.
+/// Determines which edges cut at this displacement; true if that changed. With `keeps_contact` all
+/// of them do: the linear process whose multipliers are published.
 bool CuttingProcess::touch(const std::array<double, 2>& x) noexcept {
   if (keeps_contact_) {
     return false;
@@ -259,7 +258,7 @@ std::array<double, 2> CuttingProcess::solve(const Motion& free) const noexcept {
           (m[0][0] * right[1] - m[1][0] * right[0]) / det};
 }
 
-/// Leaves the surface behind and collects what the step shows.
+/// Leaves the new surface and collects the step's output.
 void CuttingProcess::finish(const Motion& now, Output& out) noexcept {
   for (std::size_t e = 0; e < active_count_; ++e) {
     const Active& active = active_[e];
@@ -268,7 +267,7 @@ void CuttingProcess::finish(const Motion& now, Output& out) noexcept {
     const double chip = active.gap_mm + across;
     // Where the feed leads out of the material there is no earlier surface to keep.
     const bool keeps = !keeps_contact_ && chip <= 0.0 && cell.normal[0] > -1e-9;
-    // An edge in the air leaves the surface of the tooth in front: regeneration goes back over
+    // An edge in air leaves the surface of the tooth in front: regeneration reaches back over
     // several teeth.
     surface_[active.write] = keeps ? active.left : Surface{active.still_mm + across, feed_mm_};
     if (active.tip && cell.wall) {
@@ -308,7 +307,7 @@ CuttingProcess::Output CuttingProcess::step(const Input& input) noexcept {
   set_period(1.0 / (speed * static_cast<double>(edges_.steps)));
   // Process damping: C/v per length of edge, v = π·D·n the cutting speed.
   damping_n_s_mm2_ = cut_.process_damping_n_mm / (std::numbers::pi * cut_.diameter_mm * speed);
-  // Before the cell moves on: the surface must be there when the first tooth reads it.
+  // Before the cell advances: the surface must be there when the first tooth reads it.
   if (input.in_cut && !in_cut_) {
     lay_surface(input.feed_per_tooth_mm);
   }
@@ -322,12 +321,12 @@ CuttingProcess::Output CuttingProcess::step(const Input& input) noexcept {
   const Motion free = free_motion();
   if (in_cut_) {
     gather();
-    // First guess with the last step's force: which edges cut depends on the displacement, and that
-    // on which edges cut.
+    // First guess with the last step's force: the cutting edges depend on the displacement, and
+    // vice versa.
     touch(moved(free, force_).x);
     force_ = solve(free);
-    // Until the set of cutting edges agrees with itself, or a few times: near contact it may flip
-    // for ever.
+    // Until the set of cutting edges is consistent, or a few times: near contact it may flip
+    // forever.
     for (int i = 1; i < kMostSolutions && touch(moved(free, force_).x); ++i) {
       force_ = solve(free);
     }

@@ -7,14 +7,14 @@
 #include <steadyrest/sim/cut/cutting_vibration.hpp>
 
 // Bridges two clocks: the process steps evenly in angle, the machine's cycles and the sensor's
-// samples in time. What is due is carried over, so no time is lost or counted twice.
+// samples in time. The remainder is carried over, so no time is lost or counted twice.
 namespace steadyrest::sim {
 namespace {
 
 constexpr double kLongestCycle_s = 1.0;
 
-/// Steps after which forced vibration repeats.
-/// Forced vibration repeats with each tooth where all teeth are alike, else with each turn.
+/// Steps after which forced vibration repeats: with each tooth where all teeth are alike, else with
+/// each turn.
 std::size_t repeat_of(const Cutting& cut, std::size_t steps) {
   const auto differ = [](const std::vector<double>& values) {
     return !values.empty() && std::ranges::minmax(values).min < std::ranges::minmax(values).max;
@@ -51,7 +51,7 @@ void CuttingVibration::begin_cycle() noexcept {
   cycle_ = {};
 }
 
-/// A new cut has nothing a tooth ago to be compared with.
+/// A new cut has no earlier tooth for comparison.
 void CuttingVibration::forget() noexcept {
   kept_ = 0;
 }
@@ -66,7 +66,7 @@ void CuttingVibration::take(const CuttingProcess::Output& now) noexcept {
     if (kept_ == pass_mm_.size()) {
       const double change = x[i] - before[i];
       // (x(θ) − x(θ − pitch))/√2: forced vibration repeats and drops out, regenerative does not.
-      // The half keeps the RMS of what does not repeat.
+      // The half preserves the RMS of what does not repeat.
       cycle_.unforced_mm2_s += 0.5 * change * change * dt;
     }
   }
@@ -90,8 +90,8 @@ void CuttingVibration::take(const CuttingProcess::Output& now) noexcept {
   }
 }
 
-// The sensor sits on the machine: it hears X and Y together, whichever way the feed goes.
-// Velocity, as a geophone or an integrated accelerometer shows it.
+// The sensor sits on the machine: it hears X and Y together, whatever the direction of feed.
+// Velocity, as from a geophone or an integrated accelerometer.
 void CuttingVibration::sense(const CuttingProcess::Output& now,
                              const std::array<double, 2>& direction) noexcept {
   const auto& v = now.velocity_mm_s;
@@ -112,7 +112,7 @@ void CuttingVibration::sense(const CuttingProcess::Output& now,
 void CuttingVibration::advance(const Input& input) noexcept {
   const double turning_rev_s = std::abs(input.speed_rev_s);
   // Below half of the slowest speed the process has too few steps for the modes: it rings down in
-  // the air at that speed instead, and the clock goes on.
+  // air at that speed instead, while the clock runs on.
   const bool in_cut =
       input.in_cut && turning_rev_s > 0.5 * slowest_rev_s_ && input.path_speed_mm_s > 0.0;
   const double speed = std::max(turning_rev_s, 0.5 * slowest_rev_s_);

@@ -11,14 +11,15 @@
 
 namespace steadyrest::sim {
 
-/// The cut beside the machine's clock: the process is stepped over the spindle's angle with the
-/// speed and feed that the machine has in a period, and what it shows is summed up in time.
+/// Runs the cut on the machine's clock: steps the process over the spindle's angle with the
+/// machine's speed and feed in a period, and sums up its output in time.
 ///
-/// Feed per tooth = speed along the path over (spindle speed · teeth). In a period both are
-/// constant. Below half of `slowest_rev_s` nothing is cut and the tool only rings down.
-/// `unforced` compares each point with the one that a tooth earlier (a turn earlier, where pitch or
-/// runout differ) had at the same angle: forced vibration repeats there, regenerative does not.
-/// The sensor: velocity of the tool along both axes of the machine, their sum (one sensor at 45°,
+/// Feed per tooth = speed along the path over (spindle speed · teeth). Both are constant within a
+/// period. Below half of `slowest_rev_s` nothing is cut and the tool only rings down. `unforced`
+/// compares each point with the one a tooth earlier (a turn earlier, where pitch or runout differ)
+/// at the same angle: forced vibration repeats there, regenerative does not. The sensor: velocity
+/// of the tool along both axes of the machine, their sum (one sensor at 45°, times √2), sampled at
+/// `sensor_rate_hz` by straight lines between steps.
 /// times √2), sampled at `sensor_rate_hz` by straight lines between steps.
 class CuttingVibration {
  public:
@@ -35,7 +36,7 @@ class CuttingVibration {
     std::array<double, 2> feed_direction{1.0, 0.0};
     bool in_cut = false;
   };
-  /// Of the time in the cut since begin_cycle(); lengths in mm.
+  /// Over the time in the cut since begin_cycle(); lengths in mm.
   struct Cycle {
     double cutting_s = 0.0;
     double peak_mm = 0.0;                  ///< largest displacement from rest
@@ -51,10 +52,10 @@ class CuttingVibration {
     double wall_high_mm = 0.0;
   };
 
-  /// Refuses what CuttingProcess refuses, and a sensor's rate outside of its range.
+  /// Refuses what CuttingProcess refuses, and a sensor rate outside its range.
   static kernel::outcome::Result<CuttingVibration> make(const Config& config);
 
-  /// Forgets cycle() and samples(). Of one cycle at most a second of samples is kept.
+  /// Clears cycle() and samples(). Keeps at most one second of samples per cycle.
   void begin_cycle() noexcept;
   void advance(const Input& input) noexcept;
 
@@ -73,7 +74,7 @@ class CuttingVibration {
   double slowest_rev_s_;
   double per_tooth_;  ///< 1/teeth
   double rate_hz_;
-  double due_s_ = 0.0;          ///< time that the process is behind the machine
+  double due_s_ = 0.0;          ///< time by which the process lags the machine
   double next_sample_s_ = 0.0;  ///< from the step's start
   double last_mm_s_ = 0.0;
   std::vector<std::array<double, 2>> pass_mm_;  ///< displacement over the last tooth's pass

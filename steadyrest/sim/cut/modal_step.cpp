@@ -7,8 +7,8 @@
 
 namespace steadyrest::sim {
 
-// q̈ + 2ζω·q̇ + ω²·q = g with g = F·φ/m straight within the step. Rows of the transition: free
-// motion, and the answer to g at the step's start and at its end.
+// q̈ + 2ζω·q̇ + ω²·q = g with g = F·φ/m linear within the step. Rows of the transition: free
+// motion, and the response to g at the step's start and at its end.
 ModalStep modal_step(const CuttingMode& mode, double period_s) noexcept {
   const double w = 2.0 * std::numbers::pi * mode.frequency_hz;
   const double damping = mode.damping_ratio * w;
@@ -19,7 +19,7 @@ ModalStep modal_step(const CuttingMode& mode, double period_s) noexcept {
   const double c = fall * portable::sin_turn(turns + 0.25);
   const double s = fall * portable::sin_turn(turns) / damped;
   ModalStep out;
-  // Free vibration over the period: exact, so the step need not be small against it.
+  // Free vibration over the period: exact, so the step need not be short compared with it.
   out.position.q = c + damping * s;
   out.position.v = s;
   out.velocity.q = -w * w * s;

@@ -5,8 +5,8 @@
 
 /// One vibration mode of tool or workpiece, stepped exactly.
 ///
-/// q̈ + 2ζω·q̇ + ω²·q = g(t), g = 1000/m·(shape·F) a straight line from g₀ to g₁ over the step. The
-/// closed solution, so no step is too long for the mode: only for the straight line.
+/// q̈ + 2ζω·q̇ + ω²·q = g(t), g = 1000/m·(shape·F), linear from g₀ to g₁ over the step. The
+/// solution is closed, so no step is too long for the mode, only for the linear force.
 namespace steadyrest::sim {
 
 struct CuttingMode {
@@ -17,7 +17,7 @@ struct CuttingMode {
 };
 
 struct ModalStep {
-  /// What position or velocity at the end gets from q (mm), v (mm/s), g₀ and g₁ (mm/s²).
+  /// What q (mm), v (mm/s), g₀ and g₁ (mm/s²) contribute to position or velocity at the end.
   struct Row {
     double q = 0.0;
     double v = 0.0;

@@ -9,8 +9,8 @@
 #include <steadyrest/sim/heat/thermal_growth.hpp>
 
 // Each term of the passport is a body with one time constant; the true one differs from the
-// passport's by the errors of the simulation, counted through all terms in the order of the file.
-// Everything that needs exp is worked out in the constructor.
+// passport's by the simulation's errors, numbered through all terms in the order of the file. The
+// constructor computes everything that needs exp.
 namespace steadyrest::sim {
 namespace {
 
@@ -25,11 +25,12 @@ constexpr double kDay_s = 24.0 * 3600.0;
 constexpr double kWarmest_s = 15.0 * 3600.0;
 constexpr double kDraught_s = 600.0;
 constexpr double kReference_rev_s = 1000.0 / 60.0;  ///< unit of a polynomial's speed
-/// Keeps the words of readings apart from those of the truth: a reading more changes no truth.
+/// Keeps the random words of readings apart from those of the truth: an extra reading changes no
+/// truth.
 constexpr std::uint64_t kReadings = 0x9E3779B97F4A7C15;
 constexpr std::uint64_t kWeather = 0xD1B54A32D192ED03;
 
-/// By how much the term with this number is wrong.
+/// The relative error of the term with this number.
 double error_of(const std::vector<double>& errors, std::size_t term) noexcept {
   return errors.empty() ? 0.0 : errors[std::min(term, errors.size() - 1)];
 }
@@ -84,16 +85,16 @@ Result<void> check(const ThermalGrowth::Config& config) {
                                  {"probe_noise_mm", s.probe_noise_mm, 0.0, 10.0}});
 }
 
-// Time constant 0: no lag at all, the body follows at once.
+// Time constant 0: no lag, the body follows at once.
 double decay(double period_s, double tau_s) noexcept {
   return tau_s > 0.0 ? portable::exp(-period_s / tau_s) : 0.0;
 }
 
-/// What the mode would settle at: straight between the points of the table, its ends beyond them.
+/// The mode's final level: linear between the points of the table, constant beyond its ends.
 double level_mm(const ThermalMode& m, double speed_rev_s) noexcept {
   if (m.level_mm.empty()) {
     const double n = speed_rev_s / kReference_rev_s;
-    // No constant term: a spindle at rest makes no heat.
+    // No constant term: a spindle at rest generates no heat.
     double power = n;
     double level = 0.0;
     for (const double coefficient : m.polynomial_mm) {
@@ -147,7 +148,7 @@ ThermalGrowth::ThermalGrowth(const Config& config)
       }
       body.mode.feed_s *= larger;
       body.turning_decay = decay(period_s_, mode.tau_s * longer);
-      // A spindle at rest may cool at another rate than one that turns.
+      // A spindle at rest may cool at a different rate from one that turns.
       body.resting_decay =
           mode.rest_tau_s > 0.0 ? decay(period_s_, mode.rest_tau_s * longer) : body.turning_decay;
       axis.body.push_back(std::move(body));
@@ -162,8 +163,8 @@ ThermalGrowth::ThermalGrowth(const Config& config)
                                   .lagged_c = room_c_});
     }
     axis.drift_decay = decay(period_s_, from.drift_tau_s);
-    // So that the process keeps its RMS once it has settled.
-    // x ← d·x + f·n keeps the variance σ² where f² = σ²·(1 − d²).
+    // The process keeps its RMS once settled: x ← d·x + f·n keeps the variance σ² where f² = σ²·(1
+    // − d²).
     axis.drift_fresh_mm = config.drift_mm * std::sqrt(1.0 - axis.drift_decay * axis.drift_decay);
     axis_.push_back(std::move(axis));
   }
@@ -184,7 +185,7 @@ void ThermalGrowth::update(const Input& input) noexcept {
     axis.displacement_mm = 0.0;
     for (Body& body : axis.body) {
       const ThermalMode& m = body.mode;
-      // Shares of the period: cutting raises the level by its ratio for as long as it lasted.
+      // Shares of the period: cutting raises the level by its ratio while it lasts.
       const double cut = 1.0 + input.cutting * (m.cutting_ratio - 1.0);
       const double settles = level_mm(m, speed) * cut * (input.coolant ? m.coolant_ratio : 1.0) +
                              m.feed_s * input.feed_mm_s;

@@ -11,20 +11,20 @@
 
 namespace steadyrest::sim {
 
-/// Thermal growth of the simulated machine: what heat really does to each displacement.
+/// Thermal growth of the simulated machine: the true effect of heat on each displacement.
 ///
 /// A machine with a thermal passport is a set of bodies, one for each mode of the passport and one
-/// for each ambient input. A body stores heat, is warmed by what the spindle, the feed and the
-/// coolant do, and loses its heat in proportion to its own warmth:
+/// for each ambient input. A body stores heat, gains it from spindle, feed and coolant state, and
+/// loses it in proportion to its own warmth:
 ///   q' = P − q/τ,   P = G/τ,   displacement Σ q + Σ b·(θ − θ at the start),   θ' = (T_room − θ)/τ
-/// solved exactly over a period of constant inputs (warmth that was there decays, warmth that comes
-/// in adds up). τ, G and b are the passport's times 1 + error (`simulation.thermal_*_error`): what
-/// the layer believes and what is true differ by that on purpose. Added to it is what no model
-/// knows, a first-order process of RMS `drift_mm` that begins at 0.
+/// solved exactly over a period of constant inputs (existing warmth decays, incoming warmth adds
+/// up). τ, G and b are the passport's times 1 + error (`simulation.thermal_*_error`): the layer's
+/// belief and the truth differ by that on purpose. On top comes what no model knows, a first-order
+/// process of RMS `drift_mm` that begins at 0.
 ///
 /// Room: T = room_c + swing·cos(2π·(hour − 15)/24) + coloured noise (correlation 10 min).
-/// It begins cold: no body is warm, the surroundings have settled at the room's temperature; that
-/// is where the part's zero is set, so every displacement begins at 0. Same machine, seed and
+/// It starts cold: no body is warm, and the surroundings have settled at the room's temperature.
+/// The part's zero is set in this state, so every displacement begins at 0. Same machine, seed and
 /// inputs: same bytes with every compiler (portable.hpp).
 class ThermalGrowth {
  public:
@@ -38,36 +38,36 @@ class ThermalGrowth {
   };
   /// Means over one period.
   struct Input {
-    double speed_rev_s = 0.0;  ///< what the spindle does, not what it is told
+    double speed_rev_s = 0.0;  ///< actual, not commanded
     double feed_mm_s = 0.0;    ///< along the path
     double cutting = 0.0;      ///< share of the period in feed moves
     bool coolant = false;
   };
 
-  /// Refuses time constants that are not positive, levels that do not fit their speeds, and numbers
-  /// of the simulation out of range.
+  /// Refuses time constants that are not positive, levels that do not match their speeds, and
+  /// simulation numbers out of range.
   static kernel::outcome::Result<ThermalGrowth> make(const Config& config);
 
   /// One period.
   void update(const Input& input) noexcept;
 
-  /// In the order of the passport's axes, mm since the start: positive moves the tool to larger
-  /// positions.
+  /// In the order of the passport's axes, mm since the start: positive moves the tool towards
+  /// larger positions.
   [[nodiscard]] std::size_t axes() const noexcept { return axis_.size(); }
   [[nodiscard]] double displacement_mm(std::size_t axis) const noexcept {
     return axis_[axis].displacement_mm;
   }
   [[nodiscard]] double time_s() const noexcept { return time_s_; }
   [[nodiscard]] double room_c() const noexcept { return room_c_; }
-  /// A reading of the room's temperature, with the sensor's noise.
+  /// Reads the room's temperature, with the sensor's noise.
   double read_room_c() noexcept;
-  /// A reading of a length that is truly `true_mm`, with the probe's noise.
+  /// Reads a length whose true value is `true_mm`, with the probe's noise.
   double read_probe_mm(double true_mm) noexcept;
 
  private:
   struct Body {
     kernel::machine::ThermalMode mode;  ///< the true one
-    double turning_decay = 0.0;         ///< share of its warmth that is left after a period
+    double turning_decay = 0.0;         ///< share of its warmth left after a period
     double resting_decay = 0.0;
     double warmth_mm = 0.0;
   };
@@ -81,7 +81,7 @@ class ThermalGrowth {
     std::vector<Body> body;
     std::vector<Surrounding> surrounding;
     double drift_decay = 0.0;
-    double drift_fresh_mm = 0.0;  ///< RMS of what comes in with a period
+    double drift_fresh_mm = 0.0;  ///< RMS of what each period adds
     double drift_mm = 0.0;
     double displacement_mm = 0.0;
   };
@@ -91,7 +91,7 @@ class ThermalGrowth {
 
   double period_s_;
   kernel::machine::Simulation simulation_;
-  NormalNoise weather_;  ///< of the truth; readings draw from their own
+  NormalNoise weather_;  ///< of the truth; readings have their own
   NormalNoise readings_;
   ColouredNoise draught_;
   std::vector<Axis> axis_;

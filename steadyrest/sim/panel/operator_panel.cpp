@@ -3,7 +3,7 @@
 
 #include <steadyrest/sim/panel/operator_panel.hpp>
 
-// The operator from a script, so that a run with people in it can be repeated.
+// A scripted operator, so that a run with people in it is repeatable.
 namespace steadyrest::sim {
 
 OperatorPanel::OperatorPanel(const State& start, const std::vector<OperatorAction>& actions)

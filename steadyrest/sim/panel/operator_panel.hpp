@@ -13,16 +13,16 @@ enum class OperatorAct : std::uint8_t {
   turn_rapid,    ///< likewise the rapid switch
   turn_spindle,  ///< likewise the spindle switch
   feed_hold,     ///< feed and rapid stop
-  feed_start     ///< and go on
+  feed_start     ///< and resume
 };
 
 struct OperatorAction {
   double time_s = 0.0;
   OperatorAct act = OperatorAct::feed_hold;
-  std::uint32_t code = 0;  ///< raw word, known to the table or not
+  std::uint32_t code = 0;  ///< raw word, in the table or not
 };
 
-/// The panel of the simulated machine, moved by a script: at each time the last action holds.
+/// The simulated machine's panel, moved by a script: the last action up to a time applies.
 class OperatorPanel {
  public:
   struct State {
@@ -32,7 +32,7 @@ class OperatorPanel {
     bool feed_hold = false;
   };
 
-  /// Actions may come in any order; those of equal time act in the order given.
+  /// Actions may come in any order; simultaneous ones act in the order given.
   OperatorPanel(const State& start, const std::vector<OperatorAction>& actions);
 
   const State& update(double time_s) noexcept;

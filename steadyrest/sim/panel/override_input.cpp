@@ -6,13 +6,13 @@
 #include <steadyrest/sim/base/range.hpp>
 #include <steadyrest/sim/panel/override_input.hpp>
 
-// The override as a PLC has it: scanned at its own pace, the panel's and the layer's words read at
-// the scan, the decision in force one dead time later. Heartbeat and mask are judged here, on the
-// machine's side, so that a dead layer loses its mask whatever it wrote last.
+// The override as a PLC handles it: it scans at its own pace, reads the panel's and the layer's
+// words at the scan, and the decision takes effect one dead time later. Heartbeat and mask are
+// judged here, on the machine's side, so that a dead layer loses its mask whatever it wrote last.
 namespace steadyrest::sim {
 namespace {
 
-constexpr double kTimeTolerance = 1e-9;  ///< a scan that is due within rounding is due
+constexpr double kTimeTolerance = 1e-9;  ///< a scan due to within rounding is due
 constexpr double kMaxPending = 1e6;
 
 }  // namespace
@@ -41,7 +41,7 @@ kernel::outcome::Result<OverrideInput> OverrideInput::make(const Config& config)
 OverrideInput::OverrideInput(const Config& config, kernel::override::Table table,
                              std::size_t capacity)
     : table_(std::move(table)),
-      // Nothing can be scanned faster than the machine is simulated.
+      // No scan can be faster than the machine's simulation.
       scan_s_(std::max(config.period_s, table_.scan_period_s())),
       dead_s_(table_.dead_time_s()),
       watchdog_s_(config.watchdog_s),
@@ -67,8 +67,8 @@ void OverrideInput::read_layer(const Input& input) noexcept {
   // The lowest bit that changes.
   const std::uint32_t lowest = changing & (~changing + 1U);
   const bool race = !table_.latched_word() && input.layer_masks && masked_ && changing != lowest;
-  // Several bits on the wires at once: one scan sees the first of them alone, the next the whole
-  // word. This is what the walk protects against.
+  // Several bits change on the wires at once: one scan sees only the first of them, the next the
+  // whole word. Walking protects against this.
   seen_word_ = race && !racing_ ? seen_word_ ^ lowest : input.layer_code;
   racing_ = race && !racing_;
 }
@@ -115,7 +115,7 @@ kernel::signal::OverrideState OverrideInput::update(const Input& input) noexcept
     heartbeat_ = input.heartbeat;
     heartbeat_time_s_ = input.time_s;
   }
-  // Scans by number: adding up periods would drift against the machine's time.
+  // Scans are numbered: summing up periods would drift against the machine's time.
   const double number = std::floor(input.time_s / scan_s_ + kTimeTolerance);
   if (number > scanned_) {
     scanned_ = number;

@@ -12,19 +12,19 @@
 
 namespace steadyrest::sim {
 
-/// The machine's side of one override: the PLC that reads switch and layer, and the time it takes.
+/// The machine's side of one override: the PLC that reads switch and layer, and its delays.
 ///
 /// Law. At each scan (every `scan_period_s`) the PLC reads both words:
-///   panel   ratio of its code; a code that the table does not hold leaves the last known ratio
-///   layer   counts while it masks, its heartbeat runs and its code is known; otherwise the panel's
-///           holds. layer_may_exceed_panel: its ratio as it is, else min(layer, panel).
-///   panel 0 stops whatever the layer says.
-/// What the scan decided acts `dead_time_s` later. When the mask drops (given back, heartbeat lost,
-/// code unknown) the value returns to the panel's at most at `hand_back_rise_1_s`, never by a jump
-/// up; down at once.
+///   panel   ratio of its code; a code that is not in the table leaves the last known ratio
+///   layer   counts while it masks, its heartbeat runs and its code is known; otherwise the panel
+///           applies. layer_may_exceed_panel: its ratio as it is, else min(layer, panel).
+///   panel 0 stops, whatever the layer says.
+/// The scan's decision acts `dead_time_s` later. When the mask drops (handed back, heartbeat lost,
+/// code unknown) the value returns to the panel's: upwards at most at `hand_back_rise_1_s`, never
+/// in a jump; downwards at once.
 /// A word that is not latched is read while it changes: the first scan after a change of several
-/// bits sees only the lowest of them changed, the next the whole word. That is the hazard from
-/// which walking Gray neighbours protects.
+/// bits sees only the lowest of them changed, the next the whole word. Walking Gray neighbours
+/// protects against this hazard.
 /// The watchdog: no new heartbeat for `watchdog_s` drops the mask until the next one.
 class OverrideInput {
  public:
@@ -47,7 +47,7 @@ class OverrideInput {
   kernel::signal::OverrideState update(const Input& input) noexcept;
 
   [[nodiscard]] const kernel::override::Table& table() const noexcept { return table_; }
-  /// The code of the step nearest to 100 %: where a panel stands when the machine is switched on.
+  /// The code of the step nearest to 100 %: the panel's position when the machine is switched on.
   [[nodiscard]] std::uint32_t home_code() const noexcept;
 
  private:

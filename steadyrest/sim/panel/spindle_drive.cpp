@@ -17,7 +17,7 @@ constexpr double kPi = std::numbers::pi;
 struct Ramp {
   double constant, base, power;
 
-  /// Towards a higher speed for at most `time_s`, which becomes what is left of it.
+  /// Accelerates to a higher speed for at most `time_s`, which becomes the remaining time.
   [[nodiscard]] double rise(double from, double to, double& time_s) const noexcept {
     const double corner = std::min(to, base);
     if (from < corner) {
@@ -43,7 +43,7 @@ struct Ramp {
     return to;
   }
 
-  // Braking is the run-up backwards: the drive has the same torque and power either way.
+  // Braking is the run-up in reverse: the drive has the same torque and power either way.
   [[nodiscard]] double fall(double from, double to, double& time_s) const noexcept {
     const double corner = std::max(to, base);
     if (from > corner) {
@@ -89,7 +89,7 @@ kernel::outcome::Result<SpindleDrive> SpindleDrive::make(const Config& config) {
 }
 
 // M = J·2π·ṅ gives the ramp, P = M·2π·n the speed above which power is the limit: n_b =
-// P/(4π²·J·ṅ). From ½J(2πn)² follows d(n²)/dt = P/(2π²·J).
+// P/(4π²·J·ṅ). ½J(2πn)² gives d(n²)/dt = P/(2π²·J).
 SpindleDrive::SpindleDrive(const Config& config) noexcept
     : min_rev_s_(config.spindle.min_rev_s),
       max_rev_s_(config.spindle.max_rev_s),
@@ -114,7 +114,7 @@ SpindleDrive::Output SpindleDrive::update(const Input& input) noexcept {
   const Ramp ramp{.constant = ramp_rev_s2_, .base = base_rev_s_, .power = power_rev2_s3_};
   const double goal = target(input);
   double left_s = std::max(0.0, input.period_s);
-  // A reversal brakes to zero first and then runs up with what is left of the period.
+  // A reversal brakes to zero first, then runs up for the rest of the period.
   if (actual_rev_s_ * goal < 0.0) {  // through zero first
     actual_rev_s_ = std::copysign(ramp.fall(std::abs(actual_rev_s_), 0.0, left_s), actual_rev_s_);
   }

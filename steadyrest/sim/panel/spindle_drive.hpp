@@ -12,9 +12,9 @@ namespace steadyrest::sim {
 ///   |ṅ| ≤ min(a_max, M_max/(2π·J), P/(4π²·J·|n|))
 /// The last term is the power limit P = M·2πn; it gives d(n²)/dt = ±P/(2π²·J), so both regimes are
 /// integrated exactly, with the change-over at n_b = P/(4π²·J·a), a the smaller of the first two.
-/// Braking has the same limits; a reversal goes through zero. Target: command · override, its
-/// magnitude held in [min, max] unless it is 0. At speed: |n − target| ≤ tolerance·max(|target|,
-/// 1 rev/s). Cutting torque is not simulated.
+/// Braking has the same limits; a reversal goes through zero. Target: command · override, with its
+/// magnitude held in [min, max] unless it is 0. At speed: |n − target| ≤ tolerance·max(|target|, 1
+/// rev/s). Cutting torque is not simulated.
 class SpindleDrive {
  public:
   struct Config {

@@ -51,8 +51,8 @@ inline Move line(double x0, double y0, double x1, double y1) {
   return move;
 }
 
-/// R = 10 mm about the origin, counter-clockwise from (10, 0).
-/// Radius and feed of the paper's reference circle.
+/// R = 10 mm about the origin, counter-clockwise from (10, 0): radius and feed of the paper's
+/// reference circle.
 inline Move circle(int turns) {
   Move move = line(10.0, 0.0, 10.0, 0.0);
   move.kind = MoveKind::arc;
@@ -87,7 +87,7 @@ inline std::unique_ptr<SimulatedMachine> machine_of(
   return *std::move(made);
 }
 
-/// Runs to the end of the program; gives the simulated seconds.
+/// Runs to the end of the program; returns the simulated seconds.
 inline double run(SimulatedMachine& machine, const std::function<void(const Frame&)>& look,
                   double most_s = 100.0) {
   double time_s = 0.0;

@@ -18,7 +18,7 @@ using test::mill;
 using test::plan;
 using test::run;
 
-// Half the feed, twice the time, but for acceleration and the override's dead time.
+// Half the feed, twice the time, except for acceleration and the override's dead time.
 TEST(SimulatedMachine, TheLayersWordActsThroughThePort) {
   const Machine machine = mill();
   const auto path = plan(machine, {line(0.0, 0.0, 200.0, 0.0)});
@@ -39,7 +39,7 @@ TEST(SimulatedMachine, TheLayersWordActsThroughThePort) {
   EXPECT_FALSE(slowed->write(command));
 }
 
-// Held for 2 s: braking and run-up cover the way that the standstill would not have.
+// Held for 2 s: braking and run-up cover distance that a standstill would not.
 TEST(SimulatedMachine, OperatorStopsAndGoesOn) {
   const Machine machine = mill();
   const auto path = plan(machine, {line(0.0, 0.0, 100.0, 0.0)});
@@ -55,7 +55,7 @@ TEST(SimulatedMachine, OperatorStopsAndGoesOn) {
     }
   });
   EXPECT_EQ(speed_in_hold, 0.0);
-  // What braking and starting cover at less than full speed is what the standstill saves.
+  // The standstill saves what braking and starting cover at less than full speed.
   EXPECT_NEAR(longer - full, 2.0, 0.003);
 }
 
@@ -77,8 +77,7 @@ TEST(SimulatedMachine, WaitsForTheSpindleAtTheOverriddenSpeed) {
   }
 }
 
-// 300 rev/s asked, 200 possible: a machine that waited for the programmed speed would wait for
-// ever.
+// 300 rev/s asked, 200 possible: a machine that waited for the programmed speed would wait forever.
 TEST(SimulatedMachine, SpindleThatCannotReachItsSpeedDoesNotHangTheProgram) {
   const Machine machine = mill();  // max 200 rev/s
   auto sim = machine_of(machine, plan(machine, {line(0.0, 0.0, 10.0, 0.0)}, 300.0));

@@ -63,7 +63,7 @@ TEST(SimulatedMachine, TakesTheTimeOfTheTrapezoid) {
   EXPECT_NEAR(sim->truth().tool_mm[0], 100.0, 1e-6);
 }
 
-// What the contour room rests on: index, length and segment must agree in every frame.
+// The contour room depends on this: index, length and segment must agree in every frame.
 TEST(SimulatedMachine, FrameCarriesThePathAndWhereTheCommandStands) {
   const Machine machine = mill();
   auto sim = machine_of(machine, plan(machine, {line(0.0, 0.0, 10.0, 0.0), circle(1)}));
@@ -101,7 +101,7 @@ TEST(SimulatedMachine, ALayerCycleMayBeSeveralPeriods) {
   }
 }
 
-// Friction, backlash, counts and noise are all in it: any state that is not reset or seeded shows.
+// Friction, backlash, counts and noise are all included: any state not reset or seeded shows.
 TEST(SimulatedMachine, SameSeedSameBytes) {
   Machine machine = mill();
   for (auto& axis : machine.axes) {
@@ -131,7 +131,7 @@ TEST(SimulatedMachine, SameSeedSameBytes) {
   EXPECT_NE(first, bytes(2));
 }
 
-// Every machine that is shipped: arrives in 25 mm / 10 mm/s = 2.5 s, rests within its own slack.
+// Every machine we ship: arrives in 25 mm / 10 mm/s = 2.5 s, rests within its own slack.
 TEST(SimulatedMachine, EveryExampleMachineArrivesAndComesToRest) {
   int machines = 0;
   for (const auto& file :

@@ -6,7 +6,7 @@
 #include <steadyrest/kernel/override/test/published_tables.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
-/// What the tests of the supervisor stand on: a machine, a supervisor with its inputs, a port.
+/// What the supervisor tests are built on: a machine, a supervisor with its inputs, a port.
 namespace steadyrest::supervisor::test {
 
 namespace machine = kernel::machine;
@@ -91,7 +91,7 @@ class FakePort final : public kernel::port::Port {
   std::vector<signal::Command> written;
 };
 
-/// Words go over separate wires and are read every 20 ms.
+/// Words go over separate wires, which are read every 20 ms.
 inline kernel::machine::Machine wired(Mode mode, bool may_exceed = false) {
   auto machine = mill(mode);
   for (auto* table : {&machine.feed_override, &machine.spindle_override}) {

@@ -29,8 +29,8 @@ constexpr double kMean_mm_s = 20.0;
 constexpr double kSwing_mm = 1.0;
 constexpr std::int64_t kRevolution = 4000;
 
-/// An axis that turns on and on, x = 20·t + 1 − cos(4π·t), on an encoder whose lines stand off by
-/// 5 % of a count in four phases and by 2 % RMS each, as its lines were passed.
+/// An axis that keeps turning, x = 20·t + 1 − cos(4π·t), on an encoder whose lines are off by 5 %
+/// of a count in four phases and by 2 % RMS each; times as its lines were passed.
 class Axis {
  public:
   struct Passage {
@@ -45,7 +45,7 @@ class Axis {
       const double phase =
           0.05 * std::sin(std::numbers::pi * (0.5 * static_cast<double>(line % 4) + 0.2));
       double single =
-          -6.0;  // a sum of twelve is near enough to a normal one, and the same everywhere
+          -6.0;  // a sum of twelve is near enough to normal, and the same on every platform
       for (int i = 0; i < 12; ++i) {
         single += static_cast<double>(random() >> 11U) * 0x1p-53;
       }
@@ -79,8 +79,8 @@ class Axis {
     ++line_;
     const double x = kCount_mm * (static_cast<double>(line_) - 0.5) + error_mm(line_);
     for (int i = 0; i < 6; ++i) {
-      // Newton on x(t) = line; monotonic (v ≥ 7 mm/s), so six steps from the line before reach the
-      // last digit.
+      // Newton on x(t) = line; monotonic (v ≥ 7 mm/s), so six steps from the previous line reach
+      // the last digit.
       t_s_ -= (position_mm(t_s_) - x) / velocity_mm_s(t_s_);
     }
     return {t_s_, line_};
@@ -96,8 +96,7 @@ double stamp(double t_s) {
   return std::floor(t_s / kClock_s) * kClock_s;
 }
 
-/// What a calibration over this long has of the lines.
-/// 4 s at 20 mm/s are 20 revolutions.
+/// What a calibration of this length learns of the lines. 4 s at 20 mm/s are 20 revolutions.
 LineTable learnt(double duration_s) {
   auto table = LineTable::make({.count_mm = kCount_mm,
                                 .first_line = 0,
@@ -120,7 +119,7 @@ machine::Machine with_encoder() {
   axis.max_acceleration_mm_s2 = 160.0;
   axis.encoder.count_mm = kCount_mm;
   axis.encoder.clock_s = kClock_s;
-  // The true bound, from the same generator: what a maker's protocol would state.
+  // The true bound, from the same generator: what a maker's test certificate would state.
   axis.encoder.line_error_mm = Axis().largest_error_mm();
   return machine;
 }
@@ -131,7 +130,7 @@ machine::Machine calibrated() {
   return machine;
 }
 
-/// Axis that moves, and what a latching counter shows of it at each cycle.
+/// A moving axis, and what a latching counter shows of it in each cycle.
 class Counter {
  public:
   signal::Frame next() {
@@ -202,8 +201,8 @@ TEST(CalibratedAxis, IsSeenFiveTimesFinerThanWithoutItsCalibration) {
   EXPECT_EQ(after.outside, 0);
 }
 
-// A stored error of 0 means "not learnt". One such line of 4000 is enough: it may be off by the
-// raw error, and no bound may rest on a hope.
+// A stored error of 0 means "not learnt". One such line in 4000 is enough: it may be off by the raw
+// error, and no bound may rest on hope.
 TEST(CalibratedAxis, BoundsRestOnTheUncalibratedErrorWhereALineWasNotLearnt) {
   auto machine = calibrated();
   machine.axes[0].encoder.line_table_mm[5] = 0.0;
@@ -214,8 +213,8 @@ TEST(CalibratedAxis, BoundsRestOnTheUncalibratedErrorWhereALineWasNotLearnt) {
   EXPECT_EQ(seen.outside, 0);
 }
 
-// The table covers 0 … 4 mm. Travel 0.01 … 3.9 mm lies inside, 5 mm does not: the same axis at the
-// same place then has the wider bound, for lines that it may come to.
+// The table covers 0 … 4 mm. Travel 0.01 … 3.9 mm lies inside, 5 mm does not: then the same axis at
+// the same place has the wider bound, for lines that it may reach.
 TEST(CalibratedAxis, AScaleMustBeLearntOverItsWholeTravel) {
   auto machine = calibrated();
   auto& axis = machine.axes[0];

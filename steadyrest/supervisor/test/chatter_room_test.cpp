@@ -7,8 +7,8 @@
 namespace steadyrest::supervisor::test {
 namespace {
 
-/// A spindle at 3000 rpm whose speed is set to 80 % by the modulator's mean, which would be 125 %
-/// of the feed per tooth; the band asks the feed down to 90 %.
+/// A spindle at 3000 rpm whose mean the modulator sets to 80 %, which would give 125 % of the feed
+/// per tooth; the band brings the feed down to 90 %.
 machine::Machine modulated(Mode mode = Mode::act) {
   auto m = mill(mode);
   m.chatter.enabled = true;
@@ -26,7 +26,7 @@ struct ChatterBench : Bench {
     frame.spindle_actual_rev_s = 50.0;
     frame.spindle.panel_code = 0b01110;
   }
-  /// The machine does at once what is written.
+  /// The machine executes at once what is written.
   signal::Command run(int count) {
     signal::Command command;
     for (int i = 0; i < count; ++i) {
@@ -87,7 +87,7 @@ TEST(ChatterRoom, ThePanelAtZeroStops) {
   EXPECT_EQ(bench.run(100).feed_ratio, 0.0);
 }
 
-// 2 s are more than 0.2 at any slew: both masks must be off, not merely neutral.
+// 2 s are more than 0.2 needs at any slew: both masks must be off, not merely neutral.
 TEST(ChatterRoom, StaleInputHandsBack) {
   ChatterBench bench;
   bench.run(2000);
@@ -98,7 +98,7 @@ TEST(ChatterRoom, StaleInputHandsBack) {
   EXPECT_EQ(command.spindle_reason, Reason::input_stale);
 }
 
-// Reason none, not port_cannot_write: the room is off, so nothing is wished.
+// Reason none, not port_cannot_write: the room is off, so there is no wish.
 TEST(ChatterRoom, SwitchedOffOrWithoutASwitchItAsksForNothing) {
   auto off = modulated();
   off.chatter.enabled = false;
@@ -111,8 +111,8 @@ TEST(ChatterRoom, SwitchedOffOrWithoutASwitchItAsksForNothing) {
   EXPECT_EQ(without.run(500).spindle_reason, Reason::none);
 }
 
-// No step of the table lies within 0.98 … 1.02 of the speed but 100 % itself: nothing to modulate
-// with. Switched off, the same settings harm nobody.
+// Only 100 % itself lies within 0.98 … 1.02 of the speed: nothing to modulate with. With the room
+// off, the same settings do no harm.
 TEST(ChatterRoom, SettingsThatTheRoomRefusesAreTheSupervisorsRefusal) {
   auto m = modulated();
   m.envelope.min_spindle_ratio = 0.98;

@@ -41,7 +41,7 @@ machine::Machine lagging_mill(Mode mode, bool contour) {
 }
 
 /// A circle of many turns, two axes that lag by dx/dt = k·(command − x), and an override that acts
-/// in the cycle after it was written.
+/// one cycle after it was written.
 class Circle {
  public:
   explicit Circle(const machine::Machine& machine)
@@ -72,13 +72,13 @@ class Circle {
     }
     return command;
   }
-  /// Closed form on the circle: how far the actual point stands inside of it.
+  /// Closed form on the circle: how far inside of it the actual point is.
   [[nodiscard]] double true_error_mm() const { return kRadius_mm - std::hypot(x_[0], x_[1]); }
 
   Supervisor supervisor;
 
  private:
-  // Twenty parts a cycle keep Euler's error far below the 1 % that the tests allow.
+  // Twenty substeps per cycle keep Euler's error far below the 1 % that the tests allow.
   void move() {
     constexpr int kParts = 20;
     const double speed_mm_s = kFeed_mm_s * frame_.feed.effective_ratio;
@@ -116,7 +116,7 @@ TEST(ContourRoom, WithoutTheLayerTheCircleIsSmallerByTheClosedForm) {
   EXPECT_NEAR(circle.true_error_mm(), 0.0877, 0.0877 * 0.01);
   ASSERT_TRUE(circle.supervisor.estimates().contour);
   EXPECT_NEAR(std::abs(circle.supervisor.estimates().contour->error_mm), 0.0877, 0.0877 * 0.01)
-      << "observe estimates all the same";
+      << "observe still estimates";
 }
 
 // 4000 mm/min = 66.7 mm/s and k = 50/s: q = 66.7/(10·50) = 0.133, ε = 10·(1 − 1/√1.0178) = 0.0877

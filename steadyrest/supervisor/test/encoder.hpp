@@ -30,7 +30,7 @@ inline machine::Machine two_axes() {
   return machine;
 }
 
-/// x = A·(1 − cos ωt), 2 Hz, and what a latching counter shows of it by the closed form.
+/// x = A·(1 − cos ωt), 2 Hz, and what a latching counter shows of it in closed form.
 class Sine {
  public:
   signal::Frame next() {
@@ -42,8 +42,8 @@ class Sine {
     const bool rises = phase < std::numbers::pi;
     const double x = kAmplitude_mm * (1.0 - std::cos(phase));
     const auto count = static_cast<std::int64_t>(std::floor(x / kCount_mm + 0.5));
-    // Way up: the line below was passed last. Just after the top none has been passed on the way
-    // down: the last one is that below too, on the way up.
+    // On the way up the line below was passed last. Just after the top no line has been passed on
+    // the way down, so the last one is still the one below, on the way up.
     const double top = std::floor(2.0 * kAmplitude_mm / kCount_mm + 0.5);
     const bool up = rises ? count > 0 : static_cast<double>(count) == top;
     const double line = static_cast<double>(count) + (up ? -0.5 : 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words that the port did not take or the watchdog dropped: what a review found, as tests.
+// Words that the port did not take or the watchdog dropped: review findings as tests.
 #include <gtest/gtest.h>
 
 #include <steadyrest/supervisor/supervisor.hpp>
@@ -17,8 +17,8 @@ using test::kCycle_s;
 using test::mill;
 using test::wired;
 
-// Away for longer than the watchdog (100 ms), or for an unknown time: the first frame gives no
-// known gap and is not written, the second begins at the panel and at offset 0.
+// Away for longer than the watchdog (100 ms), or for an unknown time: the first frame has no known
+// gap and is not written, the second begins at the panel and at offset 0.
 TEST(Interruption, WhatTheWatchdogHasDroppedIsNotWrittenAfterARestore) {
   for (const double away_s : {60.0, 0.5, -100.0, -1e9}) {
     Bench first(wired(Mode::act));
@@ -31,7 +31,7 @@ TEST(Interruption, WhatTheWatchdogHasDroppedIsNotWrittenAfterARestore) {
     second.frame = first.frame;
     second.frame.time_s += away_s;
     second.supervisor.restore(first.supervisor.state());
-    EXPECT_FALSE(second.cycle().write) << away_s << ": nobody knows yet how long it was";
+    EXPECT_FALSE(second.cycle().write) << away_s << ": the length of the gap is not known yet";
     auto command = second.cycle();
     EXPECT_TRUE(command.write) << away_s;
     EXPECT_FALSE(command.feed_masks_panel) << away_s;
@@ -68,7 +68,7 @@ class DeafPort final : public kernel::port::Port {
 };
 
 // A walk goes step by step, each on the wires for one scan. Sixty deaf cycles cover three scans; a
-// supervisor that believed its own writes would come out three steps further down.
+// supervisor that believed its own writes would end up three steps further down.
 TEST(Interruption, AWordThatThePortDidNotTakeWasNotWritten) {
   auto supervisor = Supervisor::make(wired(Mode::act), kAll);
   ASSERT_TRUE(supervisor);
@@ -87,7 +87,7 @@ TEST(Interruption, AWordThatThePortDidNotTakeWasNotWritten) {
   port.deaf = false;
   cycles(1);
   EXPECT_GE(port.written.back().feed_ratio, before - 0.05 - 1e-9)
-      << "three scans long no step was written: now comes the next one, not the fourth";
+      << "for three scans no step was written: the next one follows, not the fourth";
   EXPECT_TRUE(port.written.back().feed_masks_panel);
 }
 
@@ -115,8 +115,8 @@ TEST(Interruption, ThePanelThatAnUndeliveredCycleSawIsKnown) {
   EXPECT_FALSE(port.written.back().feed_masks_panel);
 }
 
-// The clock stood for 40 ms, twice the watchdog's time, while frames and writes went on. A
-// supervisor that measured the gap from the last good time would take its own word for dropped.
+// The clock stopped for 40 ms, twice the watchdog's time, while frames and writes went on. A
+// supervisor that measured the gap from the last good time would treat its own word as dropped.
 TEST(Interruption, AfterAClockThatStoodNothingIsTakenForDropped) {
   auto machine = mill(Mode::act);
   machine.envelope.stale_after_s = 0.02;
@@ -126,7 +126,7 @@ TEST(Interruption, AfterAClockThatStoodNothingIsTakenForDropped) {
   for (int i = 0; i < 40; ++i) {
     first.supervisor.update(first.frame, {.feed = first.feed, .spindle = {}, .offset = {}});
   }
-  first.frame.time_s += 40.0 * kCycle_s;  // the clock goes on where it would be
+  first.frame.time_s += 40.0 * kCycle_s;  // the clock resumes at the right time
   ASSERT_TRUE(first.cycle().feed_masks_panel);
   Bench second(machine);
   second.wish_feed(0.5);

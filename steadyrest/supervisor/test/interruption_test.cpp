@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults of time, modes, threads and aborts: what a review found, as tests.
+// Faults of time, modes, threads and aborts: review findings as tests.
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/units/constants.hpp>
@@ -38,12 +38,12 @@ TEST(Interruption, AWrongTimeStampGivesNoCreditToAnySlew) {
       EXPECT_LE(command.feed_ratio, 0.4 + 2.0 * kCycle_s * k + 1e-9) << wrong_s;
       EXPECT_LE(command.offset_mm[2], 0.05 * kCycle_s * k + 1e-9) << wrong_s;
     }
-    EXPECT_GT(bench.cycles(100).feed_ratio, 0.55) << wrong_s << ": and it goes on";
+    EXPECT_GT(bench.cycles(100).feed_ratio, 0.55) << wrong_s << ": the slew goes on";
   }
 }
 
-// A word must be on the wires for one scan (20 ms) before a mask may point at it. Advice never
-// was.
+// A word must be on the wires for one scan (20 ms) before a mask may point at it. Advice never was
+// on them.
 TEST(Interruption, WordsThatWereOnlyAdvisedHaveNotSettledInAct) {
   for (const bool may_exceed : {false, true}) {
     Bench bench(wired(Mode::advise, may_exceed));
@@ -63,7 +63,7 @@ TEST(Interruption, WordsThatWereOnlyAdvisedHaveNotSettledInAct) {
   }
 }
 
-// A stamp that is no time proves no scan.
+// A stamp without a valid time proves no scan.
 TEST(Interruption, AFrameWithoutTimeSettlesNoWord) {
   Bench bench(wired(Mode::act));
   bench.wish_feed(0.5);
@@ -79,8 +79,8 @@ TEST(Interruption, AFrameWithoutTimeSettlesNoWord) {
   }
 }
 
-// A control that boots starts its clock at 0; so may a simulator go back. Words that waited for an
-// absolute time would never settle again.
+// A control that boots starts its clock at 0; a simulator may also go back. Words that waited for
+// an absolute time would never settle again.
 TEST(Interruption, AClockThatBeginsAgainBlocksNoMask) {
   Bench bench(wired(Mode::act));
   bench.frame.time_s = 1000.0;
@@ -98,7 +98,7 @@ TEST(Interruption, AClockThatBeginsAgainBlocksNoMask) {
   EXPECT_EQ(bench.supervisor.mode_in_force(), Mode::observe);
 }
 
-// A frame without time never says how long the process was away.
+// A frame without a valid time never tells how long the process was away.
 TEST(Interruption, ARestoreWithoutTimeWritesNothing) {
   Bench first;
   first.wish_offset(0.02);
@@ -115,8 +115,8 @@ TEST(Interruption, ARestoreWithoutTimeWritesNothing) {
   }
 }
 
-// The spindle is let run at 10 1/s, so that the walk of the word lags behind the envelope: the tap
-// begins with a step under way, and the hold is of the word that is out.
+// The spindle may rise at 10 1/s, so that the walking word lags behind the envelope: the tap begins
+// with a step under way, and the hold applies to the word on the wires.
 TEST(Interruption, AWordHoldsInTheMiddleOfItsWalkInATap) {
   auto machine = wired(Mode::act);
   machine.envelope.spindle_slew_1_s = 10.0;
@@ -134,7 +134,7 @@ TEST(Interruption, AWordHoldsInTheMiddleOfItsWalkInATap) {
 }
 
 // A thousand cycles are five times what a hand-over takes. Unfit input, other modes, other wishes,
-// no link: nothing but a fit frame that shows another motion ends the hold.
+// no link: only a fit frame that shows another motion ends the hold.
 TEST(Interruption, ATapHoldsWhateverTheInputDoesUntilAFitFrameShowsItsEnd) {
   using SpoilBench = void (*)(Bench&);
   const SpoilBench spoils[] = {
@@ -145,7 +145,7 @@ TEST(Interruption, ATapHoldsWhateverTheInputDoesUntilAFitFrameShowsItsEnd) {
       [](Bench& b) { b.supervisor.set_mode(Mode::advise); },
       [](Bench& b) { b.feed.clear(), b.spindle.clear(); },
       [](Bench& b) { b.wish_feed(kNan), b.wish_spindle(kNan); },
-      // An unfit frame that shows a cut does not say that the tap is over.
+      // An unfit frame that shows a cut does not prove that the tap is over.
       [](Bench& b) { b.frame.motion = signal::Motion::feed, b.frame.age_s = 9.0; }};
   for (const SpoilBench spoil : spoils) {
     Bench bench;
@@ -180,8 +180,8 @@ TEST(Interruption, AnUnfitFrameThatShowsATapHoldsToo) {
   EXPECT_EQ(bench.cycles(1000).feed_ratio, 1.0) << "handed back once nothing shows a tap";
 }
 
-// Idle for 1 s means that the tool is out; the fade begins then: 0.2 s after it, 0.01 mm of 0.02
-// are left.
+// Idle for 1 s means that the tool is out; the fade begins then: 0.2 s later 0.01 mm of 0.02 are
+// left.
 TEST(Interruption, AfterAnAbortTheOffsetFades) {
   Bench bench;
   bench.wish_offset(0.02);
@@ -210,7 +210,7 @@ TEST(Interruption, ADwellOrAShortIdleInTheCutKeepsTheOffset) {
   }
 }
 
-// The same after a restore: nothing may be written without time, but the panel's 0 is seen.
+// The same after a restore: nothing may be written without a valid time, but the panel's 0 counts.
 TEST(Interruption, ThePanelIsSeenWhileTimeIsNotKnown) {
   Bench first;
   first.wish_feed(0.5);

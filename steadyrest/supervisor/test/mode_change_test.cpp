@@ -14,7 +14,7 @@ using test::Bench;
 
 constexpr Mode kModes[] = {Mode::observe, Mode::advise, Mode::act};
 
-// Neutral, there is nothing to hand back: the cycle that is asked is the cycle that changes.
+// Neutral, there is nothing to hand back: the mode changes in the same cycle.
 TEST(ModeChange, IsMadeAtOnceWhileTheLayerAsksForNothing) {
   for (const Mode from : kModes) {
     for (const Mode to : kModes) {
@@ -27,7 +27,7 @@ TEST(ModeChange, IsMadeAtOnceWhileTheLayerAsksForNothing) {
   }
 }
 
-// Rooms learn by what is in force; only what was written is.
+// Rooms learn from what is in force; only what was written is.
 TEST(ModeChange, OnlyInActIsWhatIsInForceWritten) {
   for (const Mode mode : kModes) {
     Bench bench(mode);
@@ -37,8 +37,8 @@ TEST(ModeChange, OnlyInActIsWhatIsInForceWritten) {
   }
 }
 
-// Half of the way back from 40 % he wants the layer again: the feed goes on from there, by the slew
-// of 10 1/s, and no cycle goes unwritten.
+// Half-way back from 40 % the operator wants the layer again: the feed continues from there, at the
+// slew of 10 1/s, and no cycle goes unwritten.
 TEST(ModeChange, TurnedRoundOnTheWayBackItGoesOnFromThere) {
   Bench bench;
   bench.wish_feed(0.4);
@@ -57,8 +57,8 @@ TEST(ModeChange, TurnedRoundOnTheWayBackItGoesOnFromThere) {
   EXPECT_EQ(bench.cycle().feed_ratio, 0.4);
 }
 
-// The process was away for longer than the watchdog's 0.1 s and is to observe: nothing of it is on
-// the machine, so nothing is written, not even once.
+// The process was away for longer than the watchdog's 0.1 s and returns in observe: nothing of it
+// is on the machine, so nothing is written, not even once.
 TEST(ModeChange, WhatTheWatchdogHasDroppedIsNotHandedBackAnyMore) {
   Bench before;
   before.wish_feed(0.4);
@@ -76,7 +76,7 @@ TEST(ModeChange, WhatTheWatchdogHasDroppedIsNotHandedBackAnyMore) {
   EXPECT_EQ(after.supervisor.mode_in_force(), Mode::observe);
 }
 
-// Away for less than that, the word still stands on the machine and is brought back by the slew.
+// After a shorter absence the machine still holds the word; the slew brings it back to the panel.
 TEST(ModeChange, WhatTheMachineStillHoldsIsHandedBackFirst) {
   Bench before;
   before.wish_feed(0.4);
@@ -92,7 +92,7 @@ TEST(ModeChange, WhatTheMachineStillHoldsIsHandedBackFirst) {
   EXPECT_EQ(after.supervisor.mode_in_force(), Mode::observe);
 }
 
-// All three on their way at once; the cycle that the port did not take must not have moved any.
+// All three are moving; the cycle that the port did not take must not have moved any of them.
 TEST(Undelivered, NoneOfTheThreeHasMoved) {
   Bench bench;
   bench.wish_feed(0.4);

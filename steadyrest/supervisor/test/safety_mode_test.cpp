@@ -21,7 +21,7 @@ using test::FakePort;
 using test::kAll;
 using test::mill;
 
-// The default of the machine's values, not of a file: whoever forgets the mode must get observe.
+// The default in the machine's values, not in a file: whoever forgets the mode must get observe.
 TEST(Safety, ObserveIsTheDefaultAndWritesNothing) {
   EXPECT_EQ(machine::Machine{}.mode, Mode::observe);
   auto supervisor = Supervisor::make(mill(machine::Machine{}.mode), kAll);
@@ -65,14 +65,14 @@ TEST(Safety, AdviseShowsWhatActWouldWriteAndWritesNothing) {
   EXPECT_EQ(act.cycle().offset_mm[2], 0.01);
 }
 
-// In advise the word had walked down to 20 %. On the way to act it must begin at the panel and
-// take its first step from there.
+// In advise the word had walked down to 20 %. On the way to act it must begin at the panel and take
+// its first step from there.
 TEST(Safety, AdviceThatNeverStoodOnTheMachineIsNotTakenOver) {
   Bench bench(Mode::advise);
   bench.wish_feed(0.2);
   EXPECT_EQ(bench.cycles(500).feed_ratio, 0.2);
   bench.supervisor.set_mode(Mode::act);
-  EXPECT_EQ(bench.cycle().feed_ratio, 1.0) << "the machine stands at the panel's 100 %";
+  EXPECT_EQ(bench.cycle().feed_ratio, 1.0) << "the machine is at the panel's 100 %";
   EXPECT_EQ(bench.cycle().feed_ratio, 0.95);
 }
 
@@ -111,8 +111,7 @@ TEST(Safety, LeavingActHandsBackThroughTheSlewBeforeItStopsWriting) {
   }
 }
 
-// Two laws over any history: nobody gets more than the panel, and nothing is written outside of
-// act.
+// Two laws for any history: nothing exceeds the panel, and nothing is written outside act.
 RC_GTEST_PROP(Safety, WhateverComesInForceStaysUnderThePanelAndOnlyActWrites, ()) {
   const Mode mode = *rc::gen::element(Mode::observe, Mode::advise, Mode::act);
   Bench bench(mode);

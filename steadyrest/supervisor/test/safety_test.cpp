@@ -31,8 +31,8 @@ TEST(Safety, TheLowestWishOfAllRoomsIsWritten) {
   EXPECT_EQ(command.feed_reason, Reason::contour_limit);
 }
 
-// One fault each, with the reason that must be given: what a broken link, a wrong configuration or
-// a stopped sender looks like.
+// One fault each, with the reason that it must give: what a broken link, a wrong configuration or a
+// stopped sender looks like.
 struct Spoil {
   const char* what;
   Reason reason;
@@ -64,7 +64,7 @@ const Spoil kSpoils[] = {
 };
 
 // No fault may jump: the first cycle still holds 0.4, the panel comes back at 2 1/s, and only then
-// does the mask go off.
+// does the mask come off.
 TEST(Safety, UnfitInputGivesTheNeutralRequestWithAReasonThroughTheSlew) {
   for (const auto& [what, reason, spoil] : kSpoils) {
     Bench bench;
@@ -82,7 +82,7 @@ TEST(Safety, UnfitInputGivesTheNeutralRequestWithAReasonThroughTheSlew) {
   }
 }
 
-// One stamp back is unfit. The second one that follows it shows that the clock was set.
+// One stamp back is unfit. A second one that follows it shows that the clock was set.
 TEST(Safety, TimeThatRunsBackwardsOrIsNoTimeIsUnfit) {
   Bench bench;
   bench.wish_feed(0.4);
@@ -97,7 +97,7 @@ TEST(Safety, TimeThatRunsBackwardsOrIsNoTimeIsUnfit) {
   EXPECT_EQ(command.feed_ratio, 0.4);
 }
 
-// The channels are apart: a broken spindle switch is no reason to let go of the contour.
+// The channels are independent: a broken spindle switch is no reason to release the contour.
 TEST(Safety, ABadSpindlePanelDoesNotWithdrawTheFeed) {
   Bench bench;
   bench.wish_feed(0.4);
@@ -111,7 +111,7 @@ TEST(Safety, ABadSpindlePanelDoesNotWithdrawTheFeed) {
 }
 
 // 100 ms without a frame are `stale_after`, then 0.3 s of slew; 700 ms are enough for both. Never
-// having read a frame is stale, too.
+// having read a frame counts as stale too.
 TEST(Safety, LostFramesBecomeStaleAndHandBack) {
   Bench bench;
   bench.wish_feed(0.4);
@@ -134,7 +134,7 @@ TEST(Safety, LostFramesBecomeStaleAndHandBack) {
   EXPECT_EQ(never.supervisor.update_without_frame(0.0).feed_reason, Reason::input_stale);
 }
 
-// A feed or spindle that changes in mid-thread ruins it; panel 0 stops all the same.
+// A feed or spindle change in mid-thread ruins it; panel 0 still stops.
 TEST(Safety, ThreadingAndTappingHoldTheOverridesButNotAgainstTheOperator) {
   for (const auto motion : {signal::Motion::thread, signal::Motion::tap}) {
     Bench bench;
@@ -158,7 +158,7 @@ TEST(Safety, ThreadingAndTappingHoldTheOverridesButNotAgainstTheOperator) {
   }
 }
 
-// Frozen by bad input, by a dwell, by a stale frame; out at 0.05 mm/s, so 5 µs in the 100 cycles
+// Frozen by bad input, by a dwell, by a stale frame; out at 0.05 mm/s, so 5 µm in the 100 cycles
 // after the first good frame that shows a rapid.
 TEST(Safety, AnOffsetFreezesOnBadInputAndRampsOutWhenNoToolIsInTheCut) {
   Bench bench;
@@ -186,7 +186,7 @@ TEST(Safety, OffsetsStayInsideTheirLimitAndOffTheRotaryAxes) {
   EXPECT_EQ(command.offset_reason, Reason::clamped);
 }
 
-// Faults pile up from case to case; the watchdog must not trip over any of them.
+// Faults pile up from case to case; none of them may stop the heartbeat.
 TEST(Safety, TheHeartbeatBeatsOnceInEveryCycleWhateverComes) {
   for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
     Bench bench(mode);
@@ -199,7 +199,7 @@ TEST(Safety, TheHeartbeatBeatsOnceInEveryCycleWhateverComes) {
   }
 }
 
-// Infinite rates and limits are the ways in which a file could turn the envelope off.
+// With infinite rates and limits a file could turn the envelope off.
 TEST(Safety, ClampAndSlewCannotBeSwitchedOffByTheMachineFile) {
   const auto refused = [](auto&& spoil) {
     auto machine = mill(Mode::act);
@@ -215,8 +215,8 @@ TEST(Safety, ClampAndSlewCannotBeSwitchedOffByTheMachineFile) {
   EXPECT_TRUE(refused([](auto& e) { e.stale_after_s = kInfinity; }));
 }
 
-// Read between two writes, a binary word can show any code in between: half of a change from 0111
-// to 1000 may read 1111. Gray codes or a latch, or no writing.
+// Read between two writes, a binary word can show any code in between: half-way from 0111 to 1000
+// it may read 1111. Gray codes or a latch, or no writing.
 TEST(Safety, ABinaryWordOnAPortThatDoesNotLatchIsRefused) {
   auto machine = mill(Mode::act);
   machine.feed_override = kernel::override::test::percent_word();

@@ -18,8 +18,8 @@ using test::FakePort;
 using test::kAll;
 using test::mill;
 
-// 500 cycles of 1 ms: long enough for every slew to have arrived, had anything moved. A port
-// without any capability must never see a mask, and each channel must name the port as the reason.
+// 500 cycles of 1 ms: long enough for any slew to finish, had anything moved. A port without any
+// capability must never see a mask, and each channel must name the port as the reason.
 TEST(Supervisor, WhatThePortCannotWriteIsSaidAndNotWritten) {
   Bench bench(Mode::act, {});
   bench.wish_feed(0.4);
@@ -34,7 +34,7 @@ TEST(Supervisor, WhatThePortCannotWriteIsSaidAndNotWritten) {
   EXPECT_EQ(command.offset_reason, Reason::port_cannot_write);
 }
 
-// The operator's 70 % goes through unchanged, although nothing knows its code.
+// The operator's 70 % passes unchanged, although nothing knows its code.
 TEST(Supervisor, AMachineWithoutAnOverrideTableHasNoSuchOverride) {
   auto machine = mill(Mode::act);
   machine.feed_override = {};
@@ -47,7 +47,7 @@ TEST(Supervisor, AMachineWithoutAnOverrideTableHasNoSuchOverride) {
   EXPECT_EQ(command.feed_reason, Reason::port_cannot_write);
 }
 
-// The refusal goes up to the caller; a supervisor that swallowed it would go on with old frames.
+// The refusal goes up to the caller; a supervisor that swallowed it would run on old frames.
 TEST(Supervisor, ALostLinkIsTheCyclesRefusal) {
   auto supervisor = Supervisor::make(mill(Mode::act), kAll);
   ASSERT_TRUE(supervisor);
@@ -60,8 +60,8 @@ TEST(Supervisor, ALostLinkIsTheCyclesRefusal) {
   EXPECT_EQ(command.error().kind, kernel::outcome::Kind::unavailable);
 }
 
-// Truth: the run that was not interrupted. Stopped in mid-slew at 123 ms, both must agree in every
-// code from there on.
+// Truth: the uninterrupted run. Stopped in mid-slew at 123 ms, both must agree in every code from
+// there on.
 TEST(Supervisor, ARestoredStateGoesOnWhereItWas) {
   Bench first;
   first.wish_feed(0.4);

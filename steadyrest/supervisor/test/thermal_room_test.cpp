@@ -23,7 +23,7 @@ constexpr double kSlope_mm_s = 0.060 / 60.0;
 constexpr double kMost_mm = 0.020;
 constexpr std::size_t kZ = 2;
 
-/// Z grows fast, so that a test of some seconds shows something.
+/// Z grows fast, so that a test of a few seconds shows something.
 kernel::machine::Machine warming(Mode mode) {
   auto machine = test::mill(mode);
   machine.axes[1].name = "Y";
@@ -84,7 +84,7 @@ TEST(ThermalRoom, ObservingItForecastsAndWritesNothing) {
 }
 
 // On the way to act the advised offset must not appear at once: it has never been on the machine,
-// so it goes there from 0, by no more than the slope in each cycle.
+// so it starts from 0 and moves by no more than the slope in each cycle.
 TEST(ThermalRoom, WhatWasOnlyAdvisedIsNotTakenOverByAJump) {
   Warm bench(Mode::observe);
   bench.cycles(20'000);
@@ -98,7 +98,7 @@ TEST(ThermalRoom, WhatWasOnlyAdvisedIsNotTakenOverByAJump) {
   EXPECT_LT(before, -0.001);
 }
 
-// Stale in the air: out within 500 ms by the envelope's slew; back in the cut by the room's much
+// Stale in air: out within 500 ms at the envelope's slew; back in the cut at the room's much
 // gentler slope.
 TEST(ThermalRoom, AfterStaleInputTheOffsetComesBackByTheSlope) {
   Warm bench;
@@ -124,7 +124,7 @@ TEST(ThermalRoom, APortThatTakesNoOffsetsGetsNone) {
   EXPECT_EQ(command.offset_reason, Reason::port_cannot_write);
 }
 
-// Truth: the run without a restart. Lost heat would show as an offset that begins at 0.
+// Truth: the run without a restart. Lost heat would show as an offset that starts at 0.
 TEST(ThermalRoom, ItsHeatOutlivesARestart) {
   Warm bench;
   bench.cycles(20'000);
@@ -136,7 +136,7 @@ TEST(ThermalRoom, ItsHeatOutlivesARestart) {
   }
 }
 
-// Sensors fall out more often than frames: the thermal room withdraws alone.
+// Sensors drop out more often than frames: the thermal room withdraws alone.
 TEST(ThermalRoom, AnUnknownTemperatureDoesNotMakeTheFrameUnfit) {
   Warm bench;
   bench.frame.temperature_c = kernel::signal::unknown_temperatures();
@@ -145,7 +145,7 @@ TEST(ThermalRoom, AnUnknownTemperatureDoesNotMakeTheFrameUnfit) {
   EXPECT_EQ(command.feed_reason, Reason::none);
 }
 
-// The machine is off by what has grown and by what stands on it; only in act does anything.
+// The probe finds the growth plus whatever offset is in force; only act has an offset in force.
 TEST(ThermalRoom, AReadingOfThePortIsOfWhatStandsInEveryMode) {
   for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
     Warm bench(mode);
@@ -164,7 +164,7 @@ TEST(ThermalRoom, AReadingOfThePortIsOfWhatStandsInEveryMode) {
   }
 }
 
-// A probe that reports NaN is turned down by the thermal room; the feed goes on.
+// The thermal room rejects a probe that reports NaN; the feed goes on.
 TEST(ThermalRoom, AReadingThatIsNoneDoesNotMakeTheFrameUnfit) {
   Warm bench;
   bench.cycles(10);
@@ -183,7 +183,8 @@ TEST(ThermalRoom, DoesNotAllocateInTheCycle) {
   EXPECT_EQ(guard.allocations(), 0U);
 }
 
-/// Slope while the room is in force, the envelope's slew while it ramps out, nothing while frozen.
+/// Slope while the room's offset is in force, the envelope's slew while it ramps out, nothing while
+/// frozen.
 RC_GTEST_PROP(ThermalRoomSafety, NoHistoryLeavesClampSlopeOrFreeze, ()) {
   Warm bench;
   const double slew = warming(Mode::act).envelope.offset_slew_mm_s;

@@ -40,7 +40,7 @@ Column read_all(const std::vector<std::string>& fields, Decimal decimal = Decima
   return out;
 }
 
-// What was printed to the last digit comes back bit for bit; from_chars and printf share no code.
+// A number printed to the last digit comes back bit for bit; from_chars and printf share no code.
 RC_GTEST_PROP(Number, ComesBackAsItWasPrinted, (double value)) {
   RC_PRE(std::isfinite(value));
   std::string text = fmt::format("{:.17g}", value);
@@ -57,8 +57,8 @@ RC_GTEST_PROP(Number, ComesBackAsItWasPrinted, (double value)) {
   }
 }
 
-// A comma proves itself where it could not group digits: one to three digits before it, the first
-// of them no 0, and three behind. The rule as a pattern, over all short numbers.
+// A comma proves itself where it could not group digits: grouping needs one to three digits before
+// it, the first not 0, and three after. The rule as a pattern, over all short numbers.
 RC_GTEST_PROP(Number, OneCommaThatCannotGroupDecidesTheFile, ()) {
   static const std::regex kGrouped("[+-]?[1-9][0-9]{0,2},[0-9]{3}");
   const std::string field =
@@ -80,7 +80,7 @@ TEST(Number, AFileOfGroupsAloneIsRefusedAtItsFirstComma) {
   EXPECT_EQ(read_all({"5", "6"}).fault, "") << "no comma, no doubt";
 }
 
-// Both orders, and both ways in which the caller has decided.
+// Both orders, and both decisions that the caller may have made.
 TEST(Number, PointAndCommaInOneFileContradictEachOther) {
   EXPECT_EQ(read_all({"0.5", "0,5"}).fault, "3: z_um = \"0,5\" has a comma, line 2 a point");
   EXPECT_EQ(read_all({"0,5", "1", "0.5"}).fault, "4: z_um = \"0.5\" has a point, line 2 a comma");
@@ -107,7 +107,7 @@ TEST(Number, WithACommaHasAtMostSixtyFourCharacters) {
   EXPECT_NE(read_all({most + "3"}).fault, "");
 }
 
-// Digits behind the mark, less the exponent, never below none.
+// Digits after the mark, less the exponent, never below zero.
 TEST(Number, KnowsItsDecimals) {
   const std::vector<std::pair<std::string_view, int>> known = {
       {"5", 0},     {"5.", 0},      {"0.125", 3},  {"0,125", 3}, {"1.5e-3", 4},
@@ -117,7 +117,7 @@ TEST(Number, KnowsItsDecimals) {
   }
 }
 
-// Rows are told from heads by it: every number is like one, and no name is.
+// It tells rows from heads: every number looks like one, and no name does.
 TEST(Number, NamesAreNotLikeNumbers) {
   for (const std::string_view name : {"", "z_um", "e", "-", ".", "E+", "t1", "1st", "#1"}) {
     EXPECT_FALSE(like_a_number(name)) << name;

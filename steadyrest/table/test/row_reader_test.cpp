@@ -18,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// What a file says: names, rows as numbers, the column `t_s` or what stands for it as a clock.
+/// The contents of a file: names, rows as numbers, the column `t_s` or its substitute as a clock.
 struct Said {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;
@@ -102,7 +102,7 @@ TEST(RowReader, ReadsWhatLoggersWrite) {
   }
 }
 
-// The comma comes first in the head, but only the semicolon parts both lines into two.
+// The comma comes first in the head, but only the semicolon splits both lines into two.
 TEST(RowReader, TakesTheSeparatorThatPartsHeadAndFirstRowAlike) {
   const Said said = said_by("Temp, spindle;z\n1,5;2,25\n");
   EXPECT_THAT(said.names, ElementsAre("Temp, spindle", "z"));
@@ -129,8 +129,8 @@ TEST(RowReader, PutsUnitsToTheNames) {
 }
 
 TEST(RowReader, DecidesTheDecimalMarkByTheWholeFile) {
-  // Read with the wrong mark every value is wrong by a factor of 1000 and looks sensible.
-  // 1,234 is 1.234 where another number of the file proves it, before or behind.
+  // Read with the wrong mark, every value is wrong by a factor of 1000 and looks sensible. 1,234 is
+  // 1.234 where another number of the file proves it, before or after.
   EXPECT_THAT(said_by("a;b\n1,234;0,5\n").rows, ElementsAre(ElementsAre(1.234, 0.5)));
   EXPECT_THAT(said_by("a;b\n1,234;1\n2,345;12,5\n").rows,
               ElementsAre(ElementsAre(1.234, 1.0), ElementsAre(2.345, 12.5)));
@@ -153,8 +153,8 @@ TEST(RowReader, DecidesTheDecimalMarkByTheWholeFile) {
   EXPECT_THAT(said_by("a;b\n1,234,567;2\n").fault, HasSubstr("2: a = \"1,234,567\" is not"));
 }
 
-// Commas for both: a row of 1,5,2 could be 1.5 and 2, or 1 and 5.2. The count of fields tells, and
-// the file is refused.
+// Commas for both: a row of 1,5,2 could be 1.5 and 2, or 1 and 5.2. The number of fields reveals
+// it, and the file is refused.
 TEST(RowReader, NeverTakesADecimalCommaForASeparator) {
   EXPECT_THAT(said_by("a,b\n1,5,2\n").fault, HasSubstr("2: the row has 3 fields, the header 2"));
   EXPECT_THAT(said_by("a,b\n1,5\n2,5,1\n").fault, HasSubstr("3: the row has 3 fields"));
@@ -162,7 +162,7 @@ TEST(RowReader, NeverTakesADecimalCommaForASeparator) {
   EXPECT_THAT(said_by("a,b\n1,5\n2,\n").fault, HasSubstr("3: b is empty"));
 }
 
-// Names from the command line: the separator is the one that gives as many fields.
+// Names from the command line: the separator is the one that gives the same number of fields.
 TEST(RowReader, ReadsAFileWithoutAHeadWhenItsColumnsAreNamed) {
   Format format;
   format.columns = {"t_s", "-", "count"};
@@ -183,8 +183,8 @@ TEST(RowReader, ReadsAFileWithoutAHeadWhenItsColumnsAreNamed) {
   EXPECT_THAT(bare.to_do, HasSubstr("--columns"));
 }
 
-// Sample 12 after 8 and an overrun: with numbers the time is still right, without them nobody
-// knows how many are missing.
+// Sample 12 after 8 and an overrun: with numbers the time is still right, without them nobody knows
+// how many samples are missing.
 TEST(RowReader, ReadsWhatHalsamplerPrints) {
   Format format;
   format.columns = {"sample", "count", "-"};
@@ -225,7 +225,7 @@ TEST(RowReader, ReadsStampsWithADate) {
               HasSubstr("3: t_s = \"2026-11-22 10:00:00\" is not a finite number"));
 }
 
-// Programs write such values for a bad reading; none may become a number.
+// Programs write such values for a failed reading; none may become a number.
 TEST(RowReader, RefusesWhatIsNoText) {
   EXPECT_EQ(said_by("\x1f\x8b-").fault, "0: is gzip-compressed");
   EXPECT_EQ(said_by(std::string("a,b\n1,\0", 7)).fault, "0: is not text in UTF-8");

@@ -25,7 +25,7 @@ std::string date_of(std::int64_t days, const char* pattern) {
                      static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
-// Any second from 1970 on, to 2199: in the extended and the basic form, with any offset from UTC.
+// Any second from 1970 to 2199: in the extended and the basic form, with any offset from UTC.
 RC_GTEST_PROP(StampCalendar, EverySecondIsItself, ()) {
   const auto days = *rc::gen::inRange<std::int64_t>(1, 230 * 365);
   const auto of_day = *rc::gen::inRange<std::int64_t>(0, kDay_s);
@@ -51,7 +51,7 @@ RC_GTEST_PROP(StampCalendar, EverySecondIsItself, ()) {
   RC_ASSERT(!basic->zoned);
 }
 
-// Of every month of the 230 years, the last day is a day and the next is none.
+// For every month of the 230 years the last day is a day and the next one is not.
 TEST(StampCalendar, KnowsHowLongEachMonthIs) {
   for (int year = 1970; year < 2200; ++year) {
     for (unsigned month = 1; month <= 12; ++month) {
@@ -77,7 +77,7 @@ TEST(StampCalendar, EndsWithItsYears) {
   EXPECT_FALSE(stamp_of("1969-12-31T00:00:00"));
 }
 
-// However many digits the fraction has, it is what a decimal reading of them gives.
+// However many digits the fraction has, it equals a decimal reading of them.
 RC_GTEST_PROP(StampCalendar, KeepsItsFraction, ()) {
   const int digits = *rc::gen::inRange(1, 10);
   const auto value = *rc::gen::inRange<std::int64_t>(

@@ -26,7 +26,8 @@ TEST(Stamp, IsReadInEachSpelling) {
   EXPECT_EQ(stamp_of("2024-02-29T00:00:00Z")->whole_s, 1709164800);
 }
 
-// Seven decimals behind a point or a comma; that a zone was given is kept apart from the instant.
+// Seven decimals after a point or a comma; whether a zone was given is stored separately from the
+// instant.
 TEST(Stamp, HasItsFractionAndItsZone) {
   const auto point = stamp_of("2026-11-22T23:47:06.1234567");
   const auto comma = stamp_of("2026-11-22T23:47:06,1234567+02:00");
@@ -61,8 +62,7 @@ TEST(Stamp, IsNoLeapSecond) {
   }
 }
 
-// The count goes up by one from each second of a day to the next, also of a day that had a leap
-// second.
+// The count goes up by one from each second of a day to the next, even on a day with a leap second.
 TEST(Stamp, GivesEachSecondItsOwnNumber) {
   std::int64_t last = stamp_of("2016-12-30T23:59:59Z")->whole_s;
   for (int s = 0; s < 86'400; ++s) {

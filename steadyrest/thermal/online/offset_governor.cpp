@@ -7,9 +7,9 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/online/offset_governor.hpp>
 
-// A frame passes drive_on() (time, heat and sensors to the filters), probe() (a reading, once), and
-// ask() (the wish and its slope for each axis). Filters step once a second, or when the kind of
-// work changes, not in every cycle: the fastest heat here has a time constant of minutes.
+// A frame passes through drive_on() (time, heat and sensors to the filters), probe() (a reading,
+// once), and ask() (the wish and its slope for each axis). Filters step once a second, or when the
+// kind of work changes, not in every cycle: the fastest heat here has a time constant of minutes.
 namespace steadyrest::thermal::online {
 
 namespace machine = kernel::machine;
@@ -23,18 +23,18 @@ using kernel::signal::Motion;
 
 namespace {
 
-/// The filters are told at least that often. Of a mode with τ = 1 min a second's mean instead of
-/// its course is off by 1/(2·60) of what the level changed in it.
+/// The filters are updated at least this often. For a mode with τ = 1 min a one-second mean instead
+/// of the true course is off by 1/(2·60) of the level's change within that second.
 constexpr double kHold_s = 1.0;
-/// Slower is the noise of a standing encoder: 0.6 rpm, one count of 1024 in 0.1 s.
+/// Anything slower is the noise of a stationary encoder: 0.6 rpm, one count of 1024 in 0.1 s.
 constexpr double kStands_rev_s = 0.01;
-/// What happened in longer gaps is not known: a restart or a lost link, no pause between blocks.
+/// What happened in longer gaps is unknown: a restart or a lost link, not a pause between blocks.
 /// Test AGapBelowAMinuteIsNone.
 constexpr double kGap_s = 60.0;
-/// Of the fastest that was fitted: with heat as n^1.5 a fifth more speed is a third more of it, as
-/// far as the levels are carried on. Test HoldsAboveTheSpeedsThatWereFitted.
+/// Of the fastest fitted speed: with heat as n^1.5 a fifth more speed is a third more heat, as far
+/// as the levels may be extrapolated. Test HoldsAboveTheSpeedsThatWereFitted.
 constexpr double kBeyondSpeed = 1.2;
-constexpr double kThere_mm = 1e-4;  ///< nearer to the wish is there: a control's finest increment
+constexpr double kThere_mm = 1e-4;  ///< closer to the wish counts as there: a control's finest step
 
 bool feeds(Motion motion) noexcept {
   return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
@@ -50,7 +50,7 @@ OffsetGovernor::Running running_of(const Frame& frame) noexcept {
   return drive;
 }
 
-// A mean over both classes would be neither: levels switch with cutting, coolant and standstill.
+// A mean over both classes would match neither: levels switch with cutting, coolant and standstill.
 bool same_class(const OffsetGovernor::Running& a, const OffsetGovernor::Running& b) noexcept {
   return a.cutting == b.cutting && a.coolant == b.coolant &&
          (a.speed_rev_s == 0.0) == (b.speed_rev_s == 0.0);
@@ -60,9 +60,8 @@ bool must_hold(Motion motion) noexcept {
   return motion == Motion::thread || motion == Motion::tap || motion == Motion::probe;
 }
 
-/// The worse a reason, the more it must be shown.
-/// One reason goes to the page for all axes. A model that no longer fits outranks a sensor, because
-/// the correction itself is in doubt.
+/// The worse a reason, the more it must be shown. The page shows one reason for all axes. A model
+/// that no longer fits outranks a sensor, because the correction itself is in doubt.
 int weight(Reason reason) noexcept {
   switch (reason) {
     case Reason::thermal_model_unfit:
@@ -108,7 +107,7 @@ Result<OffsetGovernor> OffsetGovernor::make(const Config& config) {
   for (std::size_t i = 0; i < axes; ++i) {
     const auto of =
         std::ranges::find(thermal.axis, config.axes[i].name, &machine::ThermalAxis::name);
-    // Offsets are lengths; a displacement of no machine axis is only forecast.
+    // Offsets are lengths; a displacement that belongs to no machine axis is only forecast.
     if (of == thermal.axis.end() || config.axes[i].rotary) {
       continue;
     }
@@ -146,12 +145,12 @@ void OffsetGovernor::step(double elapsed_s, const Running& running) noexcept {
   }
 }
 
-/// Tells the filters of the time that is pending.
+/// Passes the pending time to the filters.
 void OffsetGovernor::step() noexcept {
   if (state_.pending_s > 0.0) {
     Running mean = state_.drive;
-    // Mean over the pending time: levels are of the speed, and between two hand-overs it may have
-    // changed in every cycle.
+    // Mean over the pending time: levels depend on the speed, which may change in every cycle
+    // between two updates.
     mean.speed_rev_s = state_.turned_rev / state_.pending_s;
     mean.feed_mm_s = state_.path_mm / state_.pending_s;
     step(state_.pending_s, mean);
@@ -161,7 +160,7 @@ void OffsetGovernor::step() noexcept {
   state_.path_mm = 0.0;
 }
 
-/// A frame's drive is in force from its time to that of the next.
+/// A frame's drive applies from its time to the next frame's.
 void OffsetGovernor::drive_on(const Frame& frame) noexcept {
   const double elapsed_s = state_.started ? std::max(0.0, frame.time_s - state_.time_s) : 0.0;
   state_.time_s = frame.time_s;
@@ -171,15 +170,15 @@ void OffsetGovernor::drive_on(const Frame& frame) noexcept {
   state_.unwatched_s += elapsed_s;
   if (elapsed_s > kGap_s) {
     step();
-    // Nobody knows what was done: counted as standstill.
+    // What happened is unknown: counted as standstill.
     step(elapsed_s, {});
   } else {
     state_.pending_s += elapsed_s;
     state_.turned_rev += elapsed_s * state_.drive.speed_rev_s;
     state_.path_mm += elapsed_s * state_.drive.feed_mm_s;
   }
-  // A change between cutting and air, coolant or standstill ends the pending time, since these
-  // enter as states and have no mean.
+  // A change between cutting and air, of coolant or of standstill ends the pending time, since
+  // these enter as states and have no mean.
   if (first || elapsed_s > kGap_s || state_.pending_s >= kHold_s ||
       !same_class(state_.drive, drive)) {
     step();
@@ -210,7 +209,8 @@ Reason OffsetGovernor::fault(const Axis& axis, const Frame& frame) const noexcep
   return beyond ? Reason::thermal_beyond_speed : Reason::none;
 }
 
-/// What fades keeps to the slower slope: a sensor that fails for a second must not take it all.
+/// A fade keeps to the slower slope: a sensor that fails for a second must not remove all of the
+/// offset.
 Reason OffsetGovernor::ask(const Axis& axis, const Frame& frame, bool tool_in_cut,
                            double let_through_mm) noexcept {
   double& wish = state_.last.request.offset_mm[axis.index];
@@ -238,10 +238,9 @@ Reason OffsetGovernor::ask(const Axis& axis, const Frame& frame, bool tool_in_cu
                                                      : Reason::thermal_correcting;
 }
 
-/// The reading of a frame whose number is new.
+/// The frame's reading, if its number is new.
 void OffsetGovernor::probe(const Frame& frame) noexcept {
-  // The first frame after a start may show an old reading; with which offset it was made is not
-  // known.
+  // The first frame after a start may show an old reading, made with an unknown offset.
   const bool fresh = probe_watched_ && frame.probe.number != probe_number_;
   probe_watched_ = true;
   probe_number_ = frame.probe.number;
@@ -258,14 +257,13 @@ void OffsetGovernor::probe(const Frame& frame) noexcept {
               {.displacement_mm = frame.probe.displacement_mm, .sd_mm = frame.probe.sd_mm});
 }
 
-// Unfit frames leave wish and slope as they were; the envelope knows the reason and takes it from
-// there.
+// Unfit frames leave wish and slope unchanged; the envelope knows the reason and acts on it.
 const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason unfit,
                                                      bool tool_in_cut,
                                                      const InForce& in_force) noexcept {
   state_.last.request.tool_in_cut = tool_in_cut;
   for (Axis& axis : axes_) {
-    // On the machine, not asked for: in observe and advise no offset is there.
+    // On the machine, not requested: in observe and advise no offset is there.
     axis.standing_mm = in_force.written ? in_force.offset_mm[axis.index] : 0.0;
   }
   if (unfit != Reason::none || !std::isfinite(frame.time_s)) {
@@ -289,7 +287,8 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
 void OffsetGovernor::zero_here() noexcept {
   step();
   for (Axis& axis : axes_) {
-    // r = δ + the offset on the machine, so that the wish r − δ is what is there and nothing moves.
+    // r = δ + the offset on the machine, so the wish r − δ equals the present offset and nothing
+    // moves.
     axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm;
   }
 }
@@ -306,7 +305,7 @@ StateFilter::Verdict OffsetGovernor::measure(std::size_t axis,
     return {};
   }
   step();
-  // The probe finds e = δ + offset − r, so the model's coordinate is δ = e + r − offset.
+  // The probe finds e = δ + offset − r, so in the model's terms δ = e + r − offset.
   return of->filter.measure(
       {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm,
        .sd_mm = reading.sd_mm});

@@ -17,42 +17,40 @@
 
 namespace steadyrest::thermal::online {
 
-/// Asks for the offsets that work against the displacement that the machine has now, cycle by
-/// cycle.
+/// Asks for the offsets that counter the machine's present displacement, cycle by cycle.
 ///
-/// The forecast is driven by what the machine does, not by the cyclogram: by the frames' own time,
-/// spindle speed, path speed and temperatures. So a pause of the job is a pause of its heat. What
-/// drives it is handed on once a second, speed and feed by their mean, and where cutting, coolant
-/// or the standing of the spindle changes.
+/// The forecast follows the machine, not the cyclogram: the frames' own time, spindle speed, path
+/// speed and temperatures. A pause of the job is thus a pause of its heat. These inputs are handed
+/// on once a second, speed and feed as means, and whenever cutting, coolant or spindle standstill
+/// changes.
 ///
 /// For each axis, with the displacement δ, the displacement r at which the workpiece's zero was
 /// set, and m the smaller of the two largest offsets of the machine file:
-///   wish = clamp(r − δ, ±m),   and no faster than slope
-/// The envelope leads the offset there, by that slope or by its own slew, whichever is slower; what
-/// it has let through comes in with the frame. In a thread, tap or probing move the slope is 0: the
-/// offset is held. While a temperature is not known or not believed (sensor_watch.hpp) that the
-/// axis needs, while the spindle turns faster than 1.2 times what was fitted, and while its
-/// readings do not fit the model, it is held as long as a tool is in the cut; once none is, the
-/// wish is 0. With unfit input the room withdraws. The slope is that of the machine file whatever
-/// the forecast does: no step that would mark the surface can come from here. Where the machine
-/// file gives a retract slope, that one holds instead while no tool is in the cut, nothing is fed
-/// and nothing fades.
+///   wish = clamp(r − δ, ±m),   at most as fast as slope
+/// The envelope leads the offset there, at that slope or at its own slew, whichever is slower; what
+/// it let pass comes in with the frame. In a thread, tap or probing move the slope is 0: the offset
+/// is held. It is also held while a tool is in the cut if a temperature that the axis needs is
+/// unknown or not believed (sensor_watch.hpp), if the spindle turns faster than 1.2 times the
+/// fitted speed, or if its readings do not fit the model; once no tool is in the cut, the wish is
+/// then 0. With unfit input the room withdraws. The slope is the machine file's whatever the
+/// forecast does: no step that would mark the surface can come from here. A retract slope in the
+/// machine file applies instead while no tool is in the cut, nothing is fed and nothing fades.
 ///
-/// A probe reading that a frame brings is taken once, by its number. What stood there in the first
-/// frame after make(), reset() or restore() is not: nobody knows with which offset it was made. A
-/// reading says how far the axis is off with the offset that is in force.
+/// A probe reading in a frame is taken once, by its number. A reading already present in the first
+/// frame after make(), reset() or restore() is ignored: nobody knows which offset it was made with.
+/// A reading is the axis's error with the offset in force.
 ///
-/// After a gap of more than a minute between frames the machine counts as having stood meanwhile.
-/// Online code: bounded, noexcept, no allocation after make().
+/// After a gap of more than a minute between frames the machine counts as stopped in between. Runs
+/// in the cycle: bounded, noexcept, no allocation after make().
 class OffsetGovernor {
  public:
   struct Config {
     std::vector<kernel::machine::Axis> axes;
     kernel::machine::Thermal thermal;
-    double max_offset_mm = 0.2;  ///< of the envelope
+    double max_offset_mm = 0.2;  ///< the envelope's
   };
 
-  /// What became of the last reading that a frame brought.
+  /// What became of the last reading in a frame.
   struct Probed {
     kernel::signal::ProbeReading reading;  ///< number 0: none yet
     /// reason none: the axis is not corrected; input_out_of_range: the machine has no such axis
@@ -72,7 +70,7 @@ class OffsetGovernor {
     double standing_mm = 0.0;   ///< offset on the machine at the last update
   };
 
-  /// What heats the machine but for the temperatures.
+  /// What heats the machine, except for the temperatures.
   struct Running {
     double speed_rev_s = 0.0;
     double feed_mm_s = 0.0;
@@ -80,23 +78,23 @@ class OffsetGovernor {
     bool coolant = false;
   };
 
-  /// All of it but for the number of the last probe reading, which a restart forgets by intent.
+  /// All of it except the number of the last probe reading, which a restart forgets on purpose.
   struct State {
     std::array<AxisState, kernel::signal::kMaxAxes> axis{};  ///< by the machine's axes
-    Running drive;                                           ///< of the time that is pending
-    double pending_s = 0.0;   ///< the filters have not been told of yet
-    double turned_rev = 0.0;  ///< ∫ speed over it
-    double path_mm = 0.0;     ///< ∫ path speed over it
+    Running drive;                                           ///< of the pending time
+    double pending_s = 0.0;                                  ///< not yet passed to the filters
+    double turned_rev = 0.0;                                 ///< ∫ speed over it
+    double path_mm = 0.0;                                    ///< ∫ path speed over it
     double time_s = 0.0;
     bool started = false;
     SensorWatch::State sensors;
-    double unwatched_s = 0.0;  ///< the watch has not been told of yet
+    double unwatched_s = 0.0;  ///< not yet passed to the watch
     kernel::signal::Temperatures temperature_c = kernel::signal::unknown_temperatures();
     Output last;
   };
 
-  /// For the axes of the machine that have a thermal passport; rotary ones take no offset. Refuses
-  /// passports that cannot be used and more sensors than a frame holds.
+  /// For the machine's axes with a thermal passport; rotary ones take no offset. Refuses unusable
+  /// passports and more sensors than a frame holds.
   [[nodiscard]] static kernel::outcome::Result<OffsetGovernor> make(const Config& config);
   [[nodiscard]] static kernel::outcome::Result<OffsetGovernor> make(
       const kernel::machine::Machine& machine) {
@@ -105,17 +103,17 @@ class OffsetGovernor {
                  .max_offset_mm = machine.envelope.max_offset_mm});
   }
 
-  /// One cycle. `unfit`: why the frame must not be acted on, or none. `tool_in_cut`: by what is
-  /// known of the machine.
+  /// One cycle. `unfit`: why the frame must not be acted on, or none. `tool_in_cut`: by the state
+  /// of the machine.
   const Output& update(const kernel::signal::Frame& frame, kernel::outcome::Reason unfit,
                        bool tool_in_cut, const kernel::signal::InForce& in_force) noexcept;
 
-  /// The workpiece's zero has just been set: from here on only what changes is corrected.
+  /// The workpiece's zero has just been set: only changes from here on are corrected.
   void zero_here() noexcept;
-  /// A probe finds the axis off by `reading` from where it should be, with the offset that stands.
-  /// Nothing, with reason none, for an axis that is not corrected.
+  /// A probe finds the axis off by `reading` from its proper place, with the offset in force. Does
+  /// nothing, with reason none, for an axis that is not corrected.
   StateFilter::Verdict measure(std::size_t axis, const StateFilter::Reading& reading) noexcept;
-  /// The same, taken whatever the gate says.
+  /// The same, ignoring the gate.
   void rezero(std::size_t axis, const StateFilter::Reading& reading) noexcept;
 
   [[nodiscard]] const Output& output() const noexcept { return state_.last; }
@@ -151,10 +149,10 @@ class OffsetGovernor {
   double max_offset_mm_ = 0.0;
   double slope_mm_s_ = 0.0;
   double retract_slope_mm_s_ = 0.0;
-  State state_;  ///< `axis` and `sensors` are filled in by state() alone
+  State state_;  ///< only state() fills in `axis` and `sensors`
   std::size_t sensors_ = 0;
   SensorWatch watch_;
-  Drive drive_;  ///< what a filter is handed
+  Drive drive_;  ///< input of a filter
   std::uint64_t probe_number_ = 0;
   bool probe_watched_ = false;  ///< a frame has been seen
 };

@@ -7,8 +7,8 @@
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
 // Two questions for each reading: can a machine be that warm, coming from where it was (can_be),
-// and does a sensor that says the same for hours still live (live)? What is doubted becomes NaN, so
-// the model treats it like a sensor that is missing.
+// and is a sensor that repeats itself for hours still alive (live)? Doubtful readings become NaN,
+// so the model treats such a sensor as missing.
 namespace steadyrest::thermal::online {
 
 using kernel::outcome::Reason;
@@ -16,9 +16,9 @@ using kernel::signal::Temperatures;
 
 namespace {
 
-/// Steps in one kelvin of coarse sensors: 0.05 K, 1/16 K, 0.1 °F; their multiples lie on them.
+/// Steps per kelvin of coarse sensors: 0.05 K, 1/16 K, 0.1 °F; their multiples are included.
 constexpr std::array kStepsInK = {20.0, 16.0, 18.0};
-/// A float of single precision is that far from its step.
+/// Distance of a single-precision value from its step.
 constexpr double kOnStep = 1e-3;
 
 std::uint8_t steps_of(double temperature_c) noexcept {
@@ -48,7 +48,7 @@ void SensorWatch::update(double elapsed_s, std::size_t sensors,
     if (std::isfinite(temperature_c[i])) {
       look(sensor, elapsed, temperature_c[i]);
     } else {
-      sensor.fault = Reason::none;  // it is unknown
+      sensor.fault = Reason::none;  // unknown, hence neither
       sensor.away = true;
       sensor.away_s += elapsed;
     }
@@ -65,8 +65,8 @@ bool SensorWatch::can_be(Sensor& sensor, double elapsed_s, double temperature_c)
   if (!sensor.seen) {
     return true;
   }
-  // Follows only while it is believed: after a step it waits where it was until the machine could
-  // have come that far.
+  // Follows only while the sensor is believed: after a step it waits until the machine could have
+  // come that far.
   if (!sensor.away) {
     const double reach = kRate_k_s * elapsed_s;
     sensor.follower_c += std::clamp(temperature_c - sensor.follower_c, -reach, reach);
@@ -98,9 +98,9 @@ void SensorWatch::look(Sensor& sensor, double elapsed_s, double temperature_c) n
   live(sensor, elapsed_s, temperature_c);
 }
 
-/// A value that can be.
+/// A plausible value.
 void SensorWatch::live(Sensor& sensor, double elapsed_s, double temperature_c) noexcept {
-  // An excursion is a kelvin away from where the last one ended: noise never adds up to one.
+  // An excursion ends a kelvin away from where the last one ended: noise never adds up to that.
   if (std::abs(temperature_c - sensor.anchor_c) >= kMoved_k) {
     sensor.anchor_c = temperature_c;
     ++sensor.excursions;
@@ -110,7 +110,7 @@ void SensorWatch::live(Sensor& sensor, double elapsed_s, double temperature_c) n
   const std::uint64_t others = state_.excursions - sensor.excursions;
   if (temperature_c != sensor.value_c) {
     if (sensor.fault != Reason::thermal_sensor_stuck) {
-      // Learnt only from times when it was alive, or a stuck sensor would teach its own silence.
+      // Learnt only from times when it was alive, or a stuck sensor would raise its own limit.
       sensor.longest_s = std::max(sensor.longest_s, sensor.same_s);
     }
     sensor.value_c = temperature_c;

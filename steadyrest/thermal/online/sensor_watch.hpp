@@ -10,27 +10,27 @@
 
 namespace steadyrest::thermal::online {
 
-/// Says which temperature sensors of a machine must not be believed, while it runs.
+/// Decides which temperature sensors of a running machine must not be believed.
 ///
 /// Wild, one of:
 ///   T < −20 °C or T > 80 °C
-///   |T − ρ| > 3 K + 10 K/h·a, where ρ follows T by at most 0.1 K/s while it is believed, and a is
+///   |T − ρ| > 3 K + 10 K/h·a, where ρ follows T by at most 0.1 K/s while T is believed, and a is
 ///   the time since it last was: no part of a machine, and no air around it, warms by more than
-///   6 K/min for long. A step is believed again when a machine could have come that far.
-/// Stuck: T is the same to the last digit since a time d, and all of
-///   d ≥ 2 h, and d ≥ 3 times the longest such time that it has shown alive
+///   6 K/min for long. A step is believed again once a machine could have come that far.
+/// Stuck: T has been the same to the last digit for a time d, and all of
+///   d ≥ 2 h, and d ≥ 3 times the longest such time that the sensor survived
 ///   other sensors of the machine have moved meanwhile: two excursions of 1 K
-///   it could have shown it: it has shown values between the steps of a coarse sensor (0.05 K,
-///   1/16 K, 0.1 °F and multiples); a coarse one must have moved before, and d ≥ 8 h
-/// So a coarse sensor in a room that is held is not called stuck: it has never moved, or has often
-/// stood for long. What has no digits between, and has not moved since the start, cannot be told
-/// from it; neither can the only sensor of a machine.
+///   it would have shown a change: it has shown values between the steps of a coarse sensor
+///   (0.05 K, 1/16 K, 0.1 °F and multiples); a coarse one must have moved before, and d ≥ 8 h
+/// A coarse sensor in a temperature-controlled room is therefore not called stuck: it has never
+/// moved, or has often been unchanged for long. A sensor without finer digits that has not moved
+/// since the start looks the same, and so does the only sensor of a machine.
 ///
-/// A stuck sensor is believed again when it moves. Unknown (NaN) is neither: it says so itself.
-/// Fixed size, noexcept, no allocation.
+/// A stuck sensor is believed again when it moves. Unknown (NaN) is neither wild nor stuck. Fixed
+/// size, noexcept, no allocation.
 class SensorWatch {
  public:
-  // The reasons are above; each is met from both sides by a test in sensor_watch_test.cpp.
+  // The reasons are above; sensor_watch_test.cpp tests each limit from both sides.
   static constexpr double kColdest_c = -20.0;
   static constexpr double kHottest_c = 80.0;
   static constexpr double kStep_k = 3.0;
@@ -45,7 +45,7 @@ class SensorWatch {
   struct Sensor {
     bool seen = false;
     bool moved = false;      ///< has changed since the start
-    bool away = false;       ///< unknown or wild when last looked at
+    bool away = false;       ///< unknown or wild at the last look
     std::uint8_t steps = 7;  ///< bit i: every value so far lies on the coarse steps i
     kernel::outcome::Reason fault = kernel::outcome::Reason::none;
     double value_c = 0.0;
@@ -62,7 +62,8 @@ class SensorWatch {
     std::uint64_t excursions = 0;  ///< of all
   };
 
-  /// `elapsed_s` ≥ 0 later the first `sensors` read so; what must not be believed becomes NaN.
+  /// The first `sensors` readings after `elapsed_s` ≥ 0; those that must not be believed become
+  /// NaN.
   void update(double elapsed_s, std::size_t sensors,
               kernel::signal::Temperatures& temperature_c) noexcept;
 
@@ -72,7 +73,7 @@ class SensorWatch {
   }
 
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// A sensor whose numbers are not finite starts anew.
+  /// A sensor whose numbers are not finite starts over.
   void restore(const State& state) noexcept;
   void reset() noexcept { state_ = {}; }
 

@@ -7,10 +7,10 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/thermal/online/state_filter.hpp>
 
-// A Kalman filter over modes, bias and one scale of all levels. The modes themselves live in the
-// ThermalModel, which steps them exactly; the filter adds what the scale changes of that step and
-// carries the covariance along with the same step. Hᵀ = (1, …, 1, 1, 0): a reading sees modes and
-// bias, and the scale only through what it has done to the modes.
+// A Kalman filter over modes, bias and one scale of all levels. The modes themselves are in the
+// ThermalModel, which steps them exactly; the filter adds the scale's effect on that step and
+// propagates the covariance with the same step. Hᵀ = (1, …, 1, 1, 0): a reading sees modes and
+// bias, and the scale only through its effect on the modes.
 namespace steadyrest::thermal::online {
 
 using kernel::outcome::Reason;
@@ -91,7 +91,7 @@ double StateFilter::update(double elapsed_s, const Drive& drive) noexcept {
     left[i] = model_.decay(i, elapsed_s, drive);
   }
   model_.update(elapsed_s, drive);
-  // The model has gone on with the scale 1: what its levels gave is known by its step.
+  // The model has stepped with the scale 1: its step shows what its levels contributed.
   std::array<double, kMaxThermalModes> after_mm = model_.state().mode_mm;
   std::array<double, kMaxThermalModes> gained_mm{};
   for (std::size_t i = 0; i < modes_; ++i) {
@@ -113,7 +113,7 @@ void StateFilter::spread(double elapsed_s, const std::array<double, kMaxThermalM
     const bool walks = axis.drift_mm == 0.0;
     bias_step_ = {.elapsed_s = elapsed_s,
                   .left = walks ? 1.0 : std::exp(-elapsed_s / axis.drift_tau_s),
-                  // d²·(1 − e^(−2h/τ)) by expm1: at a millisecond of some hours the difference
+                  // d²·(1 − e^(−2h/τ)) by expm1: for a millisecond and a τ of hours the difference
                   // would lose all digits.
                   .variance_mm2 = walks
                                       ? config_.walk_mm_sqrt_s * config_.walk_mm_sqrt_s * elapsed_s
@@ -124,7 +124,7 @@ void StateFilter::spread(double elapsed_s, const std::array<double, kMaxThermalM
   const double gain = p[kGain][kGain];
   for (std::size_t i = 0; i < modes_; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      // In place: the modes' block first, while their covariances with the gain are still the old
+      // In place: first the modes' block, while their covariances with the gain are still the old
       // ones; then those with bias and gain.
       p[i][j] = left[i] * left[j] * p[i][j] + left[i] * gained_mm[j] * p[i][kGain] +
                 gained_mm[i] * left[j] * p[j][kGain] + gained_mm[i] * gained_mm[j] * gain;
@@ -153,7 +153,7 @@ double StateFilter::variance_mm2() const noexcept {
   return std::max(sum, 0.0);
 }
 
-// A reading's own figure first, then the passport's noise, then the setting.
+// The reading's own figure first, then the passport's noise, then the setting.
 double StateFilter::reading_sd_mm(const Reading& reading) const noexcept {
   if (reading.sd_mm > 0.0) {
     return reading.sd_mm;
@@ -161,7 +161,7 @@ double StateFilter::reading_sd_mm(const Reading& reading) const noexcept {
   return config_.axis.noise_mm > 0.0 ? config_.axis.noise_mm : config_.reading_sd_mm;
 }
 
-// A bias or scale at its limit is no estimate any more; fault() says so until a reading brings it
+// A bias or scale at its limit is no longer an estimate; fault() says so until a reading brings it
 // back.
 bool StateFilter::clamp() noexcept {
   const double bias = std::clamp(state_.bias_mm, -config_.max_bias_mm, config_.max_bias_mm);
@@ -188,10 +188,10 @@ StateFilter::Verdict StateFilter::measure(const Reading& reading) noexcept {
   const double innovation = reading.displacement_mm - displacement_mm();
   Verdict verdict{.innovation_mm = innovation, .innovation_sd_mm = std::sqrt(s)};
   const double e = innovation / verdict.innovation_sd_mm;
-  // Outliers count too, clipped: one says nothing, several in a row say that the model is wrong.
+  // Outliers count too, clipped: one proves nothing, several in a row show that the model is wrong.
   state_.innovation[state_.readings % kWindow] = std::clamp(e, -config_.gate_sd, config_.gate_sd);
   ++state_.readings;
-  // Three standard deviations: of readings that fit, one in 370 is refused.
+  // Three standard deviations: one in 370 good readings is refused.
   if (std::abs(e) > config_.gate_sd) {
     verdict.reason = Reason::thermal_reading_outlier;
     return verdict;
@@ -222,7 +222,7 @@ void StateFilter::rezero(const Reading& reading) noexcept {
   }
   const double without_bias = displacement_mm() - state_.bias_mm;
   state_.bias_mm = reading.displacement_mm - without_bias;
-  // d = z − Σx, so its covariances are those of −Σx, its variance theirs and the reading's.
+  // d = z − Σx: its covariances are those of −Σx, its variance is theirs plus the reading's.
   Covariance& p = state_.covariance;
   const double sd = reading_sd_mm(reading);
   double variance = sd * sd;
@@ -239,7 +239,7 @@ void StateFilter::rezero(const Reading& reading) noexcept {
     variance += i < modes_ ? sum : 0.0;
   }
   p[kBias][kBias] = variance;
-  // The innovations so far were against a model that has just been set right.
+  // The innovations so far were against a model that has just been corrected.
   state_.readings = 0;
   state_.clamped = clamp();
 }
@@ -260,8 +260,8 @@ Reason StateFilter::fault() const noexcept {
   if (n < kLeast) {
     return Reason::none;
   }
-  // Two tests, as each sees what the other misses: χ² a spread that is too wide, the sum an error
-  // that stays on one side.
+  // Two tests, since each sees what the other misses: χ² a spread that is too wide, the sum an
+  // error that stays on one side.
   double energy = 0.0;
   double sum = 0.0;
   for (std::size_t k = 0; k < n; ++k) {

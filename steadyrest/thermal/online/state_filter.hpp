@@ -13,16 +13,16 @@ namespace steadyrest::thermal::online {
 /// The thermal model of one axis, corrected by readings of its displacement: a Kalman filter on the
 /// states of the modes x_i, a slow bias d and one scale g of all levels.
 ///
-///   x_i' = (g·G_i − x_i)/τ_i,   d: the passport's drift, a first-order process; where it states
-///   none, a random walk;   g constant;   δ = Σ x_i + d + Σ b_j·(θ_j − θ_j0)
+///   x_i' = (g·G_i − x_i)/τ_i,   d: the passport's drift, a first-order process, or without one
+///   a random walk;   g constant;   δ = Σ x_i + d + Σ b_j·(θ_j − θ_j0)
 ///
-/// Steps are exact, as the model's: x_i ← a_i·x_i + (1 − a_i)·G_i·g with a_i = e^(−h/τ_i), and the
-/// variance that the drift gains is d²·(1 − a_d²), of the walk w²·h.
+/// Steps are exact, like the model's: x_i ← a_i·x_i + (1 − a_i)·G_i·g with a_i = e^(−h/τ_i). The
+/// drift gains the variance d²·(1 − a_d²), the walk w²·h.
 ///
 /// A reading z with standard deviation r has the innovation ν = z − δ of variance S = HPHᵀ + r². It
-/// is taken where |ν| ≤ gate·√S, else it is an outlier and changes nothing. e = ν/√S, held to
-/// ±gate so that one outlier alone says nothing, of the last 12 readings tell whether the model
-/// fits: from the fourth on Σe² must keep below the 99.9 % point of χ²_N and |Σe|/√N below that of
+/// is taken where |ν| ≤ gate·√S, else it is an outlier and changes nothing. e = ν/√S, limited to
+/// ±gate so that one outlier alone proves nothing. The last 12 readings show whether the model
+/// fits: from the fourth on Σe² must stay below the 99.9 % point of χ²_N, and |Σe|/√N below that of
 /// the normal law. It fits again when the window says so, or after rezero().
 ///
 /// Fixed size, noexcept, no allocation. Source: R. E. Kalman 1960; Y. Bar-Shalom, X. R. Li,
@@ -33,11 +33,12 @@ class StateFilter {
   static constexpr std::size_t kBias = kMaxThermalModes;
   static constexpr std::size_t kGain = kMaxThermalModes + 1;
   static constexpr std::size_t kStates = kMaxThermalModes + 2;
-  /// Readings that say whether the model fits. Held to ±3 each, a lasting error of e shows when
-  /// e·√N > 3.09: one standard deviation in 10 readings. Test ASmallErrorThatStaysIsToldFromNoise.
+  /// Readings that decide whether the model fits. Limited to ±3 each, a lasting error of e shows
+  /// when e·√N > 3.09: one standard deviation in 10 readings. Test
+  /// ASmallErrorThatStaysIsToldFromNoise.
   static constexpr std::size_t kWindow = 12;
-  /// Fewer say nothing: four are the fewest of which two at ±3 reach neither point, 18 < 18.5 of
-  /// χ²₄ and 6/√4 < 3.09. Test AnOutlierChangesNothingAndAloneSaysNothing.
+  /// Fewer prove nothing: with four, two at ±3 still reach neither point, 18 < 18.5 of χ²₄ and 6/√4
+  /// < 3.09. Test AnOutlierChangesNothingAndAloneSaysNothing.
   static constexpr std::size_t kLeast = 4;
 
   struct Config {
@@ -45,10 +46,10 @@ class StateFilter {
     double start_sd_mm = 0.0;    ///< of the displacement at the start, ≥ 0
     double gain_sd_ratio = 0.1;  ///< of g at the start, ≥ 0; 0 = the passport's levels are exact
     double walk_mm_sqrt_s = 0.002 / 60.0;  ///< w, ≥ 0; 2 µm in an hour
-    double reading_sd_mm = 0.0005;  ///< of a reading, where neither it nor the passport says; > 0
+    double reading_sd_mm = 0.0005;  ///< of a reading, if neither it nor the passport has one; > 0
     double gate_sd = 3.0;           ///< > 0
-    double max_bias_mm = 0.1;       ///< |d| is held to it
-    double min_gain = 0.5;          ///< g is held between them
+    double max_bias_mm = 0.1;       ///< limit of |d|
+    double min_gain = 0.5;          ///< limits of g
     double max_gain = 2.0;
   };
 
@@ -63,7 +64,7 @@ class StateFilter {
     kernel::outcome::Reason reason = kernel::outcome::Reason::none;
     double innovation_mm = 0.0;
     double innovation_sd_mm = 0.0;
-    bool clamped = false;  ///< bias or scale were held at their limits
+    bool clamped = false;  ///< bias or scale is at its limit
   };
 
   using Covariance = std::array<std::array<double, kStates>, kStates>;
@@ -83,14 +84,14 @@ class StateFilter {
   /// The displacement in mm after `elapsed_s` ≥ 0 of `drive`. Input that is not finite, or negative
   /// time, changes nothing.
   double update(double elapsed_s, const Drive& drive) noexcept;
-  /// A reading of the displacement as it is now.
+  /// A reading of the present displacement.
   Verdict measure(const Reading& reading) noexcept;
-  /// Takes the reading whatever the gate says; the bias becomes what is missing. The readings so
-  /// far no longer count against the model. Nothing when it is not finite.
+  /// Takes the reading regardless of the gate; the bias becomes the difference. Earlier readings no
+  /// longer count against the model. Does nothing when the reading is not finite.
   void rezero(const Reading& reading) noexcept;
 
   [[nodiscard]] double displacement_mm() const noexcept;
-  /// Standard deviation of the displacement, without what a reading adds.
+  /// Standard deviation of the displacement, without the reading's own.
   [[nodiscard]] double sd_mm() const noexcept;
   [[nodiscard]] double bias_mm() const noexcept { return state_.bias_mm; }
   /// g, the scale of all levels.
@@ -100,7 +101,7 @@ class StateFilter {
   [[nodiscard]] const ThermalModel& model() const noexcept { return model_; }
 
   [[nodiscard]] State state() const noexcept;
-  /// A state that is not finite is not taken: the filter starts anew.
+  /// Rejects a state that is not finite: the filter starts over.
   void restore(const State& state) noexcept;
   /// Cold.
   void reset() noexcept;
@@ -118,7 +119,7 @@ class StateFilter {
   Config config_;  ///< its axis is the model's
   ThermalModel model_;
   std::size_t modes_;
-  State state_;  ///< `model` is filled in by state() alone
+  State state_;  ///< only state() fills in `model`
   struct BiasStep {
     double elapsed_s = -1.0;
     double left = 1.0;

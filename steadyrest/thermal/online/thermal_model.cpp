@@ -10,8 +10,7 @@
 #include <steadyrest/thermal/online/thermal_model.hpp>
 
 // The law of the README, one step at a time. Inputs are constant within a step, so each mode and
-// each lag moves by its exact exponential: a step of a millisecond and one of an hour are equally
-// right.
+// each lag moves by its exact exponential: a millisecond and an hour are equally exact.
 namespace steadyrest::thermal::online {
 
 using kernel::machine::ThermalMode;
@@ -90,7 +89,7 @@ ThermalModel::ThermalModel(Config config) : config_(std::move(config)) {
 
 void ThermalModel::reset() noexcept {
   state_.mode_mm.fill(0.0);
-  // Not 0 °C: the first reading of a sensor counts as its settled value.
+  // Not 0 °C: a sensor's first reading counts as its settled value.
   state_.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
   ambient_mm_ = 0.0;
 }
@@ -102,24 +101,24 @@ void ThermalModel::restore(const State& state) noexcept {
 
 double ThermalModel::level_mm(std::size_t mode, const Drive& drive) const noexcept {
   const ThermalMode& m = config_.mode[mode];
-  // Heat does not ask for the direction of rotation.
+  // Heat is independent of the direction of rotation.
   const double n = std::abs(drive.speed_rev_s);
   double level = m.level_mm.empty() ? by_polynomial(m, n) : by_table(m, n);
-  // Only the share of the time in feed moves heats by cutting: ratio 1 + share·(c − 1).
+  // Only the share of time in feed moves heats by cutting: ratio 1 + share·(c − 1).
   level *= drive.cutting ? 1.0 + drive.cutting_share * (m.cutting_ratio - 1.0) : 1.0;
   level *= drive.coolant ? m.coolant_ratio : 1.0;
-  // The ratios are of the speed's part alone.
+  // The ratios apply only to the speed's part.
   return level + m.feed_s * drive.feed_mm_s;
 }
 
 double ThermalModel::tau_s(std::size_t mode, const Drive& drive) const noexcept {
   const ThermalMode& m = config_.mode[mode];
-  // A spindle that turns moves air and oil and cools faster; at rest the same body may take longer.
+  // A turning spindle moves air and oil and cools faster; at rest the same body may take longer.
   return drive.speed_rev_s == 0.0 && m.rest_tau_s > 0.0 ? m.rest_tau_s : m.tau_s;
 }
 
 double ThermalModel::kept(Decay& decay, double tau_s, double elapsed_s) noexcept {
-  // Steps mostly come at one period, so the exponential is made once.
+  // Steps usually have one period, so the exponential is computed once.
   if (decay.tau_s != tau_s || decay.elapsed_s != elapsed_s) {
     const double factor = tau_s > 0.0 ? std::exp(-elapsed_s / tau_s) : 0.0;
     decay = {.tau_s = tau_s, .elapsed_s = elapsed_s, .factor = factor};
@@ -134,8 +133,8 @@ void ThermalModel::sum_up_ambient() noexcept {
   for (std::size_t j = 0; j < config_.ambient.size(); j += part.size()) {
     for (std::size_t k = 0; k < part.size(); ++k) {
       const double away_mm = gain_mm_k_[j + k] * (state_.ambient_c[j + k] - reference_c_[j + k]);
-      // A sensor that was never seen displaces nothing. Slots beyond the inputs have gain 0 or NaN
-      // temperatures and fall out here as well.
+      // A sensor never seen displaces nothing. Slots beyond the inputs have gain 0 or NaN
+      // temperatures and drop out here too.
       part[k] += std::isfinite(away_mm) ? away_mm : 0.0;
     }
   }

@@ -16,18 +16,18 @@ using kernel::machine::kMaxThermalModes;
 struct Drive {
   double speed_rev_s = 0.0;  ///< of the spindle, signed
   double feed_mm_s = 0.0;    ///< mean speed along the path
-  bool cutting = false;      ///< feed moves are made
-  /// Of the time, where what is told of is longer than a move.
+  bool cutting = false;      ///< in feed moves
+  /// Share of the time spent cutting, where the step is longer than a move.
   double cutting_share = 1.0;
   bool coolant = false;
-  /// In the order of the passport's ambient inputs; NaN: not known, the last value is held.
+  /// In the order of the passport's ambient inputs; NaN: unknown, the last value is held.
   std::array<double, kMaxThermalAmbients> ambient_c{};
 };
 
 /// Displacement of one axis by its thermal modes and surroundings:
 ///   x_i' = (G_i − x_i)/τ_i,  θ_j' = (T_j − θ_j)/τ_j,  δ = Σ x_i + Σ b_j·(θ_j − θ_j0)
-/// in exact exponential steps, so the size of a step does not matter while the inputs are constant.
-/// Levels are straight between the points of a table and hold its first and last beyond them.
+/// in exact exponential steps, so the step size does not matter while the inputs are constant.
+/// Levels are linear between the points of a table and constant beyond its ends.
 class ThermalModel {
  public:
   using Config = kernel::machine::ThermalAxis;
@@ -37,18 +37,17 @@ class ThermalModel {
     std::array<double, kMaxThermalAmbients> ambient_c{};  ///< lagged; NaN: not seen yet
   };
 
-  /// Refuses time constants that are not positive and tables that do not fit together.
+  /// Refuses time constants that are not positive and inconsistent tables.
   [[nodiscard]] static kernel::outcome::Result<ThermalModel> make(const Config& config);
 
-  /// The displacement in mm after `elapsed_s` ≥ 0 of `drive`. The first temperature of a sensor
-  /// that has not been seen is taken as its lagged one. An input that is not finite, or a negative
-  /// time, changes nothing.
+  /// The displacement in mm after `elapsed_s` ≥ 0 of `drive`. A sensor's first temperature also
+  /// becomes its lagged one. An input that is not finite, or a negative time, changes nothing.
   double update(double elapsed_s, const Drive& drive) noexcept;
 
   [[nodiscard]] double displacement_mm() const noexcept;
-  /// What the mode settles at.
+  /// The mode's final level.
   [[nodiscard]] double level_mm(std::size_t mode, const Drive& drive) const noexcept;
-  /// The time constant in force of a mode.
+  /// The mode's time constant in force.
   [[nodiscard]] double tau_s(std::size_t mode, const Drive& drive) const noexcept;
   /// e^(−elapsed/τ) of a mode: what is left of its distance from the level.
   [[nodiscard]] double decay(std::size_t mode, double elapsed_s, const Drive& drive) noexcept {
@@ -58,7 +57,7 @@ class ThermalModel {
 
   [[nodiscard]] const State& state() const noexcept { return state_; }
   void restore(const State& state) noexcept;
-  /// The modes alone.
+  /// Sets only the modes.
   void set_modes(const std::array<double, kMaxThermalModes>& mode_mm) noexcept {
     state_.mode_mm = mode_mm;
   }
@@ -67,7 +66,7 @@ class ThermalModel {
 
  private:
   explicit ThermalModel(Config config);
-  /// Steps come at one period: the exponential of each time constant is kept.
+  /// Steps usually have one period: keeps the exponential of each time constant.
   struct Decay {
     double tau_s = -1.0;
     double elapsed_s = -1.0;
@@ -80,7 +79,7 @@ class ThermalModel {
   Config config_;
   State state_;
   std::array<Decay, kMaxThermalModes> mode_decay_{};
-  /// One for each time constant of the ambient inputs, and which of them each input has.
+  /// One per distinct time constant of the ambient inputs, and the index of each input's own.
   std::array<Decay, kMaxThermalAmbients> lag_decay_{};
   std::size_t lags_ = 0;
   std::array<std::size_t, kMaxThermalAmbients> lag_of_{};

@@ -7,8 +7,8 @@
 
 namespace steadyrest::trial::batch {
 
-// The product's supervisor at work on thermal offsets alone: same room, arbiter and envelope as on
-// a machine. Hours pass quickly here, so frames are as few as the watchdog lets them be.
+// The product's supervisor working on thermal offsets alone: same room, arbiter and envelope as on
+// a machine. Hours pass quickly here, so frames are as rare as the watchdog allows.
 using kernel::machine::Machine;
 using kernel::outcome::Result;
 using kernel::signal::Motion;
@@ -29,7 +29,7 @@ std::uint64_t frames_of_second(double stale_after_s) noexcept {
 
 }  // namespace
 
-// The other rooms off: nothing but heat is under test, and they would need paths and vibration.
+// The other rooms are off: only heat is under test, and they would need paths and vibration.
 Result<ActingLayer> ActingLayer::make(const Machine& machine) {
   Machine thermal_alone = machine;
   thermal_alone.thermal.enabled = true;
@@ -49,7 +49,7 @@ ActingLayer::ActingLayer(const Machine& machine, supervisor::Supervisor layer)
       sensors_(machine.thermal.sensors().size()) {
   frame_.axis_count = static_cast<std::uint8_t>(std::min(machine.axes.size(), frame_.axis.size()));
   for (std::size_t i = 0; i < frame_.axis_count; ++i) {
-    // Any place within the limits is good enough; the frame check wants one.
+    // Any place within the limits will do; the frame check needs one.
     const double middle_mm = 0.5 * (machine.axes[i].min_mm + machine.axes[i].max_mm);
     frame_.axis[i].command_mm = frame_.axis[i].actual_mm =
         std::isfinite(middle_mm) ? middle_mm : 0.0;
@@ -64,7 +64,7 @@ void ActingLayer::begin(double room_c) noexcept {
 
 void ActingLayer::pass(const Second& second) noexcept {
   const auto frames = static_cast<double>(frames_of_second_);
-  // The share of cutting as so many frames in the cut: the room sees motion, not shares.
+  // Turns the share of cutting into frames in the cut: the room sees motion, not shares.
   const auto cutting = static_cast<std::uint64_t>(std::lround(second.cutting * frames));
   for (std::uint64_t i = 0; i < frames_of_second_; ++i) {
     ++frame_.cycle;
@@ -88,7 +88,7 @@ void ActingLayer::show(const Second& second, bool cuts) noexcept {
   frame_.coolant = second.coolant;
   std::fill_n(frame_.temperature_c.begin(), sensors_, second.room_c);
   if (!probed_.empty()) {
-    // One reading a frame: each has its own number and is taken once.
+    // One reading per frame: each has its own number and is taken once.
     frame_.probe = probed_.front();
     probed_.erase(probed_.begin());
   }

@@ -12,18 +12,18 @@
 
 namespace steadyrest::trial::batch {
 
-/// The layer in act beside the batch's machine: supervisor, arbiter and envelope as on a real one.
+/// The layer in act on the batch's machine: supervisor, arbiter and envelope as on a real one.
 ///
-/// It gets frames every 2⁻ᵏ s, as seldom as `stale_after` permits: for more the envelope gives no
-/// credit. Only the thermal room is on: the batch has neither a path nor an override's answer to
-/// show to the others.
+/// It gets frames every 2⁻ᵏ s, as rarely as `stale_after` permits: the envelope gives no credit for
+/// longer gaps. Only the thermal room is on: the batch offers the others neither a path nor an
+/// override's response.
 class ActingLayer {
  public:
-  /// What a frame shows of one second of the machine.
+  /// One second of the machine as a frame shows it.
   struct Second {
     double speed_rev_s = 0.0;
     double feed_mm_s = 0.0;
-    double cutting = 0.0;  ///< share of it that the tool cuts
+    double cutting = 0.0;  ///< share of it with the tool in the cut
     bool coolant = false;
     double room_c = 20.0;
   };
@@ -32,11 +32,11 @@ class ActingLayer {
   [[nodiscard]] static kernel::outcome::Result<ActingLayer> make(
       const kernel::machine::Machine& machine);
 
-  /// The first frame; the workpiece's zero is set there.
+  /// The first frame; sets the workpiece's zero.
   void begin(double room_c) noexcept;
   /// The next second.
   void pass(const Second& second) noexcept;
-  /// The probe finds the axis off by so much; one of the next frames brings it.
+  /// The probe finds the axis off by this much; one of the next frames carries it.
   void probe(std::size_t axis, double displacement_mm, double sd_mm);
 
   /// On the machine now.
@@ -50,7 +50,7 @@ class ActingLayer {
   std::uint64_t frames_of_second_ = 16;
   std::size_t sensors_ = 0;
   kernel::signal::Frame frame_;
-  std::vector<kernel::signal::ProbeReading> probed_;  ///< that no frame has brought yet
+  std::vector<kernel::signal::ProbeReading> probed_;  ///< not yet carried by a frame
   kernel::signal::AxisValues offset_mm_{};
 };
 

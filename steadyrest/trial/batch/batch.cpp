@@ -11,9 +11,9 @@
 #include <steadyrest/trial/batch/believed_axis.hpp>
 #include <steadyrest/trial/batch/text_shifts.hpp>
 
-// A batch second by second: the true machine grows, the belief about it is carried along, and
-// three ways of cutting (uncorrected, corrected text, layer on line) are judged on the same
-// growth. Before each part the probe measures and a new text is written, as a shop would do it.
+// A batch second by second: the true machine grows, the belief about it is updated along with it,
+// and three ways of cutting (uncorrected, corrected text, layer on line) are judged on the same
+// growth. Before each part the probe measures and a new text is written, as in a shop.
 namespace steadyrest::trial::batch {
 namespace {
 
@@ -23,8 +23,7 @@ using kernel::outcome::Result;
 constexpr double kStep_s = 1.0;
 constexpr std::uint64_t kStepsOfPoint = 20;
 
-/// Largest and RMS of what is added.
-/// Largest and RMS over the cutting seconds only.
+/// Largest value and RMS, over the cutting seconds only.
 class Sum {
  public:
   void add(double error_mm) noexcept {
@@ -43,8 +42,7 @@ class Sum {
   std::size_t count_ = 0;
 };
 
-/// Transitions one after the other, asked for with rising time.
-/// Never searched from the start: the batch asks in order of time.
+/// Transitions in sequence, queried in ascending time; no search from the start.
 class Clockwork {
  public:
   explicit Clockwork(const std::vector<nc::plan::Transition>& cyclogram) : cyclogram_(cyclogram) {}
@@ -103,14 +101,14 @@ class Day {
     Part now;
     now.start_s = growth_.time_s();
     for (BelievedAxis& axis : axes_) {
-      // The zero has just been set before the first.
-      // One reading for all: text and layer must learn from the same measurement.
+      // The zero has just been set before the first part. One reading for all: text and layer must
+      // learn from the same measurement.
       now.probe_mm.push_back(
           number_ == 1 ? 0.0 : growth_.read_probe_mm(growth_.displacement_mm(axis.index())));
       if (number_ > 1) {
         axis.measure(now.probe_mm.back());
-        // The probe finds what the offset has left.
-        // The belief is about the growth, the probe finds growth and offset together.
+        // The probe finds what the offset has left. The belief is about the growth alone, the probe
+        // finds growth and offset together.
         layer_.probe(axis.row(), now.probe_mm.back() + offset_mm(axis),
                      job_.machine.simulation.probe_noise_mm);
       }
@@ -126,7 +124,7 @@ class Day {
     return {};
   }
 
-  /// The text of this part, from what is believed now.
+  /// This part's text, from the present belief.
   Result<ShiftedProgram> corrected() const {
     nc::rewrite::Plan plan;
     plan.file = job_.program;
@@ -140,7 +138,7 @@ class Day {
         plan.axes.push_back(*std::move(steps));
       }
     }
-    // Nothing leaves the band: the program stays as it is.
+    // Nothing leaves the band: the program stays unchanged.
     if (plan.axes.empty()) {
       return ShiftedProgram{.shift = {}, .total_s = original_.total_s, .insertions = 0};
     }
@@ -154,7 +152,7 @@ class Day {
     const auto steps = static_cast<std::uint64_t>(std::ceil(out_.program_s / kStep_s));
     for (std::uint64_t i = 0; i < steps; ++i) {
       const double time_s = (static_cast<double>(i) + 1.0) * kStep_s;
-      // The middle of the second decides which transition it belongs to.
+      // The middle of the second decides to which transition it belongs.
       const nc::plan::Transition* transition = clockwork.at(time_s - 0.5 * kStep_s);
       const bool cuts = transition != nullptr && transition->load() == nc::plan::Load::cutting;
       step(transition, cuts);
@@ -187,13 +185,13 @@ class Day {
     number_ = part;
   }
 
-  /// One second of the machine and of what is believed of it.
+  /// One second of the machine and of the belief about it.
   void step(const nc::plan::Transition* transition, bool cuts) {
     const double speed_rev_s = transition != nullptr ? transition->speed_rev_s : 0.0;
     const double feed_mm_s = transition != nullptr ? transition->path_speed_mm_s() : 0.0;
     const double share = cuts ? transition->cut_share() : 0.0;
     const bool coolant = transition != nullptr && transition->coolant;
-    // The reading before the step: what a control would have at that time.
+    // The reading before the step: the one a control would have at that time.
     const double room_c = growth_.read_room_c();
     growth_.update(
         {.speed_rev_s = speed_rev_s, .feed_mm_s = feed_mm_s, .cutting = share, .coolant = coolant});
@@ -218,7 +216,7 @@ class Day {
     return layer_.offset_mm(axis.row());
   }
 
-  // The length of the error vector; with the correction the remainder counts.
+  // The length of the error vector; with a correction, of the remainder.
   std::array<double, kWays> errors(const nc::interpret::Axes& text_mm) const {
     std::array<double, kWays> squares{};
     for (const BelievedAxis& axis : axes_) {
@@ -264,7 +262,7 @@ class Day {
 
 Result<std::vector<BelievedAxis>> believed(const Job& job) {
   std::vector<BelievedAxis> out;
-  // Displacements that no axis can correct (a tilt) are left to the machine file.
+  // Displacements that no axis can correct (a tilt) stay in the machine file.
   for (std::size_t i = 0; i < job.machine.thermal.axis.size(); ++i) {
     const std::string& name = job.machine.thermal.axis[i].name;
     const bool moved = std::ranges::any_of(
@@ -289,18 +287,18 @@ Result<std::vector<BelievedAxis>> believed(const Job& job) {
 }  // namespace
 
 double Batch::improvement(Way way) const noexcept {
-  // An error of nothing would make the improvement infinite.
+  // A zero error would make the improvement infinite.
   return error[0].largest_mm / std::max(error[static_cast<std::size_t>(way)].largest_mm, 1e-9);
 }
 
-// A correction that makes one part worse has failed there, however good the mean.
+// A correction that makes a single part worse has failed there, however good the mean.
 std::size_t Batch::worse(Way way) const noexcept {
   return static_cast<std::size_t>(std::ranges::count_if(part, [&](const Part& p) {
     return p.error[static_cast<std::size_t>(way)].largest_mm > p.error[0].largest_mm;
   }));
 }
 
-// The axes that can be corrected are the only ones judged.
+// Only axes that can be corrected are judged.
 Result<Batch> run(const Job& job) {
   auto axes = believed(job);
   if (!axes) {

@@ -14,11 +14,11 @@
 #include <steadyrest/nc/plan/time/cyclogram.hpp>
 #include <steadyrest/nc/rewrite/text/settings.hpp>
 
-/// A batch of parts on the simulated machine, for hours: what heat does to them, and what the two
-/// ways of correcting it leave.
+/// A batch of parts on the simulated machine over hours: what heat does to them, and what each of
+/// the two corrections leaves.
 namespace steadyrest::trial::batch {
 
-/// The ways a part can be made.
+/// The ways of making a part.
 enum class Way : std::uint8_t {
   without,  ///< nobody corrects
   text,     ///< each part's plan written into its program's text
@@ -26,7 +26,7 @@ enum class Way : std::uint8_t {
 };
 inline constexpr std::size_t kWays = 3;
 
-/// One day's work. It begins cold; there the part's zero is set.
+/// One day's work. It starts cold, and the part's zero is set then.
 struct Job {
   kernel::machine::Machine machine;  ///< its passport is the model; the truth is sim/thermal_growth
   std::string program;
@@ -34,15 +34,15 @@ struct Job {
   std::vector<nc::plan::Transition> cyclogram;  ///< of the program
   nc::rewrite::Settings settings;
   std::uint32_t parts = 12;
-  double pause_s = 120.0;         ///< after each part; the spindle stands
-  double break_s = 0.0;           ///< besides, after every `break_after` parts
+  double pause_s = 120.0;         ///< after each part; spindle stopped
+  double break_s = 0.0;           ///< additional, after every `break_after` parts
   std::uint32_t break_after = 0;  ///< 0 = no break
   double tolerance_mm = 0.010;    ///< Δ; Δ_k = k·Δ with the machine file's share in force
-  /// Called now and then with the share of the work that is done, 0 … 1.
+  /// Called now and then with the share of the work done, 0 … 1.
   std::function<void(double share)> progress = [](double) {};
 };
 
-/// The distance of the tool from where it should be by heat and correction, over the feed moves.
+/// The tool's distance from its proper place by heat and correction, over the feed moves.
 struct Error {
   double largest_mm = 0.0;
   double rms_mm = 0.0;
@@ -51,25 +51,25 @@ struct Error {
 struct Part {
   double start_s = 0.0;
   std::array<Error, kWays> error{};
-  double at_end_mm = 0.0;        ///< displacement of the first axis when it is finished
+  double at_end_mm = 0.0;        ///< displacement of the first axis at the part's end
   std::size_t corrections = 0;   ///< written into its text
   std::vector<double> probe_mm;  ///< displacement by the probe before it, axis by axis
 };
 
-/// What a plot of the day shows, for the first corrected axis.
+/// The data of the day's plot, for the first corrected axis.
 struct Point {
   double time_s = 0.0;
   std::uint32_t part = 0;  ///< from 1; 0 in a pause
   bool cutting = false;
   double displacement_mm = 0.0;
-  std::array<double, kWays> left_mm{};  ///< with what the way has done
-  double model_mm = 0.0;                ///< what the layer believes
+  std::array<double, kWays> left_mm{};  ///< after the way's correction
+  double model_mm = 0.0;                ///< the layer's belief
   double model_sd_mm = 0.0;
   double room_c = 0.0;
 };
 
 struct Batch {
-  std::vector<std::string> axis;  ///< that are corrected
+  std::vector<std::string> axis;  ///< corrected axes
   std::vector<Part> part;
   std::array<Error, kWays> error{};
   double band_mm = 0.0;  ///< Δ_k
@@ -77,19 +77,20 @@ struct Batch {
   double total_s = 0.0;
   std::vector<Point> point;  ///< every 20 s
 
-  /// How many times smaller than without.
+  /// How many times smaller than without correction.
   [[nodiscard]] double improvement(Way way) const noexcept;
-  /// Parts whose largest error is above that without correction.
+  /// Parts whose largest error exceeds the one without correction.
   [[nodiscard]] std::size_t worse(Way way) const noexcept;
 };
 
-/// Thermal states step in closed form once a second by the program's cyclogram, so that hours take
-/// less than a second. Before each part but the first the probe reads each axis. In the text, the
-/// state filter takes the readings (thermal/online/state_filter); on line they come to the layer
-/// with its frames, and the offset counts that its envelope has let through (acting_layer).
+/// Thermal states advance in closed form once a second by the program's cyclogram, so that hours
+/// take less than a second. Before each part but the first the probe measures each axis. For
+/// corrections in the text, the state filter takes the readings (thermal/online/state_filter); on
+/// line they reach the layer with its frames, and the offset that its envelope let pass counts
+/// (acting_layer).
 ///
-/// Refused: a machine without a thermal passport or none of whose displacements is an axis, what
-/// the planner and nc/rewrite refuse.
+/// Refused: a machine without a thermal passport or with no displacement along one of its axes, and
+/// what the planner and nc/rewrite refuse.
 [[nodiscard]] kernel::outcome::Result<Batch> run(const Job& job);
 
 }  // namespace steadyrest::trial::batch

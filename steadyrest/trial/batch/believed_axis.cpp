@@ -8,8 +8,8 @@
 #include <steadyrest/thermal/offline/plan/plan.hpp>
 #include <steadyrest/trial/batch/believed_axis.hpp>
 
-// What a shop that plans in the text knows of an axis: the passport, the readings of the probe,
-// and the filter that puts the two together. Never the simulation's truth.
+// What a shop that plans in the text knows of an axis: the passport, the probe's readings, and the
+// filter that combines them. Never the simulation's truth.
 namespace steadyrest::trial::batch {
 
 using kernel::outcome::Result;
@@ -19,7 +19,7 @@ using thermal::online::ThermalModel;
 namespace {
 
 constexpr std::string_view kLetters = "XYZABCUVW";
-/// How wrong a passport may be before readings have shown it: 20 % of its levels.
+/// How wrong a passport may be before readings prove it: 20 % of its levels.
 constexpr double kGainSd = 0.2;
 
 }  // namespace
@@ -44,14 +44,14 @@ BelievedAxis::BelievedAxis(const kernel::machine::Machine& machine, std::size_t 
           machine.axes.begin())),
       probe_sd_mm_(machine.simulation.probe_noise_mm),
       filter_(std::move(filter)) {
-  // The limits apart from the axes, which are of no use here.
+  // The limits without the axes, which are of no use here.
   limits_.axis.clear();
 }
 
 void BelievedAxis::update(double elapsed_s, thermal::online::Drive drive, double room_c) noexcept {
   drive.ambient_c.fill(room_c);
   if (!std::exchange(started_, true)) {
-    // The surroundings have settled; that is where the zero is.
+    // The surroundings have settled; the zero is there.
     zero_mm_ = filter_.update(0.0, drive);
   }
   filter_.update(elapsed_s, drive);
@@ -62,11 +62,11 @@ void BelievedAxis::measure(double displacement_mm) noexcept {
   filter_.measure({.displacement_mm = displacement_mm + zero_mm_, .sd_mm = probe_sd_mm_});
 }
 
-// The product's own planner on the model as it is believed now, from the state that it is in.
+// The product's own planner, on the model and state as believed now.
 Result<nc::rewrite::AxisPlan> BelievedAxis::plan(const thermal::offline::Cyclogram& cyclogram,
                                                  double tolerance_mm) const {
-  // The levels as the readings have scaled them, and the bias as it stands.
-  // The plan looks ahead, so what the readings have taught must go into the model that is run
+  // The levels as scaled by the readings, and the present bias. The plan looks ahead, so what the
+  // readings have taught must go into the model that it runs.
   // ahead.
   kernel::machine::ThermalAxis scaled = passport_;
   for (kernel::machine::ThermalMode& mode : scaled.mode) {
@@ -84,7 +84,7 @@ Result<nc::rewrite::AxisPlan> BelievedAxis::plan(const thermal::offline::Cyclogr
   }
   model->restore(filter_.model().state());
   auto curve = thermal::offline::curve_of(*model, cyclogram);
-  // A model that has seen no temperature stands at 0; so does the zero then.
+  // A model that has seen no temperature is at 0; so is the zero then.
   const double beside_mm = displacement_mm() - curve.at(0.0);
   for (auto& piece : curve.piece) {
     piece.displacement_mm.push_back({beside_mm, 0.0});

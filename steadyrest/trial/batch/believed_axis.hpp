@@ -12,8 +12,8 @@
 
 namespace steadyrest::trial::batch {
 
-/// What the layer believes of one axis: the passport's model, corrected by the probe; and the
-/// plan that it makes of it. Displacements count from the start.
+/// The layer's belief about one axis: the passport's model, corrected by the probe, and the plan
+/// made from it. Displacements count from the start.
 class BelievedAxis {
  public:
   /// `index` of the passport's axes; its name is an axis of the machine.

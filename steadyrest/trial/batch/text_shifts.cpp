@@ -16,9 +16,9 @@
 #include <steadyrest/nc/rewrite/text/tag.hpp>
 #include <steadyrest/trial/batch/text_shifts.hpp>
 
-// What corrections in the text do to each move: both programs are run through the interpreter and
-// compared move by move, in machine coordinates. So whatever method wrote the corrections
-// (offsets, transforms, changed words), what counts is where the axes go.
+// What corrections in the text do to each move: both programs run through the interpreter and are
+// compared move by move, in machine coordinates. Whatever method wrote the corrections (offsets,
+// transforms, changed words), what counts is where the axes go.
 namespace steadyrest::trial::batch {
 namespace {
 
@@ -27,11 +27,10 @@ using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using nc::interpret::Axes;
 
-/// Positions nearer to each other than that are equal.
+/// Positions closer together than this are equal.
 constexpr double kSame_mm = 1e-7;
 
-/// inserted[line]: the layer has written it; index 0 unused.
-/// By the mark that the rewriter leaves on its lines.
+/// inserted[line]: written by the layer, recognised by the rewriter's mark; index 0 unused.
 std::vector<bool> inserted_lines(const std::string& program) {
   std::vector<bool> inserted(1, false);
   std::ifstream in(program, std::ios::binary);
@@ -43,8 +42,7 @@ std::vector<bool> inserted_lines(const std::string& program) {
 
 class Tracer final : public nc::interpret::Sink {
  public:
-  // The timer tells when each line begins; giving it a number for each move makes it tell of
-  // moves.
+  // The timer reports when each line begins; with one number per move it reports moves.
   Tracer(nc::plan::SegmentTimer timer, std::vector<bool> inserted)
       : timer_(std::move(timer)), inserted_(std::move(inserted)) {
     timer_.set_arrival([this](std::uint32_t sequence, double time_s) {
@@ -54,7 +52,7 @@ class Tracer final : public nc::interpret::Sink {
 
   void on_move(const nc::interpret::Move& move) override {
     nc::interpret::Move numbered = move;
-    numbered.line = ++sequence_;  // stands in for the line, so that each move is told of
+    numbered.line = ++sequence_;  // replaces the line, so that each move is reported
     timer_.on_move(numbered);
     // Inserted blocks may contain moves, which the original lacks.
     if (move.line < inserted_.size() && inserted_[move.line]) {
@@ -86,7 +84,7 @@ class Tracer final : public nc::interpret::Sink {
   std::vector<double> start_s_;
 };
 
-/// The name of a file of its own, gone with the object.
+/// A unique file name; the file goes with the object.
 kernel::file::Temporary scratch_file(const std::string& like) {
   static std::atomic<unsigned> count{0};
   const std::filesystem::path from(like);
@@ -100,14 +98,14 @@ bool same(const Axes& a, const Axes& b) noexcept {
   return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) < kSame_mm; });
 }
 
-// Only changes: most moves share their shift with the one before.
+// Only changes: most moves share the previous move's shift.
 void add(std::vector<Shift>& shifts, double time_s, const Axes& mm) {
   if (!same(shifts.empty() ? Axes{} : shifts.back().mm, mm)) {
     shifts.push_back({.time_s = time_s, .mm = mm});
   }
 }
 
-// The shift of a move holds at its end; it grew along the move.
+// A move's shift applies at its end; it grew along the move.
 std::vector<Shift> of_moves(const Trace& original, const Trace& changed) {
   std::vector<Shift> out;
   for (std::size_t i = 0; i < original.end.size(); ++i) {
@@ -155,8 +153,8 @@ Result<Trace> trace(const std::string& program, const nc::interpret::Config& con
   return out;
 }
 
-// The corrected text goes through a file and the interpreter, as on a control: what is judged is
-// what would be cut.
+// The corrected text goes through a file and the interpreter, as on a control: what would be cut is
+// what is judged.
 Result<ShiftedProgram> shifted_program(const std::string& program, const Trace& original,
                                        const nc::rewrite::Plan& plan,
                                        const nc::interpret::Config& config,
@@ -177,7 +175,7 @@ Result<ShiftedProgram> shifted_program(const std::string& program, const Trace& 
                                                changed->end.size(), original.end.size()),
                                    "please report this: it is a bug in Steadyrest"});
   }
-  // Corrections that the control applies beside the text (an offset table) do not show in the
+  // Corrections that the control applies outside the text (an offset table) do not show in the
   // text's coordinates.
   return ShiftedProgram{.shift = nc::rewrite::beside_program(settings.method)
                                      ? of_insertions(*done, plan)

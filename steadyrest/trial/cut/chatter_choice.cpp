@@ -10,8 +10,8 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
 
-// The planner's answer for each spindle speed that the program cuts at, turned into what the layer
-// can do: a law, a constant ratio, or nothing.
+// Turns the planner's answer for each cutting spindle speed into what the layer can do: a law, a
+// constant ratio, or nothing.
 namespace steadyrest::trial::cut {
 namespace {
 
@@ -43,8 +43,8 @@ chatter::online::Modulation modulation_of(const chatter::offline::Plan& plan, do
   return {.law = Law::constant};
 }
 
-// The layer may not exceed the panel: for a faster spindle the operator must turn his switch up
-// first.
+// The layer may not exceed the panel: for a faster spindle the operator must first turn his switch
+// up.
 double switch_of(const chatter::offline::Alternative& chosen,
                  const kernel::machine::Machine& machine) {
   if (machine.spindle_override.layer_may_exceed_panel) {
@@ -54,7 +54,7 @@ double switch_of(const chatter::offline::Alternative& chosen,
   return std::max(1.0, written.empty() ? chosen.ratio : std::ranges::max(written));
 }
 
-/// visit(segment, spindle speed, whether G96 changes it) for each segment that cuts; events come
+/// visit(segment, spindle speed, whether G96 changes it) for each cutting segment; events come
 /// before the segment that they act on.
 template <class Visit>
 void for_each_cut(const nc::plan::PlannedPath& path, const Visit& visit) {
@@ -80,12 +80,12 @@ double least_ratio(const chatter::online::Modulation& m) noexcept {
 
 }  // namespace
 
-// Speeds that nothing is cut at need no plan.
+// Speeds without a cut need no plan.
 std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path) {
   std::vector<double> speeds;
   for_each_cut(path, [&](std::size_t, double speed_rev_s, bool changes) {
-    // Under G96 (constant cutting speed) the speed changes along the segment: there is no one speed
-    // to plan for.
+    // Under G96 (constant cutting speed) the speed changes along the segment: there is no single
+    // speed to plan for.
     if (!changes && speed_rev_s > 0.0 &&
         std::ranges::none_of(speeds, [&](double s) { return same(s, speed_rev_s); })) {
       speeds.push_back(speed_rev_s);
@@ -110,7 +110,7 @@ std::vector<nc::plan::Warning> unplanned_cuts(const nc::plan::PlannedPath& path)
     open = changes;
     if (changes) {
       Stretch& at = all.back();
-      // A subprogram or a loop goes back.
+      // A subprogram or a loop jumps back.
       at = {std::min(at.first, line), std::max(at.last, line),
             std::min(at.least_rev_s, speed_rev_s), std::max(at.most_rev_s, speed_rev_s)};
     }
@@ -150,7 +150,7 @@ Result<std::vector<ChatterChoice>> choose(
     options.progress = [&](double share, std::string_view what) {
       progress((static_cast<double>(i) + share) / count, what);
     };
-    // The offline planner, once for each speed: it takes seconds and has no place in the cycle.
+    // The offline planner, once per speed: it takes seconds and has no place in the cycle.
     auto plan = chatter::offline::plan(process, machine, speeds_rev_s[i], depth_mm, options);
     if (!plan) {
       return std::unexpected(plan.error());
@@ -186,7 +186,7 @@ double least_spindle_ratio(const std::vector<ChatterChoice>& choices, bool liste
   }
   const kernel::machine::Chatter& c = machine.chatter;
   if (c.enabled) {
-    // What an amplitude in rev/min is of the programmed speed depends on that speed.
+    // The share of an amplitude in rev/min depends on the programmed speed.
     least =
         std::min(least, c.amplitude_rev_s > 0.0 ? floor : c.mean_ratio * (1.0 - c.amplitude_ratio));
   }
@@ -197,9 +197,9 @@ Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process&
                                                 const kernel::machine::Machine& machine,
                                                 const std::vector<double>& speeds_rev_s,
                                                 double depth_mm, double sensor_rate_hz) {
-  constexpr double kMostDepth = 5.0;  // of the wanted one: as deep as the planner looks
-  // The detector sees the listening tool only; thresholds are of its sensor, the vibration's
-  // velocity.
+  constexpr double kMostDepth = 5.0;  // of the wanted one: the planner's search depth
+  // The detector sees only the listening tool; thresholds apply to its sensor, the velocity of
+  // vibration.
   constexpr double kSilence_mm_s = 0.1;  // a quieter tool is not in a cut
   chatter::online::BetterSpeed::Config config;
   config.detector.sample_rate_hz = sensor_rate_hz;
@@ -219,8 +219,7 @@ Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process&
   return supervisor::ListeningStage::make({.better = std::move(config), .depth_mm = depth_mm});
 }
 
-// One turn of the switch before the program begins, to the first step that reaches what any of the
-// cuts needs.
+// One turn of the switch before the program begins, to the first step that is enough for every cut.
 std::vector<sim::OperatorAction> operator_for(const std::vector<ChatterChoice>& choices,
                                               const kernel::machine::Machine& machine) {
   double wanted = 1.0;
@@ -236,7 +235,7 @@ std::vector<sim::OperatorAction> operator_for(const std::vector<ChatterChoice>& 
   return {};
 }
 
-// The room on and idle from the start; the choices tell it what to do.
+// The room is on and idle from the start; the choices tell it what to do.
 kernel::machine::Machine with_modulator(kernel::machine::Machine machine) {
   machine.chatter.enabled = true;
   machine.chatter.m_code_on = machine.chatter.m_code_off = 0;

@@ -17,27 +17,27 @@
 
 namespace steadyrest::trial::cut {
 
-/// What the layer will do against chatter at one of the program's spindle speeds.
+/// The layer's action against chatter at one of the program's spindle speeds.
 struct ChatterChoice {
   double speed_rev_s = 0.0;  ///< programmed, magnitude
   chatter::offline::PlanDecision decision = chatter::offline::PlanDecision::nothing;
-  chatter::online::Modulation modulation;  ///< what the modulator is to run
-  /// Where the operator's spindle switch has to stand at least for it: the layer does not exceed
-  /// it.
+  chatter::online::Modulation modulation;  ///< for the modulator
+  /// Lowest setting of the operator's spindle switch that allows it: the layer does not exceed the
+  /// switch.
   double switch_ratio = 1.0;
   std::vector<std::string> notes;  ///< of the planner, in words
 };
 
-/// Spindle speeds at which the program cuts (G1–G3), rev/s, magnitudes, rising; those of G96 change
-/// on the way and are left out.
+/// Spindle speeds at which the program cuts (G1–G3), rev/s, magnitudes, ascending; G96 speeds
+/// change along the way and are left out.
 [[nodiscard]] std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path);
 
-/// For each stretch that cuts under G96, so at a speed that nothing is planned for: where, and from
-/// which speed to which. A cut at a programmed speed ends a stretch; repeated lines count once.
+/// For each stretch that cuts under G96, and so at an unplanned speed: where, and from which speed
+/// to which. A cut at a programmed speed ends a stretch; repeated lines count once.
 [[nodiscard]] std::vector<nc::plan::Warning> unplanned_cuts(const nc::plan::PlannedPath& path);
 
-/// Asks the planner for each of the speeds. At most `kMostSpeeds`; refuses more, and what the
-/// planner refuses.
+/// Asks the planner for each speed. At most `kMostSpeeds`; refuses more, and what the planner
+/// refuses.
 [[nodiscard]] kernel::outcome::Result<std::vector<ChatterChoice>> choose(
     const chatter::offline::Process& process, const kernel::machine::Machine& machine,
     const std::vector<double>& speeds_rev_s, double depth_mm,
@@ -45,28 +45,28 @@ struct ChatterChoice {
 
 inline constexpr std::size_t kMostSpeeds = 32;
 
-/// The choice for a programmed speed; nullptr where there was none to make.
+/// The choice for a programmed speed; nullptr if there is none.
 [[nodiscard]] const ChatterChoice* choice_for(const std::vector<ChatterChoice>& choices,
                                               double programmed_rev_s) noexcept;
 
-/// The least ratio of the programmed spindle speed that the layer can ask for: that of the choices,
-/// of the machine's own [chatter], and for a listener whatever it likes, within the envelope and
-/// the override's steps. `machine`: as with_modulator() made it, where it did.
+/// The lowest ratio of the programmed spindle speed that the layer can ask for: by the choices, by
+/// the machine's own [chatter], and for a listener anything, within the envelope and the override's
+/// steps. `machine`: as with_modulator() made it, if it did.
 [[nodiscard]] double least_spindle_ratio(const std::vector<ChatterChoice>& choices, bool listens,
                                          const kernel::machine::Machine& machine);
 
-/// The ear of the layer: detector and planner's table of the process at the override's steps, as
+/// The layer's ear: detector and the planner's table for the process at the override's steps, as
 /// far as the operator's switch at 100 % lets the layer go. Refuses what they refuse.
 [[nodiscard]] kernel::outcome::Result<supervisor::ListeningStage> listener_for(
     const chatter::offline::Process& process, const kernel::machine::Machine& machine,
     const std::vector<double>& speeds_rev_s, double depth_mm, double sensor_rate_hz);
 
-/// The operator turns the spindle switch up for them before the program starts, where 100 % is not
-/// enough.
+/// The operator turns the spindle switch up for the choices before the program starts, where 100 %
+/// is not enough.
 [[nodiscard]] std::vector<sim::OperatorAction> operator_for(
     const std::vector<ChatterChoice>& choices, const kernel::machine::Machine& machine);
 
-/// The machine with a modulator that is always on and waits for a choice: constant, at 100 %.
+/// The machine with a modulator that is always on and awaits a choice: constant, at 100 %.
 [[nodiscard]] kernel::machine::Machine with_modulator(kernel::machine::Machine machine);
 
 }  // namespace steadyrest::trial::cut

@@ -6,8 +6,8 @@
 #include <steadyrest/trial/cut/comparison.hpp>
 #include <steadyrest/trial/cut/worst_lines.hpp>
 
-// From the two runs to what the report shows. Units for people (µm, mm/min, %) are made here, at
-// the border, and nowhere before.
+// From the two runs to the report's contents. Everyday units (µm, mm/min, %) are made here, at the
+// border, and nowhere earlier.
 namespace steadyrest::trial::cut {
 namespace {
 
@@ -38,7 +38,7 @@ TracePoint point_of(const Sample& sample) {
           .cutting = sample.motion == kernel::signal::Motion::feed};
 }
 
-// One side of the comparison: figures, trace, and how long each reason held.
+// One side of the comparison: figures, trace, and the time for each reason.
 Run run_of(const Recorder& record) {
   Run run{.figures = record.figures(), .trace = {}, .reasons = {}};
   for (const Sample& sample : record.trace()) {
@@ -56,7 +56,7 @@ Run run_of(const Recorder& record) {
 
 }  // namespace
 
-// Override table and worst lines come along, so that a report explains itself.
+// Includes the override table and the worst lines, so that a report explains itself.
 ReportData compare(const std::filesystem::path& program, const kernel::machine::Machine& machine,
                    const Recorder& without, const Recorder& with) {
   ReportData data;

@@ -9,8 +9,8 @@
 
 namespace steadyrest::trial::cut {
 
-/// The two records side by side, as the report shows them. The texts of the worst lines are read
-/// from the program's file; where it cannot be read they stay empty.
+/// The two records side by side, as the report shows them. The texts of the worst lines come from
+/// the program's file; if it cannot be read they stay empty.
 [[nodiscard]] ReportData compare(const std::filesystem::path& program,
                                  const kernel::machine::Machine& machine, const Recorder& without,
                                  const Recorder& with);

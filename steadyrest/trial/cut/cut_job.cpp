@@ -12,9 +12,9 @@
 #include <steadyrest/trial/cut/cut_job.hpp>
 #include <steadyrest/trial/cut/motion_score.hpp>
 
-// One cut of a program on the simulated machine, with or without the layer. The judge is apart
-// from both: it measures the true tool, which no control can see, against the program's path
-// without the layer's offsets.
+// One cut of a program on the simulated machine, with or without the layer. The judge is
+// independent of both: it measures the true tool, which no control can see, against the program's
+// path without the layer's offsets.
 namespace steadyrest::trial::cut {
 namespace {
 
@@ -31,8 +31,8 @@ Point first_three(const kernel::signal::AxisValues& values) {
   return {values[0], values[1], values[2]};
 }
 
-/// The measuring of the true tool, cycle by cycle.
-/// The product's own search for the foot, but fed with the truth: tool, heat and backlash, which no
+/// Measures the true tool, cycle by cycle. The product's own foot search, but fed with the truth:
+/// tool, heat and backlash, which no encoder shows.
 /// encoder shows.
 class TrueError {
  public:
@@ -62,14 +62,14 @@ class TrueError {
   ContourError error_;
 };
 
-/// The piece of path that the tool is on; none where it is on none.
+/// The piece of path that the tool is on; null if there is none.
 const kernel::signal::PathSegment* segment_of(const Frame& frame,
                                               const ContourError::Output& error) {
   const bool on_path = error.from_path && error.foot_index < frame.path.size();
   return on_path ? &frame.path[error.foot_index] : nullptr;
 }
 
-/// The motion that a sample counts for: a cut is one where the control cuts and the tool is there.
+/// The motion that a sample counts for: it is a cut only if the control cuts and the tool is there.
 /// Just after a rapid the tool still lags on the rapid's path and leaves no surface.
 kernel::signal::Motion motion_of(const Frame& frame, const kernel::signal::PathSegment* segment) {
   const bool cuts = frame.motion == kernel::signal::Motion::feed;
@@ -97,7 +97,7 @@ Sample sample_of(const Frame& frame, const sim::Truth& truth, const ContourError
 /// Ten simulated minutes without path, dwell or end: the part will never be finished.
 class Standstill {
  public:
-  // Neither place nor line changes: a 0 % override would otherwise simulate for ever.
+  // Neither place nor line changes: a 0 % override would otherwise simulate forever.
   [[nodiscard]] bool too_long(const Frame& frame) {
     if (frame.path_position_mm != position_mm_ || frame.program_line != line_) {
       position_mm_ = frame.path_position_mm;
@@ -113,15 +113,14 @@ class Standstill {
   double since_s_ = 0.0;
 };
 
-// For the progress alone.
+// For the progress display only.
 double length_of(const nc::plan::PlannedPath& path) {
   return path.segments.empty() ? 0.0
                                : path.segments.back().position_mm + path.segments.back().length_mm;
 }
 
-/// The product's own layer, acting.
-/// Set to act, whatever the machine file says: a trial of a layer that only observes would compare
-/// nothing.
+/// The product's own layer, acting, whatever the machine file says: a trial of a layer that only
+/// observes would compare nothing.
 Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
     const Job& job, const kernel::port::Capability& capability) {
   auto made = supervisor::Supervisor::make(job.machine, capability);
@@ -137,13 +136,12 @@ Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
   return layer;
 }
 
-/// The readings of the probe that the thermal room gets.
+/// The probe readings that the thermal room receives.
 class Probed {
  public:
   explicit Probed(const kernel::machine::Machine& machine) : machine_(machine) {}
 
-  // The reading comes a cycle after the move that made it, so the line is that of the last probing
-  // move.
+  // The reading comes one cycle after its move, so the line is that of the last probing move.
   void look(const Sample& sample, const supervisor::Supervisor& layer, Recorder& record) {
     const auto& thermal = layer.estimates().thermal;
     if (!thermal || thermal->probed.reading.number == number_) {
@@ -160,7 +158,7 @@ class Probed {
                       .band_um = kernel::units::um_from_mm(gate_sd_ * verdict.innovation_sd_mm),
                       .reason = verdict.reason});
   }
-  /// The line in hand, of which the next cycle may bring the reading.
+  /// The present line; the next cycle may bring its reading.
   void pass(const Sample& sample) noexcept {
     line_ = sample.motion == kernel::signal::Motion::probe ? sample.line : line_;
   }
@@ -172,25 +170,25 @@ class Probed {
   std::uint32_t line_ = 0;
 };
 
-// The layer as a function of the frame, so that cut() knows nothing of supervisors and tests can
-// put in their own.
+// The layer as a function of the frame, so that cut() needs no supervisor and tests can insert
+// their own.
 Layer layer_of(const std::shared_ptr<supervisor::Supervisor>& layer, const Job& job) {
   return [layer, choices = job.choices, now = 0.0, begun = false](Frame& frame) mutable {
-    // The choice goes with the programmed speed: told once for each change.
+    // The choice goes with the programmed speed: sent once per change.
     if (!choices.empty() && frame.spindle_programmed_rev_s != now) {
       now = frame.spindle_programmed_rev_s;
       const ChatterChoice* choice = choice_for(choices, now);
-      // What has no choice keeps the programmed speed; a machine without a spindle override has no
-      // modulator that could be told.
+      // A speed without a choice stays as programmed; a machine without a spindle override has no
+      // modulator to tell.
       [[maybe_unused]] const bool told = layer->modulate(
           choice != nullptr ? choice->modulation
                             : chatter::online::Modulation{.law = chatter::online::Law::constant});
     }
     const kernel::signal::Command command = layer->update(frame);
     if (auto* const heat = layer->thermal(); heat != nullptr && !std::exchange(begun, true)) {
-      heat->zero_here();  // the simulated machine begins where the part's zero was set
+      heat->zero_here();  // the simulated machine starts at the part's zero
     }
-    // With the layer's estimates in it, so that their error can be scored.
+    // With the layer's estimates, so that their error can be scored.
     frame.axis = layer->frame().axis;
     return command;
   };
@@ -200,7 +198,7 @@ Result<std::unique_ptr<sim::SimulatedMachine>> machine_of(const Job& job) {
   return sim::SimulatedMachine::make(
       {.machine = job.machine,
        .path = job.path,
-       // The operator helps the layer alone: without it the switch stays where it is.
+       // The operator helps only the layer: without it the switch stays where it is.
        .operator_actions = job.with_layer ? operator_for(job.choices, job.machine)
                                           : std::vector<sim::OperatorAction>{},
        .cutting = job.cutting});
@@ -230,14 +228,14 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
         }
       }
     }
-    // After the layer has seen the frame: its estimates are what is scored.
+    // After the layer has seen the frame: its estimates are scored.
     if (motion != nullptr) {
       motion->add(*frame, machine.truth().motor_mm_s, machine.truth().motor_mm_s2);
     }
     if (vibration != nullptr && machine.cutting() != nullptr) {
       vibration->add(frame->time_s, frame->spindle_actual_rev_s, machine.cutting()->cycle());
     }
-    // The truth is that of the end of this cycle; the command acts in the next.
+    // The truth is that at the end of this cycle; the command acts in the next.
     on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()), reason));
     if (standstill.too_long(*frame)) {
       return refuse("", frame->program_line, "no motion for ten simulated minutes in this line",

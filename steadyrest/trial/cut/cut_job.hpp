@@ -25,27 +25,26 @@ struct Job {
   // Designated initialisers may leave these out.
   // NOLINTBEGIN(readability-redundant-member-init)
   std::optional<sim::CuttingVibration::Config> cutting = {};  ///< empty: it cuts air
-  std::vector<ChatterChoice> choices = {};  ///< what the modulator runs at which programmed speed
+  std::vector<ChatterChoice> choices = {};  ///< the modulator's law for each programmed speed
   std::optional<supervisor::ListeningStage> listener = {};  ///< it hears the vibration
   // NOLINTEND(readability-redundant-member-init)
-  /// Called now and then with the share of the path that is cut, 0 … 1.
+  /// Called now and then with the share of the path done, 0 … 1.
   std::function<void(double share)> progress = [](double) {};
 };
 
-/// Whoever stands beside the control: gets each frame, gives the cycle's command, and may leave its
-/// estimates of the axes' motion in the frame, to be judged.
+/// Any layer next to the control: gets each frame, returns the cycle's command, and may leave its
+/// estimates of the axes' motion in the frame for scoring.
 using Layer = std::function<kernel::signal::Command(kernel::signal::Frame&)>;
 using OnSample = std::function<void(const Sample&)>;
 
-/// Cuts the part and keeps the record. The contour error is that of the true tool against the
-/// commanded path, which no layer can see; the layer has the encoders alone.
+/// Cuts the part and keeps the record. The contour error is the true tool's against the commanded
+/// path, which no layer can see; the layer has only the encoders.
 ///
-/// Refuses what the simulated machine or the supervisor refuse, and a cut that stands still for
-/// ten simulated minutes.
+/// Refuses what the simulated machine or the supervisor refuse, and a cut that makes no progress
+/// for ten simulated minutes.
 [[nodiscard]] kernel::outcome::Result<Recorder> run(const Job& job);
 
-/// The same with any layer (or none) and every sample handed out; `job.with_layer` is not looked
-/// at.
+/// The same with any layer (or none), handing out every sample; ignores `job.with_layer`.
 [[nodiscard]] kernel::outcome::Result<void> run(const Job& job, const Layer& layer,
                                                 const OnSample& on_sample);
 

@@ -6,15 +6,15 @@
 
 #include <steadyrest/trial/cut/motion_score.hpp>
 
-// How good the layer's estimates are on this cut, against the difference of the counts that a
-// control would otherwise have; the truth is the motor side, where the encoder sits.
+// How good the layer's estimates are on this cut, compared with differencing the counts, which is
+// all a control would have; the truth is the motor side, where the encoder sits.
 namespace steadyrest::trial::cut {
 namespace {
 
 using kernel::outcome::Result;
 using motion::online::BackwardDifference;
 
-// Nothing bounded: no coverage, rather than a perfect one.
+// Without a bound there is no coverage, rather than a perfect one.
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? std::numeric_limits<double>::quiet_NaN()
                     : static_cast<double>(part) / static_cast<double>(whole);
@@ -64,7 +64,7 @@ void MotionScore::add(const kernel::signal::Frame& frame,
     axis.estimate_squares.acceleration += square(a_error);
     axis.difference_squares.velocity += square(naive.velocity_mm_s - v);
     axis.difference_squares.acceleration += square(naive.acceleration_mm_s2 - a);
-    // Coverage is judged where there is a bound; no bound is no failure.
+    // Coverage counts only where there is a bound; a missing bound is no failure.
     axis.bounded[0] += std::isfinite(sample.velocity_bound_mm_s);
     axis.bounded[1] += std::isfinite(sample.acceleration_bound_mm_s2);
     axis.kept[0] +=

@@ -17,12 +17,12 @@
 
 namespace steadyrest::trial::cut {
 
-/// Judges the estimates of the axes' motion that stand in the frames against what the simulated
-/// machine really did, beside the backward difference of the same counts.
+/// Scores the estimates of the axes' motion in the frames against the simulated machine's true
+/// motion, alongside the backward difference of the same counts.
 ///
-/// Each cycle of the cut counts, standstill and rapids included, at zero lag: error = estimate −
-/// truth at the cycle's end, on the side of the encoder. Coverage: share of the cycles in which
-/// |error| ≤ the bound given, of those that gave one.
+/// Each cycle of the cut counts, including standstill and rapids, at zero lag: error = estimate −
+/// truth at the cycle's end, on the encoder's side. Coverage: of the cycles with a bound, the share
+/// in which |error| ≤ that bound.
 class MotionScore {
  public:
   /// `cycle_s`: the control's interpolator period.
@@ -32,7 +32,7 @@ class MotionScore {
   void add(const kernel::signal::Frame& frame, const kernel::signal::AxisValues& velocity_mm_s,
            const kernel::signal::AxisValues& acceleration_mm_s2) noexcept;
 
-  /// Of the axes that have an encoder with counts.
+  /// For the axes that have an encoder with counts.
   [[nodiscard]] std::vector<MotionFigures> figures() const;
 
  private:

@@ -15,7 +15,7 @@ using kernel::signal::Motion;
 
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 
-// By size: an error to the outside is as bad as one to the inside.
+// By size: an outward error is as bad as an inward one.
 bool worse(const Sample& a, const Sample& b) {
   return std::abs(a.contour_error_mm) > std::abs(b.contour_error_mm);
 }
@@ -32,10 +32,10 @@ void Recorder::add(const Sample& sample) {
   add_to_trace(sample);
 }
 
-// Time and override changes count in all motion, errors in cuts alone: a rapid leaves no surface.
+// Time and override changes count in all motion, errors only in cuts: a rapid leaves no surface.
 void Recorder::add_to_figures(const Sample& sample) {
   figures_.cycle_time_s = std::max(figures_.cycle_time_s, sample.time_s);
-  // The first sample has no change behind it.
+  // Nothing precedes the first sample, so it is no change.
   if (last_ratio_ >= 0.0 && sample.feed_ratio != last_ratio_) {
     ++figures_.override_changes;
   }
@@ -89,7 +89,7 @@ void Recorder::thin_trace() {
   group_size_ *= 2;
 }
 
-// Times are counts of cycles, not sums of seconds: nothing to round.
+// Times are counts of cycles, not sums of seconds: no rounding.
 Figures Recorder::figures() const {
   Figures figures = figures_;
   const auto samples = static_cast<double>(figures.samples);

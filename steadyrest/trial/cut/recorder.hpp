@@ -16,7 +16,7 @@
 
 namespace steadyrest::trial::cut {
 
-/// What one cycle of a cut leaves for the record. Errors are those of the true tool, not of the
+/// What one cycle of a cut contributes to the record. Errors are those of the true tool, not of the
 /// encoders.
 struct Sample {
   double time_s = 0.0;
@@ -28,19 +28,19 @@ struct Sample {
   double path_speed_mm_s = 0.0;    ///< commanded
   double arc_radius_mm = 0.0;      ///< of the path at the tool; 0: straight
   double arc_length_mm = 0.0;      ///< of that arc
-  std::uint32_t line = 0;          ///< that the tool is on, which lags behind the control's
+  std::uint32_t line = 0;          ///< the tool's line, which lags the control's
   kernel::signal::Motion motion = kernel::signal::Motion::idle;
   kernel::outcome::Reason reason = kernel::outcome::Reason::none;
 };
 
-/// The layer heard chatter and asked for another spindle speed.
+/// The layer heard chatter and requested another spindle speed.
 struct HeardChatter {
   double time_s = 0.0;
   double frequency_hz = 0.0;
-  double spindle_ratio = 1.0;  ///< asked for from then on
+  double spindle_ratio = 1.0;  ///< requested from then on
 };
 
-/// Largest contour error on one line of the program, and what was driven there.
+/// Largest contour error on one line of the program, and the feed there.
 struct LineError {
   std::uint32_t line = 0;
   double contour_error_mm = 0.0;  ///< signed
@@ -49,13 +49,13 @@ struct LineError {
   double arc_length_mm = 0.0;
 };
 
-/// Takes every cycle of a cut; keeps the figures exactly and the trace thinned to a bounded number
-/// of points, of each thinned group the sample with the largest contour error.
+/// Takes every cycle of a cut; keeps exact figures and a trace thinned to a bounded number of
+/// points: of each thinned group the sample with the largest contour error.
 class Recorder {
  public:
   struct Config {
     double limit_mm = 0.010;
-    double cycle_s = 0.001;          ///< time that one sample stands for
+    double cycle_s = 0.001;          ///< time that one sample represents
     std::size_t max_points = 16384;  ///< at least 2
   };
 
@@ -66,17 +66,17 @@ class Recorder {
   [[nodiscard]] Figures figures() const;
   /// At most max_points samples in order of time.
   [[nodiscard]] const std::vector<Sample>& trace() const { return trace_; }
-  /// Seconds that the layer spent for each reason.
+  /// Seconds that the layer spent on each reason.
   [[nodiscard]] const std::map<kernel::outcome::Reason, double>& time_by_reason() const {
     return time_by_reason_;
   }
-  /// What the layer's estimates of the axes' motion were worth; empty where there was no layer.
+  /// The quality of the layer's estimates of the axes' motion; empty without a layer.
   void set_motion(std::vector<MotionFigures> motion) { motion_ = std::move(motion); }
   [[nodiscard]] const std::vector<MotionFigures>& motion() const { return motion_; }
-  /// Of the tool's vibration; empty where the machine cut air.
+  /// The tool's vibration; empty where the machine cut air.
   void set_vibration(VibrationRecord vibration) { vibration_ = std::move(vibration); }
   [[nodiscard]] const std::optional<VibrationRecord>& vibration() const { return vibration_; }
-  /// In order of time; each another ratio than the one before.
+  /// In order of time; each ratio differs from the one before.
   void add_heard(const HeardChatter& heard) {
     if (heard_.empty() ? heard.spindle_ratio != 1.0
                        : heard_.back().spindle_ratio != heard.spindle_ratio) {
@@ -84,7 +84,7 @@ class Recorder {
     }
   }
   [[nodiscard]] const std::vector<HeardChatter>& heard() const { return heard_; }
-  /// Readings of the probe that the thermal room got, in order of time.
+  /// Probe readings that the thermal room received, in order of time.
   void add_probe(ProbeFigures probe) { probes_.push_back(std::move(probe)); }
   [[nodiscard]] const std::vector<ProbeFigures>& probes() const { return probes_; }
   /// By line number of the program; only lines with cutting motion.

@@ -11,10 +11,10 @@
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 
-/// What `cut` has to show, in the units of people: the report is a border.
+/// What `cut` reports, in everyday units: the report is a border.
 namespace steadyrest::trial::cut {
 
-/// What a tool that vibrates in the cut left and bore; over all the time in the cut.
+/// The effect of a vibrating tool on surface and loads, over all the time in the cut.
 struct VibrationFigures {
   double rms_um = 0.0;           ///< of the displacement about its mean, both axes together
   double peak_um = 0.0;          ///< largest displacement from rest
@@ -24,7 +24,7 @@ struct VibrationFigures {
   double chip_peak_um = 0.0;
   /// The finished wall (in milling with one): mean place, > 0: too much is cut off …
   std::optional<double> surface_error_um;
-  std::optional<double> surface_range_um;  ///< … and highest less lowest place
+  std::optional<double> surface_range_um;  ///< … and its highest minus lowest place
 };
 
 /// One stretch of the vibration's course.
@@ -35,7 +35,7 @@ struct VibrationPoint {
   double speed_rpm = 0.0;    ///< of the spindle, mean
 };
 
-/// Figures of one run, taken over every control cycle. Errors over cutting motion (G1–G3) alone: a
+/// Figures of one run over every control cycle. Errors count only in cutting motion (G1–G3): a
 /// rapid leaves no surface.
 struct Figures {
   double cycle_time_s = 0.0;
@@ -62,14 +62,14 @@ struct TracePoint {
   bool cutting = false;  ///< G1–G3; only then does an error count
 };
 
-/// How long the override stood where it stood for one reason.
+/// How long one reason determined the override.
 struct ReasonTime {
   kernel::outcome::Reason reason = kernel::outcome::Reason::none;
   double seconds = 0.0;
 };
 
-/// How far the velocity and acceleration of one axis, as estimated from its encoder, are from the
-/// truth; beside them the backward difference of the same counts. Rotary axes: rad, not mm.
+/// How far the velocity and acceleration of one axis, estimated from its encoder, are from the
+/// truth, alongside the backward difference of the same counts. Rotary axes: rad, not mm.
 struct MotionFigures {
   std::string axis;
   double velocity_rms_mm_s = 0.0;
@@ -80,14 +80,14 @@ struct MotionFigures {
   double acceleration_coverage_ratio = 1.0;
 };
 
-/// A reading of the probe, and what the thermal room made of it.
+/// A probe reading, and what the thermal room made of it.
 struct ProbeFigures {
   double time_s = 0.0;
   std::uint32_t line = 0;
   std::string axis;
-  double displacement_um = 0.0;  ///< of the axis from where it should be
-  double innovation_um = 0.0;    ///< of it, what the forecast did not know
-  double band_um = 0.0;          ///< within which it is taken
+  double displacement_um = 0.0;  ///< of the axis from its proper place
+  double innovation_um = 0.0;    ///< the part that the forecast missed
+  double band_um = 0.0;          ///< acceptance band
   kernel::outcome::Reason reason = kernel::outcome::Reason::none;
 };
 
@@ -97,20 +97,20 @@ struct Run {
   std::vector<ReasonTime> reasons;
   // Designated initialisers may leave these out.
   // NOLINTBEGIN(readability-redundant-member-init)
-  std::optional<VibrationFigures> vibration = {};  ///< where the cut of a process was simulated
+  std::optional<VibrationFigures> vibration = {};  ///< if the cutting process was simulated
   std::vector<VibrationPoint> vibration_course = {};
   // NOLINTEND(readability-redundant-member-init)
 };
 
-/// Why a feed would hold the limit on a line.
+/// Why a feed is expected to hold the limit on a line.
 enum class HeldBy : std::uint8_t {
   closed_form,  ///< radius and servo, contour/offline/closed_form.hpp
-  record,       ///< the recorded error, taken as growing with the square of the feed
-  driven        ///< the line kept the limit at it
+  record,       ///< the recorded error, scaled with the square of the feed
+  driven        ///< the line kept the limit at that feed
 };
 
-/// One line of the program with the largest error on it (signed) and what was driven there; NaN
-/// where a run has none.
+/// One line of the program with its largest error (signed) and the feed there; NaN where a run has
+/// none.
 struct WorstLine {
   std::uint32_t line = 0;
   std::string text;
@@ -128,17 +128,17 @@ struct OverrideStep {
   double percent = 100.0;
 };
 
-/// Everything in the report but how it was made (provenance.hpp).
+/// Everything in the report except its provenance (provenance.hpp).
 struct ReportData {
   std::string program;
   std::string machine;
-  std::string strategy;  ///< as people read it
+  std::string strategy;  ///< as plain text
   double limit_um = 10.0;
   std::vector<OverrideStep> override_table;
   Run without;
   Run with;
-  std::vector<WorstLine> worst_lines;  ///< the worst with the layer and without it
-  std::vector<MotionFigures> motion;   ///< of the run with the layer; axes with counts alone
+  std::vector<WorstLine> worst_lines;  ///< the worst with and without the layer
+  std::vector<MotionFigures> motion;   ///< of the run with the layer; only axes with counts
   std::vector<ProbeFigures> probes;    ///< of the run with the layer
 };
 

@@ -18,11 +18,11 @@ double rms(double square, double seconds) {
 
 }  // namespace
 
-// Two at least: halving must leave room for one more.
+// At least two: halving must leave room for one more.
 VibrationRecord::VibrationRecord(std::size_t max_points)
     : max_points_(std::max<std::size_t>(max_points, 2)) {}
 
-// Means by the number of cycles, peaks by the larger, energies by sum.
+// Means weighted by the number of cycles, peaks by the larger, energies by sum.
 void VibrationRecord::Stretch::add(const Stretch& next) {
   spindle_rev_s = (spindle_rev_s * static_cast<double>(cycles) +
                    next.spindle_rev_s * static_cast<double>(next.cycles)) /
@@ -74,7 +74,7 @@ void VibrationRecord::add(double time_s, double spindle_rev_s,
   sum_.force_peak_n = std::max(sum_.force_peak_n, cycle.force_peak_n);
   sum_.power_peak_w = std::max(sum_.power_peak_w, cycle.power_peak_w);
   sum_.chip_peak_mm = std::max(sum_.chip_peak_mm, cycle.chip_peak_mm);
-  // Cycles without a finished wall say nothing of it.
+  // Cycles without a finished wall say nothing about it.
   if (cycle.walls > 0) {
     const bool first = sum_.walls == 0;
     sum_.wall_low_mm = first ? cycle.wall_low_mm : std::min(sum_.wall_low_mm, cycle.wall_low_mm);
@@ -85,7 +85,7 @@ void VibrationRecord::add(double time_s, double spindle_rev_s,
   }
 }
 
-// No cutting, no figures: zeros would read as a quiet cut.
+// No cutting, no figures: zeros would look like a quiet cut.
 std::optional<VibrationFigures> VibrationRecord::figures() const {
   const double seconds = sum_.cutting_s;
   if (!(seconds > 0.0)) {

@@ -11,7 +11,7 @@
 
 namespace steadyrest::trial::cut {
 
-/// What the tool's vibration came to in a cut: figures over all of it, and its course in at most
+/// The tool's vibration in a cut: figures over the whole cut, and its course in at most
 /// `max_points` equal stretches of time.
 class VibrationRecord {
  public:

@@ -12,8 +12,8 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/trial/cut/worst_lines.hpp>
 
-// Which lines of the program err most, and at which feed each would keep the limit: the table that
-// tells a programmer where to change F.
+// The program lines with the largest errors, and the feed at which each would keep the limit: the
+// table that tells a programmer where to change F.
 namespace steadyrest::trial::cut {
 namespace {
 
@@ -38,7 +38,7 @@ double size_of(const std::optional<LineError>& error) {
   return error ? std::abs(error->contour_error_mm) : -1.0;
 }
 
-/// Linear axes that are there; in a rotary one a length has no servo gain.
+/// The linear axes present; for a rotary one a length has no servo gain.
 template <class Visit>
 void each_linear_axis(const Machine& machine, Visit visit) {
   for (const Axis& axis : machine.axes) {
@@ -48,8 +48,7 @@ void each_linear_axis(const Machine& machine, Visit visit) {
   }
 }
 
-// An arc longer than three time constants of the slowest axis: only then does the closed form
-// hold.
+// An arc longer than three time constants of the slowest axis: the closed form needs that.
 bool steady(const LineError& worst, const Machine& machine) {
   double slowest_1_s = std::numeric_limits<double>::infinity();
   each_linear_axis(machine, [&slowest_1_s](const Axis& axis) {
@@ -59,8 +58,8 @@ bool steady(const LineError& worst, const Machine& machine) {
          worst.arc_length_mm * slowest_1_s >= kRunIn * worst.path_speed_mm_s;
 }
 
-/// By the axis that bears least; NaN where every speed keeps the limit.
-/// The axis that bears least sets the feed of the arc. A limit beyond the radius is no limit.
+/// The axis that bears least sets the arc's feed; NaN where every speed keeps the limit. A limit
+/// beyond the radius is no limit.
 double closed_form_mm_s(double radius_mm, const Machine& machine) {
   const double limit_mm = machine.contour.limit_mm;
   double least_mm_s = std::numeric_limits<double>::infinity();
@@ -87,8 +86,8 @@ std::map<std::uint32_t, Pair> by_line(const Recorder& without, const Recorder& w
   return out;
 }
 
-/// With the layer; where it kept the limit a faster run without it that did as well says more.
-/// A line that was driven within the limit without the layer proves that feed.
+/// With the layer; where that kept the limit, a faster run without the layer that also kept it says
+/// more: it proves that feed.
 HeldFeed held_feed(const Pair& pair, const Machine& machine) {
   const LineError& judged = pair.with ? *pair.with : *pair.without;
   const HeldFeed held = held_feed(judged, machine);
@@ -143,12 +142,12 @@ HeldFeed held_feed(const LineError& worst, const Machine& machine) {
     return recorded;
   }
   const HeldFeed closed{closed_form_mm_s(worst.arc_radius_mm, machine), HeldBy::closed_form};
-  // Over the limit at a feed that the radius would bear: the error is not the arc's.
+  // Over the limit at a feed that the radius would bear: the arc is not the cause.
   return recorded.by == HeldBy::record && !(worst.path_speed_mm_s > closed.feed_mm_s) ? recorded
                                                                                       : closed;
 }
 
-// The twenty worst of each run: what the layer has cured is as telling as what it has not.
+// The twenty worst of each run: what the layer has cured matters as much as what it has not.
 std::vector<WorstLine> worst_lines(const std::filesystem::path& program, const Machine& machine,
                                    const Recorder& without, const Recorder& with) {
   const std::map<std::uint32_t, Pair> all = by_line(without, with);

@@ -12,9 +12,9 @@
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/trial/timing/demanding_path.hpp>
 
-// A path that is as hard for the layer as a real program can be: arcs of several radii at two
-// feeds, a zigzag of corners, a circle in CAM chords. It fills the look-ahead and makes every
-// decision a search; timing on straight lines would flatter.
+// A path as hard for the layer as a real program can be: arcs of several radii at two feeds, a
+// zigzag of corners, a circle in CAM chords. It fills the look-ahead and makes every decision a
+// search; timing on straight lines would flatter.
 namespace steadyrest::trial::timing {
 namespace {
 
@@ -28,7 +28,7 @@ constexpr double kExtent_mm = 104.0;      ///< of the drawing, at full size
 constexpr double kFastest_mm_s = 1000.0;  ///< where neither machine nor axes limit the feed
 constexpr int kMostDrawings = 1000;
 
-/// Two axes whose normal completes them to a right-handed frame.
+/// Two axes and the normal that makes the frame right-handed.
 struct Plane {
   std::array<std::size_t, 2> axis;
   std::size_t normal;
@@ -50,8 +50,8 @@ std::optional<Plane> plane_of(const Machine& machine) {
   return std::nullopt;
 }
 
-/// Draws about the middle of the plane's travel.
-/// Draws straight into the planner, without a program's text: no dialect, any axes.
+/// Draws around the middle of the plane's travel, straight into the planner without a program's
+/// text: no dialect, any axes.
 class Pen {
  public:
   Pen(const Machine& machine, const Plane& plane, nc::interpret::Sink& sink)
@@ -95,7 +95,7 @@ class Pen {
     ++move_.line;
     move_.start = move_.end;
     move_.end = place(u, v);
-    // No rounding of corners: they are meant to be seen.
+    // No rounding of corners: the layer is meant to meet them.
     move_.path_mode = nc::interpret::PathMode::exact_path;
     if (kind != MoveKind::rapid) {
       // The chord replaces the arc's length: only a rough total is needed.
@@ -136,7 +136,7 @@ void zigzag(Pen& pen) {
   }
 }
 
-// What CAM writes for a circle: the look-ahead must join the chords.
+// A circle as CAM writes it: the look-ahead must join the chords.
 void circle_in_chords(Pen& pen, double r, double chord_mm) {
   const double turn = 2.0 * std::numbers::pi;
   const int chords = static_cast<int>(std::ceil(turn * r / chord_mm));

@@ -7,7 +7,7 @@
 
 #include <steadyrest/trial/timing/judgement.hpp>
 
-// The timing, turned into a finding that says what to change.
+// Turns the timing into a finding that says what to change.
 namespace steadyrest::trial::timing {
 namespace {
 
@@ -22,7 +22,7 @@ double fall_s(const Machine& machine) {
   return (machine.contour.max_ratio - machine.contour.min_ratio) / machine.envelope.feed_fall_1_s;
 }
 
-// The fall to the lowest step sets the length of a forecast; only where it is long is it named.
+// The fall to the lowest step sets the length of a forecast; it is named only where it is long.
 std::string remedy(const LayerTiming& timing, const Machine& machine) {
   constexpr std::string_view kAlways = "lengthen interpolator_period_ms or use a faster computer";
   if (timing.decisions == 0 || fall_s(machine) <= kLongFall_s) {
@@ -38,8 +38,8 @@ std::string remedy(const LayerTiming& timing, const Machine& machine) {
 
 std::vector<Finding> judge(const LayerTiming& timing, const Machine& machine) {
   const double took_s = std::max(timing.work_s.p999, timing.decision_s.p999);
-  // By the 99.9 % quantile of the worse of both, cycle and decision: a decision comes seldom and
-  // would vanish in the mean.
+  // By the 99.9 % quantile of cycle or decision, whichever is worse: decisions are rare and would
+  // vanish in the mean.
   if (took_s <= kMostShare * timing.cycle_s) {
     return {};
   }

@@ -13,9 +13,9 @@ namespace steadyrest::trial::timing {
 /// rest.
 inline constexpr double kMostShare = 0.5;
 
-/// Does the layer's work fit into its cycle? By p99.9 of the cycles with a decision, of all cycles
-/// where that is more: beyond the cycle an error, beyond `kMostShare` of it a warning, both of the
-/// check `cycle_time`.
+/// Judges whether the layer's work fits into its cycle, by p99.9 of the cycles with a decision, or
+/// of all cycles where that is more: beyond the cycle an error, beyond `kMostShare` of it a
+/// warning, both for the check `cycle_time`.
 [[nodiscard]] std::vector<passport::Finding> judge(const LayerTiming& timing,
                                                    const kernel::machine::Machine& machine);
 

@@ -10,8 +10,8 @@
 #include <steadyrest/trial/timing/demanding_path.hpp>
 #include <steadyrest/trial/timing/layer_timing.hpp>
 
-// What a cycle of the layer takes on this computer. The run is deterministic, so cycle n does the
-// same work in each round: its least time over the rounds is its cost, the rest was the operating
+// The time of a layer cycle on this computer. The run is deterministic, so cycle n does the same
+// work in each round: its shortest time over the rounds is its cost, the rest was the operating
 // system's.
 namespace steadyrest::trial::timing {
 namespace {
@@ -22,10 +22,10 @@ using Clock = std::chrono::steady_clock;
 using Path = std::shared_ptr<const nc::plan::PlannedPath>;
 
 constexpr double kDecision_s = 0.010;  ///< the governor's own longest time between two decisions
-// Seldom enough that showing it costs nothing.
+// Rare enough that showing it costs nothing.
 constexpr std::size_t kCyclesBetweenProgress = 1024;
 
-/// The least time of each cycle, and whether the governor decided in it.
+/// The shortest time of each cycle, and whether the governor decided in it.
 struct Cycle {
   double least_s = 0.0;
   bool decides = false;
@@ -49,7 +49,7 @@ Result<void> run_round(const Machine& machine, const Path& path, std::size_t mos
     if (!frame) {
       return std::unexpected(frame.error());
     }
-    // Reading and writing the port are the port's affair and not timed.
+    // Reading and writing are the port's business and are not timed.
     const auto begin = Clock::now();
     const kernel::signal::Command command = layer->update(*frame);
     const double took_s = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -62,7 +62,7 @@ Result<void> run_round(const Machine& machine, const Path& path, std::size_t mos
     if (n == cycles.size()) {
       cycles.push_back({.least_s = took_s, .decides = decides});
     }
-    // Interrupts only ever add: the least is nearest to the work.
+    // Interrupts can only add: the shortest time is closest to the work.
     cycles[n].least_s = std::min(cycles[n].least_s, took_s);
     if (n % kCyclesBetweenProgress == 0) {
       on_progress(static_cast<double>(decisions) / static_cast<double>(most_decisions));
@@ -79,7 +79,7 @@ Result<LayerTiming> time_layer(const Machine& machine, const Effort& effort,
   LayerTiming timing;
   timing.cycle_s = machine.control.interpolator_period_s;
   timing.rounds = effort.rounds;
-  // Long enough that as many decisions as asked for can fall due.
+  // Long enough for the requested number of decisions to fall due.
   const double apart_s = std::max(timing.cycle_s, kDecision_s);
   const auto path = demanding_path(machine, static_cast<double>(effort.decisions) * apart_s);
   if (!path) {

@@ -10,9 +10,9 @@
 
 namespace steadyrest::trial::timing {
 
-/// What the layer takes of a control cycle on the computer at hand.
+/// The layer's share of a control cycle on this computer.
 struct LayerTiming {
-  double cycle_s = 0.0;  ///< what the machine file gives it
+  double cycle_s = 0.0;  ///< from the machine file
   int rounds = 0;
   std::size_t cycles = 0;     ///< of one round
   std::size_t decisions = 0;  ///< cycles among them in which the feed governor chose a step
@@ -26,13 +26,13 @@ struct Effort {
 };
 
 /// Cuts `demanding_path` on the simulated machine of this file with the whole layer acting, and
-/// measures each cycle of the layer by the steady clock.
+/// times each cycle of the layer by the steady clock.
 ///
-/// All rounds are the same to the last bit, so each cycle counts with the least of its times: a
-/// busy computer can only add to it. What is left is the layer's own work with warm caches; the
-/// listening for chatter is not in it.
+/// All rounds are identical to the last bit, so each cycle counts with its shortest time: a busy
+/// computer can only add to it. The rest is the layer's own work with warm caches; listening for
+/// chatter is not included.
 ///
-/// `on_progress` gets the share that is done. Refused: what simulated machine or layer refuse.
+/// `on_progress` gets the share done. Refused: what simulated machine or layer refuse.
 [[nodiscard]] kernel::outcome::Result<LayerTiming> time_layer(
     const kernel::machine::Machine& machine, const Effort& effort,
     const std::function<void(double share)>& on_progress);

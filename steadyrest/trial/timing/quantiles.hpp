@@ -12,7 +12,7 @@ struct Quantiles {
   double worst = 0.0;
 };
 
-/// The least value that so many of them do not exceed.
+/// A quantile is the smallest value that the given share does not exceed.
 [[nodiscard]] Quantiles quantiles(std::vector<double> values);
 
 }  // namespace steadyrest::trial::timing

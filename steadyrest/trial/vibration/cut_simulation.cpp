@@ -8,8 +8,8 @@
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
-// The process file's cut in time. Shares nothing with the chatter room's solver but the file, so
-// that the two can check each other.
+// The process file's cut over time. Shares only the file with the chatter room's solver, so that
+// the two can check each other.
 namespace steadyrest::trial::vibration {
 namespace {
 
@@ -25,7 +25,7 @@ constexpr double kLeastBlock = 8.0;   ///< pitches in one mean
 constexpr double kLeastBlocks = 8.0;  ///< half of them are measured
 constexpr double kMostSteps = 1e7;    ///< of all blocks, unless the least number needs more
 
-// The grid is made for the slowest speed that the law brings.
+// The grid is made for the law's slowest speed.
 double slowest_rev_s(const CutSettings& settings) {
   return settings.speed_rev_s * (settings.modulation.law == chatter::online::Law::constant
                                      ? 1.0
@@ -47,7 +47,7 @@ double slope(const std::vector<double>& values) {
 
 }  // namespace
 
-// The border between the room and the simulation: values are copied, no type is shared.
+// The border between room and simulation: values are copied, no type is shared.
 sim::Cutting cutting_of(const Process& process, double depth_mm) {
   sim::Cutting out;
   for (const chatter::offline::Mode& mode : process.modes) {
@@ -74,8 +74,8 @@ sim::Cutting cutting_of(const Process& process, double depth_mm) {
   return out;
 }
 
-// Growth is measured, not assumed: the logarithm of the size, averaged over whole periods of the
-// law, against the number of teeth; the slope of that line is the growth.
+// Growth is measured, not assumed: the slope of ln(size), averaged over whole periods of the law,
+// against the number of teeth.
 kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
                                                      const CutSettings& settings,
                                                      std::size_t pitches) {
@@ -83,7 +83,7 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
                                 .slowest_rev_s = slowest_rev_s(settings),
                                 .steps_per_period = settings.steps_per_period,
                                 .keeps_contact = true};
-  // Runout and edge forces force vibration; they do not change its growth.
+  // Runout and edge forces cause forced vibration; they do not change its growth.
   config.cut.runout_mm.clear();
   config.cut.edge_radial_n_mm = 0.0;
   config.cut.edge_tangential_n_mm = 0.0;
@@ -97,7 +97,7 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
   // A block is one period of the law, or some turns.
   const double block_rad =
       speed.constant() ? kTurn * std::ceil(kLeastBlock / teeth) : speed.period_rad();
-  // Whole blocks, not fewer than eight: a slope through fewer points would be a guess.
+  // Whole blocks, at least eight: a slope through fewer points would be a guess.
   const double wanted_rad =
       std::min(static_cast<double>(pitches) * kTurn / teeth, kMostSteps * step_rad);
   const double blocks = std::max(kLeastBlocks, std::ceil(wanted_rad / block_rad));
@@ -117,7 +117,7 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
       square += now.displacement_mm[0] * now.displacement_mm[0] +
                 now.displacement_mm[1] * now.displacement_mm[1];
       if (++steps == cut->steps() / process.tool.teeth) {
-        // Mean of the logarithm over the block, pitch by pitch: what swings within it cancels.
+        // Mean of the logarithm over the block, pitch by pitch: swings within it cancel.
         const double size = std::max(std::sqrt(square), 1e-300);
         sum += scaled + std::log(size);
         count += 1.0;
@@ -130,7 +130,7 @@ kernel::outcome::Result<double> log_growth_per_tooth(const Process& process,
         }
       }
     }
-    // The first half is left for the start to die away.
+    // The first half is for the start to die away.
     if (2.0 * block > blocks && count > 0.0) {
       log_size.push_back(sum / count);
     }

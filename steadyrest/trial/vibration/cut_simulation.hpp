@@ -9,10 +9,10 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/sim/cut/cutting_process.hpp>
 
-/// A process of the chatter room, cut in the simulated machine.
+/// A process of the chatter room, cut on the simulated machine.
 namespace steadyrest::trial::vibration {
 
-/// The process as plain data; where the finished wall is follows from the direction.
+/// The process as plain data; the direction gives the place of the finished wall.
 [[nodiscard]] sim::Cutting cutting_of(const chatter::offline::Process& process, double depth_mm);
 
 struct CutSettings {
@@ -25,9 +25,9 @@ struct CutSettings {
 };
 
 /// How a small vibration grows while the tool stays in the cut: ln of the growth over a tooth's
-/// mean pitch, in the mean over whole periods of the law. Below 0: stable by simulation. No feed,
-/// runout or edge force, so that nothing but the disturbance vibrates; measured over the second
-/// half of `pitches` (whole periods of the law; when more are needed for four of them, more).
+/// mean pitch, averaged over whole periods of the law. Below 0: stable by simulation. No feed,
+/// runout or edge force, so that only the disturbance vibrates; measured over the second half of
+/// `pitches` (whole periods of the law; more if four of them need it).
 [[nodiscard]] kernel::outcome::Result<double> log_growth_per_tooth(
     const chatter::offline::Process& process, const CutSettings& settings,
     std::size_t pitches = 2000);
@@ -40,7 +40,7 @@ struct Moment {
   sim::CuttingProcess::Output cut;
 };
 
-/// Cuts for `seconds` from a still tool and a still surface, with the process's feed.
+/// Cuts for `seconds` from a tool at rest and a smooth surface, with the process's feed.
 [[nodiscard]] kernel::outcome::Result<void> simulate(
     const chatter::offline::Process& process, const CutSettings& settings, double seconds,
     const std::function<void(const Moment&)>& sink);

@@ -8,16 +8,16 @@
 
 #include <steadyrest/trial/vibration/vibration_summary.hpp>
 
-// The second half of a cut in time, taken apart: what repeats with the tooth or the turn is forced
-// vibration; in the rest the strongest line of the spectrum is the chatter.
+// Splits the second half of a cut: what repeats with the tooth or the turn is forced vibration; the
+// strongest spectral line of the rest is the chatter.
 namespace steadyrest::trial::vibration {
 namespace {
 
 constexpr double kUm = 1000.0;
 constexpr double kNothing_um = 0.01;
 
-/// Half the swing of what repeats; `signal` keeps the rest.
-/// Averaged over all whole periods, then taken off: what is left does not repeat.
+/// Returns half the swing of what repeats; `signal` keeps the rest. The repeating part is averaged
+/// over all whole periods, then subtracted.
 double take_repeating(std::vector<double>& signal, std::size_t repeat) {
   std::vector<double> mean(repeat, 0.0);
   const std::size_t whole = signal.size() / repeat;
@@ -41,7 +41,7 @@ double rms(const std::vector<double>& signal) {
 
 }  // namespace
 
-// Hann window against leakage, the first two lines left out since they hold the mean.
+// Hann window against leakage; skips the first two lines, which hold the mean.
 std::optional<double> strongest_line_hz(std::vector<double> signal, double step_s) {
   const std::size_t n = signal.size();
   if (n < 16) {
@@ -58,7 +58,7 @@ std::optional<double> strongest_line_hz(std::vector<double> signal, double step_
   for (std::size_t k = 2; k + 1 < n / 2; ++k) {
     best = std::abs(spectrum[k]) > std::abs(spectrum[best]) ? k : best;
   }
-  // Of a Hann window the logarithms of three neighbours are nearly a parabola.
+  // With a Hann window the logarithms of three neighbours nearly form a parabola.
   const double left = std::log(std::abs(spectrum[best - 1]) + 1e-300);
   const double middle = std::log(std::abs(spectrum[best]) + 1e-300);
   const double right = std::log(std::abs(spectrum[best + 1]) + 1e-300);
@@ -73,7 +73,7 @@ void VibrationSummary::add(const Moment& now) {
   seen_.peak_um = std::max(seen_.peak_um, kUm * std::hypot(x[0], x[1]));
   seen_.force_peak_n = std::max(seen_.force_peak_n, std::hypot(f[0], f[1]));
   seen_.power_peak_w = std::max(seen_.power_peak_w, now.cut.power_w);
-  // The first half is left for the entry to die away.
+  // The first half is for the entry to die away.
   if (now.t_s < half_s_) {
     return;
   }
@@ -107,7 +107,7 @@ Summary VibrationSummary::summary() const {
       signal.push_back(kUm * x[axis]);
     }
     const double forced = take_repeating(signal, repeat_);
-    // The axis that vibrates more speaks for the cut.
+    // The axis that vibrates more represents the cut.
     const double rest = rms(signal);
     if (std::hypot(forced, rest) > most) {
       most = std::hypot(forced, rest);

@@ -8,7 +8,7 @@
 
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
-/// What a simulated cut came to.
+/// The results of a simulated cut.
 namespace steadyrest::trial::vibration {
 
 struct Summary {
@@ -20,8 +20,8 @@ struct Summary {
   std::optional<double> forced_um;
   std::optional<double> rest_rms_um;
   std::optional<double> frequency_hz;  ///< strongest line of the rest, where it is over 10 nm RMS
-  /// The finished wall in the second half: mean place (> 0: too much is cut off) and highest less
-  /// lowest place that the teeth left.
+  /// The finished wall in the second half: mean place (> 0: too much is cut off) and highest minus
+  /// lowest place left by the teeth.
   std::optional<double> wall_error_um;
   std::optional<double> wall_range_um;
 };

@@ -15,7 +15,7 @@ struct ChatterEvent {
   double end_s = 0.0;
   double frequency_hz = 0.0;  ///< median over the stretch
   double speed_rev_s = 0.0;   ///< mean over the stretch
-  bool flip = false;          ///< what most spectra said
+  bool flip = false;          ///< majority of the spectra
 };
 
 /// What the detector hears from the signal's first sample to its last; the signal has a speed.

@@ -30,7 +30,7 @@ Result<CutPoint> cut_point(const CutPointOptions& options) {
   if (!(options.depth_mm > 0.0 && std::isfinite(options.depth_mm))) {
     return std::unexpected(not_allowed("--depth-mm", options.depth_mm, "above 0"));
   }
-  // 0.001 … 1e5 rev/s and 10 m of depth: no machine is near them, and within them no intermediate
+  // 0.001 … 1e5 rev/s and 10 m of depth: no machine gets near them, and within them no intermediate
   // result of the solver overflows.
   constexpr double kLeast_rpm = 0.06;
   constexpr double kMost_rpm = 6e6;

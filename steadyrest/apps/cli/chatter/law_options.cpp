@@ -54,7 +54,7 @@ Result<double> frequency(const LawOptions& o, double speed_rpm) {
   return o.rvf ? *o.rvf : 1.0 / (*o.period_s * kernel::units::rev_s_from_rpm(speed_rpm));
 }
 
-/// The RVF nearest by whose law has r periods in a whole number of passes.
+/// The nearest RVF whose law has r periods in a whole number of passes.
 /// A law period takes q = N/RVF tooth passes (N teeth; one pass per revolution where the pitch is
 /// uneven). The monodromy matrix exists only over a whole number of passes, so r law periods must
 /// make up an integer. The loop takes the smallest r at the tightest tolerance that works: exact,

@@ -16,7 +16,7 @@
 /// Options of the verbs that take a modulation of the spindle speed.
 namespace steadyrest::apps::cli {
 
-/// As given: in the literature's ratios or in the words of the shop floor.
+/// As given: in the literature's ratios or in the shop's terms.
 struct LawOptions {
   std::string law;
   std::optional<double> rva;
@@ -32,9 +32,9 @@ struct LawOptions {
 /// --law, --rva or --amplitude-rpm or --amplitude-percent, --rvf or --period-s, --seed.
 void add_law_options(Verb& verb, LawOptions& options);
 
-/// The modulation at this mean speed. An RVF that shares no multiple of 64 periods with the tooth
-/// pitch is moved to the nearest that does, by 0.5 % at most (more below 10 passes); `wanted_rvf`
-/// then is what was given.
+/// The modulation at this mean speed. An RVF whose law does not close with the tooth passes within
+/// 64 periods is moved to the nearest one that does, by 0.5 % at most (more below 10 passes);
+/// `wanted_rvf` is then the given one.
 struct ChosenLaw {
   chatter::offline::Modulation modulation;
   std::optional<double> wanted_rvf;
@@ -42,7 +42,7 @@ struct ChosenLaw {
 [[nodiscard]] kernel::outcome::Result<ChosenLaw> chosen_law(
     const LawOptions& options, const chatter::offline::Process& process, double speed_rpm);
 
-/// law, rva, rvf, amplitude_rpm and period_s unless the speed is 0, seed; `wanted_rvf` when it was
+/// law, rva, rvf, amplitude_rpm and period_s unless the speed is 0, seed; `wanted_rvf` if it was
 /// moved.
 void put_law(Json& json, const ChosenLaw& chosen, double speed_rpm);
 /// One line for people.

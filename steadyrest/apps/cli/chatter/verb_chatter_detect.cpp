@@ -60,7 +60,7 @@ Refusal bad(std::string what, std::string to_do, const std::string& file = {}) {
   return bad_input(file, std::move(what), std::move(to_do));
 }
 
-/// Combinations and ranges that are wrong whatever the files say.
+/// Combinations and ranges that are wrong whatever the files contain.
 std::optional<Refusal> unfit(const Options& options) {
   struct Given {
     const char* option;
@@ -87,8 +87,8 @@ std::optional<Refusal> unfit(const Options& options) {
   return std::nullopt;
 }
 
-/// A recording from the machine may bring its speed as a column. Otherwise the operator's number
-/// holds for the whole of it. Both at once would leave open which one wins.
+/// A recording from the machine may contain its speed as a column. Otherwise the operator's number
+/// applies to all of it. Both at once would leave open which one wins.
 std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
                                  offline::RecordedSignal& signal) {
   std::vector<double>& speed = signal.speed_rev_s;
@@ -195,8 +195,8 @@ std::optional<Refusal> advise(const Options& options, const Machine& machine, st
     event.plan = std::move(*plan);
     return std::nullopt;
   }
-  // The depth of cut is unknown, so the table holds the limiting depth of each step and the deepest
-  // step wins (depth_mm = 0 below asks for that).
+  // The depth of cut is unknown, so the table holds each step's limiting depth and the deepest step
+  // wins (depth_mm = 0 below requests that).
   if (process) {
     if (auto added = offline::add_depths(*process, {programmed}, kMostDepthMm, config); !added) {
       return added.error();
@@ -335,7 +335,7 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
   return answer;
 }
 
-/// Files first: a missing process is told before a long recording is read.
+/// Files first: a missing process is reported before a long recording is read.
 Outcome run(const Options& options, Progress& progress) {
   if (auto refusal = unfit(options)) {
     return refused(*refusal);

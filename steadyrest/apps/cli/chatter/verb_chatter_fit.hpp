@@ -5,7 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest chatter fit`: modes out of measured frequency responses.
+/// `steadyrest chatter fit`: modes from measured frequency responses.
 void add_verb_chatter_fit(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -170,7 +170,7 @@ Answer answer_of(const Made& made, const ChosenLaw& law, const Options& options)
   return answer;
 }
 
-/// The intended cut, worked out at exactly this speed and depth and not read off the grid.
+/// The intended cut, computed at exactly this speed and depth, not read off the grid.
 Result<Json> point_json(const Options& options, const offline::Process& process,
                         const ChosenLaw& law) {
   const auto found =
@@ -284,9 +284,9 @@ Result<Json> page_of(const Json& answer, const Task& task, const Options& option
       {std::move(map), std::move(made.border), std::move(*others), std::move(steps)});
 }
 
-/// The two tables of the verb, one beside the other.
+/// The verb's two tables.
 Result<void> write_map(const Options& options, const Made& made) {
-  // Both files or neither: a border beside an older map would mislead.
+  // Both files or neither: a border next to an older map would mislead.
   const std::array files = {
       kernel::file::FileText{.file = options.output, .text = map_csv(made.map)},
       kernel::file::FileText{.file = border_path(options.output).string(),

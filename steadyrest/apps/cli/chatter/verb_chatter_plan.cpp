@@ -129,8 +129,8 @@ Json json_of(const BestSpeeds& best) {
   return out;
 }
 
-/// The speeds to program, best first. They need a new S word, so they are apart from the override
-/// steps that work on the program as it is.
+/// The speeds to program, best first. They need a new S word, so they are listed apart from the
+/// override steps, which work on the program as it is.
 std::string text_of(const BestSpeeds& best, const Options& options, double most_depth_mm) {
   if (best.empty()) {
     return "";

@@ -19,7 +19,7 @@ namespace {
 
 namespace offline = chatter::offline;
 
-/// One point of the stability map with all that can be said of it: radius, kind, frequency, worst
+/// One point of the stability map with everything known about it: radius, kind, frequency, worst
 /// growth.
 struct Options {
   CutPointOptions cut;

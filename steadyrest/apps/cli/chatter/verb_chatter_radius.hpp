@@ -5,7 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest chatter radius`: is a cut stable at one speed and depth.
+/// `steadyrest chatter radius`: whether a cut is stable at one speed and depth.
 void add_verb_chatter_radius(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -5,7 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest chatter simulate`: a cut in time, with the tool leaving the material.
+/// `steadyrest chatter simulate`: a cut over time, with the tool leaving the material.
 void add_verb_chatter_simulate(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -22,12 +22,12 @@ struct CutBatchOptions {
   double tolerance_um = 10.0;
 };
 
-/// Where the batch's own report goes within that of the cut.
+/// Where the batch's own report goes inside that of the cut.
 [[nodiscard]] std::string batch_folder(const std::string& report);
 
 void add_cut_batch_options(Verb& verb, CutBatchOptions& options);
 
-/// Makes the batch and puts `batch` beside the other keys: `parts[]`, for each way (`without`,
+/// Makes the batch and adds `batch` to the other keys: `parts[]`, and for each way (`without`,
 /// `text`, `online`) its `largest_um`, `rms_um`, `improvement` and `worse_parts`. With a directory
 /// for reports its page goes into the folder `batch` there.
 [[nodiscard]] kernel::outcome::Result<void> put_batch(

@@ -16,8 +16,7 @@
 #include <steadyrest/trial/cut/chatter_choice.hpp>
 #include <steadyrest/trial/cut/recorder.hpp>
 
-/// The part of `steadyrest cut` that is about chatter: what is cut, and what the layer does about
-/// it.
+/// The chatter part of `steadyrest cut`: what is cut, and what the layer does about chatter.
 namespace steadyrest::apps::cli {
 
 struct CutChatterOptions {
@@ -34,7 +33,7 @@ struct CutChatter {
   std::vector<trial::cut::ChatterChoice> choices;
   std::optional<supervisor::ListeningStage> listener;
   bool by_plan = false;
-  std::vector<nc::plan::Warning> warnings;  ///< cuts that the plan leaves out
+  std::vector<nc::plan::Warning> warnings;  ///< cuts not covered by the plan
 };
 
 /// Reads the process, asks the planner for the program's spindle speeds, and switches the machine's
@@ -44,7 +43,7 @@ struct CutChatter {
                                                               kernel::machine::Machine& machine,
                                                               Progress& progress);
 
-/// `vibration` of both cuts, as keys beside their figures, and `chatter`: what was chosen.
+/// `vibration` of both cuts, as keys next to their figures, and `chatter`: what was chosen.
 void put_vibration(Answer& answer, const CutChatter& chatter, const trial::cut::Recorder& without,
                    const trial::cut::Recorder& with);
 

@@ -97,7 +97,7 @@ Outcome errors_at(const Options& options, double feed_mm_min) {
   return answer;
 }
 
-/// A feed given wins: the limit is then what it is judged by.
+/// A given feed wins: it is then judged by the limit.
 Outcome run(const Options& options) {
   if (options.feed_mm_min) {
     return errors_at(options, *options.feed_mm_min);

@@ -119,7 +119,7 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
   Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
               check.count()};
   // If the feed override hardly acts because the axes never reach the programmed feed, the layer
-  // has little to work with; that warning belongs first.
+  // has little to work with; that warning comes first.
   if (auto idle = nc::plan::idle_override(*out.path, machine.feed_override)) {
     out.warnings.insert(out.warnings.begin(), std::move(*idle));
     ++out.warning_count;
@@ -224,8 +224,8 @@ std::string text_of(const std::vector<trial::cut::ProbeFigures>& probes) {
   return "\n" + table.text();
 }
 
-/// Why and how long the layer stood back from its input. Standing back outside of cuts is its
-/// ordinary work and no news.
+/// Why and how long the layer withdrew because of its input. Withdrawing outside of cuts is normal
+/// and not reported.
 std::string put_withdrawn(Answer& answer, const Recorder& with) {
   answer.json["withdrawn"] = Json::array();
   std::string text;

@@ -53,7 +53,7 @@ std::vector<Finding> check_clock(const Machine& machine) {
   return {};
 }
 
-/// What the layer takes of a cycle on this computer, or why it does not run on this machine.
+/// The layer's share of a cycle on this computer, or why it does not run on this machine.
 struct Measured {
   std::optional<LayerTiming> timing;
   std::vector<Finding> findings;
@@ -63,7 +63,7 @@ struct Measured {
 Measured measure(const Machine& machine, Progress& progress) {
   auto timing = trial::timing::time_layer(
       machine, {}, [&](double share) { progress.update(share, "measuring the layer"); });
-  // The findings print next, and a bar must not remain in between.
+  // The findings print next, and no bar may remain in between.
   progress.clear();
   if (!timing) {
     return {std::nullopt,

@@ -5,7 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest doctor`: is this machine file fit to be worked with, here and now?
+/// `steadyrest doctor`: whether this machine file is fit for use, here and now.
 void add_verb_doctor(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

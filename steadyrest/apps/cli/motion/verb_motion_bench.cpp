@@ -15,9 +15,8 @@
 #include <steadyrest/motion/offline/bench/estimator_choice.hpp>
 #include <steadyrest/motion/offline/bench/requirement.hpp>
 
-// All estimators on motions that are known exactly, against each other, against LinuxCNC's own
-// encoder component, and against what physics permits. The same table is what the project's own
-// figures come from.
+// All estimators on exactly known motions, against each other, against LinuxCNC's own encoder
+// component, and against the limits of physics. The project's own figures come from the same table.
 namespace steadyrest::apps::cli {
 namespace motion_bench {
 namespace {
@@ -69,8 +68,8 @@ std::string people_table(const offline::Benchmark& benchmark) {
   Table table({"scene, estimator", "v, mm/s", "gain", "a, mm/s²", "gain", "within bound",
                "bound/RMS v", "a", "ns/tick", "ns/edge"});
   for (const BenchRow& row : benchmark.rows) {
-    // How far the stated bound lies above the real error: near 1 it would be broken often, far
-    // above it would be useless.
+    // How far the stated bound is above the real error: near 1 it would often be broken, far above
+    // it would be useless.
     const auto ratio = [](const offline::ErrorFigures& e) {
       return number(e.bound_rms_at_speed / e.rms_at_speed);
     };
@@ -108,7 +107,7 @@ Json rows_json(const offline::Benchmark& benchmark) {
   return out;
 }
 
-/// Writes the tables that are asked for and hands the page to the session; returns the names. The
+/// Writes the requested tables and hands the page to the session; returns the names. The
 /// requirement takes long, so nothing is computed when nothing is written.
 Result<Json> write_files(const Options& options, const offline::Benchmark& benchmark,
                          std::vector<Page>& pages, Progress& progress) {

@@ -19,8 +19,8 @@
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
-// Lines of a scale or disc are not where they should be. On smooth motion the neighbours of a line
-// tell when it should have passed; what comes back at the same line on every pass is its own error.
+// Lines of a scale or disc are not where they should be. On smooth motion a line's neighbours tell
+// when it should have passed; what repeats at the same line on every pass is its own error.
 namespace steadyrest::apps::cli {
 namespace motion_calibrate {
 namespace {
@@ -125,7 +125,8 @@ Answer answer_of(const offline::LineCalibration& calibration, const Encoder& enc
       .row({"residual after", fmt::format("{:.4g}{}", after, unit)});
   answer.text = table.text();
   answer.refusals = log.findings;
-  // The log was read in part. The calibration from that part is written, but the exit code tells.
+  // Only part of the log was read. The calibration from that part is written, but the exit code
+  // tells.
   if (log.stopped) {
     answer.exit_code = kRefused;
   }

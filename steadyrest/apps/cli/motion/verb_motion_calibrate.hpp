@@ -5,7 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest motion calibrate`: where the encoder's lines really stand, out of a log of edges.
+/// `steadyrest motion calibrate`: where the encoder's lines really are, from a log of edges.
 void add_verb_motion_calibrate(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

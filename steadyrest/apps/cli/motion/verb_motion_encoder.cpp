@@ -35,7 +35,7 @@ struct Options {
 /// Collects the numbers of the answer; the first refusal ends it.
 class Sheet {
  public:
-  // Collecting on after a fault would print half an answer; the first refusal is kept.
+  // Collecting on after a fault would print half an answer; only the first refusal is kept.
   Sheet& put(const char* key, const char* name, const Number& value, const char* unit) {
     if (!value && !refusal_) {
       refusal_ = value.error();
@@ -75,7 +75,7 @@ void put_lines(Sheet& sheet, const Options& options, const Number& lines) {
   sheet.put("count_deg", "count (rotary)", 360.0 / (offline::kCountsPerLine * *lines), "°");
 }
 
-/// Revolutions per second of the encoder: the spindle's, or feed over lead. Nothing when neither is
+/// Revolutions per second of the encoder: the spindle's, or feed over lead. Empty if neither is
 /// given.
 std::optional<double> turn_rev_s(const Options& options) {
   if (options.speed_rpm) {
@@ -124,8 +124,8 @@ Outcome of_speed(const Options& options) {
   return sheet.outcome();
 }
 
-/// What is known decides the direction. The order makes a known encoder win over a speed: then the
-/// speed is only looked at for its signal frequency.
+/// What is known decides the direction. A known encoder comes before a speed, which then serves
+/// only for its signal frequency.
 Outcome run(const Options& options) {
   if ((options.feed_mm_min || options.count_mm) && !options.lead_mm) {
     return refused(bad_input("a linear axis needs a lead",

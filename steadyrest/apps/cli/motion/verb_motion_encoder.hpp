@@ -5,8 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest motion encoder`: the encoder that a speed permits, and the speed that an encoder
-/// permits.
+/// `steadyrest motion encoder`: the encoder for a speed, and the speed for an encoder.
 void add_verb_motion_encoder(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

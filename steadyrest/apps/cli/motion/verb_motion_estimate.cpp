@@ -63,7 +63,7 @@ offline::EdgeLogConfig log_config(const Options& options) {
   config.rising_time = !options.edges();
   config.format = format_of(options.format, options.setup.cycle_hz);
   if (options.setup.count_mm > 0.0) {
-    // A count may lie anywhere in its cell: 1 % more than the axis can do is still no jump.
+    // A count may be anywhere in its cell: 1 % more than the axis can do is not yet a jump.
     config.max_speed_counts_s = 1.01 * options.setup.max_speed_mm_s / options.setup.count_mm;
   }
   return config;
@@ -148,9 +148,9 @@ void put_cycle(const CycleReport& cycle, Answer& answer, Table& table) {
       .row({"gaps", fmt::format("{}", cycle.gaps)});
 }
 
-/// What was found in the log goes to stderr. A log that was not read to its end gives exit code 2,
-/// though the estimates up to there are written: after a row that must be wrong nobody knows which
-/// side of it to believe.
+/// Faults in the log go to stderr. A log that was not read to its end gives exit code 2, though the
+/// estimates up to there are written: after a row that must be wrong nobody knows which side of it
+/// to believe.
 void put_findings(const EdgeLog& log, Answer& answer) {
   answer.refusals = log.findings;
   // The reader keeps the text of the first twenty findings and counts the rest.
@@ -168,7 +168,7 @@ void put_findings(const EdgeLog& log, Answer& answer) {
   }
 }
 
-/// What was read and how; `complete` is false where the log had to be given up.
+/// What was read and how; `complete` is false if the log had to be given up.
 Answer answer_of(const Options& options, const EdgeLog& log, const Record& record) {
   Answer answer;
   answer.json = {{"estimator", options.estimator},
@@ -203,7 +203,7 @@ Answer answer_of(const Options& options, const EdgeLog& log, const Record& recor
   return answer;
 }
 
-/// The calibration of the encoder's lines, where one is given. It must be of the same count.
+/// The calibration of the encoder's lines, if given. It must be for the same count.
 Result<std::optional<online::LineTable>> lines_of(const Options& options) {
   if (options.calibration.empty()) {
     return std::nullopt;
@@ -278,7 +278,7 @@ Outcome run(Options options, bool json, Progress& progress) {
   if (options.line_error_um) {
     options.setup.line_error_mm = kernel::units::mm_from_um(*options.line_error_um);
   }
-  // Bad usage is told before a long log is read.
+  // Bad usage is reported before a long log is read.
   if (const auto probe = offline::make_estimator(options.estimator, options.setup); !probe) {
     return refused(probe.error());
   }

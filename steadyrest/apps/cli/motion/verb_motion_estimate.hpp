@@ -5,7 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest motion estimate`: velocity and acceleration out of a log of counts.
+/// `steadyrest motion estimate`: velocity and acceleration from a log of counts.
 void add_verb_motion_estimate(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -63,7 +63,7 @@ Result<nc::interpret::Report> read_program(const std::string& path,
 
 struct Options {
   ProgramOptions program;
-  std::string machine;  ///< empty: the program's words alone are looked at
+  std::string machine;  ///< empty: only the program's words are checked
 };
 
 /// The program is read by the rules of its dialect; the machine adds axis letters and limits.
@@ -97,7 +97,7 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
   return answer;
 }
 
-/// Without a machine the dialect must be said, because one G code means different things on
+/// Without a machine the dialect must be given, because one G code means different things on
 /// different controls.
 Outcome run(const Options& options, Progress& progress) {
   if (options.machine.empty() && options.program.dialect.empty()) {

@@ -5,7 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest program check`: does an NC program contain anything that is not understood?
+/// `steadyrest program check`: whether an NC program contains anything that is not understood.
 void add_verb_program_check(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

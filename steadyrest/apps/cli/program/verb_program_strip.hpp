@@ -5,7 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest program strip`: takes the corrections out of an NC program, byte for byte.
+/// `steadyrest program strip`: removes the corrections from an NC program, byte for byte.
 void add_verb_program_strip(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

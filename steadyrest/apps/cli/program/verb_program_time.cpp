@@ -91,7 +91,7 @@ Result<void> write_cyclogram(const ProgramTime& time, const Options& options) {
   return kernel::file::write_file(options.cyclogram, text);
 }
 
-/// Whole, or three digits of what would round to little or nothing.
+/// Whole, or three digits where the value would round to little or nothing.
 std::string rate(double value) {
   constexpr double kWhole = 10.0;
   return value < kWhole ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
@@ -132,7 +132,7 @@ std::string text_of(const ProgramTime& time) {
   return text;
 }
 
-/// The check runs beside the timer: a time for a program that leaves the travel is misleading.
+/// The check runs alongside the timer: a time for a program that leaves the travel is misleading.
 Outcome run(const Options& options) {
   const auto machine = read_machine(options.machine);
   if (!machine) {
@@ -159,7 +159,7 @@ Outcome run(const Options& options) {
   Answer answer;
   put_report(answer, *report, options.program.file);
   say_dialect(answer, options.program, *machine);
-  // A time up to the refusal is no time of the program.
+  // A time up to the refusal is not the program's time.
   if (!report->refused.empty()) {
     return answer;
   }

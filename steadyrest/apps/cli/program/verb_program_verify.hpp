@@ -5,8 +5,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest program verify`: proves that a changed program differs by a plan's corrections
-/// alone.
+/// `steadyrest program verify`: proves that a changed program differs only by a plan's corrections.
 void add_verb_program_verify(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -8,8 +8,7 @@
 
 #include <steadyrest/apps/cli/shared/content.hpp>
 
-// Judges a file by its content, never by its name: the question is what would be lost if it were
-// overwritten.
+// Judges a file by its content, never by its name: what would be lost by overwriting it?
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -17,7 +16,7 @@ bool among(std::string_view key, const std::vector<std::string>& keys) {
   return std::ranges::find(keys, key) != keys.end();
 }
 
-/// Keys and sections of the top level; none where the text is no TOML. A file may be cut off at the
+/// Keys and sections of the top level; none if the text is not TOML. A file may be cut off at the
 /// reader's limit, and half a table parses as nothing.
 std::vector<std::string> top_of(std::string_view text) {
   std::vector<std::string> out;
@@ -32,7 +31,7 @@ std::vector<std::string> top_of(std::string_view text) {
 }
 
 /// A line that could be a block of some dialect: `N10 G1 X1`, `/G0`, `X=R1`, `#1=2`, `o<a> call`,
-/// `%`, `(…)`, `;…`. A letter followed by a digit, a sign or an assignment is what prose lacks.
+/// `%`, `(…)`, `;…`. Prose lacks a letter followed by a digit, a sign or an assignment.
 bool is_block(std::string_view line) {
   const auto is = [&line](std::size_t at, std::string_view set) {
     return at < line.size() && set.find(line[at]) != std::string_view::npos;
@@ -79,8 +78,7 @@ Content csv_content(std::string name, std::vector<std::string> heads) {
           }};
 }
 
-/// TOML of one kind has nothing beside its own keys; one foreign section and it is somebody else's
-/// file.
+/// TOML of one kind has only its own keys; one foreign section and it is somebody else's file.
 Content toml_content(std::string name, std::vector<std::string> only) {
   return {std::move(name), [only = std::move(only)](std::string_view text) {
             const auto top = top_of(text);

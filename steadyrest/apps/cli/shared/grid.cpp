@@ -13,11 +13,11 @@ namespace {
 
 using kernel::outcome::refuse;
 
-/// A map of 10⁵ × 10⁵ points would never end; one side of that is still a typing error.
+/// A map of 10⁵ × 10⁵ points would never end; even one side that long is a typing error.
 constexpr std::size_t kMostSteps = 100'000;
 
-/// The numbers between the colons; empty when one of them is no number. from_chars knows no locale
-/// and takes no blanks, so 1,5 and "1 : 2" are refused.
+/// The numbers between the colons; empty when one of them is not a number. from_chars ignores the
+/// locale and takes no blanks, so 1,5 and "1 : 2" are refused.
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> out;
   const char* const last = text.data() + text.size();

@@ -10,8 +10,8 @@
 namespace steadyrest::apps::cli {
 
 /// `A:B:N`: N even steps from A to B, both included; `A` alone or `A:A:1`: one value. `option` is
-/// what the refusals call it. Refused: what is no number, B not above A, N outside 1 … 100000,
-/// values below `least`.
+/// its name in refusals. Refused: anything but numbers, B not above A, N outside 1 … 100000, values
+/// below `least`.
 [[nodiscard]] kernel::outcome::Result<std::vector<double>> grid(std::string_view option,
                                                                 const std::string& text,
                                                                 double least);

@@ -20,7 +20,7 @@ void add_log_options(CLI::App& verb, LogOptions& options, bool over_time) {
   }
 }
 
-/// What the user did not say is found in the file (Decimal::by_file).
+/// What the user did not specify comes from the file (Decimal::by_file).
 table::Format format_of(const LogOptions& options, double sample_hz) {
   table::Format out;
   out.columns = options.columns;

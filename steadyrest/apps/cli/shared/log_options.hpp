@@ -12,7 +12,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// What every verb that reads a log is told about the way in which it was written.
+/// Options of every verb that reads a log: how it was written.
 struct LogOptions {
   std::vector<std::string> columns;
   std::string decimal;
@@ -22,7 +22,7 @@ struct LogOptions {
 /// Adds --columns, --decimal and, for a log over time, --sample-hz.
 void add_log_options(CLI::App& verb, LogOptions& options, bool over_time = true);
 
-/// For the reader of columns. `sample_hz` is the rate of sample numbers where --sample-hz is not
+/// For the reader of columns. `sample_hz` is the rate of sample numbers if --sample-hz is not
 /// given.
 [[nodiscard]] table::Format format_of(const LogOptions& options, double sample_hz = 0.0);
 

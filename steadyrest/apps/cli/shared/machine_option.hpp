@@ -14,7 +14,7 @@ namespace steadyrest::apps::cli {
 /// Adds the mandatory `--machine FILE` to a verb.
 void add_machine_option(Verb& verb, std::string& path);
 
-/// Reads a machine file; all of its faults are in the refusals.
+/// Reads a machine file; the refusals contain all of its faults.
 [[nodiscard]] std::expected<kernel::machine::Machine, Refusals> read_machine(
     const std::string& path);
 

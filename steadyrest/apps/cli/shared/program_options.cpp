@@ -80,7 +80,7 @@ Result<Config> program_config(const ProgramOptions& options) {
   config.axes = options.axes;
   config.decimal_rule = options.least_increment ? nc::interpret::DecimalRule::least_increment
                                                 : nc::interpret::DecimalRule::calculator;
-  // Millimetres are what holds without a word; inches of nothing are forgotten data.
+  // Millimetres are the default; inches without any data mean forgotten data.
   if (options.units == "inch" && options.tools.empty() && options.variables.empty()) {
     return refuse("--data-units inch without --tools or --variables",
                   "name the data, or leave out their unit");
@@ -93,7 +93,7 @@ Result<Config> program_config(const ProgramOptions& options) {
   const double unit_mm = options.units == "inch" ? 25.4 : 1.0;
   config.data_unit_mm = unit_mm;
   config.subprogram_folders = options.subprograms;
-  // A subprogram is looked for next to its main program when no folder is named.
+  // Without a named folder a subprogram is searched next to its main program.
   if (options.subprograms.empty()) {
     config.subprogram_folders.push_back(std::filesystem::path(options.file).parent_path().string());
   }

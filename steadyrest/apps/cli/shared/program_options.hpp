@@ -14,7 +14,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// What every verb that reads an NC program is told.
+/// Options of every verb that reads an NC program.
 struct ProgramOptions {
   std::string file;
   std::string dialect;
@@ -30,9 +30,9 @@ struct ProgramOptions {
 /// Adds FILE, --dialect and the options of the control's data.
 void add_program_options(Verb& verb, ProgramOptions& options);
 /// The same for a verb that has a machine file: dialect and axes are the machine's, --dialect may
-/// still say otherwise.
+/// still override.
 void add_machine_program_options(Verb& verb, ProgramOptions& options);
-/// The same for a verb that may do without a program: --program, and what is only said of one.
+/// The same for a verb with an optional program: --program, and the options that only apply to one.
 void add_optional_program(Verb& verb, ProgramOptions& options, const std::string& description);
 
 /// The interpreter's configuration; reads the files that the options name.
@@ -43,7 +43,7 @@ void add_optional_program(Verb& verb, ProgramOptions& options, const std::string
 
 /// The keys `blocks` and `refused[]`, the refusals for stderr and the exit code.
 void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file);
-/// Behind put_report(), where the machine file chose the dialect: says so, and which.
+/// After put_report(), where the machine file chose the dialect: reports that, and which one.
 void say_dialect(Answer& answer, const ProgramOptions& options,
                  const kernel::machine::Machine& machine);
 

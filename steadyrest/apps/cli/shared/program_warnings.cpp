@@ -11,8 +11,7 @@ nc::plan::Known known_of(const ProgramOptions& options) {
   return {.offsets = !options.variables.empty(), .tools = !options.tools.empty()};
 }
 
-/// Ten for people, all that were kept for programs; `warning_count` also counts those that were not
-/// kept.
+/// Ten for people, all that were kept for programs; `warning_count` also includes those not kept.
 std::string put_warnings(Answer& answer, const std::vector<nc::plan::Warning>& warnings,
                          std::size_t count) {
   constexpr std::size_t kShown = 10;

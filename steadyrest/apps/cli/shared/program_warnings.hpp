@@ -10,10 +10,10 @@
 
 namespace steadyrest::apps::cli {
 
-/// What the options tell of the control's data.
+/// The control's data as given by the options.
 [[nodiscard]] nc::plan::Known known_of(const ProgramOptions& options);
 
-/// On the simulated machine all of it is known: what no option gives is 0 there.
+/// On the simulated machine everything is known: what no option gives is 0 there.
 [[nodiscard]] constexpr nc::plan::Known known_in_simulation() noexcept {
   return {.offsets = true, .tools = true};
 }

@@ -63,7 +63,7 @@ void Progress::update_at(Clock::time_point now, double share, std::string_view w
     return;
   }
   const std::scoped_lock lock(mutex_);
-  // A share that is no number is 0: progress must never stop the work.
+  // A NaN share counts as 0: progress must never stop the work.
   share_ = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
   what_ = what;
   cleared_ = false;

@@ -12,8 +12,8 @@
 namespace steadyrest::apps::cli {
 
 /// A bar on stderr for work that takes over a second, and only on a terminal. Calls are cheap: the
-/// bar is drawn at most ten times a second. While a step of the work makes no call the seconds go
-/// on beside it, so that no work looks dead.
+/// bar is drawn at most ten times a second. While a step of the work makes no call the seconds
+/// still tick, so that no work looks dead.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;
@@ -27,10 +27,10 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// `share` of the work that is done, 0 … 1; `what` is being done.
+  /// `share` of the work done, 0 … 1; `what` is being done.
   void update(double share, std::string_view what) { update_at(Clock::now(), share, what); }
   void update_at(Clock::time_point now, double share, std::string_view what);
-  /// Draws the seconds where nothing has been drawn for one.
+  /// Draws the seconds if nothing has been drawn for one.
   void tick_at(Clock::time_point now);
   /// Removes the bar from the screen until the next update.
   void clear();

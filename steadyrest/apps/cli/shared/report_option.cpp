@@ -6,8 +6,8 @@
 
 #include <steadyrest/apps/cli/shared/report_option.hpp>
 
-// The page is handed to the session and not written here, since date, command and hashes belong to
-// the whole run.
+// The session writes the page, not this file, since date, command and hashes belong to the whole
+// run.
 namespace steadyrest::apps::cli {
 
 std::string add_report(Answer& answer, const std::string& directory, page::Json page) {

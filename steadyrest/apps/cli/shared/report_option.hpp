@@ -8,10 +8,10 @@
 /// `--report DIR`.
 namespace steadyrest::apps::cli {
 
-/// Hands the page to the session, which writes it into `directory`, and says in the answer where it
-/// will be.
+/// Hands the page to the session, which writes it into `directory`, and states its place in the
+/// answer.
 void put_report(Answer& answer, const std::string& directory, page::Json page);
-/// The same for a report beside the main one: in the answer's text alone; gives its name.
+/// The same for an additional report: only in the answer's text; returns its name.
 std::string add_report(Answer& answer, const std::string& directory, page::Json page);
 
 }  // namespace steadyrest::apps::cli

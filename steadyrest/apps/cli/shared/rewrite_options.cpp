@@ -16,7 +16,7 @@
 #include <steadyrest/passport/keys/schema.hpp>
 
 // What `program compensate` and `program verify` share: how corrections reach this control, and the
-// mark by which a changed program tells how it was made.
+// mark in a changed program that records how it was made.
 namespace steadyrest::apps::cli {
 
 using nc::rewrite::Method;
@@ -31,7 +31,7 @@ std::string machine_path(const RewriteOptions& options, const nc::rewrite::Plan&
   return (std::filesystem::path(options.plan).parent_path() / plan.machine).string();
 }
 
-// The command line says more than the machine file.
+// The command line takes precedence over the machine file.
 Method method_of(const RewriteOptions& options, const kernel::machine::Compensation& compensation) {
   if (options.r_parameter != kNoParameter) {
     return Method::r_parameter;
@@ -41,8 +41,8 @@ Method method_of(const RewriteOptions& options, const kernel::machine::Compensat
                                       : compensation.method;
 }
 
-/// LinuxCNC's G10 L20 and Fanuc's G10 L2 P0 are what "by dialect" means; a SINUMERIK has no
-/// default and stays `by_dialect`, which way_of() refuses.
+/// "By dialect" means LinuxCNC's G10 L20 and Fanuc's G10 L2 P0; a SINUMERIK has no default and
+/// stays `by_dialect`, which way_of() refuses.
 Method written(Method method, kernel::machine::Dialect dialect) {
   if (method != Method::by_dialect) {
     return method;
@@ -60,15 +60,15 @@ Method written(Method method, kernel::machine::Dialect dialect) {
 
 }  // namespace
 
-/// The way in which a correction reaches the control: method, store, sign, increment. Every
-/// combination that a control does not have is refused here, because in the program it would look
-/// right and do nothing.
+/// The way a correction reaches the control: method, store, sign, increment. Every combination that
+/// a control does not have is refused here, because in the program it would look right and do
+/// nothing.
 std::expected<nc::rewrite::Way, Refusals> way_of(const RewriteOptions& options,
                                                  const kernel::machine::Machine& machine,
                                                  nc::read::Dialect program) {
   using Dialect = kernel::machine::Dialect;
   const kernel::machine::Compensation& compensation = machine.compensation;
-  // An option of another control is a misunderstanding, so it is refused and not ignored.
+  // An option for another control is a misunderstanding, so it is refused and not ignored.
   if (options.r_parameter != kNoParameter && program != nc::read::Dialect::sinumerik) {
     return refused(bad_input(
         fmt::format("--r-parameter with a program of dialect {}", nc::read::name(program)),
@@ -82,7 +82,7 @@ std::expected<nc::rewrite::Way, Refusals> way_of(const RewriteOptions& options,
                              "leave it out, or choose --dialect fanuc"));
   }
   const Method method = method_of(options, compensation);
-  // The method of the machine file must exist on the control that the program is read for.
+  // The machine file's method must exist on the control that the program is read for.
   const Dialect needed = passport::dialect_of(method, program);
   if (needed != program) {
     return refused(bad_input(
@@ -117,14 +117,14 @@ namespace {
 
 using nc::rewrite::Told;
 
-/// What a mark in the program records: everything that changes the result but the files that
+/// What a mark in the program records: everything that changes the result except the files that
 /// `verify` is given anyway.
 constexpr std::array kTold = {"dialect",      "control",        "r-parameter", "window-s",
                               "tools",        "variables",      "data-units",  "subprograms",
                               "block-delete", "least-increment"};
 
-/// Was the option given, and with which values? Defaults do not count as given. A flag has no value
-/// and gives one empty string.
+/// Whether the option was given, and its values. Defaults do not count as given. A flag has no
+/// value and gives one empty string.
 std::vector<std::string> given(const RewriteOptions& options, std::string_view name) {
   const CLI::Option* option = options.verb->get_option_no_throw("--" + std::string(name));
   if (option == nullptr || option->count() == 0) {
@@ -139,8 +139,8 @@ std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options
   std::vector<Told> told;
   for (const std::string name : kTold) {
     std::vector<std::string> values = given(options, name);
-    // Dialect and window are recorded even when they come from the machine file or the default, for
-    // these may change later.
+    // Dialect and window are recorded even when they come from the machine file or the default,
+    // since these may change later.
     if (values.empty() && name == "dialect") {
       values = {std::string(nc::read::name(dialect))};
     } else if (values.empty() && name == "window-s") {
@@ -200,7 +200,7 @@ void set(RewriteOptions& options, const Told& one) {
 
 }  // namespace
 
-/// The mark of the changed program supplies what the command line leaves out. What both say must
+/// The changed program's mark supplies what the command line omits. Where both are given they must
 /// agree: a proof under other settings would prove nothing about this program.
 std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                        const std::string& changed,
@@ -291,7 +291,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   if (!plan) {
     return refused(plan.error());
   }
-  // Plan, then machine, then program settings, then the way: each needs the one before.
+  // Plan, then machine, then program settings, then the method: each needs the previous one.
   task.plan = std::move(*plan);
   const std::string path = machine_path(options, task.plan);
   if (path.empty()) {
@@ -322,7 +322,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
     return std::unexpected(told.error());
   }
   task.settings.told = std::move(*told);
-  // No correction goes beyond the envelope's clamp, in a program as little as on line.
+  // No correction exceeds the envelope's clamp, in a program as on line.
   task.settings.clamp_mm = task.machine.envelope.max_offset_mm;
   task.settings.progress = [&progress](double share, std::string_view what) {
     progress.update(share, what);

@@ -17,15 +17,15 @@ namespace steadyrest::apps::cli {
 
 inline constexpr int kNoParameter = -1;
 
-/// What `program compensate` and `program verify` are told beside their files.
+/// Options of `program compensate` and `program verify`, apart from their files.
 struct RewriteOptions {
   ProgramOptions program;
   std::string plan;
-  std::string machine;  ///< empty: the one that the plan names
+  std::string machine;  ///< empty: the one named by the plan
   std::string control;
   int r_parameter = kNoParameter;
   double window_s = 60.0;
-  const CLI::App* verb = nullptr;  ///< which of them were given
+  const CLI::App* verb = nullptr;  ///< tells which options were given
 };
 
 /// Everything read.
@@ -36,8 +36,8 @@ struct RewriteTask {
   nc::rewrite::Settings settings;
 };
 
-/// How corrections are written into programs of this dialect: as the command line says, else as the
-/// machine file does.
+/// How corrections are written into programs of this dialect: by the command line, else by the
+/// machine file.
 [[nodiscard]] std::expected<nc::rewrite::Way, Refusals> way_of(
     const RewriteOptions& options, const kernel::machine::Machine& machine,
     nc::read::Dialect program);
@@ -45,12 +45,11 @@ struct RewriteTask {
 /// The machine file, which the plan may name.
 [[nodiscard]] std::vector<std::string> files_of(const RewriteOptions& options);
 
-/// Adds all but the programs' own names.
+/// Adds everything except the programs' own names.
 void add_rewrite_options(Verb& verb, RewriteOptions& options);
 [[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                                      Progress& progress);
-/// For a program that is changed already: what its mark says need not be given, and what is given
-/// must not say otherwise.
+/// For a changed program: its mark supplies what is not given, and must not contradict what is.
 [[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                                      const std::string& changed,
                                                                      Progress& progress);

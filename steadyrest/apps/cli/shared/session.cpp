@@ -11,8 +11,8 @@
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/temporary.hpp>
 
-// One place for what every verb does alike: parsing, checking files, provenance, running, putting
-// all outputs in place together, printing, exit code.
+// One place for everything that all verbs do alike: parsing, checking files, provenance, running,
+// putting all outputs in place together, printing, exit code.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -37,7 +37,7 @@ Json as_json(const Refusals& refusals) {
   return list;
 }
 
-/// 2 as soon as one refusal is about the input; a full disk alone is 1.
+/// 2 if any refusal concerns the input; a full disk alone is 1.
 int exit_code_of(const Refusals& refusals) {
   for (const Refusal& refusal : refusals) {
     if (refusal.kind == Kind::bad_input) {
@@ -120,7 +120,7 @@ void Session::on(Verb& verb, Run run) {
 /// fprintf, because fmt may be what threw.
 int Session::main(int argc, const char* const* argv) noexcept {
   try {
-    // Ctrl-C must not leave temporary files beside the targets.
+    // Ctrl-C must not leave temporary files next to the targets.
     kernel::file::remove_temporaries_on_signals();
     return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
@@ -156,8 +156,7 @@ int Session::usage(const CLI::ParseError& error) const {
   return kRefused;
 }
 
-/// Pages are written last, with how they were made. A page alone (--page) has no data file beside
-/// it.
+/// Pages are written last, with their provenance. A single page (--page) has no data file.
 Result<void> Session::write_pages(const std::vector<Page>& pages,
                                   const page::Provenance& provenance) const {
   for (const Page& page : pages) {
@@ -176,16 +175,15 @@ Result<void> Session::write_pages(const std::vector<Page>& pages,
 }
 
 Outcome Session::work() const {
-  // Outputs are judged before the work: an hour of computing must not end at a folder that does not
-  // exist.
+  // Outputs are checked before the work: an hour of computing must not end at a missing folder.
   const auto ready = chosen_->ready(json_);
   if (!ready) {
     return std::unexpected(ready.error());
   }
-  // From here on commit() keeps each finished file beside its target. The last step renames all of
-  // them or none, so a run that fails halfway leaves the old results whole.
+  // From here on commit() keeps each finished file next to its target. The last step renames all of
+  // them or none, so a run that fails half-way leaves the old results intact.
   kernel::file::declare_outputs(ready->outputs);
-  // Hashes are of the inputs as they were read, not as they are after the work.
+  // Hashes are those of the inputs as read, not as they are after the work.
   const page::Provenance provenance = chosen_->provenance(command_);  // before the work
   Progress progress;
   Outcome outcome = run_(progress);

@@ -34,8 +34,8 @@ struct Page {
   page::Json data;
 };
 
-/// What a verb hands back. A verb that has something to show although parts were refused fills
-/// `refusals` and sets `exit_code` itself.
+/// A verb's result. A verb with something to show despite refusals fills `refusals` and sets
+/// `exit_code` itself.
 struct Answer {
   Json json = Json::object();  ///< the one object of --json
   std::string text;            ///< for people; ends with a newline
@@ -48,7 +48,7 @@ using Outcome = std::expected<Answer, Refusals>;
 /// The verb's work. Progress goes through `progress`; nothing else may print.
 using Run = std::function<Outcome(Progress& progress)>;
 
-/// One refusal as the error of an Outcome, or of whatever else may have several.
+/// One refusal as the error of an Outcome, or of anything else that may have several.
 [[nodiscard]] std::unexpected<Refusals> refused(Refusal refusal);
 
 /// Holds the verb tree, parses the command line, runs the chosen verb and prints its answer.
@@ -56,7 +56,7 @@ class Session {
  public:
   Session();
 
-  /// A word that only leads to verbs: `steadyrest contour …`. Before its verbs.
+  /// A word that only leads to verbs: `steadyrest contour …`. Call before adding its verbs.
   void group(const std::string& name, const std::string& description);
   /// A verb by its path: `cut`, or `contour limit`. --help ends with the path and each of the
   /// `examples`; they must work as written in the project's folder.
@@ -67,7 +67,7 @@ class Session {
   /// --json was given: stdout belongs to the answer's one object.
   [[nodiscard]] bool json() const noexcept { return json_; }
 
-  /// Parses, runs, prints; gives the exit code. Nothing throws.
+  /// Parses, runs, prints; returns the exit code. Nothing throws.
   int main(int argc, const char* const* argv) noexcept;
 
  private:

@@ -13,7 +13,7 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/outcome/nearest.hpp>
 
-// CLI11 says what its parser missed. A user wants to know which word was wrong and what was
+// CLI11 reports what its parser missed. A user wants to know which word was wrong and what was
 // probably meant; this file finds that out.
 namespace steadyrest::apps::cli {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
-/// A word that is known, and what to write for it.
+/// A known word, and what to write for it.
 struct Known {
   std::string word;
   std::string written;
@@ -31,8 +31,8 @@ std::vector<const CLI::App*> below(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* /*any*/) { return true; });
 }
 
-/// The verbs here; then those one word deeper, which may have been given without their group:
-/// `steadyrest lobes` suggests `chatter lobes`.
+/// The verbs at this level; then those one word deeper, which may have been given without their
+/// group: `steadyrest lobes` suggests `chatter lobes`.
 std::vector<Known> verbs_of(const CLI::App& app) {
   std::vector<Known> out;
   for (const CLI::App* verb : below(app)) {
@@ -56,7 +56,7 @@ std::vector<Known> options_of(const CLI::App& app) {
   return out;
 }
 
-/// Nothing where no known word is near: a far-fetched guess is worse than none.
+/// Empty if no known word is near: a far-fetched guess is worse than none.
 std::string did_you_mean(std::string_view word, const std::vector<Known>& known) {
   std::vector<std::string_view> words;
   words.reserve(known.size());
@@ -79,8 +79,8 @@ std::pair<const CLI::App*, std::string> reached(const CLI::App& root) {
   return {at, path};
 }
 
-/// CLI11's sentence about an option or its value, in ours. A sentence that none of the patterns
-/// knows stays as it is.
+/// CLI11's sentence about an option or its value, in our words. A sentence that matches no pattern
+/// stays as it is.
 std::string plain(const std::string& sentence) {
   static const std::regex kConvert(R"(Could not convert: (\S+) = (.*))");
   static const std::regex kMissing(R"((\S+): \d+ required .* missing)");
@@ -105,14 +105,13 @@ std::string plain(const std::string& sentence) {
 
 }  // namespace
 
-/// From the most telling to the least: an unknown option, an unknown verb, a word too many, and
-/// else what CLI11 says.
+/// From the most to the least informative: an unknown option, an unknown verb, an extra word, else
+/// CLI11's own message.
 Refusal usage_refusal(const CLI::App& root, const CLI::ParseError& error) {
   const auto [at, path] = reached(root);
   const std::string help = fmt::format("see {} --help", path);
-  // A word that is not understood is the reason why another is missing.
   // CLI11 reports the missing word first, although it is missing because another was misspelt. The
-  // unknown word is the cause, so it is looked for in both cases.
+  // unknown word is the cause, so it is searched for in both cases.
   const bool leftover = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
                         dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   const std::vector<std::string> words =

@@ -76,8 +76,8 @@ void check_value(CLI::Option& option) {
 }
 
 CLI::Validator within(double least, double most) {
-  // Blank for CLI11 means valid. What is no number at all is the business of check_value(), which
-  // runs first.
+  // Empty means valid to CLI11. check_value(), which runs first, deals with anything that is not a
+  // number.
   return {[least, most](const std::string& given) {
             double value = 0.0;
             return read(given, value) == std::errc{} && value >= least && value <= most

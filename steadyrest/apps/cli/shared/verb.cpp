@@ -13,8 +13,8 @@
 #include <steadyrest/apps/cli/shared/verb.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
-// A verb declares which options name inputs and outputs. All questions about files are then
-// answered in one place, for all outputs at once, before the work starts.
+// A verb declares which options name inputs and outputs. All file checks then happen in one place,
+// for all outputs at once, before the work starts.
 namespace steadyrest::apps::cli {
 namespace {
 
@@ -24,7 +24,7 @@ using kernel::outcome::Refusal;
 
 constexpr std::string_view kNoDate = "none";
 
-/// The file itself; of a folder the files in it, sorted, so that provenance does not depend on the
+/// The file itself; for a folder the files in it, sorted, so that provenance does not depend on the
 /// order of the directory.
 std::vector<std::string> files_in(const std::string& path) {
   std::error_code error;
@@ -41,7 +41,7 @@ std::vector<std::string> files_in(const std::string& path) {
   return out;
 }
 
-/// How the refusal calls the input: by its option, or as the positional argument it is.
+/// The input's name in the refusal: its option, or its positional argument.
 std::string role_of(const CLI::Option& option) {
   return option.get_positional() && option.get_lnames().empty()
              ? (option.get_name() == "FILE" ? "the input file itself"
@@ -49,7 +49,7 @@ std::string role_of(const CLI::Option& option) {
              : "the file of " + option.get_name() + " itself";
 }
 
-/// What is there: 8 MB of it are enough to tell its kind, and a huge file is not read whole.
+/// The existing content: 8 MB are enough to tell its kind, and a huge file is not read whole.
 std::string text_of(const std::filesystem::path& file) {
   constexpr std::size_t kMost = std::size_t{8} << 20U;
   std::ifstream in(file, std::ios::binary);
@@ -125,7 +125,7 @@ std::vector<PlannedFile> report_files(const std::string& folder) {
           {(in / "report.json").string(), page_data_content()}};
 }
 
-/// One option may lead to several files, which `files` lists.
+/// One option may name several files, which `files` lists.
 CLI::Option* Verb::add_output(const std::string& flags, std::string& path,
                               const std::string& description, Files files, bool folder) {
   CLI::Option* const option =
@@ -228,13 +228,13 @@ std::vector<Input> Verb::inputs() const {
   return out;
 }
 
-/// All files that the given options will make.
+/// All files that the given options will produce.
 std::expected<std::vector<PlannedFile>, Refusals> Verb::plan(Ready& ready) const {
   std::vector<PlannedFile> out;
   for (const Output& output : outputs_) {
     for (const std::string& given : output.option->results()) {
       for (PlannedFile& file : output.files(given)) {
-        // The folder is made now, so that a report cannot fail after the work for want of one.
+        // The folder is made now, so that a report cannot fail after the work for lack of one.
         // `ready` removes it again if the verb is refused.
         if (output.folder) {
           auto made =
@@ -252,7 +252,7 @@ std::expected<std::vector<PlannedFile>, Refusals> Verb::plan(Ready& ready) const
 }
 
 /// Empty names, planned files, then each file against inputs, other outputs and what it would
-/// replace. All faults are told at once.
+/// replace. All faults are reported at once.
 std::expected<Ready, Refusals> Verb::ready(bool json) const {
   Refusals refusals = empty_names();
   if (!refusals.empty()) {
@@ -274,7 +274,7 @@ std::expected<Ready, Refusals> Verb::ready(bool json) const {
     out.takes_stdout |= place && place->kind == Place::Kind::standard_output;
   }
   if (out.takes_stdout && json) {
-    // stdout belongs to one of the two.
+    // stdout can belong to only one of the two.
     refusals.push_back(bad_input("an output goes to stdout, where --json prints its object",
                                  "name a file for the output, or leave out --json"));
   }

@@ -34,15 +34,15 @@ struct Input {
 /// What is known before the work.
 struct Ready {
   std::vector<std::string> outputs;
-  std::vector<kernel::file::MadeFolders> folders;  ///< of reports; an empty one goes again
-  bool takes_stdout = false;                       ///< an output is where stdout leads
+  std::vector<kernel::file::MadeFolders> folders;  ///< of reports; an empty one is removed again
+  bool takes_stdout = false;                       ///< an output is the same file as stdout
 };
 
-/// A verb with the files that it reads and writes, so that one place judges them before the work.
+/// A verb with the files that it reads and writes, so that one place checks them before the work.
 ///
 /// Refused are an empty name; an output that cannot be written; two outputs that are one file; an
-/// output on stdout beside --json; and without --force an output that is an input, or that replaces
-/// a file of another kind.
+/// output on stdout together with --json; and without --force an output that is an input, or that
+/// replaces a file of another kind.
 class Verb : public CLI::App {
  public:
   using Files = std::function<std::vector<PlannedFile>(const std::string& given)>;
@@ -66,7 +66,7 @@ class Verb : public CLI::App {
     inputs_.push_back(option->type_name("FILE"));
     return option;
   }
-  /// Files that an input names; asked before the work.
+  /// Files that an input names; requested before the work.
   void also_reads(std::function<std::vector<std::string>()> files) {
     named_.push_back(std::move(files));
   }
@@ -76,12 +76,12 @@ class Verb : public CLI::App {
   /// The same for an option that leads to several files.
   CLI::Option* writes(const std::string& flags, std::string& path, const std::string& description,
                       Files files);
-  /// An option for a page alone.
+  /// An option for a single page.
   void writes_page(const std::string& flags, std::string& path, const std::string& description);
   /// --report DIR for report.html and report.json, or what `files` says.
   void reports(std::string& folder, Files files = {});
 
-  /// How the reports that are asked for are made; empty where none is.
+  /// How the requested reports are made; empty if there are none.
   [[nodiscard]] page::Provenance provenance(const std::string& command) const;
 
   [[nodiscard]] bool has_outputs() const noexcept { return !outputs_.empty(); }
@@ -99,7 +99,7 @@ class Verb : public CLI::App {
   void dates_last_output();
   [[nodiscard]] Refusals empty_names() const;
   [[nodiscard]] std::vector<Input> inputs() const;
-  /// What is to be written; makes the folders of reports.
+  /// The files to be written; makes the folders of reports.
   [[nodiscard]] std::expected<std::vector<PlannedFile>, Refusals> plan(Ready& ready) const;
 
   std::vector<CLI::Option*> inputs_;
@@ -109,7 +109,7 @@ class Verb : public CLI::App {
   bool force_ = false;
 };
 
-/// Where a table goes: to its file; without one to stdout, unless that belongs to the JSON object.
+/// Where a table goes: to its file, else to stdout, unless that belongs to the JSON object.
 [[nodiscard]] kernel::outcome::Result<kernel::file::OutputFile> table_output(
     const std::string& output, bool json);
 

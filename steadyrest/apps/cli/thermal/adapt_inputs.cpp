@@ -27,8 +27,8 @@ Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passpo
   }
   const ThermalLevel out{static_cast<std::uint32_t>(number),
                          passport.share[static_cast<std::size_t>(number)]};
-  // k is part of what the parts were made with. Measured against another k they would move the
-  // level for the wrong reason.
+  // The parts were made with k. Measured against another k they would move the level for the wrong
+  // reason.
   if (plan.share && std::abs(*plan.share - out.share) > 1e-9) {
     return refuse(plan.plan.file,
                   fmt::format("the plan's k = {} differs from the machine file's {} for level {}",
@@ -38,8 +38,8 @@ Result<ThermalLevel> level_of(const ThermalPlanFile& plan, const Thermal& passpo
   return out;
 }
 
-/// The cyclogram or program that the plan was made for, needed for the gains. Without it the level
-/// alone can be learnt.
+/// The cyclogram or program that the plan was made for, needed for the gains. Without it only the
+/// level can be learnt.
 Result<std::optional<ThermalJob>> work_of(const AdaptOptions& options,
                                           const ThermalPlanFile& plan) {
   ThermalOptions what = options.thermal;

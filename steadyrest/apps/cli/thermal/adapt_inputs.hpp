@@ -14,13 +14,13 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/thermal/offline/log/measured.hpp>
 
-/// What `thermal adapt` reads: a plan, its machine and work, and the parts that were measured.
+/// The inputs of `thermal adapt`: a plan, its machine and work, and the measured parts.
 namespace steadyrest::apps::cli {
 
 struct AdaptOptions {
   std::string plan;
   std::string measured;
-  ThermalOptions thermal;  ///< where the plan does not name its machine and work
+  ThermalOptions thermal;  ///< if the plan does not name its machine and work
   std::string output;
   double tolerance_um = 0.0;
   double noise_um = 0.0;
@@ -37,10 +37,10 @@ struct AdaptInputs {
   ThermalPlanFile plan;
   std::string machine;  ///< the file
   kernel::machine::Thermal passport;
-  ThermalLevel level;              ///< that the plan was made for
-  std::optional<ThermalJob> work;  ///< none where nobody names it
+  ThermalLevel level;              ///< of the plan
+  std::optional<ThermalJob> work;  ///< empty if nothing names it
   std::vector<thermal::offline::Measured> rows;
-  std::vector<PlacedPart> parts;  ///< they point into `rows`: to be moved, not copied
+  std::vector<PlacedPart> parts;  ///< they point into `rows`: move, do not copy
 
   AdaptInputs() = default;
   AdaptInputs(AdaptInputs&&) = default;
@@ -50,7 +50,7 @@ struct AdaptInputs {
   ~AdaptInputs() = default;
 };
 
-/// Refused where a file is not fit, or where the machine file or the work is not the plan's.
+/// Refused: an unfit file, or a machine file or work that is not the plan's.
 [[nodiscard]] kernel::outcome::Result<AdaptInputs> read_adapt_inputs(AdaptOptions options);
 
 }  // namespace steadyrest::apps::cli

@@ -12,7 +12,7 @@ namespace {
 using kernel::outcome::refuse;
 using thermal::offline::Log;
 
-/// What the column of an axis is called without its unit: Z for z_um, ch1 for ch1_um.
+/// The column name of an axis without its unit: Z for z_um, ch1 for ch1_um.
 std::string axis_of(const std::string& column) {
   const bool unit = column.size() > 3 && (column.ends_with("_um") || column.ends_with("_mm"));
   std::string name = unit ? column.substr(0, column.size() - 3) : column;
@@ -31,7 +31,7 @@ bool is_of_a_name(char c) {
 
 }  // namespace
 
-/// Which columns are fitted, and what their axes are called in the passport.
+/// Which columns are fitted, and the names of their axes in the passport.
 kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>& wanted,
                                                   const Log& log) {
   FitChannels out;
@@ -57,7 +57,8 @@ kernel::outcome::Result<FitChannels> fit_channels(const std::vector<std::string>
   for (std::size_t i = 0; i < log.displacement.size() && wanted.empty(); ++i) {
     out.emplace_back(i, axis_of(log.displacement[i].name));
   }
-  // Two columns of one axis would overwrite each other in the passport. There are few, so pairs do.
+  // Two columns for one axis would overwrite each other in the passport. There are few, so
+  // comparing pairs will do.
   for (std::size_t i = 0; i < out.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (out[i].first == out[j].first) {

@@ -11,11 +11,11 @@
 
 namespace steadyrest::apps::cli {
 
-/// Places of the displacements in the log, and the axes that they are called.
+/// Places of the displacements in the log, and the names of their axes.
 using FitChannels = std::vector<std::pair<std::size_t, std::string>>;
 
-/// Those that `wanted` names as NAME or NAME=AXIS; all of the log where it names none. Refused are
-/// a column that the log has not, an axis with a name that no passport takes, and two of one name.
+/// Those that `wanted` names as NAME or NAME=AXIS; all in the log if it names none. Refused: a
+/// column that the log lacks, an axis name that no passport accepts, and duplicate names.
 [[nodiscard]] kernel::outcome::Result<FitChannels> fit_channels(
     const std::vector<std::string>& wanted, const thermal::offline::Log& log);
 

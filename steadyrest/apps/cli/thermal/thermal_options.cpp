@@ -79,8 +79,7 @@ Result<std::vector<std::pair<std::string, double>>> temperatures(
   return out;
 }
 
-/// The fastest speed that the axis was fitted to: its own record of it, or the last speed of a
-/// mode's table.
+/// The fastest fitted speed of the axis: its own record of it, or the last speed of a mode's table.
 Result<void> fits(const ThermalAxis& axis, const Cyclogram& cyclogram) {
   for (std::size_t i = 0; i < cyclogram.transition.size(); ++i) {
     const double speed = std::abs(cyclogram.transition[i].speed_rev_s);
@@ -119,7 +118,7 @@ Result<ThermalJob::Axis> start(const ThermalAxis& axis, const Cyclogram* before,
                                                    : std::numeric_limits<double>::quiet_NaN());
     drive.ambient_c[j] = axis.ambient[j].reference_c;
   }
-  out.model.update(0.0, drive);  // the surroundings have stood at their reference
+  out.model.update(0.0, drive);  // the surroundings have been at their reference
   if (before != nullptr) {
     for (const auto& transition : before->transition) {
       out.model.update(transition.seconds, thermal::offline::drive_of(transition));

@@ -14,14 +14,14 @@
 
 namespace steadyrest::apps::cli {
 
-/// What `thermal forecast` and `thermal plan` are told of the machine and of the work.
+/// Options of `thermal forecast` and `thermal plan` about the machine and the work.
 struct ThermalOptions {
   std::string machine;
   std::string cyclogram;
   ProgramOptions program;
   std::vector<std::string> axes;     ///< empty: all of the passport
   std::vector<std::string> ambient;  ///< SENSOR=°C
-  std::string after;                 ///< cyclogram of what was done before; empty: cold
+  std::string after;                 ///< cyclogram of the earlier work; empty: cold
 };
 
 void add_thermal_options(Verb& verb, ThermalOptions& options);
@@ -35,11 +35,11 @@ struct ThermalJob {
   kernel::machine::Thermal passport;
   thermal::offline::Cyclogram cyclogram;
   std::vector<Axis> axis;
-  std::vector<std::string> notes;  ///< what a reader of the forecast must know, a line each
+  std::vector<std::string> notes;  ///< what a reader of the forecast must know, one line each
 };
 
-/// Refused: what the files' readers refuse, an axis or a sensor that the passport has not, a speed
-/// far beyond what was fitted, and neither or both of cyclogram and program.
+/// Refused: what the files' readers refuse, an axis or a sensor that the passport lacks, a speed
+/// far beyond the fitted ones, and neither or both of cyclogram and program.
 [[nodiscard]] kernel::outcome::Result<ThermalJob> thermal_job(const ThermalOptions& options);
 
 /// The job's notes, below the answer's text and as `notes`.

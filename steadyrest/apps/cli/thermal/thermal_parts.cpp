@@ -70,7 +70,7 @@ class Placer {
   [[nodiscard]] Result<double> instant(const Measured& row) const {
     if (row.transition.empty()) {
       const double total_s = plan_.plan.total_s;
-      // A second of grace for times rounded to the minute's last digits.
+      // One second of tolerance for times rounded to the minute's last digits.
       if (row.time_s > total_s + 1.0) {
         return refuse(
             file_, row.line,
@@ -98,8 +98,7 @@ class Placer {
           file_, row.line, fmt::format("the plan has no transition {}", row.transition),
           fmt::format("write a number from 1 to {}, or a transition's name", rows.size()));
     }
-    // A part is measured when its transition is done, so the state at the end of the transition
-    // counts.
+    // A part is measured when its transition is done, so the state at the transition's end counts.
     return found->end_s - kBeforeEnd_s;
   }
 

@@ -10,7 +10,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// A measured part beside the plan.
+/// A measured part and its place in the plan.
 struct PlacedPart {
   const thermal::offline::Measured* row = nullptr;
   std::size_t axis = 0;  ///< of the plan
@@ -18,9 +18,9 @@ struct PlacedPart {
   double tolerance_mm = 0.0;
 };
 
-/// Finds each row's place in the plan; they point into `rows`. Tolerances, first that is there: the
-/// row's, `tolerance_mm`, the transition's in `work` (may be none), the plan's. Refused by line of
-/// `file`: instants behind the plan's end, transitions and axes that it has not, no tolerance.
+/// Finds each row's place in the plan; the results point into `rows`. Tolerance, first one present:
+/// the row's, `tolerance_mm`, the transition's in `work` (may be null), the plan's. Refused by line
+/// of `file`: instants after the plan's end, transitions and axes that it lacks, no tolerance.
 [[nodiscard]] kernel::outcome::Result<std::vector<PlacedPart>> place_parts(
     const ThermalPlanFile& plan, const std::vector<thermal::offline::Measured>& rows,
     const std::string& file, double tolerance_mm, const thermal::offline::Cyclogram* work);

@@ -8,8 +8,8 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
-// The plan's own keys come from the rewriter's reader. This file adds what `thermal plan` noted
-// about the making of the plan, so that `thermal adapt` need not be told again.
+// The rewriter's reader supplies the plan's own keys. This file adds what `thermal plan` noted
+// about its making, so that `thermal adapt` need not be given it again.
 namespace steadyrest::apps::cli {
 
 using kernel::outcome::refuse;
@@ -34,7 +34,7 @@ std::string beside(const std::string& plan, const std::string& named) {
 Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
   auto plan = nc::rewrite::read_plan(path);
   const auto text = passport::read_text(path);
-  if (!text) {  // a wrong path is the caller's mistake, whatever keeps it from being read
+  if (!text) {  // a wrong path is the caller's mistake, whatever the reason
     return refuse(path, text.error().what,
                   "give the path of a plan (JSON): thermal plan -o writes it");
   }

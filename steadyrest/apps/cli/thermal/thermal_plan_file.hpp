@@ -10,7 +10,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// PLAN.json with what `thermal plan` wrote about its making. Paths stand as they can be opened.
+/// PLAN.json with the notes of `thermal plan` about its making. Paths are ready to be opened.
 struct ThermalPlanFile {
   struct Transition {
     std::string name;
@@ -22,17 +22,17 @@ struct ThermalPlanFile {
   std::string program;
   std::optional<double> level;
   std::optional<double> share;
-  double tolerance_um = 0.0;           ///< 0: the plan does not say
+  double tolerance_um = 0.0;           ///< 0: not in the plan
   std::vector<Transition> transition;  ///< of its first axis
 };
 
 /// Refused: what nc::rewrite::read_plan() refuses, and notes of another type.
 [[nodiscard]] kernel::outcome::Result<ThermalPlanFile> read_thermal_plan(const std::string& path);
 
-/// The files that a plan names; none where it cannot be read.
+/// The files named by a plan; none if it cannot be read.
 [[nodiscard]] std::vector<std::string> files_of(const std::string& plan);
 
-/// What stands corrected in an axis from `time_s` on.
+/// The correction in force in an axis from `time_s` on.
 [[nodiscard]] double corrected_um(const nc::rewrite::AxisPlan& axis, double time_s);
 
 }  // namespace steadyrest::apps::cli

@@ -34,9 +34,9 @@ struct AxisReplay {
   offline::ReplayScore score;
 };
 
-/// The log column of an axis: as --channel names it, else called like the axis, else z_um or z_mm
-/// for Z. A wrong --channel is refused; a log without the axis is not, since a forecast needs no
-/// readings.
+/// The log column of an axis: as named by --channel, else the one named like the axis, else z_um or
+/// z_mm for Z. A wrong --channel is refused; a log without the axis is not, since a forecast needs
+/// no readings.
 Result<std::optional<std::size_t>> channel_of(const std::string& axis, const offline::Log& log,
                                               const std::vector<std::string>& given) {
   std::string name = axis;
@@ -171,7 +171,7 @@ Result<AxisReplay> replay_axis(const ThermalReplayOptions& options, const Therma
   return AxisReplay{axis.name, axis.noise_mm, std::move(*points), worth};
 }
 
-/// The axes that were asked for, or all of the passport.
+/// The requested axes, or all in the passport.
 Result<std::vector<AxisReplay>> replay_axes(const ThermalReplayOptions& options,
                                             const Thermal& passport, const offline::Log& log) {
   std::vector<AxisReplay> out;

@@ -10,7 +10,7 @@
 
 namespace steadyrest::apps::cli {
 
-/// `thermal forecast --log`: a passport set against recorded inputs.
+/// `thermal forecast --log`: a passport compared with recorded inputs.
 struct ThermalReplayOptions {
   std::string machine;
   std::string log;
@@ -18,7 +18,7 @@ struct ThermalReplayOptions {
   std::string output;
   std::string report;                 ///< folder of the page; empty: none
   std::vector<std::string> axes;      ///< empty: all of the passport
-  std::vector<std::string> channels;  ///< NAME=AXIS, where a column is not called as the axis
+  std::vector<std::string> channels;  ///< NAME=AXIS, for a column not named like its axis
   std::optional<double> from_min;
   double rezero_min = 0.0;
   double step_s = 60.0;  ///< from row to row of the output

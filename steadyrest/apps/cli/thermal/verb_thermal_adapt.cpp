@@ -107,8 +107,8 @@ std::vector<bool> outliers(const std::vector<Learnt>& learnt, std::size_t parts)
   return out;
 }
 
-/// The passport with the new level, and with new gains where the model fits and enough parts speak
-/// for them. Otherwise old gains stay: a wrong gain is worse than a slightly stale one.
+/// The passport with the new level, and with new gains if the model fits and enough parts support
+/// them. Otherwise the old gains stay: a wrong gain is worse than a slightly stale one.
 Thermal adapted(Thermal passport, std::uint32_t level, const std::vector<Learnt>& learnt) {
   passport.level = level;
   for (auto& axis : passport.axis) {
@@ -135,7 +135,7 @@ Result<void> write(const AdaptOptions& options, const std::string& machine,
   return kernel::file::write_file(options.output, *with);
 }
 
-/// `gains_kept`: the passport's gains stay, because the parts are too few or the model does not
+/// `gains_kept`: the passport's gains stay, because there are too few parts or the model does not
 /// fit.
 Json axes_json(const std::vector<Learnt>& learnt) {
   Json out = Json::array();
@@ -235,7 +235,7 @@ thermal::offline::LevelChoice choose_level(const AdaptOptions& options, const Ad
   return thermal::offline::next_level(in.passport.share, in.level.number, errors, rule);
 }
 
-/// Gains first, for they decide which parts are outliers; then the level from the rest.
+/// Gains first, since they decide which parts are outliers; then the level from the rest.
 Outcome run(const AdaptOptions& options) {
   const auto read = read_adapt_inputs(options);
   if (!read) {
@@ -294,8 +294,8 @@ void add_verb_thermal_adapt(Session& session, Verb& verb) {
              "Cyclogram of the plan; default: the one the plan names");
   verb.reads("--program", options->thermal.program.file,
              "NC program of the plan; default: the one the plan names");
-  // Temperatures and earlier work must be those of the plan, or the forecast is not the one that
-  // the parts were corrected by.
+  // Temperatures and earlier work must be the plan's, or this is not the forecast that corrected
+  // the parts.
   verb.add_option("--ambient", options->thermal.ambient,
                   "SENSOR=temperature in °C during the work, as for the plan");
   verb.reads("--after", options->thermal.after, "Cyclogram of earlier work, as for the plan");

@@ -24,7 +24,7 @@
 #include <steadyrest/thermal/offline/fit/shared_tau.hpp>
 
 // A test log in, a passport out: the modes of each axis, the temperatures that move it, and how far
-// to trust them on hours that the fit has not seen.
+// to trust them for hours that the fit has not seen.
 namespace steadyrest::apps::cli {
 namespace thermal_fit {
 namespace {
@@ -174,7 +174,7 @@ void put_warnings(Answer& answer, const std::vector<offline::AxisFit>& fits) {
   }
 }
 
-/// The overall RMS weighs all axes alike.
+/// The overall RMS weights all axes equally.
 Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared,
                  const offline::Log& log) {
   Answer answer;
@@ -217,7 +217,7 @@ Answer answer_of(const std::vector<offline::AxisFit>& fits, const Groups& shared
   return answer;
 }
 
-/// Everything that may be refused about files and names, before minutes of fitting.
+/// Every possible refusal of files and names, before minutes of fitting.
 struct Job {
   offline::Log log;
   FitChannels channels;
@@ -314,8 +314,8 @@ Outcome run(const Options& options, Progress& progress) {
     fits.push_back(std::move(*fit));
   }
   Groups shared;
-  // Time constants that come from a longer test are known better than from this log, so they are
-  // not pooled again.
+  // Time constants from a longer test are better known than from this log, so they are not pooled
+  // again.
   if (options.tau_from.empty() && !options.own_tau) {
     std::vector<std::size_t> columns;
     for (const auto& [channel, name] : job->channels) {

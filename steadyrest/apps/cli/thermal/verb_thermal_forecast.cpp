@@ -28,7 +28,7 @@ using kernel::units::rpm_from_rev_s;
 using kernel::units::um_from_mm;
 using thermal::offline::ForecastPoint;
 
-/// Rows that memory and a spreadsheet can still hold.
+/// As many rows as memory and a spreadsheet can hold.
 constexpr double kMostRows = 2e6;
 
 struct Options {
@@ -45,7 +45,7 @@ struct AxisForecast {
   thermal::offline::Curve::Extreme most;
 };
 
-/// Written from a cyclogram or from a log; the one may replace the other without --force.
+/// Written from a cyclogram or from a log; either may replace the other without --force.
 Content curve_content() {
   return {"the curve of a forecast (CSV)", [](std::string_view text) {
             const std::string_view head = text.substr(0, text.find('\n'));
@@ -92,8 +92,7 @@ void put(Answer& answer, Table& table, const AxisForecast& axis) {
              fmt::format("±{:.2f}", thermal::offline::kBand * um_from_mm(end.sd_mm))});
 }
 
-/// --log is a replay of recorded inputs; the two ways share their options as far as they mean the
-/// same.
+/// --log is a replay of recorded inputs; both ways share the options that mean the same.
 Outcome run_log(const Options& options) {
   // A log has its own speeds and temperatures; a second source would contradict it.
   if (!options.thermal.cyclogram.empty() || !options.thermal.program.file.empty() ||

@@ -41,7 +41,7 @@ struct Options {
   double resolution_min = -1.0;
 };
 
-/// Seven digits of a minute are 6 µs: what lies behind them is binary rounding, and it goes.
+/// Seven digits of a minute are 6 µs: anything beyond them is binary rounding and is dropped.
 double seven_digits(double minutes) {
   return std::round(minutes * 1e7) * 1e-7;
 }
@@ -101,7 +101,7 @@ std::string system_text(const AxisCorrections& axis) {
 }
 
 /// Displacement counts from the start of the work, because the part's zero is touched off there. A
-/// machine that is warm already (--after) starts at 0 all the same.
+/// machine that is already warm (--after) also starts at 0.
 thermal::offline::Curve from_start(thermal::offline::Curve curve) {
   const double zero_mm = curve.at(0.0);
   for (auto& piece : curve.piece) {
@@ -192,12 +192,12 @@ void show(Answer& answer, const Planned& planned, double share) {
   Table table({"axis", "without um", "with um", "without / band", "corrections", "95 %"});
   for (std::size_t i = 0; i < planned.axis.size(); ++i) {
     const AxisCorrections& axis = planned.axis[i];
-    // As the paper counts: the largest displacement over the band that it is held to.
+    // As the paper counts: the largest displacement over its band.
     double band_mm = 0.0;
     for (const PlannedTransition& row : axis.transition) {
       band_mm = std::max(band_mm, share * row.tolerance_mm);
     }
-    // Below 1 nothing had to be corrected; the ratio then says "no gain", not "made worse".
+    // Below 1 nothing needed correcting; the ratio then means "no gain", not "made worse".
     const double ratio = std::max(axis.largest_mm / band_mm, 1.0);
     answer.json["axes"].push_back({{"axis", axis.name},
                                    {"max_um", um_from_mm(axis.largest_mm)},
@@ -223,7 +223,7 @@ void show(Answer& answer, const Planned& planned, double share) {
   answer.json["transitions"] = transitions(planned.axis.front());
 }
 
-/// Rounded instants may let what is left pass the band that the plan is made for.
+/// Rounded instants may let the residual exceed the band that the plan is made for.
 void put_warnings(Answer& answer, const Planned& planned, double resolution_s) {
   answer.json["warnings"] = Json::array();
   for (const AxisCorrections& axis : planned.axis) {
@@ -263,7 +263,7 @@ Outcome run(const Options& options) {
   request.share = passport.share[level];
   request.max_offset_mm = passport.max_offset_mm;
   request.whole_band = options.whole_band;
-  // The cyclogram may ask for whole minutes, as the paper has them; --resolution-min overrides it.
+  // The cyclogram may ask for whole minutes, as in the paper; --resolution-min overrides it.
   request.resolution_s =
       options.resolution_min >= 0.0 ? 60.0 * options.resolution_min : job->cyclogram.resolution_s;
   const auto planned = plan(*job, request);

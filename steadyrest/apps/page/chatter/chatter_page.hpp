@@ -7,8 +7,8 @@
 
 /// The pages of the chatter verbs.
 ///
-/// A page is one object: `schema`, `version`, `kind`, `process`, under `answer` what the verb
-/// prints with --json, and the page's own columns. Schema: web/src/chatter/data.ts.
+/// A page is one object: `schema`, `version`, `kind`, `process`, the verb's --json output under
+/// `answer`, and the page's own columns. Schema: web/src/chatter/data.ts.
 namespace steadyrest::apps::page {
 
 /// What every page begins with.

@@ -7,8 +7,8 @@
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
-// A cut of hours in a page of a megabyte: extremes per stretch for the long view, one point per
-// revolution for the Poincaré view, the last turns in full for the shape.
+// Fits a cut of hours into a page of a megabyte: extremes per stretch for the long view, one point
+// per revolution for the Poincaré view, the last turns in full for the shape.
 namespace steadyrest::apps::page {
 namespace {
 

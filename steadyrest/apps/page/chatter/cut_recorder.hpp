@@ -11,25 +11,25 @@
 #include <steadyrest/chatter/offline/process/process.hpp>
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
-/// What the page of `chatter simulate` shows of a cut, gathered step by step in bounded memory.
+/// What the page of `chatter simulate` shows of a cut, collected step by step in bounded memory.
 namespace steadyrest::apps::page {
 
 class CutRecorder {
  public:
-  /// `seconds` > 0 and `mean_rev_s` > 0 of the cut that is to come.
+  /// `seconds` > 0 and `mean_rev_s` > 0 of the cut to come.
   CutRecorder(double seconds, double mean_rev_s);
 
   void add(const trial::vibration::Moment& now);
 
-  /// x, y in µm and |F| in N: the extremes within even stretches of the time, at most 3000: of a
-  /// short cut they show each vibration, of a long one its size.
+  /// x, y in µm and |F| in N: the extremes within even stretches of time, at most 3000. They show
+  /// each vibration of a short cut and the size of a long one's.
   struct Envelope {
     std::vector<double> t_s;
     std::array<std::vector<double>, 3> low;
     std::array<std::vector<double>, 3> high;
   };
-  /// One value whenever the spindle has turned whole: x, y in µm. Of more than 4000 turns every
-  /// second, third … is kept.
+  /// One value per full turn of the spindle: x, y in µm. Beyond 4000 turns only every second, third
+  /// … is kept.
   struct Turns {
     std::vector<double> t_s;
     std::array<std::vector<double>, 2> place_um;
@@ -38,7 +38,7 @@ class CutRecorder {
   [[nodiscard]] const Envelope& envelope() const noexcept { return envelope_; }
   [[nodiscard]] const Turns& turns() const noexcept { return turns_; }
   [[nodiscard]] std::size_t turns_between() const noexcept { return stride_; }
-  /// The last steps: six turns, 8000 steps at most.
+  /// The last steps: six turns, at most 8000 steps.
   [[nodiscard]] std::vector<trial::vibration::Moment> last() const;
 
  private:
@@ -46,7 +46,7 @@ class CutRecorder {
   void turn(const trial::vibration::Moment& now);
 
   double stretch_s_;
-  double last_stretch_;  ///< index of the last; what is left of the time is its own
+  double last_stretch_;  ///< index of the last, which takes the rest of the time
   std::size_t stride_;
   double stretch_ = -1.0;
   double turned_ = 0.0;

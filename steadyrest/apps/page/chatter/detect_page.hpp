@@ -14,11 +14,11 @@ struct DetectPage {
   std::string machine;
   std::size_t teeth = 1;
   std::size_t window = 1024;  ///< of the detector's spectrum, samples
-  double chatter_hz = 0.0;    ///< the highest that was named; 0: none
+  double chatter_hz = 0.0;    ///< the highest reported; 0: none
 };
 
 /// The page of `chatter detect`: spectrogram, course of the signal and speed. `signal` has a speed
-/// for each sample and at least `window` of them.
+/// for each sample and at least `window` samples.
 [[nodiscard]] Json detect_page(const Json& answer, const DetectPage& page,
                                const chatter::offline::RecordedSignal& signal);
 

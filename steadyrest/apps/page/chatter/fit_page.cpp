@@ -49,7 +49,7 @@ bool in_band(double frequency_hz, const ModeFitConfig& config) {
          frequency_hz <= config.most_frequency_hz;
 }
 
-/// Only what the fit has seen is shown beside it.
+/// Only what the fit has seen is shown with it.
 Json measured_json(const FitPage::Measured& measured, const ModeFitConfig& config) {
   const Frf& frf = *measured.frf;
   Columns columns;
@@ -110,7 +110,7 @@ Json fitted_json(const ModeFit& fit, const std::pair<double, double>& band) {
 
 }  // namespace
 
-/// Each measurement by itself, the fit once: it is one set of modes for all of them.
+/// Each measurement separately, the fit once: it is one set of modes for all of them.
 Json fit_page(const Json& answer, const FitPage& page, const ModeFit& fit,
               const ModeFitConfig& config) {
   Json out = chatter_head("fit", page.title, answer);

@@ -13,7 +13,7 @@ namespace steadyrest::apps::page {
 struct FitPage {
   std::string title;
   std::string axis;  ///< of the measurement: x or y
-  /// What was measured, each with its name.
+  /// The measurements, each with its name.
   struct Measured {
     std::string name;
     const chatter::offline::Frf* frf = nullptr;
@@ -21,8 +21,8 @@ struct FitPage {
   std::vector<Measured> measured;
 };
 
-/// The page of `chatter fit`: the measured responses within the band of the fit, and the response
-/// that the fitted modes give there.
+/// The page of `chatter fit`: the measured responses within the fit's band, and the fitted modes'
+/// response there.
 [[nodiscard]] Json fit_page(const Json& answer, const FitPage& page,
                             const chatter::offline::ModeFit& fit,
                             const chatter::offline::ModeFitConfig& config);

@@ -7,7 +7,7 @@
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
-// How far a vibration grows on its way through the law's period.
+// How far a vibration grows in the course of the law's period.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -61,7 +61,7 @@ Json speed_json(const SpeedProfile& speed, double last_rad) {
 
 }  // namespace
 
-/// The growth from several starting passes, and below it the speed that makes it.
+/// The growth from several starting passes, and below it the speed that causes it.
 Json growth_page(const Json& answer, const offline::Process& process, const DelayCycle& cycle,
                  const SpeedProfile& speed, const std::vector<GrowthCourse>& courses) {
   Json page = chatter_head("growth", process.name, answer);

@@ -12,9 +12,9 @@
 
 namespace steadyrest::apps::page {
 
-/// The page of `chatter radius`: how far a vibration grows on its way, over time, and the speed
-/// that makes it. Times run from the beginning of the law's period; `worst` is the index of the
-/// course with the greatest peak.
+/// The page of `chatter radius`: how far a vibration grows over time, and the speed that causes it.
+/// Times run from the beginning of the law's period; `worst` is the index of the course with the
+/// greatest peak.
 [[nodiscard]] Json growth_page(const Json& answer, const chatter::offline::Process& process,
                                const chatter::offline::DelayCycle& cycle,
                                const chatter::offline::SpeedProfile& speed,

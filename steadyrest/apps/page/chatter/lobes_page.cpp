@@ -25,8 +25,8 @@ constexpr std::size_t kMostSpeeds = 400;
 constexpr std::size_t kMostDepths = 250;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// At most `most` of `count` indices, even ones, both ends among them, so that the map keeps its
-/// range.
+/// At most `most` evenly spaced indices out of `count`, including both ends, so that the map keeps
+/// its range.
 std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
   const std::size_t n = std::min(count, most);
   std::vector<std::size_t> out;
@@ -84,7 +84,7 @@ Json map_json(const LobeMap& map) {
 
 }  // namespace
 
-/// Under a law the border at constant speed shows what the law gains.
+/// Under a law, the border at constant speed shows the law's benefit.
 Result<std::vector<Border>> other_borders(const Process& process, const LobeMap& map,
                                           const offline::BorderLine& border,
                                           const offline::Modulation& modulation) {
@@ -119,7 +119,7 @@ std::vector<Step> override_steps(const Process& process, const kernel::machine::
   for (const double ratio : limits.writable(programmed_rev_s)) {
     const double speed = ratio * programmed_rev_s;
     const auto limit = offline::limit_depth_mm(process, speed, modulation, most_depth_mm);
-    if (limit) {  // the planner names the steps that the solver does not reach
+    if (limit) {  // the planner reports the steps that the solver does not reach
       out.push_back({ratio, speed, *limit});
     }
   }

@@ -34,15 +34,15 @@ struct LobesPage {
   std::vector<Step> steps;
 };
 
-/// Borders beside that of the map, at the speeds of `border` or refined as it is: where the law
-/// modulates, that at constant speed; the zero-order sketch of constant speed where it applies
+/// Borders for comparison with the map's, at the speeds of `border` or refined as it is: under a
+/// modulation the one at constant speed; the zero-order sketch of constant speed where it applies
 /// (milling, straight teeth, even pitch, no process damping).
 [[nodiscard]] kernel::outcome::Result<std::vector<Border>> other_borders(
     const chatter::offline::Process& process, const chatter::offline::LobeMap& map,
     const chatter::offline::BorderLine& border, const chatter::offline::Modulation& modulation);
 
-/// The steps that may be written at this programmed speed, with the border of each up to the map's
-/// greatest depth; not those beyond reach.
+/// The steps that may be written at this programmed speed, each with its border up to the map's
+/// greatest depth, without those out of reach.
 [[nodiscard]] std::vector<Step> override_steps(const chatter::offline::Process& process,
                                                const kernel::machine::Machine& machine,
                                                double programmed_rev_s, double most_depth_mm,

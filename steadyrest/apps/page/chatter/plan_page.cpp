@@ -29,7 +29,7 @@ std::vector<double> even(double from, double to, std::size_t count) {
   return out;
 }
 
-/// The speeds to show: all steps that may be asked for, and a margin.
+/// The speeds to show: all steps that may be requested, and a margin.
 struct Range {
   double low_rev_s;
   double high_rev_s;

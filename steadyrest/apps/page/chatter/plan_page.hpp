@@ -11,8 +11,8 @@
 
 namespace steadyrest::apps::page {
 
-/// The page of `chatter plan`: the lobes at constant speed over the override steps, the
-/// alternatives in them and, where a law was chosen, its border.
+/// The page of `chatter plan`: the lobes at constant speed over the override steps, with the
+/// alternatives in them and, if a law was chosen, its border.
 [[nodiscard]] kernel::outcome::Result<Json> plan_page(const Json& answer,
                                                       const chatter::offline::Process& process,
                                                       const kernel::machine::Machine& machine,

@@ -31,7 +31,7 @@ std::size_t rounded_up(std::size_t a, std::size_t b) {
 }
 
 /// Windows begin `hop` apart: close together in a short signal, for a smooth picture; half a window
-/// in a long one, so that nothing lies between two of them.
+/// apart in a long one, so that nothing is lost between them.
 std::size_t hop_of(std::size_t samples, const SpectrogramConfig& config) {
   const std::size_t even = (samples - config.window) / config.columns + 1;
   return std::clamp(even, std::max<std::size_t>(config.window / kClose, 1), config.window / 2);

@@ -5,8 +5,8 @@
 
 #include <steadyrest/apps/page/cut/report.hpp>
 
-// The page of `cut`. Columns instead of objects, values rounded to what a person can use: a trace
-// of minutes stays within a few megabytes.
+// The page of `cut`. Columns instead of objects, values rounded to a useful precision: a trace of
+// minutes stays within a few megabytes.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -23,8 +23,8 @@ using trial::cut::VibrationFigures;
 using trial::cut::VibrationPoint;
 using trial::cut::WorstLine;
 
-/// Rounded to a decimal place, so that the shortest text of the double is short. nlohmann-json
-/// writes what is not finite as null.
+/// Rounded to a decimal place, so that the double's shortest text is short. nlohmann-json writes
+/// non-finite values as null.
 double rounded(double value, double per_unit) {
   return std::round(value * per_unit) / per_unit;
 }
@@ -129,7 +129,7 @@ Json to_object(const std::vector<TracePoint>& trace) {
   };
 }
 
-/// The reasons with the time that each was in force: why the layer did what it did.
+/// The reasons with the time that each was in force: why the layer acted as it did.
 Json to_object(const Run& run) {
   Json reasons = Json::array();
   for (const ReasonTime& entry : run.reasons) {

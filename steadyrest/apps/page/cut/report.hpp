@@ -9,11 +9,11 @@
 /// The report of `cut`.
 namespace steadyrest::apps::page {
 
-/// Its page: keys in a fixed order, traces as columns, values rounded to what a person can use
-/// (1e-4 s, 1e-4 mm, 0.01 µm). Schema: web/src/cut/data.ts.
+/// Its page: keys in a fixed order, traces as columns, values rounded to a useful precision (1e-4
+/// s, 1e-4 mm, 0.01 µm). Schema: web/src/cut/data.ts.
 [[nodiscard]] Json to_page(const trial::cut::ReportData& data);
 [[nodiscard]] Json to_object(const trial::cut::MotionFigures& figures);
-/// One object in text; null where there is no number.
+/// One object as text; null where there is no number.
 [[nodiscard]] std::string to_json(const trial::cut::VibrationFigures& vibration);
 
 }  // namespace steadyrest::apps::page

@@ -66,7 +66,7 @@ Result<Trace> trace(const std::string& name) {
   return out;
 }
 
-/// Cheap beside the benchmark itself: two scenes and a few closed forms.
+/// Cheap compared with the benchmark itself: two scenes and a few closed forms.
 Result<PageData> page_data(offline::Benchmark benchmark,
                            std::vector<offline::RequirementRow> requirement) {
   PageData out;

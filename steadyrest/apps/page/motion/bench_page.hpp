@@ -13,8 +13,8 @@
 /// The page of `motion bench`.
 namespace steadyrest::apps::page {
 
-/// A motion as it was, as differences of counts show it and as the event-driven estimator with the
-/// axis's limits does; columns of equal length.
+/// A true motion, with the results of count differences and of the event-driven estimator with the
+/// axis's limits; columns of equal length.
 struct Trace {
   std::string name;
   std::vector<double> t_s;
@@ -41,12 +41,12 @@ struct PageData {
   std::vector<motion::offline::Curve> figure_5;
 };
 
-/// Adds traces (S-curve, flywheel) and the source's figures to what was measured.
+/// Adds traces (S-curve, flywheel) and the source's figures to the measured ones.
 [[nodiscard]] kernel::outcome::Result<PageData> page_data(
     motion::offline::Benchmark benchmark, std::vector<motion::offline::RequirementRow> requirement);
 
-/// An estimator's figures as the page and `motion bench --json` have them. What JSON has no number
-/// for is null.
+/// An estimator's figures as on the page and in `motion bench --json`. Values that JSON cannot
+/// represent are null.
 [[nodiscard]] Json to_figures(const motion::offline::ErrorFigures& figures, double gain,
                               double efficiency);
 

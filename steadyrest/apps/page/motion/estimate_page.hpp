@@ -10,8 +10,8 @@
 
 namespace steadyrest::apps::page {
 
-/// Takes the estimates of a log of any length and keeps a picture of bounded size: stretches of
-/// equally many ticks, each with the lowest and the highest value and the widest bound.
+/// Reduces the estimates of a log of any length to a picture of bounded size: stretches of equally
+/// many ticks, each with the lowest and the highest value and the widest bound.
 class EstimateCourse {
  public:
   /// `most` stretches, at least 2.

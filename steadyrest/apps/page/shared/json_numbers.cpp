@@ -15,7 +15,7 @@ double short_number(double value) {
   return std::isfinite(scale) ? std::round(value * scale) / scale : 0.0;
 }
 
-/// A column of a picture; most of a page's size is in these.
+/// A column of a picture; these make up most of a page's size.
 nlohmann::ordered_json short_numbers(const std::vector<double>& values) {
   nlohmann::ordered_json::array_t out;
   out.reserve(values.size());

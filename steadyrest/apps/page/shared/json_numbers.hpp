@@ -7,7 +7,8 @@
 
 namespace steadyrest::apps::page {
 
-/// To six digits, enough for a picture; not finite numbers stay, nlohmann-json writes them as null.
+/// To six digits, enough for a picture; non-finite numbers stay, and nlohmann-json writes them as
+/// null.
 [[nodiscard]] double short_number(double value);
 
 /// A column of them.

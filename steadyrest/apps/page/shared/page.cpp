@@ -3,7 +3,7 @@
 
 #include <steadyrest/apps/page/shared/page.hpp>
 
-// The one page of all reports is linked into the binary; the data go into its script element.
+// The one page for all reports is linked into the binary; the data go into its script element.
 // template.S puts the page between these two.
 extern "C" {
 // NOLINTBEGIN(readability-identifier-naming): the symbols of template.S

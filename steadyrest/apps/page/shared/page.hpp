@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-/// The one page of all reports, built from web/: what its data say decides what it shows.
+/// The one page for all reports, built from web/: its data decide what it shows.
 namespace steadyrest::apps::page {
 
 using Json = nlohmann::ordered_json;
@@ -15,12 +15,11 @@ using Json = nlohmann::ordered_json;
 /// knows each schema.
 [[nodiscard]] Json page_head(std::string_view schema);
 
-/// In one line; what is not finite becomes null, bytes that are not UTF-8 the replacement
-/// character.
+/// On one line; non-finite values become null, bytes that are not UTF-8 the replacement character.
 [[nodiscard]] std::string text_of(const Json& page);
 
 /// The page with the JSON inside. It opens from disk, without any server, and nothing in the data
-/// can leave its script element.
+/// can break out of its script element.
 [[nodiscard]] std::string to_html(std::string_view json);
 
 }  // namespace steadyrest::apps::page

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kChunk = 1U << 16U;
 
-/// Words that no shell parts or changes.
+/// Words that no shell splits or changes.
 bool is_plain(std::string_view word) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789%+,-./:=@_";
@@ -27,7 +27,7 @@ bool is_plain(std::string_view word) {
 }
 
 /// Single quotes stop every shell expansion; a quote inside ends them, adds an escaped quote and
-/// begins again.
+/// reopens them.
 std::string quoted(std::string_view word) {
   if (is_plain(word)) {
     return std::string(word);

@@ -6,7 +6,7 @@
 #include <steadyrest/apps/page/shared/write_files.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 
-// report.html and report.json belong together: a program must not find the new data beside the old
+// report.html and report.json belong together: a program must not find new data next to an old
 // page.
 namespace steadyrest::apps::page {
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ Result<WrittenFiles> write_files(std::string_view html, std::string_view json,
       kernel::file::FileText{.file = files.html.string(), .text = std::string(html)}};
   if (auto written = kernel::file::write_files(out); !written) {
     Refusal refused = std::move(written.error());
-    refused.kind = Kind::unavailable;  // the caller has named the folder alone
+    refused.kind = Kind::unavailable;  // the caller named only the folder
     return std::unexpected(std::move(refused));
   }
   return files;

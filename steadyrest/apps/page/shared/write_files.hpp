@@ -14,8 +14,8 @@ struct WrittenFiles {
   std::filesystem::path json;
 };
 
-/// Writes both files into `directory`, which is made when it is missing. Each appears whole or not
-/// at all, and neither before both are on the disk.
+/// Writes both files into `directory`, creating it if missing. Each appears whole or not at all,
+/// and neither before both are on the disk.
 [[nodiscard]] kernel::outcome::Result<WrittenFiles> write_files(
     std::string_view html, std::string_view json, const std::filesystem::path& directory);
 

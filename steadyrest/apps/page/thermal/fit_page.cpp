@@ -7,8 +7,8 @@
 #include <steadyrest/apps/page/thermal/hysteresis.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
-// The page of `thermal fit` shows why a temperature alone does not tell a displacement (the paper's
-// figure 1: one temperature, different displacements), beside what the model makes of it.
+// The page of `thermal fit` shows why a temperature alone does not determine a displacement (the
+// paper's figure 1: one temperature, different displacements), next to the model's result.
 namespace steadyrest::apps::page {
 namespace {
 
@@ -45,8 +45,8 @@ double as_it_is(double value) {
   return value;
 }
 
-/// Regimes (heating at one speed, cooling) are drawn in different colours: the loop that they
-/// make is the hysteresis.
+/// Regimes (heating at one speed, cooling) have different colours: the loop they form is the
+/// hysteresis.
 Json regimes_json(const Log& log, const std::vector<Regime>& regimes) {
   Json out = Json::array();
   for (const Regime& regime : regimes) {

@@ -11,7 +11,7 @@
 
 namespace steadyrest::apps::page {
 
-/// A displacement of the log and the axis that was fitted to it.
+/// A displacement of the log and the axis fitted to it.
 struct FittedAxis {
   std::string axis;
   std::size_t channel = 0;
@@ -19,12 +19,12 @@ struct FittedAxis {
 };
 
 /// The page of `thermal fit`: each displacement over each temperature of the log (the paper's
-/// figure 1), beside what the model makes of it, and what is left.
+/// figure 1), with the model's result and the residual.
 [[nodiscard]] Json fit_page(const Json& answer, const thermal::offline::Log& log,
                             const std::vector<FittedAxis>& axes);
 
-/// The page of `thermal forecast --log`: measured beside forecast, and what is left. A point is
-/// `fitted` here where readings up to it have set the state; the channel is not used.
+/// The page of `thermal forecast --log`: measured values, forecast and residual. A point is
+/// `fitted` here if readings up to it have set the state; the channel is not used.
 [[nodiscard]] Json replay_page(const Json& answer, const thermal::offline::Log& log,
                                const std::vector<FittedAxis>& axes);
 

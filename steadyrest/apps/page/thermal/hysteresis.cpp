@@ -22,7 +22,7 @@ constexpr double kCell_c = 0.5;
 
 using Pairs = std::vector<std::pair<double, double>>;  ///< °C, mm
 
-/// Readings that are there on both sides; sensors drop out now and then.
+/// Readings present on both sides; sensors drop out now and then.
 Pairs pairs_of(const LogChannel& sensor, const LogChannel& channel) {
   Pairs out;
   out.reserve(channel.value.size());
@@ -34,7 +34,7 @@ Pairs pairs_of(const LogChannel& sensor, const LogChannel& channel) {
   return out;
 }
 
-/// Least squares: slope = cov/var; what the line leaves is var(d) − slope·cov. Means first, then
+/// Least squares: slope = cov/var; the residual is var(d) − slope·cov. Means first, then
 /// deviations: sums of raw squares would cancel.
 void put_line(const Pairs& pairs, Hysteresis& out) {
   const auto n = static_cast<double>(pairs.size());
@@ -55,8 +55,8 @@ void put_line(const Pairs& pairs, Hysteresis& out) {
   out.residual_mm = std::sqrt(std::max(dd - out.slope_mm_k * cd, 0.0));
 }
 
-/// The largest range of displacement within one cell of temperature: the error that a correction by
-/// this sensor alone would make at worst.
+/// The largest range of displacement within one temperature cell: the worst error that a correction
+/// by this sensor alone would make.
 void put_spread(const Pairs& pairs, Hysteresis& out) {
   std::map<long, std::pair<double, double>> cells;
   for (const auto& [c, mm] : pairs) {
@@ -90,7 +90,7 @@ std::vector<Regime> regimes_of(const Log& log, std::size_t points) {
                   .seconds = log.time_s[end - 1] - log.time_s[i],
                   .row = {}};
     if (regime.seconds >= kShortest_s) {
-      // Thinned evenly; the first row is always in.
+      // Thinned evenly; the first row is always included.
       const std::size_t step = (end - i - 1) / std::max<std::size_t>(points, 1) + 1;
       for (std::size_t row = i; row < end; row += step) {
         regime.row.push_back(row);

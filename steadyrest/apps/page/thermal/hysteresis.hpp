@@ -7,10 +7,10 @@
 
 #include <steadyrest/thermal/offline/log/log.hpp>
 
-/// What temperatures alone tell of a displacement: the paper's figure 1.
+/// What temperatures alone reveal about a displacement: the paper's figure 1.
 namespace steadyrest::apps::page {
 
-/// Rows of a log that the spindle has run at one speed: a duty regime, or a rest.
+/// Rows of a log with the spindle at one speed: a duty regime, or a rest.
 struct Regime {
   double speed_rev_s = 0.0;
   double start_s = 0.0;
@@ -18,7 +18,7 @@ struct Regime {
   std::vector<std::size_t> row;  ///< thinned
 };
 
-/// At most `points` rows of each regime; what is shorter than five minutes is none.
+/// At most `points` rows of each regime; a stretch shorter than five minutes is not a regime.
 [[nodiscard]] std::vector<Regime> regimes_of(const thermal::offline::Log& log,
                                              std::size_t points = 200);
 
@@ -26,11 +26,11 @@ struct Regime {
 struct Hysteresis {
   std::string sensor;
   double correlation = 0.0;
-  /// The straight line of least squares: displacement = mean + slope·(T − mean T).
+  /// The least-squares line: displacement = mean + slope·(T − mean T).
   double mean_mm = 0.0;
   double mean_c = 0.0;
   double slope_mm_k = 0.0;
-  double residual_mm = 0.0;   ///< RMS of what that line leaves
+  double residual_mm = 0.0;   ///< RMS of the line's residual
   double spread_mm = 0.0;     ///< largest difference of displacement within half a kelvin,
   double spread_at_c = 0.0;   ///< found here,
   double spread_from_mm = 0;  ///< from here upwards
@@ -40,7 +40,7 @@ struct Hysteresis {
 [[nodiscard]] std::vector<Hysteresis> hysteresis_of(const thermal::offline::Log& log,
                                                     const thermal::offline::LogChannel& channel);
 
-/// Place of the one that the displacement follows best, by |correlation|; there must be one.
+/// The temperature that the displacement follows best, by |correlation|; there must be one.
 [[nodiscard]] std::size_t best_of(const std::vector<Hysteresis>& all);
 
 }  // namespace steadyrest::apps::page

@@ -52,7 +52,7 @@ Json course_json(const Course& course) {
       {"sd_um", column(course.point, [](const ForecastPoint& p) { return um_from_mm(p.sd_mm); })}};
 }
 
-/// δ_j applies from the start of interval j; totals run on over the transitions, as the control's
+/// δ_j applies from the start of interval j; totals continue across transitions, as the control's
 /// offset does.
 void put_corrections(Json& out, const Course& course, double share) {
   out["corrections"] = Json::array();
@@ -79,7 +79,7 @@ void put_corrections(Json& out, const Course& course, double share) {
 
 }  // namespace
 
-/// The head of every thermal page; the folder says nothing to a reader.
+/// The head of every thermal page; the folder means nothing to a reader.
 Json thermal_head(std::string_view kind, std::string_view file, const Json& answer) {
   Json page = page_head("steadyrest-thermal/1");
   const std::string title = std::filesystem::path(file).filename().string();

@@ -13,8 +13,8 @@
 
 /// The pages of the thermal verbs and of a batch.
 ///
-/// A page is one object: `schema`, `version`, `kind`, `title`, under `answer` what the verb
-/// prints with --json, and the page's own columns. Schema: web/src/thermal/data.ts.
+/// A page is one object: `schema`, `version`, `kind`, `title`, the verb's --json output under
+/// `answer`, and the page's own columns. Schema: web/src/thermal/data.ts.
 namespace steadyrest::apps::page {
 
 /// What every page begins with; its title is the name of `file` without the folders.

@@ -28,7 +28,7 @@ Servo servo(double gain_1_s, double feed_forward = 0.0, double lag_s = 0.0) {
   return {gain_1_s, feed_forward, lag_s};
 }
 
-// k in 1/s is Kv·1000/60 for Kv in (m/min)/mm, as machine data state it.
+// k in 1/s is Kv·1000/60 for Kv in (m/min)/mm, the unit of machine data.
 TEST(ClosedForm, AgreesWithTheSimulatedCircles) {
   for (const Row& row : kTable) {
     const auto errors =
@@ -92,7 +92,7 @@ Servo any_servo() {
                1e-4 * *rc::gen::inRange(0, 300));
 }
 
-// R − √(R² − Ed²) holds for a pure lag alone; cancellation leaves 10⁻⁹ of R.
+// R − √(R² − Ed²) holds only for a pure lag; cancellation leaves 10⁻⁹ of R.
 TEST(ClosedForm, HoldsTheArcIdentityForAPureLag) {
   rc::check([] {
     const double radius_mm = 0.1 * *rc::gen::inRange(1, 2000);
@@ -105,7 +105,7 @@ TEST(ClosedForm, HoldsTheArcIdentityForAPureLag) {
   });
 }
 
-// Below the limit no speed may pass the error: a root that is not the smallest one would.
+// Below the limit no speed may exceed the error: any root but the smallest would allow it.
 TEST(ClosedForm, LimitIsTheFirstSpeedThatPassesTheError) {
   rc::check([] {
     const Servo any = any_servo();

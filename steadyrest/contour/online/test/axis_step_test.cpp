@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step of one servo against the matrix exponential of its equation, in complex numbers.
+// One servo's step against the matrix exponential of its equation, in complex numbers.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -67,8 +67,8 @@ AxisStep by_eigenvalues(const AxisModel& model, double h) {
           .w_change = forced(false)[1]};
 }
 
-// The lags lie on both sides of 1/(4k), where the roots turn from real to complex. Of k·e, k·h is
-// below 1/5: the largest entry of the matrix is 1.
+// The lags lie on both sides of 1/(4k), where the roots turn from real to complex. k·h stays below
+// 1/5: the largest entry of the matrix is 1.
 RC_GTEST_PROP(AxisStepWithLag, IsTheMatrixExponentialForRealAndForComplexRoots, ()) {
   const double k = *number(20.0, 100.0);
   const double tau = *rc::gen::element(0.05, 0.6, 0.9, 1.1, 2.0, 6.0) / (4.0 * k);

@@ -6,7 +6,7 @@
 
 #include <steadyrest/contour/online/test/closed_loop.hpp>
 
-/// What the circle's closed form says, for the tests of the feed governor.
+/// The circle's closed form, for the tests of the feed governor.
 namespace steadyrest::contour::online::test {
 
 /// ε of the closed form: |G|² = (k² + a²ω²)/(k² + ω²), ω = v/R.

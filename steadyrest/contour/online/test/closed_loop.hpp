@@ -14,8 +14,8 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
-/// A small machine for tests, written apart from what it tests: a control with look-ahead and
-/// trapezoidal speed, an override that is slewed, quantised, scanned and delayed, and axes that are
+/// A small machine for tests, written independently of what it tests: a control with look-ahead and
+/// trapezoidal speed, an override that is slewed, quantised, scanned and delayed, and axes
 /// integrated finely from their differential equation.
 namespace steadyrest::contour::online::test {
 
@@ -97,7 +97,7 @@ class ClosedLoop {
     return s_ >= last.position_mm + last.length_mm - 1e-3 && speed_ < 0.1;
   }
   FeedGovernor& governor() { return governor_; }
-  /// What the override was told last, as the envelope would hand it down.
+  /// The last ratio told to the override, as the envelope would hand it down.
   [[nodiscard]] kernel::signal::InForce in_force() const {
     return {.feed = {.ratio = slewed_, .word_ratio = word_}, .written = true};
   }

@@ -23,8 +23,7 @@ struct CircleCase {
 
 class CirclesOfThePaper : public testing::TestWithParam<CircleCase> {};
 
-// R = 10 mm, F4000: R − R/√(1 + (v/(R·k))²), both directions, arcs and CAM chords and no path at
-// all.
+// R = 10 mm, F4000: R − R/√(1 + (v/(R·k))²), both directions, with arcs, CAM chords and no path.
 TEST_P(CirclesOfThePaper, HaveTheErrorOfTheClosedForm) {
   const auto [gain, expected] = GetParam();
   const double v = 4000.0 / 60.0;
@@ -57,8 +56,8 @@ INSTANTIATE_TEST_SUITE_P(Gains, CirclesOfThePaper,
                                          CircleCase{50.0, 0.0877},
                                          CircleCase{5000.0 / 60.0, 0.0319}));
 
-// The truth is constructed: the actual point lies 0.1 rad behind the command and a known way
-// inside of the circle, so ε is that way to rounding, whatever servo would have brought it there.
+// The truth is constructed: the actual point is 0.1 rad behind the command and a known distance
+// inside the circle, so ε is that distance to rounding, whatever servo would have brought it there.
 TEST(ContourError, IsExactOnACircleWhateverTheLag) {
   const double r = 10.0;
   const auto path = PathMaker({r, 0, 0}, 50.0).arc({0, 0, 0}, kTurn).path();
@@ -75,7 +74,7 @@ TEST(ContourError, IsExactOnACircleWhateverTheLag) {
 }
 
 // Chords of 0.01 mm have a sag of h²/(8R) = 1.25·10⁻⁶ mm: the two errors may differ by that much. A
-// foot that hung at the corners of the chords would show as steps.
+// foot stuck at the corners of the chords would show as steps.
 TEST(ContourError, IsTheSameOnCamChordsAsOnTheArc) {
   const auto arc = PathMaker({10, 0, 0}, 60.0).arc({0, 0, 0}, kTurn).path();
   const auto chords = PathMaker({10, 0, 0}, 60.0).chords({0, 0, 0}, kTurn, 0.01).path();

@@ -23,10 +23,9 @@ using test::PathMaker;
 using test::PathSegment;
 using test::Runner;
 
-/// The nearest point of all segments between the places that the lag permits.
-/// The oracle: no search order, no skipping, every segment in the window by the geometry's own foot
-/// point. It shares the window with the room, which the tests of spiral and slot check by
-/// themselves.
+/// The nearest point of all segments within the range that the lag permits. The oracle: no search
+/// order, no skipping, every segment in the window by the geometry's own foot point. It shares the
+/// window with the room, which the spiral and slot tests check separately.
 double nearest_of_all(PathView path, const ContourError::Input& input, double gain_1_s) {
   const double e = geometry::distance(input.command_mm, input.actual_mm);
   const double end = input.path_position_mm + 0.25 * e + 0.25;
@@ -46,7 +45,7 @@ double nearest_of_all(PathView path, const ContourError::Input& input, double ga
   return best;
 }
 
-// Left of +X is +Y against a normal of +Z. A sign that followed the curvature here would be 0/0.
+// Left of +X is +Y with the normal +Z. A sign that followed the curvature here would be 0/0.
 TEST(ContourError, OnALineIsPositiveToTheLeft) {
   const auto path = PathMaker({0, 0, 0}, 50.0).line_to({100, 0, 0}).path();
   ContourError error = estimator();
@@ -56,7 +55,8 @@ TEST(ContourError, OnALineIsPositiveToTheLeft) {
               1e-12);
 }
 
-// 0.03 and 0.04 from the corner make 0.05: the distance to the corner, not to either leg's line.
+// 0.03 and 0.04 from the corner make 0.05: the distance to the corner, not to the line of either
+// leg.
 TEST(ContourError, OutsideOfACornerIsMeasuredToTheCorner) {
   const auto path = PathMaker({0, 0, 0}, 50.0).line_to({10, 0, 0}).line_to({10, 10, 0}).path();
   ContourError error = estimator();
@@ -86,7 +86,7 @@ TEST(ContourError, StaysOnItsOwnTurnOfANarrowSpiral) {
   }
 }
 
-// The walls are 0.05 mm apart: the other one is 0.01 mm away, the own one 0.04 mm.
+// The walls are 0.05 mm apart: the other one is 0.01 mm away, its own 0.04 mm.
 TEST(ContourError, DoesNotSeeTheOtherWallOfASlot) {
   const auto path = PathMaker({0, 0, 0}, 50.0)
                         .line_to({50, 0, 0})
@@ -94,14 +94,14 @@ TEST(ContourError, DoesNotSeeTheOtherWallOfASlot) {
                         .line_to({0, 0.05, 0})
                         .path();
   ContourError error = estimator();
-  // Well inside of the way out, 0.04 mm off: the way back would be nearer.
+  // Well inside the way out, 0.04 mm off: the way back would be nearer.
   const auto output = error.update({0.0, {20, 0, 0}, {19, 0.04, 0}, path, 0, 20.0, 50.0});
   EXPECT_NEAR(output.error_mm, 0.04, 1e-12);
   EXPECT_EQ(output.foot_index, 0u);
 }
 
 RC_GTEST_PROP(ContourError, EqualsTheNearestPointThatTheLagPermits, ()) {
-  // A path that wanders in one direction: nowhere does a far piece come near.
+  // A path that wanders in one direction: no distant piece ever comes near.
   PathMaker maker({0, 0, 0}, 40.0);
   const int pieces = *rc::gen::inRange(3, 12);
   for (int i = 0; i < pieces; ++i) {
@@ -135,7 +135,7 @@ RC_GTEST_PROP(ContourError, EqualsTheNearestPointThatTheLagPermits, ()) {
   }
 }
 
-// A path index beyond the path is a bug of the sender, not a reason to read beyond the array.
+// A path index beyond the path is the sender's bug, not a reason to read beyond the array.
 TEST(ContourError, RefusesUnfitInputAndGoesOnAfterwards) {
   const auto path = PathMaker({0, 0, 0}, 50.0).line_to({100, 0, 0}).path();
   ContourError error = estimator();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way of the commanded point in a forecast, against the same law stepped 200 times finer.
+// The commanded point's motion in a forecast, against the same law in steps 200 times finer.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +41,7 @@ double step_below(double ratio) {
   return above == kTable.begin() ? kTable.front() : *(above - 1);
 }
 
-/// r(t) by the sentences of RatioPlan.
+/// r(t) as RatioPlan describes it.
 double ratio_at(const RatioPlan& plan, double t_s) {
   const Forecast::Timing clock = timing();
   if (t_s <= clock.dead_s) {
@@ -80,7 +80,7 @@ class Straight {
     static_cast<void>(forecast_.run(ahead_, outset, plan, 1e9, false, nullptr, &trace));
     return trace;
   }
-  /// When entry i of a trace was: nothing is recorded within the dead time.
+  /// Time of trace entry i: nothing is recorded within the dead time.
   static double time_s(std::size_t i) {
     return kStep_s * (std::floor(timing().dead_s / kStep_s + 0.5) + 1.0 + static_cast<double>(i));
   }
@@ -98,8 +98,8 @@ std::vector<PathSegment> straight_mm(double length_mm) {
   return path;
 }
 
-// Both take a step of the table at 1000 mm/s²; the coarse one begins it up to half a millisecond
-// sooner, for 44 mm/s in all that is 22 µm.
+// Both take a step of the table at 1000 mm/s²; the coarse one starts it up to half a millisecond
+// early, which is 22 µm for 44 mm/s in all.
 RC_GTEST_PROP(ForecastSpeed, FollowsThePlanThroughDeadTimeScanSlewAndTable, ()) {
   Straight straight(straight_mm(200.0));
   RatioPlan plan;
@@ -139,8 +139,8 @@ TEST(ForecastSpeed, StaysUnderThePanel) {
   }
 }
 
-// From 40 mm/s at 1000 mm/s² to the corner's 5 mm/s: v² ≤ 5² + 2·a·left at every place before it.
-// On the way on the speed rises by a·t.
+// From 40 mm/s at 1000 mm/s² to the corner's 5 mm/s: v² ≤ 5² + 2·a·left everywhere before it. After
+// that the speed rises by a·t.
 TEST(ForecastSpeed, BrakesForTheCornerAheadAndNoSooner) {
   for (const double corner_mm : {1.5, 1.61, 1.9}) {
     PathMaker maker({0, 0, 0}, kFeed_mm_s);
@@ -165,8 +165,8 @@ TEST(ForecastSpeed, BrakesForTheCornerAheadAndNoSooner) {
 }
 
 // A millimetre in feed at 50 %, then another motion, seen while the tool is still in the cut and
-// 0.15 mm of the other motion are commanded. The feed goes on at 20 mm/s; a rapid at 25 % has
-// braked to 10 mm/s; a thread is not scaled and speeds up, v² = 20² + 2·1000·0.15.
+// 0.15 mm of the other motion are commanded. Feed continues at 20 mm/s; a rapid at 25 % has braked
+// to 10 mm/s; a thread is not scaled and speeds up, v² = 20² + 2·1000·0.15.
 TEST(ForecastSpeed, TheFeedOverrideScalesTheFeedAlone) {
   const auto speed_in = [](Motion motion) {
     PathMaker maker({0, 0, 0}, kFeed_mm_s);
@@ -199,7 +199,7 @@ RC_GTEST_PROP(ForecastTable, RoundsDownToAStep, ()) {
   RC_ASSERT(forecast.floor_ratio(truth - 1e-12) == truth);
 }
 
-// A trace is what cannot be avoided: along it a candidate may be as bad, and no worse.
+// A trace is the unavoidable error: along it a candidate may be as bad, but no worse.
 TEST(ForecastTrace, RaisesTheLimitWhereItLies) {
   const auto path = PathMaker({10, 0, 0}, kFeed_mm_s).arc({0, 0, 0}, 6.0).path();
   Straight straight(path);

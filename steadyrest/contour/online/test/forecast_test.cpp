@@ -84,8 +84,8 @@ TEST(Forecast, OfUnequalGainsOnALineGivesTheTextbookError) {
 }
 
 TEST(Forecast, RoundsACornerAsTheServoDoes) {
-  // A first-order servo at constant speed v cuts a right angle; nearest to both legs where its
-  // distances are equal: e⁻ᵏᵗ·v/k = v·t − v/k·(1 − e⁻ᵏᵗ) ⇒ kt = 1, ε = v/(k·e).
+  // A first-order servo at constant speed v cuts a right angle; the closest point to both legs is
+  // where the distances are equal: e⁻ᵏᵗ·v/k = v·t − v/k·(1 − e⁻ᵏᵗ) ⇒ kt = 1, ε = v/(k·e).
   std::vector<PathSegment> path =
       PathMaker({0, 0, 0}, 20.0).line_to({4, 0, 0}).line_to({4, 30, 0}).path();
   for (auto& segment : path) {
@@ -103,7 +103,7 @@ TEST(Forecast, RoundsACornerAsTheServoDoes) {
   EXPECT_NEAR(std::abs(result.error_mm), 0.4 / std::exp(1.0), 0.003);
 }
 
-// ε on the arc of R = 5 mm rises to v²/(2Rk²) = 0.064 mm; 0.010 mm are passed within the first two
+// ε on the arc of R = 5 mm rises to v²/(2Rk²) = 0.064 mm; it exceeds 0.010 mm within the first two
 // millimetres of the arc, seen from a foot that lags by 0.8 mm.
 TEST(Forecast, StopsWhereTheLimitIsBrokenAndSaysWhere) {
   const auto path = PathMaker({0, 0, 0}, 40.0).line_to({3, 0, 0}).arc({3, 5, 0}, kTurn).path();
@@ -115,8 +115,8 @@ TEST(Forecast, StopsWhereTheLimitIsBrokenAndSaysWhere) {
   EXPECT_GT(result.error_mm, 0.010);
 }
 
-// Two branches compute it, closed form and Runge–Kutta; at a lag just above the switch (0.15 ms
-// against 0.1 ms) they must nearly agree.
+// Two branches compute it, closed form and Runge–Kutta; just above the switch (0.15 ms against 0.1
+// ms) they must nearly agree.
 TEST(AxisStep, OfNoLagIsTheLimitOfSmallLag) {
   const AxisStep none = AxisStep::of({50.0, 0.3, 0.0}, 0.002);
   const AxisStep little = AxisStep::of({50.0, 0.3, 1.5e-4}, 0.002);

@@ -41,8 +41,8 @@ std::vector<Cell> cells_of(LookAhead& ahead, const std::vector<PathSegment>& pat
   return cells;
 }
 
-// By brute force from the law: a limit at s holds at every place before it, plus what can be braked
-// on the way there.
+// By brute force from the law: a limit at s applies to every place before it, plus what braking on
+// the way there can take off.
 RC_GTEST_PROP(LookAheadSpeed, IsTheLeastOfAllLaterLimitsSeenThroughBraking, ()) {
   LookAhead ahead = unequal();
   const auto count = *rc::gen::inRange<std::size_t>(1, 40);
@@ -99,8 +99,8 @@ TEST(LookAheadAcceleration, OfALineIsThatOfTheAxisThatIsFirstAtItsLimit) {
   EXPECT_NEAR(on(kUnlimited, {0, 0, 5}), 4000.0, 1e-6);
 }
 
-// In the plane of Y and Z, Y allows 2000. At 30 mm/s the turn on 2 mm takes 30²/2 = 450; along the
-// path √(2000² − 450²) are left. However fast, half is left: √(1 − 0.866²).
+// In the plane of Y and Z, Y allows 2000. At 30 mm/s the turn on 2 mm takes 30²/2 = 450, which
+// leaves √(2000² − 450²) along the path. At any speed half is left: √(1 − 0.866²).
 TEST(LookAheadAcceleration, OfAnArcIsWhatTheTurnLeavesOver) {
   const auto on = [](double feed_mm_s, double limit_mm_s) {
     auto path = PathMaker({0, 2, 0}, feed_mm_s).arc({0, 0, 0}, 1.0, {1, 0, 0}).path();
@@ -110,7 +110,7 @@ TEST(LookAheadAcceleration, OfAnArcIsWhatTheTurnLeavesOver) {
   };
   EXPECT_NEAR(on(100.0, 30.0), std::sqrt(2000.0 * 2000.0 - 450.0 * 450.0), 1e-6);
   EXPECT_NEAR(on(15.0, kUnlimited), std::sqrt(2000.0 * 2000.0 - 450.0 * 450.0), 1e-6)
-      << "no override is above twice the feed";
+      << "no override exceeds twice the feed";
   EXPECT_NEAR(on(1000.0, kUnlimited), 1000.0, 0.1);
 }
 
@@ -122,7 +122,7 @@ std::size_t chords_of(double step_mm, double turn_rad, const auto& change) {
         maker.at(), {step_mm * std::cos(turn_rad * i), step_mm * std::sin(turn_rad * i), 0.0}));
   }
   LookAhead ahead = unequal();
-  return cells_of(ahead, maker.path()).size() - 1;  // but for the stop
+  return cells_of(ahead, maker.path()).size() - 1;  // without the stop
 }
 
 // Lines of 5 µm: twenty make a chord of 0.1 mm, unless one of them differs in motion or feed or the
@@ -155,7 +155,7 @@ TEST(LookAheadChords, KeepTheStrictestLimitOfTheirLines) {
   }
 }
 
-// A square with one rounded corner: the sharp ones break the direction, the round one does not.
+// A square with one rounded corner: the direction breaks at the sharp ones, not at the round one.
 TEST(LookAheadCorner, IsWhereTheDirectionBreaks) {
   PathMaker maker({0, 0, 0}, 30.0);
   maker.line_to({10, 0, 0}).line_to({10, 8, 0}).arc({8, 8, 0}, test::kTurn / 4);
@@ -207,7 +207,7 @@ TEST(LookAheadRing, MovesAlongWithABoundedCycle) {
   }
 }
 
-// Cells in hand belong to the storage that they were made from.
+// The present cells belong to the storage that they were made from.
 TEST(LookAheadRing, AnotherPathIsMadeAnew) {
   const auto first = PathMaker({0, 0, 0}, 30.0).line_to({50, 0, 0}).path();
   const auto second = PathMaker({0, 0, 0}, 30.0).line_to({0, 50, 0}).path();
@@ -218,7 +218,7 @@ TEST(LookAheadRing, AnotherPathIsMadeAnew) {
   EXPECT_EQ(ahead.cell(ahead.begin()).tangent[1], 1.0);
 }
 
-// Begun in the middle of a program it goes back to where the foot may lie, no further.
+// Started in the middle of a program it goes back to where the foot may be, no further.
 TEST(LookAheadRing, BeginsWhereTheFootMayLie) {
   PathMaker maker({0, 0, 0}, 30.0);
   for (int i = 1; i <= 100; ++i) {

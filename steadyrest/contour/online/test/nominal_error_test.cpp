@@ -14,8 +14,8 @@ namespace {
 namespace geometry = math::geometry;
 using kernel::signal::Point;
 
-/// Steady state of equal first-order servos on a circle about the origin, commanded at angle 0.
-/// The actual point lies at R/√(1 + q²), behind by the angle atan q.
+/// Steady state of equal first-order servos on a circle about the origin, commanded at angle 0. The
+/// actual point is at R/√(1 + q²), behind by the angle atan q.
 Point following_error(double r, double speed, double gain) {
   const double q = speed / (r * gain);
   const double inner = r / std::sqrt(1.0 + q * q);
@@ -47,7 +47,7 @@ RC_GTEST_PROP(NominalError, ArcIdentityIsExactForEqualGains, ()) {
             1e-11);
 }
 
-// The tangent through the command leaves the circle by e²/2R on the way back, as much as ε itself:
+// Backwards, the tangent through the command leaves the circle by e²/2R, as much as ε itself:
 // without the curvature the estimate is 2ε.
 TEST(NominalError, TangentialEstimateIsTwiceTooLargeOnAnArcAndItsCorrectionIsNot) {
   const Point e = following_error(10.0, 4000.0 / 60.0, 50.0);

@@ -8,7 +8,7 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
-/// A point that runs along a path beside it, and the estimator of its error.
+/// A point that runs along a path, and the estimator of its error.
 namespace steadyrest::contour::online::test {
 
 namespace geometry = math::geometry;
@@ -25,7 +25,7 @@ class Runner {
     return s_ >= path_.back().position_mm + path_.back().length_mm;
   }
   ContourError::Input step() {
-    // Substeps make the servo's own integration error small beside what is tested.
+    // Substeps keep the servo's own integration error small compared with what is tested.
     constexpr int kSub = 50;
     for (int i = 0; i < kSub; ++i) {
       s_ += speed_ * period_ / kSub;

@@ -73,8 +73,8 @@ void run(ServoModel& model, TrueAxis& axis, double seconds, double period,
   }
 }
 
-// Constant speed shows (1 − a)/k alone; with the prior's a = 0 that is k, so 1 % of 42 is due
-// after ten windows of 40 ms.
+// Constant speed shows only (1 − a)/k; with the prior's a = 0 that is k, so it must be within 1 %
+// of 42 after ten windows of 40 ms.
 TEST(ServoModel, AWrongPassportIsCorrectedWithinThreeTenthsOfASecond) {
   ServoModel model = model_with({50.0, 0.0, 0.0});
   TrueAxis axis({42.0, 0.0, 0.0}, 0.001);
@@ -98,7 +98,7 @@ RC_GTEST_PROP(ServoModel, FindsGainAndFeedForwardWhenTheMotionExcitesBoth, ()) {
   RC_ASSERT(std::abs(model.axis(0).feed_forward - truth.feed_forward) < 0.03);
 }
 
-// The split may be the prior's, the lag (1 − a)/k that the axis shows may not.
+// The split may be the prior's; the lag (1 − a)/k that the axis shows may not.
 RC_GTEST_PROP(ServoModel, TheLagIsRightEvenWhereGainAndFeedForwardCannotBeSeparated, ()) {
   const AxisModel truth{*number(25.0, 90.0), *number(0.0, 0.5),
                         *rc::gen::element(0.0, 0.002, 0.005)};
@@ -113,8 +113,8 @@ RC_GTEST_PROP(ServoModel, TheLagIsRightEvenWhereGainAndFeedForwardCannotBeSepara
   RC_ASSERT(std::abs(found / lag - 1.0) < 0.015);
 }
 
-// Fifteen thousand rows without news. Plain recursive least squares would lose all information
-// across them and then jump with the first noise (wind-up).
+// Fifteen thousand rows without new information. Plain recursive least squares would lose all
+// information across them and then jump with the first noise (wind-up).
 TEST(ServoModel, TenMinutesOfConstantSpeedDoNotWindUp) {
   ServoModel model = model_with({50.0, 0.2, 0.0});
   TrueAxis axis({50.0, 0.2, 0.0}, 0.001);
@@ -154,7 +154,7 @@ TEST(ServoModel, NeverLeavesItsBoundsWhateverItIsFed) {
   }
 }
 
-// 200 mm/s² asked of a drive that has 100: the axis law does not hold.
+// 200 mm/s² demanded from a drive that has 100: the axis law does not hold.
 TEST(ServoModel, ASaturatedDriveTeachesNothing) {
   ServoModel::Config config;
   config.axes = 1;

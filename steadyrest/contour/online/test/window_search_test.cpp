@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The leaping search against the one that looks everywhere.
+// The leaping search against one that looks everywhere.
 #include <cmath>
 #include <vector>
 
@@ -53,7 +53,7 @@ class Polyline {
   std::vector<double> at_mm_;
 };
 
-/// Steps of 0.05 … 3 mm in any direction: crosses itself, doubles back, turns by anything.
+/// Steps of 0.05 … 3 mm in any direction: crosses itself, doubles back, turns by any angle.
 Polyline random_line() {
   std::vector<Point> corner = {{0, 0, 0}};
   const int pieces = *rc::gen::inRange(1, 60);
@@ -106,8 +106,8 @@ Polyline straight(int pieces) {
   return Polyline(corner);
 }
 
-// Next to a foot every other piece lies farther by as much as it is away: each leap is as long as
-// the way so far, and 200 pieces on either side take log₂ 200 < 8 of them.
+// Next to a foot every other piece is as far away as its distance along the path: each leap is as
+// long as the way so far, and 200 pieces on either side take log₂ 200 < 8 of them.
 TEST(WindowSearch, LeapsOverWhatCannotBeNearer) {
   const Polyline line = straight(400);
   const Nearest found = nearest_in_window(line, {20.03, 0.01, 0.0}, 0.0, 40.0, 200, 20.0, 160);
@@ -116,8 +116,8 @@ TEST(WindowSearch, LeapsOverWhatCannotBeNearer) {
   EXPECT_LE(line.looks, 16);
 }
 
-// Round its centre a circle is as near everywhere: nothing can be ruled out, and the bound ends
-// the search with the answer that it is not complete.
+// Seen from its centre a circle is equally near everywhere: nothing can be excluded, and the bound
+// ends the search with the answer that it is not complete.
 TEST(WindowSearch, SaysSoWhenItsBoundEndsIt) {
   std::vector<Point> corner;
   for (int i = 0; i <= 500; ++i) {

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using test::in_child;
 using test::Output;
 
-// Flushed is not committed: the target must be the old file until the end.
+// Flushed is not committed: the target must remain the old file until the end.
 TEST_F(Output, ReplacesAtTheEndAndNotBefore) {
   const std::string file = old("out.csv");
   auto out = OutputFile::open(file);
@@ -39,7 +39,7 @@ TEST_F(Output, ReplacesAtTheEndAndNotBefore) {
   EXPECT_EQ(written_files().back().lines, 1U);
 }
 
-// A megabyte, so that the buffer has been written several times.
+// A megabyte, so that the buffer is written out several times.
 TEST_F(Output, LeavesNothingWithoutCommit) {
   const std::string file = old("out.csv");
   {
@@ -84,8 +84,7 @@ TEST_F(Output, AnotherHardLinkKeepsTheOldContent) {
   EXPECT_EQ(text_of(at("copy")), "old\n");
 }
 
-// 255 bytes is what a folder entry can hold: the temporary name must not be longer than the
-// target's.
+// A folder entry holds 255 bytes: the temporary name must not be longer than the target's.
 TEST_F(Output, TakesTheLongestName) {
   const std::string file = at(std::string(255, 'n'));
   ASSERT_TRUE(write_file(file, "new\n").has_value());
@@ -101,8 +100,8 @@ TEST_F(Output, CanBeReadByAChildBeforeItHasAName) {
   EXPECT_EQ(text_of(at("copy")), "new\n");
 }
 
-// Declared outputs wait for the end; scratch files do not. In a child, since the ledger is the
-// process's.
+// Declared outputs wait for the end; scratch files do not. In a child, since the ledger belongs to
+// the process.
 TEST_F(Output, OfAProgramTakesItsPlaceWithTheOthers) {
   const std::string first = old("a.csv");
   const auto ends_with = [&](bool placed) {
@@ -133,7 +132,7 @@ TEST_F(Output, OfAProgramTakesItsPlaceWithTheOthers) {
 }
 
 // The third rename fails (a folder of that name turned up). The first must be the old file again,
-// the second gone.
+// and the second gone.
 TEST_F(Output, IsTakenBackWhereAnotherCannotTakeItsPlace) {
   const std::string first = old("a.csv");
   std::vector<OutputFile> out;
@@ -161,7 +160,7 @@ TEST_F(Output, RenamesNoneBeforeAllAreWritten) {
   EXPECT_EQ(entries(), 1);
 }
 
-// RLIMIT_FSIZE acts as a full disk: write() fails after 1000 bytes.
+// RLIMIT_FSIZE behaves like a full disk: write() fails after 1000 bytes.
 TEST_F(Output, AFullDiskLeavesTheOldFile) {
   const std::string file = old("out.csv");
   const int status = in_child([&] {
@@ -193,7 +192,7 @@ TEST_F(Output, AClosedPipeIsARefusal) {
   EXPECT_TRUE(fs::is_fifo(at("pipe")));
 }
 
-// Redirected by >>: a rename would replace the log that the shell writes to.
+// Redirected by >>: a rename would replace the log that the shell writes.
 TEST_F(Output, StdoutIsWrittenToEvenWhereItIsAFile) {
   const std::string file = old("log");
   const int status = in_child([&] {

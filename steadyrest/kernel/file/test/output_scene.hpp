@@ -32,10 +32,10 @@ class Output : public ::testing::Test {
   testing::OwnFolder folder_;
 };
 
-/// Runs `work` in a child, so that limits and signals are its own; gives the status.
+/// Runs `work` in a child process with limits and signals of its own; returns its status.
 template <class Work>
 int in_child(Work work) {
-  std::fflush(stdout);  // or both would write what is held back
+  std::fflush(stdout);  // otherwise both would write what is buffered
   const pid_t child = fork();
   if (child == 0) {
     remove_temporaries_on_signals();

@@ -33,8 +33,8 @@ class Places : public ::testing::Test {
   testing::OwnFolder folder_;
 };
 
-// Symbolic, hard, with dots, through a linked folder: all the same file. An output that overwrote
-// its own input under another name is what this is for.
+// Symbolic, hard, with dots, through a linked folder: all the same file. This catches an output
+// that overwrites its own input under another name.
 TEST_F(Places, OneFileHasManyNames) {
   for (const char* name :
        {"log.csv", "soft", "hard", "./x/../log.csv", "here/log.csv", "here/here/hard"}) {

@@ -15,7 +15,7 @@ namespace steadyrest::kernel::file::testing {
   return set != nullptr ? set : STEADYREST_SOURCE_DIR "/../shared/data";
 }
 
-/// A log among our excerpts, which every clone has: tests/recorded/README.md.
+/// A log from our excerpts, which every clone has: tests/recorded/README.md.
 [[nodiscard]] inline std::filesystem::path excerpt(const std::string& name) {
   return STEADYREST_SOURCE_DIR "/tests/recorded/" + name + ".csv.gz";
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kWords = {"coding", "percent", "codes"};
 
-// One swap, one missing, one wrong, one missing at the end.
+// One swap, one missing letter, one wrong, one missing at the end.
 TEST(Nearest, FindsSwappedMissingAndWrongLetters) {
   EXPECT_EQ(nearest("codign", kWords), "coding");
   EXPECT_EQ(nearest("prcent", kWords), "percent");

@@ -22,8 +22,8 @@ std::string contents(const std::string& path) {
   return text.str();
 }
 
-/// The enumerators as they stand in the header: name → number.
-/// Read from the header's text: the compiler offers no list of enumerators.
+/// The header's enumerators: name → number. Read from the header's text, since the compiler offers
+/// no list of enumerators.
 std::map<std::string, int> enumerators() {
   const std::string header = contents("/steadyrest/kernel/outcome/reason.hpp");
   const auto begin = header.find("enum class Reason");
@@ -70,7 +70,7 @@ std::string document() {
   return text;
 }
 
-// Records of earlier versions carry the numbers: three of them are pinned here.
+// Records of earlier versions carry the numbers; three of them are pinned here.
 TEST(Reason, NumbersAreStable) {
   EXPECT_EQ(static_cast<int>(Reason::none), 0);
   EXPECT_EQ(static_cast<int>(Reason::panel_zero), 100);
@@ -85,10 +85,10 @@ TEST(Reason, TheTableCoversEveryEnumeratorByItsOwnName) {
     listed[std::string(entry.name)] = static_cast<int>(entry.reason);
   }
   EXPECT_EQ(declared, listed);
-  EXPECT_EQ(reasons().size(), listed.size()) << "a name stands in the table twice";
+  EXPECT_EQ(reasons().size(), listed.size()) << "a name is in the table twice";
 }
 
-// In order and without doubles, so that a look at the table finds a number.
+// In order and without duplicates, so that a number is quickly found in the table.
 TEST(Reason, TheTableRisesAndEveryEntryHasASentence) {
   EXPECT_TRUE(std::ranges::is_sorted(reasons(), std::less_equal<>{}, &ReasonEntry::reason));
   for (const auto& entry : reasons()) {
@@ -99,13 +99,13 @@ TEST(Reason, TheTableRisesAndEveryEntryHasASentence) {
   }
 }
 
-// A record of a newer version may carry one.
+// A newer version's record may carry one.
 TEST(Reason, ANumberWithoutEntryIsUnknown) {
   EXPECT_EQ(name(static_cast<Reason>(9999)), "unknown");
   EXPECT_EQ(sentence(static_cast<Reason>(9999)), "Unknown reason.");
 }
 
-// The page is generated; it must be what the table says now.
+// The page is generated; it must match the table.
 TEST(Reason, TheDocumentIsWhatTheTableSays) {
   if (std::getenv("STEADYREST_REWRITE_DOCS") != nullptr) {
     std::ofstream(kRoot + "/docs/reasons.md") << document();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arbiter's law over every order of the same requests: which room asked first is an accident
-// of the wiring.
+// The arbiter's law for every order of the same requests: the wiring alone decides which room asks
+// first.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -55,7 +55,7 @@ bool wishes(const Request& request) {
                              request.reason == Reason::chatter_modulating);
 }
 
-/// Of those who ask for nothing: faults have the lowest numbers, `none` says nothing at all.
+/// Among those who ask for nothing: faults have the lowest numbers, `none` carries no reason.
 template <class Request>
 Reason gravest(const std::vector<Request>& requests) {
   Reason out = Reason::none;
@@ -84,7 +84,7 @@ RatioArbiter<Request> arbitrate(const std::vector<Request>& requests) {
   return arbiter;
 }
 
-// By brute force over the wishes alone; without one, the gravest reason of all.
+// By brute force over the wishes alone; without one, the most serious reason.
 RC_GTEST_PROP(ArbiterOrder, TheFeedIsTheLeastOfTheWishesElseNeutralWithTheGravestReason, ()) {
   const auto requests = any_requests<FeedRequest>();
   const auto arbiter = arbitrate(requests);
@@ -99,7 +99,7 @@ RC_GTEST_PROP(ArbiterOrder, TheFeedIsTheLeastOfTheWishesElseNeutralWithTheGraves
   }
 }
 
-// Chatter's wishes if there are any, else all; of them the nearest to 1.
+// Chatter's wishes if there are any, else all; of these the nearest to 1.
 RC_GTEST_PROP(ArbiterOrder, TheSpindleIsChattersElseTheNearestToOne, ()) {
   const auto requests = any_requests<SpindleRequest>();
   const auto arbiter = arbitrate(requests);
@@ -133,7 +133,7 @@ RC_GTEST_PROP(ArbiterOrder, DoesNotMoveTheRatio, ()) {
   RC_ASSERT(std::abs(arbitrate(spindle).decision().ratio - 1.0) == spindle_off);
 }
 
-// On the page the reason must not flicker between two rooms that want the same.
+// On the page the reason must not flicker between two rooms with the same wish.
 TEST(ArbiterOrder, OfEqualWishesTheFirstKeepsItsRoomAndReason) {
   const auto feed = arbitrate<FeedRequest>({{Room::contour, 0.6, Reason::contour_limit},
                                             {Room::chatter, 0.6, Reason::chatter_feed_follows}});
@@ -152,7 +152,7 @@ TEST(ArbiterOrder, TheEndsOfTheRangeAreFit) {
   EXPECT_EQ(fault_of(-1e-300), Reason::input_out_of_range);
 }
 
-// A reason's number says whether somebody asks: the rooms' own begin at 200.
+// A reason's number tells whether a room asks: the rooms' own begin at 200.
 TEST(ArbiterOrder, OnlyTheRoomsOwnReasonsAreWishes) {
   for (const outcome::ReasonEntry& entry : outcome::reasons()) {
     const bool own = static_cast<unsigned>(entry.reason) >= 200;
@@ -199,8 +199,8 @@ TEST(ArbiterOrder, TheFirstThatWishesNamesTheSum) {
   EXPECT_EQ(arbiter.decision().reason, Reason::thermal_correcting);
 }
 
-// Stale (3) and not finite (1) withdraw: whichever comes first, the graver one is shown. The
-// withdrawn sum is no number to go by, whatever had been added before.
+// Stale (3) and not finite (1) withdraw: whichever comes first, the more serious one is shown. A
+// withdrawn sum has no valid number, whatever was added before.
 TEST(ArbiterOrder, OfTwoWithdrawnOffsetsTheGraverReasonIsShown) {
   const OffsetRequest stale{.reason = Reason::input_stale};
   OffsetRequest unfit = asks(Room::thermal, kNan, 1.0);
@@ -214,7 +214,7 @@ TEST(ArbiterOrder, OfTwoWithdrawnOffsetsTheGraverReasonIsShown) {
   }
 }
 
-// The tool is taken as in the cut by anybody's word, even by one whose offset is not to be used.
+// Anyone's word puts the tool in the cut, even with an unfit offset.
 TEST(ArbiterOrder, AnUnfitRequestStillSaysThatTheToolIsInTheCut) {
   for (const double x_mm : {kNan, 0.01}) {
     OffsetArbiter arbiter;

@@ -32,7 +32,7 @@ TEST(FeedArbiter, NoRequestIsNeutral) {
   EXPECT_EQ(decision.reason, Reason::none);
 }
 
-// Three wishes: who loses must leave no trace in room or reason.
+// Three wishes: the losers must leave no trace in room or reason.
 TEST(FeedArbiter, TheLowestWishWinsWithItsRoomAndReason) {
   const auto decision = feed_decision({{Room::motion, 0.9, Reason::contour_objective},
                                        {Room::contour, 0.4, Reason::contour_limit},
@@ -57,7 +57,7 @@ TEST(FeedArbiter, ARatioBelowOneCountsWhateverItsReasonSays) {
   EXPECT_EQ(feed_decision({{Room::contour, 0.3, Reason::not_cutting}}).ratio, 0.3);
 }
 
-// 11 is beyond the largest request of 10: a ratio in percent, most likely.
+// 11 is beyond the largest request of 10: most likely a ratio in percent.
 TEST(FeedArbiter, AnUnfitRatioIsNeutralAndSaysWhy) {
   for (const double ratio : {kNan, kInfinity, -kInfinity}) {
     const auto decision = feed_decision({{Room::contour, ratio, Reason::contour_limit}});
@@ -80,7 +80,7 @@ TEST(FeedArbiter, TheGraverReasonOfTwoWithdrawalsIsShown) {
             Reason::input_not_finite);
 }
 
-// Whatever else is wished, the lowest wish is what comes out.
+// Whatever else is wished, the lowest wish comes out.
 RC_GTEST_PROP(FeedArbiter, NoWishIsEverOverruledUpwards, (const std::vector<int>& percent)) {
   std::vector<FeedRequest> requests;
   double lowest = kInfinity;
@@ -93,7 +93,7 @@ RC_GTEST_PROP(FeedArbiter, NoWishIsEverOverruledUpwards, (const std::vector<int>
   RC_ASSERT(decision.ratio == (requests.empty() ? 1.0 : lowest));
 }
 
-// 1.1 is 0.1 off, 0.7 is 0.3 off: the lesser change, until chatter has a say.
+// 1.1 is 0.1 off, 0.7 is 0.3 off: the smaller change wins until chatter has a say.
 TEST(SpindleArbiter, ChatterWinsElseTheLeastChange) {
   SpindleArbiter others;
   others.add(SpindleRequest{Room::motion, 0.7, Reason::contour_limit});
@@ -130,7 +130,7 @@ TEST(OffsetArbiter, WishesAddAxisByAxis) {
   EXPECT_EQ(sum.reason, Reason::contour_limit);
 }
 
-// Per axis: 0.001 before 0.02 on X, 0 holds Z, nobody cares for Y.
+// Per axis: 0.001 before 0.02 on X, 0 holds Z, nobody cares about Y.
 TEST(OffsetArbiter, OfTheSlopesThatAreAskedForTheSlowestHoldsOnEachAxis) {
   OffsetArbiter arbiter;
   auto slow = offset(0.01, 0.0, true, Reason::contour_limit);

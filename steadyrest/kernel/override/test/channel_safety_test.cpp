@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One property for each sentence on safety that the override alone can break. All run the same
-// random histories of wishes, panel, faults and cycle times through envelope and hand-over.
+// One property for each safety statement that the override alone can break. All run the same random
+// histories of wishes, panel, faults and cycle times through envelope and hand-over.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -41,9 +41,9 @@ RC_GTEST_PROP(Safety, PanelZeroAlwaysStops, (bool may_exceed)) {
 }
 
 RC_GTEST_PROP(Safety, TheLayerNeverRaisesTheFeedByAJump, (bool may_exceed)) {
-  // Bound: from every instant on, what is in force rises by no more than rise·t and one step of the
-  // table, unless it is the operator who turns his switch up while no mask is on. Up to a panel
-  // beyond the table's last step the mask can only come off at that step.
+  // Bound: from any instant, the ratio in force rises by no more than rise·t plus one step of the
+  // table, unless the operator turns his switch up while no mask is on. On the way up to a panel
+  // beyond the table's last step, the mask can come off only at that step.
   const Scene scene = random_scene(may_exceed);
   double bound = kInfinity;
   play(scene, [&](auto& channel, auto& input, auto&, auto&, auto&, double before, double now,
@@ -53,7 +53,7 @@ RC_GTEST_PROP(Safety, TheLayerNeverRaisesTheFeedByAJump, (bool may_exceed)) {
     const double step = std::max(widest_step(channel.table()),
                                  panel - channel.table().ratio(channel.table().steps() - 1)) +
                         kTolerance;
-    // `before` has the last word with this cycle's panel: a rise up to there is the
+    // `before` combines the last word with this cycle's panel: a rise up to there is the
     // operator's.
     bound = std::max(bound, before + step) + scene.config.rise_1_s * passed_s;
     RC_ASSERT(now <= bound);
@@ -74,8 +74,8 @@ RC_GTEST_PROP(Safety, QuantisedDownNeverAboveWhatTheSlewAllows, ()) {
   });
 }
 
-// Long enough after the last change the wish must be in force within all limits: between the
-// lowest step that min_ratio allows and max_ratio, under the panel if it rules.
+// Long enough after the last change the wish must be in force within all limits: between the lowest
+// step that min_ratio allows and max_ratio, and under the panel where the panel rules.
 RC_GTEST_PROP(Safety, WhateverIsWishedEndsInsideTheEnvelope, (bool may_exceed)) {
   Scene scene = random_scene(may_exceed);
   auto input = scene.inputs.back();
@@ -101,8 +101,8 @@ RC_GTEST_PROP(Safety, WhateverIsWishedEndsInsideTheEnvelope, (bool may_exceed)) 
   }
 }
 
-// All words that bits in any order can show, with the old and the new mask: part runs through the
-// subsets of the differing bits, (part − 1) & differing.
+// All words that the bits can show in any order, with the old and the new mask: part runs through
+// the subsets of the differing bits, (part − 1) & differing.
 RC_GTEST_PROP(Safety, NoIntermediateWordDecodesOutsideOfFromAndTo, (bool may_exceed)) {
   Scene scene = random_scene(may_exceed);
   play(scene, [&](auto& channel, auto& input, auto&, const Word& from, const Word& to,
@@ -154,7 +154,7 @@ RC_GTEST_PROP(Safety, UnfitInputEndsWithThePanelHandedBack, (bool may_exceed)) {
 }
 
 RC_GTEST_PROP(Safety, AThreadHoldsTheWordWhateverComesIn, (bool may_exceed)) {
-  // Only the operator moves what is in force: by panel 0, or by a panel below the word.
+  // Only the operator changes what is in force: by panel 0, or by a panel below the word.
   play(random_scene(may_exceed), [&](auto&, auto& input, auto&, const Word& from, const Word& to,
                                      double before, double now, double panel) {
     if (!input.hold) {

@@ -11,7 +11,7 @@ namespace {
 using outcome::Reason;
 using test::kCycle_s;
 
-/// A channel at 100 % on the panel that is asked for 50 %; it falls by 10 1/s.
+/// A channel asked for 50 % with the panel at 100 %; it falls by 10 1/s.
 class Asked {
  public:
   Asked() : channel(Channel::make({.table = test::feed_840d()}).value()) {
@@ -32,8 +32,8 @@ class Asked {
   RatioEnvelope::Input input;
 };
 
-// In each cycle of the fall: the word is the step below the ratio, and no cycle takes more than 10
-// 1/s · 1 ms.
+// In each cycle of the fall the word is the step below the ratio, and no cycle drops by more than
+// 10 1/s · 1 ms.
 TEST(ChannelInForce, IsWhatWasLetThroughNotWhatWasAskedFor) {
   Asked asked;
   double before = 1.0;
@@ -59,7 +59,7 @@ TEST(ChannelInForce, IsThePanelsWhereTheOperatorTurnsDown) {
   EXPECT_EQ(asked.channel.in_force().word_ratio, 0.2);
 }
 
-// What take_back() must undo: the last cycle's fall, in ratio and in word.
+// take_back() must undo the last cycle's fall, in ratio and in word.
 TEST(ChannelInForce, ACommandThatWasNotDeliveredIsNotInForce) {
   Asked asked;
   asked.cycles(20);
@@ -97,8 +97,8 @@ TEST(ChannelInForce, IsThePanelsWhileNothingIsWritten) {
   EXPECT_EQ(asked.channel.in_force().word_ratio, 0.7);
 }
 
-// The layer wishes while the panel is at 0, a thread holds it, and as the thread ends the operator
-// turns down: no time has passed for the wish, so what he has turned to stays in force.
+// The layer has a wish with the panel at 0, held by a thread; as the thread ends the operator turns
+// down. No time has passed for the wish, so the operator's setting stays in force.
 TEST(ChannelInForce, BeginsAtThePanelAsTheOperatorHasTurnedItWhileNoMaskWasOn) {
   auto table = test::feed_840d();
   table.layer_may_exceed_panel = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A channel whose word is not latched: it walks from neighbour to neighbour, one each scan, and the
+// A channel whose word is not latched: it walks from neighbour to neighbour, one per scan, and the
 // envelope must wait for it.
 #include <algorithm>
 #include <vector>
@@ -17,7 +17,7 @@ namespace {
 using outcome::Reason;
 using test::kCycle_s;
 
-/// 1 … 10 % by 1 %, then 20 … 100 % by 10 %: a fine end and a coarse one, as real switches have.
+/// 1 … 10 % by 1 %, then 20 … 100 % by 10 %: one fine end and one coarse, as on real switches.
 machine::OverrideTable fine_and_coarse() {
   machine::OverrideTable table;
   for (int percent = 1; percent <= 10; ++percent) {
@@ -53,8 +53,8 @@ struct Walker {
   RatioEnvelope::Input input{.step_s = kCycle_s};
 };
 
-// Ten fine steps take 0.1 s, in which a rise of 5 1/s would come to 50 %. Had the envelope gone
-// ahead, the word would then run after it by a coarse step a scan, 10 1/s.
+// Ten fine steps take 0.1 s, in which a rise of 5 1/s would reach 50 %. With the envelope that far
+// ahead, the word would then chase it by a coarse step per scan, 10 1/s.
 TEST(ChannelWalk, TheSlewWaitsForTheWordOnItsFineSteps) {
   Walker walker({.table = fine_and_coarse(), .rise_1_s = 5.0, .latched = false});
   walker.wish(0.01);
@@ -75,8 +75,8 @@ TEST(ChannelWalk, TheSlewWaitsForTheWordOnItsFineSteps) {
   }
 }
 
-// Down to 1 % the word needs 18 scans where the envelope alone would need 99 ms; from every place
-// on its way a new wish for more turns it round at once.
+// Down to 1 % the word needs 18 scans; the envelope alone would need 99 ms. From any place on its
+// way a new wish for more turns it round at once.
 TEST(ChannelWalk, AWishForMoreTurnsTheWordRoundWithoutFallingFurther) {
   for (const int fallen : {30, 60, 120, 170}) {
     Walker walker({.table = fine_and_coarse(), .rise_1_s = 5.0, .latched = false});
@@ -94,10 +94,10 @@ TEST(ChannelWalk, AWishForMoreTurnsTheWordRoundWithoutFallingFurther) {
   }
 }
 
-// Not yet while the word is on, nor while it settles; then for good.
+// Not yet while the word is in use, nor while it settles; then for good.
 TEST(ChannelHandedBack, IsSaidOnlyOnceNothingOfTheLayerIsLeft) {
   Walker walker({.table = fine_and_coarse(), .latched = false});
-  EXPECT_FALSE(walker.cycles(5).handed_back) << "the first word has not stood for a scan";
+  EXPECT_FALSE(walker.cycles(5).handed_back) << "the first word has not held for a scan";
   EXPECT_TRUE(walker.cycles(10).handed_back);
   walker.wish(0.5);
   for (int i = 0; i < 400; ++i) {
@@ -132,7 +132,7 @@ TEST(ChannelHandedBack, IsSaidAtOnceOfALatchedWord) {
   EXPECT_TRUE(out.handed_back);
 }
 
-// Table, envelope and word each refuse in their own words.
+// Table, envelope and word each refuse with their own text.
 TEST(ChannelConfig, EachPartsRefusalIsTheChannels) {
   const auto refused = [](const Channel::Config& config) {
     const auto made = Channel::make(config);
@@ -146,7 +146,7 @@ TEST(ChannelConfig, EachPartsRefusalIsTheChannels) {
   EXPECT_NE(refused({.table = test::percent_word(), .latched = false}).find("differ in 2 bits"),
             std::string::npos);
   EXPECT_EQ(refused({.table = test::percent_word(), .latched = false, .available = false}), "")
-      << "a word that is never written needs no way between its steps";
+      << "a word that is never written needs no walk";
 }
 
 // 70 % alone is allowed and is a step: no more is needed. 0.7 as 1 − 0.3 is the same 70 %.

@@ -41,7 +41,7 @@ TEST(Channel, OnTheDmgTableTheWordForSeventyPercentIsTheOneThatElsewhereMeansHun
 }
 
 TEST(Channel, TheLowerLimitIsAStepOfTheTable) {
-  // 25 % stands between 20 and 30: rounding down must not end below the limit.
+  // 25 % lies between 20 and 30: rounding down must not end below the limit.
   auto channel = Channel::make({.table = test::feed_840d(), .min_ratio = 0.25});
   ASSERT_TRUE(channel);
   RatioEnvelope::Input input{.ratio = 0.0, .reason = Reason::contour_limit};
@@ -74,7 +74,7 @@ TEST(Channel, RefusesATableThatTheEnvelopeExcludes) {
   EXPECT_EQ(channel.error().what, "the override table has no step within the envelope's 0 … 40 %");
 }
 
-// At 90 ms the walk is under way: step, scan and mask must come over.
+// At 90 ms the walk is under way: step, scan and mask must carry over.
 TEST(Channel, ARestoredStateGoesOnWhereItWas) {
   const Channel::Config config{.table = test::feed_840d(), .latched = false};
   auto first = Channel::make(config);

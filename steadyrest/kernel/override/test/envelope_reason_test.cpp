@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the envelope says of itself. The operator goes by the reason: it must name what holds the
-// feed now, not what held it a moment ago.
+// What the envelope reports about itself. The operator goes by the reason: it must name what holds
+// the feed now, not what held it a moment ago.
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/override/envelope.hpp>
@@ -39,7 +39,7 @@ struct Told {
   RatioEnvelope::Input input{.step_s = kCycle_s};
 };
 
-// From 0.9 back to 1.0 at 2 1/s: 50 cycles on the way, then nothing is left to say.
+// From 0.9 back to 1.0 at 2 1/s: 50 cycles on the way, then nothing left to report.
 TEST(EnvelopeReason, OnItsWayBackItIsSlewLimitedAndThenNothing) {
   Told told;
   told.wish(0.9);
@@ -51,7 +51,7 @@ TEST(EnvelopeReason, OnItsWayBackItIsSlewLimitedAndThenNothing) {
   EXPECT_EQ(told.cycles(3).reason, Reason::none);
 }
 
-// A room that withdrew says why, on the way back and after it.
+// A room that withdrew gives its reason, on the way back and after it.
 TEST(EnvelopeReason, AWithdrawalIsNamedOnTheWholeWayBack) {
   Told told;
   told.wish(0.9);
@@ -69,8 +69,8 @@ TEST(EnvelopeReason, APanelThatIsJustHighEnoughLimitsNothing) {
   EXPECT_EQ(told.cycles(100).reason, Reason::contour_limit);
 }
 
-// The operator turns from 50 to 70 %, the layer wants 90 %. On the way up it is the slew that
-// holds, at 70 % the panel.
+// The operator turns from 50 to 70 %, the layer wants 90 %. On the way up the slew holds the ratio,
+// at 70 % the panel.
 TEST(EnvelopeReason, ThePanelIsTheReasonOnlyOnceItIsReached) {
   Told told;
   told.input.panel.panel_ratio = 0.5;
@@ -81,7 +81,7 @@ TEST(EnvelopeReason, ThePanelIsTheReasonOnlyOnceItIsReached) {
   EXPECT_EQ(told.cycles(100).reason, Reason::panel_lower);
 }
 
-// No time has passed: the wish for less stands at the panel still, and the panel is not to blame.
+// No time has passed: the ratio is still at the panel, and the panel is not to blame.
 TEST(EnvelopeReason, AFallThatHasNotBegunIsSlewLimited) {
   Told told;
   told.wish(0.5);
@@ -110,7 +110,7 @@ TEST(EnvelopeReason, ThePanelAtZeroIsNamedBeforeTheWish) {
   EXPECT_EQ(told.cycles(1).reason, Reason::input_stale);
 }
 
-// Of two faults the frame's own is named before the panel's, the panel's before the wish's.
+// Of several faults the frame's own comes before the panel's, the panel's before the wish's.
 TEST(EnvelopeReason, OfSeveralFaultsTheFramesIsNamedFirst) {
   Told told;
   told.input.ratio = -1.0;
@@ -122,7 +122,7 @@ TEST(EnvelopeReason, OfSeveralFaultsTheFramesIsNamedFirst) {
 }
 
 // Without a mask the layer holds nothing in a thread: the switch acts at once, up and down, even if
-// a room asks for something.
+// a room has a wish.
 TEST(EnvelopeHold, AtThePanelTheOperatorsSwitchActsAtOnce) {
   Told told;
   told.input.hold = true;
@@ -134,8 +134,8 @@ TEST(EnvelopeHold, AtThePanelTheOperatorsSwitchActsAtOnce) {
   }
 }
 
-// Held at 60 %; the operator turns down to just there and up again. It was the layer's 60 % all the
-// time, and a thread must not speed up in its middle.
+// Held at 60 %; the operator turns down exactly to it and up again. The layer's 60 % was in force
+// all along, and a thread must not speed up half-way.
 TEST(EnvelopeHold, APanelThatOnlyTouchesTheHeldRatioDoesNotFreeIt) {
   Told told;
   told.wish(0.6);
@@ -148,7 +148,7 @@ TEST(EnvelopeHold, APanelThatOnlyTouchesTheHeldRatioDoesNotFreeIt) {
   EXPECT_EQ(told.cycles(200).ratio, 0.6);
 }
 
-// The envelope starts where the machine is: a switch at 40 % is no rise from 100 %.
+// The envelope starts where the machine is: a switch at 40 % means no rise from 100 %.
 TEST(EnvelopeStart, TheFirstPanelSeenIsWhereItBegins) {
   auto envelope = RatioEnvelope::make({}).value();
   RatioEnvelope::Input input{.step_s = kCycle_s, .ratio = 0.9, .reason = Reason::contour_limit};
@@ -157,12 +157,12 @@ TEST(EnvelopeStart, TheFirstPanelSeenIsWhereItBegins) {
   EXPECT_NEAR(envelope.update(input).ratio, 1.09, 1e-12);
 }
 
-// One ratio only: neither more nor less may be asked for, and that is a config.
+// One ratio only: no request can change anything, and that is a valid config.
 TEST(EnvelopeStart, ARangeOfOneRatioIsARange) {
   EXPECT_TRUE(RatioEnvelope::make({.min_ratio = 0.7, .max_ratio = 0.7}));
 }
 
-// A ratio that could not be spoils the state, and so does a panel that could not.
+// An impossible ratio spoils the state, and so does an impossible panel.
 TEST(EnvelopeStart, HalfAStateIsNone) {
   for (const bool panel : {true, false}) {
     auto envelope = RatioEnvelope::make({}).value();
@@ -191,14 +191,14 @@ OffsetEnvelope::Input wishes_x(double x_mm, double slope_mm_s) {
   return input;
 }
 
-// A room that asks for just the envelope's slew gets what it asks for.
+// A room that asks for exactly the envelope's slew gets it.
 TEST(OffsetReason, ASlopeOfTheEnvelopesOwnSlewIsNotHeldUp) {
   auto envelope = two_axes();
   EXPECT_EQ(envelope.update(wishes_x(0.1, 0.05)).reason, Reason::thermal_correcting);
   EXPECT_EQ(envelope.update(wishes_x(0.1, 0.0500001)).reason, Reason::slew_limited);
 }
 
-// Any axis that is off zero keeps the machine from being handed back, until it is at zero exactly.
+// Any axis off zero keeps the machine from being handed back, until it is exactly at zero.
 TEST(OffsetReason, AtZeroMeansEveryAxis) {
   auto envelope = two_axes();
   EXPECT_TRUE(envelope.update(wishes_x(0.0, 1.0)).at_zero);
@@ -215,7 +215,7 @@ TEST(OffsetReason, AtZeroMeansEveryAxis) {
   EXPECT_TRUE((envelope.update(input), envelope.update(input)).at_zero);
 }
 
-// Without a longest step a gap in the input would be credit without end.
+// Without a longest step a gap in the input would give unlimited credit.
 TEST(OffsetReason, AStepWithoutLimitIsRefused) {
   for (const double max_step_s : {0.0, -1.0, units::kInfinity, units::kNan}) {
     EXPECT_FALSE(OffsetEnvelope::make({.max_step_s = max_step_s})) << max_step_s;

@@ -41,7 +41,7 @@ class RatioBench {
   RatioEnvelope envelope_;
 };
 
-// Without a wish the layer must not be felt: whatever the panel does is in force in the same
+// Without a wish the layer must not be felt: whatever the panel does takes effect in the same
 // cycle, with no slew and no mask.
 TEST(RatioEnvelope, NeutralIsTransparentToTheOperator) {
   RatioBench bench;
@@ -67,7 +67,7 @@ TEST(RatioEnvelope, FallsAndRisesAtTheirOwnRates) {
   EXPECT_EQ(bench.cycles(200).ratio, 0.8);
 }
 
-// The limits clamp the wish alone; the panel's 120 % stays the operator's.
+// The limits clamp only the wish; the panel's 120 % stays the operator's.
 TEST(RatioEnvelope, ClampsTheWish) {
   RatioBench bench({.min_ratio = 0.3, .max_ratio = 1.1});
   bench.panel(1.2);
@@ -131,7 +131,7 @@ TEST(RatioEnvelope, UnfitInputIsNeutralThroughTheSlewWithItsReason) {
   spoilt([](auto& input) { input.panel.panel_ratio = -1.0; }, Reason::input_out_of_range);
 }
 
-// A step of NaN or infinity would otherwise be credit without end.
+// A step of NaN or infinity would otherwise give unlimited credit.
 TEST(RatioEnvelope, TimeThatIsNotFiniteMovesNothing) {
   RatioBench bench;
   bench.cycle();
@@ -147,7 +147,7 @@ TEST(RatioEnvelope, TimeThatIsNotFiniteMovesNothing) {
   EXPECT_EQ(bench.cycle().ratio, 0.4);
 }
 
-// The longest step that counts is 0.1 s: 0.2 + 0.1 · 2 = 0.4.
+// At most 0.1 s of a step counts: 0.2 + 0.1 · 2 = 0.4.
 TEST(RatioEnvelope, AGapInTheInputIsNoLicenceToJump) {
   RatioBench bench({.max_step_s = 0.1});
   bench.cycle();
@@ -180,7 +180,7 @@ TEST(RatioEnvelope, HoldKeepsTheRatioButNotAgainstTheOperator) {
   EXPECT_EQ(bench.cycle().ratio, 0.0);
 }
 
-// May exceed, but a neutral 1.0 is not a wish for 100 %, and 0 stays 0.
+// The layer may exceed the panel, but a neutral 1.0 is not a wish for 100 %, and 0 stays 0.
 TEST(RatioEnvelope, ExceedsThePanelOnlyWhenAllowedAndOnlyForAWish) {
   RatioBench bench({.may_exceed_panel = true});
   bench.panel(0.5);
@@ -212,7 +212,7 @@ TEST(RatioEnvelope, RefusesAConfigThatWouldSwitchItOff) {
   EXPECT_EQ(refused.error().what, "envelope: rise_1_s is -2; allowed: finite and > 0");
 }
 
-// State from a file: NaN must end at the panel, not in force.
+// State from a file: NaN must end at the panel, never in force.
 TEST(RatioEnvelope, AStateThatIsNotFiniteIsNotRestored) {
   RatioBench bench;
   bench.cycle();

@@ -40,7 +40,7 @@ class OffsetBench {
   OffsetEnvelope envelope_;
 };
 
-// 0.05 mm/s · 0.1 s = 0.005 mm on both axes, whatever they want; then the limit of 0.2 mm.
+// 0.05 mm/s · 0.1 s = 0.005 mm on both axes, whatever they ask for; then the limit of 0.2 mm.
 TEST(OffsetEnvelope, SlewsAndClampsEachAxis) {
   OffsetBench bench;
   bench.input.request.offset_mm[0] = 0.01;
@@ -82,7 +82,7 @@ TEST(OffsetEnvelope, ASlopeThatIsNoneMovesNothing) {
   }
 }
 
-// The room that asked for slope 0 has withdrawn; its slope must not hold the offset for ever.
+// The room that asked for slope 0 has withdrawn; its slope must not hold the offset forever.
 TEST(OffsetEnvelope, RampsOutByItsOwnSlewWhateverSlopeWasAskedFor) {
   OffsetBench bench;
   bench.input.request.offset_mm[0] = 0.1;
@@ -99,7 +99,7 @@ TEST(OffsetEnvelope, AnAxisWithoutALimitTakesNoOffset) {
   EXPECT_EQ(bench.cycles(1000).offset_mm[1], 0.0);
 }
 
-// Two say whether the tool is in the cut, the room and the machine; both must say no.
+// Room and machine both report whether the tool is in the cut; both must say no.
 TEST(OffsetEnvelope, FreezesInTheCutThenRampsOut) {
   const auto spoilt = [](auto&& spoil, Reason reason) {
     OffsetBench bench;
@@ -124,7 +124,7 @@ TEST(OffsetEnvelope, FreezesInTheCutThenRampsOut) {
   spoilt([](auto& input) { input.request.reason = Reason::none; }, Reason::none);
 }
 
-// 5 mm were never allowed; the axis without a limit must come back to 0.
+// 5 mm were never allowed; the axis that takes no offset must come back to 0.
 TEST(OffsetEnvelope, ARestoredOffsetIsCutToTheLimitAndNoNumberIsNotTaken) {
   auto envelope = OffsetEnvelope::make(OffsetBench::config());
   ASSERT_TRUE(envelope);

@@ -3,8 +3,8 @@
 
 #include <steadyrest/kernel/machine/machine.hpp>
 
-/// Override tables as they stand in manuals and in one real machine's archive; tests only, since a
-/// table is machine data.
+/// Override tables from manuals and from one real machine's archive; for tests only, since a table
+/// is machine data.
 namespace steadyrest::kernel::override::test {
 
 /// 23-position feed switch of the SINUMERIK 840D machine control panel.
@@ -26,7 +26,7 @@ inline machine::OverrideTable spindle_840d() {
   return table;
 }
 
-/// MD12030[0 … 30] of a DMG machine with 840D sl: 100 % stands at index 24.
+/// MD12030[0 … 30] of a DMG machine with 840D sl: 100 % is at index 24.
 inline machine::OverrideTable feed_dmg() {
   machine::OverrideTable table;
   table.ratio = {0,   .005, .01, .02,  .03,  .04,  .05,  .06,  .07, .08, .09,

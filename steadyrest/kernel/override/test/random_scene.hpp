@@ -26,7 +26,7 @@ struct Scene {
   std::vector<RatioEnvelope::Input> inputs;
 };
 
-// One wish in eight is no ratio at all.
+// One wish in eight is an invalid ratio.
 inline double random_wish() {
   if (*rc::gen::inRange(0, 8) == 0) {
     return *rc::gen::element(kNan, kInfinity, -kInfinity, -1.0, 1e300);
@@ -34,7 +34,7 @@ inline double random_wish() {
   return *rc::gen::inRange(0, 1500) / 1000.0;
 }
 
-// Published tables, coded in Gray, walked or latched; a binary percent word only latched, since
+// Published tables in Gray code, walked or latched; a binary percent word only latched, since
 // make() refuses it otherwise.
 inline Channel::Config random_config(bool may_exceed) {
   Channel::Config config;
@@ -51,8 +51,8 @@ inline Channel::Config random_config(bool may_exceed) {
   return config;
 }
 
-// A dozen spells of up to 120 cycles, each with a wish, faults, holds and panels that lie on and
-// between the table's steps; now and then a cycle whose time is wrong.
+// A dozen spells of up to 120 cycles, each with a wish, faults, holds and panels on and between the
+// table's steps; now and then a cycle with a wrong time.
 inline Scene random_scene(bool may_exceed = false) {
   Scene scene{.config = random_config(may_exceed), .inputs = {}};
   const auto& ratio = scene.config.table.ratio;
@@ -88,14 +88,14 @@ inline Scene random_scene(bool may_exceed = false) {
   return scene;
 }
 
-/// What the machine has on its input after a cycle.
+/// What the machine has at its input after a cycle.
 struct Word {
   std::uint32_t code = 0;
   bool masks = false;
 };
 
-/// Ratio in force for a word; nothing when the machine could not decode it.
-/// The machine's side, decoded independently of the channel.
+/// Ratio in force for a word; empty when the machine could not decode it. This is the machine's
+/// side, decoded independently of the channel.
 inline std::optional<double> in_force(const Table& table, const Word& word, double panel) {
   if (!word.masks) {
     return panel;
@@ -104,8 +104,8 @@ inline std::optional<double> in_force(const Table& table, const Word& word, doub
   return step ? std::optional(table.ratio(*step)) : std::nullopt;
 }
 
-/// Calls check(input, output, before, now) for each cycle: ratios in force with the panel of this
-/// cycle, by the word of the last cycle and by the word of this one.
+/// Calls check(input, output, before, now) for each cycle: the ratios in force at this cycle's
+/// panel, with the last cycle's word and with this one's.
 template <class Check>
 void play(const Scene& scene, Check&& check) {
   auto channel = Channel::make(scene.config);
@@ -136,8 +136,8 @@ inline double widest_step(const Table& table) {
   return widest;
 }
 
-/// The last input for long enough that the slowest way ends: the whole range at 1 1/s, 31 steps of
-/// a scan each, a scan for the mask.
+/// Repeats the last input until the slowest way ends: the whole range at 1 1/s, 31 steps of a scan
+/// each, a scan for the mask.
 inline void settle(Scene& scene, RatioEnvelope::Input input) {
   input.hold = false;
   input.panel.panel_code_known = true;

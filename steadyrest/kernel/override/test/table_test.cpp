@@ -81,7 +81,7 @@ TEST(OverrideTable, TheSameCodeMeansAnotherRatioOnAnotherMachine) {
   EXPECT_DOUBLE_EQ(dmg->ratio(dmg->step_of_code(0b10101).value()), 1.0);
 }
 
-// Codes that wires show by fault: none, all, one bit too many, a position that is not there.
+// Codes from wiring faults: none, all, one bit too many, a position that does not exist.
 TEST(OverrideTable, UnknownCodeIsNeverGuessed) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
@@ -122,7 +122,7 @@ TEST(OverrideTable, SpindleFloorBelowTheLowestStepIsNothing) {
   EXPECT_EQ(table->ceil_step(0.49), 0U);
 }
 
-// Steps above the clip are all the same to the control; a search takes the lowest of them, while
+// Steps above the clip are all the same to the control; a search finds the lowest of them, while
 // every code still reads back as its own step.
 TEST(OverrideTable, ControlClipsAtItsMaximum) {
   auto config = test::feed_dmg();
@@ -148,7 +148,7 @@ struct BadTable {
   machine::OverrideTable table;
 };
 
-// One fault each, named by the words that the refusal must hold.
+// One fault each, named by the words that the refusal must contain.
 std::vector<BadTable> bad_tables() {
   using machine::Coding;
   std::vector<BadTable> bad;
@@ -192,7 +192,7 @@ TEST(OverrideTable, RefusesWhatIsNoTable) {
   }
 }
 
-// Any rising table, any wish: nothing not above the wish is larger than what was found.
+// Any ascending table, any wish: no step at or below the wish is larger than the one found.
 RC_GTEST_PROP(OverrideTable, FloorIsTheLargestStepNotAbove, ()) {
   auto percent = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 250)));
   std::ranges::sort(percent);

@@ -89,7 +89,7 @@ TEST(Transition, RefusesAScanPeriodThatIsNone) {
   EXPECT_FALSE(Stepper::make(*table, {.latched = true, .scan_period_s = units::kNan}));
 }
 
-// Scans of 10 ms; the first word, too, must have settled before the walk starts.
+// Scans of 10 ms; the first word must also settle before the walk starts.
 TEST(Stepper, WalksOneNeighbourForEachScan) {
   const auto table = Table::make(test::feed_840d());
   ASSERT_TRUE(table);
@@ -125,7 +125,7 @@ TEST(Stepper, TimeThatIsNoneNeitherHurriesNorDelays) {
     stepper->pass(step_s);
     return stepper->update(5);
   };
-  EXPECT_EQ(cycle(9.99), 0U) << "before the first word nothing has stood";
+  EXPECT_EQ(cycle(9.99), 0U) << "before the first word nothing counts";
   EXPECT_EQ(cycle(0.010), 1U);
   EXPECT_EQ(cycle(units::kNan), 1U);
   EXPECT_EQ(cycle(units::kInfinity), 1U);
@@ -135,8 +135,8 @@ TEST(Stepper, TimeThatIsNoneNeitherHurriesNorDelays) {
   EXPECT_EQ(cycle(0.001), 2U) << "a whole scan of good time, neither sooner nor later";
 }
 
-// From any step to any other on any table: no mixture of bits may lie outside of the two ends, no
-// word is shorter than a scan, and the walk arrives.
+// From any step to any other on any table: no mixture of bits may lie outside the two ends, no word
+// is shorter than a scan, and the walk arrives.
 RC_GTEST_PROP(Stepper, NoIntermediateWordDecodesOutsideOfFromAndTo, ()) {
   const auto config = *rc::gen::element(test::feed_840d(), test::spindle_840d(), test::feed_dmg());
   const auto table = Table::make(config);

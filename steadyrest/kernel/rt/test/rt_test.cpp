@@ -15,7 +15,7 @@
 namespace steadyrest::kernel::rt {
 namespace {
 
-/// A value in which a torn copy shows: all words are equal.
+/// A value that reveals a torn copy: all words are equal.
 struct Wide {
   std::array<std::uint64_t, 32> word{};
 
@@ -80,7 +80,7 @@ TEST(Ring, NothingIsLostOrTornBetweenTwoThreads) {
   EXPECT_EQ(ring.size(), 0U);
 }
 
-// A reader sees whole values only, and is told whether there is a new one.
+// A reader sees only whole values and learns whether there is a new one.
 TEST(Snapshot, GivesTheNewestValueOnce) {
   Snapshot<int> snapshot;
   EXPECT_EQ(snapshot.load(), 0);
@@ -124,7 +124,7 @@ TEST(Snapshot, IsNeverTornNeverOlderAndEndsAtTheLastValue) {
 }
 
 TEST(AllocationGuard, FailsTheTestThatAllocates) {
-  // The operator itself: a compiler may leave out a pair of new and delete expressions.
+  // The operator itself: a compiler may omit a pair of new and delete expressions.
   EXPECT_NONFATAL_FAILURE(
       {
         const testing::AllocationGuard guard;
@@ -144,7 +144,7 @@ TEST(AllocationGuard, CountsAndForgives) {
   EXPECT_EQ(guard.allocations(), 0U);
 }
 
-// Frames are what the cycle hands on; a copy that allocates would show here.
+// The cycle hands frames on; a copy that allocates would show here.
 TEST(AllocationGuard, RingAndSnapshotAllocateNothing) {
   Ring<signal::Frame, 8> ring;
   Snapshot<signal::Frame> snapshot;

@@ -6,12 +6,12 @@
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 
-// Counts calls, per thread, of the replaced global operators. What a library allocates by malloc
-// itself is not seen; the project's code in the cycle calls no such library.
+// Counts calls, per thread, of the replaced global operators. Memory that a library allocates with
+// malloc itself goes unseen; the project's code in the cycle calls no such library.
 namespace steadyrest::kernel::rt::testing {
 namespace {
 
-// Per thread: a logger that allocates beside the cycle is no fault of the cycle.
+// Per thread: a logger that allocates in parallel is no fault of the cycle.
 thread_local std::size_t allocation_count = 0;
 
 void* allocate(std::size_t size) {
@@ -39,7 +39,7 @@ void* or_throw(void* memory) {
 
 AllocationGuard::AllocationGuard() noexcept : at_start_(allocation_count) {}
 
-// In the destructor, so that no test can forget to ask.
+// In the destructor, so that no test can forget to check.
 AllocationGuard::~AllocationGuard() {
   if (const std::size_t count = allocations(); count != 0) {
     ADD_FAILURE() << count << " allocations where none is allowed";
@@ -59,7 +59,7 @@ void AllocationGuard::forgive() noexcept {
 
 namespace guard = steadyrest::kernel::rt::testing;
 
-// The global operators; the array and sized forms of the library end in these.
+// The global operators; the library's array and sized forms end up in these.
 void* operator new(std::size_t size) {
   return guard::or_throw(guard::allocate(size));
 }

@@ -8,7 +8,7 @@ namespace steadyrest::kernel::rt::testing {
 /// While it lives, any `operator new` of this thread makes the running GoogleTest fail.
 ///
 /// Link `steadyrest_allocation_guard` into the test, never into anything else: it replaces the
-/// global operators. Guards may be nested; each reports what happened under it.
+/// global operators. Guards may be nested; each reports the allocations made while it lived.
 class AllocationGuard {
  public:
   AllocationGuard() noexcept;
@@ -18,7 +18,7 @@ class AllocationGuard {
 
   /// Allocations of this thread since the guard was made.
   [[nodiscard]] std::size_t allocations() const noexcept;
-  /// The allocations so far were meant: they do not fail the test.
+  /// Forgives the allocations so far: they do not fail the test.
   void forgive() noexcept;
 
  private:

@@ -16,7 +16,8 @@ namespace {
 
 using kernel::signal::PathSegment;
 
-/// Dense sampling, then golden-section search about the best sample: slow, but knows no derivative.
+/// Dense sampling, then golden-section search around the best sample: slow, but needs no
+/// derivative.
 double brute_distance(const PathSegment& segment, const Point& query, double low, double high) {
   const auto at = [&](double u) { return distance(point_at(segment, u), query); };
   const int count = 4000;
@@ -37,7 +38,7 @@ double brute_distance(const PathSegment& segment, const Point& query, double low
   return std::min({at(0.5 * (a + b)), at(low), at(high)});
 }
 
-// The oracle knows distances alone, so a wrong derivative shows.
+// The oracle uses only distances, so a wrong derivative shows.
 RC_GTEST_PROP(FootPoint, OfLinesIsWithinANanometreOfDenseSampling, ()) {
   const PathSegment segment = test::line(*test::point(50.0), *test::point(50.0));
   const Point query = *test::point(80.0);
@@ -61,7 +62,7 @@ RC_GTEST_PROP(FootPoint, OfArcsHelicesAndSpiralsMatchesDenseSamplingWithinTwoTur
   RC_ASSERT(distance(foot.point_mm, point_at(segment, foot.u)) <= 1e-9);
 }
 
-// Four turns lie on one another; only u_near can tell them apart.
+// Four turns coincide; only u_near can tell them apart.
 TEST(FootPoint, OnAMultiTurnCircleStaysOnTheTurnThatIsAsked) {
   const double turn = 2.0 * std::numbers::pi;
   const PathSegment circle = test::arc({}, {0, 0, 1}, 10.0, 10.0, 0.0, 4.0 * turn, 0.0);

@@ -17,9 +17,9 @@ using kernel::machine::Encoder;
 
 using testing::HasSubstr;
 
-/// A file with everything that byte editing can trip over: characters of two bytes before and in
-/// the edited lines, comments behind heads and keys, an indented section, an axis without an
-/// encoder, a last line without line end.
+/// A file with everything that byte editing can trip over: two-byte characters before and in the
+/// edited lines, comments after heads and keys, an indented section, an axis without an encoder, a
+/// last line without a line end.
 const std::string kHead = "name = \"µ\" # a comment\n[control]\ndialect = \"linuxcnc\"\n\n";
 const std::string kX =
     "[[axis]] # X\nname = \"X\" # größer µm\nservo_gain_1_s = 50\nmax_feed_mm_min = 12000\n"
@@ -48,8 +48,8 @@ std::string refusal_of(const std::string& text, std::string_view axis, const Enc
   return out ? "accepted" : kernel::outcome::text(out.error());
 }
 
-/// Three claims at once: what surrounds the calibration is untouched byte for byte; what reads back
-/// is the calibration to half a printed digit; and a second run changes nothing.
+/// Three claims at once: the surroundings of the calibration are untouched byte for byte; the
+/// calibration reads back to half a printed digit; and a second run changes nothing.
 void expect_put_in(const std::string& text, std::string_view axis, std::size_t index,
                    const Encoder& encoder, const std::string& before, const std::string& after) {
   const auto out = with_calibration(text, "m.toml", axis, encoder);
@@ -113,7 +113,7 @@ TEST(CalibrationText, TakesARotaryAxisInDegrees) {
   expect_put_in(kHead + kX + b + kTail, "B", 3, encoder, kHead + kX + b, kTail);
 }
 
-// 1000 lines replaced by 5: the bytes behind the list must move up without a gap.
+// 1000 lines replaced by 5: the bytes after the list must move up without a gap.
 TEST(CalibrationText, ReplacesAnOlderOneOfAnotherLength) {
   const auto first =
       with_calibration(kHead + kX + kEncoder + kB + kTail, "m.toml", "X", learnt(1000));
@@ -121,8 +121,8 @@ TEST(CalibrationText, ReplacesAnOlderOneOfAnotherLength) {
   expect_put_in(*first, "X", 0, learnt(5), kHead + kX + kEncoder, kB + kTail);
 }
 
-// What the editor cannot place safely it must refuse; each text here would otherwise be changed in
-// the wrong spot or into a file that does not load.
+// The editor must refuse what it cannot place safely; each text here would otherwise be changed in
+// the wrong place or into a file that does not load.
 TEST(CalibrationText, RefusesWhatItCannotDoSafely) {
   const std::string inlined = kHead + kX + "encoder = {count_um = 1}\n" + kB + kTail;
   EXPECT_THAT(refusal_of(inlined, "X", learnt(3)), HasSubstr("inline or with dotted keys"));
@@ -155,7 +155,7 @@ TEST(CalibrationText, AFragmentReadsBack) {
   EXPECT_FALSE(parse_calibration("count_um = 2\n", "f.toml", "", 0.001));
 }
 
-// Scales have 10⁵ lines and more; a reader that copies the list for each element would take
+// Scales have 10⁵ lines and more; a reader that copied the list for each element would take
 // minutes.
 TEST(CalibrationText, AFileWithAHundredThousandLinesIsReadWhole) {
   const Encoder encoder = learnt(100'000);

@@ -7,8 +7,8 @@
 #include <steadyrest/passport/file/consistency.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
-// Each case spoils one thing in a good machine. Exactly one check may complain: that a finding
-// appears shows that the check works, that no other appears shows that the checks are independent.
+// Each case spoils one thing in a good machine. Exactly one check may complain: that one shows that
+// the check works, the absence of others that the checks are independent.
 namespace steadyrest::passport {
 namespace {
 

@@ -29,8 +29,7 @@ TEST(EveryKey, Chatter) {
   EXPECT_EQ(chatter.m_code_on, 138U);
   EXPECT_EQ(chatter.m_code_off, 139U);
   EXPECT_EQ(chatter.seed, 73U);
-  // amplitude_rpm and amplitude_percent exclude each other; the second is tried in a text of its
-  // own.
+  // amplitude_rpm and amplitude_percent exclude each other; a separate text tests the second.
   std::string text(test::kFullMachine);
   text.replace(text.find("amplitude_rpm = 180"), 19, "amplitude_percent = 18");
   const auto percent = parse(text, "percent.toml");

@@ -166,16 +166,16 @@ TEST(EveryKey, SpindleContourEnvelopeSimulation) {
   EXPECT_DOUBLE_EQ(m.simulation.position_noise_mm, 0.072);
 }
 
-/// A key in the schema that the full machine does not set would be read by nobody here.
+/// Nothing here would read a schema key that the full machine does not set.
 template <class S>
 void expect_all_tried(std::span<const Key<S>> keys) {
   for (const Key<S>& key : keys) {
     if (key.name == "amplitude_percent") {
-      continue;  // cannot stand beside amplitude_rpm; EveryKey.Chatter tries it
+      continue;  // excludes amplitude_rpm; EveryKey.Chatter tries it
     }
     const std::string line = "\n" + std::string(key.name) + " = ";
     EXPECT_TRUE(("\n" + std::string(test::kFullMachine)).find(line) != std::string::npos)
-        << key.name << " is not tried here";
+        << key.name << " is not tested here";
   }
 }
 

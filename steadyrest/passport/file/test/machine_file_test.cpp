@@ -100,7 +100,7 @@ Machine example(const std::string& name) {
   return machine.value_or(Machine{});
 }
 
-/// The examples are what users start from; doctor must have nothing to say about them.
+/// Users start from the examples; doctor must have no findings on them.
 class ExampleMachine : public testing::TestWithParam<std::string> {};
 
 TEST_P(ExampleMachine, LoadsAndIsConsistent) {

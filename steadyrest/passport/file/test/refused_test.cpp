@@ -13,8 +13,8 @@
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 
-// What must be refused. Each file of the corpus promises its refusal in its first line, so the
-// corpus grows without a line of code; texts that need odd bytes or sizes are made here.
+// What must be refused. Each file of the corpus states its refusal in its first line, so the corpus
+// grows without a line of code; texts that need odd bytes or sizes are made here.
 namespace steadyrest::passport {
 namespace {
 
@@ -34,7 +34,7 @@ std::vector<std::string> corpus() {
   return names;
 }
 
-/// What the first line of a file promises: `# refuse LINE: a piece of the message`.
+/// What the first line of a file states: `# refuse LINE: a piece of the message`.
 struct Promise {
   std::size_t line = 0;
   std::string piece;
@@ -55,7 +55,7 @@ Promise promise_of(const fs::path& path) {
 
 class RefusedMachineFile : public testing::TestWithParam<std::string> {};
 
-// The fault, its line, a piece of its message, and no second message: one mistake must not set off
+// The fault, its line, a piece of its message, and no second message: one mistake must not trigger
 // others, or people correct the wrong one.
 TEST_P(RefusedMachineFile, NamesItsFault) {
   const fs::path path = kCorpus / (GetParam() + ".toml");
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Corpus, RefusedMachineFile, testing::ValuesIn(corpus())
                            return name;
                          });
 
-// Guards against a corpus that was moved away: an empty one would pass.
+// Guards against a corpus that was moved elsewhere: an empty one would pass.
 TEST(RefusedMachineFiles, AreAtLeastThirtyFive) {
   EXPECT_GE(corpus().size(), 35U);
 }
@@ -115,7 +115,7 @@ TEST(RefusedMachineText, EndsInTheMiddleOfACharacter) {
   EXPECT_THAT(refusal_of("# \xe2\x82"), HasSubstr("byte 0xe2 is not UTF-8"));
 }
 
-/// A file of the given size that takes no room on the disk: nothing but its length is read.
+/// A file of the given size that takes no space on the disk: only its length is read.
 class SparseFile {
  public:
   explicit SparseFile(std::uintmax_t bytes)
@@ -149,8 +149,8 @@ TEST(RefusedMachineText, NoFileAndAFolder) {
   EXPECT_THAT(kernel::outcome::text(read(kCorpus.string()).error()), HasSubstr("is a folder"));
 }
 
-// toml++ and the destructor of its tree recurse; without the check before it these texts would
-// overflow the stack.
+// toml++ and the destructor of its tree recurse; without the check these texts would overflow the
+// stack.
 TEST(RefusedMachineText, NestingThatWouldExhaustTheStack) {
   std::string keys;
   for (int i = 0; i < 1'000'000; ++i) {
@@ -175,8 +175,8 @@ std::string dotted(std::string_view part) {
   return out;
 }
 
-// What ends a key or begins a comment does neither within quotes, and a quote that is escaped or
-// part of a longer string's content closes nothing. toml++ takes each of these (the second test).
+// Inside quotes nothing ends a key or begins a comment, and a quote that is escaped or part of a
+// longer string's content closes nothing. toml++ accepts each of these (the second test).
 const std::vector<std::string> kDeepKeys = {dotted(R"("#")"),
                                             dotted("'#'"),
                                             dotted(R"("=")"),
@@ -200,7 +200,7 @@ TEST(RefusedMachineText, DeepKeysWhateverTheirQuotesContain) {
   }
 }
 
-/// The deepest table below, counting from 0.
+/// The deepest table below this one, counting from 0.
 int depth_of(const toml::table& table) {
   int deepest = 0;
   for (const auto& [name, node] : table) {
@@ -217,7 +217,7 @@ TEST(RefusedMachineText, DeepKeysAreDeepToTheParserToo) {
   }
 }
 
-// Dots within a text or a comment are no parts of a key.
+// Dots inside a text or a comment are not parts of a key.
 TEST(RefusedMachineText, DotsInTextsAreNoDepth) {
   const std::string dots(40, '.');
   for (const std::string& text : {"a = \"" + dots + "\"", "a = '" + dots + "'", "a = 1 # " + dots,
@@ -227,7 +227,7 @@ TEST(RefusedMachineText, DotsInTextsAreNoDepth) {
   }
 }
 
-// Two lines of five have number 0 and come first: sections that are missing.
+// Two of the five lines have number 0 and come first: missing sections.
 TEST(RefusedMachineText, ShowsAllFaultsInTheOrderOfTheirLines) {
   const AllFaults result = parse_all_faults(
       "nmae = \"x\"\n[control]\ndialect = 3\n[contour]\nlimit_mm = 1\n", "given.toml");

@@ -110,7 +110,7 @@ TEST(ThermalPassport, IsWrittenAsItIsRead) {
   EXPECT_NEAR(again->axis[0].mode[0].feed_s, thermal->axis[0].mode[0].feed_s, 1e-13);
 }
 
-// A sensor that moves two axes is one sensor.
+// A sensor that acts on two axes is one sensor.
 TEST(ThermalPassport, NamesEachSensorOnceInTheOrderOfTheFile) {
   Thermal thermal;
   EXPECT_TRUE(thermal.sensors().empty());
@@ -120,7 +120,7 @@ TEST(ThermalPassport, NamesEachSensorOnceInTheOrderOfTheFile) {
   EXPECT_EQ(thermal.sensors(), (std::vector<std::string>{"spindle", "room", "bed"}));
 }
 
-// The comment before the next section and the blank line must survive, the comment inside the old
+// The comment before the next section and the blank line must survive; the comment inside the old
 // section must go with it.
 TEST(ThermalEdit, ReplacesTheThermalSectionsAndNothingElse) {
   const auto thermal = parse_thermal_passport(kFull, "passport.toml");

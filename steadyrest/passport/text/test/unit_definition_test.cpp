@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every unit of the files by its definition, worked out here from mm, s, rad, rev/s, N and W alone.
+// Every unit of the files by its definition, derived here from mm, s, rad, rev/s, N and W only.
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -21,7 +21,7 @@ constexpr double kMinute_s = 60.0;
 constexpr double kTurn_deg = 360.0;
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
-// The displacement for a feed: a micrometre for each metre a minute, 10⁻³ mm over 1000 mm/60 s.
+// Displacement per feed: a micrometre for each metre per minute, 10⁻³ mm over 1000 mm/60 s.
 const Defined kDefined[] = {
     {"gain_1_s", "1/s", 1.0},
     {"gain_m_min_mm", "(m/min)/mm", 1000.0 / kMinute_s},
@@ -82,7 +82,7 @@ TEST(UnitDefinition, LeavesTheKeysWord) {
   }
 }
 
-// A unit begins behind an underscore: `mesh` is no time in hours, `track` no kelvin.
+// A unit begins after an underscore: `mesh` is no time in hours, `track` no kelvin.
 TEST(UnitDefinition, AnEndingInsideOfAWordIsNone) {
   for (const std::string_view word : {"mesh", "gains", "comm", "track", "cos", "_s", "s_"}) {
     EXPECT_EQ(unit_of(word).suffix, "") << word;

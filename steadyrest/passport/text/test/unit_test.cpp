@@ -31,7 +31,7 @@ TEST(Unit, StemLeavesOutAnyUnitKnownOrForeign) {
   EXPECT_EQ(stem_of("backlash"), "backlash");
 }
 
-// 3.7 is round in no unit, so a factor that is inverted on the way back shows.
+// 3.7 is round in no unit, so a factor applied the wrong way round on the way back shows.
 TEST(Unit, GoesThereAndBack) {
   for (const std::string_view key : {"gain_1_s", "gain_m_min_mm", "feed_mm_min", "a_um", "a_deg",
                                      "t_ms", "n_rpm", "p_percent", "p_kw", "j_kg_m2", "k_N_um"}) {
@@ -44,7 +44,7 @@ TEST(Unit, GoesThereAndBack) {
   EXPECT_NEAR(unit_of("stiffness_N_um").to_inner(1.5), 1500.0, 1e-12);
 }
 
-/// Ratios, weights and counts are all that may go without a unit.
+/// Only ratios, weights and counts may go without a unit.
 template <class S>
 void expect_units(std::span<const Key<S>> keys) {
   const std::set<std::string_view> bare = {
@@ -78,7 +78,7 @@ TEST(Schema, EveryDimensionalKeyEndsInItsUnit) {
   expect_units(simulation_keys());
 }
 
-/// A default outside of its own range could not be written into a file.
+/// A default outside its own range could not be written into a file.
 template <class S>
 void expect_defaults_in_range(std::span<const Key<S>> keys) {
   const S standard{};

@@ -18,7 +18,7 @@ using test::ideal_axis;
 using test::rubbing_axis;
 using test::servo;
 
-// Half the width either side of the motor; on reversal the whole 12 µm are crossed.
+// Half the width on either side of the motor; a reversal crosses the whole 12 µm.
 TEST(AxisServo, BacklashStepsByItsWidthOnReversal) {
   Axis axis = ideal_axis(50.0);
   axis.backlash_mm = 0.012;
@@ -41,7 +41,7 @@ TEST(AxisServo, BacklashStepsByItsWidthOnReversal) {
   EXPECT_NEAR(travel(4.0), 0.006, 1e-12);
 }
 
-// 50 µm at 10 mm/s take 5 ms, and some more while the lagging motor turns round.
+// 50 µm at 10 mm/s take 5 ms, plus the time in which the lagging motor reverses.
 TEST(AxisServo, TableStandsWhileTheBacklashIsCrossed) {
   Axis axis = ideal_axis(50.0);
   axis.backlash_mm = 0.050;
@@ -61,8 +61,8 @@ TEST(AxisServo, TableStandsWhileTheBacklashIsCrossed) {
   EXPECT_LT(standing, 20);
 }
 
-// The glitch is the difference to the same axis without friction: micrometres after each reversal,
-// hardly anything elsewhere. A friction without a step at v = 0 would show none.
+// The glitch is the difference from the same axis without friction: micrometres after each
+// reversal, hardly anything elsewhere. A friction without a step at v = 0 would show none.
 TEST(AxisServo, FrictionMakesAGlitchAtTheQuadrants) {
   const Axis smooth = [] {
     Axis axis = rubbing_axis();
@@ -93,7 +93,7 @@ TEST(AxisServo, FrictionMakesAGlitchAtTheQuadrants) {
   EXPECT_LT(far_mm, near_mm / 5.0);
 }
 
-// The integral part takes friction over: what is left is v/k, and d̂ = 300 + 1·20 mm/s².
+// The integral part takes over the friction: v/k is left, and d̂ = 300 + 1·20 mm/s².
 TEST(AxisServo, FrictionLeavesNoLagAtConstantVelocity) {
   AxisServo x = servo(rubbing_axis());
   for (int i = 1; i <= 3000; ++i) {
@@ -117,8 +117,8 @@ TEST(AxisServo, BreaksAwayOnlyAboveTheBreakawayForce) {
   }
 }
 
-// Stiction, count and integral part together make a limit cycle (hunting) in a naive loop; here
-// position and velocity must stay the same to the bit.
+// Stiction, count and integral part together make a naive loop hunt; here position and velocity
+// must stay the same to the bit.
 TEST(AxisServo, RestsWithoutChatterAfterAnyMove) {
   EXPECT_TRUE(rc::check("comes to rest and stays there", [] {
     Axis axis = rubbing_axis();

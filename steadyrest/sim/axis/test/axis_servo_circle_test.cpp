@@ -18,7 +18,7 @@ using kernel::machine::Axis;
 using test::ideal_axis;
 using test::servo;
 
-/// What a full circle gives after the transient has gone: R − |tool| (+ = undersize) and |e|.
+/// Results of a full circle after the transient: R − |tool| (+ = undersize) and |e|.
 struct Circle {
   double error_min_mm = std::numeric_limits<double>::infinity();
   double error_max_mm = -std::numeric_limits<double>::infinity();
@@ -26,7 +26,7 @@ struct Circle {
   double tracking_max_mm = 0.0;
 };
 
-// Three turns to let the transient die out, the fourth is scored.
+// Three turns for the transient to die out; the fourth is scored.
 Circle run_circle(const Axis& x_axis, const Axis& y_axis, double radius_mm, double feed_mm_min,
                   double period_s = 0.001) {
   AxisServo x = servo(x_axis, period_s);
@@ -60,8 +60,8 @@ struct CircleCase {
 
 class AxisServoCircle : public testing::TestWithParam<CircleCase> {};
 
-// Closed form: both errors of a first-order lag on a circle, q = v/(R·k). Smallest and largest
-// must agree with it, so an ellipse would fail, too.
+// Closed form: both errors of a first-order lag on a circle, q = v/(R·k). Smallest and largest must
+// agree with it, so an ellipse would fail too.
 TEST_P(AxisServoCircle, KeepsTheClosedForm) {
   const CircleCase p = GetParam();
   const Axis axis = ideal_axis(p.gain_1_s);
@@ -153,7 +153,7 @@ TEST(AxisServo, VelocityLagReducesTheErrorAndTurnsItsSign) {
   EXPECT_NEAR(oversize.error_min_mm, truth, 1e-5);
 }
 
-// A limit that is never reached must change nothing but the discretisation.
+// A limit that is never reached must change nothing except the discretisation.
 TEST(AxisServo, DriveStepsKeepTheLawWhereTheLimitDoesNotHold) {
   Axis axis = ideal_axis(50.0);
   for (const double lag_s : {0.0, 0.005}) {

@@ -52,7 +52,7 @@ TEST(AxisServo, MismatchOnAStraightLineGivesFormulaTwo) {
               speed_mm_s / 2.0 * std::sin(2.0 * angle) * std::abs(1.0 / 30.0 - 1.0 / 36.0), 1e-9);
 }
 
-// A step of 5 mm is more than the drive can do; its limit must hold in each period, and the motion
+// A step of 5 mm exceeds the drive's ability; its limit must hold in each period, and the motion
 // must be the integral of the velocity.
 TEST(AxisServo, NeverExceedsTheDriveLimit) {
   for (const double lag_s : {0.0, 0.003}) {

@@ -28,7 +28,7 @@ std::optional<Passage> passage(const Encoder& encoder, const Stretch& stretch) {
   return last_passage(encoder, stretch, encoder.count(stretch.end_mm));
 }
 
-// At constant speed the last border before the end is a floor away.
+// At constant speed a floor() gives the last border before the end.
 TEST(EdgeSearch, AtConstantSpeedTheLastLineIsWhereTheClosedFormHasIt) {
   const Encoder encoder = encoder_of(0.0);
   for (const double v : {3.7, -3.7, 123.4, -800.0}) {
@@ -60,7 +60,7 @@ TEST(EdgeSearch, ThePassageIsWhereTheReadingWithItsLineErrorCrossesTheBorder) {
   }
 }
 
-/// x = v·t − a·t²/2 goes over a line and comes back over it.
+/// x = v·t − a·t²/2 crosses a line and comes back across it.
 TEST(EdgeSearch, SeesALineThatIsPassedThereAndBack) {
   const Encoder encoder = encoder_of(0.0);
   const double h = 0.004;
@@ -80,8 +80,8 @@ TEST(EdgeSearch, StandstillHasNoEdge) {
   EXPECT_FALSE(passage(encoder_of(0.0001), {0.001, 0.0123, 0.0, 0.0123, 0.0}));
 }
 
-/// One axis that follows its command by full feed-forward: with next to no gain the counts of the
-/// position loop do not move it.
+/// One axis that follows its command by full feed-forward: at next to no gain the position loop's
+/// counts do not move it.
 kernel::machine::Machine follower(double clock_s) {
   kernel::machine::Machine machine;
   machine.control.interpolator_period_s = 0.004;
@@ -113,8 +113,8 @@ void follow(const kernel::machine::Machine& machine, const MotionLaw& motion, in
   }
 }
 
-// Edges at constant speed are q/v apart; a stamp is cut off to the clock, so any two may differ by
-// one tick of 0.1 µs from that.
+// Edges at constant speed are q/v apart; a stamp is truncated to the clock, so any two may differ
+// from that by one tick of 0.1 µs.
 TEST(Counter, AtConstantSpeedItsStampsAreEquidistantWithinTheClock) {
   const double v = 7.3;
   double first_s = -1.0;
@@ -141,7 +141,7 @@ TEST(Counter, AtConstantSpeedItsStampsAreEquidistantWithinTheClock) {
   EXPECT_GT(edges, 1000);
 }
 
-// The stamp put into the closed form of the motion must give the line's place.
+// The stamp inserted into the closed form of the motion must give the line's position.
 TEST(Counter, OnACircleEachStampIsWhenTheClosedFormPassesTheLine) {
   const double radius_mm = 10.0;
   const double rate_1_s = 4000.0 / 60.0 / radius_mm;
@@ -161,8 +161,8 @@ TEST(Counter, OnACircleEachStampIsWhenTheClosedFormPassesTheLine) {
             static_cast<double>(axis.count) + (axis.edge_direction > 0 ? -0.5 : 0.5);
         const double x = radius_mm * std::cos(rate_1_s * axis.edge_s);
         const double v = radius_mm * rate_1_s * std::abs(std::sin(rate_1_s * axis.edge_s));
-        // The loop's feedback of its counts adds what k·count/2 can move it within 1/k: q/2 at
-        // most.
+        // The loop's feedback of its counts adds at most what k·count/2 can move it within 1/k:
+        // q/2.
         ASSERT_NEAR(x, line * kCount_mm, v * kClock_s + 2e-5) << frame.time_s;
         reversals += axis.edge_direction != direction;
         direction = axis.edge_direction;

@@ -11,7 +11,7 @@ namespace {
 
 using Law = kernel::machine::Friction;
 
-// Stribeck: F(v) = Fc + (Fs − Fc)·exp(−(v/vs)²), so at v = vs 1/e of the excess is left. A
+// Stribeck: F(v) = Fc + (Fs − Fc)·exp(−(v/vs)²), so 1/e of the excess is left at v = vs. A
 // breakaway below Coulomb friction counts as equal to it.
 TEST(Friction, CurveFallsFromBreakawayToCoulomb) {
   const Law law{.coulomb_mm_s2 = 200.0, .breakaway_mm_s2 = 500.0, .stribeck_mm_s = 2.0};
@@ -47,7 +47,7 @@ TEST(Friction, SticksBelowBreakawayAndSlipsAbove) {
   EXPECT_LT(Friction(law, 1e-4).step(0.0, -501.0), 0.0);
 }
 
-// At large steps an explicit friction overshoots zero: it then turns the axis round or drives it.
+// At large steps an explicit friction overshoots zero and then reverses or drives the axis.
 TEST(Friction, TakesEnergyAndNeverGivesIt) {
   EXPECT_TRUE(rc::check("work of friction is never positive", [] {
     const Law law{.coulomb_mm_s2 = *rc::gen::inRange(0, 2000) * 1.0,
@@ -61,7 +61,7 @@ TEST(Friction, TakesEnergyAndNeverGivesIt) {
     const double friction = (v + h * u - next) / h;
     RC_ASSERT(std::abs(next) <= std::abs(v + h * u));
     RC_ASSERT(friction * next >= 0.0);
-    RC_ASSERT(next * (v + h * u) >= 0.0);  // never turned round by friction alone
+    RC_ASSERT(next * (v + h * u) >= 0.0);  // never reversed by friction alone
   }));
 }
 

@@ -45,8 +45,8 @@ inline MachineBody body_of(const Machine& machine,
   return *std::move(made);
 }
 
-/// R = 10 mm at F4000 on the override in force, from portable functions.
-/// Takes the interpolator's place: the body is tested without the planner.
+/// R = 10 mm at F4000 with the override in force, from portable functions. Replaces the
+/// interpolator: the body is tested without the planner.
 class CircleSource {
  public:
   explicit CircleSource(double period_s) : period_s_(period_s) {}

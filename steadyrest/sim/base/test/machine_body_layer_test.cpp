@@ -36,7 +36,7 @@ TEST(MachineBody, TheLayersWordSlowsTheFeedAndTheErrorFollows) {
   EXPECT_NEAR(10.0 - radius(body), 0.0080, 0.0001);  // reference table, 30 %
 }
 
-// The heartbeat stops at 1 s. Afterwards the panel's 100 % comes back, by no more than one scan's
+// The heartbeat stops at 1 s. Afterwards the panel's 100 % comes back by no more than one scan's
 // share of the rise (2 1/s · 10 ms = 0.02).
 TEST(MachineBody, DeadLayerLeavesNoCorrectionStanding) {
   MachineBody body = body_of(ideal_machine());
@@ -60,8 +60,8 @@ TEST(MachineBody, DeadLayerLeavesNoCorrectionStanding) {
   EXPECT_LT(highest_rise, 0.021);
 }
 
-// Asked 0.5 mm, allowed 0.02 mm. A layer that dies in the cut must leave the offset where it is:
-// moving it would leave a step in the part.
+// Asked 0.5 mm, allowed 0.02 mm. When the layer dies in the cut the offset must stay: moving it
+// would leave a step in the part.
 TEST(MachineBody, OffsetsSlewFreezeInTheCutAndRampOutElsewhere) {
   Machine machine = ideal_machine();
   machine.envelope.offset_slew_mm_s = 0.05;

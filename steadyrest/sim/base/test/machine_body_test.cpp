@@ -41,7 +41,7 @@ Machine real_machine() {
   return machine;
 }
 
-// The circle's closed form knows no sampling. With too coarse a fine interpolation the error would
+// The circle's closed form has no sampling. With too coarse a fine interpolation the error would
 // grow with the interpolator's period; all twelve must agree to 0.2 %.
 TEST(MachineBody, FineInterpolationKeepsTheClosedFormAtEveryPeriod) {
   for (const double interpolator_s : {0.001, 0.002, 0.004, 0.012}) {
@@ -60,7 +60,7 @@ TEST(MachineBody, FineInterpolationKeepsTheClosedFormAtEveryPeriod) {
   }
 }
 
-// The script is not in order of time on purpose. 0.5 ms of tolerance: cycles are 1 ms.
+// The script is out of time order on purpose. 0.5 ms of tolerance: cycles are 1 ms.
 TEST(MachineBody, OperatorActsAtTheScriptedTimes) {
   const std::vector<OperatorAction> script = {
       {.time_s = 0.6, .act = OperatorAct::feed_start},
@@ -89,7 +89,7 @@ TEST(MachineBody, OperatorActsAtTheScriptedTimes) {
 }
 
 // The truth includes half of the backlash (3 µm), half a count, the line error and noise of 0.5 µm
-// RMS at six sigma; the frame must show none of it but whole counts.
+// RMS at six sigma; the frame must show only whole counts.
 TEST(MachineBody, ControlSeesTheEncoderAndNotTheTruth) {
   MachineBody body = body_of(real_machine());
   body.reset({10.0, 0.0, 0.0});

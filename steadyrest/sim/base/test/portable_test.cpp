@@ -10,7 +10,7 @@ namespace steadyrest::sim {
 namespace {
 
 // The platform's library is the oracle, good to half a unit in the last place; ten units are
-// allowed, since what counts here is the same bits everywhere.
+// allowed, since identical bits everywhere are what counts here.
 TEST(Portable, ExponentialAgreesWithTheLibrary) {
   for (double x = -690.0; x < 690.0; x += 0.3713) {
     const double truth = std::exp(x);

@@ -13,9 +13,9 @@ using test::benchmark;
 using test::made;
 using test::turns;
 
-/// Mean growth of the vibration over a tooth pass, by the norm of one turn.
-/// The power method: the vibration is scaled back every eight turns, and the first half of the
-/// record, in which other modes still fade, does not count.
+/// Mean growth of the vibration over a tooth pass, by the norm of one turn. The power method: the
+/// vibration is scaled back every eight turns, and the first half of the record, in which other
+/// modes still fade, does not count.
 double growth(CuttingProcess& process, double speed_rev_s, std::size_t teeth, int n) {
   const CuttingProcess::Input input{.speed_rev_s = speed_rev_s};
   process.step(input);

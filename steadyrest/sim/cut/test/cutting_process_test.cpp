@@ -46,15 +46,15 @@ TEST(CuttingProcess, RigidToolHasTheForcesOfTheChip) {
   EXPECT_NEAR(torque, 2.0 / (2.0 * pi) * 2.0 * 600.0 * 0.05 * 5e-3, 2e-3);
 }
 
-// Runout r and −r: chips of f − 2r and f + 2r in turn. From 2r > f on one tooth cuts nothing, the
-// other one 2f.
+// Runout r and −r: alternating chips of f − 2r and f + 2r. From 2r > f on one tooth cuts nothing,
+// the other one 2f.
 TEST(CuttingProcess, RunoutOverTheFeedLeavesTheCutToOneTooth) {
   Cutting cut = rigid();
   const auto thickest = [&](double runout_mm) {
     cut.runout_mm = {runout_mm, -runout_mm};
     CuttingProcess process = made({.cut = cut, .slowest_rev_s = 50.0});
     const auto out = turns(process, {.speed_rev_s = 50.0, .feed_per_tooth_mm = 0.05}, 6);
-    // At the border of the halves both teeth stand in the cut: left out.
+    // At the border of the halves both teeth are in the cut: skipped.
     const std::size_t half = process.steps() / 2;
     std::vector<double> of_half(2, 0.0);
     for (std::size_t cell = 1; cell < process.steps(); ++cell) {
@@ -72,7 +72,7 @@ TEST(CuttingProcess, RunoutOverTheFeedLeavesTheCutToOneTooth) {
   EXPECT_NEAR(thickest(0.04)[1], 0.10, 1e-4);
 }
 
-// Statics: F = −b·(Kr·f + Kre), x = F/k, and the chip is the feed once it rests.
+// Statics: F = −b·(Kr·f + Kre), x = F/k, and the chip equals the feed once the tool is at rest.
 TEST(CuttingProcess, StillTurningRestsWhereForceAndStiffnessMeet) {
   Cutting cut;
   cut.turning = true;
@@ -87,7 +87,7 @@ TEST(CuttingProcess, StillTurningRestsWhereForceAndStiffnessMeet) {
   EXPECT_NEAR(last.chip_mm, 0.1, 1e-9);
 }
 
-// Linear theory grows without end; a tool that leaves the cut settles into a limit cycle.
+// Linear theory grows without limit; a tool that leaves the cut settles into a limit cycle.
 TEST(CuttingProcess, ChatterStopsGrowingWhenTheToolLeavesTheCut) {
   CuttingProcess process = made({.cut = benchmark(2.0), .slowest_rev_s = 5000.0 / 60.0});
   const CuttingProcess::Input input{.speed_rev_s = 5000.0 / 60.0, .feed_per_tooth_mm = 0.05};
@@ -107,7 +107,7 @@ TEST(CuttingProcess, ChatterStopsGrowingWhenTheToolLeavesTheCut) {
 }
 
 TEST(CuttingProcess, WhatWasMissedIsCutByALaterPass) {
-  // Turning, tool pulled back for a while: the next full turn meets all that was left.
+  // Turning, tool pulled back for a while: the next full turn meets everything that was left.
   Cutting cut;
   cut.turning = true;
   cut.teeth = 1;
@@ -127,7 +127,7 @@ TEST(CuttingProcess, WhatWasMissedIsCutByALaterPass) {
   EXPECT_NEAR(chips, 20 * 0.05, 1e-3);  // nothing is lost and nothing cut twice
 }
 
-// The wall is what the tip leaves: the tool's deflection at that instant, one point a tooth.
+// The tip generates the wall: the tool's deflection at that instant, one point per tooth.
 TEST(CuttingProcess, TheWallShowsTheToolsDeflection) {
   Cutting cut;
   cut.modes = {mode(2e4, 3000.0, 0.1, false)};
@@ -144,7 +144,7 @@ TEST(CuttingProcess, TheWallShowsTheToolsDeflection) {
   EXPECT_EQ(walls, 20);
 }
 
-// Lag of a helix and uneven pitch shift the chips along the turn, their sum stays: N·b·f in all.
+// Helix lag and uneven pitch shift the chips along the turn; their sum stays N·b·f in all.
 TEST(CuttingProcess, HelixAndUnevenPitchKeepTheMeanForce) {
   Cutting cut = rigid();
   const auto mean = [&] {
@@ -164,7 +164,7 @@ TEST(CuttingProcess, HelixAndUnevenPitchKeepTheMeanForce) {
   EXPECT_NEAR(mean() / 6.0, straight, 2e-3 * straight);
 }
 
-// A helix and a speed that changes at each step: the most that a step has to do.
+// A helix and a speed that changes at each step: the most work that a step can have.
 TEST(CuttingProcess, StepsAllocateNothing) {
   Cutting cut = benchmark(3.0);
   cut.helix_rad = 0.5;

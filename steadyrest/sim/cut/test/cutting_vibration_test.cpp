@@ -13,8 +13,8 @@ namespace {
 constexpr double kSpeed_rev_s = 5000.0 / 60.0;
 constexpr double kPeriod_s = 0.002;
 
-/// Two teeth, slot, 922 Hz: at 5000 rpm its border lies at 0.4086 mm (Insperger and
-/// Stépán's benchmark; the chatter room's reference has the digits).
+/// Two teeth, slot, 922 Hz: at 5000 rpm its border is at 0.4086 mm (Insperger and Stépán's
+/// benchmark; the chatter room's reference has the digits).
 CuttingVibration::Config benchmark_config(double depth_mm) {
   CuttingVibration::Config config;
   config.cut.modes = {
@@ -51,11 +51,11 @@ TEST(CuttingVibration, KeepsTheMachinesTime) {
   const auto cycle = cut(vibration, cutting(), 0.5);
   EXPECT_NEAR(cycle.cutting_s, 0.5, 1e-4);
   EXPECT_NEAR(static_cast<double>(vibration.samples().size()), 0.5 * 10'000.0, 2.0);
-  // Walls: a slot has one at the entry angle's side, one point a tooth.
+  // Walls: a slot has one on the side of the entry angle, one point per tooth.
   EXPECT_NEAR(static_cast<double>(cycle.walls), 0.5 * 2.0 * kSpeed_rev_s, 2.0);
 }
 
-// 0.1 mm lies below the border of 0.4086 mm, 1.0 mm above it: only regenerative vibration survives
+// 0.1 mm is below the border of 0.4086 mm, 1.0 mm above it: only regenerative vibration survives
 // the difference over a tooth pass.
 TEST(CuttingVibration, RepeatsFromToothToToothBelowTheBorderAndNotAbove) {
   auto stable = CuttingVibration::make(benchmark_config(0.1)).value();
@@ -107,7 +107,7 @@ TEST(CuttingVibration, TheSensorHearsTheToothPassing) {
   EXPECT_GT(amplitude(tooth_hz), 100.0 * amplitude(1.5 * tooth_hz));
 }
 
-// After 0.5 s in the air e^−ζωt = e^−32 is left of 922 Hz.
+// After 0.5 s in air e^−ζωt = e^−32 is left of 922 Hz.
 TEST(CuttingVibration, OutOfTheCutTheToolRingsDownAndNothingIsCounted) {
   auto vibration = CuttingVibration::make(benchmark_config(1.0)).value();
   cut(vibration, cutting(), 0.5);
@@ -118,7 +118,7 @@ TEST(CuttingVibration, OutOfTheCutTheToolRingsDownAndNothingIsCounted) {
   EXPECT_EQ(first.cutting_s, 0.0);
   cut(vibration, air, 0.5);
   EXPECT_LT(std::abs(vibration.samples().back()), 1e-6 * (loud + 1.0));
-  air.speed_rev_s = 0.0;  // a spindle that stands still stops no clock
+  air.speed_rev_s = 0.0;  // a stopped spindle stops no clock
   cut(vibration, air, 0.1);
   EXPECT_NEAR(static_cast<double>(vibration.samples().size()), 1000.0, 2.0);
 }

@@ -48,7 +48,7 @@ TEST(ModalStep, RestsWhereAConstantForceHoldsIt) {
   EXPECT_NEAR(s.v, 0.0, 1e-9 * rest.q * kRate);
 }
 
-// The answer to a ramp is exact in one step: a thousand steps of the same ramp must agree.
+// The response to a ramp is exact in one step: a thousand steps of the same ramp must agree.
 TEST(ModalStep, ARampInOneStepIsARampInAThousand) {
   const double period_s = 1e-3;
   const State once = advance(modal_step(kMode, period_s), {.q = 0.1, .v = 3.0}, 100.0, 900.0);

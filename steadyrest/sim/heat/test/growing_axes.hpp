@@ -4,7 +4,7 @@
 #include <steadyrest/sim/heat/thermal_growth.hpp>
 #include <steadyrest/sim/machine_body.hpp>
 
-/// Axes that grow as the paper says, and with the room.
+/// Axes that grow as in the paper, and with the room.
 namespace steadyrest::sim::test {
 
 using kernel::machine::Thermal;

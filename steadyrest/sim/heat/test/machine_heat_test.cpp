@@ -46,11 +46,11 @@ MachineBody warmed(double offset_mm) {
   return *std::move(body);
 }
 
-// Ten seconds of a minute's time constant, by the step response; the control sees nothing of it.
+// Ten seconds at a time constant of a minute, by the step response; the control sees none of it.
 TEST(MachineBody, HeatMovesTheToolAndNoEncoderSeesIt) {
   const MachineBody body = warmed(0.0);
   const double grown = 0.0352245 * (1.0 - std::exp(-10.0 / 60.0));
-  // The spindle takes 0.8 s to its speed, and heats less until then.
+  // The spindle takes 0.8 s to reach its speed, and heats less until then.
   EXPECT_LT(body.truth().tool_mm[2], 3.0 + grown);
   EXPECT_NEAR(body.truth().tool_mm[2], 3.0 + grown, 0.1 * grown);
   EXPECT_NEAR(body.truth().heat_mm[2], body.truth().tool_mm[2] - 3.0, 1e-12);
@@ -80,8 +80,8 @@ TEST(MachineBody, CoolantThatTheProgramOpensFlowsAndCools) {
   EXPECT_NEAR(grown_mm(true), 0.25 * grown_mm(false), 1e-9);
 }
 
-// A reading belongs to the end of a probing move, to the axis that it moved furthest, and has heat
-// and offset in it; a second probing move behind the first ends that one.
+// A reading belongs to the end of a probing move and to the axis that it moved furthest, and
+// includes heat and offset; a second probing move right after ends the first one.
 TEST(MachineBody, AtItsEndAProbingMoveReadsWhatHeatAndOffsetHaveLeft) {
   using kernel::signal::Motion;
   MachineBody body = warmed(0.0);
@@ -109,7 +109,7 @@ TEST(MachineBody, AtItsEndAProbingMoveReadsWhatHeatAndOffsetHaveLeft) {
   EXPECT_EQ(first.number, 1U);
   EXPECT_EQ(first.axis, 2U) << "what it moved furthest";
   EXPECT_NEAR(first.displacement_mm, body.truth().heat_mm[2] - 0.001, 1e-4)
-      << "but for the heat since";
+      << "except for the heat since";
   EXPECT_EQ(first.sd_mm, 0.0);
   go(Motion::probe, 3, 1.0, 3.0);
   EXPECT_EQ(go(Motion::probe, 4, 1.0, 2.0).number, 2U) << "one behind the other";
@@ -133,7 +133,7 @@ TEST(MachineBody, ItsSensorsHangInTheRoom) {
   EXPECT_TRUE(std::isnan(frame.temperature_c[2]));
 }
 
-// Heat and offset add up at the tool: the opposite offset brings it to its place.
+// Heat and offset add up at the tool: the opposite offset brings it back to its place.
 TEST(MachineBody, AnAxisOffsetOfTheLayerTakesTheGrowthAway) {
   const double grown_mm = warmed(0.0).truth().heat_mm[2];
   const MachineBody body = warmed(-grown_mm);

@@ -50,8 +50,8 @@ TEST(ThermalGrowth, CrossesTheBordersOfThePaperAtItsInstants) {
   }
 }
 
-/// The law of the passport, stepped in thousandths of its time constants.
-/// The oracle: midpoint rule on the differential equation, ten thousand steps to a time constant.
+/// The passport's law by the midpoint rule on the differential equation, ten thousand steps per
+/// time constant: the oracle.
 double integrate(const Thermal& thermal,
                  const std::vector<std::pair<double, ThermalGrowth::Input>>& work) {
   double sum = 0.0;
@@ -75,7 +75,7 @@ double integrate(const Thermal& thermal,
   return sum;
 }
 
-// Three modes with everything that the law has, twenty machines, six spells of work each.
+// Three modes with everything the law contains, twenty machines, six spells of work each.
 TEST(ThermalGrowth, IsTheIntegralOfTheLawForRandomMachinesAndWork) {
   std::mt19937_64 random(11);
   const auto uniform = [&](double from, double to) {
@@ -131,8 +131,8 @@ TEST(ThermalGrowth, IsWrongOnPurposeTermByTerm) {
   EXPECT_NEAR(growth.displacement_mm(2), expected(0.8, 1.5), 1e-12);  // the last for the rest
 }
 
-// A first-order lag answers a sine with 1/√(1 + (ωτ)²); the start is the reference, so the curve
-// hangs from it.
+// A first-order lag answers a sine with 1/√(1 + (ωτ)²); the start is the reference, so the curve is
+// relative to it.
 TEST(ThermalGrowth, FollowsTheDayWithTheAnswerOfAFirstOrderLag) {
   const double tau_s = 2.0 * 3600.0;
   kernel::machine::Simulation simulation;
@@ -153,11 +153,11 @@ TEST(ThermalGrowth, FollowsTheDayWithTheAnswerOfAFirstOrderLag) {
   }
   const double omega_tau = 2.0 * std::numbers::pi / 86400.0 * tau_s;
   EXPECT_NEAR(most - least, 2.0 * 0.005 * 4.0 / std::hypot(1.0, omega_tau), 1e-5);
-  // It began at the warmest hour: where the room is as warm as then, lagged, it stands near 0.
+  // It began at the warmest hour: where the lagged room is as warm as then, it is near 0.
   EXPECT_NEAR(most, 0.005 * 4.0 * (1.0 / std::hypot(1.0, omega_tau) - 1.0), 1e-5);
 }
 
-// 200 000 minutes: the correlation of ten minutes leaves some 10 000 independent values, 1 % of
+// 200 000 minutes: a correlation time of ten minutes leaves some 10 000 independent values, 1 % of
 // the RMS.
 TEST(ThermalGrowth, NoiseHasTheSizeOfTheMachineFile) {
   Thermal thermal = paper();
@@ -188,7 +188,7 @@ TEST(ThermalGrowth, NoiseHasTheSizeOfTheMachineFile) {
   EXPECT_NEAR(std::sqrt(drift / n), 0.002, 0.00004);
 }
 
-// Readings draw from their own stream: a probe cycle more must not change the weather.
+// Readings have their own stream: one more probe cycle must not change the weather.
 TEST(ThermalGrowth, AReadingChangesNoTruthAndASeedGivesTheSameBytes) {
   kernel::machine::Simulation simulation;
   simulation.room_noise_k = 0.3;

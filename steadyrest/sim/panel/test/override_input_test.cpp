@@ -86,7 +86,7 @@ TEST(OverrideInput, LayerMasksButNeverExceedsThePanel) {
   EXPECT_NEAR(bench.run(0.1).effective_ratio, 0.4, 1e-12);
 }
 
-// Above the panel, but never above its 0.
+// Above the panel, but never above a panel at 0.
 TEST(OverrideInput, LayerExceedsThePanelOnlyWhereTheMachineFileSaysSo) {
   OverrideTable table = switch_table();
   table.layer_may_exceed_panel = true;
@@ -97,7 +97,7 @@ TEST(OverrideInput, LayerExceedsThePanelOnlyWhereTheMachineFileSaysSo) {
   EXPECT_EQ(bench.run(0.1).effective_ratio, 0.0);
 }
 
-// A word that decodes to nothing is no word: the mask drops.
+// An unknown word is no word: the mask drops.
 TEST(OverrideInput, UnknownLayerCodeKeepsThePanels) {
   Bench bench(switch_table());
   bench.layer(50);
@@ -140,7 +140,7 @@ TEST(OverrideInput, LostHeartbeatReturnsToThePanelWithoutAJump) {
   EXPECT_LE(left_at_s, 0.1 + 0.010 + 0.025 + 0.001);
 }
 
-// Handing back is a ramp upwards; downwards the operator is followed at once.
+// Handing back is a ramp upwards; downwards the value follows the operator at once.
 TEST(OverrideInput, HandingBackNeverHoldsAgainstTheOperator) {
   Bench bench(switch_table());
   bench.layer(30);
@@ -151,7 +151,7 @@ TEST(OverrideInput, HandingBackNeverHoldsAgainstTheOperator) {
 }
 
 // Gray neighbours differ in one bit. A jump over several steps changes several bits, one scan sees
-// the first of them alone, and some of the words between decode outside of what was asked.
+// only the first of them, and some of the words between decode outside what was asked.
 TEST(OverrideInput, AWordThatIsNotLatchedShowsWhatLiesBetween) {
   OverrideTable table = switch_table();
   table.latched_word = false;
@@ -182,8 +182,8 @@ TEST(OverrideInput, AWordThatIsNotLatchedShowsWhatLiesBetween) {
   EXPECT_TRUE(outside);  // somewhere a jump decodes to what nobody asked for
 }
 
-// Any words, masks and heartbeats. For 36 ms (scan and dead time) the panel of before may still
-// act, then the new one must hold.
+// Any words, masks and heartbeats. For 36 ms (scan and dead time) the previous panel may still act;
+// then the new one must apply.
 TEST(OverrideInput, StaysWithinPanelAndTableWhateverTheWordsAre) {
   EXPECT_TRUE(rc::check("effective ≤ largest panel of the last scans; panel 0 stops", [] {
     Bench bench(switch_table());

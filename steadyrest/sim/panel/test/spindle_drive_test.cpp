@@ -40,7 +40,7 @@ TEST(SpindleDrive, RampsWithItsAccelerationLimit) {
   EXPECT_NEAR(seconds_to_speed(spindle, -40.0, 0.001), 120.0 / 50.0, 0.0011);
 }
 
-// Constant torque up to ω_b = P/M, constant power from there; braking is the same backwards.
+// Constant torque up to ω_b = P/M, constant power from there; braking is the same in reverse.
 TEST(SpindleDrive, TorqueThenPowerLimitTheRunUpAsTheClosedFormSays) {
   const double inertia = 0.05;
   const double torque = 40.0;
@@ -61,7 +61,7 @@ TEST(SpindleDrive, TorqueThenPowerLimitTheRunUpAsTheClosedFormSays) {
   }
 }
 
-// Ten short periods and one long one must end alike, through zero as well.
+// Ten short periods and one long one must end alike, including through zero.
 TEST(SpindleDrive, ResultDoesNotDependOnThePeriod) {
   const kernel::machine::Spindle s{.max_rev_s = 200.0, .rated_power_w = 2000.0};
   SpindleDrive fine = drive(s);
@@ -87,7 +87,7 @@ TEST(SpindleDrive, OverrideScalesAndLimitsHold) {
   EXPECT_EQ(spindle.update({.command_rev_s = 0.0}).target_rev_s, 0.0);
 }
 
-// At rest and told to rest it is at speed; 10 rev/s at 50 rev/s² take 0.2 s.
+// At rest with a command of 0 it is at speed; 10 rev/s at 50 rev/s² take 0.2 s.
 TEST(SpindleDrive, SaysWhenItIsAtSpeed) {
   SpindleDrive spindle = drive({.acceleration_rev_s2 = 50.0});
   EXPECT_TRUE(spindle.update({}).at_speed);
@@ -98,7 +98,7 @@ TEST(SpindleDrive, SaysWhenItIsAtSpeed) {
   EXPECT_TRUE(spindle.update({.command_rev_s = 10.0}).at_speed);
 }
 
-// Rate, torque 2πJ·ṅ and power 2π²J·Δ(n²)/h from the outside, in every millisecond.
+// Rate, torque 2πJ·ṅ and power 2π²J·Δ(n²)/h measured from outside, in every millisecond.
 TEST(SpindleDrive, NeverPassesTorquePowerOrRamp) {
   EXPECT_TRUE(rc::check("limits hold for any command", [] {
     const kernel::machine::Spindle s{.max_rev_s = 150.0,

@@ -62,7 +62,7 @@ TEST(FrameCheck, ANumberThatIsNotFiniteMakesTheFrameUnfit) {
   }
 }
 
-// Each of these has a judge of its own, who withdraws one thing and not all.
+// Each of these has its own judge, who withdraws one thing and not all.
 TEST(FrameCheck, WhatOthersJudgeIsNotLookedAt) {
   Frame frame;
   frame.feed.panel_ratio = kNan;
@@ -86,7 +86,7 @@ TEST(FrameCheck, AxesBeyondThoseShownDoNotCount) {
 }
 
 // −100 … 100 is 200 mm of travel: up to 200 more on either side may be a wrong offset in the
-// machine file, more is garbage.
+// machine file; more is garbage.
 TEST(FrameCheck, ALinearAxisMayStandItsWholeTravelOutsideOfItsLimits) {
   for (const double sign : {-1.0, 1.0}) {
     for (const bool commanded : {true, false}) {
@@ -108,7 +108,7 @@ TEST(FrameCheck, RotaryAndUnlimitedAxesMayStandAnywhere) {
   EXPECT_EQ(judged(frame), Reason::none);
 }
 
-// A position beyond the limits counts only for axes that the frame shows; a machine file may name
+// A position beyond the limits counts only for axes that the frame reports; a machine file may name
 // more axes than a frame holds.
 TEST(FrameCheck, MoreAxesThanAFrameHoldsAreNoFaultOfTheMachineFileButOfTheFrame) {
   std::vector<kernel::machine::Axis> many(12, axes_of_a_lathe()[0]);
@@ -134,7 +134,7 @@ TEST(FrameCheck, AFeedBelowZeroIsNone) {
   EXPECT_EQ(judged(frame), Reason::none);
 }
 
-// The limit itself is still fresh; a frame from further ahead than that has a wrong clock.
+// The limit itself is still fresh; a frame further in the future than that has a wrong clock.
 TEST(FrameCheck, AgeIsJudgedOnBothSides) {
   const auto aged = [](double age_s) {
     Frame frame;
@@ -147,7 +147,7 @@ TEST(FrameCheck, AgeIsJudgedOnBothSides) {
   EXPECT_EQ(aged(std::nextafter(-kStale_s, -1.0)), Reason::input_out_of_range);
 }
 
-// All four at once, then taken away from the gravest on.
+// All four at once, then removed from the most serious on.
 TEST(FrameCheck, TheGravestFaultIsNamed) {
   Frame frame;
   frame.axis[0].actual_mm = kNan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the clock's sentences end, from both sides.
+// Where the clock's rules end, from both sides.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(FrameClockLimits, TimeBeginsUpToTenBillionSeconds) {
   }
 }
 
-// What begins is good and was set; what repeats is good and no time.
+// A first stamp is good and counts as set; a repeated one is good and gives no time.
 TEST(FrameClockLimits, TheFirstStampIsGoodAndGivesNoCredit) {
   FrameClock clock = FrameClock::make({.usual_s = kPeriod_s}).value();
   const auto first = clock.update(123.0);
@@ -49,7 +49,7 @@ TEST(FrameClockLimits, TheFirstStampIsGoodAndGivesNoCredit) {
   EXPECT_EQ(clock.state().usual_s, kPeriod_s) << "a repeated stamp says nothing of the step";
 }
 
-// A frame every ten seconds is a slow source, one in more than that is none.
+// A frame every ten seconds is a slow source; beyond that it is no source.
 TEST(FrameClockLimits, ASlowSourceMayTakeTenSecondsAStep) {
   const auto credited = [](double step_s) {
     FrameClock clock = clock_at(0.0);
@@ -63,7 +63,7 @@ TEST(FrameClockLimits, ASlowSourceMayTakeTenSecondsAStep) {
   EXPECT_EQ(credited(10.01), 0.0);
 }
 
-// Steps of 60 and 90 ms by turns: T becomes their mean, and both then count.
+// Alternating steps of 60 and 90 ms: T becomes their mean, and both then count.
 TEST(FrameClockLimits, TheStepOfASlowSourceIsTheMeanOfItsSteps) {
   FrameClock clock = clock_at(0.0);
   double stamp_s = 0.0;
@@ -75,7 +75,7 @@ TEST(FrameClockLimits, TheStepOfASlowSourceIsTheMeanOfItsSteps) {
   EXPECT_TRUE(clock.update(stamp_s + 0.090).good);
 }
 
-// One stamp that falls back ends the run: fifteen and fifteen steps are no sixteen.
+// One stamp that falls back ends the run: twice fifteen steps are not sixteen.
 TEST(FrameClockLimits, ASlowSourceMustKeepRising) {
   FrameClock clock = clock_at(0.0);
   double stamp_s = 1.0;
@@ -88,7 +88,7 @@ TEST(FrameClockLimits, ASlowSourceMustKeepRising) {
   }
 }
 
-// In doubt the frame is judged by where it lies: ahead it may be right, behind its age is unknown.
+// In doubt the frame is judged by its place: ahead it may be right, behind its age is unknown.
 TEST(FrameClockLimits, AStampInDoubtSaysWhereItLies) {
   FrameClock clock = clock_at(100.0);
   const auto ahead = clock.update(107.0);
@@ -103,7 +103,7 @@ TEST(FrameClockLimits, AStampInDoubtSaysWhereItLies) {
   EXPECT_EQ(none.stamped_s, 100.0);
 }
 
-// Set back by 7 s and running on: good time goes on from where it was, and so do its stamps.
+// Set back by 7 s and running: good time continues from where it was, and so do its stamps.
 TEST(FrameClockLimits, AfterASetBackStampsAreShifted) {
   FrameClock clock = clock_at(100.0);
   clock.update(93.0);
@@ -118,7 +118,7 @@ TEST(FrameClockLimits, AfterASetBackStampsAreShifted) {
   EXPECT_NEAR(gap.stamped_s, 207.0, 1e-9);
 }
 
-// Any field that is no number spoils a state; T at 0 would let no stamp be good.
+// Any field that is not finite spoils a state; with T at 0 no stamp could be good.
 TEST(FrameClockLimits, EachFieldOfAStateMustBeANumber) {
   const FrameClock::State fit = clock_at(100.0).state();
   const auto taken = [](const FrameClock::State& state) {

@@ -39,8 +39,8 @@ TEST(FrameClock, WhereAllStampsAreGoodItIsTheStamp) {
   }
 }
 
-// 0.4 s is the last good stamp. Wrong ones lie behind, far behind, just too far ahead, out of a
-// double's resolution, and at no number; the cycle after must have credit for one step, not two.
+// 0.4 s is the last good stamp. Wrong ones are behind, far behind, just too far ahead, beyond a
+// double's resolution, or not finite; the next cycle must have credit for one step, not two.
 TEST(FrameClock, OneWrongStampGivesNoCreditAndMovesNothing) {
   for (const double wrong_s :
        {-1.0, -1e9, 0.3, 0.4 + 0.15, 5.0, 1e300, kNan, kInfinity, -kInfinity}) {
@@ -69,7 +69,7 @@ TEST(FrameClock, TheUsualStepFollowsByASixteenth) {
   EXPECT_NEAR(clock.state().usual_s, kUsual_s * (1.0 + 0.08 / 16.0), 1e-9);
 }
 
-// A frozen sender: a thousand calls of the same stamp are no time.
+// A frozen sender: a thousand calls with the same stamp give no time.
 TEST(FrameClock, TimeThatStandsGivesNoCredit) {
   FrameClock clock = running();
   for (int i = 0; i < 1000; ++i) {
@@ -100,8 +100,8 @@ TEST(FrameClock, AGapPassesButGivesNoCredit) {
   EXPECT_EQ(tick.time_s, 60.0 + kUsual_s);
 }
 
-// Cycle 4 ms, stamps 75 ms apart. Frame 0 begins, 1 … 17 are in doubt (sixteen steps in a row),
-// the steps of 18 … 99 count: 82.
+// Cycle 4 ms, stamps 75 ms apart. Frame 0 begins, 1 … 17 are in doubt (sixteen steps in a row), the
+// steps of 18 … 99 count: 82.
 TEST(FrameClock, ASlowSourceCountsFromItsSeventeenthFrame) {
   FrameClock clock = fresh();
   double counted_s = 0.0;
@@ -111,8 +111,8 @@ TEST(FrameClock, ASlowSourceCountsFromItsSeventeenthFrame) {
   EXPECT_NEAR(counted_s, 0.075 * 82, 1e-9);
 }
 
-// Every tenth frame is lost: the call after it covers two steps but counts as one call, so it is
-// credited with 1.1 steps at most. 8 + 1.1 of 10 steps remain, 91 %; never more than have passed.
+// Every tenth frame is lost: the call after it covers two steps but counts as one call, so it gets
+// 1.1 steps at most. 8 + 1.1 of 10 steps remain, 91 %; never more than have passed.
 TEST(FrameClock, LostFramesOfARegularSourceCostTheirTime) {
   FrameClock clock = fresh();
   double counted_s = 0.0;
@@ -163,7 +163,7 @@ TEST(FrameClock, AStateThatIsNotFiniteIsNotRestored) {
   EXPECT_TRUE(clock.update(7.0 + kUsual_s).good);
 }
 
-// The law that all slews rest on. Real time is known here, the clock sees stamps only.
+// The law that all slews depend on. Real time is known here, the clock sees only stamps.
 RC_GTEST_PROP(FrameClock, CreditNeverPassesTheRealTimeWhateverTheStamps, ()) {
   // The source is called every cycle; some stamps are wrong: anywhere, not finite, or repeated.
   FrameClock clock = running();

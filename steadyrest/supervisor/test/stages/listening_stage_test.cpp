@@ -23,7 +23,7 @@ constexpr double kSpeed_rev_s = 80.0;
 constexpr std::size_t kTeeth = 2;
 
 // At 80 rev/s of programmed speed the steps give 64, 72 and 80 rev/s; the table carries 1 mm of
-// depth at 72 rev/s alone, so the answer to chatter must be 0.9.
+// depth only at 72 rev/s, so the answer to chatter must be 0.9.
 ListeningStage stage() {
   BetterSpeed::Config config;
   config.table.step_ratio = {0.8, 0.9, 1.0};
@@ -34,7 +34,7 @@ ListeningStage stage() {
   return ListeningStage::make({.better = config, .depth_mm = 1.0}).value();
 }
 
-/// Frames of a cut: the tooth's passing, and from 0.8 s on a chatter that grows to its size.
+/// Frames of a cut: tooth passing, and from 0.8 s on chatter that grows to full size.
 class Cut {
  public:
   Frame frame() {
@@ -64,7 +64,7 @@ class Cut {
 };
 
 // Two teeth at 80 rev/s pass at 160 Hz; 943 Hz is none of its multiples (6 · 160 = 960). The
-// chatter grows by e^40 a second and has its full size at 1 s: silence before 0.8 s, an answer
+// chatter grows by e^40 per second and reaches full size at 1 s: silence before 0.8 s, an answer
 // within 0.3 s after full size.
 TEST(ListeningStage, HearsChatterAndAsksForTheStepThatCarriesTheDepth) {
   auto listener = stage();
@@ -86,7 +86,7 @@ TEST(ListeningStage, HearsChatterAndAsksForTheStepThatCarriesTheDepth) {
   EXPECT_LT(heard_s, 1.3);
 }
 
-// The same signal that the test above hears, spoiled in one respect each.
+// The signal that the test above hears, spoiled in one respect each time.
 TEST(ListeningStage, DoesNotListenToWhatIsNoCutOrNotFit) {
   const auto never = [](auto change, bool fit) {
     auto listener = stage();
@@ -117,8 +117,8 @@ TEST(ListeningStage, ForgetsWhenItIsReset) {
   EXPECT_EQ(out.request.ratio, 1.0);
 }
 
-// The state is taken between the chatter's beginning and its detection, where every filter of the
-// detector is in mid-flight.
+// The state is taken between the chatter's beginning and its detection, with every filter of the
+// detector in mid-flight.
 TEST(ListeningStage, ARestoredStateGoesOnAsItWouldHave) {
   auto listener = stage();
   Cut cut;

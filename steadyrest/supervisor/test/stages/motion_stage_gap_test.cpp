@@ -52,7 +52,7 @@ TEST(MotionStage, GivesNoEstimateWithoutAnEncoder) {
     if (i > 10) {
       EXPECT_LT(frame.axis[0].velocity_bound_mm_s, 13.0);
     }
-    expect_none(frame.axis[1]);  // its counter is not shown
+    expect_none(frame.axis[1]);  // its counter is not reported
   }
 }
 
@@ -73,7 +73,7 @@ TEST(MotionStage, GivesNoneForAFrameThatIsUnfitAndGoesOnAfterIt) {
   }
 }
 
-// Counter set, time forwards, time back, counter not shown for one cycle. The bound must hold
+// Counter set, time forwards, time back, counter not reported for one cycle. The bound must hold
 // throughout: only a restart can do that, since before and after do not fit one motion.
 TEST(MotionStage, StartsAnewWhereTheCounterWasSetOrTheRecordHasAHole) {
   const std::vector<Change> faults = {
@@ -112,8 +112,8 @@ TEST(MotionStage, StartsAnewWhereTheCounterWasSetOrTheRecordHasAHole) {
   }
 }
 
-// The same count and stamp again are no news; taken as a measurement they would narrow the
-// estimate and shift it.
+// The same count and stamp again bring nothing new; taken as a measurement they would narrow and
+// shift the estimate.
 TEST(MotionStage, ASampleThatIsShownTwiceIsNotTwiceTheEvidence) {
   auto stage = MotionStage::make(two_axes()).value();
   auto twice = MotionStage::make(two_axes()).value();
@@ -136,7 +136,7 @@ TEST(MotionStage, TheSupervisorHasTheEstimatesInTheFrameThatItDecidesBy) {
   for (int i = 0; i < 500; ++i) {
     const auto frame = sine.next();
     supervisor.update(frame);
-    if (i % 50 == 49) {  // nothing could be read for a cycle: the old count says nothing of now
+    if (i % 50 == 49) {  // no reading for a cycle: the old count says nothing about now
       supervisor.update_without_frame(frame.time_s + 0.5 * kCycle_s);
       expect_none(supervisor.frame().axis[0]);
     } else if (i > 200) {
@@ -145,7 +145,7 @@ TEST(MotionStage, TheSupervisorHasTheEstimatesInTheFrameThatItDecidesBy) {
   }
   supervisor.restore(supervisor.state());
   supervisor.update(sine.next());
-  EXPECT_GT(supervisor.frame().axis[0].velocity_bound_mm_s, 1.0) << "the estimates start anew";
+  EXPECT_GT(supervisor.frame().axis[0].velocity_bound_mm_s, 1.0) << "the estimates start over";
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ Rms run(const machine::Machine& machine, const Change& change = [](signal::Frame
   return rms;
 }
 
-// What the difference of the counts gives on this sine: 0.43 mm/s, 707 mm/s² (q/(√6·T), q/(√2·T²)).
+// What differencing the counts gives on this sine: 0.43 mm/s, 707 mm/s² (q/(√6·T), q/(√2·T²)).
 TEST(MotionStage, SeesASineAHundredTimesFinerThanTheDifferenceOfItsCounts) {
   const Rms rms = run(two_axes());
   EXPECT_LT(rms.velocity_mm_s, 0.0043);
@@ -75,15 +75,15 @@ TEST(MotionStage, SeesASineAHundredTimesFinerThanTheDifferenceOfItsCounts) {
   EXPECT_GT(rms.bound_mm_s, rms.velocity_mm_s);
 }
 
-// Twice the errors at most: at a turn the sign of the counts says nothing for a cycle.
+// At most twice the errors: at a turn the sign of the counts says nothing for a cycle.
 TEST(MotionStage, TakesTheDirectionFromTheCountsWhereTheControlDoesNotShowIt) {
   const Rms rms = run(two_axes(), [](signal::Frame& frame) { frame.axis[0].edge_direction = 0; });
   EXPECT_LT(rms.velocity_mm_s, 0.0086);
   EXPECT_LT(rms.acceleration_mm_s2, 14.0);
 }
 
-// Two ways to have no stamps: the machine file says that there is no clock, with the port showing
-// stamps all the same (they must not be used) or not.
+// Two ways to have no stamps: the machine file declares no clock, and the port sends stamps anyway
+// (they must not be used) or not.
 TEST(MotionStage, WithoutTimeStampsTheCountsAloneAreStillBetterThanTheirDifference) {
   auto machine = two_axes();
   machine.axes[0].encoder.clock_s = 0.0;
@@ -150,7 +150,7 @@ TEST(MotionStage, GarbageFromTheCounterGivesNeitherNanNorABoundThatLies) {
   }
 }
 
-// Two counts of line error: each line could be its neighbour, nothing is provable.
+// Two counts of line error: any line could be its neighbour, so nothing is provable.
 TEST(MotionStage, LinesThatErrByMoreThanACountLeaveNoBound) {
   auto machine = two_axes();
   machine.axes[0].encoder.line_error_mm = 2.0 * kCount_mm;

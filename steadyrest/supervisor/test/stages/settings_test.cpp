@@ -9,7 +9,7 @@ namespace {
 
 namespace machine = kernel::machine;
 
-/// A machine file in which no two figures are alike: whatever is mixed up shows.
+/// A machine file in which no two figures are alike: any mix-up shows.
 machine::Machine unlike() {
   machine::Machine out = test::mill(machine::Mode::act);
   out.envelope = {.min_feed_ratio = 0.11,
@@ -44,7 +44,7 @@ TEST(Settings, TheSpindleHasOneSlewForBothWays) {
   EXPECT_EQ(config.rise_1_s, 1.7);
 }
 
-// Beyond the watchdog's time the machine has dropped the word: no slew is credited with more.
+// Beyond the watchdog's time the machine has dropped the word: no slew gets more credit than that.
 TEST(Settings, NoSlewHasCreditBeyondTheWatchdogsTime) {
   EXPECT_EQ(feed_config(unlike(), test::kAll).max_step_s, 0.2);
   EXPECT_EQ(spindle_config(unlike(), test::kAll).max_step_s, 0.2);

@@ -8,16 +8,15 @@
 
 #include <steadyrest/thermal/offline/adapt/adapt.hpp>
 
-// Loop D of Marusich 2012. next_level() looks at the parts alone and moves the share k by a step;
-// predict() says what the plan believed at each part; learn_gains() asks which gains of the modes
-// would have explained the parts, by recursive least squares, outliers taken out one after the
-// other.
+// Loop D of Marusich 2012. next_level() looks only at the parts and moves the share k by one step;
+// predict() gives the plan's expectation for each part; learn_gains() finds the mode gains that
+// would have explained the parts, by recursive least squares, removing outliers one after another.
 namespace steadyrest::thermal::offline {
 namespace {
 
 constexpr std::size_t kLeastForFit = 4;
-/// Of that many observations at most one is taken out in a round, of more the worst together: so
-/// the rounds do not grow with the observations.
+/// Up to this many observations at most one is removed per round, beyond it the worst together, so
+/// the number of rounds does not grow with the observations.
 constexpr std::size_t kRounds = 400;
 constexpr double kNormal999 = 3.2905;
 constexpr double kUpper999 = 3.0902;
@@ -54,7 +53,7 @@ class Pass {
 
   [[nodiscard]] const std::vector<bool>& out() const { return out_; }
 
-  /// What is left of an observation with the parameters as they are.
+  /// Residual of an observation with the present parameters.
   [[nodiscard]] double left_mm(std::size_t k) const {
     const Observation& o = observations_[k];
     return o.deviation_mm - o.expected_mm - row(o).dot(x_);
@@ -85,7 +84,7 @@ class Pass {
     const bool wide =
         told && (energy > chi_square_999(n) || std::abs(sum) > kNormal999 * std::sqrt(n));
     out.few = observations_.size() < kLeastForFit;
-    // Of few parts nobody can say whether they are wrong or the model: one is enough.
+    // With few parts nobody can tell whether they or the model are wrong: one is enough.
     const bool many = static_cast<double>(out.outlier.size()) > (out.few ? 0.0 : 0.25 * all);
     out.fits = !wide && !many && !out.clamped;
     return out;
@@ -103,7 +102,7 @@ class Pass {
     return h;
   }
 
-  // Order matters little for the result and much for the outliers: the first parts are judged by
+  // The order hardly affects the result but matters for the outliers: the first parts are judged by
   // the prior. learn_gains() therefore judges all of them again at the end.
   void take(std::size_t k) {
     const Eigen::VectorXd h = row(observations_[k]);
@@ -111,7 +110,7 @@ class Pass {
     const double s = h.dot(ph) + rule_.measuring_sd_mm * rule_.measuring_sd_mm;
     const double innovation = left_mm(k);
     const double e = innovation / std::sqrt(s);
-    // Clipped: one bad part must not condemn the model alone.
+    // Clipped: one bad part alone must not condemn the model.
     innovation_.push_back(std::clamp(e, -rule_.gate_sd, rule_.gate_sd));
     if (std::abs(e) > rule_.gate_sd) {
       out_[k] = true;
@@ -155,14 +154,14 @@ LevelChoice next_level(std::span<const double> share, std::uint32_t level,
   LevelChoice out{.level = level, .share = share[level]};
   bool all_inside = parts.size() >= rule.least;
   for (const PartError& part : parts) {
-    // k·Δ. Twice the measuring error is not counted against a part.
+    // k·Δ. Twice the measuring error does not count against a part.
     const double own = out.share * part.tolerance_mm;
     const double error = std::abs(part.deviation_mm);
     out.outside += error > own + 2.0 * rule.measuring_sd_mm ? 1U : 0U;
     out.largest_ratio = std::max(out.largest_ratio, error / own);
     all_inside = all_inside && error <= rule.well_inside * own;
   }
-  // A few parts may leave their share: at a 95 % band one in twenty does.
+  // A few parts may exceed their share: with a 95 % band one in twenty does.
   const bool leave =
       static_cast<double>(out.outside) > rule.few * static_cast<double>(parts.size());
   if (leave && level + 1 < share.size()) {
@@ -207,7 +206,7 @@ std::vector<Prediction> predict(const online::ThermalModel& model, const Cyclogr
     drive_in(at);
     // A copy for each instant: the running model stays at the transition's start.
     online::ThermalModel then = running;
-    // Against the start of the work: the displacement at that time is in the workpiece's zero.
+    // Relative to the start of the work: the displacement at that time is in the workpiece's zero.
     out[k].displacement_mm = then.update(std::max(0.0, time_s[k] - begin_s), drive) - start_mm;
     for (std::size_t i = 0; i < modes; ++i) {
       out[k].mode_mm.push_back(then.state().mode_mm[i] - start.mode_mm[i]);
@@ -236,7 +235,7 @@ Gains learn_gains(std::span<const Observation> observations, const GainRule& rul
         beyond.emplace_back(-left_mm, k);
       }
     }
-    // Where many would have to go it is not they that are wrong.
+    // Where many would have to go, they are not the ones that are wrong.
     if (beyond.empty() || 10 * (gone + 1) > all) {
       return pass.gains();
     }
@@ -249,8 +248,7 @@ Gains learn_gains(std::span<const Observation> observations, const GainRule& rul
   }
 }
 
-// A mode's gain scales all that heats it, levels and feed alike; the surroundings have no part in
-// it.
+// A mode's gain scales everything that heats it, levels and feed alike, but not the surroundings.
 void apply_gains(kernel::machine::ThermalAxis& axis, std::span<const double> gain) {
   std::vector<double> of_parameter;
   for (std::size_t i = 0; i < axis.mode.size(); ++i) {

@@ -11,14 +11,14 @@
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
 // What the model does not know is one first-order process with RMS d and time constant τ_d. d comes
-// from the free running errors, τ_d from those after a probe, which show how fast the unknown comes
-// back: variance d²·(1 − e^(−2t/τ_d)). Both are set so that the band holds what it promises on
-// hours that had no part in the fit.
+// from the free-running errors, τ_d from those after a probe, which show how fast the unknown
+// returns: variance d²·(1 − e^(−2t/τ_d)). Both are set so that the band keeps its promise on hours
+// that were not in the fit.
 namespace steadyrest::thermal::offline {
 namespace {
 
 constexpr double kWanted = 0.95;
-constexpr double kWantedHourly = 0.97;  // a few blocks say less than they seem to: 95 % of others
+constexpr double kWantedHourly = 0.97;  // a few blocks prove less than they seem to: 95 % of others
 constexpr double kMostWider = 10.0;
 constexpr double kLeastTau_min = 20.0;
 constexpr double kMostTau_min = 2e4;
@@ -26,9 +26,9 @@ constexpr double kMostTau_min = 2e4;
 /// One reading of a left-out block.
 struct Sample {
   std::size_t block = 0;
-  double since_s = 0.0;  ///< of the probe's last reading
+  double since_s = 0.0;  ///< since the probe's last reading
   double error_um = 0.0;
-  double known_um2 = 0.0;  ///< variance by parameters and noise
+  double known_um2 = 0.0;  ///< variance from parameters and noise
 };
 
 double drift_um2(const Sample& s, double drift_um, double tau_s) {
@@ -48,8 +48,8 @@ double covered(const std::vector<Sample>& samples, const std::function<bool(cons
   return all > 0.0 ? in / all : 1.0;
 }
 
-/// The least x of [low, high] with `enough(x)`, which only grows true.
-/// Halved on the logarithmic scale; 40 halvings leave 1e-11.
+/// The least x of [low, high] with `enough(x)`, a monotone condition. Bisection on the logarithmic
+/// scale; 40 steps leave 1e-11.
 double least(double low, double high, const std::function<bool(double)>& enough) {
   for (int i = 0; i < 40; ++i) {
     const double middle = std::sqrt(low * high);
@@ -58,7 +58,7 @@ double least(double low, double high, const std::function<bool(double)>& enough)
   return high;
 }
 
-/// What is known by n blocks is for one more: 1/n of their variance comes on top.
+/// Knowledge from n blocks applied to one more: 1/n of their variance comes on top.
 double another(std::size_t blocks) {
   return std::sqrt(1.0 + 1.0 / static_cast<double>(std::max<std::size_t>(blocks, 1)));
 }
@@ -79,12 +79,12 @@ std::pair<double, double> made_from(const std::vector<Sample>& free,
     return covered(probed, which, [&](const Sample& s) { return drift_um2(s, drift, 60.0 / r); }) >=
            kWantedHourly;
   });
-  // What it does within an hour is seen many times in each block, what it comes to only once.
+  // Each block shows the growth within an hour many times, the final spread only once.
   const double more = student(blocks) * another(blocks);
   return {more * drift, 60.0 * std::min(more * more / rate, kMostTau_min)};
 }
 
-/// Each block seen by the band that the others make.
+/// Tests each block with the band from the others.
 class Others {
  public:
   // A block that helped to set the band proves nothing about it.
@@ -97,7 +97,7 @@ class Others {
     }
   }
 
-  /// Shares of the readings, running free and probed, within bands that are so much wider.
+  /// Shares of the readings, running free and probed, inside bands wider by this factor.
   [[nodiscard]] std::pair<double, double> coverage(double wider) const {
     std::pair<double, double> out;
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -131,10 +131,10 @@ double student(std::size_t blocks) {
 }
 
 // Each reading of a left-out block becomes a sample twice: running free, and since the last hourly
-// probe. What parameters and noise explain is known; the drift has to cover the rest.
+// probe. Parameters and noise explain the known part; the drift has to cover the rest.
 Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::MatrixXd& columns,
                const Eigen::MatrixXd& covariance) {
-  // Parameters move the forecast about the mean of the log: its constant is fitted.
+  // Parameters tilt the forecast about the log's mean, since its constant is fitted.
   const Eigen::RowVectorXd middle = columns.colwise().mean();
   const double noise = data.noise_um * data.noise_um;
   std::vector<Sample> free;
@@ -156,7 +156,7 @@ Band calibrate(const FitData& data, const LeftOut& left_out, const Eigen::Matrix
       }
       const Eigen::RowVectorXd whole = columns.row(row) - middle;
       const Eigen::RowVectorXd since = columns.row(row) - zero;
-      // Two noises after a probe, its own and the reading's.
+      // After a probe two noises count, the probe's and the reading's.
       free.push_back({b, 0.0, residual(k), noise + whole.dot(whole * covariance)});
       probe.push_back(
           {b, data.time_s[i] - zero_s, zeroed(k), 2.0 * noise + since.dot(since * covariance)});

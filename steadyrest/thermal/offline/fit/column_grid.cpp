@@ -5,10 +5,9 @@
 #include <steadyrest/thermal/offline/fit/structure.hpp>
 #include <steadyrest/thermal/offline/log/lagged.hpp>
 
-// All columns that a search could ask for, made once: powers of the speed lagged by each time
-// constant of the grid, what is left of each starting state, temperatures with each lag, and the
-// readings last. A candidate is then a choice of columns, and its fit a choice of rows of their
-// products.
+// All columns that a search could need, made once: powers of the speed lagged by each time constant
+// of the grid, the decay of each starting state, temperatures with each lag, and the readings last.
+// A candidate is then a choice of columns, and its fit a choice of rows of their products.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -23,7 +22,7 @@ void more_modes(std::vector<std::size_t>& chosen, std::size_t least, std::size_t
     return;
   }
   for (std::size_t t = chosen.empty() ? 0 : chosen.back() + 1; t < kGridTau_min.size(); ++t) {
-    // Nearer ones would share one body between two modes of opposite sign.
+    // Closer ones would split one body into two modes of opposite sign.
     if (chosen.empty() || kGridTau_min[t] >= kSeparation * kGridTau_min[chosen.back()]) {
       chosen.push_back(t);
       more_modes(chosen, least, most, out);
@@ -46,8 +45,8 @@ ColumnGrid::ColumnGrid(const FitData& data, const std::vector<std::size_t>& sens
   for (std::size_t t = 0; t < kGridTau_min.size(); ++t) {
     const double tau_s = 60.0 * kGridTau_min[t];
     columns_.col(power(t, 1)) = lagged_power(log, data.row, 1.0, tau_s);
-    // Scaled by the fastest speed, so that coefficients of n and n² are alike in size and one prior
-    // fits both.
+    // Scaled by the fastest speed, so that the coefficients of n and n² are similar in size and one
+    // prior suits both.
     columns_.col(power(t, 2)) = lagged_power(log, data.row, 2.0, tau_s) / fastest_krpm_;
     for (std::size_t s = 0; s < stretches_; ++s) {
       columns_.col(start(t, s)) = fading(log, data.row, starts[s], tau_s);
@@ -57,7 +56,7 @@ ColumnGrid::ColumnGrid(const FitData& data, const std::vector<std::size_t>& sens
     for (std::size_t l = 0; l < kGridLag_min.size(); ++l) {
       const Eigen::VectorXd v =
           lagged_temperature(log, data.row, log.temperature[sensors[s]], 60.0 * kGridLag_min[l]);
-      // Without its mean an input is not the constant in disguise.
+      // Without its mean, so that an input is not the constant in disguise.
       columns_.col(lag(s, l)) = v.array() - v.mean();
     }
   }

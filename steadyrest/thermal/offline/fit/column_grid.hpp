@@ -16,9 +16,9 @@ inline constexpr std::array kGridTau_min = {3.0,  6.0,   12.0,  20.0,  30.0,  40
 inline constexpr std::array kGridLag_min = {0.0, 20.0, 60.0, 150.0, 400.0};
 
 /// The columns of least squares for every time constant of a grid, so that a structure is a choice
-/// of columns: 1; for each time constant what the speed and its square make of a mode (the square
-/// divided by the fastest speed, in 1000 rev/min) and what is left of each stretch's beginning; for
-/// each temperature, less its mean, each lag; last the readings, µm.
+/// of columns: 1; for each time constant a mode's response to the speed and to its square (the
+/// square divided by the fastest speed, in 1000 rev/min) and the remainder of each stretch's
+/// initial state; for each temperature, less its mean, each lag; last the readings, µm.
 class ColumnGrid {
  public:
   ColumnGrid(const FitData& data, const std::vector<std::size_t>& sensors);
@@ -33,7 +33,7 @@ class ColumnGrid {
   [[nodiscard]] Eigen::Index start(std::size_t tau, std::size_t stretch) const noexcept {
     return static_cast<Eigen::Index>(1 + tau * (2 + stretches_) + 2 + stretch);
   }
-  /// `sensor` among those that were given.
+  /// `sensor` among the given ones.
   [[nodiscard]] Eigen::Index lag(std::size_t sensor, std::size_t lag) const noexcept {
     return static_cast<Eigen::Index>(1 + kGridTau_min.size() * (2 + stretches_) +
                                      sensor * kGridLag_min.size() + lag);
@@ -46,7 +46,7 @@ class ColumnGrid {
   Eigen::MatrixXd columns_;
 };
 
-/// Sets of one up to `most` time constants of the grid that are far enough apart, as their places.
+/// Sets of up to `most` time constants of the grid that are far enough apart, by their places.
 [[nodiscard]] std::vector<std::vector<std::size_t>> grid_modes(std::size_t least, std::size_t most);
 
 }  // namespace steadyrest::thermal::offline

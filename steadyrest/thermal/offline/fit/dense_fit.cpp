@@ -12,8 +12,8 @@
 #include <steadyrest/thermal/offline/fit/structure.hpp>
 
 // Evidence instead of choice: with gains N(0, s²) the readings are one normal vector, and its
-// density integrates out whatever the gains are. With many alike sensors that is a fairer judge
-// than the left-out hours, which a search among hundreds of pairs has already seen.
+// density integrates out the gains. With many similar sensors that is a fairer judge than the
+// left-out hours, which a search among hundreds of pairs has already seen.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -21,7 +21,7 @@ constexpr std::array<std::size_t, 3> kLag = {0, 2, 4};  ///< of the grid's
 constexpr std::array kGain_um_k = {0.3, 1.0, 3.0, 10.0};
 constexpr std::array kLevel_um = {10.0, 30.0, 100.0};
 constexpr std::array kPower = {1, 2};
-constexpr int kAlternations = 2;  ///< the error model and the rest, each given the other
+constexpr int kAlternations = 2;  ///< the error model and the rest, in turn
 
 struct DenseCandidate {
   std::vector<std::size_t> tau;
@@ -47,7 +47,7 @@ class Evidence {
     }
   }
 
-  /// To a constant of the readings.
+  /// Up to a constant of the readings.
   [[nodiscard]] double of(const DenseCandidate& c) const {
     std::vector<Eigen::Index> column = inputs_;
     std::vector<double> sd(inputs_.size(), c.usual.gain_um_k);
@@ -69,8 +69,8 @@ class Evidence {
       const auto in = static_cast<std::size_t>(i);
       for (Eigen::Index j = 0; j <= i; ++j) {
         const auto jn = static_cast<std::size_t>(j);
-        // In units of the prior: S·XᵀX·S + 1 has no eigenvalue below 1, so Cholesky is safe with
-        // columns that are nearly parallel.
+        // In units of the prior: S·XᵀX·S + 1 has no eigenvalue below 1, so Cholesky is safe even
+        // with nearly parallel columns.
         normal(i, j) = sd[in] * sd[jn] * product_(column[in], column[jn]);
       }
       normal(i, i) += 1.0;
@@ -82,7 +82,7 @@ class Evidence {
     }
     const Eigen::VectorXd half = root.matrixL().solve(right);
     const double log_root = root.matrixLLT().diagonal().array().log().sum();
-    // ln p = ½·yᵀX S (1 + S XᵀX S)⁻¹ S Xᵀy − ½·ln det(1 + S XᵀX S), but for a constant of y.
+    // ln p = ½·yᵀX S (1 + S XᵀX S)⁻¹ S Xᵀy − ½·ln det(1 + S XᵀX S), up to a constant of y.
     return 0.5 * half.squaredNorm() - log_root;
   }
 
@@ -98,7 +98,7 @@ DenseCandidate best(const Evidence& evidence, const std::vector<std::vector<std:
   DenseCandidate out;
   double most = -std::numeric_limits<double>::infinity();
   for (const auto& tau : modes) {
-    // A time constant that was chosen counts as Bayes' criterion counts a parameter.
+    // A chosen time constant counts like a parameter in Bayes' criterion.
     const double chosen =
         0.5 * static_cast<double>(tau.size()) * std::log(static_cast<double>(rows));
     for (const double level : kLevel_um) {
@@ -137,13 +137,13 @@ std::optional<Dense> dense_fit(const FitData& data, const ErrorModel& guess,
                                const SearchLimits& limits, std::size_t least_modes) {
   const std::vector<std::size_t>& sensors = limits.sensor;
   const std::size_t most = kernel::machine::kMaxThermalAmbients / kLag.size();
-  // With as many sensors as a structure may take the search has tried them all.
+  // With as many sensors as a structure may take, the search has tried them all.
   if (sensors.size() <= limits.most_ambients || sensors.size() > most) {
     return std::nullopt;
   }
   const ColumnGrid grid(data, sensors);
   const auto modes = grid_modes(least_modes, limits.most_modes);
-  // Two rounds settle it: the choice hardly moves once the drift is about right.
+  // Two rounds are enough: the choice hardly changes once the drift is about right.
   Dense out{{}, guess};
   for (int round = 0; round < kAlternations; ++round) {
     const Evidence evidence(data, out.error, grid, sensors.size());

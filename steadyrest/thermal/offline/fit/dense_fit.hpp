@@ -7,16 +7,16 @@
 
 namespace steadyrest::thermal::offline {
 
-/// A structure that takes every temperature with lags of 0, 60 and 400 min, all gains small
-/// beforehand: N(0, s²). Which gain is usual (s), which levels are and the modes are those of the
-/// greatest evidence, gains and levels integrated out; so no sensor is chosen by the hours that it
-/// happens to fit. Levels have both powers of the speed. The modes' time constants are the grid's.
+/// A structure with every temperature at lags of 0, 60 and 400 min, all gains small a priori: N(0,
+/// s²). The usual gain s, the usual levels and the modes are those of the greatest evidence, with
+/// gains and levels integrated out; so no sensor is chosen by the hours that it happens to fit.
+/// Levels have both powers of the speed. The modes' time constants are the grid's.
 struct Dense {
   Structure structure;
-  ErrorModel error;  ///< likeliest for it
+  ErrorModel error;  ///< the likeliest for it
 };
 
-/// None where the limits let a structure take every temperature anyway, nor for more than 21.
+/// None if the limits let a structure take every temperature anyway, nor for more than 21.
 [[nodiscard]] std::optional<Dense> dense_fit(const FitData& data, const ErrorModel& guess,
                                              const SearchLimits& limits, std::size_t least_modes);
 

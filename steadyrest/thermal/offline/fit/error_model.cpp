@@ -9,9 +9,8 @@
 namespace steadyrest::thermal::offline {
 
 // Drift is a first-order process, covariance drift²·e^(−|t|/τ), under white noise. A scalar Kalman
-// filter run over each column turns it into innovations of unit variance: the same as multiplying
-// by the inverse Cholesky factor of the covariance, in n steps instead of n³. log_sum is its log
-// det.
+// filter over each column turns it into innovations of unit variance: the same as multiplying by
+// the inverse Cholesky factor of the covariance, in n steps instead of n³. log_sum is its log det.
 double whiten(const ErrorModel& model, std::span<const double> time_s,
               std::span<const std::size_t> fresh, Eigen::MatrixXd& columns) {
   const double drift = model.drift_um * model.drift_um;
@@ -25,7 +24,7 @@ double whiten(const ErrorModel& model, std::span<const double> time_s,
     while (next_fresh != fresh.end() && *next_fresh < row) {
       ++next_fresh;
     }
-    // After a gap the drift is taken as unknown again: its stationary variance, no expectation.
+    // After a gap the drift is unknown again: its stationary variance, expectation 0.
     if (row == 0 || (next_fresh != fresh.end() && *next_fresh == row)) {
       expected.setZero();
       variance = drift;
@@ -45,8 +44,8 @@ double whiten(const ErrorModel& model, std::span<const double> time_s,
   return log_sum;
 }
 
-// Second differences cancel any drift that is straight over three rows; the median ignores the few
-// rows where the machine really bends, and spikes.
+// Second differences cancel any drift that is linear over three rows; the median ignores spikes and
+// the few rows where the machine really bends.
 double noise_of(std::span<const double> time_s, std::span<const double> reading) {
   std::vector<double> second;
   for (std::size_t i = 2; i < reading.size(); ++i) {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-/// What the readings of a displacement have that no model of it explains: a first-order process
-/// (drift) and white noise. Readings that follow one another are then not independent, so least
-/// squares must first be made white.
+/// The part of a displacement's readings that no model explains: a first-order process (drift) and
+/// white noise. Successive readings are then not independent, so they must be whitened before least
+/// squares.
 namespace steadyrest::thermal::offline {
 
 struct ErrorModel {
@@ -17,14 +17,13 @@ struct ErrorModel {
 };
 
 /// Turns each column in place into its innovations over their standard deviation, by the Kalman
-/// filter of the error model; the gains are those of the times alone, so what is linear stays so.
-/// The process is new at the first row and after each row that is listed in `fresh`. Rows must have
-/// no holes. Returns Σ ln S, S the innovations' variance.
+/// filter of the error model; its gains depend only on the times, so linear relations are kept. The
+/// process is new at the first row and after each row listed in `fresh`. Rows must have no holes.
+/// Returns Σ ln S, S the innovations' variance.
 double whiten(const ErrorModel& model, std::span<const double> time_s,
               std::span<const std::size_t> fresh, Eigen::MatrixXd& columns);
 
-/// RMS of the white noise, by the second differences of neighbouring readings: what drifts has
-/// none.
+/// RMS of the white noise, from the second differences of neighbouring readings: drift has none.
 [[nodiscard]] double noise_of(std::span<const double> time_s, std::span<const double> reading);
 
 }  // namespace steadyrest::thermal::offline

@@ -9,14 +9,14 @@
 #include <steadyrest/thermal/offline/fit/fit_data.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
-// Readings are thinned, the inputs are not: a column walks every row of the log and is then taken
-// at the chosen rows. Thinning costs little, since successive readings carry the same drift.
+// Readings are thinned, inputs are not: a column walks every row of the log and is then sampled at
+// the chosen rows. Thinning costs little, since successive readings carry the same drift.
 namespace steadyrest::thermal::offline {
 namespace {
 
 constexpr double kLeastNoise_um = 0.01;  // a logger's last digit
 constexpr double kLeastBlock_s = 2.0 * 3600.0;
-constexpr double kLeastOwn_s = 30.0 * 60.0;  // less is no block of its own
+constexpr double kLeastOwn_s = 30.0 * 60.0;  // a shorter one is no separate block
 constexpr std::size_t kEqualBlocks = 5;
 constexpr double kSame_um = 1e-6;
 
@@ -37,7 +37,7 @@ std::vector<std::size_t> starts(const Log& log) {
   return out;
 }
 
-/// The least step between readings: what the gauge resolves.
+/// The smallest step between readings: the gauge's resolution.
 double last_digit_um(const std::vector<double>& reading_um) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < reading_um.size(); ++i) {
@@ -47,7 +47,7 @@ double last_digit_um(const std::vector<double>& reading_um) {
   return std::isfinite(least) ? least : 0.0;
 }
 
-// Borders are times, since readings are thinned and the row of a start may not be among them.
+// Borders are times, since readings are thinned and the row of a start may be missing.
 void cut(FitData& data, const std::vector<double>& border_s) {
   std::size_t begin = 0;
   for (std::size_t b = 0; b <= border_s.size(); ++b) {
@@ -64,8 +64,8 @@ void cut(FitData& data, const std::vector<double>& border_s) {
 }
 
 // A block begins where the spindle starts after a rest of kRest_s and lasts to the next such start,
-// so each holds one warming and the cooling behind it. Starts that would leave a stub of less than
-// half an hour before or after them are no border.
+// so each contains one warm-up and the cooling after it. Starts that would leave a stub of less
+// than half an hour before or after them are no border.
 void cut_into_blocks(FitData& data) {
   std::vector<double> border_s;
   for (const std::size_t row : starts(*data.log)) {
@@ -77,9 +77,9 @@ void cut_into_blocks(FitData& data) {
     }
   }
   if (!border_s.empty()) {
-    border_s.erase(border_s.begin());  // what comes before the first start belongs to it
+    border_s.erase(border_s.begin());  // the time before the first start belongs to it
   }
-  // A spindle that starts once or twice gives no runs to leave out: pieces of equal time then.
+  // A spindle with only one or two starts gives no runs to leave out: pieces of equal time then.
   if (border_s.size() + 1 < kLeastBlocks) {
     border_s.clear();
     const double span_s = data.time_s.back() - data.time_s.front();
@@ -110,7 +110,7 @@ std::vector<std::size_t> FitData::within_reach() const {
     for (std::size_t o = 0; o < block.size(); ++o) {
       others = o == b ? others : std::max(others, fastest[o]);
     }
-    // Left out, the fastest block asks for an extrapolation that no user is given.
+    // Left out, the fastest block would need an extrapolation that no user is given.
     if (fastest[b] <= kBeyondFitted * others) {
       out.push_back(b);
     }
@@ -152,8 +152,7 @@ FitData fit_data(const Log& log, std::size_t channel, double from_s, double to_s
     last = i;
     if (t >= next_s) {
       take(i);
-      // On the grid of steps as long as rows keep up with it; after a hole the grid starts again at
-      // the row.
+      // On the grid of steps as long as rows keep up; after a hole the grid restarts at the row.
       next_s = std::max(next_s, t - step_s) + step_s;
       next_s = next_s <= t ? t + step_s : next_s;
     }
@@ -188,7 +187,7 @@ double longest_run_s(const Log& log, double from_s, double to_s) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const bool inside = log.time_s[i - 1] >= from_s && log.time_s[i] <= to_s;
     const double before = log.speed_rev_s[i - 1];
-    // Within 1 % is one speed: actual speeds waver.
+    // Within 1 % counts as one speed: actual speeds waver.
     const bool same =
         running && std::abs(before - log.speed_rev_s[i > 1 ? i - 2 : 0]) <= 0.01 * before;
     if (!inside || before == 0.0) {

@@ -10,8 +10,8 @@
 #include <steadyrest/thermal/offline/log/level_table.hpp>
 #include <steadyrest/thermal/offline/log/log_inputs.hpp>
 
-// A fit always gives numbers. Refused is what the log cannot have determined: two exponentials
-// fitted to 20 min forecast 240 min to ±170 µm, and to 60 min still to ±7 µm.
+// A fit always gives numbers. It refuses what the log cannot determine: two exponentials fitted to
+// 20 min forecast 240 min to ±170 µm, and fitted to 60 min still to ±7 µm.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -20,7 +20,7 @@ using kernel::outcome::Refusal;
 
 constexpr double kHorizonPerRun = 2.0;
 constexpr double kMostHorizonSd = 0.25;  ///< of the range
-constexpr double kRunPerTau = 1.5;       ///< a run shows a time constant when it is so much longer
+constexpr double kRunPerTau = 1.5;       ///< a run shows a time constant if it is this much longer
 
 Refusal refuse(const Log& log, std::string what, std::string to_do) {
   return bad_input(log.file, std::move(what), std::move(to_do));
@@ -65,8 +65,8 @@ std::optional<Refusal> unfit(const FitData& data, const FitRequest& request,
     return refuse(log, "the spindle never runs",
                   "log a test with the spindle running: docs/thermal-test.md");
   }
-  // With time constants from a longer test the level is all that is asked of this log, and an hour
-  // tells it.
+  // With time constants from a longer test this log only has to give the level; an hour is enough
+  // for that.
   if (request.known == nullptr && request.horizon_s > kHorizonPerRun * run_s) {
     return refuse(
         log,
@@ -80,7 +80,7 @@ std::optional<Refusal> unfit(const FitData& data, const FitRequest& request,
   return request.table && request.known == nullptr ? unfit_speeds(log, table_rev_s) : std::nullopt;
 }
 
-// Judged after the fit: whether a log was long enough shows in the covariance of what it gave.
+// Judged after the fit: its covariance shows whether the log was long enough.
 std::optional<Refusal> too_uncertain(const AxisFit& fit, const FitData& data,
                                      const FitRequest& request) {
   const Log& log = *data.log;
@@ -90,15 +90,15 @@ std::optional<Refusal> too_uncertain(const AxisFit& fit, const FitData& data,
     slowest_s = std::max(slowest_s, mode.tau_s);
   }
   const double run_s = longest_run_s(log, request.from_s, request.to_s);
-  // After 1.5·τ a mode has come to 78 % of its level and bends visibly; before, slope and level are
-  // one.
+  // After 1.5·τ a mode has reached 78 % of its level and bends visibly; before that, slope and
+  // level cannot be separated.
   const double need_s = kRunPerTau * slowest_s;
-  // With three blocks the left-out hours themselves show a time constant that is wrong.
+  // With three blocks the left-out hours themselves reveal a wrong time constant.
   const bool hidden = data.block.size() < kLeastBlocks && run_s < need_s;
   if (request.known != nullptr || (fit.horizon_sd_um <= kMostHorizonSd * range_um && !hidden)) {
     return std::nullopt;
   }
-  // Either reason alone refuses; both are told, since the same longer run cures both.
+  // Either reason alone refuses; both are reported, since the same longer run cures both.
   std::string why;
   if (fit.horizon_sd_um > kMostHorizonSd * range_um) {
     why = fmt::format("a forecast over {:.0f} min would be uncertain by {:.1f} µm of {:.1f} µm",

@@ -9,7 +9,7 @@
 #include <steadyrest/thermal/offline/fit/fitted_axis.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
-// Between the fit's columns and the passport's fields there is bookkeeping in both directions:
+// Bookkeeping between the fit's columns and the passport's fields, in both directions:
 // fitted_axis() writes a passport, structure_of() and known_prior() read one back for another log.
 namespace steadyrest::thermal::offline {
 
@@ -21,8 +21,8 @@ using kernel::units::um_from_mm;
 
 namespace {
 
-// The passport's table begins at 0 rpm with level 0, where the law says that nothing is heated; a
-// polynomial has no constant term for the same reason. Powers that the fit did not use are 0.
+// The passport's table begins at 0 rpm with level 0, since the law has no heat there; a polynomial
+// has no constant term for the same reason. Powers that the fit did not use are 0.
 void put_levels(const Structure& structure, const Eigen::VectorXd& level_um, ThermalMode& mode) {
   if (!structure.table_rev_s.empty()) {
     mode.speed_rev_s = {0.0};
@@ -40,8 +40,8 @@ void put_levels(const Structure& structure, const Eigen::VectorXd& level_um, The
   }
 }
 
-/// The places of the passport's levels and gains among the fit's; −1: a polynomial without its
-/// first term, and a table's level at 0 rpm, have their places too, and are known to be nought.
+/// The places of the passport's levels and gains among the fit's; −1 for a polynomial's missing
+/// first term and a table's level at 0 rpm, which are known to be zero.
 std::vector<Eigen::Index> places(const Structure& structure, const ThermalMode& mode) {
   const auto levels = static_cast<Eigen::Index>(structure.levels());
   const auto gains = static_cast<Eigen::Index>(structure.ambient.size());
@@ -69,7 +69,7 @@ std::vector<Eigen::Index> places(const Structure& structure, const ThermalMode& 
 ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const LinearFit& fit,
                         const std::vector<double>& ln_tau_sd) {
   const Log& log = *data.log;
-  // Rows of the columns at the log's two ends: what each parameter contributes to state and zero
+  // Rows of the columns at the log's two ends: each parameter's contribution to state and zero
   // there.
   const std::array last = {data.row.back()};
   const Eigen::VectorXd end = columns_of(structure, log, last).row(0);
@@ -91,8 +91,8 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
     mode.rest_tau_s = structure.mode[m].rest_tau_s;
     mode.tau_sd_ratio = m < ln_tau_sd.size() ? ln_tau_sd[m] : 0.0;
     put_levels(structure, a.segment(i * terms, terms), mode);
-    // The state of a mode at the log's end: what the levels have built up, plus what is left of the
-    // states that each stretch began with.
+    // The state of a mode at the log's end: the contribution of the levels plus the remainder of
+    // each stretch's initial state.
     const auto from_levels = a.segment(i * terms, terms).dot(end.segment(i * terms, terms));
     const Eigen::Index state = first_state + i * starts;
     mode.state_mm =
@@ -117,7 +117,7 @@ ThermalAxis fitted_axis(const Structure& structure, const FitData& data, const L
   const std::vector<Eigen::Index> place = places(structure, out.mode.front());
   for (std::size_t r = 0; r < place.size(); ++r) {
     for (std::size_t c = 0; c <= r; ++c) {
-      // In µm² and by the lower triangle, in the passport's own order of parameters.
+      // In µm² as the lower triangle, in the passport's own order of parameters.
       out.covariance.push_back(place[r] < 0 || place[c] < 0 ? 0.0
                                                             : fit.covariance(place[r], place[c]));
     }
@@ -160,12 +160,12 @@ void known_prior(const ThermalAxis& axis, double unsure, const Structure& struct
                  LinearPrior& prior) {
   constexpr double kLeast = 0.05;
   std::vector<double> mean;
-  std::vector<Eigen::Index> place;  // in the passport's covariance; -1: it says nothing
+  std::vector<Eigen::Index> place;  // in the passport's covariance; -1: not included
   Eigen::Index first = 0;
   const auto model = online::ThermalModel::make(axis);
   for (std::size_t m = 0; m < axis.mode.size(); ++m) {
     const ThermalMode& mode = axis.mode[m];
-    // By the model itself, so that a speed that this mode's table lacks lies on its straight lines.
+    // By the model itself, so that a speed missing from this mode's table is interpolated.
     for (const double speed : structure.table_rev_s) {
       online::Drive drive;
       drive.speed_rev_s = speed;
@@ -193,8 +193,8 @@ void known_prior(const ThermalAxis& axis, double unsure, const Structure& struct
       const Eigen::Index to = place[static_cast<std::size_t>(j)];
       spread(i, j) = to < 0 ? 0.0 : covariance(place[in], to);
     }
-    // Two sources of doubt: the test's own covariance, and a machine that has changed since by 15
-    // %.
+    // Two sources of doubt: the test's own covariance, and a machine that has changed by 15 %
+    // since.
     const double changed = std::max(unsure * std::abs(mean[in]), kLeast);
     spread(i, i) += changed * changed;
     prior.mean(i) = mean[in];
@@ -204,7 +204,7 @@ void known_prior(const ThermalAxis& axis, double unsure, const Structure& struct
   prior.root.topLeftCorner(n, n) = root.matrixL().solve(Eigen::MatrixXd::Identity(n, n)).eval();
 }
 
-// A cold start at the fastest speed: every parameter is stretched the farthest there.
+// A cold start at the fastest speed: the largest extrapolation of every parameter.
 double horizon_sd_um(const ThermalAxis& axis, double horizon_s) {
   const auto model = online::ThermalModel::make(axis);
   if (!model) {

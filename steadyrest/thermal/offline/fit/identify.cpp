@@ -18,9 +18,9 @@
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
 // Three ways to a structure: free_structure() searches and judges by left-out hours,
-// known_structure() takes time constants from a passport (--tau-from), held_structure() those that
-// axes share. finish() is common to all: linear fit, band from the left-out readings, passport. A
-// Structure holds what is not linear; whatever is linear is solved for each of them afresh.
+// known_structure() takes time constants from a passport (--tau-from), held_structure() takes those
+// shared by axes. finish() is common to all: linear fit, band from the left-out readings, passport.
+// A Structure holds only what is not linear; the linear part is solved again for each one.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -30,7 +30,7 @@ using kernel::units::kNan;
 
 constexpr double kDriftGuess = 0.07;     ///< of the range, before anything is known
 constexpr double kStrongEvidence = 6.0;  ///< in Bayes' criterion
-constexpr double kUnsure = 0.15;         ///< of known levels and gains, from one run to another
+constexpr double kUnsure = 0.15;         ///< of known levels and gains, from run to run
 
 struct Judged {
   Structure structure;
@@ -64,7 +64,7 @@ class Identification {
         has_blocks() ? search(data_, error_, limits,
                               [&](double share) { progress ? progress(0.6 * share) : void(); })
                      : by_modes(limits.most_modes);
-    for (Structure& s : found) {  // powers have found what to begin with
+    for (Structure& s : found) {  // starting values come from the powers
       s.table_rev_s = table_rev_s_;
     }
     std::vector<Judged> all;
@@ -80,7 +80,7 @@ class Identification {
     const ErrorModel guess = error_;
     error_ = likely_error(columns(best.structure), data_, prior(best.structure));
     Judged likely = judged(best.structure);
-    // What is likeliest for small steps may forecast long ones worse.
+    // The likeliest for small steps may forecast worse over long ones.
     if (has_blocks() && likely.left_out.mean_loss > best.left_out.mean_loss) {
       error_ = guess;
       return with_rest(dense_or(std::move(best), limits, guess));
@@ -88,8 +88,7 @@ class Identification {
     return with_rest(dense_or(std::move(likely), limits, guess));
   }
 
-  // Nothing is searched: structure and error model are the axis's own, the time constants the
-  // group's.
+  // No search: structure and error model are the axis's own, the time constants the group's.
   Judged held_structure() {
     const AxisFit& like = *request_.like;
     error_ = like.error;
@@ -103,7 +102,7 @@ class Identification {
     return out;
   }
 
-  // A passport's time constants are taken as they are; levels and gains get it as a prior
+  // A passport's time constants are taken as they are; its levels and gains serve as a prior
   // (known_prior).
   Judged known_structure() {
     const ThermalAxis& known = *request_.known;
@@ -156,8 +155,7 @@ class Identification {
     }
     out.axis.drift_mm = kernel::units::mm_from_um(band.drift_um);
     out.axis.drift_tau_s = band.tau_s;
-    // The drift at the log's end, from a few readings so that one reading's noise does not stand
-    // for it.
+    // The drift at the log's end, averaged over a few readings to suppress their noise.
     constexpr Eigen::Index kLast = 5;
     out.axis.drift_state_mm =
         kernel::units::mm_from_um(residual.tail(std::min(kLast, residual.size())).mean());
@@ -181,7 +179,7 @@ class Identification {
     return out;
   }
 
-  /// Time constants count as parameters of their own: what a standard deviation of each moves.
+  /// Time constants count as separate parameters: the effect of one standard deviation of each.
   [[nodiscard]] Band calibrated(const Judged& chosen, const Eigen::MatrixXd& all,
                                 const LinearFit& fit) const {
     constexpr double kStep = 0.02;
@@ -196,7 +194,7 @@ class Identification {
       moved.mode[m].tau_s *= std::exp(kStep);
       moved.mode[m].rest_tau_s *= std::exp(kStep);
       // Numerical derivative by ln τ times its standard deviation: a column with unit variance
-      // beside those of the linear parameters.
+      // alongside those of the linear parameters.
       wide.col(p + i) =
           (columns(moved) * fit.amplitude - here) * (chosen.ln_tau_alone_sd[m] / kStep);
     }
@@ -205,8 +203,8 @@ class Identification {
     return calibrate(data_, chosen.left_out, wide, covariance);
   }
 
-  /// What inputs that were chosen may be wrong by where the surroundings change: n blocks tell a
-  /// gain b, against all that changed with it from block to block, to b/√n. Σ b²·σ²/n, σ the spread
+  /// Possible error of the chosen inputs where the surroundings change: n blocks determine a gain
+  /// b, against everything else that changed from block to block, to b/√n. Σ b²·σ²/n, σ the spread
   /// of the blocks' mean temperatures.
   [[nodiscard]] double by_chosen_inputs_um(const Structure& structure, const Eigen::MatrixXd& all,
                                            const LinearFit& fit) const {
@@ -247,8 +245,8 @@ class Identification {
     for (std::size_t modes = 1; modes <= most; ++modes) {
       Structure s;
       for (std::size_t i = 0; i < modes; ++i) {
-        // Starting points only, in s: about 35 min for one mode, from about 15 min on by
-        // factors of 5 for several.
+        // Only starting points, in s: about 35 min for one mode, for several from about 15 min
+        // upwards by factors of 5.
         s.mode.push_back(
             {60.0 * std::pow(5.0, static_cast<double>(i) + (modes == 1 ? 2.2 : 1.7)), 0.0});
       }
@@ -259,8 +257,8 @@ class Identification {
 
   [[nodiscard]] Judged judged(const Structure& structure) const {
     const LinearPrior known = prior(structure);
-    // Time constants first, by the whole log; then the blocks are left out with these held, which
-    // costs the same small bias for every structure.
+    // First the time constants, from the whole log; then the blocks are left out with these fixed,
+    // which costs every structure the same small bias.
     Refined refined = refine(structure, data_, error_, known);
     Judged out{std::move(refined.structure),
                std::move(refined.ln_tau_sd),
@@ -296,8 +294,8 @@ class Identification {
     return *std::ranges::min_element(all, {}, &Judged::criterion);
   }
 
-  /// `few` chose its inputs by the left-out hours, so they do not tell of it what they tell of one
-  /// that takes them all; the evidence does.
+  /// The left-out hours chose the inputs of `few`, so they do not judge it as fairly as one that
+  /// takes all inputs; the evidence does.
   [[nodiscard]] Judged dense_or(Judged few, const SearchLimits& limits, const ErrorModel& guess) {
     if (limits.most_ambients == 0) {
       return few;
@@ -307,8 +305,8 @@ class Identification {
       return few;
     }
     found->structure.table_rev_s = table_rev_s_;
-    // Each with the error model that was found for it, or the richer structure would be judged with
-    // the wider drift of the poorer.
+    // Each with its own error model, or the richer structure would be judged with the wider drift
+    // of the poorer.
     const double evidence_few = evidence(few.structure);
     const ErrorModel error_few = std::exchange(error_, found->error);
     Judged dense = judged(found->structure);
@@ -321,7 +319,7 @@ class Identification {
   }
   [[nodiscard]] double evidence(const Structure& s) const {
     const LinearPrior known = prior(s);
-    // Dense lags are fixed beforehand, not chosen, and cost nothing in the criterion.
+    // Dense lags are fixed in advance, not chosen, and cost nothing in the criterion.
     const auto lags = std::ranges::count_if(
         s.ambient, [&s](const Structure::Ambient& a) { return a.tau_s > 0.0 && !s.dense; });
     const auto chosen = static_cast<double>(s.mode.size()) + static_cast<double>(lags);
@@ -329,12 +327,12 @@ class Identification {
            0.5 * chosen * std::log(static_cast<double>(data_.rows()));
   }
 
-  /// A time constant of its own while the spindle stands, for each mode that gains by it.
+  /// A separate time constant for a stopped spindle, for each mode that gains by it.
   [[nodiscard]] Judged with_rest(Judged chosen) const {
     for (std::size_t m = 0; m < chosen.structure.mode.size() && has_blocks(); ++m) {
       Structure tried = chosen.structure;
-      // Started a little off τ: at τ itself the residuals do not depend on it to tell the two
-      // apart.
+      // Starts a little off τ: at τ itself the residuals do not show the difference between the
+      // two.
       tried.mode[m].rest_tau_s = 1.1 * tried.mode[m].tau_s;
       Judged other = judged(tried);
       if (other.criterion < chosen.criterion - kStrongEvidence &&

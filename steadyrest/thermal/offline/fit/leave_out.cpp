@@ -6,20 +6,20 @@
 #include <steadyrest/thermal/offline/fit/leave_out.hpp>
 #include <steadyrest/thermal/offline/log/lagged.hpp>
 
-// Successive rows are nearly copies of each other, so single rows left out would be forecast from
-// their neighbours. Whole runs are left out instead, each with its warming and cooling.
+// Successive rows are nearly copies of each other, so single left-out rows would be forecast from
+// their neighbours. Whole runs are left out instead, each with its warm-up and cooling.
 namespace steadyrest::thermal::offline {
 namespace {
 
-constexpr double kWorth = 0.03;  ///< 3 % of the error are worth no parameter
+constexpr double kWorth = 0.03;  ///< 3 % of the error justifies no parameter
 constexpr double kMostWorse = 0.1;
 
 double mean_square(const Eigen::VectorXd& v) {
   return v.size() == 0 ? 0.0 : v.squaredNorm() / static_cast<double>(v.size());
 }
 
-/// Where a stretch of the log begins in a block that is left out, the state that it began with is
-/// not known: a forecast begins cold.
+/// If a stretch of the log begins inside a left-out block, its initial state is unknown: the
+/// forecast starts cold.
 Eigen::MatrixXd cold(Eigen::MatrixXd columns, const Structure& structure, const FitData& data,
                      const FitData::Block& block) {
   const std::vector<std::size_t> starts = stretches(*data.log);
@@ -39,7 +39,7 @@ Eigen::MatrixXd cold(Eigen::MatrixXd columns, const Structure& structure, const 
 }  // namespace
 
 // ln of the geometric mean of both RMS errors: a difference of 0.03 is 3 % of the error. Below
-// kGoodEnough_um a smaller error is worth nothing, and the logarithm must not run away.
+// kGoodEnough_um a smaller error is worthless, and the logarithm must not run away.
 double block_loss(double free_ms_um2, double probed_ms_um2) {
   constexpr double kGood = kGoodEnough_um * kGoodEnough_um;
   return 0.25 * (std::log(free_ms_um2 + kGood) + std::log(probed_ms_um2 + kGood));
@@ -52,8 +52,7 @@ Eigen::VectorXd probed(const FitData& data, const FitData::Block& block,
   double next_s = -std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const double t = data.time_s[block.begin + static_cast<std::size_t>(i)];
-    // A probe resets the zero to what it reads; what it cannot see is how the error grows until the
-    // next.
+    // A probe resets the zero to its reading; it cannot see how the error grows until the next one.
     if (t >= next_s) {
       zero = residual_um(i);
       next_s = t + kProbeEvery_s;
@@ -81,7 +80,7 @@ LeftOut leave_out(const Structure& structure, const FitData& data, const ErrorMo
     const auto count = static_cast<Eigen::Index>(block.end - block.begin);
     Eigen::VectorXd residual =
         data.reading_um.segment(begin, count) - columns.middleRows(begin, count) * fit.amplitude;
-    if (b == 0) {  // where the log has its zero nobody can forecast
+    if (b == 0) {  // nobody can forecast the log's zero
       residual.array() -= residual(0);
     }
     out.residual_um.segment(begin, count) = residual;
@@ -91,8 +90,8 @@ LeftOut leave_out(const Structure& structure, const FitData& data, const ErrorMo
     out.probed_um.push_back(std::sqrt(probed_ms));
     out.loss.push_back(block_loss(free_ms, probed_ms));
     out.mean_loss += out.loss.back() / static_cast<double>(data.block.size());
-    // The RMS that is told to the user leaves out speeds that no forecast is made for; the loss,
-    // which only compares structures, takes all blocks.
+    // The RMS reported to the user excludes speeds for which no forecast is made; the loss, which
+    // only compares structures, includes all blocks.
     if (std::ranges::binary_search(reach, b)) {
       free_sum += free_ms * static_cast<double>(count);
       probed_sum += probed_ms * static_cast<double>(count);
@@ -104,7 +103,7 @@ LeftOut leave_out(const Structure& structure, const FitData& data, const ErrorMo
   return out;
 }
 
-// Paired by blocks: a hard block is hard for both, and its difference says who copes better. The
+// Paired by blocks: a hard block is hard for both, and the difference shows which copes better. The
 // standard error of the mean difference is the yardstick.
 bool as_good(const LeftOut& a, const LeftOut& b) {
   const auto n = static_cast<double>(a.loss.size());

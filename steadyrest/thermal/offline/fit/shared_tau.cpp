@@ -8,16 +8,16 @@
 
 // Two probes of one body should show one time constant. Axes are paired from the most alike on, as
 // in agglomerative clustering; each merger refits all members with the mean τ and stays only if the
-// evidence lost is less than what the saved parameters are worth.
+// evidence lost is less than the value of the saved parameters.
 namespace steadyrest::thermal::offline {
 namespace {
 
-constexpr double kLeastSd = 0.005;  ///< of ln τ; nothing is surer
+constexpr double kLeastSd = 0.005;  ///< of ln τ; nothing is more certain
 constexpr double kTooFar = 1.0;     ///< in ln τ: not worth a trial
 
 using Group = std::vector<std::size_t>;
 
-/// ln τ of each mode, then of those that have one of their own at rest.
+/// ln τ of each mode, then of those with a separate one at rest.
 std::vector<double> ln_taus(const Structure& s) {
   std::vector<double> out;
   out.reserve(2 * s.mode.size());
@@ -44,7 +44,7 @@ void set_ln_taus(Structure& s, const std::vector<double>& ln_tau) {
   }
 }
 
-/// The same modes, and the same ones of them with a time constant of their own at rest.
+/// The same modes, with separate time constants at rest for the same ones.
 bool alike(const Structure& a, const Structure& b) {
   return std::ranges::equal(a.mode, b.mode, [](const Structure::Mode& x, const Structure::Mode& y) {
     return (x.rest_tau_s > 0.0) == (y.rest_tau_s > 0.0);
@@ -73,7 +73,7 @@ class Sharing {
           const std::vector<AxisFit>& own)
       : log_(log), channel_(channel), request_(request), own_(own) {}
 
-  /// The members fitted with their mean time constants; none where one of them is refused.
+  /// The members fitted with their mean time constants; empty if one of them is refused.
   [[nodiscard]] std::optional<std::vector<AxisFit>> together(const Group& group) const {
     const AxisFit& first = own_[group.front()];
     const std::size_t modes = first.structure.mode.size();
@@ -81,7 +81,7 @@ class Sharing {
     std::vector<double> sum(modes, 0.0);
     for (const std::size_t i : group) {
       const auto ln_tau = ln_taus(own_[i].structure);
-      for (std::size_t k = 0; k < ln_tau.size(); ++k) {  // one at rest weighs as its mode does
+      for (std::size_t k = 0; k < ln_tau.size(); ++k) {  // one at rest weighs like its mode
         mean[k] += weight(own_[i], mode_of(first.structure, k)) * ln_tau[k];
       }
       for (std::size_t m = 0; m < modes; ++m) {
@@ -96,15 +96,15 @@ class Sharing {
       AxisFit held = own_[i];
       set_ln_taus(held.structure, mean);
       for (std::size_t m = 0; m < modes; ++m) {
-        // The weighted mean has the standard deviation 1/√Σw, the own one times √(w/Σw).
+        // The weighted mean has the standard deviation 1/√Σw, each member's own one times √(w/Σw).
         const double surer = std::sqrt(weight(own_[i], m) / sum[m]);
         held.ln_tau_sd[m] *= surer;
         held.axis.mode[m].tau_sd_ratio *= surer;
       }
       FitRequest request = request_;
       request.like = &held;
-      // The whole fit again with these time constants held: levels, error model's weights, band and
-      // evidence all change with them.
+      // The whole fit again with these time constants fixed: levels, error model's weights, band
+      // and evidence all change.
       auto fit = identify(log_, channel_[i], own_[i].axis.name, request);
       if (!fit) {
         return std::nullopt;
@@ -115,7 +115,7 @@ class Sharing {
   }
 
  private:
-  // Time constants at rest follow behind those of all modes, in the same order (ln_taus).
+  // Time constants at rest come after those of all modes, in the same order (ln_taus).
   static std::size_t mode_of(const Structure& s, std::size_t k) {
     std::size_t at = s.mode.size();
     for (std::size_t m = 0; m < s.mode.size(); ++m) {
@@ -132,7 +132,7 @@ class Sharing {
   const std::vector<AxisFit>& own_;
 };
 
-// Axes are taken as independent: evidences of a group add up.
+// Axes are assumed independent: the evidences of a group add up.
 double evidence(const std::vector<AxisFit>& fit, const Group& group) {
   double sum = 0.0;
   for (const std::size_t i : group) {
@@ -145,7 +145,7 @@ double evidence(const std::vector<AxisFit>& fit, const Group& group) {
 
 std::vector<Group> share_tau(const Log& log, const std::vector<std::size_t>& channel,
                              const FitRequest& request, std::vector<AxisFit>& fit) {
-  // Means are always of the axes' own results, not of what earlier mergers have made of them.
+  // Means always use the axes' own results, not those of earlier mergers.
   const std::vector<AxisFit> own = fit;
   const Sharing sharing(log, channel, request, own);
   std::vector<Group> group;
@@ -160,7 +160,7 @@ std::vector<Group> share_tau(const Log& log, const std::vector<std::size_t>& cha
   }
   std::ranges::sort(pairs);
   for (const auto& [far, pair] : pairs) {
-    // The group that an axis is in by now.
+    // The present group of an axis.
     const auto with = [&group](std::size_t i) {
       return std::ranges::find_if(group, [i](const Group& g) { return std::ranges::count(g, i); });
     };

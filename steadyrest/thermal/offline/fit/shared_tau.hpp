@@ -8,12 +8,12 @@
 
 namespace steadyrest::thermal::offline {
 
-/// Displacements of one machine whose modes have the same time constants, because the same bodies
-/// move them: fits of as many modes are given the mean of their ln τ, weighed by its certainty, and
-/// fitted again. That stays where the evidence of all together loses less than ½ ln(rows) for each
-/// time constant that is saved (Bayes' criterion). The most alike are tried first.
+/// Displacements of one machine whose modes share time constants because the same bodies move them.
+/// Fits with the same number of modes get the mean of their ln τ, weighted by certainty, and are
+/// fitted again. The result stays if their joint evidence loses less than ½ ln(rows) for each time
+/// constant saved (Bayes' criterion). The most alike are tried first.
 ///
-/// `channel` of the log and `fit` go together. Returns the groups that share, as places in `fit`,
+/// `channel` of the log and `fit` correspond. Returns the groups that share, as places in `fit`,
 /// each of two or more.
 std::vector<std::vector<std::size_t>> share_tau(const Log& log,
                                                 const std::vector<std::size_t>& channel,

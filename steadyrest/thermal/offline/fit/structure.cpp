@@ -6,7 +6,7 @@
 
 namespace steadyrest::thermal::offline {
 
-// What the log chooses counts: linear parameters, and each time constant that is not fixed.
+// What the log determines counts: linear parameters, and each time constant that is not fixed.
 std::size_t Structure::parameters() const noexcept {
   std::size_t count = linear() + mode.size();
   for (const Mode& m : mode) {
@@ -37,9 +37,9 @@ Eigen::MatrixXd columns_of(const Structure& structure, const Log& log,
     out.col(at++) = lagged_temperature(log, rows, log.temperature[a.sensor], a.tau_s);
   }
   // The order of the columns is a contract: levels mode by mode, gains, the constant, then the
-  // states. fitted_axis.cpp and wide_prior() find their places by it.
+  // states. fitted_axis.cpp and wide_prior() depend on it.
   out.col(at++).setOnes();
-  // One column for each mode and stretch: after a gap nobody knows the state of a mode.
+  // One column for each mode and stretch: after a gap a mode's state is unknown.
   for (const Structure::Mode& m : structure.mode) {
     for (const std::size_t start : starts) {
       out.col(at++) = fading(log, rows, start, m.tau_s, m.rest_tau_s);

@@ -9,15 +9,15 @@
 #include <steadyrest/thermal/offline/fit/structure_fit.hpp>
 #include <steadyrest/thermal/offline/log/lagged.hpp>
 
-// Variable projection (Golub and Pereyra 1973): for given time constants all else is linear and
-// solved by QR, so only ln τ is searched, by damped Gauss–Newton on the projected residuals. Two or
-// three unknowns are left of a dozen, and no start values are needed for levels or gains.
+// Variable projection (Golub and Pereyra 1973): for given time constants everything else is linear
+// and solved by QR, so only ln τ is searched, by damped Gauss–Newton on the projected residuals.
+// Two or three unknowns remain of a dozen, and levels and gains need no start values.
 namespace steadyrest::thermal::offline {
 namespace {
 
 constexpr double kNoises = 3.0;
 
-/// Rows that are fitted, their times and where a stretch begins.
+/// The fitted rows, their times and where a stretch begins.
 struct Subset {
   Eigen::MatrixXd matrix;  ///< columns, then the readings
   std::vector<double> time_s;
@@ -33,8 +33,8 @@ Subset subset(const Eigen::MatrixXd& columns, const FitData& data,
   out.time_s.reserve(data.rows() - (hole.end - hole.begin));
   auto fresh = data.fresh.begin();
   bool begins = false;
-  // A hole in the rows counts as time passed, not as a gap: the drift on its far side still
-  // remembers. Only a recorded gap makes the next row fresh.
+  // A hole in the rows counts as time passed, not as a gap: the drift beyond it still remembers.
+  // Only a recorded gap makes the next row fresh.
   for (std::size_t i = 0; i < data.rows(); ++i) {
     if (fresh != data.fresh.end() && *fresh == i) {
       begins = true;
@@ -56,7 +56,7 @@ Subset subset(const Eigen::MatrixXd& columns, const FitData& data,
   return out;
 }
 
-/// The time constants that are free, as one list of their logarithms.
+/// The free time constants, as one list of their logarithms.
 std::vector<double*> free_taus(Structure& s) {
   std::vector<double*> out;
   out.reserve(2 * s.mode.size());
@@ -79,7 +79,8 @@ std::vector<double*> free_taus(Structure& s) {
 bool allowed(const Structure& s) {
   for (const Structure::Mode& a : s.mode) {
     for (const Structure::Mode& b : s.mode) {
-      // Two modes of nearly one time constant are one mode and a pair of large opposite amplitudes.
+      // Two modes with nearly the same time constant are one mode plus a pair of large opposite
+      // amplitudes.
       if (&a != &b && std::max(a.tau_s, b.tau_s) < kSeparation * std::min(a.tau_s, b.tau_s)) {
         return false;
       }
@@ -88,7 +89,7 @@ bool allowed(const Structure& s) {
   return true;
 }
 
-/// Variable projection: residuals as a function of the logarithms of the time constants alone.
+/// Variable projection: residuals as a function of only the logarithms of the time constants.
 class Projection {
  public:
   Projection(Structure structure, const FitData& data, const ErrorModel& error,
@@ -115,7 +116,7 @@ class Projection {
 
   [[nodiscard]] Eigen::MatrixXd jacobian(const std::vector<double>& at,
                                          const Eigen::VectorXd& here) const {
-    // Of ln τ, 2 %: forward difference.
+    // Forward difference, 2 % of τ.
     constexpr double kStep = 0.02;
     Eigen::MatrixXd out(here.size(), static_cast<Eigen::Index>(at.size()));
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -148,7 +149,7 @@ LinearPrior wide_prior(const Structure& structure, const FitData& data) {
     }
   }
   usual.insert(usual.end(), structure.ambient.size(), structure.usual.gain_um_k);
-  // Without inputs the gauge has its zero at the first reading, but for that reading's noise.
+  // Without inputs the gauge's zero is at the first reading, except for that reading's noise.
   usual.push_back(structure.ambient.empty() ? kNoises * data.noise_um : kFree);
   usual.insert(usual.end(), structure.mode.size() * (data.log->gap.size() + 1),
                structure.usual.state_um);
@@ -186,15 +187,15 @@ LinearFit fit_linear(const Eigen::MatrixXd& columns, const FitData& data, const 
   Eigen::VectorXd b(n + p);
   a.topRows(n) = rows.matrix.leftCols(p);
   b.head(n) = rows.matrix.col(p);
-  // The prior as further rows of unit variance.
+  // The prior as additional rows of unit variance.
   a.bottomRows(p) = prior.root;
   b.tail(p) = prior.root * prior.mean;
   // Columns of unit length: levels in µm at (1000 rpm)² and gains in µm/K differ by orders of
   // magnitude.
   const Eigen::VectorXd scale = a.colwise().norm();
   const Eigen::MatrixXd even = a * scale.cwiseInverse().asDiagonal();
-  // QR on the rows themselves: normal equations would square the condition, and modes a factor of
-  // two apart in τ are nearly parallel already.
+  // QR on the rows themselves: normal equations would square the condition, and modes with τ a
+  // factor of two apart are already nearly parallel.
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(even);
   const Eigen::MatrixXd r = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
   const Eigen::VectorXd rotated = qr.householderQ().transpose() * b;
@@ -204,8 +205,7 @@ LinearFit fit_linear(const Eigen::MatrixXd& columns, const FitData& data, const 
   const Eigen::MatrixXd inverse =
       r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(p, p));
   const Eigen::MatrixXd un = scale.cwiseInverse().asDiagonal() * inverse;
-  // (AᵀA)⁻¹ = R⁻¹R⁻ᵀ, scaled back. The error model is taken as true, so no residual variance
-  // enters.
+  // (AᵀA)⁻¹ = R⁻¹R⁻ᵀ, scaled back. The error model is assumed true, so no residual variance enters.
   out.covariance = un * un.transpose();
   out.log_det = -2.0 * (r.diagonal().array().abs().log().sum() + scale.array().log().sum());
   out.condition = r.norm() * inverse.norm() / static_cast<double>(p);
@@ -213,7 +213,7 @@ LinearFit fit_linear(const Eigen::MatrixXd& columns, const FitData& data, const 
 }
 
 double log_evidence(const LinearFit& fit, const LinearPrior& prior) {
-  // The prior's root may be any square matrix: its determinant by QR.
+  // The prior's root may be any square matrix: QR gives its determinant.
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(prior.root);
   const double log_root = qr.matrixQR().diagonal().array().abs().log().sum();
   return 0.5 * (fit.log_det - fit.white.squaredNorm() - fit.log_sum) + log_root;
@@ -235,7 +235,7 @@ Refined refine(Structure structure, const FitData& data, const ErrorModel& error
     const Eigen::VectorXd step = -damped.ldlt().solve(jacobian.transpose() * here);
     std::vector<double> next = at;
     for (std::size_t i = 0; i < at.size(); ++i) {
-      // A factor of 2 in τ at most in one step.
+      // At most a factor of 2 in τ per step.
       next[i] = std::clamp(at[i] + std::clamp(step(static_cast<Eigen::Index>(i)), -0.7, 0.7),
                            std::log(kLeastTau_s), std::log(kMostTau_s));
     }
@@ -270,7 +270,7 @@ Refined refine(Structure structure, const FitData& data, const ErrorModel& error
     for (std::size_t i = 0; i < at.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       out.ln_tau_sd[i] = std::sqrt(variance(k));
-      // With all others held: what a passport that treats them as independent has to carry.
+      // With all others fixed: for a passport that treats them as independent.
       out.ln_tau_alone_sd[i] = std::sqrt(s2 / normal(k, k));
     }
   }
@@ -283,7 +283,7 @@ ErrorModel likely_error(const Eigen::MatrixXd& columns, const FitData& data,
   ErrorModel best;
   double least = std::numeric_limits<double>::infinity();
   const auto n = static_cast<double>(data.rows());
-  // A coarse grid does: the likelihood is flat in both.
+  // A coarse grid is enough: the likelihood is flat in both.
   for (const double tau_min : {30.0, 60.0, 120.0, 240.0, 480.0}) {
     for (const double ratio : {0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}) {
       ErrorModel error{ratio * data.noise_um, 60.0 * tau_min, data.noise_um};

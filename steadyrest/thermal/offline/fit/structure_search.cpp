@@ -9,16 +9,16 @@
 #include <steadyrest/thermal/offline/fit/column_grid.hpp>
 #include <steadyrest/thermal/offline/fit/structure_search.hpp>
 
-// A forward search over the grid. The products of all columns are formed for each block once;
-// leaving a block out is then a subtraction of its normal matrix, and a candidate costs one small
-// factorisation for each block instead of a pass over the log.
+// A forward search over the grid. The products of all columns are formed once per block; leaving a
+// block out then means subtracting its normal matrix, and a candidate costs one small factorisation
+// per block instead of a pass over the log.
 namespace steadyrest::thermal::offline {
 namespace {
 
 const std::array<std::vector<int>, 3> kPowers = {std::vector{1}, std::vector{2}, std::vector{1, 2}};
 constexpr std::size_t kLags = kGridLag_min.size();
 constexpr std::size_t kKeep = 2;                  ///< of each kind
-constexpr std::size_t kCarried = 60;              ///< sets of inputs that more modes are tried with
+constexpr std::size_t kCarried = 60;              ///< sets of inputs tried with more modes
 using Lag = std::pair<std::size_t, std::size_t>;  ///< sensor among the limits', lag
 
 struct Candidate {
@@ -28,11 +28,11 @@ struct Candidate {
   double loss = std::numeric_limits<double>::infinity();
 };
 
-/// Products of all columns, for each block: made white, as they are, and less the last probe's.
+/// Products of all columns for each block: whitened, raw, and less the last probe's.
 class Products {
  public:
-  // Fitted white, judged as it is: the drift decides how much the rows weigh, while the error that
-  // a user meets is the plain difference, running free and after an hourly probe.
+  // Fitted white, judged raw: the drift decides the weight of the rows, while the error that a user
+  // meets is the plain difference, running free and after an hourly probe.
   Products(const FitData& data, const ErrorModel& error, const SearchLimits& limits)
       : grid_(data, limits.sensor), zero_(1.0 / (9.0 * data.noise_um * data.noise_um)) {
     const Eigen::MatrixXd& all = grid_.columns();
@@ -42,7 +42,7 @@ class Products {
       Eigen::MatrixXd part = all.middleRows(begin, rows);
       Eigen::MatrixXd zeroed(part.rows(), part.cols());
       for (Eigen::Index c = 0; c < part.cols(); ++c) {
-        // probed() is linear in the column, so it may be taken off each column beforehand.
+        // probed() is linear in the column, so it may be subtracted from each column in advance.
         zeroed.col(c) = probed(data, block, part.col(c));
       }
       free_.emplace_back(part.transpose() * part / static_cast<double>(rows));
@@ -90,8 +90,8 @@ class Products {
           // Normal equations of all blocks but b: leaving one out is a subtraction.
           normal(i, j) = sum_(cj, ci) - white_[b](cj, ci);
         }
-        // The ridge keeps nearly equal columns solvable; the gauge's zero has its own precision
-        // where there are no inputs.
+        // The ridge keeps nearly equal columns solvable; without inputs the gauge's zero has its
+        // own precision.
         normal(i, i) += ci == 0 && c.lag.empty() ? zero_ : kRidge;
         right(i) = sum_(y, ci) - white_[b](y, ci);
       }
@@ -117,11 +117,11 @@ class Products {
       }
       sum += 2.0 * a(i) * row;
     }
-    // A difference of large numbers: rounding may take it below 0.
+    // A difference of large numbers: rounding may push it below 0.
     return std::max(sum, 0.0);
   }
   ColumnGrid grid_;
-  double zero_;  ///< precision of the gauge's zero, where the first reading has it
+  double zero_;  ///< precision of the gauge's zero, if the first reading sets it
   std::vector<Eigen::MatrixXd> white_;
   std::vector<Eigen::MatrixXd> free_;
   std::vector<Eigen::MatrixXd> probed_;
@@ -134,8 +134,8 @@ class Search {
          const std::function<void(double)>& progress)
       : products_(data, error, limits), limits_(limits), progress_(progress) {}
 
-  // Inputs on the outside, modes inside: a pair of sensors is worth a try with three modes only if
-  // it did well with one.
+  // Inputs outermost, modes inside: a pair of sensors is worth trying with three modes only if it
+  // did well with one.
   std::vector<Structure> run() {
     std::vector<Structure> out;
     for (std::size_t inputs = 0; inputs <= limits_.most_ambients; ++inputs) {
@@ -150,8 +150,8 @@ class Search {
           std::ranges::move(best(kind, kCarried), std::back_inserter(all));
         }
         sets.clear();
-        // More modes are tried only with the sets of inputs that did well with fewer, else the
-        // pairs would be far too many.
+        // More modes are tried only with sets of inputs that did well with fewer, else there would
+        // be far too many pairs.
         for (const Candidate& c : best(all, kCarried)) {
           sets.push_back(c.lag);
         }
@@ -166,7 +166,7 @@ class Search {
   }
 
  private:
-  // None, one or two inputs; more than two would be fitted to the accidents of a few runs.
+  // None, one or two inputs; more would be fitted to the accidents of a few runs.
   [[nodiscard]] std::vector<std::vector<Lag>> sets_of(std::size_t inputs) const {
     std::vector<Lag> one;
     for (std::size_t s = 0; s < limits_.sensor.size(); ++s) {
@@ -198,7 +198,7 @@ class Search {
     const auto taus = grid_modes(modes, modes);
     for (const auto& set : sets) {
       Candidate least;
-      // Of each set of inputs only the best time constants go on: the neighbours on the grid differ
+      // For each set of inputs only the best time constants continue: neighbours on the grid differ
       // little.
       for (const auto& tau : taus) {
         Candidate c{tau, power, set, 0.0};
@@ -212,9 +212,9 @@ class Search {
     return out;
   }
 
-  /// The best, of each set of inputs one only. Inputs with other lags are other inputs: the
-  /// lags are refined from where they begin (0 stays 0), and which of them is best changes with
-  /// the number of modes.
+  /// The best ones, one per set of inputs. Inputs with other lags are other inputs: the lags are
+  /// refined from their starting values (0 stays 0), and the best one changes with the number of
+  /// modes.
   static std::vector<Candidate> best(std::vector<Candidate> from, std::size_t count) {
     std::ranges::sort(from, {}, &Candidate::loss);
     std::vector<Candidate> out;

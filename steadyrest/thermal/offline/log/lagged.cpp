@@ -6,13 +6,13 @@
 #include <steadyrest/thermal/offline/log/lagged.hpp>
 #include <steadyrest/thermal/offline/log/level_table.hpp>
 
-// The columns of the fit are the law's own answers: to a unit level of a power of the speed, to a
-// unit state, to a temperature. walk() goes over every row of the log, whichever rows are read, and
-// starts again after each gap.
+// The columns of the fit are the law's own responses: to a unit level of a power of the speed, to a
+// unit state, to a temperature. walk() visits every row of the log, whichever rows are read, and
+// restarts after each gap.
 namespace steadyrest::thermal::offline {
 namespace {
 
-/// Steps of a log come at one period: the exponential is kept.
+/// A log's steps usually have one period: keeps the exponential.
 class Decay {
  public:
   double operator()(double elapsed_s, double tau_s) {
@@ -30,7 +30,7 @@ class Decay {
   double factor_ = 1.0;
 };
 
-/// Walks over the log; `step(row)` comes before what row `row` has is taken, for row ≥ 1.
+/// Walks over the log; `step(row)` comes before the contents of row `row` are taken, for row ≥ 1.
 template <class Start, class Step, class Value>
 Eigen::VectorXd walk(const Log& log, std::span<const std::size_t> rows, Start start, Step step,
                      Value value) {
@@ -63,10 +63,10 @@ Eigen::VectorXd lagged_level(const Log& log, std::span<const std::size_t> rows, 
   return walk(
       log, rows, [&](std::size_t) { x = 0.0; },
       [&](std::size_t row) {
-        // A row's speed holds until the next row, as in the controller's frames.
+        // A row's speed applies until the next row, as in the controller's frames.
         const double n = log.speed_rev_s[row - 1];
-        // Speeds of a test are constant for hours, and a power or a table need not be worked out
-        // for each row.
+        // Test speeds are constant for hours, so a power or a table need not be computed for each
+        // row.
         if (n != speed) {
           speed = n;
           level = level_of(n);
@@ -96,7 +96,7 @@ Eigen::VectorXd lagged_share(const Log& log, std::span<const std::size_t> rows,
 
 Eigen::VectorXd lagged_temperature(const Log& log, std::span<const std::size_t> rows,
                                    const LogChannel& channel, double tau_s) {
-  // Before its first reading a sensor is taken to have shown that reading.
+  // Before its first reading a sensor is assumed to have shown that reading.
   const auto first = std::ranges::find_if(channel.value, [](double v) { return std::isfinite(v); });
   double input = first != channel.value.end() ? *first : 0.0;
   double lagged = input;

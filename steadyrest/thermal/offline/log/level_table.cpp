@@ -22,8 +22,8 @@ std::vector<double> held_speeds_rev_s(const Log& log, double from_s, double to_s
   std::ranges::sort(turned);
   std::vector<double> out;
   for (std::size_t i = 0; i < turned.size();) {
-    // Speeds waver about their set-point: what lies within 3 % above the lowest is one, at its mean
-    // by time.
+    // Speeds waver around their set-point: anything within 3 % above the lowest is one speed, at
+    // its mean over time.
     double seconds = 0.0;
     double revolutions = 0.0;
     const double most = kSameSpeed * turned[i].first;

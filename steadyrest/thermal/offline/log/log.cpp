@@ -17,8 +17,8 @@
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
 // From a table to a Log: the clock first, since all rows depend on it, then the speed, which must
-// be whole, then each channel with its wild, stuck and absent readings taken out. What is doubtful
-// but usable becomes a note; what would make a fit lie is refused with its line.
+// be complete, then each channel with its wild, stuck and absent readings removed. Doubtful but
+// usable data becomes a note; data that would make a fit lie is refused with its line.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -31,9 +31,9 @@ constexpr double kMostDisplacement_mm = 2.0;
 constexpr double kColdest_c = -50.0;
 constexpr double kHottest_c = 150.0;
 constexpr double kLeastRange_mm = 0.5e-3;
-constexpr double kAbsentShare = 0.5;  ///< a sensor that is silent for more than this is absent
-constexpr double kWild_share = 0.01;  ///< single readings that cannot be are left out up to this
-constexpr double kLively = 0.1;       ///< of the rows in which a living sensor changes
+constexpr double kAbsentShare = 0.5;  ///< a sensor silent for more than this is absent
+constexpr double kWild_share = 0.01;  ///< up to this, single impossible readings are left out
+constexpr double kLively = 0.1;       ///< share of rows in which a living sensor changes
 
 class LogMaker {
  public:
@@ -92,7 +92,7 @@ class LogMaker {
     return {};
   }
 
-  // The one column that may have no holes: nothing makes up for heat that was not recorded.
+  // The one column that may have no holes: nothing replaces unrecorded heat.
   Done take_speed() {
     const LogColumn& speed = only(Quantity::speed);
     for (std::size_t k = 0; k < row_.size(); ++k) {
@@ -137,7 +137,7 @@ class LogMaker {
     return {};
   }
 
-  /// A bridged temperature loses nothing. A displacement loses what the fit is made of.
+  /// A bridged temperature loses nothing. A displacement loses data for the fit.
   void note_absent(const LogChannel& channel) {
     const auto absent = [](double v) { return std::isnan(v); };
     if (const auto count = std::ranges::count_if(channel.value, absent); count > 0) {
@@ -149,7 +149,7 @@ class LogMaker {
     }
   }
 
-  /// Values that cannot be: single ones are left out, more mean a wrong unit.
+  /// Impossible values: single ones are left out, more mean a wrong unit.
   Done drop_wild(LogChannel& channel, const LogColumn& column) {
     const bool length = column.quantity == Quantity::displacement;
     const double least = length ? -kMostDisplacement_mm : kColdest_c;
@@ -185,8 +185,8 @@ class LogMaker {
     return {};
   }
 
-  /// The first reading that the next one bears out; what comes before it nothing vouches for.
-  /// Without this a wrong first reading would make the watch doubt all that follow.
+  /// The first reading confirmed by the next one; nothing vouches for those before it. Without this
+  /// a wrong first reading would make the watch doubt all that follow.
   [[nodiscard]] std::size_t first_believed(const LogChannel& channel) const {
     using online::SensorWatch;
     std::size_t k = 0;
@@ -204,10 +204,10 @@ class LogMaker {
     return 0;
   }
 
-  /// What would not be believed on line either.
+  /// Drops what would not be believed on line either.
   void drop_unbelieved(LogChannel& channel) {
     using online::SensorWatch;
-    SensorWatch watch;  // of one sensor: stuck is drop_stuck()'s
+    SensorWatch watch;  // one sensor only: drop_stuck() handles stuck
     std::size_t wild = 0;
     std::size_t first = 0;
     double first_c = 0.0;
@@ -240,8 +240,8 @@ class LogMaker {
     }
   }
 
-  // Stuck is a matter of the whole log here, unlike on line: what a sensor did afterwards is known.
-  // Runs of the same value are told apart into hours that are too long and the life between them.
+  // Here, unlike on line, stuck is judged over the whole log, since the sensor's later behaviour is
+  // known. Runs of the same value are divided into those that are too long and live ones.
   void drop_stuck(LogChannel& channel) {
     std::vector<std::pair<std::size_t, std::size_t>> stuck;
     std::size_t changes = 0;
@@ -259,7 +259,7 @@ class LogMaker {
       }
       from = to;
     }
-    // A coarse sensor in a steady room repeats itself for hours as well. Only one that otherwise
+    // A coarse sensor in a steady room also repeats itself for hours. Only one that otherwise
     // changes often, or never does, is stuck.
     const bool living = static_cast<double>(changes) > kLively * static_cast<double>(lived);
     const bool dead = lived == 0;
@@ -304,8 +304,7 @@ class LogMaker {
   void keep(LogChannel channel, Quantity quantity) {
     const auto silent =
         std::ranges::count_if(channel.value, [](double v) { return std::isnan(v); });
-    // More than half missing: what is left would be bridged or held for longer than it was
-    // measured.
+    // More than half missing: the rest would be bridged or held for longer than it was measured.
     const double share = static_cast<double>(silent) / static_cast<double>(channel.value.size());
     if (share > kAbsentShare) {
       note(table_.head_line,

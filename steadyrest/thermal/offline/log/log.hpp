@@ -9,13 +9,13 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/table/row_reader.hpp>
 
-/// The log of a thermal test or of a working day: CSV, or the same packed by gzip.
+/// The log of a thermal test or of a working day: CSV, plain or packed by gzip.
 ///
-/// A head with names that end in their unit: a time (`time_s`, `t_s`, or `_ms`, `_min`, `_h`),
-/// the spindle's speed (`spindle_rpm` or `speed_rpm`), displacements (`…_um`, `…_mm`) and
-/// temperatures (`…_c`, `…_k`, `…_f`); then rows, as table::RowReader takes them. In place of a
-/// time in numbers there may be stamps (ISO 8601) or sample numbers (table::Clock). Columns of
-/// other names are passed over.
+/// A head with names that end in their unit: a time (`time_s`, `t_s`, or `_ms`, `_min`, `_h`), the
+/// spindle's speed (`spindle_rpm` or `speed_rpm`), displacements (`…_um`, `…_mm`) and temperatures
+/// (`…_c`, `…_k`, `…_f`); then rows, as table::RowReader takes them. Instead of a numeric time
+/// there may be stamps (ISO 8601) or sample numbers (table::Clock). Columns with other names are
+/// ignored.
 namespace steadyrest::thermal::offline {
 
 struct LogChannel {
@@ -25,14 +25,13 @@ struct LogChannel {
 
 struct Log {
   std::string file;
-  std::vector<double> time_s;  ///< rising
-  /// Where people count a log's minutes from: its first row if it has stamps, else the clock's 0.
+  std::vector<double> time_s;  ///< ascending
+  /// Origin of a log's minutes: its first row if it has stamps, else the clock's 0.
   double origin_s = 0.0;
   std::vector<double> speed_rev_s;  ///< ≥ 0
   std::vector<LogChannel> displacement;
   std::vector<LogChannel> temperature;
-  /// Rows before which time has passed that is not recorded, rising: what the machine did there is
-  /// not known.
+  /// Rows preceded by unrecorded time, ascending: what the machine did in it is unknown.
   std::vector<std::size_t> gap;
   /// What was left out of the log and why, each as `FILE:LINE: what; what was done`.
   std::vector<std::string> notes;
@@ -43,22 +42,21 @@ struct Log {
   }
 };
 
-/// Refused, by line: columns that are missing or stand twice, words where numbers should be, a
-/// clock that runs back, leaps ahead for a row, gives two rows one time or has rows more than 10
-/// min apart, one or two rows alone at an end of the log, values that cannot be (their unit is
-/// wrong). Noted, and left out: rows that stand twice, sensors that are
-/// absent, stuck or wild for a while (temperatures by the rules of online::SensorWatch). Noted: a
-/// displacement that hardly moves.
+/// Refused, by line: missing or duplicate columns, words in place of numbers, a clock that runs
+/// back, leaps ahead for a row, gives two rows the same time or has rows more than 10 min apart,
+/// one or two isolated rows at an end of the log, impossible values (wrong unit). Left out with a
+/// note: duplicate rows, sensors that are absent, stuck or wild for a while (temperatures by the
+/// rules of online::SensorWatch). Noted: a displacement that hardly moves.
 [[nodiscard]] kernel::outcome::Result<Log> read_log(const std::string& path,
                                                     const table::Format& format = {});
 [[nodiscard]] kernel::outcome::Result<Log> parse_log(std::string_view text, const std::string& file,
                                                      const table::Format& format = {});
 
-/// A sensor that repeats itself to the last digit for so long is stuck, if it lives elsewhere.
+/// A sensor that repeats itself to the last digit for this long is stuck, if it changes elsewhere.
 inline constexpr double kStuck_s = 2.0 * 3600.0;
-/// Holes of a temperature up to this are bridged by a straight line.
+/// Holes in a temperature up to this length are bridged by a straight line.
 inline constexpr double kBridge_s = 600.0;
-/// More time than this between two rows, and ten times the usual, is a gap.
+/// A gap is more than this between two rows, and more than ten times the usual step.
 inline constexpr double kGap_s = 300.0;
 inline constexpr std::size_t kLeastRows = 20;
 

@@ -10,9 +10,9 @@
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/offline/log/log_clock.hpp>
 
-// Time must rise. A row twice is harmless and dropped; a time that runs back or leaps is refused,
-// for every exponential between two rows depends on it. A longer pause is a gap, and a gap needs
-// rows on either side that agree with each other.
+// Time must rise. A duplicate row is harmless and dropped; a time that runs back or leaps is
+// refused, since every exponential between two rows depends on it. A longer pause is a gap, and a
+// gap needs rows on either side that agree with each other.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -21,7 +21,7 @@ using MaybeFault = std::optional<Fault>;
 
 constexpr double kMostTime_s = 1e11;  ///< 3000 years: a clock since 1970 is far below
 constexpr double kMostStep_s = 600.0;
-constexpr double kLeap = 10.0;        ///< a time that leaps so much farther is the wrong one
+constexpr double kLeap = 10.0;        ///< a time that leaps this much farther is wrong
 constexpr std::size_t kVouching = 3;  ///< rows beyond a gap that vouch for their times
 
 class ClockMaker {
@@ -48,14 +48,14 @@ class ClockMaker {
   }
   [[nodiscard]] std::size_t line_of(std::size_t kept) const { return table_.line[out_.row[kept]]; }
 
-  /// A time with its column, as the log writes it; of stamps the seconds since its first row.
+  /// A time with its column, as the log writes it; for stamps the seconds since its first row.
   [[nodiscard]] std::string shown(double time_s) const {
     return fmt::format("{} = {:.10g}{}", column_.name, (time_s - out_.origin_s) / column_.factor,
                        table_.stamped ? " s after the first row" : "");
   }
 
   // Rows are kept or refused one by one. Loggers that flush twice write the same row twice; a row
-  // with the same time and other values is two truths, and none may be chosen.
+  // with the same time and other values is a contradiction that nobody can resolve.
   MaybeFault take_rows() {
     std::size_t twice = 0;
     std::size_t first_twice = 0;
@@ -70,8 +70,8 @@ class ClockMaker {
                      "correct the row's time, or leave out the row"};
       }
       if (out_.row.empty()) {
-        // --from-min and --to-min count from here: stamps from the first row, a logger's clock from
-        // its own 0.
+        // --from-min and --to-min count from here: for stamps from the first row, for a logger's
+        // clock from its own 0.
         out_.origin_s = table_.stamped ? t : 0.0;
       }
       if (out_.row.empty() || t > out_.time_s.back()) {
@@ -98,7 +98,7 @@ class ClockMaker {
                       "log the whole test"});
   }
 
-  /// Where the row before had leapt ahead, that one is wrong.
+  /// If the row before had leapt ahead, that one is wrong.
   [[nodiscard]] Fault runs_back(double t, std::size_t line) const {
     const std::size_t rows = out_.row.size();
     const double before = out_.time_s.back();
@@ -131,7 +131,7 @@ class ClockMaker {
               *middle / 60.0, column_.name, kMostStep_s / 60.0),
           "make the clock's unit agree with its name: time_s, time_ms, time_min, time_h"};
     }
-    // Ten steps, for logs of one row in some minutes, where a missed row is no gap.
+    // Ten steps, for logs with one row every few minutes, where a missed row is no gap.
     const double most = std::max(kGap_s, 10.0 * *middle);
     for (std::size_t i = 0; i < step.size(); ++i) {
       if (step[i] > most) {
@@ -145,7 +145,7 @@ class ClockMaker {
     return check_ends();
   }
 
-  /// A wrong time in the first or the last rows no neighbour contradicts: it makes a gap.
+  /// No neighbour contradicts a wrong time in the first or the last rows: it makes a gap.
   [[nodiscard]] MaybeFault check_ends() const {
     if (out_.gap.empty()) {
       return std::nullopt;

@@ -11,7 +11,7 @@
 namespace steadyrest::thermal::offline {
 
 struct LogClock {
-  std::vector<double> time_s;    ///< rising
+  std::vector<double> time_s;    ///< ascending
   double origin_s = 0.0;         ///< as Log::origin_s
   std::vector<std::size_t> row;  ///< of the table, for each time
   std::vector<std::size_t> gap;  ///< as Log::gap
@@ -19,8 +19,8 @@ struct LogClock {
 };
 
 /// Refused, by line: a row without a time, a clock that runs back or leaps ahead for a row, two
-/// rows of one time with different values, fewer than kLeastRows, rows more than 10 min apart
-/// (median), one or two rows alone at an end of the log. Rows that stand twice are taken once.
+/// rows with the same time but different values, fewer than kLeastRows, rows more than 10 min apart
+/// (median), one or two isolated rows at an end of the log. Duplicate rows are taken once.
 [[nodiscard]] std::expected<LogClock, table::Fault> clock_of(const LogTable& table);
 
 }  // namespace steadyrest::thermal::offline

@@ -14,7 +14,7 @@ using kernel::outcome::refuse;
 
 kernel::outcome::Result<std::vector<const LogChannel*>> inputs_of(
     const kernel::machine::ThermalAxis& axis, const Log& log) {
-  // By name and in the passport's order; a passport forecasts nothing from a log that lacks one
+  // By name and in the passport's order; a passport forecasts nothing from a log that lacks an
   // input.
   std::vector<const LogChannel*> out;
   out.reserve(axis.ambient.size());

@@ -11,8 +11,8 @@
 
 namespace steadyrest::thermal::offline {
 
-/// The log's temperatures that the passport's ambient inputs are, in their order. Refused: a log
-/// that has not all of them.
+/// The log's temperatures for the passport's ambient inputs, in their order. Refused: a log that
+/// lacks one of them.
 [[nodiscard]] kernel::outcome::Result<std::vector<const LogChannel*>> inputs_of(
     const kernel::machine::ThermalAxis& axis, const Log& log);
 

@@ -11,9 +11,8 @@
 #include <steadyrest/table/clock.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 
-// Each column says what it is by its name: time and speed by whole names, lengths and temperatures
-// by their ending. A unit is never guessed from the numbers; what has no known ending is passed
-// over.
+// A column's name defines it: time and speed by whole names, lengths and temperatures by their
+// endings. A unit is never guessed from the numbers; a column without a known ending is ignored.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -71,8 +70,8 @@ LogColumn column_named(std::string_view name) {
   return out;
 }
 
-/// An absent value, as loggers write it.
-/// Whatever else is not a number is a fault of the row, not a missing reading.
+/// An absent value, as loggers write it. Anything else that is not a number is a fault of the row,
+/// not a missing reading.
 bool absent(std::string_view field) {
   const std::string low = table::lower(field);
   return low.empty() || low == "nan" || low == "-" || low == "null" || low == "na" || low == "n/a";
@@ -82,7 +81,7 @@ class TableReader final : public table::Sink {
  public:
   explicit TableReader(const table::Format& format) : format_(format) {}
 
-  // One time, one speed, one displacement at least; any number of temperatures.
+  // One time, one speed, at least one displacement; any number of temperatures.
   std::optional<Fault> head(const table::Head& head) override {
     out_.head_line = head.line;
     for (const std::string& name : head.name) {
@@ -156,7 +155,7 @@ class TableReader final : public table::Sink {
             std::string(to_do)};
   }
 
-  /// One column of a known name, or what else tells the time of a row.
+  /// One column with a known name, or another source of a row's time.
   std::optional<Fault> find_clock(const table::Head& head) {
     const auto count = std::ranges::count(all_, Quantity::time, &LogColumn::quantity);
     std::optional<std::size_t> own;
@@ -172,7 +171,7 @@ class TableReader final : public table::Sink {
                           "name one column time_s (or t_s, time_min), or give stamps as "
                           "2026-11-22T23:47:06");
     }
-    // The time may come from elsewhere than one column; the log has one for it all the same.
+    // The time may come from elsewhere than one column; the log still has one for it.
     if (!clock_->column()) {  // the rows themselves
       all_.emplace_back();
       all_.back().name = "row";

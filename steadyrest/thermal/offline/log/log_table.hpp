@@ -24,12 +24,12 @@ struct LogColumn {
 };
 
 struct LogTable {
-  std::vector<LogColumn> column;  ///< without those of other names
+  std::vector<LogColumn> column;  ///< without columns of other names
   std::vector<std::size_t> line;  ///< of each row
   std::vector<std::string> passed_over;
   std::size_t head_line = 0;
   bool stamped = false;             ///< the clock shows dates
-  std::vector<table::Fault> notes;  ///< what was passed over
+  std::vector<table::Fault> notes;  ///< what was skipped
 };
 
 [[nodiscard]] kernel::outcome::Result<LogTable> parse_log_table(std::string_view text,

@@ -79,12 +79,12 @@ class Reader final : public table::Sink {
     if (!has(Field::deviation)) {
       return Fault{0, "there is no column deviation_um", "give the measured deviations in µm"};
     }
-    if (has(Field::transition) || has(Field::time)) {  // stamps say when it was gauged
+    if (has(Field::transition) || has(Field::time)) {  // stamps give the time of gauging
       for (Known& column : column_) {
         column.field = column.field == Field::stamp ? Field::passed_over : column.field;
       }
     }
-    // A part needs one instant in the plan: two ways to say it may disagree.
+    // A part needs one instant in the plan: two statements of it may disagree.
     if (static_cast<int>(has(Field::transition)) + static_cast<int>(has(Field::time)) +
             static_cast<int>(has(Field::stamp)) !=
         1) {
@@ -100,7 +100,7 @@ class Reader final : public table::Sink {
     return std::nullopt;
   }
 
-  // A bound on the rows keeps a log that was given by mistake from being read as parts.
+  // A limit on the rows keeps a log given by mistake from being read as parts.
   std::optional<Fault> row(const table::Row& row) override {
     if (out_.size() >= kMostMeasured) {
       return Fault{row.line(), fmt::format("more than {} rows", kMostMeasured),
@@ -124,7 +124,7 @@ class Reader final : public table::Sink {
     return std::ranges::find(column_, field, &Known::field) != column_.end();
   }
 
-  // Each column knows its quantity and factor from the header; here a field only goes to its place.
+  // The header gives each column's quantity and factor; here a field only goes to its place.
   std::optional<Fault> put(Measured& part, const table::Row& row, std::size_t i) {
     const std::string_view field = row.field(i);
     switch (column_[i].field) {
@@ -149,7 +149,7 @@ class Reader final : public table::Sink {
       case Field::deviation:
         // Bounds catch µm in a column of mm: a deviation of 4.2 mm is no thermal drift.
         return number(row, i, -kLargestDeviation_mm, kLargestDeviation_mm, part.deviation_mm);
-      // A tolerance below 10 nm is a slip of the unit.
+      // A tolerance below 10 nm is a wrong unit.
       case Field::tolerance:
         return number(row, i, 1e-5, 100.0, part.tolerance_mm);
     }
@@ -165,7 +165,7 @@ class Reader final : public table::Sink {
                                started_->zoned ? "with" : "without"),
                    "write each stamp like --started, 2026-11-22T23:47:06"};
     }
-    // Whole seconds and fractions apart: seconds since 1970 leave a double only some 1e-7 s.
+    // Whole seconds and fractions separately: seconds since 1970 leave a double only some 1e-7 s.
     to_s = static_cast<double>(stamp->whole_s - started_->whole_s) + stamp->fraction_s -
            started_->fraction_s;
     if (!(to_s >= 0.0)) {

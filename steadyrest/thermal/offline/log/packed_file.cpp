@@ -24,7 +24,7 @@ struct CloseGzip {
 
 }  // namespace
 
-// Whole into memory: a week at a row each second is less than a hundred megabytes.
+// All of it into memory: a week of one row per second is less than a hundred megabytes.
 Result<std::string> read_packed(const std::string& path) {
   const auto refuse = [&](Kind kind, std::string what, std::string to_do) {
     return std::unexpected(Refusal{kind, path, 0, std::move(what), std::move(to_do)});
@@ -49,7 +49,7 @@ Result<std::string> read_packed(const std::string& path) {
     out.resize(before + static_cast<std::size_t>(std::max(got, 0)));
   }
   int state = Z_OK;
-  // A truncated file reads without an error to its last whole block; only gzerror tells.
+  // A truncated file reads without an error to its last whole block; only gzerror reveals it.
   gzerror(in.get(), &state);
   if (got < 0 || (state != Z_OK && state != Z_STREAM_END)) {
     return refuse(Kind::bad_input, "is compressed, and truncated or damaged",

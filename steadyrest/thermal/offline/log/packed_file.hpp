@@ -8,7 +8,7 @@
 /// Files that may be packed.
 namespace steadyrest::thermal::offline {
 
-/// The bytes of a file, unpacked where gzip has packed them.
+/// The bytes of a file, unpacked if gzip packed them.
 [[nodiscard]] kernel::outcome::Result<std::string> read_packed(const std::string& path);
 
 }  // namespace steadyrest::thermal::offline

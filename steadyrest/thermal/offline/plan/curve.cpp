@@ -8,7 +8,7 @@ namespace steadyrest::thermal::offline {
 namespace {
 
 // Within a transition the inputs are constant: x = G + (x₀ − G)·e^(−t/τ), a constant and one term
-// for each mode. A lagged temperature gives one more, and one without a lag none.
+// per mode. A lagged temperature adds one more term, one without a lag none.
 Exponentials terms_of(const online::ThermalModel& model, const online::Drive& drive) {
   const auto& config = model.config();
   const auto& state = model.state();
@@ -22,7 +22,7 @@ Exponentials terms_of(const online::ThermalModel& model, const online::Drive& dr
     const auto& ambient = config.ambient[j];
     const double lagged = state.ambient_c[j];
     const double now = drive.ambient_c[j];
-    if (std::isfinite(now)) {  // the step that follows has taken an unseen one as lagged
+    if (std::isfinite(now)) {  // the next step takes an unseen one as lagged
       const double from = std::isfinite(lagged) && ambient.tau_s > 0.0 ? lagged : now;
       terms.front().amplitude += ambient.gain_mm_k * (now - ambient.reference_c);
       if (from != now) {
@@ -37,7 +37,7 @@ Exponentials terms_of(const online::ThermalModel& model, const online::Drive& dr
 
 }  // namespace
 
-// On a border the later piece answers; both give the same there.
+// At a joint the later piece applies; both give the same value.
 double Curve::at(double time_s) const noexcept {
   if (piece.empty()) {
     return 0.0;
@@ -60,7 +60,7 @@ Curve::Extreme Curve::largest() const {
     }
   };
   for (const Piece& p : piece) {
-    // A sum of exponentials is greatest at an end or where it turns; nothing is sampled.
+    // A sum of exponentials is largest at an end or where it turns; no sampling needed.
     look(p, 0.0);
     for (const double t : extremes_of(p.displacement_mm, p.seconds)) {
       look(p, t);
@@ -79,7 +79,7 @@ Curve curve_of(online::ThermalModel model, const Cyclogram& cyclogram,
     online::Drive drive = drive_of(transition);
     std::copy_n(ambient_c.begin(), std::min(ambient_c.size(), drive.ambient_c.size()),
                 drive.ambient_c.begin());
-    // Each piece begins with the state that the pieces before have left, so the curve has no seams.
+    // Each piece begins with the state left by the previous ones, so the curve has no seams.
     curve.piece.push_back({start_s, transition.seconds, terms_of(model, drive)});
     model.update(transition.seconds, drive);
     start_s += transition.seconds;

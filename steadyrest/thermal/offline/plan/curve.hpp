@@ -10,8 +10,8 @@
 
 namespace steadyrest::thermal::offline {
 
-/// The displacement over a cyclogram in closed form, a sum of exponentials for each transition
-/// (Polyakov's analytic form, with any state to begin with).
+/// The displacement over a cyclogram in closed form: a sum of exponentials for each transition
+/// (Polyakov's analytic form, from any initial state).
 struct Curve {
   struct Piece {
     double start_s = 0.0;
@@ -20,7 +20,7 @@ struct Curve {
   };
   std::vector<Piece> piece;  ///< one for each transition
 
-  /// At a time of the cyclogram; beyond its ends what it has there.
+  /// At a time of the cyclogram; beyond its ends the value at the end.
   [[nodiscard]] double at(double time_s) const noexcept;
   [[nodiscard]] double total_s() const noexcept;
   /// Largest |displacement|, and when.
@@ -31,8 +31,9 @@ struct Curve {
   [[nodiscard]] Extreme largest() const;
 };
 
-/// From the model's present state on. What the surroundings do stays as it is, but for what still
-/// lags behind `ambient_c` (in the model's order; empty: each lagged temperature has settled).
+/// From the model's present state on. The effect of the surroundings stays constant, except for
+/// what still lags behind `ambient_c` (in the model's order; empty: each lagged temperature has
+/// settled).
 [[nodiscard]] Curve curve_of(online::ThermalModel model, const Cyclogram& cyclogram,
                              const std::vector<double>& ambient_c = {});
 

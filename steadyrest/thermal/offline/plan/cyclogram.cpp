@@ -12,8 +12,8 @@
 #include <steadyrest/passport/text/text_file.hpp>
 #include <steadyrest/thermal/offline/plan/cyclogram.hpp>
 
-// Two sources of the same list of transitions: a file that a process engineer writes, or a
-// program's own timing (cyclogram_of). drive_of() turns a transition into the inputs of the law.
+// Two sources of the same list of transitions: a process engineer's file, or a program's own timing
+// (cyclogram_of). drive_of() turns a transition into the inputs of the law.
 namespace steadyrest::thermal::offline {
 
 using kernel::outcome::Result;
@@ -52,7 +52,7 @@ std::span<const Key<Transition>> keys() noexcept {
   return kKeys;
 }
 
-// The top level has two keys; a misspelt one is named with the nearest that exists.
+// The top level has two keys; a misspelt one is reported with the nearest existing one.
 void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
   for (const auto& [name, node] : root) {
     if (name.str() == "resolution_min") {
@@ -90,7 +90,7 @@ void read_tree(const toml::table& root, Cyclogram& out, Faults& faults) {
     transition.seconds = 60.0 * transition.minutes;
     out.transition.push_back(std::move(transition));
   }
-  // Single transitions of no length are allowed: a program may change its tool twice in a row.
+  // Single transitions of zero length are allowed: a program may change its tool twice in a row.
   if (faults.list.empty() && !(out.total_s() > 0.0)) {
     faults.add(0, "the cyclogram has no duration", "give the transitions their minutes");
   }
@@ -107,10 +107,10 @@ double Cyclogram::total_s() const noexcept {
 }
 
 Result<Cyclogram> parse_cyclogram(std::string_view text, const std::string& file) {
-  // The check of text is the machine file's; only its advice has to speak of cyclograms.
+  // The text check is the machine file's; only its advice must mention cyclograms.
   if (auto refusal = passport::unfit_text(text)) {
     refusal->file = file;
-    // What is said there of a machine file.
+    // Wording meant for a machine file.
     if (text.size() > passport::kMaxFileBytes) {
       refusal->what = fmt::format("larger than {} MB; a cyclogram has a few kB",
                                   passport::kMaxFileBytes >> 20U);
@@ -155,7 +155,7 @@ Cyclogram cyclogram_of(std::span<const nc::plan::Transition> transitions, const 
     made.minutes = t.seconds / 60.0;
     made.seconds = t.seconds;
     made.speed_rev_s = t.speed_rev_s;
-    // The mean over the whole transition, rapids and standstill included: drives heat by all of it.
+    // The mean over the whole transition, rapids and standstill included: drives heat all the time.
     made.feed_mm_s = t.path_speed_mm_s();
     made.load = static_cast<Load>(t.load());
     made.cutting_share = t.cut_share();
@@ -174,8 +174,7 @@ online::Drive drive_of(const Transition& transition) noexcept {
   drive.cutting = transition.load == Load::cutting;
   drive.cutting_share = transition.cutting_share;
   drive.coolant = transition.coolant;
-  // A cyclogram knows nothing of the room: the caller fills in temperatures, or they stay as they
-  // are.
+  // A cyclogram contains no room data: the caller fills in temperatures, or they stay as they are.
   drive.ambient_c.fill(std::numeric_limits<double>::quiet_NaN());
   return drive;
 }

@@ -10,7 +10,7 @@
 namespace steadyrest::thermal::offline {
 namespace {
 
-/// Terms of one rate become one, what is zero goes.
+/// Merges terms of the same rate and drops zero terms.
 void merge(Exponentials& f) {
   std::ranges::sort(f, {}, &Exponential::rate_1_s);
   Exponentials out;
@@ -46,8 +46,8 @@ double value(const Exponentials& f, double time_s) noexcept {
 }
 
 // Rolle's theorem, recursively: divide f by its slowest term, differentiate, and one term is gone.
-// The zeros of what is left part the range into pieces with one sign change of f at most, each of
-// which a bracketing solver finds.
+// The zeros of the rest divide the range into pieces with at most one sign change of f, which a
+// bracketing solver finds.
 std::vector<double> sign_changes(Exponentials f, double end_s) {
   merge(f);
   if (f.size() < 2) {
@@ -56,7 +56,7 @@ std::vector<double> sign_changes(Exponentials f, double end_s) {
   Exponentials derivative;
   for (std::size_t k = 1; k < f.size(); ++k) {
     // Of f·e^(λ₀t): its terms a_k·e^(−(λ_k − λ₀)·t) give (λ₀ − λ_k)·a_k. The common factor e^(λ₀t)
-    // changes no sign and is left out again.
+    // changes no sign and is dropped again.
     derivative.push_back({f[k].amplitude * (f[0].rate_1_s - f[k].rate_1_s), f[k].rate_1_s});
   }
   std::vector<double> borders = sign_changes(std::move(derivative), end_s);
@@ -69,7 +69,7 @@ std::vector<double> sign_changes(Exponentials f, double end_s) {
     if ((at_low < 0.0 && at_high > 0.0) || (at_low > 0.0 && at_high < 0.0)) {
       out.push_back(root_between(f, low, high, at_low, at_high));
     } else if (at_high == 0.0 && at_low != 0.0) {
-      out.push_back(high);  // a change of sign only if it goes on behind
+      out.push_back(high);  // a change of sign only if it continues beyond
     }
     low = high;
     at_low = at_high;

@@ -14,13 +14,13 @@ using Exponentials = std::vector<Exponential>;
 
 [[nodiscard]] double value(const Exponentials& f, double time_s) noexcept;
 
-/// Every t in [0, end_s] at which f changes its sign, rising. None is missed: f·e^(λ_1·t) has the
-/// zeros of f, and its derivative is a sum of one exponential less, so its own sign changes, found
-/// in the same way, part the range into pieces on which f changes sign once at most. Each is found
-/// to the last bits of t. A zero that only touches is no change of sign.
+/// Every t in [0, end_s] at which f changes sign, ascending. None is missed: f·e^(λ_1·t) has the
+/// zeros of f, and its derivative is a sum with one exponential less. The derivative's sign
+/// changes, found in the same way, divide the range into pieces with at most one sign change of f.
+/// Each is found to the last bits of t. A zero that only touches is no change of sign.
 [[nodiscard]] std::vector<double> sign_changes(Exponentials f, double end_s);
 
-/// Where f turns, rising.
+/// The turning points of f, ascending.
 [[nodiscard]] std::vector<double> extremes_of(const Exponentials& f, double end_s);
 
 }  // namespace steadyrest::thermal::offline

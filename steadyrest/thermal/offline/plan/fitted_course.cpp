@@ -12,8 +12,8 @@
 #include <steadyrest/thermal/offline/plan/fitted_course.hpp>
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 
-// For the page of `thermal fit`: the model is run over the log once from cold, and beside it what
-// is left of a unit state of each mode. The states of each stretch are then linear unknowns, fitted
+// For the page of `thermal fit`: the model runs over the log once from cold, together with the
+// decay of a unit state of each mode. The states of each stretch are then linear unknowns, fitted
 // to the readings of the window.
 namespace steadyrest::thermal::offline {
 namespace {
@@ -25,14 +25,14 @@ using kernel::outcome::Result;
 constexpr double kUsualState_mm = 0.03;
 constexpr double kLeastNoise_mm = 1e-5;
 
-/// The log's inputs through the model, from nought, and what is left of each state it began with.
+/// Runs the log's inputs through the model from zero, with the decay of each initial state.
 class Walk {
  public:
   Walk(online::ThermalModel model, const Log& log, std::vector<const LogChannel*> sensor)
       : model_(std::move(model)), log_(log), sensor_(std::move(sensor)), uncertainty_(model_) {}
 
   /// Rows from … on; the columns of `fading` are the modes of the first stretch, then of the next.
-  /// One walk fills three things for each row: the model from cold, the variance by its parameters,
+  /// One walk fills three things per row: the model from cold, the variance from its parameters,
   /// and how much is left of a state of 1 that each mode had at the beginning of the row's stretch.
   void run(std::size_t from) {
     const std::size_t modes = model_.config().mode.size();
@@ -73,7 +73,7 @@ class Walk {
   Eigen::MatrixXd fading;
 
  private:
-  // Parameters are uncertain only by what has happened since: the state itself is fitted again.
+  // Only changes since then make parameters uncertain: the state itself is fitted again.
   void begin(std::size_t row) {
     model_.reset();
     model_.update(0.0, drive_at(log_, sensor_,
@@ -89,11 +89,11 @@ class Walk {
   Uncertainty::Answer since_;
 };
 
-/// States by least squares; those of stretches without readings stay nought.
+/// States by least squares; those of stretches without readings stay zero.
 Eigen::VectorXd states_mm(const Walk& walk, const std::vector<FittedPoint>& points,
                           double noise_mm) {
   const Eigen::Index n = walk.fading.cols();
-  // A ridge of (noise/30 µm)²: a mode that has died away before the window leaves no column to fit.
+  // A ridge of (noise/30 µm)²: a mode that died away before the window leaves no column to fit.
   Eigen::MatrixXd normal =
       Eigen::MatrixXd::Identity(n, n) * std::pow(noise_mm / kUsualState_mm, 2.0);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
@@ -124,7 +124,7 @@ Result<std::vector<FittedPoint>> fitted_course(const ThermalAxis& axis, const Lo
   walk.run(from);
   std::vector<FittedPoint> out;
   out.reserve(log.rows() - from);
-  // Drift at its full spread: beside a log no reading narrows it.
+  // Drift at its full spread: here no reading narrows it.
   const double unknown_mm2 = axis.drift_mm * axis.drift_mm + axis.noise_mm * axis.noise_mm;
   for (std::size_t row = from; row < log.rows(); ++row) {
     const auto i = static_cast<Eigen::Index>(row - from);

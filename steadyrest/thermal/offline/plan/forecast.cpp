@@ -8,7 +8,7 @@
 
 // Uncertainty by the first derivative: δ is linear in levels and gains, so φ = ∂δ/∂p is exact there
 // and obeys the modes' own equation with unit levels; time constants enter by ∂x/∂ln τ. The
-// variance is φᵀ·C·φ, plus each τ's own share.
+// variance is φᵀ·C·φ plus each τ's own share.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -40,8 +40,8 @@ std::size_t linear(const ThermalMode& mode) {
   return mode.level_mm.size() + mode.polynomial_mm.size();
 }
 
-/// For each linear parameter a mode in which it alone is 1: what a unit of it settles at.
-/// By the law's own code with a 1 in one place: table or polynomial, ratios included, it is never
+/// For each linear parameter a mode in which only it is 1: the final level per unit. Uses the law's
+/// own code with a 1 in one place, table or polynomial, ratios included, so nothing is
 /// differentiated by hand.
 std::vector<online::ThermalModel> unit_models(const ThermalAxis& axis) {
   std::vector<online::ThermalModel> out;
@@ -95,7 +95,7 @@ void Uncertainty::step(double elapsed_s, const online::Drive& drive,
   model_.update(elapsed_s, drive);
   for (std::size_t j = 0; j < config.ambient.size(); ++j, ++p) {
     const double lagged = model_.state().ambient_c[j];
-    // A sensor that is seen late counts from its first temperature: its share before is in the
+    // A sensor that appears late counts from its first temperature: its earlier share is in the
     // zero.
     if (!std::isfinite(ambient_start_c_[j])) {
       ambient_start_c_[j] = lagged;
@@ -106,7 +106,7 @@ void Uncertainty::step(double elapsed_s, const online::Drive& drive,
 }
 
 double Uncertainty::parameter_variance_mm2(const Answer& since) const {
-  // Since a reading only what has changed from then on is uncertain.
+  // After a reading only the changes since then are uncertain.
   const Eigen::VectorXd phi = phi_ - since.linear;
   double variance = phi.dot(covariance_um2_ * phi) / kUm2PerMm2;
   for (std::size_t i = 0; i < by_tau_mm_.size(); ++i) {
@@ -127,8 +127,7 @@ double Uncertainty::sd_mm() const {
   return std::sqrt(parameter_variance_mm2(none) + drift);
 }
 
-// Points are for a table and a drawing; the largest displacement comes from the curve in closed
-// form.
+// Points are for a table and a drawing; the closed-form curve gives the largest displacement.
 std::vector<ForecastPoint> forecast(online::ThermalModel model, const Cyclogram& cyclogram,
                                     double step_s, const std::vector<double>& ambient_c) {
   std::vector<ForecastPoint> points;
@@ -140,7 +139,7 @@ std::vector<ForecastPoint> forecast(online::ThermalModel model, const Cyclogram&
     online::Drive drive = drive_of(transition);
     std::copy_n(ambient_c.begin(), std::min(ambient_c.size(), drive.ambient_c.size()),
                 drive.ambient_c.begin());
-    // Steps are for the table of points alone; each is exact.
+    // Steps are only for the table of points; each is exact.
     const auto steps = std::max(1.0, std::ceil(transition.seconds / step_s - 1e-9));
     double at_s = 0.0;
     for (double k = 1.0; k <= steps && transition.seconds > 0.0; k += 1.0) {

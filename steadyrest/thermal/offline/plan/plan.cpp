@@ -9,20 +9,20 @@
 #include <steadyrest/thermal/offline/plan/plan.hpp>
 
 // The system R of Marusich 2012 for one axis: follow the residual δ − corrections through each
-// transition, correct where it reaches a border of its band, write down intervals and corrections.
+// transition, correct where it reaches a border of its band, record intervals and corrections.
 // Instants are roots, found by exponentials.cpp, so no time step decides what is seen.
-// band_is_held() then goes over the finished plan once more with its rounded instants.
+// band_is_held() then checks the finished plan once more with its rounded instants.
 namespace steadyrest::thermal::offline {
 namespace {
 
 using kernel::outcome::Result;
 
-/// A residual this near to its border has reached it. The law says "reaches ±Δ_k", and roots are
-/// found to a rounding only: without this a correction at the border would be missed or made twice.
+/// A residual this close to its border has reached it. The law says "reaches ±Δ_k", and roots are
+/// found only to rounding: without this a correction at the border would be missed or made twice.
 /// Far below any increment of a control.
 constexpr double kReached_mm = 1e-9;
-/// Instants this near to one another are one: their corrections are added up and made together. At
-/// the end of a transition they belong to the start of the next. So no interval of the system R is
+/// Instants this close together are one: their corrections are added and made together. At the end
+/// of a transition they belong to the start of the next. No interval of the system R is therefore
 /// shorter.
 constexpr double kInstant_s = 1e-3;
 
@@ -86,8 +86,8 @@ class Planner {
     PlannedTransition row;
     row.name = cyclogram_.transition[i].name;
     row.tolerance_mm = tolerance_mm;
-    // What the transition before left, or what a stricter band now asks for, is corrected at the
-    // start.
+    // The residual of the previous transition, or the excess over a stricter band, is corrected at
+    // the start.
     row.delta_mm.push_back(at_border(piece, band));
     Result<void> done = correct(i, 0.0, row.delta_mm.back());
     double from_s = 0.0;
@@ -96,12 +96,12 @@ class Planner {
       const auto [crossing_s, sign] = next(piece, band, after_s);
       const double at_s = rounded(piece, crossing_s);
       if (sign == 0 || at_s > piece.seconds - kInstant_s) {
-        break;  // what is beyond the band at the end is corrected at the next transition's start
+        break;  // any excess at the end is corrected at the next transition's start
       }
-      // From the later of both: a rounded instant may lie before its crossing, which would be found
+      // From the later of the two: a rounded instant may precede its crossing, which would be found
       // again.
       after_s = std::max(crossing_s, at_s);
-      // early: taken by the transition's first δ instead of an interval of its own.
+      // early: the transition's first δ takes it, instead of an interval of its own.
       const bool early = belongs_to_start(piece, from_s, at_s, sign);
       // Twice the band takes the residual from one border to the other; at the start it may not be
       // at the border yet.
@@ -129,22 +129,22 @@ class Planner {
     return done;
   }
 
-  /// Too soon behind the correction at a transition's start, which may as well take it along: the
-  /// residual is on that side of the band already.
+  /// Too soon after the correction at a transition's start, which may as well include it: the
+  /// residual is already on that side of the band.
   [[nodiscard]] bool belongs_to_start(const Curve::Piece& piece, double from_s, double at_s,
                                       int sign) const {
     return from_s == 0.0 && corrected_s_ == piece.start_s && at_s < request_.min_interval_s &&
            sign * (value(piece.displacement_mm, 0.0) - corrected_mm_) >= 0.0;
   }
 
-  /// What brings the residual inside a band that it has not been held to so far.
+  /// The correction that brings the residual inside a new band.
   [[nodiscard]] double at_border(const Curve::Piece& piece, double band) const {
     const double residual = value(piece.displacement_mm, 0.0) - corrected_mm_;
     const double beyond = std::abs(residual) - band;
     if (beyond <= kReached_mm) {
       return 0.0;
     }
-    // Whole bands, as few as bring it inside: corrections stay multiples of Δ_k, as in the paper.
+    // Whole bands, as few as needed: corrections stay multiples of Δ_k, as in the paper.
     return std::copysign(std::ceil((beyond - kReached_mm) / band) * band, residual);
   }
 
@@ -152,8 +152,7 @@ class Planner {
     if (!(request_.resolution_s > 0.0) || at_s < kInstant_s) {
       return at_s;
     }
-    // Rounded on the cyclogram's clock, not the transition's: errors must not add up from one to
-    // the next.
+    // Rounded on the cyclogram's clock, not the transition's: errors must not accumulate.
     const double whole = std::round((piece.start_s + at_s) / request_.resolution_s);
     return std::max(0.0, whole * request_.resolution_s - piece.start_s);
   }
@@ -163,8 +162,8 @@ class Planner {
     int sign = 0;  ///< 0: none until the end
   };
 
-  /// The next instant from `from_s` on at which the residual leaves the band: `from_s` itself where
-  /// it stands on the border, or beyond, and goes on outward.
+  /// The next instant from `from_s` on at which the residual leaves the band: `from_s` itself if it
+  /// is on the border, or beyond, and moving outward.
   [[nodiscard]] Event next(const Curve::Piece& piece, double band, double from_s) const {
     const double residual = value(piece.displacement_mm, from_s) - corrected_mm_;
     if (std::abs(residual) >= band - kReached_mm &&
@@ -172,13 +171,13 @@ class Planner {
       return {from_s, residual > 0.0 ? 1 : -1};
     }
     Event first;
-    // At the upper border the constant −corrected − band is added, and its roots are the crossings.
+    // At the upper border the constant −corrected − band is added; the roots are the crossings.
     for (const int sign : {1, -1}) {
       Exponentials beyond = piece.displacement_mm;
       beyond.push_back({-corrected_mm_ - sign * band, 0.0});
       for (const double t : sign_changes(std::move(beyond), piece.seconds)) {
-        // A root that the last correction was made at must not be found again, and a curve that
-        // touches the border and turns back leaves nothing to correct.
+        // The root of the last correction must not be found again, and a curve that touches the
+        // border and turns back needs no correction.
         const bool later = t > from_s + 1e-6;
         const bool leaves =
             sign * (value(piece.displacement_mm, std::min(t + 1e-3, piece.seconds)) -
@@ -208,10 +207,10 @@ class Planner {
     return {};
   }
 
-  /// The law of a plan that holds: in every interval of the finished plan, with its rounded
-  /// instants, |δ − corrections| ≤ Δ_k + early_s·(steepest slope). A correction comes too early or
-  /// too late by half of `resolution_s` at most, or by kInstant_s where instants were taken as one,
-  /// and the displacement goes on meanwhile.
+  /// The law of a valid plan: in every interval of the finished plan, with its rounded instants, |δ
+  /// − corrections| ≤ Δ_k + early_s·(steepest slope). A correction is early or late by at most half
+  /// of `resolution_s`, or by kInstant_s where instants were merged, and the displacement continues
+  /// meanwhile.
   Result<void> band_is_held() {
     double corrected = 0.0;
     for (std::size_t i = 0; i < out_.transition.size(); ++i) {
@@ -236,7 +235,7 @@ class Planner {
         from_s = to_s;
       }
       const double early_s = std::max(kInstant_s, 0.5 * request_.resolution_s);
-      // Rounding an instant costs at most what the displacement does in half a step of the
+      // Rounding an instant costs at most the displacement's change in half a step of the
       // resolution.
       const double band = request_.share * row.tolerance_mm + 2.0 * kReached_mm;
       const double over = early_s * steepest_mm_s(f, curve_.piece[i].seconds);
@@ -260,7 +259,7 @@ class Planner {
   const PlanRequest& request_;
   AxisCorrections out_;
   double corrected_mm_ = 0.0;
-  double corrected_s_ = -std::numeric_limits<double>::infinity();  ///< the last that was not zero
+  double corrected_s_ = -std::numeric_limits<double>::infinity();  ///< the last non-zero one
 };
 
 }  // namespace

@@ -14,9 +14,9 @@
 #include <steadyrest/thermal/offline/plan/forecast.hpp>
 #include <steadyrest/thermal/offline/plan/replay.hpp>
 
-// A passport driven by a log's recorded inputs. Up to `from_s` readings tell what the model does
-// not know; after it they are only compared, but for those of a probe. The unknown is one scalar
-// process beside the model, with the variance of parameters and of lost states added.
+// A passport driven by a log's recorded inputs. Up to `from_s` readings set what the model does not
+// know; afterwards they are only compared, except those of a probe. The unknown is one scalar
+// process added to the model, plus the variance of parameters and of lost states.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -41,7 +41,7 @@ class Replay {
 
   std::vector<ReplayPoint> run() {
     const double end_s = log_.time_s.back();
-    // The passport's states are of one instant; a log from another day cannot start with them.
+    // The passport's states belong to one instant; a log from another day cannot start with them.
     const bool known = request_.state_s >= log_.time_s.front() - kFarBefore_s &&
                        request_.state_s < end_s &&
                        request_.from_s.value_or(end_s) >= request_.state_s;
@@ -101,14 +101,15 @@ class Replay {
     return request_.channel ? log_.displacement[*request_.channel].value[row] : kNan;
   }
 
-  /// The inputs of a row hold until the next; those of the first row also before it.
+  /// A row's inputs apply until the next row; those of the first row also before it.
   void advance(double elapsed_s, std::size_t row) {
     step(elapsed_s, drive_at(log_, sensor_, row == 0 ? 0 : row - 1));
   }
 
-  /// Through a gap of the log, which ends with `row`: the machine stands, as on line, but it may
-  /// have done anything else. As far as its modes were away it is then unknown, until they forget
-  /// it or a reading says it. A lag shorter than the gap begins anew with the next temperature.
+  /// Through a gap of the log that ends with `row`: the model assumes standstill, as on line, but
+  /// the machine may have done anything. The modes may then be off by as much as they were
+  /// displaced before the gap, until they forget it or a reading reveals it. A lag shorter than the
+  /// gap restarts with the next temperature.
   void stand(double elapsed_s, std::size_t row) {
     const auto before_mm = model_.state().mode_mm;
     online::Drive drive = drive_at(log_, sensor_, row == 0 ? 0 : row - 1);
@@ -147,18 +148,18 @@ class Replay {
     const ThermalAxis& axis = model_.config();
     const double unknown = variance_mm2();
     const double noise = axis.noise_mm * axis.noise_mm;
-    // Scalar Kalman gain. A reading sees the sum, so whatever was off is booked on the drift.
+    // Scalar Kalman gain. A reading sees the sum, so any error is booked on the drift.
     const double gain = unknown > 0.0 ? unknown / (unknown + noise) : 1.0;
     drift_mm_ += gain * (reading_mm - displacement());
     variance_mm2_ = (1.0 - gain) * unknown;
-    // A reading leaves nothing of what a gap had made unknown, and parameters count from here on.
+    // A reading ends all that a gap had made unknown; parameters count from here on.
     unknown_mm_.fill(0.0);
     since_ = uncertainty_.answer();
   }
 
   [[nodiscard]] double variance_mm2() const {
     const double modes_mm = std::accumulate(unknown_mm_.begin(), unknown_mm_.end(), 0.0);
-    // Summed before squaring: after a gap the modes may be away together.
+    // Summed before squaring: after a gap the modes may all be off together.
     return variance_mm2_ + modes_mm * modes_mm + uncertainty_.parameter_variance_mm2(since_);
   }
 
@@ -170,8 +171,7 @@ class Replay {
   Uncertainty::Answer since_;
   double drift_mm_ = 0.0;
   double variance_mm2_;  ///< of the drift
-  /// What the modes could be away since a gap: as far as they were before it, forgotten as they
-  /// are.
+  /// How far the modes may be off since a gap: as far as they were before it, decaying as they do.
   std::array<double, online::kMaxThermalModes> unknown_mm_{};
 };
 
@@ -195,7 +195,8 @@ Result<std::vector<ReplayPoint>> replay(const ThermalAxis& axis, const Log& log,
   return Replay(std::move(on_log->model), log, std::move(on_log->sensor), request).run();
 }
 
-// Rows with a forecast and a reading count; a row whose reading was taken would flatter the score.
+// Only rows with a forecast and a reading count; a row whose reading was used would flatter the
+// score.
 ReplayScore score(const std::vector<ReplayPoint>& points, double noise_mm) {
   ReplayScore out;
   double square = 0.0;
@@ -207,7 +208,7 @@ ReplayScore score(const std::vector<ReplayPoint>& points, double noise_mm) {
     const double error = p.measured_mm - p.displacement_mm;
     ++out.points;
     square += error * error;
-    // A reading adds its own noise to what the band is of.
+    // A reading adds its own noise to the band.
     in += error * error <= kBand * kBand * (p.sd_mm * p.sd_mm + noise_mm * noise_mm) ? 1.0 : 0.0;
   }
   if (out.points > 0) {

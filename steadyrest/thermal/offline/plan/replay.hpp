@@ -10,14 +10,14 @@
 
 namespace steadyrest::thermal::offline {
 
-/// How a passport is set against a log.
+/// How a passport is compared with a log.
 struct ReplayRequest {
-  std::optional<std::size_t> channel;  ///< displacement of the log that is the axis's
-  double state_s = 0.0;                ///< time at which the passport has its states
-  /// From there on it is a forecast; without it from `state_s`, or from the log's beginning where
-  /// that lies elsewhere. Readings before it tell what the model does not know.
+  std::optional<std::size_t> channel;  ///< the log's displacement for this axis
+  double state_s = 0.0;                ///< time of the passport's states
+  /// Start of the forecast; by default `state_s`, or the log's beginning if `state_s` is outside
+  /// the log. Earlier readings set what the model does not know.
   std::optional<double> from_s;
-  double rezero_s = 0.0;  ///< a reading each so often is used in the forecast too; 0 = none
+  double rezero_s = 0.0;  ///< the forecast also uses a reading this often; 0 = none
 };
 
 struct ReplayPoint {
@@ -25,16 +25,16 @@ struct ReplayPoint {
   double displacement_mm = 0.0;
   double sd_mm = 0.0;
   double measured_mm = 0.0;  ///< NaN where the log has none
-  bool forecast = false;     ///< of the future, and no reading was taken here
+  bool forecast = false;     ///< in the future, with no reading taken here
 };
 
-/// The displacement at each row of the log from its recorded inputs (speed, temperatures), with
-/// what the model does not know as a first-order process that readings set. Refused: a log without
-/// the sensors of the passport, or faster than it was fitted by more than a fifth.
+/// The displacement at each row of the log from its recorded inputs (speed, temperatures), with the
+/// unknown part as a first-order process set by readings. Refused: a log without the passport's
+/// sensors, or one that runs over a fifth faster than the fitted speed.
 [[nodiscard]] kernel::outcome::Result<std::vector<ReplayPoint>> replay(
     const kernel::machine::ThermalAxis& axis, const Log& log, const ReplayRequest& request);
 
-/// What a forecast was worth where it was measured.
+/// The quality of a forecast where readings exist.
 struct ReplayScore {
   std::size_t points = 0;
   double rms_mm = 0.0;

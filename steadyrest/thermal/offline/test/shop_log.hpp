@@ -8,8 +8,8 @@
 
 #include <steadyrest/thermal/offline/log/log.hpp>
 
-/// A machine that is known: its bed, 90 min behind the room, moves it by 3 µm/K. The room is noisy,
-/// and the third sensor has nothing to do with it.
+/// A known machine: its bed lags the room by 90 min and moves it by 3 µm/K. The room is noisy, and
+/// the third sensor has nothing to do with it.
 namespace steadyrest::thermal::offline::test {
 
 inline constexpr double kShopRun_s = 300.0 * 60.0;

@@ -8,10 +8,10 @@
 
 #include <steadyrest/thermal/offline/log/log.hpp>
 
-/// Logs of a machine that is known, by a recursion of their own.
+/// Logs of a known machine, by an independent recursion.
 namespace steadyrest::thermal::offline::test {
 
-/// (minutes, rpm): four runs of 4 h, each with a rest as long.
+/// (minutes, rpm): four runs of 4 h, each followed by an equally long rest.
 inline const std::vector<std::pair<int, double>> kDays = {
     {240, 3000}, {240, 0}, {240, 1500}, {240, 0}, {240, 4500}, {240, 0}, {240, 2250}, {240, 0}};
 

@@ -6,7 +6,7 @@
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/thermal/online/test/governed.hpp>
 
-// Readings of the probe that come in with the frames.
+// Probe readings that come in with the frames.
 namespace steadyrest::thermal::online {
 namespace {
 
@@ -25,8 +25,8 @@ std::size_t taken(const Governed& on) {
   return on.governor.state().axis[kZ].filter.readings;
 }
 
-// A port shows its last reading in every frame: taken each time, one reading would weigh like
-// hundreds.
+// A port shows its last reading in every frame: taken each time, one reading would count hundreds
+// of times.
 TEST(FrameProbe, IsTakenOnceHoweverLongItStands) {
   Governed on;
   on.seconds(1200.0);
@@ -40,8 +40,8 @@ TEST(FrameProbe, IsTakenOnceHoweverLongItStands) {
   EXPECT_NEAR(on.seconds(30.0).offset_mm[kZ], offset - 0.002, 3e-4);
   EXPECT_EQ(taken(on), 1U);
   EXPECT_EQ(on.governor.output().probed.verdict.reason, Reason::thermal_reading_taken)
-      << "what became of it stands until the next";
-  // 40 µm is far beyond three standard deviations of a model that has just been set right.
+      << "its verdict remains until the next";
+  // 40 µm is far beyond three standard deviations of a model that has just been corrected.
   on.frame.probe = reading(2, 0.040);
   EXPECT_EQ(on.cycle().probed.verdict.reason, Reason::thermal_reading_outlier);
   EXPECT_EQ(taken(on), 2U);
@@ -61,10 +61,10 @@ TEST(FrameProbe, IsNotTakenWhereItStoodBeforeTheFirstFrame) {
   EXPECT_EQ(taken(on), 1U);
   on.frame.probe = reading(1, 0.002);
   on.cycle();
-  EXPECT_EQ(taken(on), 2U) << "a port that began to count anew";
+  EXPECT_EQ(taken(on), 2U) << "a port that restarted its count";
 }
 
-// Neither lost nor taken with an offset that nobody knows.
+// Neither lost nor taken with an unknown offset.
 TEST(FrameProbe, WaitsForAFrameThatIsFit) {
   Governed on;
   on.seconds(10.0);
@@ -77,7 +77,7 @@ TEST(FrameProbe, WaitsForAFrameThatIsFit) {
   EXPECT_EQ(taken(on), 1U);
 }
 
-// Each fault of a port, one at a time; none may move the estimate.
+// Each fault of a port, one at a time; none may change the estimate.
 TEST(FrameProbe, SaysWhyItWasNotTaken) {
   Governed on;
   on.seconds(10.0);
@@ -97,7 +97,7 @@ TEST(FrameProbe, SaysWhyItWasNotTaken) {
   EXPECT_NEAR(on.governor.output().displacement_mm[kZ], before, 1e-4) << "but for a second's heat";
 }
 
-// What is asked for and what stands differ where nothing is written: the probe finds all of it.
+// Where nothing is written the offset asked for is not in force: the probe finds all of the growth.
 TEST(FrameProbe, IsOfTheOffsetThatStandsOnTheMachine) {
   Governed on;
   on.seconds(1200.0);
@@ -110,7 +110,7 @@ TEST(FrameProbe, IsOfTheOffsetThatStandsOnTheMachine) {
   EXPECT_NEAR(out.probed.verdict.innovation_mm, 0.0, 1e-5);
   on.governor.zero_here();
   EXPECT_NEAR(on.seconds(300.0).offset_mm[kZ], 0.0, 0.2 * grown)
-      << "the zero was set where nothing stood: what had grown is in it";
+      << "the zero was set without an offset and includes the growth";
 }
 
 TEST(FrameProbe, DoesNotAllocate) {

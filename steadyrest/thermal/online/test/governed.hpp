@@ -8,8 +8,8 @@
 #include <steadyrest/kernel/override/envelope.hpp>
 #include <steadyrest/thermal/online/offset_governor.hpp>
 
-/// What the tests of the offset governor stand on: a mill whose Z grows by one thermal mode, and
-/// whose X follows a room sensor.
+/// Base of the offset governor tests: a mill whose Z grows by one thermal mode and whose X follows
+/// a room sensor.
 namespace steadyrest::thermal::online::test {
 
 inline constexpr double kTau_s = 600.0;
@@ -44,14 +44,14 @@ inline kernel::machine::Machine mill() {
   return machine;
 }
 
-/// The governor with its frame, and the envelope as the supervisor has it behind: what it lets
-/// through comes down with the next frame. Time goes on by 0.1 s a cycle.
+/// The governor with its frame, followed by the envelope as in the supervisor: what it lets pass
+/// comes down with the next frame. Each cycle takes 0.1 s.
 class Governed {
  public:
   static constexpr double kCycle_s = 0.1;
 
   struct Seen : OffsetGovernor::Output {
-    kernel::signal::AxisValues offset_mm{};  ///< that the envelope has let through
+    kernel::signal::AxisValues offset_mm{};  ///< passed by the envelope
   };
 
   explicit Governed(const kernel::machine::Machine& machine = mill())

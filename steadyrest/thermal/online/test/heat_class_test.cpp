@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What counts as which heat: the model's closed form over what the frames have shown.
+// Which work counts as which heat: the model's closed form over what the frames showed.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ kernel::machine::Machine heated() {
   return machine;
 }
 
-/// Displacement after `s` seconds at 50 rev/s, as a share of the level that the speed alone gives.
+/// Displacement after `s` seconds at 50 rev/s, as a share of the level due to speed alone.
 double share_after(Governed& on, double s) {
   const double z_mm = on.seconds(s).displacement_mm[kZ];
   return z_mm / (0.5 * kLevel_mm * (1.0 - std::exp(-s / kTau_s)));
@@ -61,8 +61,8 @@ TEST(HeatClass, CoolantActsWithAndWithoutTheCut) {
   EXPECT_NEAR(share_after(cut, 300.0), kWet * kCut, 0.01);
 }
 
-// 0.3 s of cut and 0.4 s of air by turns: much shorter than the second at which the filters are
-// told, and each counts for as long as it lasted. The mean of the levels is (0.3·1.5 + 0.4)/0.7.
+// Alternating 0.3 s of cut and 0.4 s of air: much shorter than the filters' one second, yet each
+// counts for its full time. The mean of the levels is (0.3·1.5 + 0.4)/0.7.
 TEST(HeatClass, ChangesWithinASecondCountForAsLongAsTheyLast) {
   Governed on(heated());
   for (int i = 0; i < 4200; ++i) {
@@ -74,7 +74,7 @@ TEST(HeatClass, ChangesWithinASecondCountForAsLongAsTheyLast) {
   EXPECT_NEAR(on.governor.output().displacement_mm[kZ] / alone_mm, (0.3 * kCut + 0.4) / 0.7, 0.01);
 }
 
-// 20 and 40 mm/s by turns heat like 30: 0.5 µm for each mm/s on top of the speed's 20 µm.
+// Alternating 20 and 40 mm/s heat like 30: 0.5 µm for each mm/s on top of the speed's 20 µm.
 TEST(HeatClass, TheFeedHeatsByItsMean) {
   auto machine = test::mill();
   machine.thermal.axis[0].mode[0].feed_s = 0.0005;
@@ -97,7 +97,7 @@ TEST(HeatClass, ASpindleThatTurnsLeftHeatsAsMuch) {
 }
 
 // Where the zero was set nothing is off; a reading of 4 µm there is 4 µm more than the model had,
-// whatever had grown and whatever offset stands.
+// whatever the growth and the offset in force.
 TEST(Rezero, CountsFromWhereTheZeroWasSet) {
   Governed on;
   on.seconds(600.0);
@@ -118,8 +118,8 @@ TEST(Reset, IsColdAndAsksForNothing) {
   EXPECT_EQ(on.cycle().displacement_mm[kZ], 0.0) << "the first frame only says when it is";
 }
 
-// One reason is shown for all axes. X has lost its sensor while Z is in each of its own states: the
-// graver one is named, whichever axis it is.
+// One reason is shown for all axes. X has lost its sensor while Z goes through each of its states:
+// the more serious one is named, whichever axis it is on.
 TEST(ShownReason, IsTheGravestOfAllAxes) {
   Governed on;
   on.frame.temperature_c[0] = 23.0;
@@ -136,7 +136,7 @@ TEST(ShownReason, IsTheGravestOfAllAxes) {
   EXPECT_EQ(on.seconds(2.0).request.reason, Reason::thermal_sensor_wild);
 }
 
-// 3 K at 2 µm/K are 6 µm; at 10 µm/min the offset is 36 s on its way, and the reason says so.
+// 3 K at 2 µm/K are 6 µm; at 10 µm/min the offset takes 36 s, and the reason says so.
 TEST(ShownReason, IsFollowingUntilTheOffsetIsThere) {
   Governed on;
   on.frame.spindle_actual_rev_s = 0.0;

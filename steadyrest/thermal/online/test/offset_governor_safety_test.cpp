@@ -22,8 +22,7 @@ using test::kX;
 using test::kZ;
 using test::mill;
 
-// Mostly plausible values, or the governor would do nothing but refuse; infinity and 1e300 now and
-// then.
+// Mostly plausible values, or the governor would only refuse; now and then infinity and 1e300.
 double any_double() {
   return *rc::gen::weightedOneOf<double>(
       {{6, rc::gen::map(rc::gen::inRange(-2000, 2000), [](int n) { return n / 10.0; })},
@@ -49,7 +48,7 @@ Frame any_frame(double time_s) {
 void spoil(OffsetGovernor& governor) {
   const StateFilter::Reading reading{.displacement_mm = any_double() * 1e-3,
                                      .sd_mm = std::abs(any_double()) * 1e-4};
-  // Rare, so that long stretches of ordinary work lie between two shocks.
+  // Rare, so that long stretches of ordinary work separate the shocks.
   switch (*rc::gen::inRange(0, 40)) {
     case 0:
       governor.measure(kZ, reading);
@@ -73,15 +72,15 @@ void spoil(OffsetGovernor& governor) {
   }
 }
 
-/// What is on the machine is not what the layer has put there: a lost link, another room.
+/// The machine's offset differs from the layer's: a lost link, another room.
 void stand_elsewhere(kernel::override::OffsetEnvelope& envelope) {
   kernel::override::OffsetEnvelope::State state;
   state.offset_mm.fill(*rc::gen::inRange(-30, 31) * 1e-3);
   envelope.restore(state);
 }
 
-// Three sentences of the room's README as bounds: no wish beyond the clamp, no step beyond the
-// slope of the moment, and nothing moves in a thread, a tap or a probing move.
+// Three statements of the room's README as bounds: no wish beyond the clamp, no step beyond the
+// present slope, and no movement in a thread, a tap or a probing move.
 RC_GTEST_PROP(OffsetGovernorSafety, NoInputLeavesTheClampOrTheSlope, ()) {
   auto machine = mill();
   machine.thermal.retract_slope_mm_s = *rc::gen::elementOf(std::vector<double>{0.0, 0.002, 1.0});
@@ -105,7 +104,7 @@ RC_GTEST_PROP(OffsetGovernorSafety, NoInputLeavesTheClampOrTheSlope, ()) {
     const auto out = on.cycle(gap_s);
     const bool unfit = on.unfit != Reason::none;
     const bool feeds = on.frame.motion == Motion::feed;
-    // What fades for unfit input goes by the envelope's slew, all else by the room's slope.
+    // A fade for unfit input follows the envelope's slew, everything else the room's slope.
     const double slope = unfit                     ? slew
                          : on.tool_in_cut || feeds ? machine.thermal.slope_mm_s
                                                    : retract;

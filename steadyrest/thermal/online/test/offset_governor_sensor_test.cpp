@@ -36,7 +36,7 @@ TEST(OffsetGovernor, ALostSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
   EXPECT_NEAR(on.seconds(60.0).offset_mm[kX], -0.006, 1e-12);
 }
 
-// At the retract slope a second of NaN would take off the whole offset, and the next cut would miss
+// At the retract slope a second of NaN would remove the whole offset, and the next cut would miss
 // it.
 TEST(OffsetGovernor, ASensorThatFailsForASecondOutOfTheCutDoesNotTakeTheOffsetAway) {
   auto machine = mill();

@@ -31,7 +31,7 @@ TEST(OffsetGovernor, StandsAgainstWhatTheSpindleHasDone) {
   EXPECT_EQ(out.request.room, kernel::signal::Room::thermal);
 }
 
-// 0.004 rev/s is the noise of a standing encoder and must not keep the spindle "turning".
+// 0.004 rev/s is the noise of a stationary encoder and must not keep the spindle "turning".
 TEST(OffsetGovernor, APauseOfTheJobIsAPauseOfItsHeat) {
   Governed on;
   on.seconds(900.0);
@@ -43,7 +43,7 @@ TEST(OffsetGovernor, APauseOfTheJobIsAPauseOfItsHeat) {
   EXPECT_NEAR(out.offset_mm[kZ], -out.displacement_mm[kZ], 1e-4);
 }
 
-// Levels are linear in this passport, so 40 and 60 rev/s in turn heat like 50.
+// Levels are linear in this passport, so alternating 40 and 60 rev/s heat like 50.
 TEST(OffsetGovernor, ASpeedThatSwingsCountsWithItsMean) {
   Governed swings;
   Governed constant;
@@ -56,7 +56,7 @@ TEST(OffsetGovernor, ASpeedThatSwingsCountsWithItsMean) {
               constant.governor.output().displacement_mm[kZ], 1e-4 * kLevel_mm);
 }
 
-// X has no mode, only the room: what it shows is the sensor's alone.
+// X has no mode, only the room: it shows the sensor alone.
 TEST(OffsetGovernor, FollowsTheRoomByItsSensor) {
   Governed on;
   on.frame.temperature_c[0] = 23.0;
@@ -124,7 +124,7 @@ TEST(OffsetGovernor, AReadingIsOfWhatIsLeftAndCorrectsTheModel) {
 TEST(OffsetGovernor, HoldsWhenTheReadingsNoLongerFit) {
   Governed on;
   on.seconds(1200.0);
-  // Four innovations are the least that may condemn a model, and these are clipped at 3 each: 36 >
+  // At least four innovations are needed to condemn a model, and these are clipped at 3 each: 36 >
   // χ².
   for (int i = 0; i < 4; ++i) {
     on.seconds(60.0);
@@ -137,7 +137,7 @@ TEST(OffsetGovernor, HoldsWhenTheReadingsNoLongerFit) {
   EXPECT_NEAR(on.seconds(60.0).offset_mm[kZ], before - 0.004, 1e-3);
 }
 
-// The request was not in force: the reading is the whole of the displacement.
+// The request was not in force: the reading is the whole displacement.
 TEST(OffsetGovernor, RezeroCountsWhatStandsOnTheMachineNotWhatWasAsked) {
   Governed on;
   on.seconds(1200.0);
@@ -150,7 +150,7 @@ TEST(OffsetGovernor, RezeroCountsWhatStandsOnTheMachineNotWhatWasAsked) {
 }
 
 TEST(OffsetGovernor, OutOfTheCutItMovesByTheRetractSlopeWhereThereIsOne) {
-  // A reading asks for 4 µm; the time that the offset takes to get there.
+  // A reading asks for 4 µm; returns the time that the offset takes to get there.
   const auto walks_s = [](double retract_um_min, double slew_mm_s, bool in_cut, Motion motion) {
     auto machine = mill();
     machine.thermal.retract_slope_mm_s = retract_um_min * 1e-3 / 60.0;

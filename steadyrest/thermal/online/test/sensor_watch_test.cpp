@@ -18,13 +18,13 @@ using kernel::units::kNan;
 
 constexpr double kHour = 3600.0;
 
-/// A machine whose sensor 1 warms and cools by 8 K in 3 h with noise; sensor 0 is `first`, both by
-/// the hours since the start.
+/// A machine whose sensor 1 warms and cools by 8 K in 3 h with noise; sensor 0 is `first`; both as
+/// functions of the hours since the start.
 class Watched {
  public:
   explicit Watched(std::function<double(double)> first) : first_(std::move(first)) {}
 
-  /// The first hour at which sensor 0 is not believed; NaN: it is throughout.
+  /// The first hour at which sensor 0 is not believed; NaN: never.
   double doubted_at_h(double until_h, Reason reason) {
     double at_h = kNan;
     for (; hours_ < until_h; hours_ += 10.0 / kHour) {
@@ -60,7 +60,7 @@ double in_steps(double value, double step) {
   return step * std::round(value / step);
 }
 
-// A day's swing and a little of a few minutes, with no two values alike: what a fine sensor shows.
+// A daily swing plus a small one of a few minutes, with no two values alike: a fine sensor.
 double fine(double hours) {
   return 20.0 + 1.5 * std::sin(hours * 0.26) + 0.013 * std::sin(hours * 977.0);
 }
@@ -78,8 +78,8 @@ TEST(SensorWatch, AFineSensorThatNeverMovesIsStuckToo) {
   EXPECT_NEAR(watched.doubted_at_h(8.0, Reason::thermal_sensor_stuck), 2.0, 0.1);
 }
 
-// The false alarm that matters: in a temperature-controlled room a sensor of 0.1 K repeats itself
-// for days, and calling it stuck would switch the correction off where it works best.
+// The false alarm that matters: in a temperature-controlled room a 0.1 K sensor repeats itself for
+// days, and calling it stuck would switch the correction off where it works best.
 TEST(SensorWatch, ARoomThatIsHeldIsNotCalledStuckByACoarseSensor) {
   for (const double step : {0.05, 0.0625, 0.1, 0.25, 0.5, 1.0}) {
     Watched never([&](double) { return in_steps(20.2, step); });
@@ -186,7 +186,7 @@ TEST(SensorWatch, AStepIsWildUntilAMachineCouldHaveComeThatFar) {
   EXPECT_TRUE(watched.believed());
 }
 
-// A follower that ran after the spike would doubt the good readings behind it.
+// A follower that chased the spike would doubt the good readings after it.
 TEST(SensorWatch, ASpikeIsLeftOutAndLeavesNothingBehind) {
   Watched watched(
       [](double hours) { return fine(hours) + (hours > 1.0 && hours < 1.02 ? 30.0 : 0.0); });
@@ -197,7 +197,7 @@ TEST(SensorWatch, ASpikeIsLeftOutAndLeavesNothingBehind) {
 
 TEST(SensorWatch, WhatMachinesDoIsBelieved) {
   // A door in winter, noise of half a kelvin, a spindle that warms by 5 K in a minute, and a sensor
-  // that was unknown for an hour of warming.
+  // unknown for an hour of warming.
   Watched door([](double hours) { return 20.0 - 12.0 * (1.0 - std::exp(-hours / 0.1)); });
   EXPECT_TRUE(std::isnan(door.doubted_at_h(3.0, Reason::none)));
   Watched noise([](double hours) { return 20.0 + 0.5 * std::sin(hours * 1e5); });
@@ -210,7 +210,7 @@ TEST(SensorWatch, WhatMachinesDoIsBelieved) {
 
 TEST(SensorWatch, ItsStateGoesOnAfterARestart) {
   SensorWatch first;
-  // One runs on, the other is saved and restored now and then; both must come to the same verdict.
+  // One runs on, the other is saved and restored now and then; both must reach the same verdict.
   SensorWatch second;
   for (int i = 0; i < 5 * 360; ++i) {
     for (SensorWatch* const watch : {&first, &second}) {
@@ -230,7 +230,7 @@ TEST(SensorWatch, ItsStateGoesOnAfterARestart) {
   auto state = second.state();
   state.sensor[0].follower_c = kNan;
   second.restore(state);
-  EXPECT_EQ(second.fault(0), Reason::none) << "anew";
+  EXPECT_EQ(second.fault(0), Reason::none) << "starts over";
 }
 
 TEST(SensorWatch, DoesNotAllocate) {

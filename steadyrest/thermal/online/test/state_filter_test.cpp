@@ -20,7 +20,7 @@ using test::made;
 using test::turning;
 using test::two_modes;
 
-/// A machine that is as the filter believes: gain, drift and noise drawn from its own laws.
+/// A machine that matches the filter's assumptions: gain, drift and noise drawn from its own laws.
 class Machine {
  public:
   Machine(const ThermalAxis& axis, double gain, std::mt19937& random)
@@ -85,7 +85,7 @@ TEST(StateFilter, ItsInnovationsAreAsWideAsItSaysAndItsBandCovers) {
   EXPECT_NEAR(energy / kAll, 1.0, 5.0 * std::sqrt(2.0 / kAll));
   EXPECT_NEAR(in_a_row / kAll, 0.0, 5.0 / std::sqrt(kAll)) << "white";
   EXPECT_NEAR(covered / kAll, 0.95, 5.0 * std::sqrt(0.95 * 0.05 / kAll));
-  // Two tests at 0.1 % each, looked at thirteen times, dependent on each other.
+  // Two tests at 0.1 % each, evaluated thirteen times, not independent.
   EXPECT_LT(alarmed, kMachines * 3 / 100) << "in a day of sixteen readings";
 }
 
@@ -145,7 +145,7 @@ TEST(StateFilter, SaysWhenTheModelNoLongerFitsAndWhenItDoesAgain) {
   EXPECT_NEAR(filter.sd_mm(), 0.001, 1e-9) << "as sure as the reading";
 }
 
-// 0.7 µm at 0.5 µm of noise: each reading passes the gate and χ²; only the sum gives it away.
+// 0.7 µm at 0.5 µm of noise: each reading passes the gate and χ²; only the sum reveals it.
 TEST(StateFilter, ASmallErrorThatStaysIsToldFromNoise) {
   StateFilter::Config config{.axis = two_modes(), .gain_sd_ratio = 0.0};
   config.axis.drift_mm = 0.0;
@@ -161,7 +161,7 @@ TEST(StateFilter, ASmallErrorThatStaysIsToldFromNoise) {
   EXPECT_GE(readings, 4);
 }
 
-// A bias of 10 µm at most against a reading of 500: clamped, and said so.
+// A bias of 10 µm at most against a reading of 500: clamped, and reported so.
 TEST(StateFilter, HoldsBiasAndScaleWithinTheirLimits) {
   StateFilter filter =
       made({.axis = two_modes(), .start_sd_mm = 1.0, .gain_sd_ratio = 0.0, .max_bias_mm = 0.01});

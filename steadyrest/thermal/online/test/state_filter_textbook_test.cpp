@@ -91,7 +91,8 @@ void expect_textbook(double drift_mm, unsigned seed) {
       filter.measure({.displacement_mm = z, .sd_mm = 0.0007});
       dense.measure(z, 0.0007);
     }
-    // Two derivations of one filter agree to rounding; a slip in the in-place covariance would not.
+    // Two derivations of one filter agree to rounding; an error in the in-place covariance would
+    // not.
     ASSERT_NEAR(filter.displacement_mm(), dense.x.head<3>().sum(), 1e-11) << k;
     ASSERT_NEAR(filter.sd_mm(), dense.sd(), 1e-9) << k;
     ASSERT_NEAR(filter.gain(), dense.x(3), 1e-9) << k;
@@ -104,7 +105,7 @@ TEST(StateFilter, IsTheTextbooksFilterOnTheContinuousSystem) {
   expect_textbook(0.0, 2);
 }
 
-// The scale begins at 1, so nothing is added to the model's own step.
+// The scale starts at 1, so nothing is added to the model's own step.
 TEST(StateFilter, WithoutReadingsIsTheModel) {
   StateFilter filter = made({.axis = two_modes()});
   auto model = ThermalModel::make(two_modes());

@@ -15,7 +15,7 @@ using kernel::machine::ThermalAxis;
 using kernel::machine::ThermalMode;
 using test::turning;
 
-// The reference's one-mode curve of the paper's example: crossings of 10, 20, 30 and 40 µm.
+// The reference's one-mode curve for the paper's example: crossings of 10, 20, 30 and 40 µm.
 ThermalAxis paper() {
   ThermalAxis axis;
   ThermalMode mode;
@@ -42,7 +42,8 @@ TEST(ThermalModel, PassesThePapersCrossings) {
   EXPECT_NEAR(model.update((114.857 - 75.143) * 60.0, turning(20.0)), 0.040, 1e-6);
 }
 
-// 36 000 steps against one: Euler would be off by 1e-5 of the level, the exact step by rounding.
+// 36 000 steps against one: Euler would be off by 1e-5 of the level, the exact step only by
+// rounding.
 TEST(ThermalModel, DoesNotDependOnTheSizeOfItsSteps) {
   ThermalModel whole = made(paper());
   ThermalModel parts = made(paper());
@@ -54,7 +55,7 @@ TEST(ThermalModel, DoesNotDependOnTheSizeOfItsSteps) {
   EXPECT_NEAR(last, once, 1e-14);
 }
 
-// After one rest time constant 1/e is left.
+// After one rest time constant 1/e remains.
 TEST(ThermalModel, HasItsOwnTimeConstantAtRest) {
   ThermalAxis axis = paper();
   axis.mode[0].rest_tau_s = 100.0;

@@ -53,8 +53,8 @@ void set_errors(Job& job, std::vector<double> tau, std::vector<double> gain) {
 
 class BatchOfSeed : public ::testing::TestWithParam<std::uint64_t> {};
 
-// The issue's target: a model that is wrong by 20 % in every time constant and gain, whichever the
-// signs, and 0.5 µm of probe noise.
+// The target from the issue: a model wrong by 20 % in every time constant and gain, in any
+// combination of signs, and 0.5 µm of probe noise.
 TEST_P(BatchOfSeed, ErrorFallsFourTimesAndOnNoPartRisesWithAModelWrongByTwentyPercent) {
   double least_text = 1e9;
   double least_online = 1e9;
@@ -78,7 +78,7 @@ TEST_P(BatchOfSeed, ErrorFallsFourTimesAndOnNoPartRisesWithAModelWrongByTwentyPe
 }
 INSTANTIATE_TEST_SUITE_P(Three, BatchOfSeed, ::testing::Values(1U, 2U, 3U));
 
-// A model that is right leaves the band of the text and, on line, one second of growth.
+// A correct model leaves the text's band and, on line, one second of growth.
 TEST(Batch, ARightModelLeavesNoMoreThanItsBand) {
   Job job = example();
   set_errors(job, {0.0}, {0.0});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The forecast from a program's cyclogram against what the simulated machine, period by period and
-// with a thermal model of its own, does with that program.
+// The forecast from a program's cyclogram against the simulated machine, which runs that program
+// period by period with a thermal model of its own.
 #include <cmath>
 #include <memory>
 #include <string>
@@ -19,7 +19,7 @@ namespace {
 
 using kernel::machine::Machine;
 
-/// A head that coolant cools to a half, that cutting warms by half as much again, and a screw that
+/// A head that coolant cools to one half and cutting warms by half as much again, and a screw that
 /// the feed warms.
 Machine mill() {
   Machine machine =
@@ -68,8 +68,8 @@ std::string passes(const std::string& head, int count) {
   return text;
 }
 
-// The forecast knows the program's text, the machine runs it: with a right passport both must grow
-// alike.
+// The forecast knows the program's text, the machine runs it: with a correct passport both must
+// grow alike.
 TEST(ForecastOfAProgram, IsWhatTheSimulatedMachineDoes) {
   const Machine machine = mill();
   const std::string start = "G21 G90 G61\nS4000 M3\n";

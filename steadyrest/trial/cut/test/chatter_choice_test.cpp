@@ -84,7 +84,7 @@ TEST(LeastSpindleRatio, IsTheEnvelopesForAListenerNotAHalf) {
   EXPECT_DOUBLE_EQ(least_spindle_ratio({}, true, with_modulator(mill_down_to(0.2))), 0.2);
   EXPECT_DOUBLE_EQ(least_spindle_ratio({}, true, with_modulator(mill_down_to(0.7))), 0.7);
   EXPECT_DOUBLE_EQ(least_spindle_ratio({}, false, mill_down_to(0.2)), 1.0);
-  // An envelope that permits a stop: the switch's lowest speed is the least.
+  // An envelope that permits a stop: the switch's lowest speed is the minimum.
   machine::Machine m = mill_down_to(0.3);
   m.envelope.min_spindle_ratio = 0.0;
   m.spindle_override.ratio.insert(m.spindle_override.ratio.begin(), 0.0);
@@ -104,8 +104,8 @@ TEST(LeastSpindleRatio, IsTheLowestThatLawOrMachineFileAsksFor) {
   EXPECT_DOUBLE_EQ(least_spindle_ratio({}, false, own), 0.2);
 }
 
-// What it is for: the simulated cut follows the spindle down to half of the speed that its grid is
-// made for, and cuts nothing below.
+// The purpose: the simulated cut follows the spindle down to half of the speed that its grid is
+// made for, and cuts nothing below that.
 TEST(LeastSpindleRatio, TheSimulatedCutFollowsTheSpindleDownToIt) {
   const double programmed_rev_s = 80.0;
   const machine::Machine m = with_modulator(mill_down_to(0.2));

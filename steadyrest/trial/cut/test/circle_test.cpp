@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // NC text → interpreter → planner → simulated machine → true contour error, against the closed form
-// of a circle. The published figures are to four digits of a millimetre; 1 % is what the run-in and
-// the interpolator's chords may cost.
+// of a circle. The published figures have four digits of a millimetre; run-in and the
+// interpolator's chords may cost 1 %.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +43,7 @@ struct Measured {
   int samples = 0;
 };
 
-// The example's machine with its servos exchanged: no friction, no backlash, ideal encoders.
+// The example's machine with other servos: no friction, no backlash, ideal encoders.
 Machine ideal(const Servo& x, const Servo& y) {
   auto machine = passport::read(STEADYREST_SOURCE_DIR "/examples/machines/ideal-k50.toml").value();
   const std::array<Servo, 3> servos = {x, y, x};
@@ -69,7 +69,7 @@ std::shared_ptr<const nc::plan::PlannedPath> plan(const Circle& circle, const Ma
   return std::make_shared<const nc::plan::PlannedPath>(builder.take().value());
 }
 
-/// The errors in whole turns in the middle of the circle: neither start nor end has a part in them.
+/// The errors over whole turns in the middle of the circle, without start and end.
 Measured measure(const Circle& circle, const Machine& machine) {
   const auto path = plan(circle, machine);
   const double turn_mm = 2.0 * std::numbers::pi * circle.radius_mm;
@@ -91,7 +91,7 @@ Measured measure(const Circle& circle, const Machine& machine) {
   return out;
 }
 
-/// Both ends of the error's range: on equal axes it is one value all around.
+/// Both ends of the error's range: with equal axes it is one value all around.
 void expect_error(const Measured& measured, double published_mm) {
   const double allowed_mm = kShare * published_mm + kFigure_mm;
   EXPECT_NEAR(measured.least_mm, published_mm, allowed_mm);
@@ -127,8 +127,8 @@ TEST(CircleFromText, HasThePublishedErrorWithALaggingVelocityLoop) {
   expect_error(measure({}, ideal({.velocity_lag_s = 0.005})), 0.0443);
 }
 
-// Through the whole chain: a fault of the parser, the planner or the measurement shows as well as
-// one of the servo.
+// Through the whole chain: a fault in the parser, the planner or the measurement shows as well as
+// one in the servo.
 RC_GTEST_PROP(CircleFromText, AgreesWithTheClosedFormAtAnyRadiusFeedAndServo, ()) {
   const Circle circle{.radius_mm = 0.5 * *rc::gen::inRange(4, 100),
                       .feed_mm_min = 100.0 * *rc::gen::inRange(5, 60)};

@@ -81,18 +81,18 @@ void expect_settled_at_30_percent(const std::string& machine) {
   }
 }
 
-// On the ideal machine the layer knows all; any other step is a fault of the governor.
+// On the ideal machine the layer knows everything; any other step is the governor's fault.
 TEST(LayerOnTheCircle, SettlesAtTheLargestStepThatTheClosedFormAllows) {
   expect_settled_at_30_percent("ideal-k50.toml");
 }
 
-// On the machine with friction and backlash its model is wrong in places; it must still hold the
-// limit on the same step.
+// With friction and backlash its model is wrong in places; it must still hold the limit on the same
+// step.
 TEST(LayerOnTheCircle, SettlesThereOnTheMachineWithFrictionAndBacklashToo) {
   expect_settled_at_30_percent("vmc-840d.toml");
 }
 
-// The three strategies must be apart by more than noise, in error and in time.
+// The three strategies must differ by more than noise, in error and in time.
 TEST(LayerOnTheCircle, ThreeStrategiesGiveThreeRows) {
   Machine machine = machine_of("vmc-840d.toml");
   machine.contour.strategy = ContourStrategy::contour_priority;
@@ -101,7 +101,7 @@ TEST(LayerOnTheCircle, ThreeStrategiesGiveThreeRows) {
   const Figures combined = cut_with_layer("circle-r10.mpf", machine);
   machine.contour.strategy = ContourStrategy::feed_priority;
   const Figures feed = cut_with_layer("circle-r10.mpf", machine);
-  // The least error costs the most time, and the other way round.
+  // The lowest error costs the most time, and vice versa.
   EXPECT_LT(contour.contour_error_rms_mm, 0.5 * combined.contour_error_rms_mm);
   EXPECT_LT(combined.contour_error_rms_mm, 0.7 * feed.contour_error_rms_mm);
   EXPECT_GT(contour.cycle_time_s, 1.3 * combined.cycle_time_s);
@@ -119,7 +119,7 @@ TEST(LayerOnThePocket, KeepsTheLimitInAllButOneSampleInAThousand) {
   }
 }
 
-// The slow servo's errors cannot all be had by the override; a fifth is what is left.
+// The override cannot remove all of the slow servo's errors; a fifth remains.
 TEST(LayerOnThePocket, TakesTheTimeOverTheLimitDownFivefoldOnASlowServoWithTwoHundredSteps) {
   const Machine machine = machine_of("linuxcnc-mill.toml");
   ASSERT_GT(machine.feed_override.ratio.size(), 64U);
@@ -131,7 +131,7 @@ TEST(LayerOnThePocket, TakesTheTimeOverTheLimitDownFivefoldOnASlowServoWithTwoHu
   EXPECT_LT(with.contour_error_max_mm, 0.1 * without.contour_error_max_mm);
 }
 
-// A walking word needs a scan for each step: the fall must begin that much earlier.
+// A walking word needs a scan per step: the fall must begin that much earlier.
 TEST(LayerOnThePocket, FallsInTimeWhereTheWordWalksFromNeighbourToNeighbour) {
   const Machine machine = machine_of("mill-802d.toml");
   ASSERT_FALSE(machine.feed_override.latched_word);

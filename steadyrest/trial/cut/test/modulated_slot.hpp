@@ -14,7 +14,7 @@
 #include <steadyrest/sim/simulated_machine.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
-/// A slot that is cut with modulation.
+/// A slot cut with modulation.
 namespace steadyrest::trial::cut::test {
 
 namespace machine = kernel::machine;

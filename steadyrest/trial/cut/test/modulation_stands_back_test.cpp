@@ -41,7 +41,7 @@ TEST(Modulation, OnlyTheCutIsModulated) {
   }
 }
 
-// The operator's 0 is for the feed; the spindle must not stop in the cut.
+// The operator's 0 applies to the feed; the spindle must not stop in the cut.
 TEST(Modulation, ThePanelAtZeroStopsTheFeedAndTheSpindleGoesOnWithinItsSwitch) {
   // Feed switch to 0 % at 6 s: code of the table's first step.
   const auto samples = play(
@@ -54,7 +54,7 @@ TEST(Modulation, ThePanelAtZeroStopsTheFeedAndTheSpindleGoesOnWithinItsSwitch) {
   }
 }
 
-// To the bit: any change of speed in a thread is a spoiled thread.
+// To the bit: any change of speed spoils a thread.
 TEST(Modulation, TappingAndThreadingWithdrawIt) {
   auto m = mill();
   m.chatter.m_code_on = m.chatter.m_code_off = 0;

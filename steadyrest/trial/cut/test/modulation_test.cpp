@@ -36,8 +36,7 @@ Band speeds(const std::vector<Moment>& samples) {
   return band;
 }
 
-// ± 5 of 50 rev/s are 90 … 110 %. The word moves in steps of 5 %, the drive rounds them off by its
-// ramp.
+// ± 5 of 50 rev/s are 90 … 110 %. The word moves in steps of 5 %; the drive's ramp rounds them off.
 TEST(Modulation, TheSpindleFollowsTheTriangleWithinWhatItsDriveCan) {
   const auto samples = in_slot(play(mill(), slot()));
   ASSERT_GT(samples.size(), 5000U);
@@ -51,7 +50,7 @@ TEST(Modulation, TheSpindleFollowsTheTriangleWithinWhatItsDriveCan) {
     worst = std::max(worst,
                      std::abs(samples[i].true_rev_s / kSpeed_rev_s - samples[i].modulator.ratio));
   }
-  // One step of 5 %, a scan of the walk, and the feed that the spindle waits for.
+  // One step of 5 %, one scan of the walk, and the feed that the spindle waits for.
   EXPECT_LT(worst, 0.075);
   EXPECT_GT(worst, 0.02) << "the steps must show";
 }
@@ -77,7 +76,7 @@ TEST(Modulation, WithoutAnMWordInTheMachineFileItIsAlwaysOn) {
   EXPECT_NEAR(speeds(in_slot(play(m, slot("", "")))).high, 1.10, 0.002);
 }
 
-// Without the right to exceed the panel the swing of ± 20 % of the table lies below the 80 %.
+// Without the right to exceed the panel, the swing of ± 20 % must fit below 80 %.
 TEST(Modulation, AnOperatorsLowerSwitchWins) {
   auto m = mill();
   m.spindle_override.layer_may_exceed_panel = false;
@@ -94,7 +93,7 @@ TEST(Modulation, AnOperatorsLowerSwitchWins) {
   EXPECT_NEAR(band.low, 0.60, 0.01) << "the whole swing moved down";
 }
 
-// In G95 the control itself keeps the feed per tooth; a second hand would correct twice.
+// In G95 the control itself keeps the feed per tooth; a second correction would be too much.
 TEST(Modulation, FeedPerRevolutionFollowsTheSpindleByItself) {
   const auto samples =
       in_slot(play(mill(), "G21 G90 G95 S3000 M3\nG0 X0 Y0 Z0\nM38\nG1 X300 F0.333\nM2\n"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The estimates of the axes' motion on a part that is really cut, against what the simulated
-// machine did.
+// The estimates of the axes' motion on a part in the cut, against the simulated machine's true
+// motion.
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -47,10 +47,10 @@ TEST(MotionScore, OnThePocketAtOneKilohertzTheEstimatesAreFinerBySeventeenAndSix
       cut(machine_of("linuxcnc-mill.toml"), "rib-pocket.ngc", nc::read::Dialect::linuxcnc);
   expect_bounds_hold(motion);
   for (const MotionFigures& m : motion) {
-    if (m.axis != "Z") {  // which moves in a small part of the time
+    if (m.axis != "Z") {  // which moves only briefly
       EXPECT_GT(m.difference_velocity_rms_mm_s, 17.0 * m.velocity_rms_mm_s) << m.axis;
       EXPECT_GT(m.difference_acceleration_rms_mm_s2, 60.0 * m.acceleration_rms_mm_s2) << m.axis;
-      // q/(√6·T) and q/(√2·T²): what a difference of counts can do.
+      // q/(√6·T) and q/(√2·T²): what differencing the counts can do.
       EXPECT_NEAR(m.difference_velocity_rms_mm_s, 0.408, 0.03);
       EXPECT_NEAR(m.difference_acceleration_rms_mm_s2, 707.0, 35.0);
     }
@@ -88,7 +88,7 @@ TEST(MotionScore, TheFiguresAreThoseOfTheErrorsPutIn) {
   const MotionFigures m = score.figures().at(0);
   EXPECT_NEAR(m.velocity_rms_mm_s, std::sqrt((0.09 + 0.16) / 2.0), 1e-12);
   EXPECT_NEAR(m.acceleration_rms_mm_s2, 3.0, 1e-12);
-  EXPECT_NEAR(m.difference_velocity_rms_mm_s, 3.0, 1e-12) << "the count stood";
+  EXPECT_NEAR(m.difference_velocity_rms_mm_s, 3.0, 1e-12) << "the count did not change";
   EXPECT_NEAR(m.difference_acceleration_rms_mm_s2, 17.0, 1e-12);
   EXPECT_DOUBLE_EQ(m.velocity_coverage_ratio, 0.5);
   EXPECT_TRUE(std::isnan(m.acceleration_coverage_ratio));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A probing move in the program, from its NC text to the axis: what the probe finds sets the
-// thermal model right while the part is made.
+// A probing move in the program, from its NC text to the axis: the probe's reading corrects the
+// thermal model while the part is being made.
 #include <cmath>
 #include <memory>
 #include <string>
@@ -19,8 +19,8 @@ namespace {
 using kernel::machine::Machine;
 using kernel::outcome::Reason;
 
-/// The mill with a warm head, warming within minutes; the truth is faster by a fifth than its
-/// passport says, and grows more by `larger`.
+/// The mill with a warm head that warms within minutes; the true one is a fifth faster than its
+/// passport says, and grows by `larger` more.
 Machine wrong_mill(double larger) {
   Machine machine =
       passport::read(STEADYREST_SOURCE_DIR "/examples/thermal-batch/machine.toml").value();
@@ -88,11 +88,11 @@ TEST(ProbeInTheProgram, SetsTheModelRightWhileThePartIsMade) {
   EXPECT_EQ(reading.line, 17U);
   EXPECT_EQ(reading.reason, Reason::thermal_reading_taken);
   const double at_s = reading.time_s;
-  // The same machine up to there: the probe finds what was left, within its noise.
+  // The same machine up to here: the probe finds the remainder, within its noise.
   const double before_um = error_um(probed, at_s - 25.0, at_s - 5.0);
   EXPECT_NEAR(before_um, error_um(blind, at_s - 25.0, at_s - 5.0), 1e-6);
   EXPECT_NEAR(std::abs(reading.displacement_um), before_um, 2.5);
-  // The slope walks there within half a minute.
+  // At its slope the offset gets there within half a minute.
   const double after_um = error_um(probed, at_s + 40.0, at_s + 100.0);
   const double otherwise_um = error_um(blind, at_s + 40.0, at_s + 100.0);
   EXPECT_LT(after_um, 0.15 * otherwise_um);
@@ -100,7 +100,7 @@ TEST(ProbeInTheProgram, SetsTheModelRightWhileThePartIsMade) {
   EXPECT_LT(otherwise_um, error_um(nobody, at_s + 40.0, at_s + 100.0));
 }
 
-// A second above the part is enough; without a retract slope it takes half a minute of the next
+// One second above the part is enough; without a retract slope it takes half a minute of the next
 // cut.
 TEST(ProbeInTheProgram, WithARetractSlopeTheNextCutIsRightFromItsBeginning) {
   const auto first_cut_um = [](double retract_um_min) {

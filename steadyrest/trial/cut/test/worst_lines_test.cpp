@@ -69,7 +69,7 @@ TEST(HeldFeed, OfAnArcThatLeftTheLimitAtAFeedThatItsRadiusBearsIsFromTheRecord) 
   const HeldFeed held = held_feed(entry, with_gains(50.0, 50.0));
   EXPECT_EQ(held.by, HeldBy::record);
   EXPECT_NEAR(held.feed_mm_s, 4.0 * std::sqrt(0.010 / 0.0296), 1e-12);
-  // Within the limit the radius says more than what was driven.
+  // Within the limit, the radius says more than the actual feed.
   LineError kept = entry;
   kept.contour_error_mm = 0.002;
   EXPECT_EQ(held_feed(kept, with_gains(50.0, 50.0)).by, HeldBy::closed_form);

@@ -32,7 +32,7 @@ Machine falling(double fall_1_s) {
   return machine;
 }
 
-// Half of the cycle is left for the port and the operating system.
+// Half of the cycle remains for the port and the operating system.
 TEST(Judgement, FindsNothingUpToHalfOfTheCycle) {
   EXPECT_TRUE(judge(timing_of(0.0), {}).empty());
   EXPECT_TRUE(judge(timing_of(0.0005), {}).empty());
@@ -66,7 +66,7 @@ TEST(Judgement, DoesNotBlameAQuickFall) {
   EXPECT_THAT(judge(timing_of(0.0015), falling(10.0))[0].to_do, Not(HasSubstr("feed_fall")));
 }
 
-// Without decisions the forecasts are not at fault.
+// Without decisions the forecasts are not to blame.
 TEST(Judgement, OfALayerThatDecidesNothingIsByAllCycles) {
   LayerTiming timing = timing_of(0.0);
   timing.decisions = 0;

@@ -9,7 +9,7 @@
 #include <steadyrest/trial/timing/judgement.hpp>
 #include <steadyrest/trial/timing/layer_timing.hpp>
 
-// What the times are depends on the computer; that they are measured and ordered does not.
+// The times depend on the computer; that they are measured and ordered does not.
 namespace steadyrest::trial::timing {
 namespace {
 
@@ -54,9 +54,9 @@ TEST(LayerTiming, OfAMachineWhoseContourIsLeftAloneHasNoDecisions) {
   EXPECT_EQ(timing.decision_s.worst, 0.0);
 }
 
-/// Where not even the fall keeps the limit a decision makes four forecasts whatever its share, here
-/// of 512 steps each. Half of this cycle leaves 12 ns for a step: computers of today take two
-/// to four times as long.
+/// Where not even the fall keeps the limit, a decision makes four forecasts whatever its share,
+/// here of 512 steps each. Half of this cycle leaves 12 ns per step; today's computers take two to
+/// four times as long.
 TEST(LayerTiming, OfAMachineThatNoComputerCanFollowIsAFinding) {
   Machine machine = machine_of("linuxcnc-mill.toml");
   machine.control.interpolator_period_s = machine.control.servo_period_s = 50e-6;

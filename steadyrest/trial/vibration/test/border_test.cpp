@@ -49,8 +49,8 @@ Mode random_mode(Draw& draw, bool along_x) {
   return mode;
 }
 
-/// Milling (a tenth turning), 1–4 teeth, 1–3 modes, up, down and slots; a quarter each helical,
-/// unevenly pitched, damped by the process (C around the literature's 20 N/mm).
+/// Milling (a tenth turning), 1–4 teeth, 1–3 modes, up, down and slots; a quarter each with helix,
+/// uneven pitch, process damping (C around the literature's 20 N/mm).
 Process random_process(Draw& draw) {
   Process p;
   if (draw.with(0.1)) {
@@ -92,8 +92,8 @@ double by_solver(const Process& process, double speed_rev_s, double depth_mm) {
   return chatter::offline::stability(cycle, {}).log_radius_per_pass;
 }
 
-/// The first depth at which a scan finds chatter, halved down to 10⁻⁴ of a step. Steps of 15 % so
-/// that a narrow lobe is not jumped over.
+/// The first depth at which a scan finds chatter, bisected to 10⁻⁴ of a step. Steps of 15 %, so
+/// that no narrow lobe is skipped.
 std::optional<double> border_mm(const Process& process, double speed_rev_s) {
   double low = 0.0;
   double high = 0.01;
@@ -111,7 +111,7 @@ std::optional<double> border_mm(const Process& process, double speed_rev_s) {
   return high;
 }
 
-// 3 % either side of the border: two independent methods cannot agree by chance on random tools,
+// 3 % on either side of the border: two independent methods cannot agree by chance on random tools,
 // modes and cuts.
 TEST(Border, SimulationAndSolverAgreeThreePercentEitherSide) {
   int left = kernel::testing::kSanitized ? 5 : std::numeric_limits<int>::max();
@@ -137,9 +137,9 @@ TEST(Border, SimulationAndSolverAgreeThreePercentEitherSide) {
   }));
 }
 
-/// The slot at 5000 rpm, 1 mm, under sine laws: ln ρ over the law's period from two methods.
-/// ρ from the solver's converged maps; 20 tooth passes make the law's period at RVF 0.1 with two
-/// teeth.
+/// The slot at 5000 rpm, 1 mm, under sine laws: ln ρ over the law's period by two methods. ρ is
+/// from the solver's converged maps; with two teeth 20 tooth passes make the law's period at RVF
+/// 0.1.
 TEST(Border, GrowthUnderModulationIsTheSolvers) {
   Process slot;
   slot.tool.teeth = 2;

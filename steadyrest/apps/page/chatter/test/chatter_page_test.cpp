@@ -24,8 +24,8 @@ using testing::StartsWith;
 
 constexpr double kRate_hz = 8000.0;
 
-/// A tone of 1000 Hz; from half of the time on also one of 2000 Hz at a tenth of its amplitude, 20
-/// dB below. Both are whole numbers of bins of a 256-sample window at 8 kHz, so nothing leaks.
+/// A tone of 1000 Hz; from half-time on also one of 2000 Hz at a tenth of its amplitude, 20 dB
+/// below. Both are whole numbers of bins of a 256-sample window at 8 kHz, so nothing leaks.
 std::vector<double> tones(std::size_t samples) {
   std::vector<double> out;
   for (std::size_t i = 0; i < samples; ++i) {

@@ -41,7 +41,7 @@ TEST(ShortNumbers, AreWrittenShortWithGapsAsNull) {
   EXPECT_EQ(text_of(column), "[0.333333,null,2.0,-3.33333e-08]");
 }
 
-// Whatever the data hold, the page gives them back to a JSON reader, and its script element ends
+// Whatever the data contain, the page returns them to a JSON reader, and its script element ends
 // where it should.
 TEST(Page, GivesItsDataBackWhateverTheyHold) {
   const std::string hostile = "</script><!--<script>\"\\\n\t\u2028 <b>µm</b> & ]]>";
@@ -50,7 +50,7 @@ TEST(Page, GivesItsDataBackWhateverTheyHold) {
   data["<key>"] = {1, 2};
   const std::string with = to_html(text_of(data));
   const std::string without = to_html("");
-  // What differs is the data alone: their place is where the two pages part.
+  // Only the data differ: they are where the two pages diverge.
   std::size_t place = 0;
   while (with[place] == without[place]) {
     ++place;

@@ -19,10 +19,10 @@ struct Known {
 };
 
 // The recorded spindle unit: at one temperature the displacements differ by more than half of their
-// range. Correlation with the best sensor, what a straight line over it leaves and the spread at
-// one temperature, as tests/recorded/make_excerpts.py finds them without our program. The published
-// figures, with 6.2 h more than this log has, are 0.48/0.38/0.90/0.91/0.51, 5.2/5.1/9.0/8.8/8.5 µm
-// and 20.6/22.2/44.0/42.6/39.1 µm.
+// range. Correlation with the best sensor, residual of a straight line over it and spread at one
+// temperature, as tests/recorded/make_excerpts.py finds them without our program. The published
+// figures, with 6.2 h more than this log, are 0.48/0.38/0.90/0.91/0.51, 5.2/5.1/9.0/8.8/8.5 µm and
+// 20.6/22.2/44.0/42.6/39.1 µm.
 void expect_hysteresis(const std::string& path, const std::array<Known, 5>& known) {
   SCOPED_TRACE(path);
   const auto log = thermal::offline::read_log(path);
@@ -63,8 +63,8 @@ TEST(Hysteresis, OfTheExcerptIsNearlyThatOfTheWhole) {
                       {-0.4496, 8.7365, 38.9605}}});
 }
 
-// Proportional displacement: correlation 1, slope 1 µm/K, no residual, and no spread but what half
-// a kelvin itself makes.
+// Proportional displacement: correlation 1, slope 1 µm/K, no residual, and only the spread within
+// half a kelvin.
 TEST(Hysteresis, IsNothingWhereTheDisplacementFollowsTheTemperature) {
   thermal::offline::Log log;
   log.displacement = {{"z_um", {}}};
@@ -91,9 +91,9 @@ TEST(Hysteresis, IsNothingWhereTheDisplacementFollowsTheTemperature) {
   EXPECT_EQ(regimes[1].row.size(), 10U);
 }
 
-// Displacement and temperature a quarter of a turn apart: a circle, that no line describes.
-// Circle of 5 K and 10 µm: correlation 0, residual = RMS of a sine = 10/√2 µm, and at the mean
-// temperature the displacement is both +10 and −10 µm.
+// Displacement and temperature a quarter of a turn apart: a circle, which no line describes. Circle
+// of 5 K and 10 µm: correlation 0, residual = RMS of a sine = 10/√2 µm, and at the mean temperature
+// the displacement is both +10 and −10 µm.
 TEST(Hysteresis, OfACircleIsItsHeight) {
   thermal::offline::Log log;
   log.displacement = {{"z_um", {}}};

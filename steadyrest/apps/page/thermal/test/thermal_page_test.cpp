@@ -134,7 +134,7 @@ TEST(ThermalPage, OfALogThatIsAllForecastSaysSo) {
   EXPECT_EQ(one["modelled_um"], Json({2.0}));
 }
 
-// No temperature and no course: the page says less and does not fail.
+// No temperature and no course: the page shows less and does not fail.
 TEST(ThermalPage, OfAFitWithoutTemperaturesHasTheCourseAlone) {
   thermal::offline::Log log;
   log.displacement = {{"z_um", {0.001}}};

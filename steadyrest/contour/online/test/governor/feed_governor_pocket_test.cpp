@@ -21,9 +21,9 @@ using test::Machine;
 using test::PathSegment;
 using test::pocket;
 
-/// Time of a schedule that knows all: at each place the largest ratio that the closed form permits
-/// in steady state, lowered backwards by the fall and forwards by the rise that the slew allows,
-/// then quantised. Speed changes cost it nothing and dead time does not concern it.
+/// Time of an omniscient schedule: at each place the largest ratio that the closed form permits in
+/// steady state, limited backwards by the fall and forwards by the rise that the slew allows, then
+/// quantised. It pays nothing for speed changes or dead time.
 double clairvoyant_s(const Machine& machine, const std::vector<PathSegment>& path) {
   struct Place {
     double length_mm, feed_mm_s, cap_mm_s, ratio;
@@ -78,9 +78,9 @@ struct PocketCase {
 
 class Pocket : public testing::TestWithParam<PocketCase> {};
 
-// Bounds from both sides: no slower than 10 % above the schedule that knows all, with less than
-// 0.1 % of the cutting above the limit. Slower machines, long dead times and soft servos are where
-// a governor that reacts instead of foreseeing fails.
+// Bounds from both sides: at most 10 % slower than the omniscient schedule, with less than 0.1 % of
+// the cutting above the limit. On slow machines, with long dead times and soft servos, a governor
+// that reacts instead of forecasting fails.
 TEST_P(Pocket, KeepsTheLimitAndLosesLittleTime) {
   const PocketCase& c = GetParam();
   Machine machine = test::mill(c.gain_1_s);
@@ -92,7 +92,7 @@ TEST_P(Pocket, KeepsTheLimitAndLosesLittleTime) {
   EXPECT_LE(result.over_limit_share, 0.001);
   const double clairvoyant = clairvoyant_s(machine, path);
   EXPECT_LE(result.cycle_time_s, 1.10 * clairvoyant);
-  // From below as well: much faster than the steady state permits would be an error of this test.
+  // From below too: much faster than the steady state permits would be an error of this test.
   EXPECT_GE(result.cycle_time_s, 0.90 * clairvoyant);
   RecordProperty("over_clairvoyant", std::to_string(result.cycle_time_s / clairvoyant));
   RecordProperty("over_limit_share", std::to_string(result.over_limit_share));

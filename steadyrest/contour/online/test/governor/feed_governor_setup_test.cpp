@@ -22,7 +22,7 @@ using test::kTurn;
 using test::Machine;
 using test::PathMaker;
 
-/// The request after a second on a circle of this radius at 1000 mm/min, the panel wide open.
+/// The request after a second on a circle of this radius at 1000 mm/min, with the panel wide open.
 FeedGovernor::Output settled(const Machine& machine, double radius_mm) {
   const auto path = PathMaker({radius_mm, 0, 0}, 1000.0 / 60.0)
                         .arc({0, 0, 0}, 30.0 / radius_mm)
@@ -32,8 +32,8 @@ FeedGovernor::Output settled(const Machine& machine, double radius_mm) {
   return loop.run(0.010, 0.0, 1.0).sample.back().output;
 }
 
-// On 500 mm of radius no speed errs by a nanometre: what holds the feed is the strictest of the
-// three upper limits, each the strictest in its turn. 1.12 lies between two steps.
+// On 500 mm of radius no speed errs by a nanometre: the strictest of the three upper limits holds
+// the feed, each one in turn. 1.12 lies between two steps.
 TEST(FeedGovernorSteps, EndAtTheStrictestOfTheUpperLimits) {
   const auto highest = [](double contour, double envelope, double table) {
     Machine machine = test::mill();
@@ -47,8 +47,8 @@ TEST(FeedGovernorSteps, EndAtTheStrictestOfTheUpperLimits) {
   EXPECT_EQ(highest(1.2, 1.2, 0.95), 0.95);
 }
 
-// On 1 mm even a tenth of 1000 mm/min errs by more than 0.1 µm: the floor is in force, and it is
-// the stricter of the two lower limits.
+// On 1 mm even a tenth of 1000 mm/min errs by more than 0.1 µm: the floor is in force, the stricter
+// of the two lower limits.
 TEST(FeedGovernorSteps, BeginAtTheStricterOfTheLowerLimits) {
   const auto lowest = [](double contour, double envelope) {
     Machine machine = test::mill();
@@ -63,8 +63,8 @@ TEST(FeedGovernorSteps, BeginAtTheStricterOfTheLowerLimits) {
   EXPECT_EQ(lowest(0.10, 0.35), 0.40);
 }
 
-// A percent word has 201 steps; 64 of them are searched, both ends among them, none further from
-// the next than 4 %.
+// A percent word has 201 steps; 64 of them are searched, including both ends, with gaps of at most
+// 4 %.
 TEST(FeedGovernorSteps, OfAFineTableAreSpreadOverItsWholeRange) {
   Machine machine = test::mill();
   machine.feed_override.ratio.clear();

@@ -56,7 +56,7 @@ RC_GTEST_PROP(FeedGovernor, OnAnyCircleTakesTheLargestStepOfTheClosedForm, ()) {
   machine.contour.min_ratio = 0.05;
   const double limit = machine.contour.limit_mm * (1.0 - machine.contour.margin);
   const double expected = largest_step(machine, radius, feed, limit);
-  // Cases in which the step lies on the knife's edge are not decided by the closed form.
+  // The closed form does not decide cases in which the step is on the knife's edge.
   RC_PRE(largest_step(machine, radius, feed, 0.96 * limit) == expected);
   RC_PRE(largest_step(machine, radius, feed, 1.04 * limit) == expected);
   RC_PRE(closed_form_mm(radius, expected * feed, machine.axes[0].servo_gain_1_s,

@@ -66,8 +66,9 @@ TEST(FeedGovernor, TheOperatorsPanelIsNotExceededAndDoesNotWindUp) {
   EXPECT_DOUBLE_EQ(result.sample.back().effective, 0.30);
 }
 
-// Another room, an operator or a thread has held the override at 20 %; nothing that was asked for
-// has come through. The plan begins there, and goes no higher than the slew can within a decision.
+// Another room, an operator or a thread has held the override at 20 %; nothing that the governor
+// asked for took effect. The plan starts there, and goes no higher than the slew can within a
+// decision.
 TEST(FeedGovernor, PlansFromWhatTheEnvelopeHasLetThroughNotFromWhatItAskedFor) {
   const Machine machine = test::mill(50.0);
   const auto path = circle(60.0, 2000.0, 1.0);
@@ -121,7 +122,7 @@ TEST(FeedGovernor, WithdrawsInThreadingTappingAndRapids) {
 }
 
 TEST(FeedGovernor, IsReadyBeforeTheRapidEnds) {
-  // A long rapid, then an arc at once: the step must stand when the cut begins.
+  // A long rapid, then an arc at once: the step must be in force when the cut begins.
   const Machine machine = test::mill(50.0);
   auto path = PathMaker({-200, -10, 0}, 150.0)
                   .motion(Motion::rapid)

@@ -11,7 +11,7 @@
 #include <steadyrest/contour/online/test/closed_loop.hpp>
 #include <steadyrest/contour/online/test/paths.hpp>
 
-// How much a decision costs, counted in steps of its forecasts: the same on every computer.
+// How much a decision costs, counted in forecast steps: the same on every computer.
 namespace steadyrest::contour::online {
 namespace {
 
@@ -30,7 +30,7 @@ std::vector<double> fine_table(std::size_t steps) {
   return ratio;
 }
 
-/// A forecast of it is as long as forecasts get: one axis settles slowly, another asks for short
+/// A machine whose forecasts are as long as they get: one axis settles slowly, another needs short
 /// steps, the override falls slowly.
 Machine slow_to_foresee(double slowest_gain_1_s, double slew_1_s) {
   Machine machine = test::mill(50.0);
@@ -53,8 +53,8 @@ std::size_t most_steps_of_a_decision(const Machine& machine, double seconds) {
   return most;
 }
 
-// The bound is what the cycle is planned with; the worst machines are those whose forecasts are
-// longest and whose tables are finest.
+// The cycle is planned with this bound; the worst machines have the longest forecasts and the
+// finest tables.
 RC_GTEST_PROP(FeedGovernorWork, IsBoundedOnAnyMachineByAnyStrategy, ()) {
   Machine machine =
       slow_to_foresee(*rc::gen::element(1.0, 2.0, 20.0), *rc::gen::element(0.01, 0.2, 2.0, 100.0));
@@ -77,7 +77,7 @@ TEST(FeedGovernorWork, OfAMillisecondCycleIsAThousandForecastStepsAndFiveForecas
   EXPECT_EQ(FeedGovernor::make(machine).value().most_forecast_steps(), 2000U + 5U * 512U);
 }
 
-// With a tenth of the share the search must be left and taken up again, and must come to a step as
+// With a tenth of the share the search must be interrupted and resumed, and must find a step as
 // good as in one go.
 TEST(FeedGovernorWork, AnObjectiveThatDoesNotFitIntoOneDecisionIsFoundOverSeveral) {
   const auto path =
@@ -98,7 +98,7 @@ TEST(FeedGovernorWork, AnObjectiveThatDoesNotFitIntoOneDecisionIsFoundOverSevera
       left = left || !loop.governor().course().objective.done();
     }
     EXPECT_EQ(left, work_share < 1.0);
-    // The closed form's optimum is 0.18; what the tool has cut already counts in a search.
+    // The closed form's optimum is 0.18; a search already includes what the tool has cut.
     EXPECT_GE(loop.governor().course().wanted_ratio, 0.15);
     EXPECT_LE(loop.governor().course().wanted_ratio, 0.35);
   }

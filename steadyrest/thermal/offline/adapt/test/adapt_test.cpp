@@ -31,7 +31,7 @@ TEST(NextLevel, IsTheStricterOneWhereThePartsLeaveTheirShare) {
   EXPECT_EQ(next_level(kShares, 0, parts({8.5, 2.0}), {}).level, 0U) << "there it is 10 µm";
 }
 
-// Slower than it goes forward: five good parts for one step back, one bad part for one ahead.
+// Slower back than forward: five good parts for one step back, one bad part for one ahead.
 TEST(NextLevel, GoesBackOneWhereAllAreWellInsideAndEnoughWereMeasured) {
   EXPECT_EQ(next_level(kShares, 2, parts({2.4, -1.0, 0.5, 2.0, 1.0}), {}).level, 1U);
   // Half of the share of 5 µm is 2.5.
@@ -47,7 +47,7 @@ TEST(NextLevel, SaysWhenThereIsNoStricterOne) {
 }
 
 TEST(NextLevel, DoesNotCountWhatMeasuringMayHaveAdded) {
-  // Twice the measuring error of 0.5 µm beside a share of 10 µm: the border is at 11 µm.
+  // Twice the measuring error of 0.5 µm next to a share of 10 µm: the border is at 11 µm.
   EXPECT_EQ(next_level(kShares, 0, parts({10.9}), {}).level, 0U);
   EXPECT_EQ(next_level(kShares, 0, parts({11.1}), {}).level, 1U);
   std::vector<PartError> many(40, PartError{.deviation_mm = 0.006, .tolerance_mm = 0.010});
@@ -93,7 +93,7 @@ TEST(Predict, IsTheCurveOfThePlanAtAnyInstantInAnyOrder) {
   }
 }
 
-/// What is measured on a machine of other gains.
+/// Measurements on a machine with other gains.
 std::vector<Observation> measured(const std::vector<double>& gain, double bias_mm, double noise_mm,
                                   unsigned seed) {
   std::mt19937 random(seed);
@@ -114,8 +114,8 @@ std::vector<Observation> measured(const std::vector<double>& gain, double bias_m
   return out;
 }
 
-// Recursive least squares ends where the normal equations with the prior's precision do; an update
-// in the wrong order, or with the wrong sign, does not.
+// Recursive least squares must end where the normal equations with the prior's precision do; an
+// update in the wrong order or with the wrong sign does not.
 TEST(LearnGains, IsRidgeRegressionInOneGo) {
   const auto observations = measured({1.1, 0.95}, 0.001, 0.0005, 1);
   const GainRule rule{.gate_sd = 1e3};
@@ -151,7 +151,7 @@ TEST(LearnGains, FindsTheGainsOfAMachineThatIsTwentyPercentOff) {
 }
 
 TEST(LearnGains, LeavesOutliersAloneAlsoTheFirst) {
-  // The first part is judged by the wide prior alone; only the second look at the end finds it.
+  // Only the wide prior judges the first part; only the second look at the end finds it.
   for (const std::size_t at : {std::size_t{0}, std::size_t{17}}) {
     auto observations = measured({1.1, 1.1}, 0.0, 0.0005, 3);
     observations[at].deviation_mm += 0.004;
@@ -175,7 +175,7 @@ TEST(LearnGains, OneOutlierOfThreeIsEnoughForNoFit) {
   EXPECT_EQ(gains.outlier.size(), 1U);
 }
 
-// With one outlier a round the rounds would grow with the parts, and the time with their square.
+// With one outlier per round the rounds would grow with the parts, and the time with their square.
 TEST(LearnGains, OfTwentyThousandPartsTheOutliersAreNamed) {
   const auto thirty = measured({1.1, 1.1}, 0.0, 0.0005, 7);
   std::vector<Observation> observations;
@@ -189,7 +189,7 @@ TEST(LearnGains, OfTwentyThousandPartsTheOutliersAreNamed) {
   EXPECT_FALSE(gains.fits);
 }
 
-// +8 and −8 µm in turn: no gain has that sign pattern, and clipping alone would hide it.
+// Alternating +8 and −8 µm: no gain has that sign pattern, and clipping alone would hide it.
 TEST(LearnGains, SaysWhenNoGainExplainsTheParts) {
   auto observations = measured({1.0, 1.0}, 0.0, 0.0005, 4);
   for (std::size_t k = 0; k < observations.size(); ++k) {
@@ -216,8 +216,8 @@ TEST(LearnGains, SeldomSaysSoOfAMachineThatFits) {
   EXPECT_LE(wrong, 6);
 }
 
-// Parameters in the passport's order: two levels, two coefficients, one gain; fifteen entries
-// below.
+// Parameters in the passport's order: two levels, two coefficients, one gain; fifteen covariance
+// entries.
 TEST(ApplyGains, ScalesLevelsAndTheirCovariance) {
   auto one = axis();
   one.mode[0].feed_s = 0.001;

@@ -23,7 +23,7 @@ using kernel::testing::cases;
 
 using test::kDays;
 
-/// A machine of one mode whose six temperatures, all wandering, displace it with lags of 50 min.
+/// A machine with one mode whose six temperatures, all wandering, displace it with lags of 50 min.
 Log six_sensors() {
   Log log = test::log_of({{{40.0, 4.0}}, 0.3}, kDays);
   std::mt19937 random(3);
@@ -37,7 +37,7 @@ Log six_sensors() {
       sensor.value.push_back(20.0 + t);
       displacement += gain_mm_k * lagged;
       lagged = t + (lagged - t) * std::exp(-1.0 / 50.0);
-      // A random walk that is drawn back to 20 °C within hours, as a shop's air is.
+      // A random walk pulled back to 20 °C within hours, like a shop's air.
       t += 0.05 * normal(random) - 0.002 * t;
     }
     log.temperature.push_back(std::move(sensor));
@@ -55,7 +55,7 @@ ReplayScore ahead(const Log& log, const AxisFit& fit, std::size_t channel, doubl
   return points ? score(*points, fit.axis.noise_mm) : ReplayScore{};
 }
 
-// The readings of a linear model with a normal prior, drift and noise are one normal vector: its
+// The readings of a linear model with a normal prior, drift and noise are one normal vector; its
 // density, written out.
 TEST(DenseFit, EvidenceIsTheDensityOfTheReadings) {
   const Log log = test::log_of({{{40.0, 4.0}}, 0.5, 3.0, 30.0}, {{60, 3000}, {60, 0}}, 2);
@@ -88,7 +88,7 @@ TEST(DenseFit, EvidenceIsTheDensityOfTheReadings) {
       << "the free constant costs the written-out matrix ten digits";
 }
 
-// Six equal causes: a choice of two must leave two thirds of them out, and its forecast shows it.
+// Six equal causes: a choice of two must omit two thirds of them, and its forecast shows it.
 TEST(DenseFit, ManyTemperaturesThatEachTellALittleAreAllTaken) {
   const Log log = six_sensors();
   FitRequest request;
@@ -105,7 +105,7 @@ TEST(DenseFit, ManyTemperaturesThatEachTellALittleAreAllTaken) {
 }
 
 // The targets for hours kept back, on the last of the recorded pairs: fitted to the first
-// 32 h, free and with an hourly probe; and from the first hour of each of its runs the fourth.
+// 32 h, free and with an hourly probe; and from the first hour of each run to its fourth.
 TEST(DenseFit, RecordedHoursThatChoseNothingAreForecast) {
   const fs::path path = kernel::file::testing::shared_data() / "thermal/spindle_unit.csv.gz";
   const auto log = read_log(path.string());

@@ -39,7 +39,7 @@ double fastest_first(const kernel::machine::ThermalMode& mode) {
 }
 
 // Bounds from both sides: the error within three stated deviations, and the deviation small enough
-// to be of use.
+// to be useful.
 TEST(Identify, FindsTwoModesWithinItsStatedDoubt) {
   AxisFit fit = fitted(log_of(table_machine(), kDays));
   ASSERT_EQ(fit.axis.mode.size(), 2U);
@@ -74,7 +74,7 @@ TEST(Identify, FindsTheTemperatureThatCountsAmongOthers) {
   EXPECT_NEAR(fit.axis.ambient[0].tau_s / 60.0, 60.0, 15.0);
 }
 
-// The room moves this machine and no sensor shows it: the drift has to be found wide enough.
+// The room moves this machine and no sensor shows it: the drift must come out wide enough.
 TEST(Identify, TheBandHoldsNineReadingsInTenOrMoreThatItHasNotSeen) {
   KnownMachine machine = table_machine();
   machine.gain_um_k = 3.0;  // of a temperature that is not logged
@@ -109,7 +109,7 @@ TEST(Identify, HalfAnHourCannotCarryTwoModes) {
   EXPECT_THAT(fit.error().to_do, HasSubstr("run at one speed for 120 min at least"));
 }
 
-// 60 min of horizon pass the first check of a run of 30; what the fit then knows does not.
+// A horizon of 60 min passes the first check of a 30 min run; the fit's own knowledge does not.
 TEST(Identify, AShortHorizonDoesNotTalkItsWayIn) {
   FitRequest request;
   request.horizon_s = 3600.0;
@@ -124,8 +124,8 @@ TEST(Identify, ASpindleThatStandsIsNoTest) {
   EXPECT_THAT(fit.error().what, HasSubstr("never runs"));
 }
 
-/// The reference's table: with known time constants 60 min forecast 240 min to 0.4 µm (sd).
-/// Ten draws of the noise, as one may be lucky; 1 µm against the table's 0.4, since the time
+/// The reference's table: with known time constants 60 min forecast 240 min to 0.4 µm (sd). Ten
+/// draws of the noise, as one may be lucky; 1 µm against the table's 0.4, since these time
 /// constants are fitted ones.
 TEST(Identify, AnHourIsEnoughWithTimeConstantsOfALongerTest) {
   const AxisFit known = fitted(log_of(table_machine(), kDays));
@@ -158,7 +158,7 @@ TEST(Identify, WhereTheGaugeHasItsZeroChangesNothing) {
     Log log = log_of(machine, kDays, gain_um_k > 0.0 ? 2 : 0);
     const AxisFit fit = fitted(log);
     for (double& reading : log.displacement[0].value) {
-      // A gauge set up 0.4 mm further away: nothing but zero_mm may notice.
+      // A gauge set up 0.4 mm further away: only zero_mm may change.
       reading += 0.4;
     }
     const AxisFit moved = fitted(log);
@@ -222,7 +222,7 @@ void expect_left_out_within(const Log& log, std::initializer_list<LeftOutBound> 
   }
 }
 
-/// 40.1 h of a spindle unit; a plain fit of two modes leaves of hours that it has not seen 4.0, 8.3
+/// 40.1 h of a spindle unit; on hours that it has not seen a plain fit of two modes leaves 4.0, 8.3
 /// and 5.0 µm, with an hourly probe 1.2, 3.5 and 1.8 µm (the reference).
 TEST(Identify, LeftOutHoursOfARecordedSpindleAreForecast) {
   const auto log =
@@ -233,7 +233,7 @@ TEST(Identify, LeftOutHoursOfARecordedSpindleAreForecast) {
   expect_left_out_within(*log, {{0, 1.5, 0.8}, {2, 4.0, 2.0}, {4, 3.2, 2.1}});
 }
 
-/// From one row in five minutes, a twentieth of them.
+/// From one row in five minutes: a twentieth of the rows.
 TEST(Identify, LeftOutHoursOfTheExcerptAreForecast) {
   const auto log = read_log(kernel::file::testing::excerpt("spindle-unit").string());
   ASSERT_TRUE(log) << log.error().what;

@@ -31,7 +31,7 @@ AxisFit fitted(const Log& log, double to_s, const std::vector<std::string>& sens
   return fit ? *fit : AxisFit{};
 }
 
-/// Fitted to so many runs, forecasting the others.
+/// Fitted to these runs, forecasting the others.
 ReplayScore kept_back(const Log& log, const AxisFit& fit, double from_s, double rezero_s) {
   ReplayRequest request;
   request.channel = 0;
@@ -43,7 +43,7 @@ ReplayScore kept_back(const Log& log, const AxisFit& fit, double from_s, double 
   return points ? score(*points, fit.axis.noise_mm) : ReplayScore{};
 }
 
-/// What the choice is made by: running free and set right every hour count alike.
+/// The criterion of the choice: running free and re-zeroed every hour count alike.
 double measure_um(const AxisFit& fit) {
   return std::sqrt(fit.left_out_um * fit.left_out_probed_um);
 }
@@ -66,7 +66,8 @@ TEST(SensorChoice, IsAsGoodAsTheBestOfTheSensorsAlone) {
   }
 }
 
-// Over three machines, as one alone may be lucky; 0.9, since a few runs bound a band only so well.
+// Over three machines, as one alone may be lucky; 0.9, since a few runs limit how good a band can
+// be.
 TEST(SensorChoice, TheBandHoldsOnHoursKeptBack) {
   for (const std::size_t runs : cases({4U, 6U})) {
     double free = 0.0;

@@ -14,7 +14,7 @@ using testing::ElementsAre;
 
 using test::kDays;
 
-/// X and Z are moved by one body, Y by another one.
+/// One body moves X and Z, another one Y.
 Log three_axes() {
   Log log = test::log_of({{{50.0, 6.0}}, 1.5, 0.0, 0.0, 1}, kDays);
   log.displacement[0].name = "x_um";
@@ -35,7 +35,7 @@ TEST(SharedTau, DisplacementsOfOneBodyShareAndOthersDoNot) {
   for (std::size_t c = 0; c < 3; ++c) {
     fit.push_back(identify(log, c, log.displacement[c].name, {}).value());
   }
-  // X and Z have 50 min in truth, Y 90; Z moves half as much as X and so knows its own less well.
+  // X and Z truly have 50 min, Y 90; Z moves half as much as X and so knows its own less well.
   const std::vector<AxisFit> own = fit;
   const auto groups = share_tau(log, {0, 1, 2}, {}, fit);
   EXPECT_THAT(groups, ElementsAre(ElementsAre(0U, 2U)));

@@ -25,9 +25,9 @@ Inputs inputs_of(const Structure& s) {
   return out;
 }
 
-// Sets of inputs that did well with one mode go on to two, from all three powers together: none of
-// them twice, or the second place of each kind would be the first once more. The bed follows the
-// room 90 min behind and moves the machine, so one of the two is always in it.
+// Sets of inputs that did well with one mode continue to two, from all three powers together: none
+// of them twice, or the second place of each kind would repeat the first. The bed lags the room by
+// 90 min and moves the machine, so one of the two is always included.
 TEST(StructureSearch, GivesTwoOfEachKindWithDifferentInputs) {
   const Log log = test::shop(3, {3000, 1500, 4500});
   const FitData data = fit_data(log, 0, -1e300, 1e300);

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 constexpr double kNoise_um = 0.3;
 
-/// Something resonates at 3000 rpm: no polynomial of n and n² is like it.
+/// A resonance at 3000 rpm: no polynomial of n and n² matches it.
 double humped_um(double rpm) {
   return 5.0 * rpm / 1000.0 + 25.0 * std::exp(-std::pow((rpm - 3000.0) / 450.0, 2.0));
 }
@@ -31,7 +31,7 @@ KnownMachine humped_machine(unsigned seed = 1) {
   return {.mode = {{40.0, 0.0, humped_um}}, .noise_um = kNoise_um, .seed = seed};
 }
 
-/// Each speed twice, so that a left-out one stands elsewhere in the log.
+/// Each speed twice, so that a left-out one occurs elsewhere in the log.
 const std::vector<std::pair<int, double>> kTest = {
     {180, 3000}, {120, 0}, {180, 2000}, {120, 0}, {180, 4000}, {120, 0}, {180, 2600}, {120, 0},
     {180, 3000}, {120, 0}, {180, 4000}, {120, 0}, {180, 2000}, {120, 0}, {180, 2600}, {120, 0}};
@@ -129,8 +129,8 @@ TEST(LevelTable, IsStraightFromNoughtAtRestAndHoldsItsLastLevel) {
   EXPECT_NEAR(level_um(fit.axis, 2300.0),
               0.5 * (level_um(fit.axis, 2000.0) + level_um(fit.axis, 2600.0)), 1e-9);
   EXPECT_EQ(level_um(fit.axis, 4700.0), level_um(fit.axis, 4000.0));
-  // The covariance: none of the level at rest, some of the others.
-  // The lower triangle of five levels, the first of them the 0 at rest.
+  // The covariance: none for the level at rest, some for the others. The lower triangle of five
+  // levels, the first of them the 0 at rest.
   ASSERT_EQ(fit.axis.covariance.size(), 15U);
   EXPECT_EQ(fit.axis.covariance[0], 0.0);
   EXPECT_GT(fit.axis.covariance[2], 0.0);
@@ -138,7 +138,7 @@ TEST(LevelTable, IsStraightFromNoughtAtRestAndHoldsItsLastLevel) {
 }
 
 TEST(LevelTable, ASpeedThatWasLeftOutLiesBetweenItsNeighbours) {
-  // Each speed once, and rests that forget it: the hours that are left out alone tell its level.
+  // Each speed once, and rests that forget it: only the left-out hours determine its level.
   KnownMachine straight = humped_machine();
   straight.mode = {{40.0, 8.0}};
   const AxisFit fit = fitted(log_of(straight, {{180, 3000},

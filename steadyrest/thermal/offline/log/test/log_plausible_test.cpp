@@ -37,7 +37,7 @@ TEST(ThermalLog, ReadingsThatNoMachineCanHaveAreLeftOutAndCounted) {
       ElementsAre(HasSubstr("day.csv:102: t1_c is implausible in 30 rows, starting here (95 °C)"),
                   HasSubstr("t1_c has gaps longer than 10 min")));
   const Log now_and_then = parsed(log_text([](int i, Row& row) {
-    // 85 °C is what a sensor of the DS18B20 kind shows after a reset.
+    // 85 °C is what a DS18B20 sensor shows after a reset.
     if (i % 40 == 7) {
       row.t = "85";
     }
@@ -59,7 +59,7 @@ TEST(ThermalLog, AStepThatNoMachineCanMakeIsLeftOut) {
   EXPECT_TRUE(dead.temperature.empty());
 }
 
-// 60 °C in the first row alone: the second row contradicts it, and all others bear out the second.
+// 60 °C only in the first row: the second row contradicts it, and all others confirm the second.
 TEST(ThermalLog, AWrongFirstReadingDoesNotSpeakForTheOthers) {
   const Log log = parsed(log_text([](int i, Row& row) { row.t = i == 0 ? "60" : row.t; }));
   ASSERT_EQ(log.temperature.size(), 1U);

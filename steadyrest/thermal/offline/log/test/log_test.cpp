@@ -111,7 +111,7 @@ TEST(ThermalLog, AStuckProbeCountsForNothingWhileItIsStuck) {
   EXPECT_THAT(rest.notes, IsEmpty());
 }
 
-// 0.1 K of a room that drifts by 0.06 K an hour: hours of the same value, and all of them true.
+// 0.1 K in a room that drifts by 0.06 K an hour: hours of the same value, and all of them true.
 TEST(ThermalLog, ACoarseSensorIsNotStuck) {
   const Log log =
       parsed(log_text([](int i, Row& row) { row.t = fmt::format("{:.1f}", 20.0 + 0.001 * i); }));
@@ -130,7 +130,7 @@ TEST(ThermalLog, ThreeRowsBehindAGapVouchForTheirTimes) {
     return parse_log(
         log_text([rows](int i, Row& row) { row.time_s += i < kRows - rows ? 0.0 : 3e5; }), "d.csv");
   };
-  // Two rows may share one slip of the pen; three that agree on a new time are a restart.
+  // Two rows may share one error; three that agree on a new time are a restart.
   ASSERT_TRUE(behind(3).has_value());
   ASSERT_FALSE(behind(2).has_value());
   EXPECT_EQ(behind(2).error().line, 400U);
@@ -173,8 +173,8 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Each file says `refuse LINE: words of the refusal` in its first line, which is a comment; empty
-/// and packed ones cannot.
+/// Each file states `refuse LINE: words of the refusal` in its first line, a comment; empty and
+/// packed ones cannot.
 TEST(ThermalLogCorpus, EveryFileIsRefusedWhereItSays) {
   std::set<fs::path> files;
   for (const auto& entry :

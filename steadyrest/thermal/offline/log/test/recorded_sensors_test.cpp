@@ -11,8 +11,8 @@
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
-// What the watch on line makes of the sixteen sensors of a machine that was recorded for forty
-// hours, five heatings and coolings.
+// The on-line watch applied to the sixteen sensors of a machine recorded for forty hours, five
+// heatings and coolings.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -20,7 +20,7 @@ using kernel::outcome::Reason;
 using kernel::signal::kMaxTemperatures;
 using online::SensorWatch;
 
-/// The whole log where it is at hand, else every twentieth row of it.
+/// The whole log if it is available, else every twentieth row of it.
 Log recorded() {
   const auto whole = kernel::file::testing::shared_data() / "thermal/spindle_unit.csv.gz";
   return read_log((std::filesystem::exists(whole) ? whole
@@ -29,7 +29,7 @@ Log recorded() {
       .value();
 }
 
-/// Runs the log; `change` may falsify a reading of a sensor.
+/// Runs the log; `change` may falsify a sensor's reading.
 template <class Change, class See>
 void run(const Log& log, Change change, See see) {
   SensorWatch watch;
@@ -74,7 +74,7 @@ TEST(SensorWatch, FindsEachSensorOfTheRecordedMachineThatStopsInTheMiddle) {
           }
         });
     EXPECT_GE(at_s, SensorWatch::kStuck_s) << log.temperature[stopped].name;
-    // Two hours are the rule's least; the rest is for the other sensors to move twice.
+    // Two hours are the rule's minimum; the rest is for the other sensors to move twice.
     EXPECT_LE(at_s, 1.1 * SensorWatch::kStuck_s) << log.temperature[stopped].name;
   }
 }

@@ -37,7 +37,7 @@ TEST(Exponentials, EqualRatesAreOneTerm) {
   EXPECT_NEAR(at[0], 1e3 * std::log(1.5), 1e-9);
 }
 
-// Against a dense scan, which is slow and sees only what its step lets it see.
+// Against a dense scan, which is slow and limited by its step.
 TEST(Exponentials, NoCrossingOfARandomSumIsMissed) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> amplitude(-30.0, 30.0);

@@ -37,7 +37,7 @@ ThermalAxis spindle_passport() {
   return axis;
 }
 
-/// The same, but for its first minutes: the log begins with a machine that is hot.
+/// The same without its first minutes: the log begins with a hot machine.
 Log without_the_first(Log log, std::size_t rows) {
   const auto cut = [&](std::vector<double>& column) {
     column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(rows));
@@ -72,8 +72,7 @@ TEST(FittedCourse, OfTheTruePassportIsTheLogThoughItBeganHot) {
   EXPECT_LT(largest_um(course(spindle_passport(), log)), 0.01);
 }
 
-// What the slow mode gained in the gap dies away with its own 120 min; only a new state explains
-// it.
+// What the slow mode gained in the gap decays with its own 120 min; only a new state explains it.
 TEST(FittedCourse, BeginsAnewAfterAGap) {
   Log log = log_of(kMachine, kDay);
   for (std::size_t row = 200; row < log.rows(); ++row) {
@@ -116,8 +115,7 @@ TEST(FittedCourse, LeavesWhatTheFitSaysAndHoldsItsBand) {
     within += std::abs(off_mm) <= kBand * p.sd_mm ? 1.0 : 0.0;
   }
   const auto n = static_cast<double>(points.size());
-  // The passport says less than the fit knew, its starting states; found again, they give the same
-  // rest.
+  // The passport lacks the fit's starting states; found again, they give the same residual.
   EXPECT_NEAR(std::sqrt(square_um2 / n), fit->rms_um, 0.02);
   EXPECT_GT(within / n, 0.95);
 }

@@ -17,7 +17,8 @@ using test::paper;
 using test::planned;
 using test::stages;
 
-// 10 µm of 40 are reached at τ·ln(4/3): the first transition ends there, in the second it rises on.
+// 10 µm of 40 are reached at τ·ln(4/3): the first transition ends there, and the rise continues in
+// the second.
 TEST(Plan, ABorderReachedAtATransitionsEndIsCorrectedAtTheNextOnesStart) {
   ThermalAxis axis;
   ThermalMode mode;
@@ -42,7 +43,7 @@ TEST(Plan, ABorderReachedAtATransitionsEndIsCorrectedAtTheNextOnesStart) {
   }
 }
 
-// 0.4 s behind the start, on the narrow band that already took a correction there.
+// 0.4 s after the start, on the narrow band that already took a correction there.
 TEST(Plan, ACrossingJustBehindACorrectedStartBelongsToIt) {
   auto cyclogram = stages({{30, 20}, {60, 20}});
   const auto curve = curve_of(paper(), cyclogram);
@@ -56,7 +57,7 @@ TEST(Plan, ACrossingJustBehindACorrectedStartBelongsToIt) {
   EXPECT_LE(plan.largest_residual_mm, 0.1);
 }
 
-// Up to 12 µm within 4 s, at 0 again after 23 s: both crossings are rounded onto the start.
+// Up to 12 µm within 4 s, back to 0 after 23 s: both crossings are rounded onto the start.
 TEST(Plan, WhatCancelsInTheRoundingIsNoCorrection) {
   ThermalAxis axis;
   for (const auto& [tau_s, level_mm] : {std::pair{2.0, 0.020}, {20.0, -0.029}}) {

@@ -37,8 +37,7 @@ TEST(Plan, IsThePapersSystemR) {
   EXPECT_LE(plan.largest_residual_mm, 0.010 + 1e-9);
 }
 
-// The paper has growth alone; a plan that knew no negative border would leave 40 µm on a cold
-// machine.
+// The paper has only growth; a plan without a negative border would leave 40 µm on a cold machine.
 TEST(Plan, MirrorsForCoolingWhatItDidForHeating) {
   const auto cyclogram = stages({{240, 20}, {600, 0}});
   const auto plan = planned(paper(), cyclogram, {});
@@ -82,7 +81,7 @@ TEST(Plan, ShareAndTolerancePerTransitionNarrowTheBand) {
   }
 }
 
-// Whatever the modes do, what is left stays in the band and the intervals fill their transitions.
+// Whatever the modes do, the residual stays in the band and the intervals fill their transitions.
 TEST(Plan, HoldsTheBandForRandomMachinesAndCyclograms) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -133,7 +132,7 @@ TEST(Plan, HoldsTheBandForRandomMachinesAndCyclograms) {
   }
 }
 
-// The band is passed at most by what half a minute of the steepest slope is, 35.2 µm / 53.5 min.
+// The excess over the band is at most half a minute of the steepest slope, 35.2 µm / 53.5 min.
 TEST(Plan, EveryToleranceOfTheSweepHasItsPlan) {
   const auto cyclogram = stages({{60, 10}, {60, 20}, {60, 20}, {60, 20}, {60, 20}});
   const double half_minute_mm = 0.5 * 0.0352245 / 53.475;
@@ -152,7 +151,7 @@ TEST(Plan, EveryToleranceOfTheSweepHasItsPlan) {
   }
 }
 
-// 49 µm of growth ask for four corrections of 10; the machine allows three and a half.
+// 49 µm of growth need four corrections of 10; the machine allows three and a half.
 TEST(Plan, BeyondTheMachinesClampIsRefused) {
   PlanRequest request;
   request.max_offset_mm = 0.035;
@@ -163,7 +162,7 @@ TEST(Plan, BeyondTheMachinesClampIsRefused) {
   EXPECT_NE(text.find("40.0 µm, more than the 35.0 µm"), std::string::npos) << text;
 }
 
-// 1 nm of tolerance asks for 49 000 corrections, and 0 for no end of them.
+// 1 nm of tolerance needs 49 000 corrections, and 0 needs infinitely many.
 TEST(Plan, CorrectionsWithoutEndAreRefused) {
   PlanRequest request;
   request.tolerance_mm = 1e-6;

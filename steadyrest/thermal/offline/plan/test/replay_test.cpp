@@ -60,7 +60,7 @@ TEST(Replay, TheTruePassportGivesTheLog) {
   const auto points = replayed(its_passport(), log, request);
   ASSERT_EQ(points.size(), log.rows());
   for (const ReplayPoint& p : points) {
-    // The lagged temperature began at 20 °C, which the log does not say: it is forgotten.
+    // The lagged temperature began at 20 °C, which the log does not tell: its effect fades.
     EXPECT_NEAR(p.displacement_mm, p.measured_mm, 1e-9 + 0.3e-3 * std::exp(-p.time_s / 3600.0));
   }
 }
@@ -130,7 +130,7 @@ TEST(Replay, TheBandGrowsFromReadingToReading) {
   EXPECT_NEAR(points[59].sd_mm, 3e-3 * std::sqrt(1.0 - std::exp(-2.0 * 59.0 / 60.0)), 1e-6);
 }
 
-/// Two hours of work, ten that are not recorded, and two more.
+/// Two hours of work, ten unrecorded hours, and two more.
 Log with_a_night(double speed_at_night_rpm) {
   Log log = log_of(machine_without_noise(), {{120, 3000}, {600, speed_at_night_rpm}, {120, 0}}, 1);
   const auto cut = [](auto& values) { values.erase(values.begin() + 120, values.begin() + 720); };
@@ -151,9 +151,9 @@ TEST(Replay, TheMachineStandsThroughAGapOfTheLog) {
   const auto points = replayed(its_passport(), log, request);
   ASSERT_EQ(points.size(), log.rows());
   EXPECT_GT(points[119].displacement_mm, 20e-3);
-  // Ten hours let e^-5 of 17 µm; and the lagged temperature is not known when the log goes on.
+  // Ten hours leave e^-5 of 17 µm, and the lagged temperature is unknown when the log resumes.
   EXPECT_NEAR(points[120].displacement_mm, log.displacement[0].value[120], 1e-3);
-  // The modes had 20 µm and more when the record broke off; as much may be wrong behind it.
+  // The modes had 20 µm and more when the record broke off; as much may be wrong after it.
   EXPECT_GT(points[120].sd_mm, 20e-3) << "it may have done anything";
 }
 
